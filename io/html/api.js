@@ -1,0 +1,72 @@
+'use strict';
+// Starts the page, and opens the replay to scripts (tests, stills) as window.pbreplay and through the address:
+//   #frame=3        recorded frame, 0 = initial pose
+//   &world=0|all    what is shown
+//   &camera=px,py,pz,tx,ty,tz   position and target [m]
+//   &still=1        the picture alone, with legend and time; &bare=1 without these
+//   &width=1200&height=675      size of the still in CSS pixels; default: the window
+//   &play=1         start playing
+
+pb.publish = (replay) => ({
+  ready: true,
+  numFrames: replay.data.numFrames,
+  numWorlds: replay.data.numWorlds,
+  currentFrame: () => replay.currentFrame(),
+  time: () => replay.poses.timeAt(replay.frame),
+  setFrame: (frame) => { replay.pause(); replay.setFrame(frame); },
+  world: () => replay.world,
+  setWorld: (world) => replay.setWorld(world),
+  setCamera: (position, target) => { replay.stage.setCamera(position, target); replay.dirty = true; },
+  camera: () => ({position: replay.stage.camera.position.toArray(), target: replay.stage.controls.target.toArray()}),
+  resetCamera: () => replay.resetCamera(),
+  play: () => replay.play(),
+  pause: () => replay.pause(),
+  playing: () => replay.playing,
+  setSpeed: (speed) => { replay.speed = speed; replay.byId('speed').value = speed; },
+  // Position [x, y, z] m and orientation (w, x, y, z) of a body as it is shown now.
+  bodyPose: (body) => ({position: Array.from(replay.poses.position.subarray(3 * body, 3 * body + 3)),
+                        orientation: Array.from(replay.poses.orientation.subarray(4 * body, 4 * body + 4))}),
+  bodyName: (body) => replay.data.bodyNames[body],
+  // The picture as PNG data URL.
+  snapshot: () => { replay.draw(); return replay.stage.canvas.toDataURL('image/png'); },
+});
+
+pb.readAddress = (replay) => {
+  const asked = new URLSearchParams(location.hash.slice(1));
+  const view = document.getElementById('view');
+  document.body.classList.toggle('still', asked.get('still') === '1');
+  document.body.classList.toggle('bare', asked.get('bare') === '1');
+  view.style.width = asked.get('width') ? `${Number(asked.get('width'))}px` : '';
+  view.style.height = asked.get('height') ? `${Number(asked.get('height'))}px` : '';
+  if (asked.get('world')) replay.setWorld(asked.get('world'));
+  replay.resetCamera();
+  if (asked.get('frame')) replay.setFrame(asked.get('frame'));
+  const camera = (asked.get('camera') || '').split(',').map(Number);
+  if (camera.length === 6 && camera.every(isFinite)) replay.stage.setCamera(camera.slice(0, 3), camera.slice(3));
+  replay.draw();
+  if (asked.get('play') === '1') replay.play();
+};
+
+pb.start = () => {
+  pb.showHeader();
+  pb.showPlots();
+  const data = pb.decodeReplay();
+  let stage;
+  try {
+    stage = new pb.Stage(document.getElementById('canvas'), data);
+  } catch (error) {
+    const message = document.getElementById('view-error');
+    message.textContent = `The 3D replay needs WebGL, which this browser does not offer (${error.message}).`;
+    message.hidden = false;
+    window.pbreplay = {ready: false};
+    return;
+  }
+  const replay = new pb.Replay(data, stage);
+  pb.readAddress(replay);
+  window.addEventListener('hashchange', () => pb.readAddress(replay));
+  window.pbreplay = pb.publish(replay);
+  const loop = (now) => { replay.tick(now); requestAnimationFrame(loop); };
+  requestAnimationFrame(loop);
+};
+
+pb.start();

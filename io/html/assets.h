@@ -1,0 +1,12 @@
+/// The files that the page is made of. They are part of the program since its build.
+#pragma once
+
+#include <string_view>
+
+namespace pbmpi::io::html {
+
+/// The text of an embedded file; '.' in its name is written '_' ("page_css"). Throws std::logic_error for a
+/// name that was not embedded.
+std::string_view asset(std::string_view id);
+
+}  // namespace pbmpi::io::html

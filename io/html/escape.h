@@ -1,0 +1,17 @@
+/// JSON text that can stand inside an HTML page.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+namespace pbmpi::io::html {
+
+/// Compact JSON in which '<' is written \u003c, so that no text of the user's can end the script element.
+/// Invalid UTF-8 is replaced; a NaN becomes null.
+std::string dump(const nlohmann::json& value);
+
+/// Text with the five characters escaped that mean something in HTML.
+std::string escape_html(std::string_view text);
+
+}  // namespace pbmpi::io::html

@@ -1,0 +1,83 @@
+#include "io/html/page.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "io/html/assets.h"
+#include "io/html/escape.h"
+#include "io/html/plot_data.h"
+#include "io/html/replay_data.h"
+
+namespace pbmpi::io::html {
+namespace {
+
+using nlohmann::json;
+
+std::string text_or(const std::map<std::string, std::string>& texts, const std::string& key,
+                    const std::string& fallback) {
+  const auto found = texts.find(key);
+  return found == texts.end() || found->second.empty() ? fallback : found->second;
+}
+
+std::string about_json(const RunData& run, const PageOptions& options) {
+  json about;
+  about["scene"] = text_or(run.attributes, "scene", "run");
+  about["complete"] = run.complete;
+  about["frames_committed"] = run.frames_committed;
+  about["attributes"] = run.attributes;
+  about["parameters"] = run.parameters;
+  about["events"] = run.events;
+  about["facts"] = json::array();
+  for (const Fact& fact : options.facts) {
+    about["facts"].push_back({{"label", fact.label}, {"value", fact.value}, {"note", fact.note}});
+  }
+  return dump(about);
+}
+
+/// The text for one {{field}} of page.html.
+std::string field(std::string_view name, const RunData& run, const PageOptions& options) {
+  if (name == "title") return escape_html(text_or(run.attributes, "scene", "run"));
+  if (name == "about") return about_json(run, options);
+  if (name == "plots") return plots_json(run, options.budget_s);
+  if (name == "replay") return replay_json(run, select_replay(run, options.max_pose_bytes));
+  return std::string(asset(name));
+}
+
+}  // namespace
+
+std::string make_page(const RunData& run, const PageOptions& options) {
+  std::string page;
+  std::string_view rest = asset("page_html");
+  for (;;) {
+    const std::size_t open = rest.find("{{");
+    page += rest.substr(0, open);
+    if (open == std::string_view::npos) return page;
+    const std::size_t close = rest.find("}}", open);
+    core::require_invariant(close != std::string_view::npos, "page.html closes every {{");
+    page += field(rest.substr(open + 2, close - open - 2), run, options);
+    rest.remove_prefix(close + 2);
+  }
+}
+
+void write_page(const std::string& path, const RunData& run, const PageOptions& options) {
+  const std::string page = make_page(run, options);
+  const std::string partial = path + ".part";
+  errno = 0;
+  std::ofstream file(partial, std::ios::binary);
+  file << page;
+  file.close();
+  std::error_code error(file ? 0 : (errno != 0 ? errno : EIO), std::generic_category());
+  if (!error) std::filesystem::rename(partial, path, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    throw core::InputError(path + ": the page cannot be written (" + error.message() +
+                           "); choose another place");
+  }
+}
+
+}  // namespace pbmpi::io::html

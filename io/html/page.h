@@ -1,0 +1,34 @@
+/// One self-contained HTML page of a run: plots and a 3D replay. It loads nothing from anywhere.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/run_data.h"
+
+namespace pbmpi::io::html {
+
+/// A number that the page's head shows, e.g. {"Frame rate", "312 Hz", "harmonic mean of 5 frames"}.
+struct Fact {
+  std::string label;
+  std::string value;
+  std::string note;
+};
+
+struct PageOptions {
+  std::vector<Fact> facts;
+  /// Room for the recorded poses; the rest of a page takes about 1.5 MB. Where a run needs more, the page
+  /// shows fewer worlds or every k-th frame, and says so.
+  std::int64_t max_pose_bytes = 28'000'000;
+  double budget_s = 0.1 / 30;  ///< deadline of a frame: 10 % of 1/30 s (paper, section 4.1)
+};
+
+/// The page's text.
+std::string make_page(const RunData& run, const PageOptions& options);
+
+/// Writes make_page() to `path`, by way of a temporary file beside it, so that no half page is left. Throws
+/// core::InputError if it cannot be written.
+void write_page(const std::string& path, const RunData& run, const PageOptions& options);
+
+}  // namespace pbmpi::io::html

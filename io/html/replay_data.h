@@ -1,0 +1,38 @@
+/// What of a run's poses the page carries.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/run_data.h"
+
+namespace pbmpi::io::html {
+
+/// The part of a run that the replay shows: the first worlds, and every k-th recorded frame.
+struct Selection {
+  int num_worlds = 0;                ///< worlds 0 .. num_worlds - 1
+  std::int64_t num_bodies = 0;       ///< bodies of these worlds: ids 0 .. num_bodies - 1
+  std::vector<std::size_t> records;  ///< indices into RunData::position, ascending; the last record is in
+  std::string note;                  ///< what was left out and why; empty if nothing was
+};
+
+/// Bytes that the poses of so many bodies take in the page: 7 single-precision numbers each, 3 bytes as 4
+/// characters.
+constexpr std::int64_t pose_bytes(std::int64_t count) { return (7 * 4 * 4 * count + 2) / 3; }
+
+/// How many poses have room in so many bytes.
+constexpr std::int64_t poses_in(std::int64_t bytes) { return 3 * bytes / (7 * 4 * 4); }
+
+/// Frames beyond this number are thinned before worlds are left out: 20 s of simulated time at 30 Hz.
+inline constexpr std::size_t preferred_records = 600;
+
+/// The largest selection whose poses fit into `max_pose_bytes`. All worlds and frames if they fit; else at
+/// most preferred_records frames of as many worlds as fit; else fewer frames of world 0, but at least its
+/// last.
+Selection select_replay(const RunData& run, std::int64_t max_pose_bytes);
+
+/// JSON of the selected poses and geoms, for io/html/data.js.
+std::string replay_json(const RunData& run, const Selection& selection);
+
+}  // namespace pbmpi::io::html

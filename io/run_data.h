@@ -1,0 +1,66 @@
+/// A run read back from its HDF5 file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/vector.h"
+#include "model/model.h"
+
+namespace pbmpi::io {
+
+struct BodyTable {
+  std::vector<std::int64_t> id;     ///< [N] 0 .. N-1 in (world, body) order
+  std::vector<int> world;           ///< [N]
+  std::vector<int> local_body;      ///< [N] index in its world
+  std::vector<std::string> name;    ///< [N]
+  std::vector<std::string> kind;    ///< [N] actor kind, e.g. "human"
+  std::vector<std::string> actor;   ///< [N] actor name, e.g. "human1"
+  std::vector<double> mass_kg;      ///< [N]
+  std::vector<core::Pose> initial;  ///< [N]
+};
+
+/// One geom of one world, for the replay.
+struct GeomRow {
+  int world = 0;
+  std::int64_t body = -1;  ///< global body id; -1 = static
+  std::string kind;        ///< actor kind
+  std::string shape;
+  std::array<double, 3> size{};
+  core::Pose local;
+};
+
+/// Per-frame columns of one observable: [T][W], frame first.
+using Table = std::vector<std::vector<double>>;
+
+struct RunData {
+  std::map<std::string, std::string> attributes;  ///< of the root, as text
+  std::map<std::string, std::string> parameters;  ///< of /parameters, as text
+  bool complete = false;
+  std::int64_t frames_committed = 0;
+  int num_worlds = 0;
+  int num_ranks = 0;
+  BodyTable bodies;
+  std::vector<GeomRow> geoms;
+  std::vector<std::int64_t> recorded_step;           ///< [P] steps at which bodies were stored
+  std::vector<double> recorded_time_s;               ///< [P]
+  std::vector<std::vector<core::Vec3>> position;     ///< [P][N] m
+  std::vector<std::vector<core::Quat>> orientation;  ///< [P][N]
+  std::map<std::string, Table> observables;          ///< name -> [T][W]
+  std::vector<double> frame_wall_s;                  ///< [T]
+  std::vector<bool> frame_measured;                  ///< [T]
+  std::vector<bool> deadline_met;                    ///< [T]
+  std::map<std::string, Table> rank_times;           ///< phase, "useful" -> [T][R] s
+  std::vector<std::string> hosts;                    ///< [R]
+  std::vector<std::string> events;                   ///< "frame 12: rebalance: ..."
+};
+
+/// Reads the committed frames of a pbmpi-run file (also one that was cut off by a kill). Throws
+/// core::InputError: missing, not HDF5, of another file type, of a newer major version.
+RunData read_run(const std::string& path);
+
+}  // namespace pbmpi::io

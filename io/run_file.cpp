@@ -1,0 +1,159 @@
+#include "io/run_file.h"
+
+#include <optional>
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "io/frame_columns.h"
+#include "io/output_target.h"
+#include "io/parallel_file.h"
+#include "io/skeleton.h"
+
+namespace pbmpi::io {
+
+class RunFile::Impl {
+ public:
+  Impl(const FileGroup& group, RunSetup setup);
+  ~Impl() { file_.release(); }  // closing is collective
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void add(const model::FrameRecord& frame);
+  void add(const model::RunEvent& event);
+  void close(bool complete, const std::string& state_hash);
+  bool wrote_collectively() const { return columns_ && columns_->wrote_collectively(); }
+
+ private:
+  void make_skeleton();
+  void flush();
+  /// Does `work` on every rank; an error on any closes the file on all and becomes the same RunError.
+  template <class Work>
+  void write_together(Work&& work);
+  /// Closes what is open of the file, on every rank. False if HDF5 could not write all of it.
+  bool close_file();
+  /// Root only, when the file is closed: cuts the datasets to the frames and events committed.
+  void cut();
+
+  RunSetup setup_;
+  FileRanks ranks_;
+  OutputTarget target_;  ///< root only
+  File file_;
+  LiveAttributes live_;
+  std::optional<FrameColumns> columns_;
+  PropertyList transfer_;
+  double last_flush_s_ = 0;
+  bool open_ = false;
+};
+
+RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(setup)), ranks_(group) {
+  prepare_hdf5();
+  ranks_.together<core::InputError>([this] {
+    const std::int64_t bytes = estimate_file_bytes(setup_.table.num_bodies(), setup_.table.num_worlds(),
+                                                   ranks_.size(), setup_.num_frames, setup_.record_every);
+    if (ranks_.is_root()) target_ = OutputTarget(setup_.path, bytes);
+  });
+  try {
+    ranks_.together([this] { make_skeleton(); });
+    ranks_.together<core::InputError>([this] {
+      if (ranks_.is_root()) target_.publish();
+    });
+  } catch (...) {
+    close_file();
+    throw;
+  }
+  open_ = true;
+  last_flush_s_ = core::now_s();
+}
+
+void RunFile::Impl::make_skeleton() {
+  file_ = ranks_.create(ranks_.broadcast(target_.temporary_path()));
+  transfer_ = collective_transfer();
+  live_ = write_skeleton(ranks_, file_.id(), setup_);
+  const RunShape shape{setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(), setup_.num_frames,
+                       setup_.record_every};
+  columns_.emplace(file_.id(), ranks_, setup_.table, shape);
+  check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
+}
+
+template <class Work>
+void RunFile::Impl::write_together(Work&& work) {
+  try {
+    ranks_.together(std::forward<Work>(work));
+  } catch (const core::RunError& error) {
+    close_file();
+    throw core::RunError("cannot write " + setup_.path + ": " + error.what() +
+                         "; the frames committed before are readable");
+  }
+}
+
+void RunFile::Impl::add(const model::FrameRecord& frame) {
+  core::require_invariant(open_, "a frame after the run's file was closed");
+  columns_->add(frame);
+  const bool due = core::now_s() - last_flush_s_ >= setup_.flush_interval_s;
+  // Root's clock decides for all; that the columns are full is known to every rank.
+  if (ranks_.broadcast(due) || columns_->full()) flush();
+}
+
+void RunFile::Impl::add(const model::RunEvent& event) {
+  core::require_invariant(open_, "an event after the run's file was closed");
+  columns_->add(event);
+}
+
+void RunFile::Impl::flush() {
+  if (!columns_->empty()) {
+    write_together([this] {
+      const std::string error = columns_->write(transfer_);
+      if (!error.empty()) throw core::RunError(error);
+    });
+    // The data reach the file before the number that vouches for them.
+    write_together([this] {
+      check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
+      rewrite(live_.num_events, columns_->events_written());
+      rewrite(live_.frames_committed, columns_->frames_written());
+      check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
+    });
+  }
+  last_flush_s_ = core::now_s();
+}
+
+void RunFile::Impl::close(bool complete, const std::string& state_hash) {
+  if (!open_) return;
+  flush();
+  const std::string hash = ranks_.broadcast(state_hash);
+  write_together([&] {
+    rewrite(live_.num_dropped, columns_->events_dropped());
+    rewrite(live_.state_hash, hash);
+    rewrite(live_.complete, complete ? 1 : 0);
+    check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
+  });
+  write_together([this] {
+    if (!close_file()) check(-1, "H5Fclose");
+  });
+  write_together([this] {
+    if (ranks_.is_root()) cut();
+  });
+}
+
+void RunFile::Impl::cut() {
+  File file = open_alone(target_.path());
+  const std::vector<ByteRange> unused = columns_->cut(file.id());
+  if (!file.close()) check(-1, "H5Fclose");
+  target_.release(unused);
+}
+
+bool RunFile::Impl::close_file() {
+  open_ = false;
+  if (columns_) columns_->close();
+  live_.close();
+  return file_.close();
+}
+
+RunFile::RunFile(const FileGroup& group, RunSetup setup)
+    : impl_(std::make_unique<Impl>(group, std::move(setup))) {}
+RunFile::~RunFile() = default;
+void RunFile::frame_done(const model::FrameRecord& frame) { impl_->add(frame); }
+void RunFile::event(const model::RunEvent& event) { impl_->add(event); }
+void RunFile::close(bool complete, const std::string& state_hash) { impl_->close(complete, state_hash); }
+bool RunFile::wrote_collectively() const { return impl_->wrote_collectively(); }
+
+}  // namespace pbmpi::io

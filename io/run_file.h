@@ -1,0 +1,90 @@
+/// Writes the HDF5 file of a run (io/SCHEMA.md), in parallel.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/frame.h"
+
+namespace pbmpi::io {
+
+/// A value of /parameters or of a root attribute, kept by its type.
+struct Parameter {
+  enum class Type { text, integer, real };
+  std::string name;
+  Type type = Type::text;
+  std::string text;
+  std::int64_t integer = 0;
+  double real = 0;
+
+  static Parameter of(std::string name, std::string value) {
+    return {std::move(name), Type::text, std::move(value), 0, 0};
+  }
+  static Parameter of(std::string name, std::int64_t value) {
+    return {std::move(name), Type::integer, {}, value, 0};
+  }
+  static Parameter of(std::string name, double value) { return {std::move(name), Type::real, {}, 0, value}; }
+};
+
+/// Where this rank stands, and through which communicator the file is opened.
+struct FileGroup {
+  int fortran_communicator = 0;  ///< MPI_Comm_c2f of the ranks that write together
+  int rank = 0;
+  int num_ranks = 1;
+};
+
+/// Everything that is known before the first frame. Equal on every rank, except `worlds`.
+struct RunSetup {
+  std::string path;  ///< final name of the file
+  std::vector<Parameter>
+      attributes;  ///< of the root: pbmpi_version, git_revision, seed, scene, command_line ...
+  std::vector<Parameter> parameters;  ///< of /parameters
+  model::WorldTable table;
+  std::vector<model::LocalWorld> worlds;  ///< this rank's worlds at the start, by ascending id
+  std::vector<std::string> hosts;         ///< [num_ranks]
+  std::int64_t num_frames = 0;            ///< warm-up included
+  int record_every = 1;                   ///< bodies are stored in frames k with (k + 1) % record_every == 0
+  double flush_interval_s = 1;
+};
+
+/// The file of one run. Every call is collective over the file's ranks. Throws core::InputError from the
+/// constructor if the file cannot be created, core::RunError if a write fails (the same error on every rank,
+/// so that no rank waits for another).
+///
+/// The skeleton (all datasets at their full length, allocated, with all metadata) is made under a temporary
+/// name, flushed, and renamed to `path`; from then on only raw data and the attribute frames_committed
+/// change, so that the file opens after a SIGKILL at any moment. Frames are held in memory and written at the
+/// flush cadence, or when those of all ranks pass 32 MiB.
+///
+/// The destructor does not communicate, since it may run on one rank alone: without close(), frames since the
+/// last flush are lost.
+class RunFile final : public model::FrameObserver {
+ public:
+  RunFile(const FileGroup& group, RunSetup setup);
+  ~RunFile() override;
+  RunFile(const RunFile&) = delete;
+  RunFile& operator=(const RunFile&) = delete;
+
+  void frame_done(const model::FrameRecord& frame) override;
+  void event(const model::RunEvent& event) override;
+
+  /// Writes what is held, cuts the datasets to the frames committed, stores the final attributes and closes.
+  /// `complete` = all planned frames were simulated. `state_hash` counts on root only.
+  void close(bool complete, const std::string& state_hash);
+
+  /// Did every dataset of the last flush go through collective MPI-IO on this rank? False before the first.
+  bool wrote_collectively() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Bytes of the file for these numbers, within 10 %: what --describe prints.
+std::int64_t estimate_file_bytes(std::int64_t num_bodies, int num_worlds, int num_ranks,
+                                 std::int64_t num_frames, int record_every);
+
+}  // namespace pbmpi::io

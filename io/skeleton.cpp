@@ -1,0 +1,122 @@
+#include "io/skeleton.h"
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+
+#include "io/columns.h"
+#include "io/static_columns.h"
+
+namespace pbmpi::io {
+namespace {
+
+constexpr std::size_t hash_digits = 16;
+
+const Parameter* find(const std::vector<Parameter>& parameters, const std::string& name) {
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&name](const Parameter& parameter) { return parameter.name == name; });
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+std::string text_or(const std::vector<Parameter>& parameters, const std::string& name,
+                    const std::string& other) {
+  const Parameter* found = find(parameters, name);
+  return found != nullptr && !found->text.empty() ? found->text : other;
+}
+
+/// ISO 8601, UTC.
+std::string now_utc() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+void write_version(hid_t object, std::int64_t major, std::int64_t minor) {
+  const std::array<std::int64_t, 2> version{major, minor};
+  const hsize_t length = version.size();
+  const auto space = owned<Dataspace>(H5Screate_simple(1, &length, nullptr), "H5Screate_simple");
+  const auto attribute =
+      owned<Attribute>(H5Acreate2(object, "version", H5T_NATIVE_INT64, space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                       "H5Acreate(version)");
+  check(H5Awrite(attribute.id(), H5T_NATIVE_INT64, version.data()), "H5Awrite(version)");
+}
+
+void write_boundary(hid_t box) {
+  constexpr std::size_t bytes = 4;
+  const Datatype type = text_type(bytes);
+  const hsize_t length = 3;
+  const auto space = owned<Dataspace>(H5Screate_simple(1, &length, nullptr), "H5Screate_simple");
+  const auto attribute = owned<Attribute>(
+      H5Acreate2(box, "boundary", type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), "H5Acreate(boundary)");
+  check(H5Awrite(attribute.id(), type.id(), "nonenonenone"), "H5Awrite(boundary)");
+}
+
+/// What H5MD 1.1 (nongnu.org/h5md) asks for beside the elements of a particle group.
+void write_h5md(hid_t file, const RunSetup& setup) {
+  const Group h5md = create_group(file, "/h5md");
+  write_version(h5md.id(), 1, 1);
+  const Group author = create_group(file, "/h5md/author");
+  write_attribute(author.id(), "name", text_or(setup.attributes, "author", "unknown"));
+  const Group creator = create_group(file, "/h5md/creator");
+  write_attribute(creator.id(), "name", std::string("pbmpi"));
+  write_attribute(creator.id(), "version", text_or(setup.attributes, "pbmpi_version", "unknown"));
+  const Group box = create_group(file, "/particles/bodies/box");
+  write_attribute(box.id(), "dimension", std::int64_t{3});
+  write_boundary(box.id());
+}
+
+LiveAttributes write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+  const auto root = owned<Group>(H5Gopen2(file, "/", H5P_DEFAULT), "H5Gopen(/)");
+  write_attribute(root.id(), "filetype", std::string(filetype));
+  write_version(root.id(), layout_major, layout_minor);
+  for (const Parameter& attribute : setup.attributes) write_attribute(root.id(), attribute);
+  if (find(setup.attributes, "created") == nullptr) {
+    write_attribute(root.id(), "created", ranks.broadcast(now_utc()));
+  }
+  write_attribute(root.id(), "record_every", std::int64_t{setup.record_every});
+  const Group events = create_group(file, "/events");
+  return {write_attribute(root.id(), "frames_committed", std::int64_t{0}),
+          write_attribute(root.id(), "complete", std::int64_t{0}),
+          write_attribute(root.id(), "state_hash", std::string(hash_digits, ' ')),
+          write_attribute(events.id(), "num_events", std::int64_t{0}),
+          write_attribute(events.id(), "num_dropped", std::int64_t{0})};
+}
+
+void write_parameters(const FileRanks& ranks, hid_t file, const std::vector<Parameter>& parameters) {
+  const Group group = create_group(file, "/parameters");
+  for (const Parameter& parameter : parameters) {
+    create_scalar(group.id(), parameter.name, parameter, ranks.is_root());
+  }
+}
+
+}  // namespace
+
+void LiveAttributes::close() {
+  for (Attribute* attribute : {&frames_committed, &complete, &state_hash, &num_events, &num_dropped}) {
+    attribute->close();
+  }
+}
+
+void rewrite(const Attribute& attribute, std::int64_t value) {
+  check(H5Awrite(attribute.id(), H5T_NATIVE_INT64, &value), "H5Awrite");
+}
+
+void rewrite(const Attribute& attribute, const std::string& state_hash) {
+  std::string padded = state_hash;
+  padded.resize(hash_digits, ' ');
+  const Datatype type = text_type(hash_digits);
+  check(H5Awrite(attribute.id(), type.id(), padded.data()), "H5Awrite(state_hash)");
+}
+
+LiveAttributes write_skeleton(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+  LiveAttributes live = write_root(ranks, file, setup);
+  write_static_columns(ranks, file, setup);
+  write_h5md(file, setup);
+  write_parameters(ranks, file, setup.parameters);
+  return live;
+}
+
+}  // namespace pbmpi::io

@@ -1,0 +1,14 @@
+/// The XDMF sidecar by which ParaView opens the bodies of a run.
+#pragma once
+
+#include <string>
+
+namespace pbmpi::io {
+
+/// Writes an XDMF 3 file: one point a body and one grid a recorded frame, whose numbers stay in the HDF5 file
+/// `run_path`, named relative to the folder of `xdmf_path`. Only committed frames appear. The file is
+/// replaced as a whole or not at all. Throws core::InputError if the run cannot be read or the file cannot be
+/// written.
+void write_xdmf(const std::string& run_path, const std::string& xdmf_path);
+
+}  // namespace pbmpi::io

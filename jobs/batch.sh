@@ -1,0 +1,82 @@
+# To be sourced by the job scripts, with source_dir set: finds the programs, and runs one scene in such a way that a
+# request to stop ends it in good order.
+. "$source_dir/jobs/mpi_environment.sh"
+if [[ -n ${SLURM_JOB_ID:-} ]]; then
+  unset OMPI_MCA_rmaps_base_oversubscribe  # in an allocation, more ranks than cores are a mistake
+fi
+
+# fail MESSAGE: bad usage.
+fail() {
+  echo "${SLURM_JOB_NAME:-$(basename "$0")}: $1" >&2
+  exit 2
+}
+
+# Puts pbmpi and pbreport first on PATH: from PBMPI_BIN, or from this checkout's release build, or as PATH has them.
+find_programs() {
+  local built=$source_dir/build/release/bin program
+  if [[ -n ${PBMPI_BIN:-} ]]; then
+    PATH=$PBMPI_BIN:$PATH
+  elif [[ -x $built/pbmpi ]]; then
+    PATH=$built:$PATH
+  fi
+  for program in mpirun pbmpi pbreport; do
+    command -v "$program" >/dev/null ||
+      fail "no $program found; build it with $source_dir/jobs/build.sh, or name its folder in PBMPI_BIN"
+  done
+}
+
+# name_of_scene NAME|FILE.toml: the scene's name.
+name_of_scene() { basename "$1" .toml; }
+
+# output_among OPTIONS...: what pbmpi's options say of the output: its file, "none", or nothing if they leave it open.
+output_among() {
+  while [[ $# -gt 0 ]]; do
+    case $1 in
+      --no-output) echo none ;;
+      --output | -o) echo "${2:-}" ;;
+      --output=*) echo "${1#--output=}" ;;
+      -o*) echo "${1#-o}" ;;
+    esac
+    shift
+  done
+}
+
+# run_until_stopped COMMAND...: its exit code. TERM, INT or USR2 to this shell become USR2 to mpirun, which passes it
+# to every rank: pbmpi ends the frame, closes its file and exits with 75. TERM itself would not do: mpirun kills its
+# ranks a second after it, and exits with 1. On a terminal, job control gives mpirun a process group of its own, so that
+# Ctrl-C comes here only.
+run_until_stopped() {
+  local child code stopped=
+  [[ ! -t 2 ]] || set -m
+  "$@" </dev/null &
+  child=$!
+  set +m
+  trap 'stopped=yes; kill -USR2 "$child" 2>/dev/null || true' TERM INT USR2
+  while :; do
+    stopped=
+    code=0
+    wait "$child" || code=$?
+    [[ -n $stopped ]] || break  # a trap interrupts wait, which then knows no exit code yet
+  done
+  trap - TERM INT USR2
+  return "$code"
+}
+
+# run_scene OUTPUT SCENE OPTIONS...: simulates, then writes the report page beside the file. OUTPUT is the name of the
+# file unless the options settle it. Returns pbmpi's exit code, or pbreport's if only that failed.
+run_scene() {
+  local output=$1 scene=$2 code=0 given mpi_options=()
+  shift 2
+  given=$(output_among "$@")
+  if [[ -z $given ]]; then
+    set -- --output "$output" "$@"
+  else
+    output=$given
+  fi
+  read -r -a mpi_options <<<"${PBMPI_MPIRUN_OPTIONS:-}"
+  run_until_stopped mpirun "${mpi_options[@]}" "$(command -v pbmpi)" --scene "$scene" "$@" || code=$?
+  if [[ $output != none && ($code -eq 0 || $code -eq 75) ]]; then
+    pbreport "$output" --html "${output%.h5}.html" --quiet || code=$((code == 0 ? $? : code))
+  fi
+  return "$code"
+}

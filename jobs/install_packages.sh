@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Installs what pbmpi needs on Debian 12: `jobs/install_packages.sh` to build and run it, with --tests also what the
+# tests need. Does nothing if all of it is there. Needs root, or sudo.
+set -euo pipefail
+
+packages=(g++ cmake ninja-build pkg-config git ca-certificates
+  openmpi-bin libopenmpi-dev openssh-client libhdf5-openmpi-dev libode-dev libeigen3-dev
+  libboost-program-options-dev libtomlplusplus-dev nlohmann-json3-dev libjs-three libjs-chart.js)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3 python3-h5py python3-pandas python3-selenium
+  chromium chromium-driver hdf5-tools slurm-wlm munge procps)
+
+if [[ ${1:-} == --tests ]]; then
+  packages+=("${test_packages[@]}")
+elif [[ $# -gt 0 ]]; then
+  echo "usage: $0 [--tests]" >&2
+  exit 2
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true) == installed ]] || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  exit 0
+fi
+
+as_root=()
+if [[ $EUID -ne 0 ]]; then
+  command -v sudo >/dev/null || { echo "$0: run it as root; missing: ${missing[*]}" >&2; exit 2; }
+  as_root=(sudo)
+fi
+echo "installing: ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -1,0 +1,49 @@
+/// The worlds that one rank owns: built here, handed to the stepper, passed on to other ranks.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/frame.h"
+#include "model/stepper.h"
+#include "mpi/communicator.h"
+#include "mpi/partition.h"
+
+namespace pbmpi::mpi {
+
+/// Builds the model of one world; called on the rank that owns it (and again where it moves to).
+using BuildWorld = std::function<std::shared_ptr<const model::Model>(int world)>;
+
+/// Knows every world's owner; the worlds of this rank live in the stepper. Communicator and stepper are
+/// borrowed. Constructor and move() are collective and throw the same error on every rank.
+class OwnedWorlds {
+ public:
+  OwnedWorlds(const Communicator& comm, model::WorldStepper& stepper, BuildWorld build, Placement placement);
+
+  const Placement& placement() const { return placement_; }
+  const model::WorldTable& table() const { return table_; }
+  std::span<const int> ids() const { return ids_; }  ///< this rank's, ascending
+
+  /// This rank's worlds as they are now, by ascending id; until the stepper's next call.
+  std::vector<model::LocalWorld> views() const;
+
+  /// Passes worlds to their new owners between two steps: the state travels, the model is built anew, and the
+  /// result is the same bit for bit. `step`: steps done. `moves` equal on every rank.
+  void move(std::span<const Move> moves, std::int64_t step);
+
+ private:
+  void exchange_body_counts();
+  void find_own();
+
+  const Communicator* comm_;
+  model::WorldStepper* stepper_;
+  BuildWorld build_;
+  Placement placement_;
+  model::WorldTable table_;
+  std::vector<int> ids_;
+};
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,51 @@
+// The scenes by name, and scene files by path.
+#include <toml++/toml.h>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/error.h"
+#include "scenes/embedded.h"
+#include "scenes/nearest.h"
+#include "scenes/scene.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+SceneSource read_file(const std::string& path) {
+  const std::string advice = "; give the path of a readable TOML file";
+  core::require_input(!std::filesystem::is_directory(path),
+                      path + ": this is a folder, not a scene file" + advice);
+  std::ifstream file(path, std::ios::binary);
+  core::require_input(file.is_open(), path + ": cannot open this scene file" + advice);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  core::require_input(!file.bad(), path + ": cannot read this scene file" + advice);
+  return {std::filesystem::path(path).stem().string(), path, std::move(text)};
+}
+
+}  // namespace
+
+std::vector<SceneInfo> list_scenes() {
+  std::vector<SceneInfo> list;
+  for (const EmbeddedScene& scene : embedded_scenes()) {
+    const toml::table table = toml::parse(scene.text);
+    list.push_back({std::string(scene.name), table["title"].value_or(std::string())});
+  }
+  return list;
+}
+
+SceneSource find_scene(const std::string& name_or_path) {
+  if (name_or_path.ends_with(".toml")) return read_file(name_or_path);
+  std::vector<std::string> names;
+  for (const EmbeddedScene& scene : embedded_scenes()) {
+    if (scene.name == name_or_path) {
+      return {name_or_path, name_or_path + ".toml", std::string(scene.text)};
+    }
+    names.emplace_back(scene.name);
+  }
+  throw core::InputError("unknown scene " + in_quotes(name_or_path) + suggestion(name_or_path, names) +
+                         " (--list-scenes shows all; a scene file of your own ends in .toml)");
+}
+
+}  // namespace pbmpi::scenes

@@ -1,0 +1,36 @@
+/// The steps by which actors put bodies, geoms and joints into a model.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "model/model.h"
+
+namespace pbmpi::scenes {
+
+using core::Pose;
+using core::Quat;
+using core::Vec3;
+
+/// The pose of a frame that is given in frame `outer`, in outer's outer frame.
+Pose compose(const Pose& outer, const Pose& inner);
+
+/// A turn by `angle_rad` about a unit axis.
+Quat rotation(double angle_rad, const Vec3& axis);
+
+double radians(double degrees);
+
+/// Both return the index of what they add.
+int add_actor(model::Model& model, std::string name, model::ActorKind kind);
+int add_body(model::Model& model, model::Body body);
+
+/// Index of the body of that name, or model::no_body.
+int find_body(const model::Model& model, std::string_view name);
+
+/// A joint whose anchor and axes are given in the world frame at the initial poses; the anchors of the two
+/// bodies coincide. `b` may be model::no_body. Axes need not have unit length.
+model::Joint join(const model::Model& model, std::string name, model::JointKind kind, int a, int b,
+                  const Vec3& anchor, const Vec3& axis1 = Vec3::UnitZ(), const Vec3& axis2 = Vec3::UnitX());
+
+}  // namespace pbmpi::scenes

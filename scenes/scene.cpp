@@ -1,0 +1,201 @@
+#include "scenes/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/error.h"
+#include "model/validate.h"
+#include "scenes/actor.h"
+#include "scenes/joint_reader.h"
+#include "scenes/nearest.h"
+#include "scenes/scene_toml.h"
+#include "scenes/variation.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+/// One [[actor]] of the file: one or more copies of one plan.
+struct ActorEntry {
+  std::string name;
+  std::string where;
+  ActorPlan plan;
+  Vec3 position = Vec3::Zero();
+  double heading_deg = 0;
+  Vec3 velocity = Vec3::Zero();
+  int space = 0;
+  bool has_copies = false;
+  WorldCount copies;
+  Vec3 spacing = Vec3::Zero();
+  Variation variation;
+};
+
+class FileScene final : public Scene {
+ public:
+  FileScene(const SceneSource& source, std::optional<double> dt_s) : source_(source) {
+    const toml::table toml = parse_with_base(source);
+    TableReader scene(toml, "scene");
+    // A base's place in the file is checked where bases are resolved.
+    title_ = scene.text("title");
+    read_defaults(scene);
+    if (dt_s) defaults_.dt_s = *dt_s;
+    read_world(scene);
+    for (TableReader& actor : scene.tables("actor")) read_actor(actor);
+    for (TableReader& joint : scene.tables("joint")) read_named_joint(joint);
+    scene.finish();
+    core::require_input(!actors_.empty(), scene.where() + ": the scene has no [[actor]]; place one");
+  }
+
+  const std::string& name() const override { return source_.name; }
+  const std::string& title() const override { return title_; }
+  const std::string& text() const override { return source_.text; }
+  const RunDefaults& defaults() const override { return defaults_; }
+
+  std::shared_ptr<const model::Model> build(int world, std::uint64_t seed) const override {
+    auto result = std::make_shared<model::Model>(empty_);
+    for (std::size_t i = 0; i < actors_.size(); ++i) place_copies(i, world, seed, *result);
+    for (const JointPlan& joint : joints_) joint(*result);
+    std::stable_sort(result->events.begin(), result->events.end(),
+                     [](const model::Event& a, const model::Event& b) { return a.step < b.step; });
+    validate(*result, world);
+    return result;
+  }
+
+ private:
+  void read_defaults(TableReader& scene) {
+    auto run = scene.table("run");
+    if (!run) return;
+    defaults_.replicas = run->integer("replicas", 1, defaults_.replicas);
+    defaults_.warmup = run->integer("warmup", 0, defaults_.warmup);
+    defaults_.frames = run->integer("frames", 1, defaults_.frames);
+    defaults_.steps_per_frame = run->integer("steps_per_frame", 1, defaults_.steps_per_frame);
+    defaults_.dt_s = run->number("dt", Sign::positive, defaults_.dt_s);
+    defaults_.iterations = run->integer("iterations", 1, defaults_.iterations);
+    run->finish();
+  }
+
+  void read_world(TableReader& scene) {
+    empty_.gravity = scene.vector("gravity", Sign::any, empty_.gravity);
+    empty_.erp = scene.number("erp", Sign::non_negative, empty_.erp);
+    if (empty_.erp > 1) scene.fail("erp", "'erp' is a share of the error and must lie in [0, 1]");
+    empty_.cfm = scene.number("cfm", Sign::non_negative, empty_.cfm);
+    if (auto contact = scene.table("contact")) {
+      model::ContactLaw& law = empty_.contact_law;
+      law.soft_erp = contact->number("soft_erp", Sign::non_negative, law.soft_erp);
+      if (law.soft_erp > 1) contact->fail("soft_erp", "'soft_erp' must lie in [0, 1]");
+      law.soft_cfm = contact->number("soft_cfm", Sign::non_negative, law.soft_cfm);
+      law.bounce_velocity = contact->number("bounce_velocity", Sign::non_negative, law.bounce_velocity);
+      law.max_per_pair = contact->integer("max_per_pair", 1, law.max_per_pair);
+      contact->finish();
+    }
+    if (scene.has("spaces")) read_spaces(scene);
+  }
+
+  void read_spaces(TableReader& scene) {
+    empty_.spaces = scene.texts("spaces");
+    if (empty_.spaces.empty()) scene.fail("spaces", "'spaces' is empty; name at least one");
+    if (std::set<std::string>(empty_.spaces.begin(), empty_.spaces.end()).size() != empty_.spaces.size()) {
+      scene.fail("spaces", "'spaces' names one space twice");
+    }
+  }
+
+  void read_actor(TableReader& table) {
+    ActorEntry actor;
+    actor.name = table.text("name");
+    actor.where = table.where();
+    table.set_what("actor " + in_quotes(actor.name));
+    if (!names_.insert("actor " + actor.name).second) {
+      table.fail("name", "a second actor of this name; rename one");
+    }
+    const ActorType& type = read_actor_type(table);
+    actor.position = table.vector("position", Sign::any, Vec3(Vec3::Zero()));
+    actor.heading_deg = table.number("heading", Sign::any, 0.0);
+    actor.space = read_space(table);
+    actor.has_copies = table.has("copies");
+    actor.copies = WorldCount::read(table, "copies");
+    if (actor.has_copies) actor.spacing = table.vector("spacing", Sign::any);
+    actor.variation = read_variation(table);
+    if (type.moves) {
+      actor.velocity = table.vector("velocity", Sign::any, Vec3(Vec3::Zero()));
+    } else if (!actor.variation.velocity.isZero()) {
+      table.fail("variation", "this type does not move; a velocity cannot vary");
+    }
+    actor.plan = type.read(table, {empty_.gravity, defaults_.dt_s});
+    table.finish();
+    actors_.push_back(std::move(actor));
+  }
+
+  int read_space(TableReader& table) const {
+    const std::string name = table.text("space", empty_.spaces.front());
+    const auto found = std::find(empty_.spaces.begin(), empty_.spaces.end(), name);
+    if (found == empty_.spaces.end()) {
+      table.fail("space", "unknown space " + in_quotes(name) + suggestion(name, empty_.spaces));
+    }
+    return static_cast<int>(found - empty_.spaces.begin());
+  }
+
+  void read_named_joint(TableReader& table) {
+    joints_.push_back(read_joint(table));
+    if (!names_.insert("joint " + table.text("name")).second) {
+      table.fail("name", "a second joint of this name; rename one");
+    }
+  }
+
+  void place_copies(std::size_t index, int world, std::uint64_t seed, model::Model& model) const {
+    const ActorEntry& actor = actors_[index];
+    const int copies = actor.copies.in(world);
+    for (int copy = 0; copy < copies; ++copy) {
+      // A million copies (the most that a file may ask for) of each actor have keys of their own.
+      const std::uint64_t key = (static_cast<std::uint64_t>(index) << 20) + static_cast<std::uint64_t>(copy);
+      const Offset offset = draw(actor.variation, seed, world, key);
+      Placement place;
+      place.name = actor.has_copies ? actor.name + "." + std::to_string(copy + 1) : actor.name;
+      place.pose.position = actor.position + copy * actor.spacing + offset.position;
+      place.pose.orientation = rotation(radians(actor.heading_deg + offset.heading_deg), Vec3::UnitZ());
+      place.velocity = actor.velocity + offset.velocity;
+      place.space = actor.space;
+      actor.plan(place, model);
+    }
+  }
+
+  /// The readers leave little for validate() to find; what it finds is told at the actor that it names.
+  void validate(const model::Model& model, int world) const {
+    try {
+      model::validate(model, "world " + std::to_string(world));
+    } catch (const core::InputError& error) {
+      const std::string message = error.what();
+      std::string where = source_.file;
+      for (const ActorEntry& actor : actors_) {
+        if (message.find(in_quotes(actor.name)) != std::string::npos ||
+            message.find('\'' + actor.name + '.') != std::string::npos) {
+          where = actor.where;
+        }
+      }
+      throw core::InputError(where + ": " + message);
+    }
+  }
+
+  SceneSource source_;
+  std::string title_;
+  RunDefaults defaults_;
+  model::Model empty_;  ///< what every world has before its actors come
+  std::vector<ActorEntry> actors_;
+  std::vector<JointPlan> joints_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s) {
+  if (dt_s) {
+    core::require_input(std::isfinite(*dt_s) && *dt_s > 0,
+                        "dt is " + std::to_string(*dt_s) + " s; it must be finite and above 0");
+  }
+  auto scene = std::make_unique<FileScene>(source, dt_s);
+  scene->build(0, 0);  // finds at once what only shows in a built world: joints to bodies that do not exist
+  return scene;
+}
+
+}  // namespace pbmpi::scenes

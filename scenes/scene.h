@@ -1,0 +1,60 @@
+/// A scene: the recipe from which worlds are built, read from a TOML file.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+
+namespace pbmpi::scenes {
+
+/// What a scene file proposes for a run; the command line overrides each.
+struct RunDefaults {
+  int replicas = 1;
+  int warmup = 3;
+  int frames = 5;
+  int steps_per_frame = 3;
+  double dt_s = 0.01;
+  int iterations = 20;
+};
+
+/// Immutable once loaded. A world depends on (scene, world id, seed) only, so that each rank builds just its
+/// own.
+class Scene {
+ public:
+  virtual ~Scene() = default;
+  virtual const std::string& name() const = 0;   ///< e.g. "100CrSk"; names the output file
+  virtual const std::string& title() const = 0;  ///< one line for --list-scenes
+  virtual const std::string& text() const = 0;   ///< the scene file's TOML
+  virtual const RunDefaults& defaults() const = 0;
+  /// The model of world `world`, validated. Throws core::InputError with file:line:column.
+  virtual std::shared_ptr<const model::Model> build(int world, std::uint64_t seed) const = 0;
+};
+
+struct SceneInfo {
+  std::string name;
+  std::string title;
+};
+
+/// The scenes that pbmpi brings, in the order of the paper's Table 1.
+std::vector<SceneInfo> list_scenes();
+
+/// The text of scene `name_or_path`: a path if it ends in ".toml", else a scene that pbmpi brings (their
+/// texts are part of the program, so that it needs no data folder). Throws core::InputError: unknown name
+/// (with the nearest names), unreadable file.
+struct SceneSource {
+  std::string name;  ///< scene name; of a file, its stem
+  std::string file;  ///< what error messages call it
+  std::string text;
+};
+SceneSource find_scene(const std::string& name_or_path);
+
+/// Parses a scene. Throws core::InputError ("file:line:column: ...") for malformed TOML, unknown keys and
+/// impossible values. Rank 0 finds and reads the text, and every rank parses the same text.
+/// `dt_s` replaces the file's own time step: programmes given in seconds (steering) become steps with it.
+std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s = std::nullopt);
+
+}  // namespace pbmpi::scenes

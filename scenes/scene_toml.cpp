@@ -1,0 +1,86 @@
+#include "scenes/scene_toml.h"
+
+#include "core/error.h"
+#include "scenes/table_reader.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+toml::table parse_text(const SceneSource& source) {
+  try {
+    return toml::parse(source.text, source.file);
+  } catch (const toml::parse_error& error) {
+    throw core::InputError(to_string(error.source()) +
+                           ": malformed TOML: " + std::string(error.description()));
+  }
+}
+
+toml::table* find_by_name(toml::array& entries, const toml::node& name) {
+  for (toml::node& entry : entries) {
+    toml::table* table = entry.as_table();
+    if (table && table->get("name") &&
+        table->get("name")->value<std::string>() == name.value<std::string>()) {
+      return table;
+    }
+  }
+  return nullptr;
+}
+
+bool is_array_of_tables(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  return array && !array->empty() && (*array)[0].is_table();
+}
+
+// Nodes are moved, never copied: only a move keeps a node's place in its file.
+void lay_over(toml::table& base, toml::table&& over);
+
+void lay_over(toml::array& base, toml::array&& over) {
+  for (toml::node& entry : over) {
+    toml::table* table = entry.as_table();
+    const toml::node* name = table ? table->get("name") : nullptr;
+    toml::table* same = name && name->is_string() ? find_by_name(base, *name) : nullptr;
+    if (same) {
+      lay_over(*same, std::move(*table));
+    } else {
+      base.push_back(std::move(entry));
+    }
+  }
+}
+
+void lay_over(toml::table& base, toml::table&& over) {
+  for (auto&& [key, node] : over) {
+    toml::node* old = base.get(key.str());
+    if (old && old->is_table() && node.is_table()) {
+      lay_over(*old->as_table(), std::move(*node.as_table()));
+    } else if (old && is_array_of_tables(*old) && is_array_of_tables(node)) {
+      lay_over(*old->as_array(), std::move(*node.as_array()));
+    } else {
+      base.erase(key.str());  // the key, too, must tell the new place
+      base.insert_or_assign(key, std::move(node));
+    }
+  }
+}
+
+}  // namespace
+
+toml::table parse_with_base(const SceneSource& source) {
+  toml::table scene = parse_text(source);
+  const toml::node* base_node = scene.get("base");
+  if (!base_node) return scene;
+  const std::string place = to_string(base_node->source());
+  const auto base_name = base_node->value<std::string>();
+  core::require_input(base_name && !base_name->ends_with(".toml"),
+                      place + ": 'base' must name a scene that pbmpi brings (so that one file says it all)");
+  SceneSource base_source;
+  try {
+    base_source = find_scene(*base_name);
+  } catch (const core::InputError& error) {
+    throw core::InputError(place + ": base: " + error.what());
+  }
+  toml::table result = parse_with_base(base_source);
+  scene.erase("base");
+  lay_over(result, std::move(scene));
+  return result;
+}
+
+}  // namespace pbmpi::scenes

@@ -1,0 +1,72 @@
+/// Reads one TOML table with types, ranges and the place of every mistake.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "core/vector.h"
+
+namespace pbmpi::scenes {
+
+/// What a number may be, besides finite.
+enum class Sign { any, positive, non_negative };
+
+/// Each getter marks its key as known; finish() then refuses every key that nobody asked for. All errors are
+/// core::InputError "file:line:column: what: ...". A getter without a fallback needs its key.
+class TableReader {
+ public:
+  /// `table` must outlive the reader; `what` names it in messages, e.g. "actor 'car'".
+  TableReader(const toml::table& table, std::string what);
+
+  bool has(std::string_view key);
+  bool is_array(std::string_view key);
+  double number(std::string_view key, Sign sign, std::optional<double> fallback = std::nullopt);
+  int integer(std::string_view key, int least, std::optional<int> fallback = std::nullopt);
+  bool flag(std::string_view key, bool fallback);
+  std::string text(std::string_view key, const std::optional<std::string>& fallback = std::nullopt);
+  core::Vec3 vector(std::string_view key, Sign sign,
+                    const std::optional<core::Vec3>& fallback = std::nullopt);
+  /// A vector scaled to unit length; refuses zero.
+  core::Vec3 direction(std::string_view key, const std::optional<core::Vec3>& fallback = std::nullopt);
+  std::vector<std::string> texts(std::string_view key);
+  /// [a, b]
+  std::array<double, 2> pair(std::string_view key);
+  /// [[a, b], [c, d], ...] with a < c < ...; empty without the key.
+  std::vector<std::array<double, 2>> ascending_pairs(std::string_view key);
+  /// A sub-table, or nothing without the key.
+  std::optional<TableReader> table(std::string_view key);
+  /// [[key]] tables; empty without the key.
+  std::vector<TableReader> tables(std::string_view key);
+
+  /// Call when all keys have been asked for.
+  void finish() const;
+
+  /// Renames the table in messages, once its name is known.
+  void set_what(std::string what) { what_ = std::move(what); }
+  /// "file:line:column" of the value of `key`, or of the table if there is no such key.
+  std::string where(std::string_view key) const;
+  std::string where() const;
+  /// Throws core::InputError at the value of `key`.
+  [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
+
+ private:
+  const toml::node* find(std::string_view key);
+  const toml::node& need(std::string_view key);
+  const toml::array& need_array(std::string_view key, std::string_view form);
+  double checked_number(std::string_view key, const toml::node& node, Sign sign) const;
+  [[noreturn]] void fail_at(const toml::node& node, const std::string& problem) const;
+
+  const toml::table* table_;
+  std::string what_;
+  std::vector<std::string> known_;
+};
+
+/// "file:line:column".
+std::string to_string(const toml::source_region& source);
+
+}  // namespace pbmpi::scenes

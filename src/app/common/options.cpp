@@ -1,0 +1,93 @@
+#include "app/common/options.h"
+
+#include <fstream>
+
+#include "app/common/version.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace pbmpi::app {
+
+namespace po = boost::program_options;
+
+namespace {
+
+/// The long option names of a description, for suggestions.
+std::vector<std::string> option_names(const po::options_description& description) {
+  std::vector<std::string> names;
+  for (const auto& option : description.options()) names.push_back(option->long_name());
+  return names;
+}
+
+std::string unknown_option_message(const std::string& option, const po::options_description& description) {
+  const std::string bare = option.substr(std::min(option.find_first_not_of('-'), option.size()));
+  const std::string nearest = core::nearest_name(bare, option_names(description));
+  return "unknown option '" + option + "'; " +
+         (nearest.empty() ? "see --help" : "did you mean --" + nearest + "?");
+}
+
+}  // namespace
+
+po::options_description common_options_description() {
+  po::options_description common("General");
+  common.add_options()                  //
+      ("help,h", "print this help")     //
+      ("version", "print the version")  //
+      ("config", po::value<std::string>()->value_name("FILE"),
+       "read options from FILE, one 'name = value' a line; the command line wins")  //
+      ("quiet,q", "print nothing but errors and what --report json asks for")       //
+      ("progress", po::value<std::string>()->default_value("auto")->value_name("auto|always|never"),
+       "progress bar on stderr; auto: only on a terminal");
+  return common;
+}
+
+po::variables_map parse_command_line(const std::vector<std::string>& args,
+                                     const po::options_description& description,
+                                     const po::positional_options_description& positional) {
+  po::variables_map values;
+  try {
+    po::store(po::command_line_parser(args)
+                  .options(description)
+                  .positional(positional)
+                  .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
+                  .run(),
+              values);
+    if (values.count("config") != 0) {
+      const std::string path = values["config"].as<std::string>();
+      std::ifstream file(path);
+      core::require_input(file.good(),
+                          path + ": cannot be read; --config wants a file of 'name = value' lines");
+      po::store(po::parse_config_file(file, description), values);
+    }
+    po::notify(values);
+  } catch (const po::unknown_option& error) {
+    throw core::InputError(unknown_option_message(error.get_option_name(), description));
+  } catch (const po::too_many_positional_options_error&) {
+    throw core::InputError("a word without a dash stands on the command line; see --help");
+  } catch (const po::error& error) {
+    throw core::InputError(std::string(error.what()) + "; see --help");
+  }
+  return values;
+}
+
+CommonOptions common_options(const po::variables_map& values) {
+  CommonOptions common;
+  common.quiet = values.count("quiet") != 0;
+  const std::string progress = values["progress"].as<std::string>();
+  if (progress == "always") {
+    common.progress = ProgressMode::always;
+  } else if (progress == "never") {
+    common.progress = ProgressMode::never;
+  } else {
+    core::require_input(progress == "auto", "--progress " + progress + ": it must be auto, always or never");
+  }
+  return common;
+}
+
+std::vector<std::string> arguments(int argc, char** argv) { return {argv + 1, argv + argc}; }
+
+std::string version_line(const std::string& program) {
+  return program + " " + program_version + " (" + git_revision + "; " + build_description + ")";
+}
+
+}  // namespace pbmpi::app

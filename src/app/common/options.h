@@ -1,0 +1,38 @@
+/// What the three programs' command lines have in common.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <boost/program_options.hpp>
+
+namespace pbmpi::app {
+
+/// When a progress bar is drawn.
+enum class ProgressMode { automatic, always, never };
+
+struct CommonOptions {
+  bool quiet = false;
+  ProgressMode progress = ProgressMode::automatic;
+};
+
+/// --help, --version, --config, --quiet, --progress.
+boost::program_options::options_description common_options_description();
+
+/// Parses `args` (without the program's name) and, if given, the file named by --config; the command line
+/// wins. `positional` names the option that takes the words without a dash; empty = such words are refused.
+/// Throws core::InputError for anything that is not in `description`, with the nearest option.
+boost::program_options::variables_map parse_command_line(
+    const std::vector<std::string>& args, const boost::program_options::options_description& description,
+    const boost::program_options::positional_options_description& positional = {});
+
+/// Reads the common options out of a parsed command line. Throws core::InputError.
+CommonOptions common_options(const boost::program_options::variables_map& values);
+
+/// argv[1..] as strings.
+std::vector<std::string> arguments(int argc, char** argv);
+
+/// "pbmpi 0.1.0 (revision, compiler)".
+std::string version_line(const std::string& program);
+
+}  // namespace pbmpi::app

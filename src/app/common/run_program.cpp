@@ -1,0 +1,28 @@
+#include "app/common/run_program.h"
+
+#include <iostream>
+
+#include "mpi/session.h"
+
+namespace pbmpi::app {
+
+int run_program(const std::string& name,
+                const std::function<core::ExitCode(const mpi::Communicator&)>& program) {
+  const mpi::Communicator world = mpi::Communicator::world();
+  const auto report = [&](const std::exception& error, core::ExitCode code) {
+    if (world.is_root()) std::cerr << name << ": " << error.what() << std::endl;
+    return static_cast<int>(code);
+  };
+  try {
+    return static_cast<int>(program(world));
+  } catch (const core::InputError& error) {
+    return report(error, core::ExitCode::bad_input);
+  } catch (const core::RunError& error) {
+    return report(error, core::ExitCode::failed);
+  } catch (const std::exception& error) {
+    std::cerr << name << ": rank " << world.rank() << ": " << error.what() << std::endl;
+    mpi::Session::abort(static_cast<int>(core::ExitCode::failed));
+  }
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,19 @@
+/// What stands between main() and a parallel program: errors become one message and an exit code.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/error.h"
+#include "mpi/communicator.h"
+
+namespace pbmpi::app {
+
+/// Runs `program` on all ranks; lives inside an mpi::Session. core::InputError and core::RunError are the
+/// same on every rank (whoever throws one on a rank of its own has agreed on it before): root prints the
+/// message, all return its exit code. Any other exception is a mistake of ours on some rank: it is printed
+/// and the whole run is aborted, so that nobody waits.
+int run_program(const std::string& name,
+                const std::function<core::ExitCode(const mpi::Communicator&)>& program);
+
+}  // namespace pbmpi::app

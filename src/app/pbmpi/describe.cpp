@@ -1,0 +1,138 @@
+#include "app/pbmpi/describe.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+#include "io/run_file.h"
+#include "model/effects.h"
+#include "model/frame.h"
+#include "model/names.h"
+#include "mpi/partition.h"
+#include "ode/ode_stepper.h"
+
+namespace pbmpi::app {
+namespace {
+
+/// What is counted over all worlds.
+struct Census {
+  model::WorldTable table;
+  std::size_t geoms = 0, joints = 0, events = 0, spaces = 0;
+  std::map<std::string, int> actor_kinds;
+  std::map<std::string, std::vector<int>> plans;  ///< text of a plan -> the worlds that have it
+};
+
+std::string plan_text(const model::Model& model) {
+  std::ostringstream text;
+  const model::StepPlan plan(model);
+  for (const model::Pass& pass : plan.passes()) {
+    text << "  " << std::left << std::setw(12) << pass.effect->name << std::setw(10)
+         << core::phase_names[static_cast<std::size_t>(pass.effect->phase)] << pass.effect->meaning << ": "
+         << pass.reason << '\n';
+  }
+  return text.str();
+}
+
+Census take_census(const scenes::Scene& scene, const RunSpec& spec) {
+  Census census;
+  for (int world = 0; world < spec.num_worlds; ++world) {
+    const auto model = scene.build(world, spec.stepper.seed);
+    census.table.body_offset.push_back(census.table.num_bodies() + model->num_bodies());
+    census.geoms += model->geoms.size();
+    census.joints += model->joints.size();
+    census.events += model->events.size();
+    census.spaces = std::max(census.spaces, model->spaces.size());
+    for (const model::Actor& actor : model->actors)
+      ++census.actor_kinds[std::string(model::name_of(actor.kind))];
+    census.plans[plan_text(*model)].push_back(world);
+  }
+  return census;
+}
+
+std::string in_units(double bytes) {
+  static constexpr const char* units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+  int unit = 0;
+  while (bytes >= 1024 && unit < 4) {
+    bytes /= 1024;
+    ++unit;
+  }
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(unit == 0 ? 0 : 1) << bytes << ' ' << units[unit];
+  return text.str();
+}
+
+/// Heap bytes of world 0 in its stepper, model included.
+std::size_t measure_world_bytes(const scenes::Scene& scene, const RunSpec& spec) {
+  const auto stepper = ode::make_ode_stepper(spec.stepper);
+  const std::size_t before = mallinfo2().uordblks;
+  auto model = scene.build(0, spec.stepper.seed);
+  const model::State state = model::initial_state(*model);
+  stepper->add(0, std::move(model), state, 0);
+  return mallinfo2().uordblks - before;
+}
+
+/// "0..49" or "7".
+std::string range_text(int first, int last) {
+  return first == last ? std::to_string(first) : std::to_string(first) + ".." + std::to_string(last);
+}
+
+void print_distribution(std::ostream& out, const Census& census, int num_ranks, double world_bytes) {
+  const std::vector<int> placement = mpi::equal_placement(census.table.num_worlds(), num_ranks);
+  for (int rank = 0; rank < num_ranks; ++rank) {
+    const auto first = std::find(placement.begin(), placement.end(), rank);
+    const auto count = std::count(placement.begin(), placement.end(), rank);
+    if (count == 0) {
+      out << "  rank " << rank << ": idle (more ranks than worlds)\n";
+      continue;
+    }
+    const auto begin = static_cast<int>(first - placement.begin());
+    const int last = begin + static_cast<int>(count) - 1;
+    const auto bodies = census.table.body_offset[static_cast<std::size_t>(last) + 1] -
+                        census.table.body_offset[static_cast<std::size_t>(begin)];
+    out << "  rank " << rank << ": worlds " << range_text(begin, last) << " (" << count << " worlds, "
+        << bodies << " bodies, about " << in_units(world_bytes * static_cast<double>(count)) << ")\n";
+  }
+}
+
+void print_plans(std::ostream& out, const Census& census) {
+  for (const auto& [plan, worlds] : census.plans) {
+    out << "step plan";
+    if (census.plans.size() > 1) out << " of " << worlds.size() << " worlds, e.g. world " << worlds.front();
+    out << ":\n" << plan;
+  }
+}
+
+}  // namespace
+
+std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ranks) {
+  const Census census = take_census(scene, spec);
+  const auto world_bytes = static_cast<double>(measure_world_bytes(scene, spec));
+  std::ostringstream out;
+  out << "scene: " << scene.name() << " - " << scene.title() << '\n'
+      << "worlds: " << census.table.num_worlds() << ", bodies: " << census.table.num_bodies()
+      << ", geoms: " << census.geoms << ", joints: " << census.joints << ", events: " << census.events
+      << ", spaces: " << census.spaces << '\n'
+      << "actors:";
+  for (const auto& [kind, count] : census.actor_kinds) out << ' ' << count << ' ' << kind;
+  out << "\nframes: " << spec.warmup << " warm-up + " << spec.frames << " measured, " << spec.steps_per_frame
+      << " steps of " << spec.stepper.dt_s << " s\n"
+      << "stepper: " << name_of(spec.stepper.kind) << ", " << spec.stepper.iterations << " iterations, seed "
+      << spec.stepper.seed << '\n';
+  print_plans(out, census);
+  out << "decomposition: worlds over " << num_ranks << (num_ranks == 1 ? " rank\n" : " ranks\n");
+  print_distribution(out, census, num_ranks, world_bytes);
+  out << "memory: about " << in_units(world_bytes) << " a world (measured on world 0)\n";
+  if (spec.output) {
+    const auto bytes = io::estimate_file_bytes(census.table.num_bodies(), spec.num_worlds, num_ranks,
+                                               spec.total_frames(), spec.record_every);
+    out << "output: " << *spec.output << ", about " << in_units(static_cast<double>(bytes)) << '\n';
+  } else {
+    out << "output: none\n";
+  }
+  return out.str();
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,14 @@
+/// --describe: what a run would do, without running it.
+#pragma once
+
+#include <string>
+
+#include "app/pbmpi/options.h"
+
+namespace pbmpi::app {
+
+/// The resolved scene, the step plan with the reason of each pass, who owns what over `num_ranks` ranks, and
+/// estimates of memory (measured on world 0) and file size. Builds every world once, one at a time.
+std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ranks);
+
+}  // namespace pbmpi::app

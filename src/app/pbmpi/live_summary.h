@@ -1,0 +1,27 @@
+/// Collects a run's summary while it runs.
+#pragma once
+
+#include "app/summary/run_summary.h"
+#include "model/frame.h"
+#include "mpi/communicator.h"
+#include "mpi/world_driver.h"
+
+namespace pbmpi::app {
+
+/// One per rank: sums over the rank's own worlds, joined over the ranks at the end.
+class LiveSummary final : public model::FrameObserver {
+ public:
+  void frame_done(const model::FrameRecord& frame) override;
+
+  /// Collective. Fills what is measured into `summary`, whose settings (worlds, bodies, ranks,
+  /// steps_per_frame, budget_s) are set.
+  void finish(const mpi::Communicator& comm, const mpi::WorldRunResult& result, RunSummary& summary) const;
+
+ private:
+  std::vector<double> islands_, contacts_, rows_;  ///< [measured frames] sums over this rank's worlds
+  double max_joint_gap_m_ = 0, max_penetration_m_ = 0;
+  double energy_j_ = 0;   ///< at the last frame
+  double nonfinite_ = 0;  ///< at the last frame
+};
+
+}  // namespace pbmpi::app

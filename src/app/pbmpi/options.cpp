@@ -1,0 +1,162 @@
+#include "app/pbmpi/options.h"
+
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "core/error.h"
+#include "model/names.h"
+
+namespace pbmpi::app {
+
+namespace po = boost::program_options;
+using core::require_input;
+
+namespace {
+
+po::options_description options_description() {
+  po::options_description what("What to simulate");
+  what.add_options()  //
+      ("scene", po::value<std::string>()->value_name("NAME|FILE.toml"),
+       "a scene that pbmpi brings (--list-scenes), or a scene file of your own")  //
+      ("list-scenes", "list the scenes that pbmpi brings")                        //
+      ("describe",
+       "print the resolved scene, the step plan, who owns what and the size of the file; run nothing")  //
+      ("replicas", po::value<int>()->value_name("N"), "worlds; default: the scene's")                   //
+      ("frames", po::value<int>()->value_name("N"), "measured frames; default: the scene's")            //
+      ("warmup", po::value<int>()->value_name("N"),
+       "frames before the measured ones; default: the scene's, 3")  //
+      ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"),
+       "of the solver's row order and of the scene's variation");
+
+  po::options_description how("How to step");
+  how.add_options()  //
+      ("stepper", po::value<std::string>()->default_value("quick")->value_name("quick|direct"),
+       "quick: ODE's iterative dWorldQuickStep; direct: ODE's big-matrix dWorldStep")  //
+      ("dt", po::value<double>()->value_name("SECONDS"),
+       "length of a step [s]; default: the scene's, 0.01")                                                 //
+      ("steps-per-frame", po::value<int>()->value_name("N"), "steps in a frame; default: the scene's, 3")  //
+      ("iterations", po::value<int>()->value_name("N"),
+       "sweeps of the iterative solver; default: the scene's, 20");
+
+  po::options_description cut("How to cut the work");
+  cut.add_options()  //
+      ("decompose", po::value<std::string>()->default_value("auto")->value_name("auto|worlds"),
+       "worlds: each rank owns whole worlds; auto: what the scene calls for");
+
+  po::options_description write("What to write");
+  write.add_options()  //
+      ("output,o", po::value<std::string>()->value_name("FILE"),
+       "HDF5 file of the run; default: <scene>.h5")  //
+      ("no-output", "write no file")                 //
+      ("record-every", po::value<int>()->default_value(1)->value_name("N"),
+       "store the bodies of every Nth frame; timings are stored for all")  //
+      ("report", po::value<std::string>()->default_value("text")->value_name("text|json"),
+       "the summary; json: exactly one JSON document on stdout");
+
+  po::options_description all;
+  all.add(what).add(how).add(cut).add(write).add(common_options_description());
+  return all;
+}
+
+template <class T>
+std::optional<T> given(const po::variables_map& values, const char* name) {
+  if (values.count(name) == 0) return std::nullopt;
+  return values[name].as<T>();
+}
+
+/// The enumerator that belongs to the word given for --`name`; `names` are in the order of the enumerators.
+template <class Enum, std::size_t N>
+Enum choice(const po::variables_map& values, const std::string& name,
+            const std::array<std::string_view, N>& names) {
+  const std::string word = values[name].as<std::string>();
+  if (const auto value = model::enum_from_name<Enum>(word, names)) return *value;
+  std::string known;
+  for (const std::string_view text : names) known += (known.empty() ? "" : ", ") + std::string(text);
+  throw core::InputError("--" + name + " " + word + ": it must be one of " + known);
+}
+
+constexpr std::array<std::string_view, 2> decomposition_names = {"auto", "worlds"};
+constexpr std::array<std::string_view, 2> report_format_names = {"text", "json"};
+
+Action action_of(const po::variables_map& values) {
+  if (values.count("help") != 0) return Action::help;
+  if (values.count("version") != 0) return Action::version;
+  if (values.count("list-scenes") != 0) return Action::list_scenes;
+  return values.count("describe") != 0 ? Action::describe : Action::run;
+}
+
+void require_at_least(int value, int least, const char* option) {
+  require_input(value >= least, std::string(option) + " " + std::to_string(value) + ": it must be at least " +
+                                    std::to_string(least));
+}
+
+}  // namespace
+
+std::string help_text() {
+  std::ostringstream text;
+  text << "pbmpi simulates many rigid-body worlds over MPI ranks and shows what accuracy costs in time.\n\n"
+       << "Usage: mpirun -n RANKS pbmpi --scene NAME [options]\n\n"
+       << options_description()
+       << "\nExit codes: 0 done; 1 the simulation failed (what was written is readable); "
+       << "2 bad usage or bad input; 75 stopped early on request.\n"
+       << "Signals: INT and TERM finish the frame, close the file and end with 75.\n"
+       << "Example: mpirun -n 2 pbmpi --scene 100CrSk --report json\n";
+  return text.str();
+}
+
+Options parse_options(const std::vector<std::string>& args) {
+  const po::variables_map values = parse_command_line(args, options_description());
+  Options options;
+  options.action = action_of(values);
+  options.command_line = "pbmpi";
+  for (const std::string& arg : args) options.command_line += " " + arg;
+  options.common = common_options(values);
+  options.scene = given<std::string>(values, "scene").value_or("");
+  options.replicas = given<int>(values, "replicas");
+  options.frames = given<int>(values, "frames");
+  options.warmup = given<int>(values, "warmup");
+  options.steps_per_frame = given<int>(values, "steps-per-frame");
+  options.iterations = given<int>(values, "iterations");
+  options.dt_s = given<double>(values, "dt");
+  options.stepper = choice<model::StepperKind>(values, "stepper", model::stepper_kind_names);
+  options.decomposition = choice<Decomposition>(values, "decompose", decomposition_names);
+  options.seed = values["seed"].as<std::uint64_t>();
+  options.output = given<std::string>(values, "output");
+  options.no_output = values.count("no-output") != 0;
+  options.record_every = values["record-every"].as<int>();
+  options.report = choice<ReportFormat>(values, "report", report_format_names);
+  const bool needs_scene = options.action == Action::run || options.action == Action::describe;
+  require_input(!needs_scene || !options.scene.empty(),
+                "no scene given; name one with --scene (see --list-scenes)");
+  require_input(!(options.no_output && options.output),
+                "--output and --no-output exclude each other; drop one");
+  return options;
+}
+
+RunSpec resolve(const Options& options, const scenes::Scene& scene) {
+  const scenes::RunDefaults& defaults = scene.defaults();
+  RunSpec spec;
+  spec.num_worlds = options.replicas.value_or(defaults.replicas);
+  spec.warmup = options.warmup.value_or(defaults.warmup);
+  spec.frames = options.frames.value_or(defaults.frames);
+  spec.steps_per_frame = options.steps_per_frame.value_or(defaults.steps_per_frame);
+  spec.stepper.kind = options.stepper;
+  spec.stepper.dt_s = options.dt_s.value_or(defaults.dt_s);
+  spec.stepper.iterations = options.iterations.value_or(defaults.iterations);
+  spec.stepper.seed = options.seed;
+  spec.record_every = options.record_every;
+  if (!options.no_output) spec.output = options.output.value_or(scene.name() + ".h5");
+  require_at_least(spec.num_worlds, 1, "--replicas");
+  require_at_least(spec.warmup, 0, "--warmup");
+  require_at_least(spec.frames, 1, "--frames");
+  require_at_least(spec.steps_per_frame, 1, "--steps-per-frame");
+  require_at_least(spec.stepper.iterations, 1, "--iterations");
+  require_at_least(spec.record_every, 1, "--record-every");
+  require_input(std::isfinite(spec.stepper.dt_s) && spec.stepper.dt_s > 0,
+                "--dt " + std::to_string(spec.stepper.dt_s) + " s: a step must be finite and above 0");
+  return spec;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,58 @@
+/// The command line of pbmpi, and the run that it and the scene ask for together.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/common/options.h"
+#include "model/stepper.h"
+#include "scenes/scene.h"
+
+namespace pbmpi::app {
+
+enum class Action { run, help, version, list_scenes, describe };
+enum class ReportFormat { text, json };
+enum class Decomposition { automatic, worlds };
+
+/// The command line as given; what is absent is left to the scene.
+struct Options {
+  Action action = Action::run;
+  std::string scene;
+  std::optional<int> replicas, frames, warmup, steps_per_frame, iterations;
+  std::optional<double> dt_s;
+  model::StepperKind stepper = model::StepperKind::quick;
+  Decomposition decomposition = Decomposition::automatic;
+  std::uint64_t seed = 1;
+  std::optional<std::string> output;
+  bool no_output = false;
+  int record_every = 1;
+  ReportFormat report = ReportFormat::text;
+  CommonOptions common;
+  std::string command_line;
+};
+
+/// Throws core::InputError with one clear message.
+Options parse_options(const std::vector<std::string>& args);
+
+/// The text of --help.
+std::string help_text();
+
+/// Everything that a run needs to know: options over the scene's defaults.
+struct RunSpec {
+  int num_worlds = 1;
+  int warmup = 3;
+  int frames = 5;
+  int steps_per_frame = 3;
+  model::StepperSettings stepper;
+  std::optional<std::string> output;  ///< path of the HDF5 file, or nothing with --no-output
+  int record_every = 1;
+
+  int total_frames() const { return warmup + frames; }
+};
+
+/// Throws core::InputError for impossible values.
+RunSpec resolve(const Options& options, const scenes::Scene& scene);
+
+}  // namespace pbmpi::app

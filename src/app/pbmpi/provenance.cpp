@@ -1,0 +1,109 @@
+#include "app/pbmpi/provenance.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+#include <sstream>
+
+#include "app/common/version.h"
+#include "model/names.h"
+#include "mpi/session.h"
+
+namespace pbmpi::app {
+namespace {
+
+using io::Parameter;
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+/// SLURM_* and OMPI_* of this process, one a line.
+std::string job_environment() {
+  std::vector<std::string> lines;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string line = *entry;
+    if (line.starts_with("SLURM_") || line.starts_with("OMPI_")) lines.push_back(line);
+  }
+  std::sort(lines.begin(), lines.end());
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
+
+Provenance collect_provenance(const mpi::Communicator& comm, const std::string& command_line) {
+  Provenance provenance;
+  provenance.command_line = command_line;
+  provenance.created = utc_now();
+  std::string environment = job_environment();
+  comm.bcast_string(provenance.created);
+  comm.bcast_string(environment);
+  provenance.environment = lines_of(environment);
+  provenance.hosts = mpi::host_names(comm);
+  return provenance;
+}
+
+std::vector<std::string> distinct(const std::vector<std::string>& values) {
+  std::vector<std::string> result;
+  for (const std::string& value : values) {
+    if (std::find(result.begin(), result.end(), value) == result.end()) result.push_back(value);
+  }
+  return result;
+}
+
+std::vector<Parameter> run_attributes(const scenes::Scene& scene, const RunSpec& spec,
+                                      const Provenance& provenance) {
+  return {Parameter::of("pbmpi_version", program_version),
+          Parameter::of("git_revision", git_revision),
+          Parameter::of("created", provenance.created),
+          Parameter::of("seed", static_cast<std::int64_t>(spec.stepper.seed)),
+          Parameter::of("scene", scene.name()),
+          Parameter::of("command_line", provenance.command_line)};
+}
+
+std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec& spec,
+                                      const Provenance& provenance) {
+  std::vector<Parameter> parameters = {
+      Parameter::of("scene", scene.name()),
+      Parameter::of("scene_text", scene.text()),
+      Parameter::of("replicas", std::int64_t{spec.num_worlds}),
+      Parameter::of("warmup", std::int64_t{spec.warmup}),
+      Parameter::of("frames", std::int64_t{spec.frames}),
+      Parameter::of("steps_per_frame", std::int64_t{spec.steps_per_frame}),
+      Parameter::of("dt", spec.stepper.dt_s),
+      Parameter::of("stepper", std::string(name_of(spec.stepper.kind))),
+      Parameter::of("iterations", std::int64_t{spec.stepper.iterations}),
+      Parameter::of("substeps", std::int64_t{1}),
+      Parameter::of("precision", "double"),
+      Parameter::of("seed", static_cast<std::int64_t>(spec.stepper.seed)),
+      Parameter::of("decompose", "worlds"),
+      Parameter::of("record_every", std::int64_t{spec.record_every}),
+      Parameter::of("ranks", static_cast<std::int64_t>(provenance.hosts.size())),
+      Parameter::of("build", build_description),
+      Parameter::of("library_mpi", mpi::library_version()),
+      Parameter::of("library_hdf5", hdf5_version),
+      Parameter::of("library_ode", ode_version),
+  };
+  for (const std::string& line : provenance.environment) {
+    const std::size_t equals = line.find('=');
+    parameters.push_back(Parameter::of("env_" + line.substr(0, equals), line.substr(equals + 1)));
+  }
+  return parameters;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,181 @@
+#include "app/pbmpi/run.h"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/common/version.h"
+#include "app/pbmpi/describe.h"
+#include "app/pbmpi/live_summary.h"
+#include "app/pbmpi/options.h"
+#include "app/pbmpi/progress.h"
+#include "app/pbmpi/provenance.h"
+#include "app/pbmpi/signals.h"
+#include "io/run_file.h"
+#include "io/xdmf.h"
+#include "model/effects.h"
+#include "model/names.h"
+#include "mpi/agreement.h"
+#include "mpi/world_driver.h"
+#include "ode/ode_stepper.h"
+
+namespace pbmpi::app {
+namespace {
+
+using core::ExitCode;
+
+std::string scene_list() {
+  std::string text;
+  for (const scenes::SceneInfo& scene : scenes::list_scenes()) {
+    text += scene.name + std::string(scene.name.size() < 12 ? 12 - scene.name.size() : 1, ' ') + scene.title +
+            "\n";
+  }
+  return text;
+}
+
+/// Root reads the scene's text and every rank parses the same copy, so that a file that only some ranks can
+/// read is no special case.
+std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const std::string& name_or_path) {
+  scenes::SceneSource source;
+  mpi::agree_on_errors(comm, [&] {
+    if (comm.is_root()) source = scenes::find_scene(name_or_path);
+  });
+  comm.bcast_string(source.name);
+  comm.bcast_string(source.file);
+  comm.bcast_string(source.text);
+  return scenes::parse_scene(source);
+}
+
+mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
+  mpi::WorldRunSettings settings;
+  settings.num_worlds = spec.num_worlds;
+  settings.warmup = spec.warmup;
+  settings.frames = spec.frames;
+  settings.steps_per_frame = spec.steps_per_frame;
+  settings.dt_s = spec.stepper.dt_s;
+  return settings;
+}
+
+RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, const Provenance& provenance,
+                            std::int64_t num_bodies, double budget_s) {
+  RunSummary summary;
+  summary.version = program_version;
+  summary.scene = scene.name();
+  summary.stepper = name_of(spec.stepper.kind);
+  summary.output = spec.output.value_or("");
+  summary.hosts = distinct(provenance.hosts);
+  summary.worlds = spec.num_worlds;
+  summary.ranks = static_cast<int>(provenance.hosts.size());
+  for (int rank = spec.num_worlds; rank < summary.ranks; ++rank) summary.idle_ranks.push_back(rank);
+  summary.iterations = spec.stepper.iterations;
+  summary.steps_per_frame = spec.steps_per_frame;
+  summary.bodies = num_bodies;
+  summary.seed = spec.stepper.seed;
+  summary.dt_s = spec.stepper.dt_s;
+  summary.budget_s = budget_s;
+  summary.warmup_frames = spec.warmup;
+  const model::StepPlan plan(*scene.build(0, spec.stepper.seed));
+  for (const model::Pass& pass : plan.passes()) {
+    summary.effects.push_back({std::string(pass.effect->name), pass.reason});
+  }
+  return summary;
+}
+
+std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const mpi::WorldDriver& driver,
+                                           const scenes::Scene& scene, const RunSpec& spec,
+                                           const Provenance& provenance) {
+  if (!spec.output) return nullptr;
+  io::RunSetup setup;
+  setup.path = *spec.output;
+  setup.attributes = run_attributes(scene, spec, provenance);
+  setup.parameters = run_parameters(scene, spec, provenance);
+  setup.table = driver.table();
+  setup.worlds = driver.local_worlds();
+  setup.hosts = provenance.hosts;
+  setup.num_frames = spec.total_frames();
+  setup.record_every = spec.record_every;
+  return std::make_unique<io::RunFile>(io::FileGroup{comm.fortran_handle(), comm.rank(), comm.size()},
+                                       std::move(setup));
+}
+
+/// The sidecar stands beside the run file: "x.h5" gets "x.xdmf".
+void write_sidecar(const mpi::Communicator& comm, const std::string& run_path) {
+  mpi::agree_on_errors(comm, [&] {
+    if (comm.is_root()) {
+      io::write_xdmf(run_path, std::filesystem::path(run_path).replace_extension(".xdmf").string());
+    }
+  });
+}
+
+void print(const mpi::Communicator& comm, const Options& options, const RunSummary& summary) {
+  if (!comm.is_root()) return;
+  if (options.report == ReportFormat::json) {
+    std::cout << to_json(summary) << std::flush;
+  } else if (!options.common.quiet) {
+    std::cout << to_text(summary) << std::flush;
+  }
+}
+
+ExitCode simulate(const mpi::Communicator& comm, const Options& options, const scenes::Scene& scene,
+                  const RunSpec& spec) {
+  const StopOnSignal stop;
+  const auto stepper = ode::make_ode_stepper(spec.stepper);
+  const auto build = [&](int world) { return scene.build(world, spec.stepper.seed); };
+  mpi::WorldDriver driver(comm, *stepper, build, driver_settings(spec));
+  driver.set_stop_flag(stop.flag());
+
+  const Provenance provenance = collect_provenance(comm, options.command_line);
+  const auto file = create_output(comm, driver, scene, spec, provenance);
+  LiveSummary live;
+  driver.add_observer(live);
+  if (file) driver.add_observer(*file);
+  std::unique_ptr<ProgressBar> progress;
+  if (comm.is_root() && wants_progress(options.common.progress, options.common.quiet)) {
+    progress = std::make_unique<ProgressBar>(std::cerr, spec.total_frames());
+    driver.add_observer(*progress);
+  }
+
+  const mpi::WorldRunResult result = driver.run();
+
+  progress.reset();
+  RunSummary summary =
+      settings_summary(scene, spec, provenance, driver.table().num_bodies(), driver_settings(spec).budget_s);
+  live.finish(comm, result, summary);
+  if (file) {
+    file->close(summary.complete, summary.state_hash);
+    write_sidecar(comm, *spec.output);
+  }
+  print(comm, options, summary);
+  if (!result.failure.empty()) throw core::RunError(result.failure);
+  return result.stopped ? ExitCode::stopped : ExitCode::done;
+}
+
+}  // namespace
+
+ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>& args) {
+  const Options options = parse_options(args);
+  const auto say = [&](const std::string& text) {
+    if (comm.is_root()) std::cout << text << std::flush;
+    return ExitCode::done;
+  };
+  switch (options.action) {
+    case Action::help:
+      return say(help_text());
+    case Action::version:
+      return say(version_line("pbmpi") + "\n");
+    case Action::list_scenes:
+      return say(scene_list());
+    case Action::describe:
+    case Action::run:
+      break;
+  }
+  const auto scene = load_scene(comm, options.scene);
+  const RunSpec spec = resolve(options, *scene);
+  if (options.action == Action::run) return simulate(comm, options, *scene, spec);
+  mpi::agree_on_errors(comm, [&] {
+    if (comm.is_root()) say(describe(*scene, spec, comm.size()));
+  });
+  return ExitCode::done;
+}
+
+}  // namespace pbmpi::app

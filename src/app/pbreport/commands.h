@@ -1,0 +1,27 @@
+/// The commands of pbreport: "pbreport FILE" is short for "pbreport report FILE".
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+
+namespace pbmpi::app {
+
+/// One thing that pbreport can do. A command reads its own options.
+struct ReportCommand {
+  std::string_view name;
+  std::string_view meaning;  ///< one line for --help
+  core::ExitCode (*run)(const std::vector<std::string>& args, std::ostream& out);
+};
+
+/// The first is what runs when the first argument names no command.
+const std::vector<ReportCommand>& report_commands();
+
+/// Runs the command that args[0] names, with the arguments after it, else the first command with all of them.
+/// Prints to `out`. Throws core::InputError and core::RunError.
+core::ExitCode run_pbreport(const std::vector<std::string>& args, std::ostream& out);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,21 @@
+/// pbreport: serial post-processing of pbmpi's files.
+#include <iostream>
+
+#include "app/common/options.h"
+#include "app/pbreport/commands.h"
+#include "core/error.h"
+
+int main(int argc, char** argv) {
+  using pbmpi::core::ExitCode;
+  const auto fail = [](const std::exception& error, ExitCode code) {
+    std::cerr << "pbreport: " << error.what() << std::endl;
+    return static_cast<int>(code);
+  };
+  try {
+    return static_cast<int>(pbmpi::app::run_pbreport(pbmpi::app::arguments(argc, argv), std::cout));
+  } catch (const pbmpi::core::InputError& error) {
+    return fail(error, ExitCode::bad_input);
+  } catch (const std::exception& error) {
+    return fail(error, ExitCode::failed);
+  }
+}

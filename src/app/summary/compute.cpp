@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <numeric>
+
+#include "app/summary/run_summary.h"
+
+namespace pbmpi::app {
+namespace {
+
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+double mean(const std::vector<double>& values) {
+  return values.empty() ? 0 : sum(values) / static_cast<double>(values.size());
+}
+
+double largest(const std::vector<double>& values) {
+  return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+}
+
+/// Seconds of one rank in one phase over all frames.
+double phase_total(const std::vector<std::array<double, core::num_phases>>& rank, int phase) {
+  double total = 0;
+  for (const auto& frame : rank) total += frame[static_cast<std::size_t>(phase)];
+  return total;
+}
+
+std::vector<PhaseSummary> summarize_phases(const MeasuredFrames& frames) {
+  std::vector<PhaseSummary> phases;
+  for (int phase = 0; phase < core::num_phases; ++phase) {
+    std::vector<double> totals;
+    for (const auto& rank : frames.phases) totals.push_back(phase_total(rank, phase));
+    if (largest(totals) == 0) continue;
+    const auto [min, max] = std::minmax_element(totals.begin(), totals.end());
+    phases.push_back({std::string(core::phase_names[static_cast<std::size_t>(phase)]), *min, mean(totals),
+                      *max, static_cast<int>(min - totals.begin()), static_cast<int>(max - totals.begin())});
+  }
+  return phases;
+}
+
+void compute_efficiency(const MeasuredFrames& frames, double elapsed_s, RunSummary& summary) {
+  std::vector<double> useful;
+  for (const auto& rank : frames.phases) {
+    double total = 0;
+    for (const auto& frame : rank) total += core::PhaseTimes{frame}.useful_s();
+    useful.push_back(total);
+  }
+  if (largest(useful) <= 0 || elapsed_s <= 0) return;
+  summary.load_balance = mean(useful) / largest(useful);
+  summary.communication_efficiency = std::min(1.0, largest(useful) / elapsed_s);
+  summary.parallel_efficiency = summary.load_balance * summary.communication_efficiency;
+}
+
+}  // namespace
+
+void compute_performance(const MeasuredFrames& frames, RunSummary& summary) {
+  const double elapsed_s = sum(frames.wall_s);
+  const auto num_frames = static_cast<double>(frames.wall_s.size());
+  summary.measured_frames = static_cast<std::int64_t>(frames.wall_s.size());
+  if (elapsed_s > 0) {
+    const double steps_per_s = num_frames * summary.steps_per_frame / elapsed_s;
+    summary.harmonic_mean_hz = num_frames / elapsed_s;
+    summary.world_steps_per_s = steps_per_s * summary.worlds;
+    summary.body_steps_per_s = steps_per_s * static_cast<double>(summary.bodies);
+    const auto satisfied = std::count_if(frames.wall_s.begin(), frames.wall_s.end(),
+                                         [&](double wall_s) { return wall_s <= summary.budget_s; });
+    summary.satisfied_fraction = static_cast<double>(satisfied) / num_frames;
+  }
+  summary.frame_p50_s = core::quantile(frames.wall_s, 0.50);
+  summary.frame_p95_s = core::quantile(frames.wall_s, 0.95);
+  summary.frame_p99_s = core::quantile(frames.wall_s, 0.99);
+  summary.frame_max_s = largest(frames.wall_s);
+  summary.phases = summarize_phases(frames);
+  compute_efficiency(frames, elapsed_s, summary);
+  summary.islands = core::summarize(frames.islands);
+  summary.contacts_mean = mean(frames.contacts);
+  summary.contacts_max = largest(frames.contacts);
+  summary.rows_mean = mean(frames.rows);
+  summary.rows_max = largest(frames.rows);
+}
+
+}  // namespace pbmpi::app

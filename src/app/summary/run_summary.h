@@ -1,0 +1,72 @@
+/// What a user reads at the end of a run: one struct, filled from a live run (pbmpi) or from its file
+/// (pbreport), and printed as text or JSON. The JSON keys are a contract: more may be added, none renamed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/statistics.h"
+
+namespace pbmpi::app {
+
+/// Seconds over the measured frames.
+struct PhaseSummary {
+  std::string name;
+  double min_s = 0, avg_s = 0, max_s = 0;
+  int min_rank = 0, max_rank = 0;
+};
+
+struct EffectSummary {
+  std::string name;
+  std::string reason;
+};
+
+/// Counts and invariants over the measured frames; counts are sums over all worlds at the end of a frame.
+struct RunSummary {
+  std::string version, scene, stepper, precision = "double", output, state_hash;
+  std::vector<std::string> hosts;  ///< distinct
+  std::vector<int> idle_ranks;     ///< ranks that own no world at the end
+  int worlds = 0, ranks = 0, iterations = 0, substeps = 1, steps_per_frame = 0;
+  std::int64_t bodies = 0;
+  std::uint64_t seed = 0;
+  double dt_s = 0, budget_s = 0;
+  std::int64_t warmup_frames = 0, measured_frames = 0;
+  bool complete = true;
+  double harmonic_mean_hz = 0, satisfied_fraction = 0;
+  double world_steps_per_s = 0, body_steps_per_s = 0;
+  double frame_p50_s = 0, frame_p95_s = 0, frame_p99_s = 0, frame_max_s = 0;
+  std::vector<PhaseSummary> phases;
+  double parallel_efficiency = 0, load_balance = 0, communication_efficiency = 0;
+  core::Summary islands;
+  double contacts_mean = 0, contacts_max = 0, rows_mean = 0, rows_max = 0;
+  std::int64_t nonfinite_bodies = 0;
+  double max_joint_gap_m = 0, max_penetration_m = 0, energy_j = 0;  ///< energy: at the end
+  std::vector<EffectSummary> effects;
+  std::int64_t rebalances = 0, worlds_moved = 0;
+};
+
+/// The measured part of a run, frame by frame: what the numbers above are computed from.
+struct MeasuredFrames {
+  std::vector<double> wall_s;                                             ///< [T] frames, measured ones only
+  std::vector<std::vector<std::array<double, core::num_phases>>> phases;  ///< [R][T] s
+  std::vector<double> islands, contacts, rows;                            ///< [T] sums over worlds
+};
+
+/// Fills frame rate, throughput, frame times, phases, efficiency, islands, contacts and rows of `summary`,
+/// whose worlds, bodies, ranks, steps_per_frame and budget_s are set.
+///
+/// Efficiencies follow the POP centre of excellence's model (pop-coe.eu): load balance = mean / max useful
+/// time over ranks, communication efficiency = max useful / elapsed time, parallel efficiency = their
+/// product.
+void compute_performance(const MeasuredFrames& frames, RunSummary& summary);
+
+/// One line each, grep-able ("state_hash: ...").
+std::string to_text(const RunSummary& summary);
+
+/// The JSON document of --report json, with a newline at the end.
+std::string to_json(const RunSummary& summary);
+
+}  // namespace pbmpi::app

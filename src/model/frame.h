@@ -1,0 +1,68 @@
+/// What a rank knows of a finished frame, and who wants to know it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "model/model.h"
+#include "model/observables.h"
+#include "model/state.h"
+
+namespace pbmpi::model {
+
+/// Where the bodies of each world stand in the global (world, body) order. Known to every rank.
+struct WorldTable {
+  std::vector<std::int64_t> body_offset{0};  ///< [num_worlds + 1]; the last entry is the number of bodies
+
+  int num_worlds() const { return static_cast<int>(body_offset.size()) - 1; }
+  std::int64_t num_bodies() const { return body_offset.back(); }
+};
+
+/// One world that this rank owns.
+struct LocalWorld {
+  int id = 0;
+  const Model* model = nullptr;
+  const State* state = nullptr;
+  const Observables* observables = nullptr;
+};
+
+/// A finished frame as its rank saw it. Spans and pointers hold until the observer returns.
+struct FrameRecord {
+  std::int64_t frame = 0;              ///< 0-based, warm-up frames included
+  std::int64_t step = 0;               ///< steps done since the start of the simulation
+  double time_s = 0;                   ///< simulated time = step x dt
+  bool measured = false;               ///< false in a warm-up frame
+  std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id
+  core::PhaseTimes phases;    ///< of this rank; `output` is the time that observers took in the frame before
+  double wall_s = 0;          ///< start of the frame to the end of its gather: the same on every rank
+  bool deadline_met = false;  ///< wall_s within the frame budget: the same on every rank
+};
+
+/// Something that happened to the run, for the file's /events.
+struct RunEvent {
+  std::int64_t frame = 0;
+  std::string kind;    ///< "rebalance", "signal", "checkpoint"
+  std::string detail;  ///< one line for people
+};
+
+/// Called on every rank in lock step, so that an implementation may do collective work.
+class FrameObserver {
+ public:
+  virtual ~FrameObserver() = default;
+  virtual void frame_done(const FrameRecord& frame) = 0;
+  /// The same event on every rank.
+  virtual void event(const RunEvent& event) { static_cast<void>(event); }
+};
+
+/// Called on root only, with all bodies' poses gathered in (world, body) order.
+class PoseConsumer {
+ public:
+  virtual ~PoseConsumer() = default;
+  virtual void poses(std::int64_t frame, std::span<const Vec3> position,
+                     std::span<const Quat> orientation) = 0;
+};
+
+}  // namespace pbmpi::model

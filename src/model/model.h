@@ -1,0 +1,155 @@
+/// The immutable description of one world. Plain data; knows no engine.
+/// SI units; world frame with z up unless a field says otherwise; the pose of a body is that of its centre of
+/// mass.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+
+namespace pbmpi::model {
+
+using core::Mat3;
+using core::Pose;
+using core::Quat;
+using core::Vec3;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Stands for the world where a body index is expected: a joint's second body, a static geom's body.
+inline constexpr int no_body = -1;
+
+/// What a body belongs to; decides its colour in the replay.
+enum class ActorKind { ground, ramp, wall, car, tank, human, centipede, projectile, prop };
+inline constexpr int num_actor_kinds = 9;
+
+/// A thing that the scene placed: a car, a human, one wall.
+struct Actor {
+  std::string name;  ///< unique in the world, e.g. "car" or "human1"
+  ActorKind kind = ActorKind::prop;
+  bool self_collision = false;  ///< may two geoms of this actor touch each other?
+};
+
+struct Body {
+  std::string name;  ///< unique in the world, e.g. "human1.left_thigh"
+  int actor = 0;     ///< index into Model::actors
+  double mass_kg = 1;
+  Mat3 inertia = Mat3::Identity();       ///< [kg m^2], body frame, about the centre of mass
+  Pose pose;                             ///< initial
+  Vec3 velocity = Vec3::Zero();          ///< initial, of the centre of mass [m/s]
+  Vec3 angular_velocity = Vec3::Zero();  ///< initial, world frame [rad/s]
+};
+
+enum class Shape { sphere, box, capsule, cylinder, plane };
+inline constexpr int num_shapes = 5;
+
+/// What two geoms need to know of each other's surface. A pair has mu = sqrt(mu_a mu_b), restitution = max.
+struct Material {
+  double mu = 0.5;         ///< Coulomb friction coefficient; 0 = frictionless
+  double restitution = 0;  ///< 0 = inelastic, 1 = elastic
+};
+
+struct Geom {
+  int body = no_body;  ///< no_body: static environment
+  int actor = 0;       ///< index into Model::actors
+  int space = 0;       ///< index into Model::spaces
+  Shape shape = Shape::box;
+  /// sphere: radius; box: three full sides; capsule and cylinder: radius, length along z (a capsule's without
+  /// its caps); plane: unused. [m]
+  std::array<double, 3> size{};
+  /// In the body's frame; in the world frame for a static geom. A plane passes through the position, and its
+  /// normal is the local z axis.
+  Pose local;
+  Material material;
+};
+
+enum class JointKind { ball, hinge, slider, universal, fixed, hinge2 };
+inline constexpr int num_joint_kinds = 6;
+
+/// Range of an angle [rad] or, for a slider, a length [m]; zero is the initial pose. Infinite = free.
+struct AxisLimit {
+  double low = -infinity;
+  double high = infinity;
+  bool active() const { return low > -infinity || high < infinity; }
+};
+
+/// Drives the axis to `velocity` [rad/s or m/s] with at most `max_force` [N m or N]. velocity 0 is dry
+/// friction: the muscle tone that holds a pose.
+struct AxisMotor {
+  double velocity = 0;
+  double max_force = 0;  ///< 0 = no motor
+  bool active() const { return max_force > 0; }
+};
+
+/// hinge2's suspension along axis 1. ODE's ERP = h k / (h k + d), CFM = 1 / (h k + d) for the step h (ODE
+/// manual, "How to use ERP and CFM").
+struct Spring {
+  double stiffness = 0;  ///< k [N/m]; 0 = rigid
+  double damping = 0;    ///< d [N s/m]
+};
+
+/// A constraint between two bodies, in ODE's sense of each kind. Anchors and axes are body-fixed; those "of
+/// b" are in the world frame if body_b is no_body. Degrees of freedom removed: ball 3, hinge 5, slider 5,
+/// universal 4, fixed 6, hinge2 4.
+struct Joint {
+  std::string name;
+  JointKind kind = JointKind::ball;
+  int body_a = 0;
+  int body_b = no_body;
+  Vec3 anchor_a = Vec3::Zero();     ///< [m], frame of a (unused by slider and fixed)
+  Vec3 anchor_b = Vec3::Zero();     ///< [m], frame of b
+  Vec3 axis1_a = Vec3::UnitZ();     ///< unit, frame of a: hinge, slider, universal, hinge2
+  Vec3 axis2_b = Vec3::UnitX();     ///< unit, frame of b: universal, hinge2
+  std::array<AxisLimit, 2> limits;  ///< of axis 1 and 2 (hinge2: axis 1 only)
+  std::array<AxisMotor, 2> motors;  ///< of axis 1 and 2
+  Spring suspension;                ///< hinge2 only
+};
+
+enum class EventKind {
+  launch,  ///< sets a body's velocity and angular velocity
+  motor,   ///< replaces the motor of a joint's axis
+  steer,   ///< pins a joint's axis 1 to an angle (both limits)
+};
+
+/// Something that happens at the start of a step. A motor or steer event holds until the next of the same
+/// axis, so that the joints' settings are a pure function of the step (restart needs no history).
+struct Event {
+  std::int64_t step = 0;
+  EventKind kind = EventKind::launch;
+  int body = no_body;                    ///< launch
+  int joint = -1;                        ///< motor, steer
+  int axis = 0;                          ///< motor: 0 or 1
+  Vec3 velocity = Vec3::Zero();          ///< launch [m/s]
+  Vec3 angular_velocity = Vec3::Zero();  ///< launch [rad/s]
+  AxisMotor motor;                       ///< motor
+  double angle = 0;                      ///< steer [rad]
+};
+
+/// How contacts are made. Names and meaning as in ODE's dSurfaceParameters.
+struct ContactLaw {
+  double soft_erp = 0.2;         ///< share of the penetration removed in a step
+  double soft_cfm = 0;           ///< [s/kg]
+  double bounce_velocity = 0.1;  ///< slowest approach that bounces [m/s]
+  int max_per_pair = 4;          ///< contacts kept of a pair of geoms
+};
+
+struct Model {
+  std::vector<Actor> actors;
+  std::vector<Body> bodies;
+  std::vector<Geom> geoms;
+  std::vector<Joint> joints;
+  std::vector<std::string> spaces{"world"};  ///< names; Geom::space points here
+  std::vector<Event> events;                 ///< sorted by step, stable
+  Vec3 gravity{0, 0, -9.81};                 ///< [m/s^2]
+  double erp = 0.2;                          ///< of joints
+  double cfm = 1e-10;                        ///< of joints [s/kg]
+  ContactLaw contact_law;
+
+  int num_bodies() const { return static_cast<int>(bodies.size()); }
+};
+
+}  // namespace pbmpi::model

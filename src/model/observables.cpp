@@ -1,0 +1,55 @@
+#include "model/observables.h"
+
+#include <algorithm>
+
+namespace pbmpi::model {
+namespace {
+
+Pose pose_of(const State& state, int body) {
+  return body == no_body ? Pose{} : Pose{state.position[body], state.orientation[body]};
+}
+
+}  // namespace
+
+double mechanical_energy(const Model& model, const State& state) {
+  double energy = 0;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Body& body = model.bodies[i];
+    const Vec3 omega_local = state.orientation[i].to_eigen().conjugate() * state.angular_velocity[i];
+    energy += 0.5 * body.mass_kg * state.velocity[i].squaredNorm() +
+              0.5 * omega_local.dot(body.inertia * omega_local) -
+              body.mass_kg * model.gravity.dot(state.position[i]);
+  }
+  return energy;
+}
+
+double joint_gap(const Model& model, const State& state, const Joint& joint) {
+  const Pose a = pose_of(state, joint.body_a);
+  const Pose b = pose_of(state, joint.body_b);
+  Vec3 gap;
+  if (joint.kind == JointKind::slider || joint.kind == JointKind::fixed) {
+    // These two hold the offset that the bodies had at the start, as seen from a.
+    const Pose start_a = model.bodies[joint.body_a].pose;
+    const Pose start_b = joint.body_b == no_body ? Pose{} : model.bodies[joint.body_b].pose;
+    const Vec3 offset = start_a.orientation.to_eigen().conjugate() * (start_b.position - start_a.position);
+    gap = joint.body_b == no_body ? Vec3(a.position - start_a.position)
+                                  : Vec3(a.point_to_outer(offset) - b.position);
+  } else {
+    gap = a.point_to_outer(joint.anchor_a) - b.point_to_outer(joint.anchor_b);
+  }
+  const bool slides =
+      joint.kind == JointKind::slider || (joint.kind == JointKind::hinge2 && joint.suspension.stiffness > 0);
+  if (slides) {
+    const Vec3 axis = a.direction_to_outer(joint.axis1_a);
+    gap -= axis * axis.dot(gap);
+  }
+  return gap.norm();
+}
+
+double max_joint_gap(const Model& model, const State& state) {
+  double gap = 0;
+  for (const Joint& joint : model.joints) gap = std::max(gap, joint_gap(model, state, joint));
+  return gap;
+}
+
+}  // namespace pbmpi::model

@@ -1,0 +1,31 @@
+/// What is measured of a world each frame.
+#pragma once
+
+#include "model/model.h"
+#include "model/state.h"
+
+namespace pbmpi::model {
+
+/// Of the last step of a frame, except where it says otherwise.
+struct Observables {
+  int contacts = 0;              ///< contact points
+  int rows = 0;                  ///< scalar constraint rows of joints and contacts
+  int islands = 0;               ///< sets of connected bodies
+  int max_island_rows = 0;       ///< rows of the island that has most
+  double energy_j = 0;           ///< kinetic + potential (height above z = 0 against gravity)
+  double max_penetration_m = 0;  ///< deepest contact
+  double joint_gap_m = 0;        ///< largest distance between the two anchors of a joint, after the step
+  int nonfinite = 0;             ///< bodies with a NaN or an infinity
+};
+
+/// Kinetic and potential energy [J]; bodies are summed in order.
+double mechanical_energy(const Model& model, const State& state);
+
+/// Distance [m] between the two anchors of one joint: along the constrained directions only, i.e. across the
+/// axis for hinge2 with suspension; 0 for a slider's sliding direction.
+double joint_gap(const Model& model, const State& state, const Joint& joint);
+
+/// The largest joint_gap of the world [m]; 0 without joints.
+double max_joint_gap(const Model& model, const State& state);
+
+}  // namespace pbmpi::model

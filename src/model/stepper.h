@@ -1,0 +1,47 @@
+/// The interface through which worlds are stepped, whatever the engine.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "core/clock.h"
+#include "model/model.h"
+#include "model/observables.h"
+#include "model/state.h"
+
+namespace pbmpi::model {
+
+enum class StepperKind { quick, direct };
+
+/// What a run chooses about the step; the rest is in the Model.
+struct StepperSettings {
+  StepperKind kind = StepperKind::quick;
+  double dt_s = 0.01;
+  int iterations = 20;     ///< sweeps of an iterative solver
+  std::uint64_t seed = 1;  ///< of the run; a step's random numbers come from (seed, world, step)
+};
+
+/// Steps the worlds that one rank owns. A world's result depends on nothing but its model, its state, the
+/// step number and the settings: not on the other worlds, nor on the order of the calls.
+class WorldStepper {
+ public:
+  virtual ~WorldStepper() = default;
+
+  /// Takes in a world whose state is that at the start of step `step` (0 = initial_state(model)). A world may
+  /// come from another rank at any step boundary: the state restores it bit for bit.
+  virtual void add(int world, std::shared_ptr<const Model> model, const State& state, std::int64_t step) = 0;
+  virtual void remove(int world) = 0;
+
+  /// Steps every world `num_steps` times and refreshes state(), observables() and cost_s(). Adds the seconds
+  /// spent to `times`.
+  virtual void advance(int num_steps, core::PhaseTimes& times) = 0;
+
+  virtual const State& state(int world) const = 0;
+  virtual const Model& model(int world) const = 0;
+  virtual const Observables& observables(int world) const = 0;
+  /// Seconds that the last advance() spent on this world.
+  virtual double cost_s(int world) const = 0;
+};
+
+}  // namespace pbmpi::model

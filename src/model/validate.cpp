@@ -1,0 +1,124 @@
+#include "model/validate.h"
+
+#include <cmath>
+#include <set>
+
+#include <Eigen/Eigenvalues>
+
+#include "core/error.h"
+
+namespace pbmpi::model {
+namespace {
+
+using core::require_input;
+
+constexpr double unit_tolerance = 1e-9;  // of a length that should be 1; rounding of a normalisation is 1e-16
+
+bool is_finite(const Quat& q) {
+  return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
+}
+
+void require_pose(const Pose& pose, const std::string& who) {
+  require_input(pose.position.allFinite() && is_finite(pose.orientation),
+                who + ": the pose is not finite; give numbers");
+  const double norm = pose.orientation.to_eigen().norm();
+  require_input(std::abs(norm - 1) <= unit_tolerance,
+                who + ": the orientation is not a unit quaternion; normalise it");
+}
+
+void require_index(int index, std::size_t count, const std::string& who, const char* what) {
+  require_input(index >= 0 && static_cast<std::size_t>(index) < count,
+                who + ": " + what + " " + std::to_string(index) + " does not exist; there are " +
+                    std::to_string(count));
+}
+
+void validate_body(const Model& model, const Body& body, const std::string& who) {
+  require_index(body.actor, model.actors.size(), who, "actor");
+  require_input(std::isfinite(body.mass_kg) && body.mass_kg > 0,
+                who + ": the mass is " + std::to_string(body.mass_kg) + " kg; it must be finite and above 0");
+  require_input(body.inertia.allFinite() && body.inertia.isApprox(body.inertia.transpose(), unit_tolerance),
+                who + ": the inertia is not a symmetric finite matrix");
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(body.inertia, Eigen::EigenvaluesOnly);
+  require_input(eigen.eigenvalues().minCoeff() > 0,
+                who + ": the inertia is not positive definite; check the mass and sizes");
+  require_pose(body.pose, who);
+  require_input(body.velocity.allFinite() && body.angular_velocity.allFinite(),
+                who + ": the velocity is not finite");
+}
+
+void validate_geom(const Model& model, const Geom& geom, const std::string& who) {
+  if (geom.body != no_body) require_index(geom.body, model.bodies.size(), who, "body");
+  require_index(geom.actor, model.actors.size(), who, "actor");
+  require_index(geom.space, model.spaces.size(), who, "space");
+  require_pose(geom.local, who);
+  constexpr int num_sizes[num_shapes] = {1, 3, 2, 2, 0};
+  for (int i = 0; i < num_sizes[static_cast<int>(geom.shape)]; ++i) {
+    require_input(std::isfinite(geom.size[i]) && geom.size[i] > 0,
+                  who + ": size " + std::to_string(geom.size[i]) + " m must be finite and above 0");
+  }
+  require_input(geom.shape != Shape::plane || geom.body == no_body,
+                who + ": a plane cannot belong to a body");
+  require_input(geom.material.mu >= 0 && geom.material.restitution >= 0 && geom.material.restitution <= 1,
+                who + ": mu must be at least 0 and restitution in [0, 1]");
+}
+
+void validate_joint(const Model& model, const Joint& joint, const std::string& who) {
+  require_index(joint.body_a, model.bodies.size(), who, "body");
+  if (joint.body_b != no_body) require_index(joint.body_b, model.bodies.size(), who, "body");
+  require_input(joint.body_a != joint.body_b, who + ": it joins a body to itself; name two bodies");
+  require_input(joint.anchor_a.allFinite() && joint.anchor_b.allFinite(), who + ": an anchor is not finite");
+  require_input(std::abs(joint.axis1_a.norm() - 1) <= unit_tolerance &&
+                    std::abs(joint.axis2_b.norm() - 1) <= unit_tolerance,
+                who + ": an axis is not a unit vector; normalise it");
+  for (const AxisLimit& limit : joint.limits) {
+    require_input(limit.low <= limit.high, who + ": the limit low = " + std::to_string(limit.low) +
+                                               " is above high = " + std::to_string(limit.high) +
+                                               "; swap them");
+  }
+  for (const AxisMotor& motor : joint.motors) {
+    require_input(std::isfinite(motor.velocity) && motor.max_force >= 0,
+                  who + ": a motor needs a finite velocity and max_force >= 0");
+  }
+  require_input(joint.suspension.stiffness >= 0 && joint.suspension.damping >= 0,
+                who + ": a spring needs stiffness and damping >= 0");
+}
+
+void validate_event(const Model& model, const Event& event, const std::string& who) {
+  require_input(event.step >= 0,
+                who + ": it is scheduled at step " + std::to_string(event.step) + "; the first step is 0");
+  if (event.kind == EventKind::launch) {
+    require_index(event.body, model.bodies.size(), who, "body");
+    require_input(event.velocity.allFinite() && event.angular_velocity.allFinite(),
+                  who + ": the launch velocity is not finite");
+  } else {
+    require_index(event.joint, model.joints.size(), who, "joint");
+    require_index(event.axis, 2, who, "axis");
+  }
+}
+
+}  // namespace
+
+void validate(const Model& model, const std::string& where) {
+  require_input(!model.bodies.empty(), where + ": the world has no body; place an actor");
+  require_input(model.gravity.allFinite(), where + ": gravity is not finite");
+  require_input(std::isfinite(model.erp) && model.erp >= 0 && model.erp <= 1,
+                where + ": erp must lie in [0, 1]");
+  require_input(std::isfinite(model.cfm) && model.cfm >= 0, where + ": cfm must be at least 0");
+  require_input(model.contact_law.max_per_pair >= 1, where + ": max_per_pair must be at least 1");
+  std::set<std::string> names;
+  for (const Body& body : model.bodies) {
+    const std::string who = where + ": body '" + body.name + "'";
+    require_input(names.insert(body.name).second, who + " exists twice; give each body its own name");
+    validate_body(model, body, who);
+  }
+  for (std::size_t i = 0; i < model.geoms.size(); ++i) {
+    validate_geom(model, model.geoms[i], where + ": geom " + std::to_string(i));
+  }
+  for (const Joint& joint : model.joints)
+    validate_joint(model, joint, where + ": joint '" + joint.name + "'");
+  for (std::size_t i = 0; i < model.events.size(); ++i) {
+    validate_event(model, model.events[i], where + ": event " + std::to_string(i));
+  }
+}
+
+}  // namespace pbmpi::model

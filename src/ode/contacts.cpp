@@ -1,0 +1,63 @@
+#include "ode/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pbmpi::ode {
+
+Contacts::Contacts(const model::Model& model, const model::StepPlan& plan, const std::vector<dBodyID>& bodies)
+    : model_(&model),
+      bodies_(bodies),
+      friction_(plan.has("friction")),
+      restitution_(plan.has("restitution")),
+      joints_(dJointGroupCreate(0)) {
+  constexpr int most_of_dcollide = 0xffff;  // the flags of dCollide hold the count in 16 bits
+  found_.resize(static_cast<std::size_t>(std::min(model.contact_law.max_per_pair, most_of_dcollide)));
+  contact_.surface.soft_erp = model.contact_law.soft_erp;
+  contact_.surface.soft_cfm = model.contact_law.soft_cfm;
+  contact_.surface.bounce_vel = model.contact_law.bounce_velocity;
+}
+
+void Contacts::make(dWorldID world, const std::vector<GeomPair>& pairs, const std::vector<dGeomID>& geoms) {
+  touches_.clear();
+  deepest_m_ = 0;
+  for (const GeomPair& pair : pairs) {
+    const int num_contacts = dCollide(geoms[pair.first], geoms[pair.second], static_cast<int>(found_.size()),
+                                      found_.data(), sizeof(dContactGeom));
+    if (num_contacts > 0) join(world, pair, num_contacts);
+  }
+}
+
+int Contacts::count() const {
+  int sum = 0;
+  for (const Touch& touch : touches_) sum += touch.num_contacts;
+  return sum;
+}
+
+void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
+  const int body_a = model_->geoms[pair.first].body;
+  const int body_b = model_->geoms[pair.second].body;
+  touches_.push_back({body_a, body_b, num_contacts, set_surface(pair)});
+  for (int i = 0; i < num_contacts; ++i) {
+    contact_.geom = found_[i];
+    deepest_m_ = std::max(deepest_m_, found_[i].depth);
+    dJointAttach(dJointCreateContact(world, joints_.get(), &contact_), body_id(body_a), body_id(body_b));
+  }
+}
+
+/// Returns the rows of a contact with this surface. dContactApprox1 makes mu Coulomb's coefficient; without
+/// it ODE takes mu as a force [N]. An infinite mu (no slip) must go without: ODE would multiply it by a
+/// normal force of 0.
+int Contacts::set_surface(const GeomPair& pair) {
+  const model::Material& a = model_->geoms[pair.first].material;
+  const model::Material& b = model_->geoms[pair.second].material;
+  dSurfaceParameters& surface = contact_.surface;
+  surface.mode = dContactSoftERP | dContactSoftCFM;
+  surface.mu = friction_ ? std::sqrt(a.mu * b.mu) : 0;
+  if (surface.mu > 0 && surface.mu < model::infinity) surface.mode |= dContactApprox1;
+  surface.bounce = restitution_ ? std::max(a.restitution, b.restitution) : 0;
+  if (surface.bounce > 0) surface.mode |= dContactBounce;
+  return surface.mu > 0 ? 3 : 1;
+}
+
+}  // namespace pbmpi::ode

@@ -1,0 +1,41 @@
+#include "ode/rows.h"
+
+#include <algorithm>
+
+#include "ode/joints.h"
+
+namespace pbmpi::ode {
+
+RowCounter::RowCounter(const model::Model& model, const std::vector<dJointID>& joints)
+    : model_(&model), joints_(joints), sets_(model.num_bodies()) {}
+
+void RowCounter::count(const std::vector<Touch>& touches, model::Observables& observables) {
+  collect(touches);
+  const int num_bodies = model_->num_bodies();
+  sets_.reset(num_bodies);
+  for (const Link& link : links_) {
+    if (link.body_a != model::no_body && link.body_b != model::no_body) sets_.unite(link.body_a, link.body_b);
+  }
+  set_rows_.assign(static_cast<std::size_t>(num_bodies), 0);
+  observables.rows = 0;
+  for (const Link& link : links_) {
+    set_rows_[sets_.find(link.body_a != model::no_body ? link.body_a : link.body_b)] += link.rows;
+    observables.rows += link.rows;
+  }
+  observables.max_island_rows = *std::max_element(set_rows_.begin(), set_rows_.end());
+  observables.islands = 0;
+  for (int body = 0; body < num_bodies; ++body) observables.islands += sets_.find(body) == body ? 1 : 0;
+}
+
+void RowCounter::collect(const std::vector<Touch>& touches) {
+  links_.clear();
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const model::Joint& joint = model_->joints[i];
+    links_.push_back({joint.body_a, joint.body_b, count_rows(joints_[i], joint.kind)});
+  }
+  for (const Touch& touch : touches) {
+    links_.push_back({touch.body_a, touch.body_b, touch.num_contacts * touch.rows_per_contact});
+  }
+}
+
+}  // namespace pbmpi::ode

@@ -1,0 +1,36 @@
+/// Counts what a step has to solve: rows and islands.
+#pragma once
+
+#include <vector>
+
+#include "model/islands.h"
+#include "model/observables.h"
+#include "ode/contacts.h"
+
+namespace pbmpi::ode {
+
+/// ODE tells neither its rows nor its islands; this counts both from the joints and contacts. Between
+/// Contacts::make() and the solver, since limits become active by the poses before the step.
+class RowCounter {
+ public:
+  /// `model` is borrowed.
+  RowCounter(const model::Model& model, const std::vector<dJointID>& joints);
+
+  /// Sets rows, islands and max_island_rows.
+  void count(const std::vector<Touch>& touches, model::Observables& observables);
+
+ private:
+  /// Rows between two bodies, either of which may be no_body.
+  struct Link {
+    int body_a, body_b, rows;
+  };
+  void collect(const std::vector<Touch>& touches);
+
+  const model::Model* model_;
+  std::vector<dJointID> joints_;
+  std::vector<Link> links_;
+  model::DisjointSets sets_;
+  std::vector<int> set_rows_;  ///< [num_bodies], at the lowest body of each island
+};
+
+}  // namespace pbmpi::ode

@@ -1,0 +1,94 @@
+#include "ode/stepper.h"
+
+#include <cstdio>
+
+#include "core/error.h"
+
+namespace pbmpi::ode {
+
+void warn_on_stderr(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+
+OdeStepper::OdeStepper(const model::StepperSettings& settings, WarningSink warn)
+    : settings_(settings), log_(std::move(warn)), resources_(std::make_unique<SolverResources>()) {
+  core::require_input(settings.dt_s > 0 && settings.dt_s < model::infinity,
+                      "dt: " + std::to_string(settings.dt_s) + " s is no time step; give seconds above 0");
+  core::require_input(settings.iterations >= 1, "iterations: " + std::to_string(settings.iterations) +
+                                                    " sweeps solve nothing; give at least 1");
+}
+
+OdeStepper::~OdeStepper() { log_.report_counts(); }
+
+void OdeStepper::add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
+                     std::int64_t step) {
+  core::require_invariant(!slots_.contains(world), "a world was added twice");
+  core::require_invariant(state.num_bodies() == model->num_bodies(), "a state does not fit its model");
+  log_.set_place(world, step);
+  const MessageScope scope(log_);
+  Slot slot{std::move(model), state, {}, 0, nullptr};
+  slot.world = std::make_unique<World>(world, *slot.model, state, step, settings_, *resources_);
+  slots_.emplace(world, std::move(slot));
+}
+
+void OdeStepper::remove(int world) {
+  core::require_invariant(slots_.erase(world) == 1, "a world was removed that is not there");
+}
+
+void OdeStepper::advance(int num_steps, core::PhaseTimes& times) {
+  if (num_steps < 1) return;
+  const MessageScope scope(log_);
+  core::LapTimer timer(times);
+  for (auto& entry : slots_) {
+    const double start_s = core::now_s();
+    advance_slot(entry.second, num_steps, timer);
+    entry.second.cost_s = core::now_s() - start_s;
+  }
+}
+
+void OdeStepper::advance_slot(Slot& slot, int num_steps, core::LapTimer& timer) {
+  if (!slot.world) return;
+  try {
+    slot.world->advance(num_steps, timer, log_);
+    slot.world->read(slot.state, slot.observables);
+  } catch (const EngineError& error) {
+    survive(slot);
+    log_.warn(std::string("this world stops here, it is not finite: ") + error.what());
+  }
+  timer.lap(core::Phase::integrate);
+}
+
+/// Called while an EngineError is handled. One world that runs into NaN must not end the others: it is shown
+/// as it is, and the rest go on. Any other error ends the stepper.
+void OdeStepper::survive(Slot& failed) {
+  failed.world->read(failed.state, failed.observables);
+  if (failed.observables.nonfinite == 0) {
+    resources_->abandon();
+    throw;
+  }
+  failed.world.reset();
+  move_to_fresh_resources();
+}
+
+/// A world that starts from its state goes on bit for bit, so that the worlds can be made anew.
+void OdeStepper::move_to_fresh_resources() {
+  auto fresh = std::make_unique<SolverResources>();
+  for (auto& [id, slot] : slots_) {
+    if (!slot.world) continue;
+    const std::int64_t step = slot.world->step();
+    slot.world = std::make_unique<World>(id, *slot.model, slot.state, step, settings_, *fresh);
+  }
+  resources_->abandon();
+  resources_ = std::move(fresh);
+}
+
+const OdeStepper::Slot& OdeStepper::get(int world) const {
+  const auto found = slots_.find(world);
+  core::require_invariant(found != slots_.end(), "a world was asked for that is not there");
+  return found->second;
+}
+
+std::unique_ptr<model::WorldStepper> make_ode_stepper(const model::StepperSettings& settings,
+                                                      WarningSink warn) {
+  return std::make_unique<OdeStepper>(settings, std::move(warn));
+}
+
+}  // namespace pbmpi::ode

@@ -1,0 +1,51 @@
+/// The worlds of one rank, stepped by ODE.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "model/stepper.h"
+#include "ode/engine.h"
+#include "ode/solver_resources.h"
+#include "ode/world.h"
+
+namespace pbmpi::ode {
+
+class OdeStepper final : public model::WorldStepper {
+ public:
+  OdeStepper(const model::StepperSettings& settings, WarningSink warn);
+  ~OdeStepper() override;
+
+  void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
+           std::int64_t step) override;
+  void remove(int world) override;
+  /// Takes the worlds one after the other, each through all its steps: its data stays in the cache.
+  void advance(int num_steps, core::PhaseTimes& times) override;
+
+  const model::State& state(int world) const override { return get(world).state; }
+  const model::Model& model(int world) const override { return *get(world).model; }
+  const model::Observables& observables(int world) const override { return get(world).observables; }
+  double cost_s(int world) const override { return get(world).cost_s; }
+
+ private:
+  /// What is known of a world after the last advance().
+  struct Slot {
+    std::shared_ptr<const model::Model> model;
+    model::State state;
+    model::Observables observables;
+    double cost_s = 0;
+    std::unique_ptr<World> world;  ///< none once the state is not finite: ODE would stop at an assertion
+  };
+  const Slot& get(int world) const;
+  void advance_slot(Slot& slot, int num_steps, core::LapTimer& timer);
+  void survive(Slot& failed);
+  void move_to_fresh_resources();
+
+  Engine engine_;
+  model::StepperSettings settings_;
+  MessageLog log_;
+  std::unique_ptr<SolverResources> resources_;
+  std::map<int, Slot> slots_;
+};
+
+}  // namespace pbmpi::ode

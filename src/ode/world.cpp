@@ -1,0 +1,88 @@
+#include "ode/world.h"
+
+#include "core/random.h"
+#include "ode/bodies.h"
+#include "ode/joints.h"
+
+namespace pbmpi::ode {
+namespace {
+
+/// ERP and CFM come before any joint: ODE's joints copy them when they are made.
+WorldHandle make_world(const model::Model& model, const model::StepperSettings& settings,
+                       const SolverResources& resources) {
+  WorldHandle world = resources.make_world();
+  dWorldSetGravity(world.get(), model.gravity.x(), model.gravity.y(), model.gravity.z());
+  dWorldSetERP(world.get(), model.erp);
+  dWorldSetCFM(world.get(), model.cfm);
+  dWorldSetQuickStepNumIterations(world.get(), settings.iterations);
+  dWorldSetAutoDisableFlag(world.get(), 0);
+  return world;
+}
+
+}  // namespace
+
+World::World(int id, const model::Model& model, const model::State& state, std::int64_t step,
+             const model::StepperSettings& settings, const SolverResources& resources)
+    : id_(id),
+      model_(&model),
+      plan_(model),
+      settings_(settings),
+      world_(make_world(model, settings, resources)),
+      bodies_(make_bodies(world_.get(), model)),
+      joints_(make_joints(world_.get(), bodies_, model, settings.dt_s)),
+      events_(model, bodies_, joints_),
+      contacts_(model, plan_, bodies_),
+      row_counter_(model, joints_),
+      step_(step) {
+  if (plan_.has("collision")) broad_phase_.emplace(model, bodies_, best_space(model.geoms.size()));
+  events_.skip_to(step);
+  restore(bodies_, state);
+}
+
+void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
+  for (int i = 0; i < num_steps; ++i) {
+    log.set_place(id_, step_);
+    take_step(i + 1 == num_steps, timer);
+  }
+}
+
+void World::take_step(bool is_last, core::LapTimer& timer) {
+  events_.fire(step_);
+  if (broad_phase_) {
+    collide();
+    timer.lap(core::Phase::collide);
+  }
+  if (is_last) {
+    row_counter_.count(contacts_.touches(), counts_);
+    timer.lap(core::Phase::islands);
+  }
+  solve();
+  contacts_.clear();
+  timer.lap(core::Phase::solve);
+  ++step_;
+}
+
+void World::collide() { contacts_.make(world_.get(), broad_phase_->find_pairs(), broad_phase_->geoms()); }
+
+/// QuickStep shuffles its rows by one random seed of the whole process, so that it is set anew each time.
+void World::solve() {
+  if (settings_.kind == model::StepperKind::quick) {
+    dRandSetSeed(
+        core::mix_key(settings_.seed, static_cast<std::uint64_t>(id_), static_cast<std::uint64_t>(step_)));
+    dWorldQuickStep(world_.get(), settings_.dt_s);
+  } else {
+    dWorldStep(world_.get(), settings_.dt_s);
+  }
+}
+
+void World::read(model::State& state, model::Observables& observables) const {
+  copy_out(bodies_, state);
+  observables = counts_;
+  observables.contacts = contacts_.count();
+  observables.max_penetration_m = contacts_.deepest_m();
+  observables.energy_j = model::mechanical_energy(*model_, state);
+  observables.joint_gap_m = model::max_joint_gap(*model_, state);
+  observables.nonfinite = model::count_nonfinite(state);
+}
+
+}  // namespace pbmpi::ode

@@ -1,0 +1,60 @@
+/// One world in ODE.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/clock.h"
+#include "model/effects.h"
+#include "model/stepper.h"
+#include "ode/broad_phase.h"
+#include "ode/contacts.h"
+#include "ode/engine.h"
+#include "ode/events.h"
+#include "ode/rows.h"
+#include "ode/solver_resources.h"
+
+namespace pbmpi::ode {
+
+/// A world that follows from its model, its state and the step number alone. Only the passes of the model's
+/// StepPlan are there.
+///
+/// The collision spaces of the model cut one world over ranks; here the world is whole, and all its geoms
+/// are in one ODE space.
+class World {
+ public:
+  /// `model` is borrowed; `state`: at the start of step `step`.
+  World(int id, const model::Model& model, const model::State& state, std::int64_t step,
+        const model::StepperSettings& settings, const SolverResources& resources);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// Takes `num_steps` >= 1 steps.
+  void advance(int num_steps, core::LapTimer& timer, MessageLog& log);
+  /// Reads out the state after the last step, and what was observed in it.
+  void read(model::State& state, model::Observables& observables) const;
+  /// The next step.
+  std::int64_t step() const { return step_; }
+
+ private:
+  void take_step(bool is_last, core::LapTimer& timer);
+  void collide();
+  void solve();
+
+  int id_;
+  const model::Model* model_;
+  model::StepPlan plan_;
+  model::StepperSettings settings_;
+  WorldHandle world_;
+  std::vector<dBodyID> bodies_;
+  std::vector<dJointID> joints_;
+  Events events_;
+  Contacts contacts_;
+  std::optional<BroadPhase> broad_phase_;  ///< none without the effect "collision"
+  RowCounter row_counter_;
+  model::Observables counts_;  ///< rows and islands of the last step
+  std::int64_t step_;
+};
+
+}  // namespace pbmpi::ode

@@ -1,0 +1,85 @@
+"""Starts the built programs under a real mpirun. Shared by the end-to-end tests."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import unittest
+
+BIN = os.environ["PBMPI_BIN"]
+PBMPI = os.path.join(BIN, "pbmpi")
+PBREPORT = os.path.join(BIN, "pbreport")
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+TIMEOUT_S = 120  # a hang, not a slow run: the longest run here takes seconds
+
+
+def mpirun(ranks, *args):
+    """The command line of `mpirun -n ranks pbmpi args...`."""
+    return ["mpirun", "-n", str(ranks), PBMPI, *map(str, args)]
+
+
+class ProgramTest(unittest.TestCase):
+    """Each test runs in an empty folder of its own, which is the current one of what it starts."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="pbmpi-test-")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def run_command(self, command, **options):
+        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False,
+                              **options)
+
+    def pbmpi(self, ranks, *args, **options):
+        return self.run_command(mpirun(ranks, *args), **options)
+
+    def summary(self, ranks, *args):
+        """The JSON summary of a run that must succeed."""
+        result = self.pbmpi(ranks, *args, "--report", "json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def start(self, ranks, *args):
+        """A run in a session of its own, so that its whole process group can be signalled."""
+        process = subprocess.Popen(mpirun(ranks, *args), cwd=self.folder, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True, start_new_session=True)
+        self.addCleanup(end_group, process)
+        return process
+
+
+def end_group(process):
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+    process.wait()
+    if process.stderr:
+        process.stderr.close()
+
+
+def rank_pids(process):
+    """Process ids of the pbmpi ranks that this mpirun started, by rank."""
+    ranks = {}
+    for entry in os.listdir("/proc"):
+        if not entry.isdigit():
+            continue
+        try:
+            with open(f"/proc/{entry}/stat", encoding="utf-8") as file:
+                parent = int(file.read().rsplit(")", 1)[1].split()[1])
+            if parent != process.pid:
+                continue
+            with open(f"/proc/{entry}/environ", "rb") as file:
+                environment = dict(pair.split(b"=", 1) for pair in file.read().split(b"\0") if b"=" in pair)
+            if b"OMPI_COMM_WORLD_RANK" in environment:
+                ranks[int(environment[b"OMPI_COMM_WORLD_RANK"])] = int(entry)
+        except (FileNotFoundError, ProcessLookupError, PermissionError):
+            continue  # ended while we looked
+    return ranks

@@ -1,0 +1,85 @@
+#include "app/pbmpi/options.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace pbmpi::app {
+namespace {
+
+/// A scene of which only the defaults matter.
+class FakeScene final : public scenes::Scene {
+ public:
+  explicit FakeScene(scenes::RunDefaults defaults) : defaults_(defaults) {}
+  const std::string& name() const override { return name_; }
+  const std::string& title() const override { return name_; }
+  const std::string& text() const override { return name_; }
+  const scenes::RunDefaults& defaults() const override { return defaults_; }
+  std::shared_ptr<const model::Model> build(int, std::uint64_t) const override { return nullptr; }
+
+ private:
+  std::string name_ = "Fake";
+  scenes::RunDefaults defaults_;
+};
+
+std::string refusal(const std::vector<std::string>& args) {
+  try {
+    resolve(parse_options(args), FakeScene({}));
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Options, absent_ones_come_from_the_scene) {
+  const FakeScene scene(
+      {.replicas = 7, .warmup = 1, .frames = 9, .steps_per_frame = 2, .dt_s = 0.004, .iterations = 33});
+  const RunSpec spec = resolve(parse_options({"--scene", "Fake"}), scene);
+  EXPECT_EQ(spec.num_worlds, 7);
+  EXPECT_EQ(spec.total_frames(), 10);
+  EXPECT_EQ(spec.steps_per_frame, 2);
+  EXPECT_EQ(spec.stepper.dt_s, 0.004);
+  EXPECT_EQ(spec.stepper.iterations, 33);
+  EXPECT_EQ(spec.output, "Fake.h5");
+}
+
+TEST(Options, given_ones_win_over_the_scene) {
+  const RunSpec spec =
+      resolve(parse_options({"--scene", "Fake", "--replicas", "3", "--dt", "0.002", "--iterations=5",
+                             "--stepper", "direct", "--seed", "18446744073709551615", "--no-output"}),
+              FakeScene({}));
+  EXPECT_EQ(spec.num_worlds, 3);
+  EXPECT_EQ(spec.stepper.dt_s, 0.002);
+  EXPECT_EQ(spec.stepper.iterations, 5);
+  EXPECT_EQ(spec.stepper.kind, model::StepperKind::direct);
+  EXPECT_EQ(spec.stepper.seed, 18446744073709551615ull);
+  EXPECT_FALSE(spec.output.has_value());
+}
+
+TEST(Options, impossible_values_are_named) {
+  EXPECT_NE(refusal({"--scene", "Fake", "--dt", "-1"}).find("--dt"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--dt", "nan"}).find("--dt"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--frames", "0"}).find("--frames"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--replicas", "0"}).find("--replicas"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--warmup", "-1"}).find("--warmup"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--frames", "many"}).find("many"), std::string::npos);
+  EXPECT_NE(refusal({}).find("--scene"), std::string::npos);
+  EXPECT_EQ(refusal({"--scene", "Fake"}), "");
+}
+
+TEST(Options, a_slip_of_the_pen_gets_a_suggestion) {
+  EXPECT_NE(refusal({"--scene", "Fake", "--itertions", "4"}).find("did you mean --iterations?"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "stray"}).find("stray"), std::string::npos);
+}
+
+TEST(Options, help_names_every_group_and_exit_code) {
+  const std::string help = help_text();
+  for (const char* words :
+       {"What to simulate", "How to step", "How to cut the work", "What to write", "General", "75"}) {
+    EXPECT_NE(help.find(words), std::string::npos) << words;
+  }
+}
+
+}  // namespace
+}  // namespace pbmpi::app

@@ -1,0 +1,77 @@
+"""pbreport on files that pbmpi really wrote, and on files that are none."""
+import json
+import os
+import sys
+import unittest
+import xml.etree.ElementTree
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import PBREPORT, ProgramTest  # noqa: E402
+
+
+class ReportTest(ProgramTest):
+    def report(self, *args):
+        return self.run_command([PBREPORT, *args])
+
+    def run_scene(self, ranks=2, scene="CrashSk", *args):
+        """The live summary of a run whose file is run.h5."""
+        return self.summary(ranks, "--scene", scene, "--output", "run.h5", *args)
+
+    def test_tells_the_same_as_the_run_itself(self):
+        live = self.run_scene(2, "CrashSk", "--replicas", "3")
+        told = json.loads(self.report("run.h5", "--json").stdout)
+        for key in ("scene", "worlds", "bodies", "ranks", "stepper", "iterations", "dt", "steps_per_frame", "seed",
+                    "frames", "state_hash", "effects", "complete"):
+            self.assertEqual(told[key], live[key], key)
+        for group in ("frame_rate", "frame_time_s", "islands", "contacts", "rows", "invariants", "efficiency"):
+            for name, value in live[group].items():
+                # The file holds the same doubles; only the order of a sum may differ.
+                self.assertAlmostEqual(told[group][name], value, delta=1e-9 * max(1, abs(value)),
+                                       msg=f"{group}.{name}")
+
+    def test_prints_one_line_a_number(self):
+        live = self.run_scene()
+        result = self.report("run.h5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = result.stdout.splitlines()
+        self.assertIn("state_hash: " + live["state_hash"], lines)
+        self.assertTrue(any(line.startswith("frame_rate: ") for line in lines))
+        self.assertEqual(self.report("report", "run.h5").stdout, result.stdout)
+
+    def test_writes_a_page_that_stands_alone(self):
+        live = self.run_scene()
+        result = self.report("run.h5", "--html", "run.html", "--quiet")
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        with open(self.path("run.html"), encoding="utf-8") as file:
+            page = file.read()
+        self.assertIn(live["state_hash"], page)
+        self.assertNotIn('src="', page.split("<script>")[0])
+
+    def test_rewrites_the_sidecar(self):
+        self.run_scene()
+        result = self.report("run.h5", "--xdmf", "again.xdmf")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        root = xml.etree.ElementTree.parse(self.path("again.xdmf")).getroot()
+        self.assertEqual(root.tag, "Xdmf")
+
+    def assert_refused(self, result, *words):
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def test_refuses_bad_input_with_one_message(self):
+        self.assert_refused(self.report(), "no file given")
+        self.assert_refused(self.report("absent.h5"), "absent.h5")
+        self.assert_refused(self.report(self.write("text.h5", "not HDF5\n")), "text.h5")
+        self.assert_refused(self.report("--frmaes", "x.h5"), "--frmaes")
+
+    def test_refuses_a_place_where_it_cannot_write(self):
+        self.run_scene()
+        self.assert_refused(self.report("run.h5", "--html", "no/folder/x.html"), "no/folder/x.html")
+        self.assert_refused(self.report("run.h5", "--html", "run.h5"), "run.h5")
+
+
+if __name__ == "__main__":
+    unittest.main()

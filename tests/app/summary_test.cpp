@@ -1,0 +1,98 @@
+#include "app/summary/run_summary.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace pbmpi::app {
+namespace {
+
+/// Two ranks, two measured frames of 2 ms and 6 ms; rank 0 computes 1 + 1 ms, rank 1 computes 2 + 4 ms.
+MeasuredFrames two_frames() {
+  MeasuredFrames frames;
+  frames.wall_s = {0.002, 0.006};
+  const auto solve = [](double seconds) {
+    core::PhaseTimes times;
+    times[core::Phase::solve] = seconds;
+    times[core::Phase::wait] = 0.0005;
+    return times.seconds;
+  };
+  frames.phases = {{solve(0.001), solve(0.001)}, {solve(0.002), solve(0.004)}};
+  frames.islands = {3, 1};
+  frames.contacts = {10, 30};
+  frames.rows = {100, 120};
+  return frames;
+}
+
+RunSummary computed() {
+  RunSummary summary;
+  summary.worlds = 4;
+  summary.bodies = 40;
+  summary.ranks = 2;
+  summary.steps_per_frame = 3;
+  summary.budget_s = 0.003;
+  compute_performance(two_frames(), summary);
+  return summary;
+}
+
+// The expected values are worked out by hand from the 8 ms above; 1e-12 is rounding of a few sums.
+TEST(Summary, rates_come_from_the_elapsed_time) {
+  const RunSummary summary = computed();
+  EXPECT_NEAR(summary.harmonic_mean_hz, 2 / 0.008, 1e-9);
+  EXPECT_NEAR(summary.world_steps_per_s, 2 * 3 * 4 / 0.008, 1e-9);
+  EXPECT_NEAR(summary.body_steps_per_s, 2 * 3 * 40 / 0.008, 1e-8);
+  EXPECT_DOUBLE_EQ(summary.satisfied_fraction, 0.5);
+  EXPECT_DOUBLE_EQ(summary.frame_max_s, 0.006);
+  EXPECT_NEAR(summary.frame_p50_s, 0.004, 1e-12);
+}
+
+TEST(Summary, efficiency_is_load_balance_times_communication) {
+  const RunSummary summary = computed();
+  EXPECT_NEAR(summary.load_balance, 0.004 / 0.006, 1e-12);              // mean of 2 and 6 ms over the larger
+  EXPECT_NEAR(summary.communication_efficiency, 0.006 / 0.008, 1e-12);  // busiest rank over elapsed
+  EXPECT_NEAR(summary.parallel_efficiency, 0.004 / 0.008, 1e-12);
+}
+
+TEST(Summary, phases_name_the_ranks_of_min_and_max) {
+  const RunSummary summary = computed();
+  ASSERT_EQ(summary.phases.size(), 2u) << "phases in which no rank spent time are left out";
+  EXPECT_EQ(summary.phases[0].name, "solve");
+  EXPECT_EQ(summary.phases[0].min_rank, 0);
+  EXPECT_EQ(summary.phases[0].max_rank, 1);
+  EXPECT_NEAR(summary.phases[0].max_s, 0.006, 1e-12);
+  EXPECT_EQ(summary.phases[1].name, "wait");
+}
+
+TEST(Summary, json_has_every_key_of_the_contract) {
+  const auto json = nlohmann::json::parse(to_json(computed()));
+  for (const char* key :
+       {"program", "version", "scene", "worlds", "bodies", "ranks", "stepper", "iterations", "substeps",
+        "precision", "dt", "steps_per_frame", "seed", "phases", "effects", "output", "state_hash"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json["frames"]["measured"], 2);
+  EXPECT_DOUBLE_EQ(json["islands"]["mean"], 2.0);
+  EXPECT_DOUBLE_EQ(json["contacts"]["max"], 30.0);
+  EXPECT_DOUBLE_EQ(json["frame_rate"]["budget_s"], 0.003);
+  EXPECT_TRUE(json["invariants"].contains("max_penetration_m"));
+  EXPECT_TRUE(json["throughput"].contains("world_steps_per_s_per_rank"));
+}
+
+TEST(Summary, text_has_greppable_lines) {
+  RunSummary summary = computed();
+  summary.state_hash = "0123456789abcdef";
+  summary.idle_ranks = {1};
+  const std::string text = to_text(summary);
+  EXPECT_NE(text.find("\nstate_hash: 0123456789abcdef\n"), std::string::npos);
+  EXPECT_NE(text.find("\nidle_ranks: 1 "), std::string::npos);
+}
+
+TEST(Summary, no_measured_frame_divides_by_nothing) {
+  RunSummary summary;
+  compute_performance({}, summary);
+  EXPECT_EQ(summary.harmonic_mean_hz, 0);
+  EXPECT_EQ(summary.parallel_efficiency, 0);
+}
+
+}  // namespace
+}  // namespace pbmpi::app

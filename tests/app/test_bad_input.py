@@ -1,0 +1,97 @@
+"""Every refusal: one clear message from one rank, exit code 2, no file left, no hang."""
+import os
+import unittest
+
+from harness import ProgramTest
+
+GOOD_SCENE = """\
+title = "a box"
+[[actor]]
+type = "ground"
+name = "ground"
+[[actor]]
+type = "box"
+name = "box"
+position = [0, 0, 1]
+size = [1, 1, 1]
+mass = 10
+"""
+
+
+class BadInput(ProgramTest):
+    def refused(self, ranks, args, *words, code=2):
+        """Runs, and checks exit code, that one line of stderr says all `words`, and that no file appeared."""
+        before = set(os.listdir(self.folder))
+        result = self.pbmpi(ranks, *args)
+        self.assertEqual(result.returncode, code, result.stderr)
+        lines = [line for line in result.stderr.splitlines() if line.startswith("pbmpi: ")]
+        self.assertEqual(len(lines), 1, f"one message from one rank, got: {result.stderr}")
+        for word in words:
+            self.assertIn(word, lines[0])
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(set(os.listdir(self.folder)), before, "nothing may be left behind")
+
+    def scene(self, text):
+        return ["--scene", self.write("scene.toml", text)]
+
+    def test_unknown_scene_names_the_nearest(self):
+        self.refused(3, ["--scene", "100CrSq"], "100CrSq", "100CrSk")
+
+    def test_missing_scene(self):
+        self.refused(2, [], "--scene", "--list-scenes")
+
+    def test_missing_scene_file(self):
+        self.refused(2, ["--scene", "absent.toml"], "absent.toml")
+
+    def test_malformed_toml_has_line_and_column(self):
+        self.refused(3, self.scene('title = "x"\n[[actor]\n'), "scene.toml:2:")
+
+    def test_unknown_key_has_line_and_the_nearest_key(self):
+        self.refused(2, self.scene(GOOD_SCENE.replace("mass =", "mas =")), "scene.toml:9:", "mas", "mass")
+
+    def test_nan_mass(self):
+        self.refused(2, self.scene(GOOD_SCENE.replace("mass = 10", "mass = nan")), "scene.toml:9:", "mass")
+
+    def test_joint_between_a_body_and_itself(self):
+        joint = '[[joint]]\nkind = "ball"\nname = "loop"\nbody_a = "box"\nbody_b = "box"\nanchor = [0, 0, 1]\n'
+        self.refused(2, self.scene(GOOD_SCENE + joint), "scene.toml:1", "loop", "itself")
+
+    def test_negative_dt(self):
+        self.refused(2, ["--scene", "CrashSk", "--dt", "-0.01"], "--dt", "above 0")
+
+    def test_nan_dt(self):
+        self.refused(2, ["--scene", "CrashSk", "--dt", "nan"], "--dt", "finite")
+
+    def test_zero_frames(self):
+        self.refused(2, ["--scene", "CrashSk", "--frames", "0"], "--frames", "at least 1")
+
+    def test_unknown_option_names_the_nearest(self):
+        self.refused(2, ["--scene", "CrashSk", "--iteration", "3"], "--iteration", "--iterations")
+
+    def test_unknown_stepper_lists_the_known(self):
+        self.refused(2, ["--scene", "CrashSk", "--stepper", "fast"], "fast", "quick", "direct")
+
+    def test_output_into_a_missing_folder(self):
+        self.refused(3, ["--scene", "CrashSk", "--output", "absent/run.h5"], "absent/run.h5")
+
+    def test_output_that_is_a_folder(self):
+        os.mkdir(self.path("folder"))
+        self.refused(2, ["--scene", "CrashSk", "--output", "folder"], "folder")
+
+    def test_missing_config_file(self):
+        self.refused(2, ["--config", "absent.cfg"], "absent.cfg")
+
+    def test_two_contradicting_options(self):
+        self.refused(2, ["--scene", "CrashSk", "--no-output", "--output", "x.h5"], "--output", "--no-output")
+
+
+class MoreRanksThanWorlds(ProgramTest):
+    def test_works_and_names_the_idle_ranks(self):
+        summary = self.summary(4, "--scene", "CrashSk", "--replicas", 2)
+        self.assertEqual(summary["idle_ranks"], [2, 3])
+        self.assertEqual(summary["ranks"], 4)
+        self.assertTrue(os.path.exists(self.path("CrashSk.h5")))
+
+
+if __name__ == "__main__":
+    unittest.main()

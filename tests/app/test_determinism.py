@@ -1,0 +1,49 @@
+"""Same bits for any number of ranks, with output on or off, and for every placement."""
+import unittest
+
+import h5py
+
+from harness import SOURCE, ProgramTest
+
+
+class Determinism(ProgramTest):
+    def test_100CrSk_has_one_hash_for_1_to_4_ranks_with_and_without_output(self):
+        hashes = {self.summary(ranks, "--scene", "100CrSk", *output)["state_hash"]
+                  for ranks in (1, 2, 3, 4) for output in (["--no-output"], ["--output", f"run{ranks}.h5"])}
+        self.assertEqual(len(hashes), 1, hashes)
+        for ranks in (1, 2, 3, 4):
+            with h5py.File(self.path(f"run{ranks}.h5")) as file:
+                self.assertIn(file.attrs["state_hash"], (*hashes, *(h.encode() for h in hashes)))
+
+    def test_recorded_bodies_are_equal_for_1_and_3_ranks(self):
+        runs = []
+        for ranks in (1, 3):
+            self.summary(ranks, "--scene", "CrashSk", "--replicas", 5, "--output", f"run{ranks}.h5")
+            with h5py.File(self.path(f"run{ranks}.h5")) as file:
+                bodies = file["particles/bodies"]
+                runs.append([bodies[f"{name}/value"][:].tobytes()
+                             for name in ("position", "orientation", "velocity", "angular_velocity")])
+        self.assertEqual(runs[0], runs[1])
+
+    def test_a_rebalance_does_not_change_the_hash(self):
+        scene = f"{SOURCE}/tests/scenes/Unequal.toml"
+        args = ["--scene", scene, "--frames", 40, "--no-output"]
+        one, three = self.summary(1, *args), self.summary(3, *args)
+        self.assertEqual(one["rebalances"]["count"], 0)
+        self.assertGreater(three["rebalances"]["count"], 0, "the worlds of this scene are so unequal that they must move")
+        self.assertGreater(three["rebalances"]["worlds_moved"], 0)
+        self.assertEqual(one["state_hash"], three["state_hash"])
+
+    def test_another_seed_gives_another_hash(self):
+        first, second = (self.summary(2, "--scene", "CrashSk", "--seed", seed, "--no-output") for seed in (1, 2))
+        self.assertNotEqual(first["state_hash"], second["state_hash"])
+
+    def test_direct_and_quick_give_different_bits_but_the_same_bodies(self):
+        quick, direct = (self.summary(2, "--scene", "CrashSk", "--stepper", stepper, "--no-output")
+                         for stepper in ("quick", "direct"))
+        self.assertNotEqual(quick["state_hash"], direct["state_hash"])
+        self.assertEqual((quick["bodies"], direct["stepper"]), (direct["bodies"], "direct"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,90 @@
+"""Killed ranks, signals and full disks: what was written stays readable, and nothing hangs."""
+import os
+import random
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy
+
+from harness import TIMEOUT_S, ProgramTest, mpirun, rank_pids
+
+NUM_KILLS = 20
+LONG_RUN = ["--scene", "CrashSk", "--replicas", "8", "--frames", "1000000", "--record-every", "100", "--quiet"]
+
+
+def wait_until(condition, what):
+    deadline = time.monotonic() + TIMEOUT_S
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited in vain for {what}")
+        time.sleep(0.005)
+
+
+class Faults(ProgramTest):
+    def check_file(self, name):
+        """The file opens, and what is committed is finite; returns the number of committed frames."""
+        with h5py.File(self.path(name)) as file:
+            self.assertIn(file.attrs["filetype"], ("pbmpi-run", b"pbmpi-run"))
+            committed = int(file.attrs["frames_committed"])
+            stored = committed // int(file["parameters/record_every"][()])
+            for column in ("position", "orientation", "velocity", "angular_velocity"):
+                values = file[f"particles/bodies/{column}/value"][:stored]
+                self.assertEqual(len(values), stored)
+                self.assertTrue(numpy.isfinite(values).all(), column)
+            self.assertTrue((numpy.linalg.norm(file["particles/bodies/orientation/value"][:stored], axis=2) > 0.5).all(),
+                            "a committed row must hold a rotation, not fill values")
+            self.assertTrue((file["timings/frame/wall"][:committed] > 0).all())
+            return committed
+
+    def test_kill_9_of_one_rank_at_random_moments_leaves_a_readable_file(self):
+        random_source = random.Random(20061)
+        most = 0
+        for attempt in range(NUM_KILLS):
+            name = f"run{attempt}.h5"
+            process = self.start(2, *LONG_RUN, "--output", name)
+            wait_until(lambda: os.path.exists(self.path(name)), "the file's skeleton")
+            time.sleep(random_source.uniform(0, 2.5) if attempt % 2 else random_source.uniform(0, 0.3))
+            os.kill(rank_pids(process)[random_source.randrange(2)], signal.SIGKILL)
+            process.wait(timeout=TIMEOUT_S)
+            self.assertNotEqual(process.returncode, 0)
+            most = max(most, self.check_file(name))
+            os.remove(self.path(name))
+        self.assertGreater(most, 0, "at least one run must have lived past its first flush")
+
+    def test_signals_finish_the_frame_and_close_the_file(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            name = f"run{int(number)}.h5"
+            process = self.start(2, *LONG_RUN, "--output", name)
+            wait_until(lambda: os.path.exists(self.path(name)), "the file's skeleton")
+            for pid in rank_pids(process).values():
+                os.kill(pid, number)
+            process.wait(timeout=TIMEOUT_S)
+            self.assertEqual(process.returncode, 75, process.stderr.read())
+            committed = self.check_file(name)
+            with h5py.File(self.path(name)) as file:
+                self.assertEqual(int(file.attrs["complete"]), 0)
+                self.assertEqual(len(file["timings/frame/wall"]), committed, "the file is cut to what was simulated")
+                self.assertEqual(len(file.attrs["state_hash"]), 16)
+
+    def test_a_full_disk_ends_the_run_with_its_message_and_a_readable_file(self):
+        def small_files():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (3_000_000, 3_000_000))
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # so that write() fails instead of killing
+
+        command = mpirun(2, "--scene", "100CrSk", "--frames", "2000", "--quiet", "--output", "full.h5")
+        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False,
+                                preexec_fn=small_files)
+        self.assertIn(result.returncode, (1, 2), result.stderr)
+        lines = [line for line in result.stderr.splitlines() if line.startswith("pbmpi: ")]
+        self.assertEqual(len(lines), 1, result.stderr)
+        self.assertIn("full.h5", lines[0])
+        if os.path.exists(self.path("full.h5")):
+            self.check_file("full.h5")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,56 @@
+"""What the scenes must show in their measured window (Table 1 of the paper), and what --describe says of them."""
+import unittest
+
+import h5py
+
+from harness import ProgramTest
+
+
+class Scenes(ProgramTest):
+    def islands(self, scene):
+        """[measured frames] islands summed over worlds."""
+        self.summary(2, "--scene", scene)
+        with h5py.File(self.path(f"{scene}.h5")) as file:
+            measured = file["timings/frame/measured"][:].astype(bool)
+            return file["observables/world/islands/value"][:][measured].sum(axis=1)
+
+    def test_cars_stay_apart_in_the_window(self):
+        for scene, count in (("2-Cars", 2), ("10-Cars", 10)):
+            self.assertEqual(set(self.islands(scene)), {count}, scene)
+
+    def test_CrashSk_goes_from_three_islands_to_one(self):
+        islands = self.islands("CrashSk")
+        self.assertEqual((islands.max(), islands.min()), (3, 1), islands)
+        self.assertAlmostEqual(islands.mean(), 2, delta=0.3)
+
+    def test_100CrSk_does_so_a_hundred_times(self):
+        islands = self.islands("100CrSk")
+        self.assertEqual(islands.max(), 300)
+        self.assertEqual(islands.min(), 100)
+        self.assertAlmostEqual(islands.mean(), 220, delta=22)  # the paper's average +- 10 %
+
+    def test_describe_shows_worlds_bodies_distribution_and_plan(self):
+        result = self.pbmpi(2, "--scene", "100CrSk", "--describe")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for words in ("worlds: 100, bodies: 3700", "rank 0: worlds 0..49 (50 worlds, 1850 bodies",
+                      "rank 1: worlds 50..99 (50 worlds, 1850 bodies", "step plan:", "friction", "suspension"):
+            self.assertIn(words, result.stdout)
+
+    def test_list_scenes_has_a_line_for_each(self):
+        result = self.pbmpi(1, "--list-scenes")
+        names = [line.split()[0] for line in result.stdout.splitlines()]
+        for scene in ("2-Cars", "10-Cars", "CrashSk", "100CrSk"):
+            self.assertIn(scene, names)
+
+    def test_version_and_help_exit_with_0(self):
+        self.assertIn("pbmpi 0.", self.pbmpi(1, "--version").stdout)
+        self.assertIn("--scene", self.pbmpi(2, "--help").stdout)
+
+    def test_config_file_is_read_and_the_command_line_wins(self):
+        self.write("run.cfg", "scene = CrashSk\nframes = 2\nseed = 9\n")
+        summary = self.summary(1, "--config", "run.cfg", "--seed", 4, "--no-output")
+        self.assertEqual((summary["scene"], summary["frames"]["measured"], summary["seed"]), ("CrashSk", 2, 4))
+
+
+if __name__ == "__main__":
+    unittest.main()

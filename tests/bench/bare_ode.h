@@ -1,0 +1,39 @@
+/// The baseline: what a user of ODE would write to step these worlds, and nothing else.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "model/model.h"
+#include "model/state.h"
+#include "ode/geoms.h"
+
+namespace pbmpi::bench {
+
+using Models = std::vector<std::shared_ptr<const model::Model>>;
+
+/// The same bodies, geoms, joints and materials in ODE as the stepper under test has, each world in the ODE
+/// space that measures best, stepped by dSpaceCollide, contact joints made in its callback, dWorldQuickStep
+/// and dJointGroupEmpty. No seeds, no order of contacts, no state read out, no counts, no clocks, and no
+/// events.
+class BareOde {
+ public:
+  BareOde(const Models& models, double dt_s, int iterations);
+  ~BareOde();
+  BareOde(const BareOde&) = delete;
+  BareOde& operator=(const BareOde&) = delete;
+
+  /// One world after the other, each through all its steps.
+  void advance(int num_steps);
+
+  model::State state(int world) const;
+  /// Of the last step, over all worlds.
+  int num_contacts() const;
+
+ private:
+  class World;
+  double dt_s_;
+  std::vector<std::unique_ptr<World>> worlds_;
+};
+
+}  // namespace pbmpi::bench

@@ -1,0 +1,49 @@
+/// bench_worlds [SUBJECT] [WORLDS] [FRAMES] [ROUNDS]: pbmpi's ODE stepper against the bare loop over the same
+/// worlds. bench_worlds --spaces: ODE's spaces against each other.
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "compare.h"
+#include "core/error.h"
+#include "spaces.h"
+
+namespace {
+
+int number(int argc, char** argv, int index, int otherwise) {
+  if (index >= argc) return otherwise;
+  char* end = nullptr;
+  const long value = std::strtol(argv[index], &end, 10);
+  pbmpi::core::require_input(*end == '\0' && value >= 0 && value < 1000000,
+                             std::string("'") + argv[index] + "' is no count; give a whole number");
+  return static_cast<int>(value);
+}
+
+void run(int argc, char** argv) {
+  const std::string name = argc > 1 ? argv[1] : "100CrSk";
+  if (name == "--spaces") {
+    pbmpi::bench::compare_spaces();
+    return;
+  }
+  const auto subject = pbmpi::bench::load_subject(name, number(argc, argv, 2, 0));
+  const int frames = number(argc, argv, 3, 20);
+  const int rounds = number(argc, argv, 4, 5);
+  pbmpi::core::require_input(frames > 0 && rounds > 0,
+                             "frames and rounds: nothing to measure; give at least 1");
+  pbmpi::bench::compare(subject, frames, rounds);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    run(argc, argv);
+    return static_cast<int>(pbmpi::core::ExitCode::done);
+  } catch (const pbmpi::core::InputError& error) {
+    std::fprintf(stderr, "bench_worlds: %s\n", error.what());
+    return static_cast<int>(pbmpi::core::ExitCode::bad_input);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_worlds: %s\n", error.what());
+    return static_cast<int>(pbmpi::core::ExitCode::failed);
+  }
+}

@@ -1,0 +1,72 @@
+"""Feeds layering.py small trees with one forbidden include each, and one without."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).with_name("layering.py")
+
+CLEAN = {
+    "src/core/error.h": "#include <string>\n",
+    "src/model/model.h": '#include "core/error.h"\n#include <Eigen/Core>\n',
+    "src/ode/world.cpp": '#include "model/model.h"\n#include <ode/ode.h>\n',
+    "src/solver/sor.h": '#include "model/model.h"\n',
+    "src/estimate/feec.h": '#include "solver/sor.h"\n',
+    "src/analysis/defect.h": '#include "model/model.h"\n',
+    "scenes/scene.h": '#include "model/model.h"\n',
+    "mpi/driver.h": "#include <mpi.h>\n",
+    "io/open.cpp": "#include <hdf5.h>\n#include <mpi.h>\n",
+    "io/file.h": '#include "model/model.h"\n',
+    "src/app/main.cpp": '#include <boost/program_options.hpp>\n#include "scenes/scene.h"\n#include "mpi/driver.h"\n',
+}
+
+FORBIDDEN = {
+    "core_sees_model": ("src/core/bad.h", '#include "model/model.h"\n'),
+    "model_sees_scenes": ("src/model/bad.h", '#include "scenes/scene.h"\n'),
+    "ode_sees_solver": ("src/ode/bad.cpp", '#include "solver/sor.h"\n'),
+    "solver_sees_ode": ("src/solver/bad.cpp", '#include "ode/world.cpp"\n'),
+    "solver_sees_the_engine": ("src/solver/bad.cpp", "  #  include <ode/ode.h>\n"),
+    "model_sees_the_engine": ("src/model/bad.cpp", '#include "ode/ode.h"\n'),
+    "analysis_sees_solver": ("src/analysis/bad.cpp", '#include "solver/sor.h"\n'),
+    "mpi_sees_io": ("mpi/bad.cpp", '#include "io/file.h"\n'),
+    "io_sees_mpi_folder": ("io/bad.cpp", '#include "mpi/driver.h"\n'),
+    "scenes_sees_app": ("scenes/bad.cpp", '#include "../src/app/main.cpp"\n'),
+    "second_file_of_io_sees_mpi": ("io/bad.cpp", "#include <mpi.h>\n"),
+    "app_sees_mpi_header": ("src/app/bad.cpp", "#include <mpi.h>\n"),
+    "mpi_sees_hdf5": ("mpi/bad.cpp", "#include <hdf5.h>\n"),
+    "scenes_sees_boost": ("scenes/bad.cpp", "#include <boost/any.hpp>\n"),
+    "file_outside_the_folders": ("src/other/bad.cpp", "#include <string>\n"),
+}
+
+
+def check(files):
+    with tempfile.TemporaryDirectory() as root:
+        for name, text in files.items():
+            path = pathlib.Path(root, name)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        return subprocess.run([sys.executable, SCRIPT, root], capture_output=True, text=True, check=False)
+
+
+class Layering(unittest.TestCase):
+    def test_accepts_every_arrow(self):
+        result = check(CLEAN)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f"{len(CLEAN)} files, 0 forbidden", result.stdout)
+
+    def test_refuses_each_forbidden_include(self):
+        for name, (path, text) in FORBIDDEN.items():
+            with self.subTest(name):
+                result = check(CLEAN | {path: text})
+                self.assertEqual(result.returncode, 1, result.stdout)
+                self.assertIn(path, result.stderr)
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+
+    def test_refuses_a_folder_without_sources(self):
+        self.assertNotEqual(check({"README.md": "nothing\n"}).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

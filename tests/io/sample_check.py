@@ -1,0 +1,67 @@
+"""What the files of run_writer must hold: the numbers of sample_run.cpp, worked out anew."""
+import os
+import subprocess
+
+import h5py
+import numpy as np
+
+NUM_WORLDS = 20
+
+
+def writer_command(mpiexec, ranks, writer, path, planned, frames, record_every=1, flush_s=0.0, move=0, pause_us=0,
+                   limit_bytes=0):
+    arguments = [planned, frames, record_every, flush_s, move, pause_us, limit_bytes]
+    return [mpiexec, "-n", str(ranks), writer, path] + [str(a) for a in arguments]
+
+
+def run_writer(*args, **kwargs):
+    return subprocess.run(writer_command(*args, **kwargs), capture_output=True, text=True, timeout=60)
+
+
+def world_and_body():
+    world = np.concatenate([np.full(8 + w % 2, w) for w in range(NUM_WORLDS)])
+    body = np.concatenate([np.arange(8 + w % 2) for w in range(NUM_WORLDS)])
+    return world, body
+
+
+def positions(frames):
+    """[len(frames)][N][3]; every term is a multiple of 1/16, so the sums are exact."""
+    world, body = world_and_body()
+    in_frame = 1000.0 * world[:, None] + 10.0 * body[:, None] + 0.0625 * np.arange(3) + 1.0
+    return in_frame[None] + 0.25 * np.asarray(frames, dtype=float)[:, None, None]
+
+
+def check(path):
+    """Asserts that all committed rows are finite and right, and returns how many frames are committed."""
+    with h5py.File(path, "r") as f:
+        committed = int(f.attrs["frames_committed"])
+        every = int(f.attrs["record_every"])
+        bodies = f["particles/bodies"]
+        world, body = world_and_body()
+        assert np.array_equal(bodies["world"][:], world) and np.array_equal(bodies["local_body"][:], body)
+        recorded = np.arange(committed // every) * every + every - 1
+        expected = positions(recorded)
+        rows = slice(0, len(recorded))
+        for name, factor in (("position", 1), ("velocity", -1), ("angular_velocity", 2)):
+            found = bodies[name]["value"][rows]
+            assert np.all(np.isfinite(found)), f"{path}: {name} is not finite"
+            assert np.array_equal(found, factor * expected), f"{path}: {name} is wrong"
+        assert np.array_equal(bodies["orientation/value"][rows][:, :, 3], 0.5 * np.repeat(recorded, len(world))
+                              .reshape(len(recorded), len(world)))
+        assert np.array_equal(bodies["position/step"][rows], 3 * (recorded + 1))
+        frames = np.arange(committed)
+        contacts = f["observables/world/contacts"][:committed]
+        assert np.array_equal(contacts, 100 * np.arange(NUM_WORLDS)[None] + frames[:, None])
+        assert np.array_equal(f["timings/frame/wall"][:committed], 1e-3 * (frames + 1))
+        ranks = np.arange(f["timings/rank/useful"].shape[1])
+        collide = 1e-4 * (ranks[None] + 1) + 1e-5 * 1 + 1e-6 * frames[:, None]
+        assert np.array_equal(f["timings/rank/collide"][:committed], collide)
+        for name, column in f["events"].items():
+            assert len(column) >= f["events"].attrs["num_events"], name
+        assert np.array_equal(f["events/frame"][:f["events"].attrs["num_events"]] % 4, np.ones(
+            f["events"].attrs["num_events"]))
+        return committed
+
+
+def only_file_in(folder, names):
+    assert sorted(os.listdir(folder)) == sorted(names), sorted(os.listdir(folder))

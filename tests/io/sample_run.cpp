@@ -1,0 +1,110 @@
+#include "sample_run.h"
+
+namespace pbmpi::io::test {
+
+using model::Vec3;
+
+double sample_position(int world, int body, std::int64_t frame, int axis) {
+  return 1000.0 * world + 10.0 * body + 0.25 * static_cast<double>(frame) + 0.0625 * axis + 1.0;
+}
+
+double sample_wall_s(std::int64_t frame) { return 1e-3 * static_cast<double>(frame + 1); }
+
+double sample_phase_s(int rank, int phase, std::int64_t frame) {
+  return 1e-4 * (rank + 1) + 1e-5 * (phase + 1) + 1e-6 * static_cast<double>(frame);
+}
+
+std::shared_ptr<const model::Model> sample_model(const Sample& sample, int world) {
+  auto made = std::make_shared<model::Model>();
+  made->actors = {{"floor", model::ActorKind::ground, false}, {"human1", model::ActorKind::human, false}};
+  made->geoms.push_back({model::no_body, 0, 0, model::Shape::plane, {}, {}, {}});
+  for (int b = 0; b < sample.bodies_per_world + world % 2; ++b) {
+    model::Body body;
+    // World 0 has the longest name, so that a rank without it must learn the length from another.
+    body.name = (world == 0 ? "human1.left_upper_arm_é" : "human1.b") + std::to_string(b);
+    body.actor = 1;
+    body.mass_kg = 2.0 + b;
+    body.pose.position = Vec3(world, b, 0.5);
+    made->bodies.push_back(body);
+    const model::Shape shape = b % 2 == 0 ? model::Shape::capsule : model::Shape::box;
+    made->geoms.push_back({b, 1, 0, shape, {0.1, 0.2, 0.3}, {Vec3(0, 0, 0.01 * b), {}}, {}});
+  }
+  return made;
+}
+
+model::State sample_state(const Sample& sample, int world, std::int64_t frame) {
+  model::State state;
+  state.resize(sample.bodies_per_world + world % 2);
+  for (int b = 0; b < state.num_bodies(); ++b) {
+    for (int axis = 0; axis < 3; ++axis) state.position[b][axis] = sample_position(world, b, frame, axis);
+    state.orientation[b] = {1.0, 0.125 * world, 0.125 * b, 0.5 * static_cast<double>(frame)};
+    state.velocity[b] = -state.position[b];
+    state.angular_velocity[b] = 2 * state.position[b];
+  }
+  return state;
+}
+
+model::Observables sample_observables(int world, std::int64_t frame) {
+  const int k = static_cast<int>(frame);
+  return {.contacts = 100 * world + k,
+          .rows = 300 * world + k,
+          .islands = world + 1,
+          .max_island_rows = 7 + k,
+          .energy_j = 0.5 * world + k,
+          .max_penetration_m = 1e-3 * (world + 1),
+          .joint_gap_m = 1e-4 * (k + 1),
+          .nonfinite = 0};
+}
+
+RankWorlds::RankWorlds(const Sample& sample, std::int64_t frame) {
+  std::vector<int> ids;
+  for (int w = 0; w < sample.num_worlds; ++w) {
+    if (sample.owner_of(w, frame) == sample.rank) ids.push_back(w);
+  }
+  for (const int w : ids) {
+    models.push_back(sample_model(sample, w));
+    states.push_back(sample_state(sample, w, frame));
+    observables.push_back(sample_observables(w, frame));
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    worlds.push_back({ids[i], models[i].get(), &states[i], &observables[i]});
+  }
+}
+
+RunSetup sample_setup(const Sample& sample, const RankWorlds& at_start, const std::string& path) {
+  RunSetup setup;
+  setup.path = path;
+  setup.attributes = {Parameter::of("scene", std::string("Sample")), Parameter::of("seed", std::int64_t{7}),
+                      Parameter::of("pbmpi_version", std::string("0.1.0")),
+                      Parameter::of("created", std::string("2024-01-02T03:04:05Z"))};
+  setup.parameters = {Parameter::of("dt_s", 0.01), Parameter::of("iterations", std::int64_t{20}),
+                      Parameter::of("scene_text", std::string("[[actor]]\nkind = \"human\"\n")),
+                      Parameter::of("empty", std::string())};
+  for (int w = 0; w < sample.num_worlds; ++w) {
+    setup.table.body_offset.push_back(setup.table.body_offset.back() + sample.bodies_per_world + w % 2);
+  }
+  setup.worlds = at_start.worlds;
+  for (int r = 0; r < sample.num_ranks; ++r) setup.hosts.push_back("node" + std::to_string(r));
+  setup.num_frames = sample.num_frames;
+  setup.record_every = sample.record_every;
+  setup.flush_interval_s = 1e9;
+  return setup;
+}
+
+void put_frame(RunFile& file, const Sample& sample, std::int64_t frame) {
+  const RankWorlds worlds(sample, frame);
+  model::FrameRecord record;
+  record.frame = frame;
+  record.step = 3 * (frame + 1);
+  record.time_s = 0.01 * static_cast<double>(record.step);
+  record.measured = frame >= 2;
+  record.worlds = worlds.worlds;
+  for (int phase = 0; phase < core::num_phases; ++phase) {
+    record.phases.seconds[phase] = sample_phase_s(sample.rank, phase, frame);
+  }
+  record.wall_s = sample_wall_s(frame);
+  record.deadline_met = frame % 2 == 0;
+  file.frame_done(record);
+}
+
+}  // namespace pbmpi::io::test

@@ -1,0 +1,93 @@
+#include "model/effects.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "support/models.h"
+
+namespace pbmpi::model {
+namespace {
+
+std::vector<std::string> pass_names(const Model& model) {
+  const StepPlan plan(model);
+  std::vector<std::string> names;
+  for (const Pass& pass : plan.passes()) names.emplace_back(pass.effect->name);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(StepPlan, of_a_free_smooth_body_has_gravity_only) {
+  Model model = support::free_box();
+  model.geoms[0].material.mu = 0;
+  EXPECT_EQ(pass_names(model), Names{"gravity"});
+}
+
+TEST(StepPlan, is_empty_where_nothing_is_called_for) {
+  Model model = support::free_box();
+  model.geoms[0].material.mu = 0;
+  model.gravity.setZero();
+  EXPECT_EQ(pass_names(model), Names{});
+}
+
+TEST(StepPlan, of_a_box_on_the_ground_collides_with_friction) {
+  Model model = support::box_over_ground(0);
+  EXPECT_EQ(pass_names(model), (Names{"collision", "friction", "gravity"}));
+  for (Geom& geom : model.geoms) geom.material.mu = 0;
+  model.geoms[0].material.restitution = 0.5;
+  EXPECT_EQ(pass_names(model), (Names{"collision", "restitution", "gravity"}));
+}
+
+TEST(StepPlan, has_joints_and_each_thing_that_a_joint_asks_for) {
+  Model model = support::pendulum(1, 0.1);
+  EXPECT_TRUE(StepPlan(model).has("joints"));
+  EXPECT_FALSE(StepPlan(model).has("limits"));
+  EXPECT_FALSE(StepPlan(model).has("motors"));
+  EXPECT_FALSE(StepPlan(model).has("suspension"));
+  model.joints[0].limits[1].high = 1;
+  model.joints[0].motors[0].max_force = 1;
+  model.joints[0].suspension.stiffness = 1;
+  EXPECT_TRUE(StepPlan(model).has("limits"));
+  EXPECT_TRUE(StepPlan(model).has("motors"));
+  EXPECT_TRUE(StepPlan(model).has("suspension"));
+}
+
+TEST(StepPlan, has_a_pass_for_each_kind_of_event) {
+  for (const auto& [kind, effect] : {std::pair{EventKind::launch, "events"},
+                                     {EventKind::steer, "steering"},
+                                     {EventKind::motor, "motors"}}) {
+    Model model = support::pendulum(1, 0.1);
+    EXPECT_FALSE(StepPlan(model).has(effect));
+    Event event;
+    event.kind = kind;
+    model.events.push_back(event);
+    EXPECT_TRUE(StepPlan(model).has(effect));
+  }
+}
+
+TEST(StepPlan, keeps_the_order_of_the_registry) {
+  const StepPlan plan(support::crash());
+  std::size_t at = 0;
+  for (const Pass& pass : plan.passes()) {
+    while (at < effect_registry().size() && effect_registry()[at].name != pass.effect->name) ++at;
+    ASSERT_LT(at, effect_registry().size()) << pass.effect->name << " stands too early";
+  }
+  EXPECT_GE(plan.passes().size(), 7u);
+}
+
+TEST(StepPlan, says_why) {
+  const StepPlan plan(support::crash());
+  for (const Pass& pass : plan.passes()) EXPECT_FALSE(pass.reason.empty()) << pass.effect->name;
+  const auto joints = std::find_if(plan.passes().begin(), plan.passes().end(),
+                                   [](const Pass& pass) { return pass.effect->name == "joints"; });
+  ASSERT_NE(joints, plan.passes().end());
+  EXPECT_EQ(joints->reason, "34 joints");
+}
+
+TEST(StepPlan, refuses_the_name_of_no_effect) {
+  EXPECT_THROW(StepPlan(support::free_box()).has("telepathy"), std::logic_error);
+}
+
+}  // namespace
+}  // namespace pbmpi::model

@@ -1,0 +1,108 @@
+#include "model/validate.h"
+
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "support/models.h"
+
+namespace pbmpi::model {
+namespace {
+
+/// What validate() says of the crash model after `spoil`; empty if it says nothing.
+std::string complaint(const std::function<void(Model&)>& spoil) {
+  Model model = support::crash();
+  model.events.emplace_back();
+  model.events[0].body = 0;
+  spoil(model);
+  try {
+    validate(model, "here.toml:3:1");
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+struct Case {
+  const char* name;
+  std::function<void(Model&)> spoil;
+  const char* part;  ///< of the message
+};
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = {
+      {"no body", [](Model& m) { m = Model{}; }, "no body"},
+      {"mass 0", [](Model& m) { m.bodies[1].mass_kg = 0; }, "body 'car.wheel0': the mass"},
+      {"mass NaN", [](Model& m) { m.bodies[1].mass_kg = NAN; }, "the mass"},
+      {"mass infinite", [](Model& m) { m.bodies[1].mass_kg = infinity; }, "the mass"},
+      {"inertia skew", [](Model& m) { m.bodies[0].inertia(0, 1) += 1; }, "symmetric"},
+      {"inertia NaN", [](Model& m) { m.bodies[0].inertia(0, 0) = NAN; }, "inertia"},
+      {"inertia negative", [](Model& m) { m.bodies[0].inertia(2, 2) = -1; }, "positive definite"},
+      {"pose NaN", [](Model& m) { m.bodies[0].pose.position.x() = NAN; }, "pose is not finite"},
+      {"turn NaN", [](Model& m) { m.bodies[0].pose.orientation.w = NAN; }, "pose is not finite"},
+      {"turn long", [](Model& m) { m.bodies[0].pose.orientation.w = 1.001; }, "unit quaternion"},
+      {"velocity NaN", [](Model& m) { m.bodies[0].velocity.y() = NAN; }, "velocity is not finite"},
+      {"spin infinite", [](Model& m) { m.bodies[0].angular_velocity.y() = infinity; }, "velocity"},
+      {"body's actor", [](Model& m) { m.bodies[0].actor = 99; }, "actor 99 does not exist"},
+      {"same name", [](Model& m) { m.bodies[1].name = m.bodies[0].name; }, "'car.chassis' exists twice"},
+      {"geom's body", [](Model& m) { m.geoms[2].body = 37; }, "geom 2: body 37 does not exist"},
+      {"geom's actor", [](Model& m) { m.geoms[2].actor = -1; }, "actor -1"},
+      {"geom's space", [](Model& m) { m.geoms[2].space = 1; }, "space 1"},
+      {"size 0", [](Model& m) { m.geoms[0].size[2] = 0; }, "size"},
+      {"size NaN", [](Model& m) { m.geoms[0].size[0] = NAN; }, "size"},
+      {"moving plane", [](Model& m) { m.geoms.back().body = 0; }, "plane"},
+      {"mu negative", [](Model& m) { m.geoms[0].material.mu = -1; }, "mu"},
+      {"restitution 2", [](Model& m) { m.geoms[0].material.restitution = 2; }, "restitution"},
+      {"joint's a", [](Model& m) { m.joints[0].body_a = no_body; }, "joint 'joint0': body -1"},
+      {"joint's b", [](Model& m) { m.joints[0].body_b = 50; }, "body 50"},
+      {"joint with itself", [](Model& m) { m.joints[0].body_b = m.joints[0].body_a; }, "itself"},
+      {"anchor NaN", [](Model& m) { m.joints[0].anchor_b.z() = NAN; }, "anchor"},
+      {"axis long", [](Model& m) { m.joints[0].axis1_a *= 2; }, "axis is not a unit"},
+      {"limits swapped",
+       [](Model& m) {
+         m.joints[0].limits[0] = {1, -1};
+       },
+       "above high"},
+      {"limit NaN", [](Model& m) { m.joints[0].limits[0].low = NAN; }, "limit"},
+      {"motor NaN", [](Model& m) { m.joints[0].motors[0].velocity = NAN; }, "motor"},
+      {"motor pushes back", [](Model& m) { m.joints[0].motors[0].max_force = -1; }, "motor"},
+      {"spring negative", [](Model& m) { m.joints[0].suspension.damping = -1; }, "spring"},
+      {"event too early", [](Model& m) { m.events[0].step = -1; }, "event 0: it is scheduled at step -1"},
+      {"event's body", [](Model& m) { m.events[0].body = 37; }, "body 37"},
+      {"launch NaN", [](Model& m) { m.events[0].velocity.x() = NAN; }, "launch velocity"},
+      {"event's joint", [](Model& m) { m.events[0].kind = EventKind::motor; }, "joint -1"},
+      {"event's axis",
+       [](Model& m) {
+         m.events[0].kind = EventKind::motor;
+         m.events[0].joint = 0;
+         m.events[0].axis = 2;
+       },
+       "axis 2"},
+      {"gravity NaN", [](Model& m) { m.gravity.x() = NAN; }, "gravity"},
+      {"erp 2", [](Model& m) { m.erp = 2; }, "erp"},
+      {"cfm negative", [](Model& m) { m.cfm = -1; }, "cfm"},
+      {"no contacts", [](Model& m) { m.contact_law.max_per_pair = 0; }, "max_per_pair"},
+  };
+  return all;
+}
+
+TEST(Validate, accepts_the_crash_model) {
+  EXPECT_EQ(complaint([](Model&) {}), "");
+}
+
+TEST(Validate, names_the_place_and_the_thing_of_each_mistake) {
+  for (const Case& wrong : cases()) {
+    const std::string message = complaint(wrong.spoil);
+    EXPECT_EQ(message.rfind("here.toml:3:1", 0), 0u) << wrong.name << ": " << message;
+    EXPECT_NE(message.find(wrong.part), std::string::npos) << wrong.name << ": " << message;
+  }
+}
+
+TEST(Validate, allows_a_quaternion_that_is_a_rounding_off_unit_length) {
+  EXPECT_EQ(complaint([](Model& m) { m.bodies[0].pose.orientation.w = 1 + 1e-15; }), "");
+}
+
+}  // namespace
+}  // namespace pbmpi::model

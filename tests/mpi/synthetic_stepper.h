@@ -1,0 +1,100 @@
+/// A stepper without physics: bodies move by a formula of (world, body, step), and costs are what a test
+/// says.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/random.h"
+#include "model/stepper.h"
+
+namespace pbmpi::testing_support {
+
+/// World `world` has 1 + world % 3 bodies, each at a place of its own.
+inline std::shared_ptr<const model::Model> synthetic_model(int world) {
+  auto model = std::make_shared<model::Model>();
+  model->actors.push_back({"prop", model::ActorKind::prop, false});
+  for (int i = 0; i < 1 + world % 3; ++i) {
+    model::Body body;
+    body.name = "body" + std::to_string(i);
+    body.pose.position = {100.0 * world, 1.0 * i, 0.5};
+    body.velocity = {0.1 * world, -0.1 * i, 1.0 / 3};
+    model->bodies.push_back(body);
+  }
+  return model;
+}
+
+class SyntheticStepper final : public model::WorldStepper {
+ public:
+  /// What a test wants of it. Each function is asked for a (world, step about to be done).
+  struct Behaviour {
+    std::function<double(int world)> cost_s = [](int) { return 1e-3; };
+    std::function<void(int world, std::int64_t step)> before_step = [](int, std::int64_t) {};  ///< may throw
+    std::function<bool(int world, std::int64_t step)> turns_nan = [](int, std::int64_t) { return false; };
+  };
+
+  SyntheticStepper() = default;
+  explicit SyntheticStepper(Behaviour behaviour) : behaviour_(std::move(behaviour)) {}
+
+  void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
+           std::int64_t step) override {
+    const bool is_new = worlds_.emplace(world, World{std::move(model), state, {}, step}).second;
+    if (!is_new) throw std::logic_error("world " + std::to_string(world) + " was added twice");
+  }
+  void remove(int world) override {
+    if (worlds_.erase(world) != 1) throw std::logic_error("world " + std::to_string(world) + " is not here");
+  }
+
+  void advance(int num_steps, core::PhaseTimes& times) override {
+    core::LapTimer timer(times);
+    for (auto& [id, world] : worlds_) {
+      for (int i = 0; i < num_steps; ++i) step(id, world);
+      world.observables.nonfinite = model::count_nonfinite(world.state);
+    }
+    timer.lap(core::Phase::solve);
+  }
+
+  const model::State& state(int world) const override { return worlds_.at(world).state; }
+  const model::Model& model(int world) const override { return *worlds_.at(world).model; }
+  const model::Observables& observables(int world) const override { return worlds_.at(world).observables; }
+  double cost_s(int world) const override { return behaviour_.cost_s(world); }
+
+  int num_worlds() const { return static_cast<int>(worlds_.size()); }
+
+ private:
+  struct World {
+    std::shared_ptr<const model::Model> model;
+    model::State state;
+    model::Observables observables;
+    std::int64_t step = 0;
+  };
+
+  /// Every number of the state enters the next, and so does the step's number: a bit lost anywhere shows.
+  void step(int id, World& world) {
+    behaviour_.before_step(id, world.step);
+    for (int i = 0; i < world.state.num_bodies(); ++i) {
+      const auto key = core::mix_key(static_cast<std::uint64_t>(id), static_cast<std::uint64_t>(i),
+                                     static_cast<std::uint64_t>(world.step));
+      model::Vec3& velocity = world.state.velocity[i];
+      velocity = 0.9 * velocity + model::Vec3(core::to_unit(key), -0.5, 0.25);
+      world.state.position[i] += 0.01 * velocity;
+      world.state.angular_velocity[i] += 0.5 * velocity;
+      world.state.orientation[i].x = 0.5 * world.state.orientation[i].x + world.state.angular_velocity[i].x();
+    }
+    if (behaviour_.turns_nan(id, world.step)) {
+      world.state.position[0].x() = std::numeric_limits<double>::quiet_NaN();
+    }
+    ++world.step;
+  }
+
+  Behaviour behaviour_;
+  std::map<int, World> worlds_;
+};
+
+}  // namespace pbmpi::testing_support

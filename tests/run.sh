@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Passes the tests on a fresh Debian 12, packages included: installs, builds, runs ctest. Options go to ctest, e.g.
+# `tests/run.sh -R partition`. `-LE slow` is the default; `tests/run.sh -L slow` runs the long matrices.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+jobs/install_packages.sh --tests
+jobs/build.sh release -DPBMPI_BUILD_TESTS=ON -DPBMPI_BUILD_BENCHMARKS=ON
+if [[ $# -eq 0 ]]; then
+  set -- -LE slow
+fi
+ctest --preset release --parallel 2 "$@"

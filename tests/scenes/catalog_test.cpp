@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.h"
+#include "helpers.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+std::string error_of_find(const std::string& name) {
+  try {
+    find_scene(name);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Catalog, lists_the_scenes_in_the_order_of_the_papers_table) {
+  std::vector<std::string> names;
+  for (const SceneInfo& scene : list_scenes()) {
+    names.push_back(scene.name);
+    EXPECT_FALSE(scene.title.empty()) << scene.name;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"2-Cars", "10-Cars", "CrashSk", "100CrSk"}));
+}
+
+TEST(Catalog, every_scene_that_it_lists_builds_a_valid_first_and_last_world) {
+  for (const SceneInfo& info : list_scenes()) {
+    const auto scene = parse_scene(find_scene(info.name));
+    EXPECT_EQ(scene->name(), info.name);
+    EXPECT_EQ(scene->title(), info.title);
+    EXPECT_GT(scene->build(0, 1)->num_bodies(), 0) << info.name;
+    EXPECT_GT(scene->build(scene->defaults().replicas - 1, 1)->num_bodies(), 0) << info.name;
+  }
+}
+
+TEST(Catalog, suggests_the_nearest_names_for_an_unknown_scene) {
+  const std::string message = error_of_find("CrashSkk");
+  EXPECT_NE(message.find("unknown scene 'CrashSkk'; did you mean 'CrashSk' or '100CrSk'?"), std::string::npos)
+      << message;
+}
+
+TEST(Catalog, lists_all_scenes_when_no_name_is_near) {
+  EXPECT_NE(error_of_find("Waterfall").find("known: '2-Cars', '10-Cars', 'CrashSk', '100CrSk'"),
+            std::string::npos);
+}
+
+TEST(Catalog, reads_a_users_own_file_by_its_path) {
+  const SceneSource source = find_scene(std::string(PBMPI_TEST_SCENES) + "/Unequal.toml");
+  EXPECT_EQ(source.name, "Unequal");
+  const auto scene = parse_scene(source);
+  EXPECT_EQ(scene->defaults().replicas, 16);
+  EXPECT_EQ(scene->text(), source.text);
+}
+
+TEST(Catalog, refuses_a_file_that_is_not_there_and_a_folder) {
+  EXPECT_NE(error_of_find("no/such/file.toml").find("no/such/file.toml: cannot open"), std::string::npos);
+  const auto folder = std::filesystem::path(testing::TempDir()) / "folder.toml";
+  std::filesystem::create_directories(folder);
+  EXPECT_NE(error_of_find(folder.string()).find("this is a folder"), std::string::npos);
+}
+
+TEST(Catalog, names_a_users_file_in_the_errors_of_its_content) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "broken.toml";
+  std::ofstream(path) << "title = \"t\"\nreplicas = \n";
+  try {
+    parse_scene(find_scene(path.string()));
+    FAIL() << "a broken file was accepted";
+  } catch (const core::InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find(path.string() + ":2:"), 0u) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace pbmpi::scenes
