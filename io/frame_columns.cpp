@@ -89,8 +89,8 @@ void link_step_and_time(hid_t file) {
 }
 
 /// What root alone writes into a one-dimensional table.
-std::vector<Run> on_root(const FileRanks& ranks) {
-  return ranks.is_root() ? std::vector<Run>{{0, 1}} : std::vector<Run>{};
+std::vector<Range> on_root(const FileRanks& ranks) {
+  return ranks.is_root() ? std::vector<Range>{{0, 1}} : std::vector<Range>{};
 }
 
 }  // namespace
@@ -134,11 +134,11 @@ void FrameColumns::add(const model::FrameRecord& frame) {
 }
 
 void FrameColumns::add_bodies(const model::FrameRecord& frame) {
-  std::vector<Run> runs;
+  std::vector<Range> ranges;
   for (const model::LocalWorld& world : frame.worlds) {
-    append_run(runs, static_cast<hsize_t>(table_.body_offset[world.id]), world.state->position.size());
+    append_range(ranges, static_cast<hsize_t>(table_.body_offset[world.id]), world.state->position.size());
   }
-  bodies_.begin_row(runs);
+  bodies_.begin_row(ranges);
   for (const model::LocalWorld& world : frame.worlds) {
     const model::State& state = *world.state;
     const auto first = static_cast<hsize_t>(table_.body_offset[world.id]);
@@ -153,9 +153,9 @@ void FrameColumns::add_bodies(const model::FrameRecord& frame) {
 }
 
 void FrameColumns::add_observables(const model::FrameRecord& frame) {
-  std::vector<Run> runs;
-  for (const model::LocalWorld& world : frame.worlds) append_run(runs, static_cast<hsize_t>(world.id), 1);
-  worlds_.begin_row(runs);
+  std::vector<Range> ranges;
+  for (const model::LocalWorld& world : frame.worlds) append_range(ranges, static_cast<hsize_t>(world.id), 1);
+  worlds_.begin_row(ranges);
   for (const model::LocalWorld& world : frame.worlds) {
     const model::Observables& seen = *world.observables;
     const auto item = static_cast<hsize_t>(world.id);
@@ -213,8 +213,8 @@ std::string FrameColumns::write(const PropertyList& transfer) {
   return error;
 }
 
-std::vector<std::pair<std::int64_t, std::int64_t>> FrameColumns::cut(hid_t file) {
-  std::vector<std::pair<std::int64_t, std::int64_t>> unused;
+std::vector<ByteRange> FrameColumns::cut(hid_t file) {
+  std::vector<ByteRange> unused;
   for (GrowingTable* table : tables()) table->cut(file, unused);
   return unused;
 }

@@ -27,8 +27,7 @@ std::vector<hsize_t> extent(hid_t dataset) {
 }
 
 /// Adds the bytes of the chunks that lie behind row `num_rows` altogether.
-void add_unused_chunks(hid_t dataset, hsize_t num_rows,
-                       std::vector<std::pair<std::int64_t, std::int64_t>>& unused) {
+void add_unused_chunks(hid_t dataset, hsize_t num_rows, std::vector<ByteRange>& unused) {
   const auto space = owned<Dataspace>(H5Dget_space(dataset), "H5Dget_space");
   hsize_t num_chunks = 0;
   check(H5Dget_num_chunks(dataset, space.id(), &num_chunks), "H5Dget_num_chunks");
@@ -60,9 +59,9 @@ GrowingTable::GrowingTable(hid_t file, const std::string& group, const std::vect
   }
 }
 
-void GrowingTable::begin_row(const std::vector<Run>& runs) {
+void GrowingTable::begin_row(const std::vector<Range>& ranges) {
   core::require_invariant(!full() && written_ + num_waiting_ < shape_.num_rows, "a row too many");
-  blocks_.add(static_cast<std::int64_t>(written_ + num_waiting_), runs);
+  blocks_.add(static_cast<std::int64_t>(written_ + num_waiting_), ranges);
   ++num_waiting_;
 }
 
@@ -116,7 +115,7 @@ void GrowingTable::close() {
   for (Column& column : columns_) column.dataset.close();
 }
 
-void GrowingTable::cut(hid_t file, std::vector<std::pair<std::int64_t, std::int64_t>>& unused) const {
+void GrowingTable::cut(hid_t file, std::vector<ByteRange>& unused) const {
   for (const Column& column : columns_) {
     const auto dataset =
         owned<Dataset>(H5Dopen2(file, column.path.c_str(), H5P_DEFAULT), "H5Dopen(" + column.path + ")");

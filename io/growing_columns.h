@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "io/hdf5_handle.h"
+#include "io/output_target.h"
 #include "io/parallel_file.h"
 #include "io/rows.h"
 
@@ -39,9 +40,9 @@ class GrowingTable {
   GrowingTable(hid_t file, const std::string& group, const std::vector<ColumnSpec>& columns,
                TableShape shape);
 
-  /// Begins the next row, in which this rank writes the items of `runs` ({0, 1} or nothing in a
+  /// Begins the next row, in which this rank writes the items of `ranges` ({0, 1} or nothing in a
   /// one-dimensional table).
-  void begin_row(const std::vector<Run>& runs);
+  void begin_row(const std::vector<Range>& ranges);
   /// Puts `count` items, each a T, into the row begun last.
   template <class T>
   void put(std::size_t column, hsize_t first_item, const T* items, hsize_t count) {
@@ -72,7 +73,7 @@ class GrowingTable {
   /// Cuts the datasets, which `file` has opened anew, to the rows written; adds to `unused` the bytes of the
   /// file that this frees. One rank alone: HDF5 1.10 gets stuck if ranks cut together a dataset whose chunks
   /// only some of them have written.
-  void cut(hid_t file, std::vector<std::pair<std::int64_t, std::int64_t>>& unused) const;
+  void cut(hid_t file, std::vector<ByteRange>& unused) const;
 
  private:
   struct Column {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -37,13 +38,25 @@ class Descriptor {
   int fd_;
 };
 
-/// errno of reserving `bytes` for the file, 0 if all went well or the file system cannot reserve.
-int reserve(int fd, std::int64_t bytes) {
+bool has_free(const std::string& path, std::int64_t bytes) {
+  struct statvfs system {};
+  if (statvfs(path.c_str(), &system) != 0) return true;
+  return static_cast<double>(system.f_bavail) * static_cast<double>(system.f_frsize) >=
+         static_cast<double>(bytes);
+}
+
+rlim_t largest_file() {
   rlimit limit{};
+  return getrlimit(RLIMIT_FSIZE, &limit) == 0 ? limit.rlim_cur : RLIM_INFINITY;
+}
+
+/// errno of reserving `bytes` for the file, 0 if all went well. A file system that cannot reserve is only
+/// asked for its free space.
+int reserve(const Descriptor& file, const std::string& path, std::int64_t bytes) {
   // Asked first, because passing the limit raises SIGXFSZ.
-  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur < static_cast<rlim_t>(bytes)) return EFBIG;
-  while (fallocate(fd, 0, 0, bytes) != 0) {
-    if (errno == EOPNOTSUPP || errno == ENOSYS) return 0;
+  if (largest_file() < static_cast<rlim_t>(bytes)) return EFBIG;
+  while (fallocate(file.get(), 0, 0, bytes) != 0) {
+    if (errno == EOPNOTSUPP || errno == ENOSYS) return has_free(path, bytes) ? 0 : ENOSPC;
     if (errno != EINTR) return errno;
   }
   return 0;
@@ -80,7 +93,7 @@ OutputTarget::OutputTarget(const std::string& path, std::int64_t bytes) : path_(
   if (file.get() < 0) refuse(path, reason(errno), "give the name of a file in a directory you can write to");
   temporary_path_ = temporary;
   // HDF5 creates the file anew and reserves nothing; this only asks whether it would fit.
-  if (const int error = reserve(file.get(), bytes); error != 0) {
+  if (const int error = reserve(file, temporary, bytes); error != 0) {
     unlink(temporary.c_str());
     refuse_space(path, bytes, error);
   }
@@ -103,13 +116,20 @@ void OutputTarget::publish() {
   const Descriptor file(temporary_path_, O_WRONLY);
   struct stat status {};
   if (file.get() < 0 || fstat(file.get(), &status) != 0) refuse(path_, reason(errno), "try again");
-  if (const int error = reserve(file.get(), status.st_size); error != 0) {
+  if (const int error = reserve(file, temporary_path_, status.st_size); error != 0) {
     refuse_space(path_, status.st_size, error);
   }
   if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0) {
     refuse(path_, reason(errno), "give another name");
   }
   temporary_path_.clear();
+}
+
+std::string OutputTarget::shortage() const {
+  constexpr std::int64_t nothing_left = 64 * 1024;
+  std::error_code ignored;
+  if (fs::file_size(path_, ignored) > largest_file()) return reason(EFBIG);
+  return has_free(path_, nothing_left) ? "" : reason(ENOSPC);
 }
 
 void OutputTarget::release(const std::vector<ByteRange>& unused) const {

@@ -29,6 +29,9 @@ class OutputTarget {
   /// Reserves the disk space of the whole file, so that the disk cannot become full in mid-run, and renames
   /// it. Throws core::InputError.
   void publish();
+  /// Why a write may just have failed, which MPI-IO does not tell: a full disk or a limit on the size of
+  /// files. Empty if neither is the case.
+  std::string shortage() const;
   /// Gives disk space back that the file reserved and never used. Best effort.
   void release(const std::vector<ByteRange>& unused) const;
 

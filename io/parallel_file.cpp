@@ -79,7 +79,7 @@ std::string FileRanks::first_error(const std::string& error) const {
   error.copy(text.data(), text.size() - 1);
   check_mpi(MPI_Bcast(text.data(), static_cast<int>(text.size()), MPI_CHAR, failed, comm), "MPI_Bcast",
             rank_);
-  return size_ == 1 ? text.data() : text.data() + (" (rank " + std::to_string(failed) + ")");
+  return failed == root ? text.data() : text.data() + (" (rank " + std::to_string(failed) + ")");
 }
 
 File FileRanks::create(const std::string& path) const {
@@ -102,6 +102,10 @@ PropertyList collective_transfer() {
   check(H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE), "H5Pset_dxpl_mpio");
   // One operation for all chunks: if it fails on one rank, no other rank is left in a loop over chunks.
   check(H5Pset_dxpl_mpio_chunk_opt(transfer.id(), H5FD_MPIO_CHUNK_ONE_IO), "H5Pset_dxpl_mpio_chunk_opt");
+  // Each rank writes its own bytes: Open MPI 4.1's collective buffering (OMPIO, fcoll vulcan) drops the
+  // errors of its aggregators, so that a full disk would look like success.
+  check(H5Pset_dxpl_mpio_collective_opt(transfer.id(), H5FD_MPIO_INDIVIDUAL_IO),
+        "H5Pset_dxpl_mpio_collective_opt");
   return transfer;
 }
 

@@ -28,7 +28,7 @@ class FileRanks {
   void sum(std::span<std::int64_t> values) const;
   std::int64_t max(std::int64_t value) const;
 
-  /// The error of the lowest rank that has one, with the rank's number; empty if no rank has one.
+  /// The error of the lowest rank that has one, with the rank's number if it is not root; empty if none has.
   std::string first_error(const std::string& error) const;
 
   /// Does `work` on every rank; if it threw on any, throws Error with the same message on all.

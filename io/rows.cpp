@@ -20,27 +20,27 @@ void unite(const Dataspace& space, const std::vector<hsize_t>& start, const std:
 
 }  // namespace
 
-void append_run(std::vector<Run>& runs, hsize_t first, hsize_t count) {
+void append_range(std::vector<Range>& ranges, hsize_t first, hsize_t count) {
   if (count == 0) return;
-  if (!runs.empty() && runs.back().first + runs.back().count == first) {
-    runs.back().count += count;
+  if (!ranges.empty() && ranges.back().first + ranges.back().count == first) {
+    ranges.back().count += count;
   } else {
-    runs.push_back({first, count});
+    ranges.push_back({first, count});
   }
 }
 
-hsize_t count_items(const std::vector<Run>& runs) {
+hsize_t count_items(const std::vector<Range>& ranges) {
   hsize_t count = 0;
-  for (const Run& run : runs) count += run.count;
+  for (const Range& range : ranges) count += range.count;
   return count;
 }
 
-void RowBlocks::add(std::int64_t row, const std::vector<Run>& runs) {
+void RowBlocks::add(std::int64_t row, const std::vector<Range>& ranges) {
   if (!blocks_.empty() && blocks_.back().first_row + blocks_.back().num_rows == row &&
-      blocks_.back().runs == runs) {
+      blocks_.back().ranges == ranges) {
     ++blocks_.back().num_rows;
   } else {
-    blocks_.push_back({row, 1, runs});
+    blocks_.push_back({row, 1, ranges});
   }
 }
 
@@ -51,23 +51,23 @@ void RowBlocks::select(const Dataspace& space, std::int64_t first_row) const {
   for (const Block& block : blocks_) {
     start[0] = static_cast<hsize_t>(block.first_row - first_row);
     count[0] = static_cast<hsize_t>(block.num_rows);
-    for (const Run& run : block.runs) {
+    for (const Range& range : block.ranges) {
       if (count.size() > 1) {
-        start[1] = run.first;
-        count[1] = run.count;
+        start[1] = range.first;
+        count[1] = range.count;
       }
       unite(space, start, count);
     }
   }
 }
 
-void select_runs(const Dataspace& space, const std::vector<Run>& runs) {
+void select_ranges(const Dataspace& space, const std::vector<Range>& ranges) {
   check(H5Sselect_none(space.id()), "H5Sselect_none");
   std::vector<hsize_t> count = extent(space);
   std::vector<hsize_t> start(count.size(), 0);
-  for (const Run& run : runs) {
-    start[0] = run.first;
-    count[0] = run.count;
+  for (const Range& range : ranges) {
+    start[0] = range.first;
+    count[0] = range.count;
     unite(space, start, count);
   }
 }

@@ -9,24 +9,24 @@
 namespace pbmpi::io {
 
 /// Neighbouring items of a row: [first, first + count).
-struct Run {
+struct Range {
   hsize_t first = 0;
   hsize_t count = 0;
-  bool operator==(const Run&) const = default;
+  bool operator==(const Range&) const = default;
 };
 
-/// Adds a run behind the others; neighbours become one. Empty runs are dropped.
-void append_run(std::vector<Run>& runs, hsize_t first, hsize_t count);
+/// Adds a run behind the others; neighbours become one. Empty ranges are dropped.
+void append_range(std::vector<Range>& ranges, hsize_t first, hsize_t count);
 
-/// Items in all runs.
-hsize_t count_items(const std::vector<Run>& runs);
+/// Items in all ranges.
+hsize_t count_items(const std::vector<Range>& ranges);
 
-/// Consecutive rows, in each of which this rank writes some runs of items. Rows with the same runs form one
-/// block, so that without migration a whole flush is a few hyperslabs.
+/// Consecutive rows, in each of which this rank writes some ranges of items. Rows with the same ranges form
+/// one block, so that without migration a whole flush is a few hyperslabs.
 class RowBlocks {
  public:
-  /// `row` follows the last one added; `runs` are sorted.
-  void add(std::int64_t row, const std::vector<Run>& runs);
+  /// `row` follows the last one added; `ranges` are sorted.
+  void add(std::int64_t row, const std::vector<Range>& ranges);
   void clear() { blocks_.clear(); }
   /// Selects these rows, less `first_row`, in `space` [rows] or [rows][items][...]; nothing if there is
   /// nothing to write.
@@ -36,13 +36,13 @@ class RowBlocks {
   struct Block {
     std::int64_t first_row;
     std::int64_t num_rows;
-    std::vector<Run> runs;
+    std::vector<Range> ranges;
   };
   std::vector<Block> blocks_;
 };
 
-/// Selects `runs` of items in `space` [items][...].
-void select_runs(const Dataspace& space, const std::vector<Run>& runs);
+/// Selects `ranges` of items in `space` [items][...].
+void select_ranges(const Dataspace& space, const std::vector<Range>& ranges);
 
 /// Chunks for `dims`, row first: whole rows of 1 to 4 MiB (a row beyond that is cut along its items), or the
 /// whole dataset if it is smaller. Rows are spread evenly over the chunks, so that the last is not half

@@ -4,6 +4,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "io/commit_record.h"
 #include "io/frame_columns.h"
 #include "io/output_target.h"
 #include "io/parallel_file.h"
@@ -14,7 +15,7 @@ namespace pbmpi::io {
 class RunFile::Impl {
  public:
   Impl(const FileGroup& group, RunSetup setup);
-  ~Impl() { file_.release(); }  // closing is collective
+  ~Impl() { file_.release(); }  // closing it is collective
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
@@ -29,16 +30,16 @@ class RunFile::Impl {
   /// Does `work` on every rank; an error on any closes the file on all and becomes the same RunError.
   template <class Work>
   void write_together(Work&& work);
-  /// Closes what is open of the file, on every rank. False if HDF5 could not write all of it.
-  bool close_file();
-  /// Root only, when the file is closed: cuts the datasets to the frames and events committed.
-  void cut();
+  /// After an error on which all ranks agree: closes what is open, and drops errors of closing.
+  void close_all();
+  /// Root only, when the file is closed for data.
+  void finish(bool complete, const std::string& state_hash);
 
   RunSetup setup_;
   FileRanks ranks_;
   OutputTarget target_;  ///< root only
   File file_;
-  LiveAttributes live_;
+  CommitRecord record_;  ///< root only
   std::optional<FrameColumns> columns_;
   PropertyList transfer_;
   double last_flush_s_ = 0;
@@ -55,10 +56,12 @@ RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(s
   try {
     ranks_.together([this] { make_skeleton(); });
     ranks_.together<core::InputError>([this] {
-      if (ranks_.is_root()) target_.publish();
+      if (!ranks_.is_root()) return;
+      target_.publish();
+      record_ = CommitRecord(target_.path());
     });
   } catch (...) {
-    close_file();
+    close_all();
     throw;
   }
   open_ = true;
@@ -68,7 +71,7 @@ RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(s
 void RunFile::Impl::make_skeleton() {
   file_ = ranks_.create(ranks_.broadcast(target_.temporary_path()));
   transfer_ = collective_transfer();
-  live_ = write_skeleton(ranks_, file_.id(), setup_);
+  write_skeleton(ranks_, file_.id(), setup_);
   const RunShape shape{setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(), setup_.num_frames,
                        setup_.record_every};
   columns_.emplace(file_.id(), ranks_, setup_.table, shape);
@@ -80,8 +83,10 @@ void RunFile::Impl::write_together(Work&& work) {
   try {
     ranks_.together(std::forward<Work>(work));
   } catch (const core::RunError& error) {
-    close_file();
-    throw core::RunError("cannot write " + setup_.path + ": " + error.what() +
+    close_all();
+    std::string shortage = ranks_.broadcast(ranks_.is_root() ? target_.shortage() : "");
+    if (!shortage.empty()) shortage += "; ";
+    throw core::RunError("cannot write " + setup_.path + ": " + shortage + error.what() +
                          "; the frames committed before are readable");
   }
 }
@@ -105,12 +110,10 @@ void RunFile::Impl::flush() {
       const std::string error = columns_->write(transfer_);
       if (!error.empty()) throw core::RunError(error);
     });
-    // The data reach the file before the number that vouches for them.
+    write_together([this] { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush"); });
+    // The data of all ranks are in the file before the number that vouches for them.
     write_together([this] {
-      check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
-      rewrite(live_.num_events, columns_->events_written());
-      rewrite(live_.frames_committed, columns_->frames_written());
-      check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
+      if (ranks_.is_root()) record_.commit(columns_->frames_written(), columns_->events_written());
     });
   }
   last_flush_s_ = core::now_s();
@@ -119,33 +122,28 @@ void RunFile::Impl::flush() {
 void RunFile::Impl::close(bool complete, const std::string& state_hash) {
   if (!open_) return;
   flush();
-  const std::string hash = ranks_.broadcast(state_hash);
+  open_ = false;
+  write_together([this] {
+    columns_->close();
+    if (!file_.close()) check(-1, "H5Fclose");
+  });
   write_together([&] {
-    rewrite(live_.num_dropped, columns_->events_dropped());
-    rewrite(live_.state_hash, hash);
-    rewrite(live_.complete, complete ? 1 : 0);
-    check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
-  });
-  write_together([this] {
-    if (!close_file()) check(-1, "H5Fclose");
-  });
-  write_together([this] {
-    if (ranks_.is_root()) cut();
+    if (ranks_.is_root()) finish(complete, state_hash);
   });
 }
 
-void RunFile::Impl::cut() {
-  File file = open_alone(target_.path());
-  const std::vector<ByteRange> unused = columns_->cut(file.id());
-  if (!file.close()) check(-1, "H5Fclose");
+void RunFile::Impl::finish(bool complete, const std::string& state_hash) {
+  record_.finish(complete, state_hash, columns_->events_dropped());
+  const std::vector<ByteRange> unused = columns_->cut(record_.file());
+  if (!record_.close()) check(-1, "H5Fclose");
   target_.release(unused);
 }
 
-bool RunFile::Impl::close_file() {
+void RunFile::Impl::close_all() {
   open_ = false;
   if (columns_) columns_->close();
-  live_.close();
-  return file_.close();
+  file_.close();
+  record_.close();
 }
 
 RunFile::RunFile(const FileGroup& group, RunSetup setup)

@@ -5,12 +5,11 @@
 #include <ctime>
 
 #include "io/columns.h"
+#include "io/commit_record.h"
 #include "io/static_columns.h"
 
 namespace pbmpi::io {
 namespace {
-
-constexpr std::size_t hash_digits = 16;
 
 const Parameter* find(const std::vector<Parameter>& parameters, const std::string& name) {
   const auto found = std::find_if(parameters.begin(), parameters.end(),
@@ -68,7 +67,7 @@ void write_h5md(hid_t file, const RunSetup& setup) {
   write_boundary(box.id());
 }
 
-LiveAttributes write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   const auto root = owned<Group>(H5Gopen2(file, "/", H5P_DEFAULT), "H5Gopen(/)");
   write_attribute(root.id(), "filetype", std::string(filetype));
   write_version(root.id(), layout_major, layout_minor);
@@ -78,11 +77,7 @@ LiveAttributes write_root(const FileRanks& ranks, hid_t file, const RunSetup& se
   }
   write_attribute(root.id(), "record_every", std::int64_t{setup.record_every});
   const Group events = create_group(file, "/events");
-  return {write_attribute(root.id(), "frames_committed", std::int64_t{0}),
-          write_attribute(root.id(), "complete", std::int64_t{0}),
-          write_attribute(root.id(), "state_hash", std::string(hash_digits, ' ')),
-          write_attribute(events.id(), "num_events", std::int64_t{0}),
-          write_attribute(events.id(), "num_dropped", std::int64_t{0})};
+  create_commit_attributes(root.id(), events.id());
 }
 
 void write_parameters(const FileRanks& ranks, hid_t file, const std::vector<Parameter>& parameters) {
@@ -94,29 +89,11 @@ void write_parameters(const FileRanks& ranks, hid_t file, const std::vector<Para
 
 }  // namespace
 
-void LiveAttributes::close() {
-  for (Attribute* attribute : {&frames_committed, &complete, &state_hash, &num_events, &num_dropped}) {
-    attribute->close();
-  }
-}
-
-void rewrite(const Attribute& attribute, std::int64_t value) {
-  check(H5Awrite(attribute.id(), H5T_NATIVE_INT64, &value), "H5Awrite");
-}
-
-void rewrite(const Attribute& attribute, const std::string& state_hash) {
-  std::string padded = state_hash;
-  padded.resize(hash_digits, ' ');
-  const Datatype type = text_type(hash_digits);
-  check(H5Awrite(attribute.id(), type.id(), padded.data()), "H5Awrite(state_hash)");
-}
-
-LiveAttributes write_skeleton(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
-  LiveAttributes live = write_root(ranks, file, setup);
+void write_skeleton(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+  write_root(ranks, file, setup);
   write_static_columns(ranks, file, setup);
   write_h5md(file, setup);
   write_parameters(ranks, file, setup.parameters);
-  return live;
 }
 
 }  // namespace pbmpi::io

@@ -14,19 +14,7 @@ inline constexpr std::int64_t layout_major = 1;
 inline constexpr std::int64_t layout_minor = 0;
 inline constexpr const char* filetype = "pbmpi-run";
 
-/// The attributes that change after the skeleton. They exist from the start, at their final size, so that a
-/// change rewrites a few bytes in place.
-struct LiveAttributes {
-  Attribute frames_committed, complete, state_hash, num_events, num_dropped;
-
-  void close();
-};
-
-/// Overwrites one of them; collective.
-void rewrite(const Attribute& attribute, std::int64_t value);
-void rewrite(const Attribute& attribute, const std::string& state_hash);
-
 /// Writes the root's attributes, /h5md, /parameters and the static columns. Collective.
-LiveAttributes write_skeleton(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+void write_skeleton(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 
 }  // namespace pbmpi::io

@@ -22,14 +22,15 @@ constexpr std::size_t longest(const std::array<std::string_view, N>& names) {
   return length;
 }
 
-/// Writes columns of one group: this rank has the rows of `runs`, in order.
+/// Writes columns of one group: this rank has the rows of `ranges`, in order.
 class ColumnWriter {
  public:
-  ColumnWriter(const FileRanks& ranks, hid_t file, std::string group, std::vector<Run> runs, hsize_t num_rows)
+  ColumnWriter(const FileRanks& ranks, hid_t file, std::string group, std::vector<Range> ranges,
+               hsize_t num_rows)
       : ranks_(ranks),
         file_(file),
         group_(std::move(group)),
-        runs_(std::move(runs)),
+        ranges_(std::move(ranges)),
         num_rows_(num_rows),
         transfer_(collective_transfer()) {}
 
@@ -66,8 +67,8 @@ class ColumnWriter {
     if (width > 1) dims.push_back(width);
     const Dataset dataset = create_fixed(file_, group_ + "/" + name, type, dims, unit);
     const auto in_file = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
-    select_runs(in_file, runs_);
-    const hsize_t local = count_items(runs_) * width;
+    select_ranges(in_file, ranges_);
+    const hsize_t local = count_items(ranges_) * width;
     const hsize_t length = std::max<hsize_t>(local, 1);
     const auto in_memory = owned<Dataspace>(H5Screate_simple(1, &length, nullptr), "H5Screate_simple");
     if (local == 0) check(H5Sselect_none(in_memory.id()), "H5Sselect_none");
@@ -78,7 +79,7 @@ class ColumnWriter {
   const FileRanks& ranks_;
   hid_t file_;
   std::string group_;
-  std::vector<Run> runs_;
+  std::vector<Range> ranges_;
   hsize_t num_rows_;
   PropertyList transfer_;
 };
@@ -97,7 +98,7 @@ void append(std::vector<double>& values, const std::array<double, 3>& size) {
 
 void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   const WorldTable& table = setup.table;
-  std::vector<Run> runs;
+  std::vector<Range> ranges;
   std::vector<std::int64_t> id;
   std::vector<std::int32_t> world, local_body;
   std::vector<std::string> name, actor, kind, shape;
@@ -105,7 +106,7 @@ void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   for (const LocalWorld& local : setup.worlds) {
     const model::Model& m = *local.model;
     const std::int64_t offset = table.body_offset[local.id];
-    append_run(runs, static_cast<hsize_t>(offset), m.bodies.size());
+    append_range(ranges, static_cast<hsize_t>(offset), m.bodies.size());
     for (int b = 0; b < m.num_bodies(); ++b) {
       const model::Body& body = m.bodies[b];
       const auto geom =
@@ -124,7 +125,7 @@ void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
       append(orientation, body.pose.orientation);
     }
   }
-  ColumnWriter columns(ranks, file, "/particles/bodies", runs, static_cast<hsize_t>(table.num_bodies()));
+  ColumnWriter columns(ranks, file, "/particles/bodies", ranges, static_cast<hsize_t>(table.num_bodies()));
   columns.numbers("id", id);
   columns.numbers("world", world);
   columns.numbers("local_body", local_body);
@@ -151,14 +152,14 @@ std::vector<std::int64_t> geom_offsets(const FileRanks& ranks, const RunSetup& s
 
 void write_geoms(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   const std::vector<std::int64_t> offset = geom_offsets(ranks, setup);
-  std::vector<Run> runs;
+  std::vector<Range> ranges;
   std::vector<std::int64_t> body;
   std::vector<std::int32_t> world;
   std::vector<std::string> kind, shape;
   std::vector<double> size, position, orientation;
   for (const LocalWorld& local : setup.worlds) {
     const model::Model& m = *local.model;
-    append_run(runs, static_cast<hsize_t>(offset[local.id]), m.geoms.size());
+    append_range(ranges, static_cast<hsize_t>(offset[local.id]), m.geoms.size());
     for (const model::Geom& geom : m.geoms) {
       world.push_back(local.id);
       body.push_back(geom.body == model::no_body ? -1 : setup.table.body_offset[local.id] + geom.body);
@@ -169,7 +170,7 @@ void write_geoms(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
       append(orientation, geom.local.orientation);
     }
   }
-  ColumnWriter columns(ranks, file, "/geoms", runs, static_cast<hsize_t>(offset.back()));
+  ColumnWriter columns(ranks, file, "/geoms", ranges, static_cast<hsize_t>(offset.back()));
   columns.numbers("world", world);
   columns.numbers("body", body);
   columns.texts("kind", kind, longest(model::actor_kind_names));
@@ -181,7 +182,7 @@ void write_geoms(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
 
 void write_ranks(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   const auto rank = static_cast<std::size_t>(ranks.rank());
-  const std::vector<Run> own{{static_cast<hsize_t>(ranks.rank()), 1}};
+  const std::vector<Range> own{{static_cast<hsize_t>(ranks.rank()), 1}};
   ColumnWriter columns(ranks, file, "/ranks", own, static_cast<hsize_t>(ranks.size()));
   columns.numbers("rank", std::vector<std::int32_t>{ranks.rank()});
   columns.texts("host", {rank < setup.hosts.size() ? setup.hosts[rank] : "unknown"});

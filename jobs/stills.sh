@@ -49,7 +49,6 @@ trap 'rm -rf "$profile"' EXIT
 for frame in "$@"; do
   [[ $frame =~ ^[0-9]+$ ]] || fail "frame '$frame': it must be a number"
   picture=$out/$(basename "$page" .html)-$(printf %03d "$((10#$frame))").png
-  # The window of old headless modes has no frame of its own, so that its size is the picture's.
   "$browser" --headless --no-sandbox --disable-quic --no-first-run --disable-background-networking \
     --disable-component-update --disable-sync --disable-dev-shm-usage --use-angle=swiftshader \
     --enable-unsafe-swiftshader --hide-scrollbars --force-device-scale-factor=1 --user-data-dir="$profile" \

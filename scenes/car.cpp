@@ -116,7 +116,9 @@ class CarBuilder {
     body.actor = actor_;
     body.mass_kg = car_.wheel_mass_kg;
     body.inertia = solid_inertia(model::Shape::cylinder, size, body.mass_kg);
-    // Cylinders lie along z; the axle lies along y.
+    // A cylinder bears on its whole width, as a tyre does, and lies within the body, where a sphere would
+    // bulge by its radius; ODE keeps it steady at rest, rolling and on a ramp. Cylinders lie along z; the
+    // axle lies along y.
     body.pose = compose(place_.pose, {hub + Vec3(0, 0, car_.wheel_radius_m - initial_depth_m),
                                       rotation(std::numbers::pi / 2, Vec3::UnitX())});
     body.velocity = velocity();

@@ -3,6 +3,7 @@
 //   #frame=3        recorded frame, 0 = initial pose
 //   &world=0|all    what is shown
 //   &camera=px,py,pz,tx,ty,tz   position and target [m]
+//   &follow=1|0     whether the camera moves with the bodies; default: if they go far
 //   &still=1        the picture alone, with legend and time; &bare=1 without these
 //   &width=1200&height=675      size of the still in CSS pixels; default: the window
 //   &play=1         start playing
@@ -16,7 +17,7 @@ pb.publish = (replay) => ({
   setFrame: (frame) => { replay.pause(); replay.setFrame(frame); },
   world: () => replay.world,
   setWorld: (world) => replay.setWorld(world),
-  setCamera: (position, target) => { replay.stage.setCamera(position, target); replay.dirty = true; },
+  setCamera: (position, target) => replay.setCamera(position, target),
   camera: () => ({position: replay.stage.camera.position.toArray(), target: replay.stage.controls.target.toArray()}),
   resetCamera: () => replay.resetCamera(),
   play: () => replay.play(),
@@ -39,10 +40,10 @@ pb.readAddress = (replay) => {
   view.style.width = asked.get('width') ? `${Number(asked.get('width'))}px` : '';
   view.style.height = asked.get('height') ? `${Number(asked.get('height'))}px` : '';
   if (asked.get('world')) replay.setWorld(asked.get('world'));
-  replay.resetCamera();
   if (asked.get('frame')) replay.setFrame(asked.get('frame'));
+  if (asked.get('follow')) replay.setFollow(asked.get('follow') === '1'); else replay.resetCamera();
   const camera = (asked.get('camera') || '').split(',').map(Number);
-  if (camera.length === 6 && camera.every(isFinite)) replay.stage.setCamera(camera.slice(0, 3), camera.slice(3));
+  if (camera.length === 6 && camera.every(isFinite)) replay.setCamera(camera.slice(0, 3), camera.slice(3));
   replay.draw();
   if (asked.get('play') === '1') replay.play();
 };

@@ -3,6 +3,18 @@
 
 pb.speeds = [0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 4];
 
+// Columns of a grid of cells of this width / height: nearly square as a whole, with few cells left empty.
+pb.gridColumns = (count, aspect) => {
+  const wanted = Math.max(1, Math.sqrt(1.2 * count / aspect));
+  let best = 1, least = Infinity;
+  for (let columns = 1; columns <= count; ++columns) {
+    const empty = (columns - count % columns) % columns;
+    const cost = Math.abs(Math.log(columns / wanted)) + 2 * empty / count;
+    if (cost < least) [best, least] = [columns, cost];
+  }
+  return best;
+};
+
 pb.Replay = class {
   constructor(replay, stage) {
     this.data = replay;
@@ -44,8 +56,10 @@ pb.Replay = class {
     on('scrub', 'input', () => this.setFrame(Math.round(Number(this.byId('scrub').value))));
     on('speed', 'change', () => { this.speed = Number(this.byId('speed').value); });
     on('world', 'change', () => this.setWorld(this.byId('world').value));
+    on('follow', 'change', () => this.setFollow(this.byId('follow').checked));
     on('reset-view', 'click', () => this.resetCamera());
     this.stage.controls.addEventListener('change', () => { this.dirty = true; });
+    this.stage.controls.addEventListener('start', () => { this.ownView = true; });
     document.addEventListener('keydown', (event) => this.key(event));
     new ResizeObserver(() => this.resize()).observe(this.stage.canvas);
   }
@@ -68,6 +82,7 @@ pb.Replay = class {
     this.byId('world').value = this.world;
     this.stage.showWorlds(this.world === 'all' ? this.gridOffsets() : new Map([[this.world, [0, 0]]]));
     this.showLegend();
+    if (!this.followChosen) this.byId('follow').checked = this.stage.drifts();
     this.resetCamera();
     this.refresh();
   }
@@ -83,9 +98,8 @@ pb.Replay = class {
         range[1] = Math.max(range[1], position[3 * body + k]);
       }
     }
-    const cell = [0, 1].map((k) => 2 + 1.1 * Math.max(...bounds.map((b) => b[k][1] - b[k][0]), 0));
-    // As many columns as make the whole about as wide as a screen.
-    const columns = Math.min(numWorlds, Math.max(1, Math.round(Math.sqrt(1.5 * numWorlds * cell[1] / cell[0]))));
+    const cell = [0, 1].map((k) => 3 + 1.1 * Math.max(...bounds.map((b) => b[k][1] - b[k][0]), 0));
+    const columns = pb.gridColumns(numWorlds, cell[0] / cell[1]);
     return new Map(bounds.map((b, world) => [world, [
       (world % columns) * cell[0] - (b[0][0] + b[0][1]) / 2,
       -Math.floor(world / columns) * cell[1] - (b[1][0] + b[1][1]) / 2,
@@ -165,6 +179,7 @@ pb.Replay = class {
   refresh() {
     this.poses.interpolate(this.frame);
     this.stage.setPoses(this.poses);
+    this.followBodies();
     const frame = this.currentFrame();
     const time = this.poses.timeAt(this.frame);
     const digits = this.data.timeS[this.data.numFrames - 1] < 100 ? 3 : 1;
@@ -176,14 +191,39 @@ pb.Replay = class {
     this.dirty = true;
   }
 
+  setFollow(follow) {
+    this.byId('follow').checked = follow;
+    this.followChosen = true;
+    this.resetCamera();
+  }
+
+  // Moves the camera with the middle of the bodies since the last picture.
+  followBodies() {
+    if (!this.byId('follow').checked) return;
+    const middle = this.stage.middle(this.poses);
+    if (this.followed) this.stage.moveCamera(middle.clone().sub(this.followed));
+    this.followed = middle;
+  }
+
+  // With "follow": looks at the bodies as they are now, else at all places where they come.
   resetCamera() {
     this.stage.resize();
-    this.stage.resetCamera();
+    this.stage.resetCamera(this.byId('follow').checked ? this.poses : null);
+    this.followed = null;
+    this.followBodies();
+    this.ownView = false;
     this.dirty = true;
   }
 
+  setCamera(position, target) {
+    this.stage.setCamera(position, target);
+    this.ownView = true;
+    this.dirty = true;
+  }
+
+  // A view that nobody chose fits the new shape of the picture.
   resize() {
-    this.stage.resize();
+    if (this.ownView) this.stage.resize(); else this.resetCamera();
     this.draw();
   }
 };

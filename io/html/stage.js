@@ -39,8 +39,9 @@ pb.Stage = class {
     for (const members of sorted.values()) this.groups.push(this.makeGroup(members, solids));
     this.points = this.actionPoints();
     this.box = this.actionBox();
+    this.away = this.viewDirection();
     this.addPlanes();
-    this.placeSun();
+    this.placeSun(this.box);
     this.kinds = new Set(instances.map((instance) => instance.kind));
   }
 
@@ -122,11 +123,34 @@ pb.Stage = class {
     return box.expandByScalar(0.5);
   }
 
-  placeSun() {
-    const centre = this.box.getCenter(new THREE.Vector3());
-    const radius = Math.max(4, 0.62 * this.box.getSize(new THREE.Vector3()).length());
+  // From where one looks: from ahead and the right of where bodies go on the whole, so that they come towards the
+  // viewer; from the front left where nothing goes anywhere.
+  viewDirection() {
+    const {numFrames, numBodies, position, bodyWorld} = this.replay;
+    const way = new THREE.Vector2();
+    let shown = 0;
+    for (let body = 0; body < numBodies; ++body) {
+      const first = 3 * body, last = 3 * (numBodies * (numFrames - 1) + body);
+      const dx = position[last] - position[first], dy = position[last + 1] - position[first + 1];
+      if (!this.offsets.has(bodyWorld[body]) || !isFinite(dx + dy)) continue;
+      way.add(new THREE.Vector2(dx, dy));
+      ++shown;
+    }
+    this.driftM = way.length() / Math.max(1, shown);
+    // Less than 5 cm a body on the mean is no direction.
+    const heading = this.driftM > 0.05 ? way.angle() : Math.PI + 0.3;
+    const azimuth = heading - 0.95;
+    return new THREE.Vector3(Math.cos(azimuth), Math.sin(azimuth), 0.46).normalize();
+  }
+
+  // Lights this box and casts the shadows in it.
+  placeSun(box) {
+    const centre = box.getCenter(new THREE.Vector3());
+    const radius = Math.max(4, 0.62 * box.getSize(new THREE.Vector3()).length());
     const camera = this.sun.shadow.camera;
-    this.sun.position.copy(centre).add(new THREE.Vector3(-0.45, -0.7, 1.25).multiplyScalar(1.6 * radius));
+    // Over the viewer's left shoulder, high.
+    const from = new THREE.Vector3(this.away.x, this.away.y, 0).normalize().applyAxisAngle(this.camera.up, -0.6);
+    this.sun.position.copy(centre).addScaledVector(from.multiplyScalar(0.8).setZ(1.2), 1.6 * radius);
     this.sun.target.position.copy(centre);
     Object.assign(camera, {left: -radius, right: radius, top: radius, bottom: -radius, near: 0.1, far: 5 * radius});
     camera.updateProjectionMatrix();
@@ -137,20 +161,23 @@ pb.Stage = class {
     this.sun.shadow.bias = -0.0004;
   }
 
-  // Three-quarter view that the action fills. Perspective moves the middle of what is seen away from the middle of
+  // Three-quarter view that the action fills; or, with poses, what the bodies fill now. Perspective moves the middle of what is seen away from the middle of
   // the box, so that place and distance are found together, in a few rounds.
-  resetCamera() {
-    const target = this.box.getCenter(new THREE.Vector3());
-    const away = new THREE.Vector3(-0.42, -0.82, 0.42).normalize();
+  resetCamera(poses) {
+    const points = poses ? this.pointsOf(poses) : this.points.filter((point) => this.box.containsPoint(point));
+    const box = poses ? new THREE.Box3().setFromPoints(points).expandByScalar(1) : this.box;
+    this.placeSun(box);
+    const target = box.getCenter(new THREE.Vector3());
+    const away = this.away;
     const right = new THREE.Vector3().crossVectors(this.camera.up, away).normalize();
     const up = new THREE.Vector3().crossVectors(away, right);
     const tangent = Math.tan(this.camera.fov * Math.PI / 360);
     // So much of the picture is filled: points are the middles of bodies, and some come near.
-    const filled = 0.8;
-    let distance = 2 * this.box.getSize(new THREE.Vector3()).length();
+    const filled = this.offsets.size > 1 ? 0.92 : 0.82;
+    let distance = 2 * box.getSize(new THREE.Vector3()).length();
     for (let round = 0; round < 12; ++round) {
       this.setCamera(target.clone().addScaledVector(away, distance).toArray(), target.toArray());
-      const {low, high} = this.projectedBounds();
+      const {low, high} = this.projectedBounds(points);
       target.addScaledVector(right, (low.x + high.x) / 2 * distance * tangent * this.camera.aspect);
       target.addScaledVector(up, (low.y + high.y) / 2 * distance * tangent);
       distance = Math.max(2.5, distance * Math.max(high.x - low.x, high.y - low.y) / 2 / filled);
@@ -158,13 +185,11 @@ pb.Stage = class {
     this.setCamera(target.clone().addScaledVector(away, distance).toArray(), target.toArray());
   }
 
-  // Bounds of the action in the picture, whose edges are at -1 and 1.
-  projectedBounds() {
+  // Bounds of these points in the picture, whose edges are at -1 and 1.
+  projectedBounds(points) {
     this.camera.updateMatrixWorld();
     const low = new THREE.Vector2(Infinity, Infinity), high = new THREE.Vector2(-Infinity, -Infinity);
-    const corners = [this.box.min, this.box.max];
-    const inside = this.points.filter((point) => this.box.containsPoint(point));
-    for (const point of inside.length > 0 ? inside : corners) {
+    for (const point of points.length > 0 ? points : [this.box.min, this.box.max]) {
       const seen = point.clone().project(this.camera);
       low.min(seen);
       high.max(seen);
@@ -176,6 +201,38 @@ pb.Stage = class {
     this.camera.position.set(...position);
     this.controls.target.set(...target);
     this.controls.update();
+  }
+
+  // Do the bodies on the whole go farther than they stand apart at the start?
+  drifts() {
+    const {numBodies, position, orientation} = this.replay;
+    const start = {position: position.subarray(0, 3 * numBodies), orientation: orientation.subarray(0, 4 * numBodies)};
+    const box = new THREE.Box3().setFromPoints(this.pointsOf(start));
+    return this.driftM > box.getSize(new THREE.Vector3()).length();
+  }
+
+  moveCamera(by) {
+    this.sun.position.add(by);
+    this.sun.target.position.add(by);
+    this.camera.position.add(by);
+    this.controls.target.add(by);
+    this.controls.update();
+  }
+
+  // Where the shown bodies are now.
+  pointsOf(poses) {
+    const points = [];
+    for (let body = 0; body < this.replay.numBodies; ++body) {
+      const offset = this.offsets.get(this.replay.bodyWorld[body]);
+      const [x, y, z] = poses.position.subarray(3 * body, 3 * body + 3);
+      if (offset && isFinite(x + y + z)) points.push(new THREE.Vector3(x + offset[0], y + offset[1], z));
+    }
+    return points;
+  }
+
+  middle(poses) {
+    const points = this.pointsOf(poses);
+    return points.reduce((sum, point) => sum.add(point), new THREE.Vector3()).divideScalar(Math.max(1, points.length));
   }
 
   setPoses(poses) {

@@ -9,7 +9,7 @@ WorldHandle SolverResources::make_world() const {
   WorldHandle world(dWorldCreate());
   dWorldSetStepThreadingImplementation(world.get(), dThreadingImplementationGetFunctions(jobs_.get()),
                                        jobs_.get());
-  if(!getenv("NOSHARE")) dWorldUseSharedWorkingMemory(world.get(), memory_.get());
+  dWorldUseSharedWorkingMemory(world.get(), memory_.get());
   return world;
 }
 

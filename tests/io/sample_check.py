@@ -15,7 +15,7 @@ def writer_command(mpiexec, ranks, writer, path, planned, frames, record_every=1
 
 
 def run_writer(*args, **kwargs):
-    return subprocess.run(writer_command(*args, **kwargs), capture_output=True, text=True, timeout=60)
+    return subprocess.run(writer_command(*args, **kwargs), capture_output=True, text=True, timeout=40)
 
 
 def world_and_body():

@@ -74,7 +74,7 @@ unshare --mount --pid --fork --kill-child bash -c '
   root=$1
   shift
   mount -t proc proc "$root/proc"
-  mount -t sysfs -o ro sysfs "$root/sys"
+  mount --rbind /sys "$root/sys"
   mount --rbind /dev "$root/dev"
   mount -t tmpfs tmpfs "$root/dev/shm"
   chroot "$root" /usr/bin/env -i HOME=/root TERM=dumb LANG=C.UTF-8 \

@@ -13,7 +13,7 @@ import subprocess
 import tempfile
 import time
 
-PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "scancel", "sinfo", "squeue", "srun")
+PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "scancel", "sinfo", "squeue", "srun", "setpriv")
 SBIN = "/usr/sbin"
 START_LIMIT_S = 60  # a daemon that does not come up, not a slow one: all of them need about 3 s
 FINAL_STATES = {"COMPLETED", "FAILED", "CANCELLED", "TIMEOUT", "NODE_FAIL", "OUT_OF_MEMORY", "BOOT_FAIL"}
@@ -117,7 +117,9 @@ class Cluster:
         """Of every command that talks to this cluster, and so of its jobs."""
         inherited = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM_", "SBATCH_"))}
         temporary = os.path.join(self.folder, "tmp")  # Open MPI's session folders, removed with the rest
-        return {**inherited, "PATH": search_path(), "SLURM_CONF": self._configuration(), "TMPDIR": temporary}
+        # The ranks of two nodes on one host would call their shared-memory segments by the same names: TCP between them.
+        return {**inherited, "PATH": search_path(), "SLURM_CONF": self._configuration(), "TMPDIR": temporary,
+                "OMPI_MCA_btl": "self,tcp"}
 
     def command(self, *args, **options):
         result = subprocess.run(args, env=self.environment, capture_output=True, text=True, timeout=60, check=False,
@@ -131,16 +133,18 @@ class Cluster:
         return self.command("sbatch", "--parsable", *args, cwd=cwd).strip()
 
     def job(self, job_id):
-        """What `scontrol show job` says of a job, or of each task of an array, by field."""
+        """The fields of a job, or of each task of an array, as `scontrol show job` prints them."""
         text = self.command("scontrol", "--oneliner", "show", "job", job_id)
         return [dict(word.split("=", 1) for word in line.split() if "=" in word) for line in text.splitlines() if line]
 
+    def ended(self, job_id):
+        """The fields of the job (of each task of an array), or None while it has not ended."""
+        jobs = self.job(job_id)
+        return jobs if all(job["JobState"] in FINAL_STATES for job in jobs) else None
+
     def wait_for(self, job_id, limit_s):
         """The fields of the ended job (of each task of an array)."""
-        def ended():
-            jobs = self.job(job_id)
-            return jobs if all(job["JobState"] in FINAL_STATES for job in jobs) else None
-        return wait_until(ended, f"the end of job {job_id}", limit_s)
+        return wait_until(lambda: self.ended(job_id), f"the end of job {job_id}", limit_s)
 
     def logs(self):
         """The ends of the daemons' logs, for the message of a failed test."""
@@ -187,9 +191,10 @@ class Cluster:
         wait_until(lambda: os.path.exists(f"{folder}/socket"), "munged's socket\n" + self.logs(), START_LIMIT_S)
 
     def _daemon(self, name, *args, **options):
+        """Starts a daemon in the foreground; should this process be killed, it goes too."""
         log = os.path.join(self.folder, f"{name}-{len(self.daemons)}.log")
         with open(log, "wb") as file:
-            self.daemons.append(subprocess.Popen([shutil.which(name, path=search_path()), *args],
+            self.daemons.append(subprocess.Popen(["setpriv", "--pdeathsig", "TERM", name, *args],
                                                  env=self.environment, cwd="/", stdin=subprocess.DEVNULL, stdout=file,
                                                  stderr=file, start_new_session=True, **options))
 
@@ -197,7 +202,7 @@ class Cluster:
         def idle():
             for daemon in self.daemons:
                 if daemon.poll() is not None:
-                    raise SlurmError(f"{daemon.args[0]} ended with {daemon.returncode}\n{self.logs()}")
+                    raise SlurmError(f"{daemon.args[3]} ended with {daemon.returncode}\n{self.logs()}")
             result = subprocess.run(["sinfo", "--noheader", "--Node", "--format=%N %t"], env=self.environment,
                                     capture_output=True, text=True, timeout=60, check=False)
             return sorted(result.stdout.split("\n")[:-1]) == ["n1 idle", "n2 idle"]

@@ -46,8 +46,17 @@ class JobTest(unittest.TestCase):
         """The job's fields, once it has ended."""
         return self.cluster.wait_for(job_id, JOB_LIMIT_S)[0]
 
-    def wait_for_file(self, name):
-        wait_until(lambda: os.path.exists(self.path(name)), f"{name}; the job is {self.cluster.job('')}", JOB_LIMIT_S)
+    def wait_while_it_runs(self, job_id, condition, what):
+        def met():
+            self.assertIsNone(self.cluster.ended(job_id), f"no {what}, the job is over")
+            return condition()
+        wait_until(met, what, JOB_LIMIT_S)
+
+    def start_endless(self):
+        """A job of 4 ranks over both nodes, once its file is there; returns its id."""
+        job_id = self.submit("-N2", "-n4", SCRIPT, "CrashSk", "--replicas", "4", *ENDLESS)
+        self.wait_while_it_runs(job_id, lambda: os.path.exists(self.path(f"CrashSk-{job_id}.h5")), "file")
+        return job_id
 
     def check_file(self, name, complete):
         """Opens the file of a run; its bodies must be finite in every frame committed. Returns what tests look at."""
@@ -103,8 +112,7 @@ class Stop(JobTest):
         return job
 
     def test_term_to_the_batch_shell_finishes_the_frame_and_exits_75(self):
-        job_id = self.submit("-N2", "-n4", SCRIPT, "CrashSk", "--replicas", "4", *ENDLESS)
-        self.wait_for_file(f"CrashSk-{job_id}.h5")
+        job_id = self.start_endless()
         self.cluster.command("scancel", "--batch", "--signal=TERM", job_id)
         self.assertEqual(self.check_stopped(job_id)["JobState"], "FAILED", "Slurm's word for any code but 0")
 
@@ -114,10 +122,9 @@ class Stop(JobTest):
         self.assertEqual(job["JobState"], "FAILED", "TIMEOUT would mean that Slurm had to kill it")
 
     def test_a_plain_cancel_leaves_a_file_that_opens_with_what_was_flushed(self):
-        job_id = self.submit("-N2", "-n4", SCRIPT, "CrashSk", "--replicas", "4", *ENDLESS)
+        job_id = self.start_endless()
         name = f"CrashSk-{job_id}.h5"
-        self.wait_for_file(name)
-        wait_until(lambda: self.committed(name) > 0, "the first flush", JOB_LIMIT_S)
+        self.wait_while_it_runs(job_id, lambda: self.committed(name) > 0, "flush")
         self.cluster.command("scancel", job_id)
         self.assertEqual(self.ended(job_id)["JobState"], "CANCELLED")
         self.assertGreater(self.committed(name), 0)

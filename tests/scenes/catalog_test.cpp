@@ -38,14 +38,21 @@ TEST(Catalog, every_scene_that_it_lists_builds_a_valid_first_and_last_world) {
 }
 
 TEST(Catalog, suggests_the_nearest_names_for_an_unknown_scene) {
-  const std::string message = error_of_find("CrashSkk");
-  EXPECT_NE(message.find("unknown scene 'CrashSkk'; did you mean 'CrashSk' or '100CrSk'?"), std::string::npos)
+  const std::string message = error_of_find("20-cars");
+  EXPECT_NE(message.find("unknown scene '20-cars'; did you mean '2-Cars' or '10-Cars'?"), std::string::npos)
       << message;
 }
 
 TEST(Catalog, lists_all_scenes_when_no_name_is_near) {
   EXPECT_NE(error_of_find("Waterfall").find("known: '2-Cars', '10-Cars', 'CrashSk', '100CrSk'"),
             std::string::npos);
+}
+
+TEST(Catalog, holds_the_scene_files_word_for_word) {
+  for (const SceneInfo& info : list_scenes()) {
+    const std::string path = std::string(PBMPI_TEST_SCENES) + "/../../scenes/" + info.name + ".toml";
+    EXPECT_EQ(find_scene(info.name).text, find_scene(path).text) << info.name;
+  }
 }
 
 TEST(Catalog, reads_a_users_own_file_by_its_path) {

@@ -49,6 +49,8 @@ struct Mistake {
   std::string says;
 };
 
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
 class SceneMistake : public testing::TestWithParam<Mistake> {};
 
 TEST_P(SceneMistake, is_told_with_file_line_and_column) {
@@ -113,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"unknown_base", title + "base = \"CrashS\"\n", "2:8", "did you mean 'CrashSk'"},
         Mistake{"base_by_path", title + "base = \"other.toml\"\n", "2:8",
                 "must name a scene that pbmpi brings"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(Scene, tells_the_actor_of_a_name_clash_that_only_the_built_world_shows) {
   const std::string message =

@@ -101,7 +101,7 @@ std::string help_text() {
        << options_description()
        << "\nExit codes: 0 done; 1 the simulation failed (what was written is readable); "
        << "2 bad usage or bad input; 75 stopped early on request.\n"
-       << "Signals: INT and TERM finish the frame, close the file and end with 75.\n"
+       << "Signals: INT, TERM and USR2 finish the frame, close the file and end with 75 (send USR2 to mpirun).\n"
        << "Example: mpirun -n 2 pbmpi --scene 100CrSk --report json\n";
   return text.str();
 }

@@ -101,6 +101,17 @@ std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed
   return effects;
 }
 
+/// An event reads "frame 6: rebalance: 8 worlds moved: ...".
+void count_rebalance(const std::string& event, RunSummary& summary) {
+  static constexpr std::string_view word = ": rebalance: ";
+  const std::size_t at = event.find(word);
+  if (at == std::string::npos) return;
+  ++summary.rebalances;
+  std::istringstream detail(event.substr(at + word.size()));
+  std::int64_t moved = 0;
+  if (detail >> moved) summary.worlds_moved += moved;
+}
+
 void read_settings(const io::RunData& run, const std::string& path, RunSummary& summary) {
   summary.version = text_of(run.attributes, "pbmpi_version");
   summary.scene = text_of(run.attributes, "scene");
@@ -131,8 +142,11 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   read_settings(run, path, summary);
   summary.output = path;
   summary.complete = run.complete;
-  const std::string hash = text_of(run.attributes, "state_hash");
-  summary.state_hash = hash.empty() ? "none (the run was cut off)" : hash;
+  summary.state_hash = text_of(run.attributes, "state_hash");
+  // Until the run ends, the file keeps its place with blanks.
+  if (summary.state_hash.find_first_not_of(' ') == std::string::npos) {
+    summary.state_hash = "none (the run was cut off)";
+  }
   for (const std::string& host : run.hosts) {
     if (std::find(summary.hosts.begin(), summary.hosts.end(), host) == summary.hosts.end()) {
       summary.hosts.push_back(host);
@@ -153,9 +167,7 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   summary.max_joint_gap_m = largest_measured(run, "joint_gap");
   summary.max_penetration_m = largest_measured(run, "max_penetration");
   summary.effects = effects_of(run, summary.seed);
-  summary.rebalances = std::count_if(run.events.begin(), run.events.end(), [](const std::string& event) {
-    return event.find(": rebalance:") != std::string::npos;
-  });
+  for (const std::string& event : run.events) count_rebalance(event, summary);
   return summary;
 }
 

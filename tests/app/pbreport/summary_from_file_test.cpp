@@ -36,7 +36,7 @@ io::RunData small_run() {
   run.rank_times["collide"] = {{5, 5}, {0.001, 0.0005}, {0.003, 0.0015}};
   run.rank_times["wait"] = {{5, 5}, {0, 0.0005}, {0.001, 0.0005}};
   run.rank_times["useful"] = {{5, 5}, {0.001, 0.0005}, {0.003, 0.0015}};
-  run.events = {"frame 1: rebalance: 1 world moved", "frame 2: signal: TERM"};
+  run.events = {"frame 1: rebalance: 3 worlds moved", "frame 2: signal: TERM"};
   return run;
 }
 
@@ -98,6 +98,7 @@ TEST(SummaryFromFile, carries_settings_and_hosts_once) {
   EXPECT_EQ(summary.output, "x.h5");
   EXPECT_EQ(summary.state_hash, "00000000000000ff");
   EXPECT_EQ(summary.rebalances, 1);
+  EXPECT_EQ(summary.worlds_moved, 3);
 }
 
 TEST(SummaryFromFile, a_rank_without_work_is_idle) {
@@ -110,7 +111,7 @@ TEST(SummaryFromFile, a_rank_without_work_is_idle) {
 TEST(SummaryFromFile, a_run_cut_off_in_its_warm_up_has_no_measured_frame) {
   io::RunData run = small_run();
   run.complete = false;
-  run.attributes.erase("state_hash");
+  run.attributes["state_hash"] = std::string(16, ' ');
   run.frame_measured = {false, false, false};
   const RunSummary summary = summary_from_file(run, "x.h5");
   EXPECT_FALSE(summary.complete);

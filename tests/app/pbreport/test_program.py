@@ -1,6 +1,7 @@
 """pbreport on files that pbmpi really wrote, and on files that are none."""
 import json
 import os
+import signal
 import sys
 import unittest
 import xml.etree.ElementTree
@@ -21,13 +22,24 @@ class ReportTest(ProgramTest):
         live = self.run_scene(2, "CrashSk", "--replicas", "3")
         told = json.loads(self.report("run.h5", "--json").stdout)
         for key in ("scene", "worlds", "bodies", "ranks", "stepper", "iterations", "dt", "steps_per_frame", "seed",
-                    "frames", "state_hash", "effects", "complete"):
+                    "frames", "rebalances", "state_hash", "effects", "complete"):
             self.assertEqual(told[key], live[key], key)
         for group in ("frame_rate", "frame_time_s", "islands", "contacts", "rows", "invariants", "efficiency"):
             for name, value in live[group].items():
                 # The file holds the same doubles; only the order of a sum may differ.
                 self.assertAlmostEqual(told[group][name], value, delta=1e-9 * max(1, abs(value)),
                                        msg=f"{group}.{name}")
+
+    def test_tells_that_a_killed_run_is_incomplete(self):
+        process = self.start(2, "--scene", "CrashSk", "--frames", "20000", "--output", "run.h5", "--quiet")
+        while not os.path.exists(self.path("run.h5")):
+            self.assertIsNone(process.poll(), "pbmpi ended before it was killed")
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        told = json.loads(self.report("run.h5", "--json").stdout)
+        self.assertFalse(told["complete"])
+        self.assertIn("none", told["state_hash"])
+        self.assertEqual(self.report("run.h5", "--html", "run.html").returncode, 0)
 
     def test_prints_one_line_a_number(self):
         live = self.run_scene()

@@ -242,6 +242,16 @@ class PageTest(unittest.TestCase):
         for a, b in zip(before, self.js("return pbreplay.camera().position")):
             self.assertAlmostEqual(a, b, places=6)
 
+    def test_follow_keeps_the_bodies_in_the_picture(self):
+        self.open("#world=0&frame=0&follow=1")
+        before = self.js("return pbreplay.camera()")
+        self.js("pbreplay.setFrame(%d)" % FRAMES)
+        after = self.js("return pbreplay.camera()")
+        moved = [a - b for a, b in zip(after["target"], before["target"])]
+        self.assertGreater(moved[0], 0.3)  # the car drives along +x
+        for k in range(3):  # place and target move together
+            self.assertAlmostEqual(after["position"][k] - before["position"][k], moved[k], places=6)
+
     def test_address_makes_a_still(self):
         self.open("#frame=6&world=1&still=1&camera=8,-9,6,0,0,1")
         self.assertEqual(self.frame(), 6)
