@@ -37,7 +37,6 @@ class FileScene final : public Scene {
   FileScene(const SceneSource& source, std::optional<double> dt_s) : source_(source) {
     const toml::table toml = parse_with_base(source);
     TableReader scene(toml, "scene");
-    // A base's place in the file is checked where bases are resolved.
     title_ = scene.text("title");
     read_defaults(scene);
     if (dt_s) defaults_.dt_s = *dt_s;

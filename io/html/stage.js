@@ -173,7 +173,7 @@ pb.Stage = class {
     const up = new THREE.Vector3().crossVectors(away, right);
     const tangent = Math.tan(this.camera.fov * Math.PI / 360);
     // So much of the picture is filled: points are the middles of bodies, and some come near.
-    const filled = this.offsets.size > 1 ? 0.92 : 0.82;
+    const filled = poses ? 0.62 : this.offsets.size > 1 ? 0.92 : 0.82;
     let distance = 2 * box.getSize(new THREE.Vector3()).length();
     for (let round = 0; round < 12; ++round) {
       this.setCamera(target.clone().addScaledVector(away, distance).toArray(), target.toArray());

@@ -23,7 +23,7 @@ def ranks_of(launcher):
 def kill_one(mpiexec, writer, folder, attempt, rng):
     path = os.path.join(folder, f"run{attempt}.h5")
     # Every third run ends early by itself, so that some kills hit the closing of the file.
-    frames = 60 if attempt % 3 == 2 else PLANNED
+    frames = 12 if attempt % 3 == 2 else PLANNED
     command = sample_check.writer_command(mpiexec, 2, writer, path, PLANNED, frames, record_every=1 + attempt % 2,
                                           flush_s=0.004, move=5, pause_us=300)
     with open(os.path.join(folder, "log"), "w+") as log:
@@ -31,7 +31,7 @@ def kill_one(mpiexec, writer, folder, attempt, rng):
         while not os.path.exists(path) and launcher.poll() is None:
             time.sleep(0.001)
         pids = ranks_of(launcher)
-        time.sleep(rng.uniform(0, 0.25))
+        time.sleep(rng.uniform(0, 0.35))
         for pid in rng.sample(pids, rng.choice([1, len(pids)]) if pids else 0):
             try:
                 os.kill(pid, signal.SIGKILL)

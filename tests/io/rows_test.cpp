@@ -24,7 +24,7 @@ TEST(Ranges, merges_neighbours_and_drops_empty_ones) {
   EXPECT_EQ(count_items(ranges), 7u);
 }
 
-TEST(RowBlocks, selects_each_row_with_the_runs_it_was_added_with) {
+TEST(RowBlocks, selects_each_row_with_the_ranges_it_was_added_with) {
   RowBlocks blocks;
   blocks.add(2, {{0, 1}, {4, 2}});
   blocks.add(3, {{0, 1}, {4, 2}});
@@ -73,7 +73,7 @@ TEST_P(ChunkShape, has_1_to_4_mebibytes_or_the_whole_dataset_and_wastes_less_tha
   EXPECT_LT(num_chunks * chunk[0], dims[0] + num_chunks);
 }
 
-INSTANTIATE_TEST_SUITE_P(Runs, ChunkShape,
+INSTANTIATE_TEST_SUITE_P(Sizes, ChunkShape,
                          testing::Values(std::vector<hsize_t>{8, 3700, 3},
                                          std::vector<hsize_t>{1000, 3700, 4}, std::vector<hsize_t>{1000000},
                                          std::vector<hsize_t>{1, 1, 3}, std::vector<hsize_t>{10, 1000000, 3},
