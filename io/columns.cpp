@@ -30,15 +30,6 @@ Dataset create(hid_t file, const std::string& path, const Datatype& type, const 
   return dataset;
 }
 
-Attribute write_scalar(hid_t object, const std::string& name, const Datatype& type, const void* value) {
-  const auto space = owned<Dataspace>(H5Screate(H5S_SCALAR), "H5Screate");
-  auto attribute =
-      owned<Attribute>(H5Acreate2(object, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
-                       "H5Acreate(" + name + ")");
-  check(H5Awrite(attribute.id(), type.id(), value), "H5Awrite(" + name + ")");
-  return attribute;
-}
-
 /// The file type of a parameter and where its bytes are. An empty text is one NUL.
 struct Bytes {
   Datatype type;
@@ -76,21 +67,24 @@ std::string cut_text(std::string_view text, std::size_t bytes) {
   return std::string(text.substr(0, bytes));
 }
 
-Attribute write_attribute(hid_t object, const std::string& name, std::int64_t value) {
-  return write_scalar(object, name, number_type(H5T_NATIVE_INT64), &value);
+void write_attribute(hid_t object, const std::string& name, std::int64_t value) {
+  write_attribute(object, Parameter::of(name, value));
 }
 
-Attribute write_attribute(hid_t object, const std::string& name, double value) {
-  return write_scalar(object, name, number_type(H5T_NATIVE_DOUBLE), &value);
-}
-
-Attribute write_attribute(hid_t object, const std::string& name, const std::string& value) {
-  return write_scalar(object, name, text_type(std::max<std::size_t>(value.size(), 1)), value.c_str());
+void write_attribute(hid_t object, const std::string& name, const std::string& value) {
+  write_attribute(object, Parameter::of(name, value));
 }
 
 void write_attribute(hid_t object, const Parameter& value) {
-  const Bytes bytes = bytes_of(value);
-  write_scalar(object, value.name, bytes.type, bytes.data);
+  constexpr std::size_t most_bytes = 60000;  // HDF5 keeps an attribute in an object header, below 64 KiB
+  Parameter fitting = value;
+  fitting.text = cut_text(value.text, most_bytes);
+  const Bytes bytes = bytes_of(fitting);
+  const auto space = owned<Dataspace>(H5Screate(H5S_SCALAR), "H5Screate");
+  const auto attribute = owned<Attribute>(
+      H5Acreate2(object, value.name.c_str(), bytes.type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
+      "H5Acreate(" + value.name + ")");
+  check(H5Awrite(attribute.id(), bytes.type.id(), bytes.data), "H5Awrite(" + value.name + ")");
 }
 
 Dataset create_fixed(hid_t file, const std::string& path, const Datatype& type,

@@ -19,10 +19,9 @@ Datatype number_type(hid_t native);
 /// The longest start of `text` that has at most `bytes` bytes and ends between two characters of UTF-8.
 std::string cut_text(std::string_view text, std::size_t bytes);
 
-/// Makes and writes a scalar attribute; keep the owner to write it again.
-Attribute write_attribute(hid_t object, const std::string& name, std::int64_t value);
-Attribute write_attribute(hid_t object, const std::string& name, double value);
-Attribute write_attribute(hid_t object, const std::string& name, const std::string& value);
+/// Makes and writes a scalar attribute. Text beyond 60,000 bytes is cut.
+void write_attribute(hid_t object, const std::string& name, std::int64_t value);
+void write_attribute(hid_t object, const std::string& name, const std::string& value);
 void write_attribute(hid_t object, const Parameter& value);
 
 /// A dataset whose space in the file is allocated now and never filled, with its unit if it has one. Missing

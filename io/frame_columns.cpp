@@ -47,6 +47,7 @@ const std::vector<ColumnSpec>& frame_columns() {
 
 std::vector<ColumnSpec> phase_columns() {
   std::vector<ColumnSpec> columns;
+  columns.reserve(core::phase_names.size() + 1);
   for (const std::string_view phase : core::phase_names) {
     columns.push_back({std::string(phase), H5T_NATIVE_DOUBLE, 1, "s"});
   }

@@ -48,7 +48,7 @@ class GrowingTable {
   void put(std::size_t column, hsize_t first_item, const T* items, hsize_t count) {
     core::require_invariant(sizeof(T) == columns_[column].item_bytes,
                             "an item of another type than its column");
-    std::memcpy(place(column, first_item), items, count * sizeof(T));
+    std::memcpy(place(column, first_item), static_cast<const void*>(items), count * sizeof(T));
   }
   template <class T>
   void put(std::size_t column, hsize_t item, T value) {
@@ -65,7 +65,7 @@ class GrowingTable {
   /// Writes the waiting rows; collective, and so done to the end even if a column fails. Returns the first
   /// error of this rank, empty if there was none.
   std::string write(const PropertyList& transfer);
-  /// Did each column of the last write() go through collective MPI-IO?
+  /// Was each column of the last write() written collectively?
   bool wrote_collectively() const { return collective_; }
 
   /// Closes the datasets.

@@ -126,7 +126,7 @@ void OutputTarget::publish() {
 }
 
 std::string OutputTarget::shortage() const {
-  constexpr std::int64_t nothing_left = 64 * 1024;
+  constexpr std::int64_t nothing_left = std::int64_t{64} * 1024;
   std::error_code ignored;
   if (fs::file_size(path_, ignored) > largest_file()) return reason(EFBIG);
   return has_free(path_, nothing_left) ? "" : reason(ENOSPC);

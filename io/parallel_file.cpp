@@ -65,9 +65,11 @@ void FileRanks::sum(std::span<std::int64_t> values) const {
 }
 
 std::int64_t FileRanks::max(std::int64_t value) const {
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_MAX, MPI_Comm_f2c(fortran_communicator_)),
+  std::array<std::int64_t, 1> values{value};
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), 1, MPI_INT64_T, MPI_MAX,
+                          MPI_Comm_f2c(fortran_communicator_)),
             "MPI_Allreduce", rank_);
-  return value;
+  return values[0];
 }
 
 std::string FileRanks::first_error(const std::string& error) const {
@@ -87,7 +89,8 @@ File FileRanks::create(const std::string& path) const {
   // The oldest format on purpose: its superblock has no "open for writing" mark, which after a kill would
   // keep readers out until someone runs h5clear.
   check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), "H5Pset_libver_bounds");
-  constexpr hsize_t metadata_block = 64 * 1024;  // few, large metadata writes instead of many of 2 KiB
+  constexpr hsize_t metadata_block =
+      hsize_t{64} * 1024;  // few, large metadata writes instead of many of 2 KiB
   check(H5Pset_meta_block_size(access.id(), metadata_block), "H5Pset_meta_block_size");
   return owned<File>(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), "H5Fcreate");
 }

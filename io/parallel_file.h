@@ -57,10 +57,10 @@ class FileRanks {
 /// file.
 File open_alone(const std::string& path);
 
-/// Transfer properties of a collective write, all chunks of a call in one MPI-IO operation.
+/// Transfer properties of a collective write: all ranks and all chunks of a call in one operation.
 PropertyList collective_transfer();
 
-/// Did the last write with `transfer` go through collective MPI-IO on this rank?
+/// Was the last write with `transfer` collective on this rank, or did HDF5 fall back to one rank at a time?
 bool was_collective(const PropertyList& transfer);
 
 }  // namespace pbmpi::io

@@ -98,6 +98,7 @@ void read_motion(hid_t file, std::int64_t num_recorded, RunData& run) {
 
 std::vector<bool> to_flags(const std::vector<std::int64_t>& values) {
   std::vector<bool> flags;
+  flags.reserve(values.size());
   for (const std::int64_t value : values) flags.push_back(value != 0);
   return flags;
 }

@@ -57,13 +57,14 @@ RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(s
     ranks_.together([this] { make_skeleton(); });
     ranks_.together<core::InputError>([this] {
       if (!ranks_.is_root()) return;
+      record_ = CommitRecord(target_.temporary_path());
       target_.publish();
-      record_ = CommitRecord(target_.path());
     });
   } catch (...) {
     close_all();
     throw;
   }
+  setup_.worlds.clear();  // borrowed for the skeleton only
   open_ = true;
   last_flush_s_ = core::now_s();
 }

@@ -75,7 +75,8 @@ class RunFile final : public model::FrameObserver {
   /// `complete` = all planned frames were simulated. `state_hash` counts on root only.
   void close(bool complete, const std::string& state_hash);
 
-  /// Did every dataset of the last flush go through collective MPI-IO on this rank? False before the first.
+  /// Was every dataset of the last flush written by all ranks together, as HDF5 reports it on this rank
+  /// (H5Pget_mpio_actual_io_mode)? False before the first flush.
   bool wrote_collectively() const;
 
  private:

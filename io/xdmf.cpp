@@ -105,7 +105,9 @@ void grid(std::ostream& out, const Bodies& b, std::size_t row) {
 std::string document(const Bodies& b) {
   std::ostringstream out;
   out.precision(17);
-  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n <Domain>\n"
+  out << "<?xml version=\"1.0\"?>\n"
+      << "<!-- In ParaView choose the \"XDMF Reader\": the two Xdmf3 readers know no hyperslabs. -->\n"
+      << "<Xdmf Version=\"3.0\">\n <Domain>\n"
       << "  <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (std::size_t row = 0; row < b.times.size(); ++row) grid(out, b, row);
   out << "  </Grid>\n </Domain>\n</Xdmf>\n";

@@ -38,11 +38,13 @@ std::optional<std::string> collision(const Model& model) {
 }
 
 std::optional<std::string> friction(const Model& model) {
+  if (!collision(model)) return std::nullopt;
   return counted_if(
       model.geoms, [](const Geom& g) { return g.material.mu > 0; }, "geoms with mu > 0");
 }
 
 std::optional<std::string> restitution(const Model& model) {
+  if (!collision(model)) return std::nullopt;
   return counted_if(
       model.geoms, [](const Geom& g) { return g.material.restitution > 0; }, "geoms with restitution > 0");
 }

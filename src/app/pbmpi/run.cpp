@@ -35,15 +35,15 @@ std::string scene_list() {
 
 /// Root reads the scene's text and every rank parses the same copy, so that a file that only some ranks can
 /// read is no special case.
-std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const std::string& name_or_path) {
+std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const Options& options) {
   scenes::SceneSource source;
   mpi::agree_on_errors(comm, [&] {
-    if (comm.is_root()) source = scenes::find_scene(name_or_path);
+    if (comm.is_root()) source = scenes::find_scene(options.scene);
   });
   comm.bcast_string(source.name);
   comm.bcast_string(source.file);
   comm.bcast_string(source.text);
-  return scenes::parse_scene(source);
+  return scenes::parse_scene(source, options.dt_s);
 }
 
 mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
@@ -169,7 +169,7 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
     case Action::run:
       break;
   }
-  const auto scene = load_scene(comm, options.scene);
+  const auto scene = load_scene(comm, options);
   const RunSpec spec = resolve(options, *scene);
   if (options.action == Action::run) return simulate(comm, options, *scene, spec);
   mpi::agree_on_errors(comm, [&] {

@@ -316,7 +316,7 @@ class StillsTest(unittest.TestCase):
             self.assertNotEqual(first, last)
 
     def test_refuses_a_missing_page(self):
-        done = subprocess.run([OPTIONS.stills, "no-such-page.html", "/tmp", "0"], capture_output=True, text=True)
+        done = subprocess.run([OPTIONS.stills, "no-such-page.html", tempfile.gettempdir(), "0"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("no-such-page.html", done.stderr)
 
