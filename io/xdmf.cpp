@@ -64,12 +64,20 @@ Bodies read_bodies(const std::string& run_path, const std::string& xdmf_path) {
   }
 }
 
-/// Row `row` of an array [rows][bodies][width] of the run's file.
+/// Row `row` of an array [rows][bodies][width] of the run's file, said twice: ParaView's "XDMF Reader" takes
+/// the hyperslab that the two children describe (it knows Type as well as ItemType), and its Xdmf3 readers,
+/// which crash on an ItemType of HyperSlab, take the text "dataset|start:stride:count:extent".
 void row_item(std::ostream& out, const Bodies& b, const std::string& name, int width, std::size_t row) {
-  out << "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" << b.count << ' ' << width << "\">"
-      << "<DataItem Dimensions=\"3 3\" Format=\"XML\">" << row << " 0 0 1 1 1 1 " << b.count << ' ' << width
-      << "</DataItem><DataItem Dimensions=\"" << b.num_rows << ' ' << b.count << ' ' << width
-      << "\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">" << b.file << ':' << bodies << name
+  const std::string dataset = b.file + ":" + bodies + name;
+  const std::string number = "\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">";
+  std::ostringstream items;
+  items << b.count << ' ' << width;
+  const std::string count = "1 " + items.str();
+  const std::string extent = std::to_string(b.num_rows) + " " + items.str();
+  const std::string start = std::to_string(row) + " 0 0";
+  out << "<DataItem Type=\"HyperSlab\" Dimensions=\"" << items.str() << number << dataset << '|' << start
+      << ":1 1 1:" << count << ':' << extent << "<DataItem Dimensions=\"3 3\" Format=\"XML\">" << start
+      << " 1 1 1 " << count << "</DataItem><DataItem Dimensions=\"" << extent << number << dataset
       << "</DataItem></DataItem>";
 }
 
@@ -88,8 +96,13 @@ void fixed_attribute(std::ostream& out, const Bodies& b, const std::string& name
 }
 
 void grid(std::ostream& out, const Bodies& b, std::size_t row) {
-  out << "   <Grid Name=\"bodies\" GridType=\"Uniform\">\n    <Time Value=\"" << b.times[row] << "\"/>\n"
-      << "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" << b.count << "\"/>\n"
+  out << "   <Grid Name=\"bodies\" GridType=\"Uniform\">\n    <Time Value=\"" << b.times[row]
+      << "\"/>\n"
+      // The connectivity, one point a cell, is 0, 1, 2 ...: the ids of the bodies.
+      << "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" << b.count
+      << "\" NodesPerElement=\"1\"><DataItem Dimensions=\"" << b.count
+      << "\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">" << b.file << ':' << bodies
+      << "id</DataItem></Topology>\n"
       << "    <Geometry GeometryType=\"XYZ\">";
   row_item(out, b, "position/value", 3, row);
   out << "</Geometry>\n";
@@ -106,7 +119,6 @@ std::string document(const Bodies& b) {
   std::ostringstream out;
   out.precision(17);
   out << "<?xml version=\"1.0\"?>\n"
-      << "<!-- In ParaView choose the \"XDMF Reader\": the two Xdmf3 readers know no hyperslabs. -->\n"
       << "<Xdmf Version=\"3.0\">\n <Domain>\n"
       << "  <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (std::size_t row = 0; row < b.times.size(); ++row) grid(out, b, row);

@@ -9,9 +9,6 @@ namespace pbmpi::io {
 /// `run_path`, named relative to the folder of `xdmf_path`. Only committed frames appear. The file is
 /// replaced as a whole or not at all. Throws core::InputError if the run cannot be read or the file cannot be
 /// written.
-///
-/// Frames are hyperslabs, which ParaView 5.11 reads with its "XDMF Reader" and not with its two Xdmf3
-/// readers.
 void write_xdmf(const std::string& run_path, const std::string& xdmf_path);
 
 }  // namespace pbmpi::io

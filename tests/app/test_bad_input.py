@@ -47,13 +47,13 @@ class BadInput(ProgramTest):
         self.refused(3, self.scene('title = "x"\n[[actor]\n'), "scene.toml:2:")
 
     def test_unknown_key_has_line_and_the_nearest_key(self):
-        self.refused(2, self.scene(GOOD_SCENE.replace("mass =", "mas =")), "scene.toml:9:", "mas", "mass")
+        self.refused(2, self.scene(GOOD_SCENE + "densty = 600\n"), "scene.toml:11:", "densty", "density")
 
     def test_nan_mass(self):
-        self.refused(2, self.scene(GOOD_SCENE.replace("mass = 10", "mass = nan")), "scene.toml:9:", "mass")
+        self.refused(2, self.scene(GOOD_SCENE.replace("mass = 10", "mass = nan")), "scene.toml:10:", "mass")
 
     def test_joint_between_a_body_and_itself(self):
-        joint = '[[joint]]\nkind = "ball"\nname = "loop"\nbody_a = "box"\nbody_b = "box"\nanchor = [0, 0, 1]\n'
+        joint = '[[joint]]\nkind = "ball"\nname = "loop"\nbodies = ["box", "box"]\nanchor = [0, 0, 1]\n'
         self.refused(2, self.scene(GOOD_SCENE + joint), "scene.toml:1", "loop", "itself")
 
     def test_negative_dt(self):

@@ -12,7 +12,7 @@ class Scenes(ProgramTest):
         self.summary(2, "--scene", scene)
         with h5py.File(self.path(f"{scene}.h5")) as file:
             measured = file["timings/frame/measured"][:].astype(bool)
-            return file["observables/world/islands/value"][:][measured].sum(axis=1)
+            return file["observables/world/islands"][:][measured].sum(axis=1)
 
     def test_cars_stay_apart_in_the_window(self):
         for scene, count in (("2-Cars", 2), ("10-Cars", 10)):

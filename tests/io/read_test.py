@@ -86,18 +86,20 @@ def xdmf_points_into(path):
             assert int(grid.find("Topology").get("NumberOfElements")) == len(f["particles/bodies/id"])
             for item in grid.iter("DataItem"):
                 dims = [int(d) for d in item.get("Dimensions").split()]
-                if item.get("Format") == "HDF":
-                    name, dataset = item.text.split(":")
-                    assert name == os.path.basename(path)
-                    assert list(f[dataset].shape) == dims, dataset
-                    kind = {"f": "Float", "i": "Int"}[f[dataset].dtype.kind]
-                    assert (item.get("NumberType"), int(item.get("Precision"))) == (kind, f[dataset].dtype.itemsize)
-                elif item.get("ItemType") == "HyperSlab":
+                if item.get("Type") == "HyperSlab":
                     slab, source = list(item)
                     start, stride, count = np.array(slab.text.split(), dtype=int).reshape(3, 3)
                     assert list(start) == [row, 0, 0] and list(stride) == [1, 1, 1]
                     assert list(count) == [1] + dims
                     assert all(start + count <= [int(d) for d in source.get("Dimensions").split()])
+                    said_again = [source.text] + [" ".join(map(str, v)) for v in (start, stride, count)]
+                    assert item.text == "{}|{}:{}:{}:".format(*said_again) + source.get("Dimensions")
+                elif item.get("Format") == "HDF":
+                    name, dataset = item.text.split(":")
+                    assert name == os.path.basename(path)
+                    assert list(f[dataset].shape) == dims, dataset
+                    kind = {"f": "Float", "i": "Int"}[f[dataset].dtype.kind]
+                    assert (item.get("NumberType"), int(item.get("Precision"))) == (kind, f[dataset].dtype.itemsize)
             names = {a.get("Name") for a in grid.findall("Attribute")}
             assert names == {"velocity", "angular_velocity", "orientation", "world", "id", "mass"}
 

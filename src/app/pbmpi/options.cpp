@@ -120,6 +120,8 @@ Options parse_options(const std::vector<std::string>& args) {
   options.steps_per_frame = given<int>(values, "steps-per-frame");
   options.iterations = given<int>(values, "iterations");
   options.dt_s = given<double>(values, "dt");
+  require_input(!options.dt_s || (std::isfinite(*options.dt_s) && *options.dt_s > 0),
+                "--dt " + std::to_string(options.dt_s.value_or(0)) + " s: a step must be finite and above 0");
   options.stepper = choice<model::StepperKind>(values, "stepper", model::stepper_kind_names);
   options.decomposition = choice<Decomposition>(values, "decompose", decomposition_names);
   options.seed = values["seed"].as<std::uint64_t>();
@@ -154,8 +156,6 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   require_at_least(spec.steps_per_frame, 1, "--steps-per-frame");
   require_at_least(spec.stepper.iterations, 1, "--iterations");
   require_at_least(spec.record_every, 1, "--record-every");
-  require_input(std::isfinite(spec.stepper.dt_s) && spec.stepper.dt_s > 0,
-                "--dt " + std::to_string(spec.stepper.dt_s) + " s: a step must be finite and above 0");
   return spec;
 }
 
