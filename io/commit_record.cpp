@@ -1,7 +1,6 @@
 #include "io/commit_record.h"
 
 #include "io/columns.h"
-#include "io/parallel_file.h"
 
 namespace pbmpi::io {
 namespace {
@@ -30,7 +29,13 @@ void create_commit_attributes(hid_t root, hid_t events) {
   write_attribute(events, "num_dropped", std::int64_t{0});
 }
 
-CommitRecord::CommitRecord(const std::string& path) : file_(open_alone(path)) {}
+CommitRecord::CommitRecord(const std::string& path) {
+  // The serial driver, whose flush is a write: that of MPI-IO waits for the disk, with all data since the
+  // last.
+  const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
+  check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");
+  file_ = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "H5Fopen");
+}
 
 void CommitRecord::commit(std::int64_t num_frames, std::int64_t num_events) {
   rewrite(file_, "/events", "num_events", num_events);

@@ -27,7 +27,6 @@ class CommitRecord {
   void commit(std::int64_t num_frames, std::int64_t num_events);
   /// What is known at the end of the run.
   void finish(bool complete, const std::string& state_hash, std::int64_t events_dropped);
-  hid_t file() const { return file_.id(); }
   /// False if HDF5 could not write all of it.
   bool close() { return file_.close(); }
 

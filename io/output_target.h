@@ -23,6 +23,8 @@ class OutputTarget {
   OutputTarget(OutputTarget&& other) noexcept;
   OutputTarget& operator=(OutputTarget&& other) noexcept;
 
+  /// The final name, links resolved.
+  const std::string& path() const { return path_; }
   const std::string& temporary_path() const { return temporary_path_; }
   /// Reserves the disk space of the whole file, so that the disk cannot become full in mid-run, and renames
   /// it. Throws core::InputError.

@@ -111,8 +111,8 @@ void RunFile::Impl::flush() {
       const std::string error = columns_->write(transfer_);
       if (!error.empty()) throw core::RunError(error);
     });
-    write_together([this] { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush"); });
-    // The data of all ranks are in the file before the number that vouches for them.
+    // The data of all ranks are in the file before the number that vouches for them. They may still be on
+    // their way to the disk: a kill does not lose them, and waiting would cost some percent of the run.
     write_together([this] {
       if (ranks_.is_root()) record_.commit(columns_->frames_written(), columns_->events_written());
     });
@@ -124,6 +124,7 @@ void RunFile::Impl::close(bool complete, const std::string& state_hash) {
   if (!open_) return;
   flush();
   open_ = false;
+  write_together([this] { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush"); });
   write_together([this] {
     columns_->close();
     if (!file_.close()) check(-1, "H5Fclose");
@@ -135,8 +136,10 @@ void RunFile::Impl::close(bool complete, const std::string& state_hash) {
 
 void RunFile::Impl::finish(bool complete, const std::string& state_hash) {
   record_.finish(complete, state_hash, columns_->events_dropped());
-  const std::vector<ByteRange> unused = columns_->cut(record_.file());
   if (!record_.close()) check(-1, "H5Fclose");
+  File file = open_alone(target_.path());
+  const std::vector<ByteRange> unused = columns_->cut(file.id());
+  if (!file.close()) check(-1, "H5Fclose");
   target_.release(unused);
 }
 

@@ -54,6 +54,9 @@ struct RunSetup {
 /// constructor if the file cannot be created, core::RunError if a write fails (the same error on every rank,
 /// so that no rank waits for another).
 ///
+/// A SIGKILL loses at most the frames since the last flush; a power failure may lose more, since only close()
+/// waits for the disk.
+///
 /// The skeleton (all datasets at their full length, allocated, with all metadata) is made under a temporary
 /// name, flushed, and renamed to `path`; from then on only raw data and the attribute frames_committed
 /// change, so that the file opens after a SIGKILL at any moment. Frames are held in memory and written at the

@@ -65,7 +65,7 @@ TEST(ReadRun, refuses_what_is_not_there_or_not_hdf5) {
   expect_refusal(scratch.folder().string(), "directory");
   std::ofstream(scratch.file("text.h5")) << "these are not the bytes of HDF5";
   expect_refusal(scratch.file("text.h5"), "HDF5");
-  std::ofstream(scratch.file("empty.h5"));
+  { const std::ofstream empty(scratch.file("empty.h5")); }
   expect_refusal(scratch.file("empty.h5"), "HDF5");
 }
 
