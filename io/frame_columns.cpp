@@ -112,17 +112,17 @@ FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const model::Worl
     : ranks_(ranks),
       table_(table),
       record_every_(shape.record_every),
-      bodies_(file, "/particles/bodies", body_columns(),
+      bodies_(file, ranks, "/particles/bodies", body_columns(),
               table_shape(shape.num_recorded(), shape.num_bodies, recorded_to_hold(shape))),
-      recorded_(file, "/particles/bodies/position", recorded_columns(),
+      recorded_(file, ranks, "/particles/bodies/position", recorded_columns(),
                 table_shape(shape.num_recorded(), 0, recorded_to_hold(shape))),
-      worlds_(file, "/observables/world", world_columns(),
+      worlds_(file, ranks, "/observables/world", world_columns(),
               table_shape(shape.num_frames, shape.num_worlds, frames_to_hold(shape))),
-      frames_(file, "/timings/frame", frame_columns(),
+      frames_(file, ranks, "/timings/frame", frame_columns(),
               table_shape(shape.num_frames, 0, frames_to_hold(shape))),
-      phases_(file, "/timings/rank", phase_columns(),
+      phases_(file, ranks, "/timings/rank", phase_columns(),
               table_shape(shape.num_frames, shape.num_ranks, frames_to_hold(shape))),
-      events_(file, "/events", event_columns(), table_shape(max_events, 0, max_events)) {
+      events_(file, ranks, "/events", event_columns(), table_shape(max_events, 0, max_events)) {
   link_step_and_time(file);
 }
 

@@ -44,9 +44,9 @@ void add_unused_chunks(hid_t dataset, hsize_t num_rows, std::vector<ByteRange>& 
 
 }  // namespace
 
-GrowingTable::GrowingTable(hid_t file, const std::string& group, const std::vector<ColumnSpec>& columns,
-                           TableShape shape)
-    : shape_(shape), items_(std::max<hsize_t>(shape.num_items, 1)) {
+GrowingTable::GrowingTable(hid_t file, const FileRanks& ranks, const std::string& group,
+                           const std::vector<ColumnSpec>& columns, TableShape shape)
+    : ranks_(ranks), shape_(shape), items_(std::max<hsize_t>(shape.num_items, 1)) {
   shape_.capacity = std::clamp<hsize_t>(shape.capacity, 1, std::max<hsize_t>(shape.num_rows, 1));
   for (const ColumnSpec& spec : columns) {
     Column column{group + "/" + spec.name, type_of(spec), {}, 0, nullptr};
@@ -61,7 +61,7 @@ GrowingTable::GrowingTable(hid_t file, const std::string& group, const std::vect
 
 void GrowingTable::begin_row(const std::vector<Range>& ranges) {
   core::require_invariant(!full() && written_ + num_waiting_ < shape_.num_rows, "a row too many");
-  blocks_.add(static_cast<std::int64_t>(written_ + num_waiting_), ranges);
+  owned_.push_back(ranges);
   ++num_waiting_;
 }
 
@@ -80,34 +80,90 @@ std::size_t GrowingTable::row_bytes(const std::vector<ColumnSpec>& columns, hsiz
   return bytes;
 }
 
+void GrowingTable::pack(hsize_t row, std::vector<std::byte>& message) {
+  const auto append = [&message](const void* data, std::size_t bytes) {
+    const auto* begin = static_cast<const std::byte*>(data);
+    message.insert(message.end(), begin, begin + bytes);
+  };
+  const std::vector<Range>& ranges = owned_[row];
+  const std::size_t num_ranges = ranges.size();
+  append(&num_ranges, sizeof num_ranges);
+  append(ranges.data(), num_ranges * sizeof(Range));
+  for (Column& column : columns_) {
+    for (const Range& range : ranges)
+      append(place(column, row, range.first), range.count * column.item_bytes);
+  }
+}
+
+const std::byte* GrowingTable::unpack(hsize_t row, const std::byte* message) {
+  const auto take = [&message](void* data, std::size_t bytes) {
+    if (bytes > 0) std::memcpy(data, message, bytes);
+    message += bytes;
+  };
+  std::size_t num_ranges = 0;
+  take(&num_ranges, sizeof num_ranges);
+  std::vector<Range> ranges(num_ranges);
+  take(ranges.data(), num_ranges * sizeof(Range));
+  for (Column& column : columns_) {
+    for (const Range& range : ranges) take(place(column, row, range.first), range.count * column.item_bytes);
+  }
+  return message;
+}
+
+void GrowingTable::exchange_items() {
+  if (ranks_.size() == 1) return;
+  std::vector<std::vector<std::byte>> messages(static_cast<std::size_t>(ranks_.size()));
+  for (int to = 0; to < ranks_.size(); ++to) {
+    if (to == ranks_.rank()) continue;
+    const Range rows = share_of_rows(num_waiting_, to, ranks_.size());
+    for (hsize_t row = rows.first; row < rows.first + rows.count; ++row) pack(row, messages[to]);
+  }
+  const std::vector<std::byte> received = ranks_.exchange(messages);
+  const Range own = share_of_rows(num_waiting_, ranks_.rank(), ranks_.size());
+  const std::byte* message = received.data();
+  for (int from = 0; from < ranks_.size(); ++from) {
+    if (from == ranks_.rank()) continue;
+    for (hsize_t row = own.first; row < own.first + own.count; ++row) message = unpack(row, message);
+  }
+}
+
 std::string GrowingTable::write(const PropertyList& transfer) {
   if (num_waiting_ == 0) return {};
+  exchange_items();
+  const Range rows = share_of_rows(num_waiting_, ranks_.rank(), ranks_.size());
   std::string error;
   collective_ = true;
   for (Column& column : columns_) {
     try {
-      write(column, transfer);
+      write(column, rows, transfer);
       collective_ = was_collective(transfer) && collective_;
-    } catch (const std::exception& e) {
+    } catch (const core::RunError& e) {
       if (error.empty()) error = e.what();
     }
   }
-  blocks_.clear();
+  owned_.clear();
   written_ += num_waiting_;
   num_waiting_ = 0;
   return error;
 }
 
-void GrowingTable::write(Column& column, const PropertyList& transfer) {
+void GrowingTable::write(Column& column, Range rows, const PropertyList& transfer) {
   const auto in_file = owned<Dataspace>(H5Dget_space(column.dataset.id()), "H5Dget_space");
   std::vector<hsize_t> dims = extent(column.dataset.id());
-  dims[0] = num_waiting_;
+  dims[0] = std::max<hsize_t>(rows.count, 1);
   const auto in_memory = owned<Dataspace>(
       H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), "H5Screate_simple");
-  blocks_.select(in_file, 0);
-  blocks_.select(in_memory, static_cast<std::int64_t>(written_));
+  if (rows.count == 0) {
+    check(H5Sselect_none(in_file.id()), "H5Sselect_none");
+    check(H5Sselect_none(in_memory.id()), "H5Sselect_none");
+  } else {
+    std::vector<hsize_t> start(dims.size(), 0);
+    start[0] = written_ + rows.first;
+    check(H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr, dims.data(), nullptr),
+          "H5Sselect_hyperslab");
+  }
   check(H5Dwrite(column.dataset.id(), column.type.id(), in_memory.id(), in_file.id(), transfer.id(),
-                 column.waiting.get()),
+                 place(column, rows.first, 0)),
         "H5Dwrite(" + column.path + ")");
 }
 

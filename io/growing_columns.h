@@ -31,14 +31,15 @@ struct TableShape {
   hsize_t capacity = 1;   ///< rows that can wait
 };
 
-/// Columns of one group that get the same rows, of which each rank writes some items. A waiting row has all
-/// items, so that the selection has one shape in memory and in the file: HDF5 copies anything else
-/// value by value. Pages of items that a rank does not own are never touched, and so take no memory.
+/// Columns of one group that get the same rows, of which each rank owns some items. Before they are written
+/// the ranks exchange items, so that each has some rows whole and writes them in one piece: that is what
+/// MPI-IO's collective buffering is for, which loses errors (parallel_file.cpp).
+/// A waiting row has room for all items; pages that a rank never touches take no memory.
 class GrowingTable {
  public:
   /// Makes the datasets. Collective.
-  GrowingTable(hid_t file, const std::string& group, const std::vector<ColumnSpec>& columns,
-               TableShape shape);
+  GrowingTable(hid_t file, const FileRanks& ranks, const std::string& group,
+               const std::vector<ColumnSpec>& columns, TableShape shape);
 
   /// Begins the next row, in which this rank writes the items of `ranges` ({0, 1} or nothing in a
   /// one-dimensional table).
@@ -83,16 +84,24 @@ class GrowingTable {
     std::size_t item_bytes;
     std::unique_ptr<std::byte[]> waiting;  ///< [capacity][items][width]
   };
-  std::byte* place(std::size_t column, hsize_t item) {
-    return columns_[column].waiting.get() +
-           ((num_waiting_ - 1) * items_ + item) * columns_[column].item_bytes;
+  std::byte* place(Column& column, hsize_t row, hsize_t item) {
+    return column.waiting.get() + (row * items_ + item) * column.item_bytes;
   }
-  void write(Column& column, const PropertyList& transfer);
+  std::byte* place(std::size_t column, hsize_t item) {
+    return place(columns_[column], num_waiting_ - 1, item);
+  }
+  /// Completes the rows that this rank writes.
+  void exchange_items();
+  /// This rank's items of a waiting row, behind what `message` has; and the same back.
+  void pack(hsize_t row, std::vector<std::byte>& message);
+  const std::byte* unpack(hsize_t row, const std::byte* message);
+  void write(Column& column, Range rows, const PropertyList& transfer);
 
+  const FileRanks& ranks_;
   TableShape shape_;
   hsize_t items_;
   std::vector<Column> columns_;
-  RowBlocks blocks_;
+  std::vector<std::vector<Range>> owned_;  ///< [num_waiting] this rank's items of each row
   hsize_t num_waiting_ = 0;
   hsize_t written_ = 0;
   bool collective_ = false;

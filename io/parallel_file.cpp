@@ -3,6 +3,8 @@
 #include <mpi.h>
 
 #include <array>
+#include <limits>
+#include <numeric>
 
 namespace pbmpi::io {
 namespace {
@@ -15,6 +17,12 @@ void check_mpi(int code, const char* call, int rank) {
   int length = 0;
   MPI_Error_string(code, text.data(), &length);
   throw core::RunError("rank " + std::to_string(rank) + ": " + call + ": " + text.data());
+}
+
+int to_count(std::size_t bytes) {
+  if (bytes > std::numeric_limits<int>::max())
+    throw core::RunError("more than 2 GiB in one message between ranks");
+  return static_cast<int>(bytes);
 }
 
 /// Root alone writes metadata, and no rank drops an entry of its cache that another keeps: HDF5 broadcasts
@@ -71,6 +79,30 @@ std::int64_t FileRanks::max(std::int64_t value) const {
                           MPI_Comm_f2c(fortran_communicator_)),
             "MPI_Allreduce", rank_);
   return values[0];
+}
+
+std::vector<std::byte> FileRanks::exchange(const std::vector<std::vector<std::byte>>& messages) const {
+  const MPI_Comm comm = MPI_Comm_f2c(fortran_communicator_);
+  std::vector<std::byte> out, in;
+  std::vector<int> out_counts, in_counts(messages.size());
+  for (const auto& message : messages) {
+    out.insert(out.end(), message.begin(), message.end());
+    out_counts.push_back(to_count(message.size()));
+  }
+  to_count(out.size());
+  check_mpi(MPI_Alltoall(out_counts.data(), 1, MPI_INT, in_counts.data(), 1, MPI_INT, comm), "MPI_Alltoall",
+            rank_);
+  in.resize(std::accumulate(in_counts.begin(), in_counts.end(), std::size_t{0}));
+  to_count(in.size());
+  const auto starts = [](const std::vector<int>& counts) {
+    std::vector<int> offsets(counts.size());
+    std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+    return offsets;
+  };
+  check_mpi(MPI_Alltoallv(out.data(), out_counts.data(), starts(out_counts).data(), MPI_BYTE, in.data(),
+                          in_counts.data(), starts(in_counts).data(), MPI_BYTE, comm),
+            "MPI_Alltoallv", rank_);
+  return in;
 }
 
 std::string FileRanks::first_error(const std::string& error) const {

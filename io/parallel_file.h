@@ -1,10 +1,12 @@
 /// The ranks that write one file together: how they open it, and how they agree on an error.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "io/hdf5_handle.h"
@@ -27,6 +29,8 @@ class FileRanks {
   /// Element-wise sum over the ranks, in place.
   void sum(std::span<std::int64_t> values) const;
   std::int64_t max(std::int64_t value) const;
+  /// Sends messages[r] to rank r; returns what the ranks sent to this one, in their order. 2 GiB at most.
+  std::vector<std::byte> exchange(const std::vector<std::vector<std::byte>>& messages) const;
 
   /// The error of the lowest rank that has one, with the rank's number if it is not root; empty if none has.
   std::string first_error(const std::string& error) const;

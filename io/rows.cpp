@@ -13,11 +13,6 @@ std::vector<hsize_t> extent(const Dataspace& space) {
   return dims;
 }
 
-void unite(const Dataspace& space, const std::vector<hsize_t>& start, const std::vector<hsize_t>& count) {
-  check(H5Sselect_hyperslab(space.id(), H5S_SELECT_OR, start.data(), nullptr, count.data(), nullptr),
-        "H5Sselect_hyperslab");
-}
-
 }  // namespace
 
 void append_range(std::vector<Range>& ranges, hsize_t first, hsize_t count) {
@@ -35,30 +30,11 @@ hsize_t count_items(const std::vector<Range>& ranges) {
   return count;
 }
 
-void RowBlocks::add(std::int64_t row, const std::vector<Range>& ranges) {
-  if (!blocks_.empty() && blocks_.back().first_row + blocks_.back().num_rows == row &&
-      blocks_.back().ranges == ranges) {
-    ++blocks_.back().num_rows;
-  } else {
-    blocks_.push_back({row, 1, ranges});
-  }
-}
-
-void RowBlocks::select(const Dataspace& space, std::int64_t first_row) const {
-  check(H5Sselect_none(space.id()), "H5Sselect_none");
-  std::vector<hsize_t> count = extent(space);
-  std::vector<hsize_t> start(count.size(), 0);
-  for (const Block& block : blocks_) {
-    start[0] = static_cast<hsize_t>(block.first_row - first_row);
-    count[0] = static_cast<hsize_t>(block.num_rows);
-    for (const Range& range : block.ranges) {
-      if (count.size() > 1) {
-        start[1] = range.first;
-        count[1] = range.count;
-      }
-      unite(space, start, count);
-    }
-  }
+Range share_of_rows(hsize_t num_rows, int rank, int num_ranks) {
+  const auto begin_of = [=](int r) {
+    return num_rows * static_cast<hsize_t>(r) / static_cast<hsize_t>(num_ranks);
+  };
+  return {begin_of(rank), begin_of(rank + 1) - begin_of(rank)};
 }
 
 void select_ranges(const Dataspace& space, const std::vector<Range>& ranges) {
@@ -68,7 +44,8 @@ void select_ranges(const Dataspace& space, const std::vector<Range>& ranges) {
   for (const Range& range : ranges) {
     start[0] = range.first;
     count[0] = range.count;
-    unite(space, start, count);
+    check(H5Sselect_hyperslab(space.id(), H5S_SELECT_OR, start.data(), nullptr, count.data(), nullptr),
+          "H5Sselect_hyperslab");
   }
 }
 

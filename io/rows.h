@@ -1,4 +1,4 @@
-/// Which part of a dataset [rows][items][...] a rank writes, and how such a dataset is cut into chunks.
+/// Which part of a dataset a rank writes, and how a dataset [rows][items][...] is cut into chunks.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace pbmpi::io {
 
-/// Neighbouring items of a row: [first, first + count).
+/// Neighbours among the items of a row, or among rows: [first, first + count).
 struct Range {
   hsize_t first = 0;
   hsize_t count = 0;
@@ -21,25 +21,8 @@ void append_range(std::vector<Range>& ranges, hsize_t first, hsize_t count);
 /// Items in all ranges.
 hsize_t count_items(const std::vector<Range>& ranges);
 
-/// Consecutive rows, in each of which this rank writes some ranges of items. Rows with the same ranges form
-/// one block, so that without migration a whole flush is a few hyperslabs.
-class RowBlocks {
- public:
-  /// `row` follows the last one added; `ranges` are sorted.
-  void add(std::int64_t row, const std::vector<Range>& ranges);
-  void clear() { blocks_.clear(); }
-  /// Selects these rows, less `first_row`, in `space` [rows] or [rows][items][...]; nothing if there is
-  /// nothing to write.
-  void select(const Dataspace& space, std::int64_t first_row) const;
-
- private:
-  struct Block {
-    std::int64_t first_row;
-    std::int64_t num_rows;
-    std::vector<Range> ranges;
-  };
-  std::vector<Block> blocks_;
-};
+/// The rows that each of `num_ranks` ranks writes of `num_rows`: nearly equal shares, in order of the ranks.
+Range share_of_rows(hsize_t num_rows, int rank, int num_ranks);
 
 /// Selects `ranges` of items in `space` [items][...].
 void select_ranges(const Dataspace& space, const std::vector<Range>& ranges);

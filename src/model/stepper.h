@@ -12,13 +12,24 @@
 
 namespace pbmpi::model {
 
-enum class StepperKind { quick, direct };
+enum class StepperKind { quick, direct, sor };
+
+/// Number type of the sor stepper; ODE's steppers are double.
+enum class Precision { double_, single };
+
+/// Vector instructions of the sor stepper; all give the same bits. automatic = the widest that the machine
+/// has.
+enum class Simd { automatic, sse2, avx2, avx512, off };
 
 /// What a run chooses about the step; the rest is in the Model.
 struct StepperSettings {
   StepperKind kind = StepperKind::quick;
   double dt_s = 0.01;
-  int iterations = 20;     ///< sweeps of an iterative solver
+  int iterations = 20;      ///< sweeps of an iterative solver, in each substep
+  int substeps = 1;         ///< sor: parts of a step without new collision detection
+  double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
+  Precision precision = Precision::double_;
+  Simd simd = Simd::automatic;
   std::uint64_t seed = 1;  ///< of the run; a step's random numbers come from (seed, world, step)
 };
 

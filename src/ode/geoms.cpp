@@ -39,23 +39,6 @@ dGeomID make_plane(const model::Geom& geom, dSpaceID space) {
   return dCreatePlane(space, normal.x(), normal.y(), normal.z(), normal.dot(geom.local.position));
 }
 
-dGeomID make_shape(const model::Geom& geom, dSpaceID space) {
-  const auto& size = geom.size;
-  switch (geom.shape) {
-    case model::Shape::sphere:
-      return dCreateSphere(space, size[0]);
-    case model::Shape::box:
-      return dCreateBox(space, size[0], size[1], size[2]);
-    case model::Shape::capsule:
-      return dCreateCapsule(space, size[0], size[1]);
-    case model::Shape::cylinder:
-      return dCreateCylinder(space, size[0], size[1]);
-    case model::Shape::plane:
-      return make_plane(geom, space);
-  }
-  throw std::logic_error("ode: a shape without a geom");
-}
-
 /// An offset costs ODE a matrix product a step, so that a geom centred on its body gets none.
 void place(const model::Geom& geom, const std::vector<dBodyID>& bodies, dGeomID id) {
   const model::Vec3& position = geom.local.position;
@@ -73,6 +56,23 @@ void place(const model::Geom& geom, const std::vector<dBodyID>& bodies, dGeomID 
 }
 
 }  // namespace
+
+dGeomID make_shape(const model::Geom& geom, dSpaceID space) {
+  const auto& size = geom.size;
+  switch (geom.shape) {
+    case model::Shape::sphere:
+      return dCreateSphere(space, size[0]);
+    case model::Shape::box:
+      return dCreateBox(space, size[0], size[1], size[2]);
+    case model::Shape::capsule:
+      return dCreateCapsule(space, size[0], size[1]);
+    case model::Shape::cylinder:
+      return dCreateCylinder(space, size[0], size[1]);
+    case model::Shape::plane:
+      return make_plane(geom, space);
+  }
+  throw std::logic_error("ode: a shape without a geom");
+}
 
 JoinedBodies::JoinedBodies(const model::Model& model) : neighbours_(model.bodies.size()) {
   for (const model::Joint& joint : model.joints) {

@@ -30,6 +30,9 @@ class JoinedBodies {
                                               ///< geoms do not touch each other anyway
 };
 
+/// The ODE geom of a shape; null: in no space. A plane stands where it belongs, the others at the origin.
+dGeomID make_shape(const model::Geom& geom, dSpaceID space);
+
 /// The geoms of a model in one ODE space, and the rule which of them may touch:
 /// not two static ones, not two of one body, not two of one actor without self_collision, not two of bodies
 /// that share a joint. ODE's category bits already keep most of these pairs out of the bounding box tests.

@@ -67,6 +67,14 @@ TEST(Options, impossible_values_are_named) {
   EXPECT_EQ(refusal({"--scene", "Fake"}), "");
 }
 
+TEST(Options, those_of_sor_are_refused_with_another_stepper) {
+  EXPECT_NE(refusal({"--scene", "Fake", "--substeps", "2"}).find("--stepper sor"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--precision", "single"}).find("--stepper sor"), std::string::npos);
+  EXPECT_EQ(refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", "2", "--precision", "single"}), "");
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", "0"}).find("at least 1"),
+            std::string::npos);
+}
+
 TEST(Options, a_slip_of_the_pen_gets_a_suggestion) {
   EXPECT_NE(refusal({"--scene", "Fake", "--itertions", "4"}).find("did you mean --iterations?"),
             std::string::npos);

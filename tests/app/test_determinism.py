@@ -1,4 +1,5 @@
 """Same bits for any number of ranks, with output on or off, and for every placement."""
+import json
 import unittest
 
 import h5py
@@ -33,6 +34,18 @@ class Determinism(ProgramTest):
         self.assertGreater(three["rebalances"]["count"], 0, "the worlds of this scene are so unequal that they must move")
         self.assertGreater(three["rebalances"]["worlds_moved"], 0)
         self.assertEqual(one["state_hash"], three["state_hash"])
+
+    def test_sor_has_one_hash_for_1_to_4_ranks_and_every_instruction_set(self):
+        for precision in ("double", "single"):
+            args = ["--scene", "100CrSk", "--stepper", "sor", "--precision", precision, "--no-output"]
+            hashes = {self.summary(ranks, *args)["state_hash"] for ranks in (1, 2, 3, 4)}
+            for simd in ("off", "sse2", "avx2", "avx512"):
+                result = self.pbmpi(1, *args, "--simd", simd, "--report", "json")
+                if result.returncode == 2 and "lacks the instruction set" in result.stderr:
+                    continue  # not this machine's
+                self.assertEqual(result.returncode, 0, result.stderr)
+                hashes.add(json.loads(result.stdout)["state_hash"])
+            self.assertEqual(len(hashes), 1, precision)
 
     def test_another_seed_gives_another_hash(self):
         first, second = (self.summary(2, "--scene", "CrashSk", "--seed", seed, "--no-output") for seed in (1, 2))

@@ -1,11 +1,12 @@
-/// bench_worlds [SUBJECT] [WORLDS] [FRAMES] [ROUNDS]: pbmpi's ODE stepper against the bare loop over the same
-/// worlds. bench_worlds --spaces: ODE's spaces against each other.
+/// bench_worlds [SUBJECT] [WORLDS] [FRAMES] [ROUNDS]: pbmpi's steppers against the bare ODE loop over the
+/// same worlds. bench_worlds --spaces: ODE's spaces against each other.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
 #include "compare.h"
 #include "core/error.h"
+#include "mpi/session.h"
 #include "spaces.h"
 
 namespace {
@@ -36,6 +37,7 @@ void run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const pbmpi::mpi::Session session(argc, argv);
   try {
     run(argc, argv);
     return static_cast<int>(pbmpi::core::ExitCode::done);

@@ -1,14 +1,20 @@
 #include "compare.h"
 
-#include <algorithm>
+#include <unistd.h>
+
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 
 #include "core/clock.h"
 #include "core/hash.h"
 #include "core/statistics.h"
+#include "io/run_file.h"
+#include "mpi/communicator.h"
 #include "ode/engine.h"
+#include "ode/narrow_phase.h"
 #include "ode/ode_stepper.h"
+#include "solver/sor_stepper.h"
 
 namespace pbmpi::bench {
 namespace {
@@ -22,6 +28,7 @@ double cpu_s() {
 
 /// Seconds of each measured frame, and what was in it.
 struct Result {
+  std::string name;
   std::vector<double> frame_s;
   std::vector<double> frame_cpu_s;
   double num_contacts = 0;  ///< mean of a step over the measured frames
@@ -33,48 +40,113 @@ struct Result {
   }
 };
 
-/// pbmpi's side, as its frame loop drives it: seeds, canonical contacts, state and observables read out. The
-/// recording of a frame is measured with the program itself (pbmpi --output against --no-output).
-class Ours {
+/// One way to step the subject's worlds.
+class Side {
  public:
-  explicit Ours(const Subject& subject)
-      : subject_(&subject),
-        stepper_(ode::make_ode_stepper({model::StepperKind::quick, subject.dt_s, subject.iterations, 1})) {
+  explicit Side(std::string name) : name_(std::move(name)) {}
+  virtual ~Side() = default;
+  virtual void advance_frame() = 0;
+  virtual int num_contacts() const = 0;
+  virtual model::State state(int world) const = 0;
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
+/// pbmpi's side, as its frame loop drives it: seeds, canonical contacts, state and observables read out, and
+/// recorded if `file` says where.
+class Ours final : public Side {
+ public:
+  Ours(const Subject& subject, std::string name, std::unique_ptr<model::WorldStepper> stepper,
+       const std::string& file)
+      : Side(std::move(name)), subject_(&subject), stepper_(std::move(stepper)) {
     for (int world = 0; world < num_worlds(); ++world) {
       const auto& model = subject.models[static_cast<std::size_t>(world)];
       stepper_->add(world, model, model::initial_state(*model), 0);
     }
+    if (!file.empty()) open(file);
   }
-  void advance_frame() { stepper_->advance(subject_->steps_per_frame, times_); }
-  int num_contacts() const {
+  ~Ours() override {
+    if (!file_) return;
+    file_->close(false, "");
+    std::filesystem::remove(path_);
+  }
+
+  void advance_frame() override {
+    times_ = {};
+    stepper_->advance(subject_->steps_per_frame, times_);
+    if (file_) record();
+  }
+  int num_contacts() const override {
     int sum = 0;
     for (int world = 0; world < num_worlds(); ++world) sum += stepper_->observables(world).contacts;
     return sum;
   }
-  model::State state(int world) const { return stepper_->state(world); }
-  int num_worlds() const { return static_cast<int>(subject_->models.size()); }
+  model::State state(int world) const override { return stepper_->state(world); }
 
  private:
+  static constexpr int most_frames = 1000;
+
+  int num_worlds() const { return static_cast<int>(subject_->models.size()); }
+
+  std::vector<model::LocalWorld> worlds() const {
+    std::vector<model::LocalWorld> views;
+    for (int world = 0; world < num_worlds(); ++world) {
+      views.push_back(
+          {world, &stepper_->model(world), &stepper_->state(world), &stepper_->observables(world)});
+    }
+    return views;
+  }
+
+  void open(const std::string& path) {
+    path_ = path;
+    io::RunSetup setup;
+    setup.path = path;
+    for (const auto& model : subject_->models) {
+      setup.table.body_offset.push_back(setup.table.num_bodies() + model->num_bodies());
+    }
+    setup.worlds = worlds();
+    setup.hosts = {"bench"};
+    setup.num_frames = most_frames;
+    file_ = std::make_unique<io::RunFile>(io::FileGroup{mpi::Communicator::world().fortran_handle(), 0, 1},
+                                          std::move(setup));
+  }
+
+  void record() {
+    const auto views = worlds();
+    model::FrameRecord frame;
+    frame.frame = frame_++;
+    frame.step = frame_ * subject_->steps_per_frame;
+    frame.time_s = static_cast<double>(frame.step) * subject_->dt_s;
+    frame.measured = true;
+    frame.worlds = views;
+    frame.phases = times_;
+    frame.wall_s = times_.useful_s();
+    file_->frame_done(frame);
+  }
+
   const Subject* subject_;
   std::unique_ptr<model::WorldStepper> stepper_;
   core::PhaseTimes times_;
+  std::string path_;
+  std::unique_ptr<io::RunFile> file_;
+  std::int64_t frame_ = 0;
 };
 
-class Bare {
+class Bare final : public Side {
  public:
   explicit Bare(const Subject& subject)
-      : subject_(&subject), loop_(subject.models, subject.dt_s, subject.iterations) {}
-  void advance_frame() { loop_.advance(subject_->steps_per_frame); }
-  int num_contacts() const { return loop_.num_contacts(); }
-  model::State state(int world) const { return loop_.state(world); }
-  int num_worlds() const { return static_cast<int>(subject_->models.size()); }
+      : Side("bare ODE"), subject_(&subject), loop_(subject.models, subject.dt_s, subject.iterations) {}
+  void advance_frame() override { loop_.advance(subject_->steps_per_frame); }
+  int num_contacts() const override { return loop_.num_contacts(); }
+  model::State state(int world) const override { return loop_.state(world); }
 
  private:
   const Subject* subject_;
   BareOde loop_;
 };
 
-template <class Side>
 void time_frame(Side& side, Result& result) {
   const double start_s = core::now_s();
   const double start_cpu_s = cpu_s();
@@ -84,60 +156,98 @@ void time_frame(Side& side, Result& result) {
   result.num_contacts += side.num_contacts();
 }
 
-template <class Side>
-std::uint64_t hash_of(const Side& side) {
+std::uint64_t hash_of(const Side& side, std::size_t num_worlds) {
   core::Hash64 hash;
-  for (int world = 0; world < side.num_worlds(); ++world) hash.add(model::hash(side.state(world)));
+  for (std::size_t world = 0; world < num_worlds; ++world)
+    hash.add(model::hash(side.state(static_cast<int>(world))));
   return hash.value();
 }
 
-void run_round(const Subject& subject, int frames, Result& ours_result, Result& bare_result) {
-  Ours ours(subject);
-  Bare bare(subject);
+std::unique_ptr<Side> sor_side(const Subject& subject, const std::string& name, model::Precision precision,
+                               model::Simd simd, int substeps, int iterations) {
+  model::StepperSettings settings;
+  settings.kind = model::StepperKind::sor;
+  settings.dt_s = subject.dt_s;
+  settings.iterations = iterations;
+  settings.substeps = substeps;
+  settings.precision = precision;
+  settings.simd = simd;
+  return std::make_unique<Ours>(subject, name, solver::make_sor_stepper(settings, ode::make_narrow_phase),
+                                "");
+}
+
+/// The bare loop first: the others are compared with it.
+std::vector<std::unique_ptr<Side>> make_sides(const Subject& subject) {
+  using model::Precision;
+  using model::Simd;
+  const auto quick = [&] {
+    model::StepperSettings settings;
+    settings.dt_s = subject.dt_s;
+    settings.iterations = subject.iterations;
+    return ode::make_ode_stepper(settings);
+  };
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("bench_worlds." + std::to_string(::getpid()) + ".h5"))
+          .string();
+  const int n = subject.iterations;
+  std::vector<std::unique_ptr<Side>> sides;
+  sides.push_back(std::make_unique<Bare>(subject));
+  sides.push_back(std::make_unique<Ours>(subject, "quick", quick(), ""));
+  sides.push_back(std::make_unique<Ours>(subject, "quick, recorded", quick(), path));
+  sides.push_back(sor_side(subject, "sor double, 1 lane", Precision::double_, Simd::off, 1, n));
+  sides.push_back(sor_side(subject, "sor double, widest", Precision::double_, Simd::automatic, 1, n));
+  sides.push_back(sor_side(subject, "sor single, widest", Precision::single, Simd::automatic, 1, n));
+  sides.push_back(sor_side(subject, "sor single, 5 x 3", Precision::single, Simd::automatic, 5, 3));
+  return sides;
+}
+
+/// Frame by frame the sides take turns, and take turns at who goes first.
+void run_round(const Subject& subject, int frames, std::vector<Result>& results) {
+  const auto sides = make_sides(subject);
+  results.resize(sides.size());
   for (int frame = 0; frame < subject.warmup; ++frame) {
-    ours.advance_frame();
-    bare.advance_frame();
+    for (const auto& side : sides) side->advance_frame();
   }
   for (int frame = 0; frame < frames; ++frame) {
-    if (frame % 2 == 0) time_frame(ours, ours_result);
-    time_frame(bare, bare_result);
-    if (frame % 2 != 0) time_frame(ours, ours_result);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const std::size_t next = (i + static_cast<std::size_t>(frame)) % sides.size();
+      time_frame(*sides[next], results[next]);
+    }
   }
-  ours_result.hash = hash_of(ours);
-  bare_result.hash = hash_of(bare);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    results[i].name = sides[i]->name();
+    results[i].hash = hash_of(*sides[i], subject.models.size());
+  }
 }
 
-void print(const char* name, const Subject& subject, const Result& result) {
-  const double frames = static_cast<double>(result.frame_s.size());
-  std::printf(
-      "  %-6s %10.0f world-steps/s  frame %8.3f ms  %7.1f contacts/world  %.0f world-steps/CPU s  hash %s\n",
-      name, result.world_steps_per_s(subject), 1e3 * core::quantile(result.frame_s, 0.5),
-      result.num_contacts / frames / static_cast<double>(subject.models.size()),
-      subject.steps_per_frame * static_cast<double>(subject.models.size()) /
-          core::quantile(result.frame_cpu_s, 0.5),
-      core::to_hex(result.hash).c_str());
-}
-
-void print_ratio(const char* clock, const std::vector<double>& ours, const std::vector<double>& bare) {
+/// Median of the frames' CPU time ratios to `bare`, as "time 1.010, speed 0.99".
+void print(const Subject& subject, const Result& result, const Result& bare) {
   std::vector<double> ratios;
-  for (std::size_t i = 0; i < ours.size(); ++i) ratios.push_back(ours[i] / bare[i]);
-  std::printf("  %-4s time of a frame, pbmpi / bare: median %.3f (p10 %.3f, p90 %.3f)\n", clock,
-              core::quantile(ratios, 0.5), core::quantile(ratios, 0.1), core::quantile(ratios, 0.9));
+  for (std::size_t i = 0; i < result.frame_cpu_s.size(); ++i) {
+    ratios.push_back(result.frame_cpu_s[i] / bare.frame_cpu_s[i]);
+  }
+  const double ratio = core::quantile(ratios, 0.5);
+  std::printf(
+      "  %-20s %9.0f world-steps/s  frame %8.3f ms  %5.1f contacts/world  time x %6.3f  speed x %6.2f  hash "
+      "%s\n",
+      result.name.c_str(), result.world_steps_per_s(subject), 1e3 * core::quantile(result.frame_s, 0.5),
+      result.num_contacts / static_cast<double>(result.frame_s.size() * subject.models.size()), ratio,
+      1 / ratio, core::to_hex(result.hash).c_str());
 }
 
 }  // namespace
 
 void compare(const Subject& subject, int frames, int rounds) {
   const ode::Engine engine;
-  Result ours, bare;
-  for (int round = 0; round < rounds; ++round) run_round(subject, frames, ours, bare);
-  std::printf("%s: %zu worlds, %d bodies, dt %g s, %d iterations, %d x %d frames of %d steps\n",
-              subject.name.c_str(), subject.models.size(), subject.num_bodies(), subject.dt_s,
-              subject.iterations, rounds, frames, subject.steps_per_frame);
-  print("pbmpi", subject, ours);
-  print("bare", subject, bare);
-  print_ratio("wall", ours.frame_s, bare.frame_s);
-  print_ratio("CPU", ours.frame_cpu_s, bare.frame_cpu_s);
+  std::vector<Result> results;
+  for (int round = 0; round < rounds; ++round) run_round(subject, frames, results);
+  std::printf(
+      "%s: %zu worlds, %d bodies, dt %g s, %d iterations, %d x %d frames of %d steps; time and speed are "
+      "medians\n"
+      "of the frames' CPU time ratios to the bare ODE loop of the same round\n",
+      subject.name.c_str(), subject.models.size(), subject.num_bodies(), subject.dt_s, subject.iterations,
+      rounds, frames, subject.steps_per_frame);
+  for (const Result& result : results) print(subject, result, results.front());
 }
 
 }  // namespace pbmpi::bench

@@ -1,13 +1,13 @@
-/// pbmpi's ODE stepper against the bare loop, in one run.
+/// pbmpi's steppers against the bare ODE loop, in one run.
 #pragma once
 
 #include "subjects.h"
 
 namespace pbmpi::bench {
 
-/// Simulates the subject `rounds` times from its start through its warm-up and `frames` frames, with the two
-/// taking turns frame by frame (and taking turns at who goes first), and prints both rates and the median of
-/// the frames' time ratios.
+/// Simulates the subject `rounds` times from its start through its warm-up and `frames` frames, the steppers
+/// taking turns frame by frame, and prints for each its rate, its median time ratio to the bare loop and its
+/// state hash. Needs an mpi::Session.
 void compare(const Subject& subject, int frames, int rounds);
 
 }  // namespace pbmpi::bench

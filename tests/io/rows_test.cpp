@@ -24,36 +24,32 @@ TEST(Ranges, merges_neighbours_and_drops_empty_ones) {
   EXPECT_EQ(count_items(ranges), 7u);
 }
 
-TEST(RowBlocks, selects_each_row_with_the_ranges_it_was_added_with) {
-  RowBlocks blocks;
-  blocks.add(2, {{0, 1}, {4, 2}});
-  blocks.add(3, {{0, 1}, {4, 2}});
-  blocks.add(4, {{1, 3}});
-  const Dataspace space = space_of({6, 6, 3});
-  blocks.select(space, 0);
-  EXPECT_EQ(num_selected(space), (2 * 3 + 3) * 3);
-  const hsize_t start[3] = {4, 1, 0}, count[3] = {1, 3, 3};
+TEST(SelectRanges, selects_the_ranges_and_all_that_is_in_their_items) {
+  const Dataspace space = space_of({6, 3});
+  select_ranges(space, {{0, 1}, {4, 2}});
+  EXPECT_EQ(num_selected(space), 3 * 3);
+  const hsize_t start[2] = {4, 0}, count[2] = {2, 3};
   ASSERT_GE(H5Sselect_hyperslab(space.id(), H5S_SELECT_AND, start, nullptr, count, nullptr), 0);
-  EXPECT_EQ(num_selected(space), 9) << "row 4 has its own range";
+  EXPECT_EQ(num_selected(space), 2 * 3);
+  select_ranges(space, {});
+  EXPECT_EQ(num_selected(space), 0) << "a rank without items";
 }
 
-TEST(RowBlocks, shifts_rows_for_the_buffer_in_memory) {
-  RowBlocks blocks;
-  blocks.add(7, {{0, 1}});
-  const Dataspace space = space_of({2});
-  blocks.select(space, 7);
-  hsize_t low = 9, high = 9;
-  ASSERT_GE(H5Sget_select_bounds(space.id(), &low, &high), 0);
-  EXPECT_EQ(low, 0u);
-  EXPECT_EQ(high, 0u);
-}
-
-TEST(RowBlocks, selects_nothing_for_a_rank_without_items) {
-  RowBlocks blocks;
-  blocks.add(0, {});
-  const Dataspace space = space_of({4, 4});
-  blocks.select(space, 0);
-  EXPECT_EQ(num_selected(space), 0);
+TEST(ShareOfRows, gives_each_row_to_exactly_one_rank_in_nearly_equal_shares) {
+  for (const hsize_t num_rows : {0, 1, 2, 7, 1000}) {
+    for (int num_ranks = 1; num_ranks <= 9; ++num_ranks) {
+      const hsize_t fair = num_rows / static_cast<hsize_t>(num_ranks);
+      hsize_t next = 0;
+      for (int rank = 0; rank < num_ranks; ++rank) {
+        const Range share = share_of_rows(num_rows, rank, num_ranks);
+        EXPECT_EQ(share.first, next);
+        EXPECT_GE(share.count, fair);
+        EXPECT_LE(share.count, fair + 1);
+        next += share.count;
+      }
+      EXPECT_EQ(next, num_rows);
+    }
+  }
 }
 
 class ChunkShape : public testing::TestWithParam<std::vector<hsize_t>> {};

@@ -7,12 +7,12 @@
 #include <map>
 #include <sstream>
 
+#include "app/pbmpi/stepper_factory.h"
 #include "io/run_file.h"
 #include "model/effects.h"
 #include "model/frame.h"
 #include "model/names.h"
 #include "mpi/partition.h"
-#include "ode/ode_stepper.h"
 
 namespace pbmpi::app {
 namespace {
@@ -66,7 +66,7 @@ std::string in_units(double bytes) {
 
 /// Heap bytes of world 0 in its stepper, model included.
 std::size_t measure_world_bytes(const scenes::Scene& scene, const RunSpec& spec) {
-  const auto stepper = ode::make_ode_stepper(spec.stepper);
+  const auto stepper = make_stepper(spec.stepper);
   const std::size_t before = mallinfo2().uordblks;
   auto model = scene.build(0, spec.stepper.seed);
   const model::State state = model::initial_state(*model);

@@ -32,13 +32,20 @@ po::options_description options_description() {
 
   po::options_description how("How to step");
   how.add_options()  //
-      ("stepper", po::value<std::string>()->default_value("quick")->value_name("quick|direct"),
-       "quick: ODE's iterative dWorldQuickStep; direct: ODE's big-matrix dWorldStep")  //
+      ("stepper", po::value<std::string>()->default_value("quick")->value_name("quick|direct|sor"),
+       "quick: ODE's iterative dWorldQuickStep; direct: ODE's big-matrix dWorldStep; sor: pbmpi's own "
+       "projected SOR, worlds side by side in vector lanes")  //
       ("dt", po::value<double>()->value_name("SECONDS"),
        "length of a step [s]; default: the scene's, 0.01")                                                 //
       ("steps-per-frame", po::value<int>()->value_name("N"), "steps in a frame; default: the scene's, 3")  //
       ("iterations", po::value<int>()->value_name("N"),
-       "sweeps of the iterative solver; default: the scene's, 20");
+       "sweeps of the iterative solver, in each substep; default: the scene's, 20")  //
+      ("substeps", po::value<int>()->default_value(1)->value_name("N"),
+       "sor: parts of a step that share its collision detection")  //
+      ("precision", po::value<std::string>()->default_value("double")->value_name("double|single"),
+       "sor: number type of the solver")  //
+      ("simd", po::value<std::string>()->default_value("auto")->value_name("auto|sse2|avx2|avx512|off"),
+       "sor: vector instructions; the result is the same with all");
 
   po::options_description cut("How to cut the work");
   cut.add_options()  //
@@ -101,7 +108,8 @@ std::string help_text() {
        << options_description()
        << "\nExit codes: 0 done; 1 the simulation failed (what was written is readable); "
        << "2 bad usage or bad input; 75 stopped early on request.\n"
-       << "Signals: INT, TERM and USR2 finish the frame, close the file and end with 75 (send USR2 to mpirun).\n"
+       << "Signals: INT, TERM and USR2 finish the frame, close the file and end with 75 (send USR2 to "
+          "mpirun).\n"
        << "Example: mpirun -n 2 pbmpi --scene 100CrSk --report json\n";
   return text.str();
 }
@@ -123,6 +131,9 @@ Options parse_options(const std::vector<std::string>& args) {
   require_input(!options.dt_s || (std::isfinite(*options.dt_s) && *options.dt_s > 0),
                 "--dt " + std::to_string(options.dt_s.value_or(0)) + " s: a step must be finite and above 0");
   options.stepper = choice<model::StepperKind>(values, "stepper", model::stepper_kind_names);
+  options.substeps = values["substeps"].as<int>();
+  options.precision = choice<model::Precision>(values, "precision", model::precision_names);
+  options.simd = choice<model::Simd>(values, "simd", model::simd_names);
   options.decomposition = choice<Decomposition>(values, "decompose", decomposition_names);
   options.seed = values["seed"].as<std::uint64_t>();
   options.output = given<std::string>(values, "output");
@@ -148,6 +159,9 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   spec.stepper.dt_s = options.dt_s.value_or(defaults.dt_s);
   spec.stepper.iterations = options.iterations.value_or(defaults.iterations);
   spec.stepper.seed = options.seed;
+  spec.stepper.substeps = options.substeps;
+  spec.stepper.precision = options.precision;
+  spec.stepper.simd = options.simd;
   spec.record_every = options.record_every;
   if (!options.no_output) spec.output = options.output.value_or(scene.name() + ".h5");
   require_at_least(spec.num_worlds, 1, "--replicas");
@@ -155,6 +169,12 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   require_at_least(spec.frames, 1, "--frames");
   require_at_least(spec.steps_per_frame, 1, "--steps-per-frame");
   require_at_least(spec.stepper.iterations, 1, "--iterations");
+  require_at_least(spec.stepper.substeps, 1, "--substeps");
+  const bool own_options = spec.stepper.substeps != 1 || options.precision != model::Precision::double_ ||
+                           options.simd != model::Simd::automatic;
+  require_input(
+      options.stepper == model::StepperKind::sor || !own_options,
+      "--substeps, --precision and --simd are options of --stepper sor; ODE's steppers have none of them");
   require_at_least(spec.record_every, 1, "--record-every");
   return spec;
 }

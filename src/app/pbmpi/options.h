@@ -22,6 +22,9 @@ struct Options {
   std::string scene;
   std::optional<int> replicas, frames, warmup, steps_per_frame, iterations;
   std::optional<double> dt_s;
+  int substeps = 1;
+  model::Precision precision = model::Precision::double_;
+  model::Simd simd = model::Simd::automatic;
   model::StepperKind stepper = model::StepperKind::quick;
   Decomposition decomposition = Decomposition::automatic;
   std::uint64_t seed = 1;

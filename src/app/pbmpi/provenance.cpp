@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "app/common/version.h"
+#include "app/pbmpi/stepper_factory.h"
 #include "model/names.h"
 #include "mpi/session.h"
 
@@ -88,8 +89,9 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("dt", spec.stepper.dt_s),
       Parameter::of("stepper", std::string(name_of(spec.stepper.kind))),
       Parameter::of("iterations", std::int64_t{spec.stepper.iterations}),
-      Parameter::of("substeps", std::int64_t{1}),
-      Parameter::of("precision", "double"),
+      Parameter::of("substeps", std::int64_t{spec.stepper.substeps}),
+      Parameter::of("precision", std::string(name_of(spec.stepper.precision))),
+      Parameter::of("simd", simd_text(spec.stepper)),
       Parameter::of("seed", static_cast<std::int64_t>(spec.stepper.seed)),
       Parameter::of("decompose", "worlds"),
       Parameter::of("record_every", std::int64_t{spec.record_every}),

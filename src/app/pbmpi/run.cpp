@@ -11,13 +11,13 @@
 #include "app/pbmpi/progress.h"
 #include "app/pbmpi/provenance.h"
 #include "app/pbmpi/signals.h"
+#include "app/pbmpi/stepper_factory.h"
 #include "io/run_file.h"
 #include "io/xdmf.h"
 #include "model/effects.h"
 #include "model/names.h"
 #include "mpi/agreement.h"
 #include "mpi/world_driver.h"
-#include "ode/ode_stepper.h"
 
 namespace pbmpi::app {
 namespace {
@@ -68,6 +68,9 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.ranks = static_cast<int>(provenance.hosts.size());
   for (int rank = spec.num_worlds; rank < summary.ranks; ++rank) summary.idle_ranks.push_back(rank);
   summary.iterations = spec.stepper.iterations;
+  summary.substeps = spec.stepper.substeps;
+  summary.precision = model::name_of(spec.stepper.precision);
+  summary.simd = simd_text(spec.stepper);
   summary.steps_per_frame = spec.steps_per_frame;
   summary.bodies = num_bodies;
   summary.seed = spec.stepper.seed;
@@ -119,7 +122,7 @@ void print(const mpi::Communicator& comm, const Options& options, const RunSumma
 ExitCode simulate(const mpi::Communicator& comm, const Options& options, const scenes::Scene& scene,
                   const RunSpec& spec) {
   const StopOnSignal stop;
-  const auto stepper = ode::make_ode_stepper(spec.stepper);
+  const auto stepper = make_stepper(spec.stepper);
   const auto build = [&](int world) { return scene.build(world, spec.stepper.seed); };
   mpi::WorldDriver driver(comm, *stepper, build, driver_settings(spec));
   driver.set_stop_flag(stop.flag());

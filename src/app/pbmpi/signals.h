@@ -1,7 +1,7 @@
 /// Stops a run at the end of its frame on SIGINT, SIGTERM or SIGUSR2.
 ///
-/// USR2 is what a job script sends to mpirun: Open MPI 4.1 forwards it to every rank and passes on their exit code 75,
-/// while after a TERM or INT of its own it kills the ranks and ends with 1.
+/// USR2 is what a job script sends to mpirun: Open MPI 4.1 forwards it to every rank and passes on their exit
+/// code 75, while after a TERM or INT of its own it kills the ranks and ends with 1.
 #pragma once
 
 #include <atomic>

@@ -117,6 +117,7 @@ void read_settings(const io::RunData& run, const std::string& path, RunSummary& 
   summary.scene = text_of(run.attributes, "scene");
   summary.stepper = text_of(run.parameters, "stepper");
   summary.precision = text_of(run.parameters, "precision");
+  summary.simd = text_of(run.parameters, "simd");
   summary.iterations = number_of<int>(run, "iterations", path);
   summary.substeps = number_of<int>(run, "substeps", path);
   summary.steps_per_frame = number_of<int>(run, "steps_per_frame", path);

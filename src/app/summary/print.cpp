@@ -37,6 +37,7 @@ std::string run_lines(const RunSummary& s) {
       format("stepper: %s, %d iterations, %d substeps, %s precision, dt %g s, %d steps a frame, seed %llu\n",
              s.stepper.c_str(), s.iterations, s.substeps, s.precision.c_str(), s.dt_s, s.steps_per_frame,
              static_cast<unsigned long long>(s.seed));
+  if (!s.simd.empty()) text += "simd: " + s.simd + "\n";
   text += format("effects: %s\n", join(s.effects, [](const EffectSummary& e) { return e.name; }).c_str());
   text += format("frames: %lld measured after %lld of warm-up%s\n", static_cast<long long>(s.measured_frames),
                  static_cast<long long>(s.warmup_frames), s.complete ? "" : " (stopped before the last)");
@@ -118,6 +119,7 @@ std::string to_json(const RunSummary& s) {
   json["iterations"] = s.iterations;
   json["substeps"] = s.substeps;
   json["precision"] = s.precision;
+  json["simd"] = s.simd;
   json["dt"] = s.dt_s;
   json["steps_per_frame"] = s.steps_per_frame;
   json["seed"] = s.seed;

@@ -26,7 +26,7 @@ struct EffectSummary {
 
 /// Counts and invariants over the measured frames; counts are sums over all worlds at the end of a frame.
 struct RunSummary {
-  std::string version, scene, stepper, precision = "double", output, state_hash;
+  std::string version, scene, stepper, precision = "double", simd, output, state_hash;
   std::vector<std::string> hosts;  ///< distinct
   std::vector<int> idle_ranks;     ///< ranks that own no world at the end
   int worlds = 0, ranks = 0, iterations = 0, substeps = 1, steps_per_frame = 0;

@@ -1,0 +1,24 @@
+#include "app/pbmpi/stepper_factory.h"
+
+#include "model/names.h"
+#include "ode/narrow_phase.h"
+#include "ode/ode_stepper.h"
+#include "solver/simd.h"
+#include "solver/sor_stepper.h"
+
+namespace pbmpi::app {
+
+std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings) {
+  if (settings.kind == model::StepperKind::sor)
+    return solver::make_sor_stepper(settings, ode::make_narrow_phase);
+  return ode::make_ode_stepper(settings);
+}
+
+std::string simd_text(const model::StepperSettings& settings) {
+  if (settings.kind != model::StepperKind::sor) return "";
+  const model::Simd simd = settings.simd == model::Simd::automatic ? solver::best_simd() : settings.simd;
+  const int lanes = solver::num_lanes(simd, settings.precision);
+  return std::string(model::name_of(simd)) + ", " + std::to_string(lanes) + (lanes == 1 ? " lane" : " lanes");
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,18 @@
+/// The stepper that a run asks for.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "model/stepper.h"
+
+namespace pbmpi::app {
+
+/// quick and direct are ODE's; sor is pbmpi's own, with ODE's dCollide. Throws core::InputError for settings
+/// that the stepper refuses.
+std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings);
+
+/// The vector instructions that the stepper uses and its lanes, e.g. "avx512, 16 lanes"; empty for ODE's.
+std::string simd_text(const model::StepperSettings& settings);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,50 @@
+/// Contacts, and the interface through which geoms are tested against each other, whatever the engine.
+#pragma once
+
+#include <compare>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/model.h"
+
+namespace pbmpi::model {
+
+/// Pose of a body or geom as collision detection wants it, world frame.
+struct BodyPose {
+  double position[3];  ///< [m]
+  double rotation[9];  ///< matrix, by rows
+};
+
+/// Two geoms by their indices in the model, first < second. Sorts by (first, second).
+struct GeomPair {
+  int first = 0;
+  int second = 0;
+  auto operator<=>(const GeomPair&) const = default;
+};
+
+/// One contact point. Body a is a real one; the normal points into it.
+struct Contact {
+  int body_a = 0;
+  int body_b = no_body;  ///< no_body: a is in contact with the static environment
+  Vec3 position;         ///< [m] world frame
+  Vec3 normal;           ///< unit, world frame
+  double depth = 0;      ///< [m]
+  double mu = 0;
+  double restitution = 0;
+};
+
+/// Contact points of pairs of geoms.
+class NarrowPhase {
+ public:
+  virtual ~NarrowPhase() = default;
+  /// Appends the contacts of `pairs`, pair by pair. `poses`: [num_bodies].
+  virtual void collide(std::span<const BodyPose> poses, std::span<const GeomPair> pairs,
+                       std::vector<Contact>& contacts) = 0;
+};
+
+/// Makes the narrow phase of one world; the model outlives it.
+using MakeNarrowPhase = std::function<std::unique_ptr<NarrowPhase>(const Model& model)>;
+
+}  // namespace pbmpi::model

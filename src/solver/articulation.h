@@ -1,0 +1,55 @@
+/// Articulations: the sets of bodies that joints connect. Bodies of equal articulations lie side by side in
+/// lanes, whichever world they belong to; a brick or a projectile is an articulation of one body and no
+/// joint.
+#pragma once
+
+#include <compare>
+#include <vector>
+
+#include "model/model.h"
+
+namespace pbmpi::solver {
+
+/// What a joint's rows need besides poses. Frames: a = first body, b = second (the world's frame where there
+/// is none).
+struct JointTerms {
+  model::Vec3 anchor_a, anchor_b;
+  model::Vec3 axis1_a, axis1_b, axis2_b, axis2_a;  ///< axes 1 and 2 as seen from either body at the start
+  model::Vec3 normal1_a;      ///< universal, hinge2: direction in a's frame from which angle 1 is measured
+  model::Vec3 normal2_b;      ///< universal: direction in b's frame from which angle 2 is measured
+  model::Quat relative;       ///< q_a^-1 q_b at the start: hinge, slider, fixed
+  double cos0 = 0, sin0 = 1;  ///< hinge2: of the angle between the axes at the start
+  double stiffness = 0, damping = 0;  ///< hinge2: of the suspension [N/m], [N s/m]
+};
+
+/// One joint of an articulation: its bodies by their index in the articulation.
+struct JointLink {
+  model::JointKind kind = model::JointKind::ball;
+  int body_a = 0;
+  int body_b = 0;       ///< num_bodies = the static body
+  bool sprung = false;  ///< hinge2 with a suspension spring
+  bool operator==(const JointLink&) const = default;
+  auto operator<=>(const JointLink&) const = default;
+};
+
+/// What two articulations must have in common to lie in neighbouring lanes. Masses, lengths and angles may
+/// differ.
+struct ArticulationShape {
+  int num_bodies = 0;
+  std::vector<JointLink> joints;
+  bool operator==(const ArticulationShape&) const = default;
+  auto operator<=>(const ArticulationShape&) const = default;
+};
+
+/// One articulation of one world.
+struct Articulation {
+  ArticulationShape shape;
+  std::vector<int> bodies;        ///< [num_bodies] index of each in the model
+  std::vector<int> joints;        ///< [joints] index of each in the model
+  std::vector<JointTerms> terms;  ///< [joints]
+};
+
+/// Cuts a model at its contacts; in order of the lowest body.
+std::vector<Articulation> find_articulations(const model::Model& model);
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,140 @@
+#include "solver/broad_phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/geometry.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::BodyPose;
+using model::Geom;
+using model::GeomPair;
+using model::Shape;
+
+/// From here on sorting beats testing the list of all pairs (bench_sor --broad-phase).
+constexpr std::size_t most_listed_solids = 96;
+
+bool overlap(const auto& a, const auto& b) {
+  return a.min[0] <= b.max[0] && b.min[0] <= a.max[0] && a.min[1] <= b.max[1] && b.min[1] <= a.max[1] &&
+         a.min[2] <= b.max[2] && b.min[2] <= a.max[2];
+}
+
+}  // namespace
+
+BroadPhase::BroadPhase(const model::Model& model)
+    : model_(&model), boxes_(model.geoms.size()), joined_(model.bodies.size()) {
+  for (const model::Joint& joint : model.joints) {
+    if (joint.body_b == model::no_body) continue;
+    joined_[static_cast<std::size_t>(joint.body_a)].push_back(joint.body_b);
+    joined_[static_cast<std::size_t>(joint.body_b)].push_back(joint.body_a);
+  }
+  for (auto& bodies : joined_) std::sort(bodies.begin(), bodies.end());
+  for (std::size_t i = 0; i < model.geoms.size(); ++i) {
+    const Geom& geom = model.geoms[i];
+    (geom.shape == Shape::plane ? planes_ : solids_).push_back(static_cast<int>(i));
+    if (geom.body == model::no_body && geom.shape != Shape::plane)
+      boxes_[i] = box_of(geom, model::static_pose());
+  }
+  order_ = solids_;
+  listed_only_ = solids_.size() <= most_listed_solids;
+  if (!listed_only_) return;
+  for (std::size_t i = 0; i < solids_.size(); ++i) {
+    for (std::size_t j = i + 1; j < solids_.size(); ++j) {
+      if (may_touch(solids_[i], solids_[j])) listed_.push_back({solids_[i], solids_[j]});
+    }
+  }
+}
+
+bool BroadPhase::may_touch(int first, int second) const {
+  const Geom& a = model_->geoms[static_cast<std::size_t>(first)];
+  const Geom& b = model_->geoms[static_cast<std::size_t>(second)];
+  if (a.body == b.body) return false;  // of one body, or both static
+  if (a.actor == b.actor && !model_->actors[static_cast<std::size_t>(a.actor)].self_collision) return false;
+  if (a.body == model::no_body || b.body == model::no_body) return true;
+  const std::vector<int>& joined = joined_[static_cast<std::size_t>(a.body)];
+  return !std::binary_search(joined.begin(), joined.end(), b.body);
+}
+
+BroadPhase::Box BroadPhase::box_of(const Geom& geom, const BodyPose& body) const {
+  const model::BodyPose pose = model::geom_pose(geom, body);
+  std::array<double, 3> half = model::half_extents(geom, pose.rotation);
+  Box box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.min[k] = pose.position[k] - half[k];
+    box.max[k] = pose.position[k] + half[k];
+  }
+  return box;
+}
+
+void BroadPhase::update_boxes(std::span<const BodyPose> poses) {
+  for (int index : solids_) {
+    const Geom& geom = model_->geoms[static_cast<std::size_t>(index)];
+    if (geom.body != model::no_body) {
+      boxes_[static_cast<std::size_t>(index)] = box_of(geom, poses[static_cast<std::size_t>(geom.body)]);
+    }
+  }
+}
+
+/// A box reaches below a plane if its corner nearest to the inside does.
+void BroadPhase::test_planes(std::vector<GeomPair>& pairs) const {
+  for (int plane : planes_) {
+    const Geom& geom = model_->geoms[static_cast<std::size_t>(plane)];
+    const model::Vec3 normal = geom.local.direction_to_outer(model::Vec3::UnitZ());
+    const double offset = normal.dot(geom.local.position);
+    for (int solid : solids_) {
+      if (model_->geoms[static_cast<std::size_t>(solid)].body == model::no_body) continue;
+      const Box& box = boxes_[static_cast<std::size_t>(solid)];
+      double nearest = 0;
+      for (int k = 0; k < 3; ++k) {
+        nearest += normal[k] * (normal[k] > 0 ? box.min[static_cast<std::size_t>(k)]
+                                              : box.max[static_cast<std::size_t>(k)]);
+      }
+      if (nearest <= offset && may_touch(plane, solid))
+        pairs.push_back({std::min(plane, solid), std::max(plane, solid)});
+    }
+  }
+}
+
+void BroadPhase::test_listed(std::vector<GeomPair>& pairs) const {
+  for (const GeomPair& pair : listed_) {
+    if (overlap(boxes_[static_cast<std::size_t>(pair.first)],
+                boxes_[static_cast<std::size_t>(pair.second)])) {
+      pairs.push_back(pair);
+    }
+  }
+}
+
+/// Sweep and prune along x: insertion sort, since the order of the step before is nearly right.
+void BroadPhase::sweep(std::vector<GeomPair>& pairs) {
+  const auto low = [&](int geom) { return boxes_[static_cast<std::size_t>(geom)].min[0]; };
+  for (std::size_t i = 1; i < order_.size(); ++i) {
+    const int geom = order_[i];
+    std::size_t j = i;
+    for (; j > 0 && low(order_[j - 1]) > low(geom); --j) order_[j] = order_[j - 1];
+    order_[j] = geom;
+  }
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const Box& box = boxes_[static_cast<std::size_t>(order_[i])];
+    for (std::size_t j = i + 1; j < order_.size() && low(order_[j]) <= box.max[0]; ++j) {
+      if (!overlap(box, boxes_[static_cast<std::size_t>(order_[j])])) continue;
+      const auto [first, second] = std::minmax(order_[i], order_[j]);
+      if (may_touch(first, second)) pairs.push_back({first, second});
+    }
+  }
+}
+
+void BroadPhase::find_pairs(std::span<const BodyPose> poses, std::vector<GeomPair>& pairs) {
+  pairs.clear();
+  update_boxes(poses);
+  test_planes(pairs);
+  if (listed_only_) {
+    test_listed(pairs);
+  } else {
+    sweep(pairs);
+  }
+  std::sort(pairs.begin(), pairs.end());
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,54 @@
+/// A pack: the worlds that are stepped together, so that their bodies, joints and contacts fill the lanes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/clock.h"
+#include "model/contact.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "solver/articulation.h"
+
+namespace pbmpi::solver {
+
+/// Uniform numbers of a step.
+struct StepParameters {
+  double dt_s = 0.01;
+  int substeps = 1;
+  int iterations = 20;
+  double sor_factor = 1.3;
+  std::uint64_t order_key = 0;  ///< (seed, step): the order of joints within an articulation
+};
+
+/// A world in a pack: what the pack needs to know of its model.
+struct PackedWorld {
+  const model::Model* model = nullptr;
+  std::vector<Articulation> articulations;
+};
+
+/// One implementation for each number type, number of lanes and instruction set; all give the same bits for a
+/// number type. Bodies of a world are those of its model.
+class Pack {
+ public:
+  virtual ~Pack() = default;
+  virtual void load(int world, const model::State& state) = 0;
+  virtual void store(int world, model::State& state) const = 0;
+  virtual void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) = 0;
+  virtual void set_limit(int world, int joint, int axis, const model::AxisLimit& limit) = 0;
+  virtual void launch(int world, int body, const model::Vec3& velocity,
+                      const model::Vec3& angular_velocity) = 0;
+  /// Poses of a world's bodies: [num_bodies].
+  virtual void poses(int world, std::span<model::BodyPose> poses) const = 0;
+  /// One step with these contacts (of each world, in canonical order); spans hold during the call.
+  /// Adds the seconds spent on rows, solve and integrate to `times`.
+  virtual void step(std::span<const std::span<const model::Contact>> contacts,
+                    const StepParameters& parameters, core::PhaseTimes& times) = 0;
+  /// Rows that a joint had in the last step, limits and motors included.
+  virtual int joint_rows(int world, int joint) const = 0;
+  virtual int num_lanes() const = 0;
+};
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,153 @@
+#include "solver/sor_stepper.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "solver/articulation.h"
+#include "solver/sor_world.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using core::LapTimer;
+using core::Phase;
+
+/// Bodies of a pack: its rows and velocities then fit the 2 MiB of a core's second cache (48 worlds of
+/// CrashSk).
+constexpr int most_bodies_a_pack = 1800;
+
+/// What the worlds of a pack must have in common.
+bool same_laws(const model::Model& a, const model::Model& b) {
+  return a.erp == b.erp && a.cfm == b.cfm && a.contact_law.soft_erp == b.contact_law.soft_erp &&
+         a.contact_law.soft_cfm == b.contact_law.soft_cfm &&
+         a.contact_law.bounce_velocity == b.contact_law.bounce_velocity;
+}
+
+/// Worlds that are stepped together.
+struct Group {
+  std::vector<SorWorld*> worlds;
+  std::unique_ptr<Pack> pack;
+  std::vector<std::span<const model::Contact>> contacts;
+};
+
+class SorStepper final : public model::WorldStepper {
+ public:
+  SorStepper(const model::StepperSettings& settings, model::MakeNarrowPhase make_narrow_phase)
+      : settings_(settings), make_narrow_phase_(std::move(make_narrow_phase)) {}
+
+  void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
+           std::int64_t step) override {
+    worlds_.emplace(world,
+                    std::make_unique<SorWorld>(world, std::move(model), state, step, make_narrow_phase_));
+    groups_.clear();
+  }
+  void remove(int world) override {
+    worlds_.erase(world);
+    groups_.clear();
+  }
+  const model::State& state(int world) const override { return worlds_.at(world)->state(); }
+  const model::Model& model(int world) const override { return worlds_.at(world)->model(); }
+  const model::Observables& observables(int world) const override { return worlds_.at(world)->observables(); }
+  double cost_s(int world) const override { return worlds_.at(world)->cost_s; }
+
+  void advance(int num_steps, core::PhaseTimes& times) override {
+    if (groups_.empty()) make_groups();
+    for (Group& group : groups_) {
+      const double start_s = core::now_s();
+      for (int i = 0; i < num_steps; ++i) step(group, times);
+      observe(group, times);
+      share_cost(group, core::now_s() - start_s);
+    }
+  }
+
+ private:
+  void make_groups();
+  void step(Group& group, core::PhaseTimes& times);
+  static void observe(Group& group, core::PhaseTimes& times);
+  static void share_cost(Group& group, double seconds);
+
+  model::StepperSettings settings_;
+  model::MakeNarrowPhase make_narrow_phase_;
+  std::map<int, std::unique_ptr<SorWorld>> worlds_;
+  std::vector<Group> groups_;  ///< empty: to be made anew
+};
+
+void SorStepper::make_groups() {
+  int bodies = 0;
+  for (const auto& [id, world] : worlds_) {
+    const int more = world->model().num_bodies();
+    if (groups_.empty() || bodies + more > most_bodies_a_pack ||
+        !same_laws(groups_.back().worlds.front()->model(), world->model())) {
+      groups_.emplace_back();
+      bodies = 0;
+    }
+    groups_.back().worlds.push_back(world.get());
+    bodies += more;
+  }
+  for (Group& group : groups_) {
+    std::vector<PackedWorld> packed;
+    for (const SorWorld* world : group.worlds)
+      packed.push_back({&world->model(), find_articulations(world->model())});
+    group.pack = make_pack(packed, settings_.simd, settings_.precision);
+    for (std::size_t i = 0; i < group.worlds.size(); ++i)
+      group.worlds[i]->enter(*group.pack, static_cast<int>(i));
+    group.contacts.resize(group.worlds.size());
+  }
+}
+
+void SorStepper::step(Group& group, core::PhaseTimes& times) {
+  LapTimer timer(times);
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+    SorWorld& world = *group.worlds[i];
+    world.fire_events(*group.pack, static_cast<int>(i));
+    world.collide(*group.pack, static_cast<int>(i));
+    group.contacts[i] = world.contacts();
+  }
+  timer.lap(Phase::collide);
+  // Worlds of a pack may stand at different steps only if they came to this stepper at different times; the
+  // order of the rows then follows each world's own step, so it is the key of the first that all must share.
+  StepParameters parameters;
+  parameters.dt_s = settings_.dt_s;
+  parameters.substeps = settings_.substeps;
+  parameters.iterations = settings_.iterations;
+  parameters.sor_factor = settings_.sor_factor;
+  parameters.order_key =
+      core::mix_key(settings_.seed, static_cast<std::uint64_t>(group.worlds.front()->step()), 0);
+  group.pack->step(group.contacts, parameters, times);
+  for (SorWorld* world : group.worlds) world->finish_step();
+}
+
+void SorStepper::observe(Group& group, core::PhaseTimes& times) {
+  LapTimer timer(times);
+  for (std::size_t i = 0; i < group.worlds.size(); ++i)
+    group.worlds[i]->observe(*group.pack, static_cast<int>(i));
+  timer.lap(Phase::islands);
+}
+
+/// A pack is timed as a whole; its worlds share the time by their rows, which predict it well.
+void SorStepper::share_cost(Group& group, double seconds) {
+  double weights = 0;
+  const auto weight = [](const SorWorld& world) {
+    return world.observables().rows + world.model().num_bodies();
+  };
+  for (const SorWorld* world : group.worlds) weights += weight(*world);
+  for (SorWorld* world : group.worlds) world->cost_s = seconds * weight(*world) / weights;
+}
+
+}  // namespace
+
+std::unique_ptr<model::WorldStepper> make_sor_stepper(const model::StepperSettings& settings,
+                                                      model::MakeNarrowPhase make_narrow_phase) {
+  core::require_input(settings.dt_s > 0, "a step must be longer than 0 s");
+  core::require_input(settings.iterations >= 1, "the solver needs at least 1 iteration");
+  core::require_input(settings.substeps >= 1, "a step has at least 1 substep");
+  core::require_input(has_simd(settings.simd),
+                      "this machine lacks the instruction set asked for with --simd; use auto");
+  return std::make_unique<SorStepper>(settings, std::move(make_narrow_phase));
+}
+
+}  // namespace pbmpi::solver

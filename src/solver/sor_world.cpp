@@ -1,0 +1,103 @@
+#include "solver/sor_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/islands.h"
+
+namespace pbmpi::solver {
+
+using model::Event;
+using model::EventKind;
+
+namespace {
+
+bool all_finite(std::span<const model::BodyPose> poses) {
+  double sum = 0;  // NaN and infinity survive a sum
+  for (const model::BodyPose& pose : poses) {
+    for (const double value : pose.position) sum += value;
+    for (const double value : pose.rotation) sum += value;
+  }
+  return std::isfinite(sum);
+}
+
+}  // namespace
+
+SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state,
+                   std::int64_t step, const model::MakeNarrowPhase& make_narrow_phase)
+    : id_(id),
+      model_(std::move(model)),
+      state_(state),
+      step_(step),
+      broad_phase_(*model_),
+      narrow_phase_(make_narrow_phase(*model_)),
+      poses_(model_->bodies.size()) {}
+
+void SorWorld::apply_setting(const Event& event, Pack& pack, int index) const {
+  if (event.kind == EventKind::motor) pack.set_motor(index, event.joint, event.axis, event.motor);
+  if (event.kind == EventKind::steer) pack.set_limit(index, event.joint, 0, {event.angle, event.angle});
+}
+
+void SorWorld::enter(Pack& pack, int index) const {
+  pack.load(index, state_);
+  for (const Event& event : model_->events) {
+    if (event.step < step_) apply_setting(event, pack, index);
+  }
+}
+
+void SorWorld::fire_events(Pack& pack, int index) const {
+  const auto& events = model_->events;
+  auto event = std::lower_bound(events.begin(), events.end(), step_,
+                                [](const Event& e, std::int64_t step) { return e.step < step; });
+  for (; event != events.end() && event->step == step_; ++event) {
+    apply_setting(*event, pack, index);
+    if (event->kind == EventKind::launch)
+      pack.launch(index, event->body, event->velocity, event->angular_velocity);
+  }
+}
+
+void SorWorld::collide(const Pack& pack, int index) {
+  pack.poses(index, poses_);
+  contacts_.clear();
+  if (!all_finite(poses_)) return;  // the world is lost, and reports so; colliders must not see it
+  broad_phase_.find_pairs(poses_, pairs_);
+  narrow_phase_->collide(poses_, pairs_, contacts_);
+}
+
+void SorWorld::count_rows(const Pack& pack, int index) {
+  std::vector<std::pair<int, int>> links;
+  std::vector<int> rows;
+  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
+    links.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
+    rows.push_back(pack.joint_rows(index, static_cast<int>(j)));
+  }
+  for (const model::Contact& contact : contacts_) {
+    links.emplace_back(contact.body_a, contact.body_b);
+    rows.push_back(contact.mu > 0 ? 3 : 1);
+  }
+  const model::Islands islands = model::find_islands(model_->num_bodies(), links);
+  std::vector<int> island_rows(static_cast<std::size_t>(islands.count), 0);
+  observables_.rows = 0;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    island_rows[static_cast<std::size_t>(islands.of_body[static_cast<std::size_t>(links[i].first)])] +=
+        rows[i];
+    observables_.rows += rows[i];
+  }
+  observables_.islands = islands.count;
+  observables_.max_island_rows = *std::max_element(island_rows.begin(), island_rows.end());
+}
+
+void SorWorld::observe(const Pack& pack, int index) {
+  pack.store(index, state_);
+  count_rows(pack, index);
+  observables_.contacts = static_cast<int>(contacts_.size());
+  observables_.max_penetration_m = 0;
+  for (const model::Contact& contact : contacts_) {
+    observables_.max_penetration_m = std::max(observables_.max_penetration_m, contact.depth);
+  }
+  observables_.energy_j = model::mechanical_energy(*model_, state_);
+  observables_.joint_gap_m = model::max_joint_gap(*model_, state_);
+  observables_.nonfinite = model::count_nonfinite(state_);
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# Prints the ratios that the README quotes, each a median over alternated runs: `tests/bench/run.sh`, after
+# jobs/build.sh. Nothing else should run on the machine.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+. jobs/mpi_environment.sh
+build/release/tests/bench/bench_worlds 100CrSk 0 20 5
+python3 tests/bench/ranks.py 100CrSk 7

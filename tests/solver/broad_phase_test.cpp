@@ -1,0 +1,115 @@
+#include "solver/broad_phase.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+#include "model/geometry.h"
+#include "model/state.h"
+#include "support/models.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::GeomPair;
+
+/// Loose geoms of all shapes in a cube over the ground.
+model::Model cloud(int count, double side) {
+  model::Model model;
+  support::add_ground(model);
+  for (int i = 0; i < count; ++i) {
+    const auto number = [&](std::uint64_t k) {
+      return core::to_unit(core::mix_key(11, static_cast<std::uint64_t>(i), k));
+    };
+    const auto shape = static_cast<model::Shape>(i % 4);
+    const int actor =
+        support::add_actor(model, "solid" + std::to_string(i / 3));  // three of an actor never touch
+    support::add_solid(model, actor, "body" + std::to_string(i), shape,
+                       {0.2 + 0.3 * number(0), 0.3 + 0.4 * number(1), 0.4}, 1,
+                       {side * number(2), side * number(3), side * number(4)},
+                       support::rotation(model::Vec3(number(5), number(6), 1).normalized(), 6 * number(7)));
+  }
+  return model;
+}
+
+std::vector<model::BodyPose> poses_of(const model::Model& model) {
+  std::vector<model::BodyPose> poses;
+  for (const model::Body& body : model.bodies) {
+    model::BodyPose pose{};
+    std::copy_n(body.pose.position.data(), 3, pose.position);
+    const model::Quat& q = body.pose.orientation;
+    model::to_rotation(q.w, q.x, q.y, q.z, pose.rotation);
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+/// Every pair of geoms, tested as the header says.
+std::vector<GeomPair> brute_force(const model::Model& model, const std::vector<model::BodyPose>& poses) {
+  std::vector<GeomPair> pairs;
+  for (int i = 0; i < static_cast<int>(model.geoms.size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(model.geoms.size()); ++j) {
+      const model::Geom& a = model.geoms[static_cast<std::size_t>(i)];
+      const model::Geom& b = model.geoms[static_cast<std::size_t>(j)];
+      if (a.body == b.body || a.actor == b.actor) continue;
+      const model::BodyPose pose_b = model::geom_pose(b, poses[static_cast<std::size_t>(b.body)]);
+      const auto half_b = model::half_extents(b, pose_b.rotation);
+      bool touch = true;
+      if (a.shape == model::Shape::plane) {
+        touch = pose_b.position[2] - half_b[2] <= 0;  // the ground z = 0
+      } else {
+        const model::BodyPose pose_a = model::geom_pose(a, poses[static_cast<std::size_t>(a.body)]);
+        const auto half_a = model::half_extents(a, pose_a.rotation);
+        for (std::size_t k = 0; k < 3; ++k) {
+          touch = touch && std::abs(pose_a.position[k] - pose_b.position[k]) <= half_a[k] + half_b[k];
+        }
+      }
+      if (touch) pairs.push_back({i, j});
+    }
+  }
+  return pairs;
+}
+
+TEST(BroadPhase, finds_the_pairs_of_brute_force_in_order) {
+  for (const int count : {20, 60, 150, 400}) {  // by list, and by sweeping
+    const model::Model model = cloud(count, std::cbrt(count) * 0.5);
+    const auto poses = poses_of(model);
+    BroadPhase broad_phase(model);
+    std::vector<GeomPair> pairs;
+    broad_phase.find_pairs(poses, pairs);
+    const auto expected = brute_force(model, poses);
+    EXPECT_GT(expected.size(), 10u);
+    EXPECT_EQ(pairs, expected) << count;
+  }
+}
+
+TEST(BroadPhase, the_history_of_a_sweep_does_not_matter) {
+  const model::Model model = cloud(150, 3);
+  auto poses = poses_of(model);
+  BroadPhase travelled(model);
+  std::vector<GeomPair> pairs, fresh_pairs;
+  for (int step = 0; step < 10; ++step) {
+    for (std::size_t i = 0; i < poses.size(); ++i) poses[i].position[0] += 0.1 * (i % 2 == 0 ? 1 : -1);
+    travelled.find_pairs(poses, pairs);
+    BroadPhase fresh(model);
+    fresh.find_pairs(poses, fresh_pairs);
+    ASSERT_EQ(pairs, fresh_pairs) << step;
+  }
+}
+
+TEST(BroadPhase, bodies_that_share_a_joint_do_not_pair) {
+  model::Model model;
+  const int first = support::add_actor(model, "first"), second = support::add_actor(model, "second");
+  const int a = support::add_solid(model, first, "a", model::Shape::box, {1, 1, 1}, 1, {0, 0, 0});
+  const int b = support::add_solid(model, second, "b", model::Shape::box, {1, 1, 1}, 1, {0.5, 0, 0});
+  std::vector<GeomPair> pairs;
+  BroadPhase(model).find_pairs(poses_of(model), pairs);
+  EXPECT_EQ(pairs, (std::vector<GeomPair>{{0, 1}}));
+  support::add_joint(model, model::JointKind::ball, a, b, {0.25, 0, 0});
+  BroadPhase(model).find_pairs(poses_of(model), pairs);
+  EXPECT_TRUE(pairs.empty());
+}
+
+}  // namespace
+}  // namespace pbmpi::solver

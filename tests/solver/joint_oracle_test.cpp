@@ -1,0 +1,137 @@
+/// Each kind of joint against ODE: with enough iterations the motion is that of dWorldStep, the big-matrix
+/// solver.
+#include <gtest/gtest.h>
+
+#include "model/names.h"
+#include "ode/ode_stepper.h"
+#include "solver/sor_run.h"
+#include "support/models.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::JointKind;
+using model::Vec3;
+using support::rotation;
+
+/// Enough for a few joints: the change of the last thousand is below rounding.
+constexpr int converged = 4000;
+/// [m/s, rad/s] between two solutions of one system of condition 1e4 or so; a wrong sign or factor gives 1e-2
+/// and more.
+constexpr double tolerance = 1e-8;
+
+/// Two unequal boxes with a joint of this kind, moving against each other, the first also hung on the world.
+model::Model linked_boxes(JointKind kind) {
+  model::Model model;
+  const int actor = support::add_actor(model, "boxes");
+  const int a = support::add_solid(model, actor, "a", model::Shape::box, {0.4, 0.3, 0.2}, 3, {0, 0, 1},
+                                   rotation(Vec3(1, 2, -1).normalized(), 0.4));
+  const int b = support::add_solid(model, actor, "b", model::Shape::box, {0.3, 0.5, 0.2}, 2, {0.5, 0.1, 1.1},
+                                   rotation(Vec3(-1, 1, 1).normalized(), 0.9));
+  const Vec3 axis1 = Vec3(0.2, 1, 0.3).normalized();
+  const Vec3 axis2 = axis1.cross(Vec3(1, 0.3, 0)).normalized();
+  support::add_joint(model, kind, a, b, {0.25, 0.05, 1.05}, axis1, axis2);
+  support::add_joint(model, JointKind::ball, a, model::no_body, {-0.2, 0, 1.1});
+  model.bodies[a].velocity = {0.3, -0.2, 0.1};
+  model.bodies[a].angular_velocity = {1, -2, 0.5};
+  model.bodies[b].velocity = {-0.2, 0.4, 0.3};
+  model.bodies[b].angular_velocity = {-1.5, 1, 2};
+  return model;
+}
+
+std::unique_ptr<model::WorldStepper> reference(const model::Model& model) {
+  model::StepperSettings settings;
+  settings.kind = model::StepperKind::direct;
+  auto stepper = ode::make_ode_stepper(settings, [](const std::string&) {});  // its LCP solver is chatty
+  stepper->add(0, std::make_shared<const model::Model>(model), model::initial_state(model), 0);
+  return stepper;
+}
+
+/// The largest difference of a velocity after `num_steps` steps.
+double velocity_difference(const model::Model& model, int num_steps) {
+  model::StepperSettings settings;
+  settings.kind = model::StepperKind::sor;
+  settings.iterations = converged;
+  const auto own = make_stepper(settings, {model});
+  const auto direct = reference(model);
+  advance(*own, num_steps);
+  advance(*direct, num_steps);
+  double largest = 0;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    largest = std::max(
+        {largest, (own->state(0).velocity[i] - direct->state(0).velocity[i]).cwiseAbs().maxCoeff(),
+         (own->state(0).angular_velocity[i] - direct->state(0).angular_velocity[i]).cwiseAbs().maxCoeff()});
+  }
+  return largest;
+}
+
+class JointOracle : public testing::TestWithParam<JointKind> {};
+
+TEST_P(JointOracle, moves_as_with_the_big_matrix) {
+  for (const int num_steps : {1, 5})
+    EXPECT_LT(velocity_difference(linked_boxes(GetParam()), num_steps), tolerance) << num_steps;
+}
+
+TEST_P(JointOracle, an_error_at_the_start_is_corrected_alike) {
+  model::Model model = linked_boxes(GetParam());
+  model.joints[0].anchor_b += Vec3(0.01, -0.02, 0.015);
+  EXPECT_LT(velocity_difference(model, 3), tolerance);
+}
+
+TEST_P(JointOracle, a_motor_drives_alike) {
+  model::Model model = linked_boxes(GetParam());
+  if (GetParam() == JointKind::ball || GetParam() == JointKind::fixed) GTEST_SKIP() << "has no axis";
+  model.joints[0].motors[0] = {1.5, 40};  // strong: reaches its velocity
+  EXPECT_LT(velocity_difference(model, 3), tolerance);
+  model.joints[0].motors[0] = {-30, 0.7};  // weak: pushes with all its force
+  EXPECT_LT(velocity_difference(model, 3), tolerance);
+}
+
+TEST_P(JointOracle, limits_hold_alike) {
+  model::Model model = linked_boxes(GetParam());
+  if (GetParam() == JointKind::ball || GetParam() == JointKind::fixed) GTEST_SKIP() << "has no axis";
+  model.joints[0].limits[0] = {-0.01, 0.01};  // either way is blocked within a step
+  EXPECT_LT(velocity_difference(model, 6), tolerance);
+  model.joints[0].limits[0] = {0.05, 0.3};  // starts beyond its low limit
+  EXPECT_LT(velocity_difference(model, 4), tolerance);
+  model.joints[0].limits[0] = {0.02, 0.02};  // pinned, as a steered wheel
+  EXPECT_LT(velocity_difference(model, 4), tolerance);
+}
+
+TEST_P(JointOracle, a_motor_at_its_limit_pushes_alike) {
+  model::Model model = linked_boxes(GetParam());
+  if (GetParam() == JointKind::ball || GetParam() == JointKind::fixed) GTEST_SKIP() << "has no axis";
+  model.joints[0].limits[0] = {0.05, 0.3};
+  for (const double velocity : {0.0, 2.0, -2.0}) {
+    model.joints[0].motors[0] = {velocity, 0.5};
+    EXPECT_LT(velocity_difference(model, 2), tolerance) << velocity;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryKind, JointOracle,
+                         testing::Values(JointKind::ball, JointKind::hinge, JointKind::slider,
+                                         JointKind::universal, JointKind::fixed, JointKind::hinge2),
+                         [](const auto& test) { return std::string(model::name_of(test.param)); });
+
+TEST(JointOracle, a_universal_joint_limits_and_drives_its_second_axis_alike) {
+  model::Model model = linked_boxes(JointKind::universal);
+  model.joints[0].limits[1] = {0.05, 0.3};
+  EXPECT_LT(velocity_difference(model, 4), tolerance);
+  model.joints[0].limits[1] = {};
+  model.joints[0].motors[1] = {2, 0.5};
+  EXPECT_LT(velocity_difference(model, 4), tolerance);
+}
+
+TEST(JointOracle, a_suspension_springs_alike) {
+  model::Model model = linked_boxes(JointKind::hinge2);
+  model.joints[0].suspension = {20000, 1500};
+  model.joints[0].motors[1] = {5, 3};
+  EXPECT_LT(velocity_difference(model, 5), tolerance);
+}
+
+TEST(JointOracle, a_body_spins_freely_alike) {
+  EXPECT_LT(velocity_difference(support::free_box(), 20), tolerance);
+}
+
+}  // namespace
+}  // namespace pbmpi::solver

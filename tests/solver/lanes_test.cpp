@@ -1,0 +1,86 @@
+/// Same bits, whatever the lane: for every width, every packing and both number types.
+#include "solver/lanes.h"
+
+#include <gtest/gtest.h>
+
+#include "core/hash.h"
+#include "model/names.h"
+#include "solver/sor_run.h"
+#include "support/models.h"
+
+namespace pbmpi::solver {
+namespace {
+
+constexpr int num_steps = 60;  // well past the impact of the crash, where one wrong bit has grown to metres
+
+model::StepperSettings settings_of(model::Precision precision, model::Simd simd) {
+  model::StepperSettings settings;
+  settings.kind = model::StepperKind::sor;
+  settings.precision = precision;
+  settings.simd = simd;
+  settings.seed = 7;
+  return settings;
+}
+
+/// The hash of each world after num_steps.
+std::vector<std::uint64_t> hashes(const std::vector<model::Model>& worlds,
+                                  const model::StepperSettings& settings) {
+  const auto stepper = make_stepper(settings, worlds);
+  advance(*stepper, num_steps);
+  std::vector<std::uint64_t> result;
+  for (std::size_t i = 0; i < worlds.size(); ++i) result.push_back(hash(stepper->state(static_cast<int>(i))));
+  return result;
+}
+
+std::vector<model::Model> crashes(int count) {
+  std::vector<model::Model> worlds;
+  for (int i = 0; i < count; ++i) worlds.push_back(support::crash(i));
+  return worlds;
+}
+
+class Lanes : public testing::TestWithParam<model::Precision> {};
+
+TEST_P(Lanes, every_width_gives_the_bits_of_one_lane) {
+  const auto worlds = crashes(19);  // fills some lanes of each width, and leaves some idle
+  const auto one_lane = hashes(worlds, settings_of(GetParam(), model::Simd::off));
+  for (const model::Simd simd : machine_simds()) {
+    EXPECT_EQ(hashes(worlds, settings_of(GetParam(), simd)), one_lane) << model::name_of(simd);
+  }
+}
+
+TEST_P(Lanes, a_world_does_not_notice_its_neighbours) {
+  std::vector<model::Model> worlds = crashes(5);
+  worlds.insert(worlds.begin() + 2, support::pile(12));  // another shape of world in the same pack
+  worlds.push_back(support::chain(9));
+  const auto settings = settings_of(GetParam(), model::Simd::automatic);
+  const auto together = hashes(worlds, settings);
+  for (std::size_t i = 0; i < worlds.size(); ++i)
+    EXPECT_EQ(hashes({worlds[i]}, settings).front(), together[i]) << i;
+}
+
+TEST_P(Lanes, worlds_differ_from_each_other) {
+  const auto values = hashes(crashes(3), settings_of(GetParam(), model::Simd::automatic));
+  EXPECT_NE(values[0], values[1]);
+  EXPECT_NE(values[1], values[2]);
+}
+
+TEST_P(Lanes, a_world_that_moves_to_another_stepper_goes_on_bit_for_bit) {
+  const auto settings = settings_of(GetParam(), model::Simd::automatic);
+  const auto worlds = crashes(3);
+  const auto stayed = make_stepper(settings, worlds);
+  advance(*stayed, 20);
+  const auto moved = make_stepper(settings);
+  moved->add(1, std::make_shared<const model::Model>(worlds[1]), stayed->state(1), 20);
+  advance(*stayed, num_steps);
+  advance(*moved, num_steps);
+  EXPECT_EQ(hash(moved->state(1)), hash(stayed->state(1)));
+}
+
+INSTANTIATE_TEST_SUITE_P(BothPrecisions, Lanes,
+                         testing::Values(model::Precision::double_, model::Precision::single),
+                         [](const auto& test) {
+                           return std::string(model::name_of(test.param)) + "_precision";
+                         });
+
+}  // namespace
+}  // namespace pbmpi::solver
