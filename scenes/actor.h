@@ -19,6 +19,7 @@ struct Placement {
   Pose pose;                     ///< of the actor's own frame: x forward, y left, z up
   Vec3 velocity = Vec3::Zero();  ///< of all its bodies, world frame [m/s]
   int space = 0;                 ///< index into Model::spaces
+  int copy = 0;                  ///< 0-based number among the copies of one [[actor]]
 };
 
 /// What a builder must know of the scene around its actor.
@@ -48,6 +49,10 @@ model::Material read_material(TableReader& actor, const model::Material& fallbac
 ActorPlan read_ground(TableReader& actor, const SceneContext& context);
 ActorPlan read_ramp(TableReader& actor, const SceneContext& context);
 ActorPlan read_car(TableReader& actor, const SceneContext& context);
+ActorPlan read_centipede(TableReader& actor, const SceneContext& context);
+ActorPlan read_tank(TableReader& actor, const SceneContext& context);
+ActorPlan read_wall(TableReader& actor, const SceneContext& context);
+ActorPlan read_projectile(TableReader& actor, const SceneContext& context);
 ActorPlan read_human(TableReader& actor, const SceneContext& context);
 ActorPlan read_box(TableReader& actor, const SceneContext& context);
 ActorPlan read_sphere(TableReader& actor, const SceneContext& context);

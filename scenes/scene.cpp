@@ -11,6 +11,7 @@
 #include "scenes/actor.h"
 #include "scenes/joint_reader.h"
 #include "scenes/nearest.h"
+#include "scenes/overlap.h"
 #include "scenes/scene_toml.h"
 #include "scenes/variation.h"
 
@@ -34,12 +35,14 @@ struct ActorEntry {
 
 class FileScene final : public Scene {
  public:
-  FileScene(const SceneSource& source, std::optional<double> dt_s) : source_(source) {
+  FileScene(const SceneSource& source, std::optional<double> dt_s, std::optional<SpacesForm> spaces)
+      : source_(source) {
     const toml::table toml = parse_with_base(source);
     TableReader scene(toml, "scene");
     title_ = scene.text("title");
     read_defaults(scene);
     if (dt_s) defaults_.dt_s = *dt_s;
+    if (spaces) defaults_.spaces = *spaces;
     read_world(scene);
     for (TableReader& actor : scene.tables("actor")) read_actor(actor);
     for (TableReader& joint : scene.tables("joint")) read_named_joint(joint);
@@ -54,11 +57,13 @@ class FileScene final : public Scene {
 
   std::shared_ptr<const model::Model> build(int world, std::uint64_t seed) const override {
     auto result = std::make_shared<model::Model>(empty_);
+    if (defaults_.spaces == SpacesForm::one) result->spaces.resize(1);
     for (std::size_t i = 0; i < actors_.size(); ++i) place_copies(i, world, seed, *result);
     for (const JointPlan& joint : joints_) joint(*result);
     std::stable_sort(result->events.begin(), result->events.end(),
                      [](const model::Event& a, const model::Event& b) { return a.step < b.step; });
     validate(*result, world);
+    refuse_overlap(*result, world);
     return result;
   }
 
@@ -72,6 +77,9 @@ class FileScene final : public Scene {
     defaults_.steps_per_frame = run->integer("steps_per_frame", 1, defaults_.steps_per_frame);
     defaults_.dt_s = run->number("dt", Sign::positive, defaults_.dt_s);
     defaults_.iterations = run->integer("iterations", 1, defaults_.iterations);
+    const std::string form = run->text("spaces", "many");
+    if (form != "one" && form != "many") run->fail("spaces", "'spaces' must be \"one\" or \"many\"");
+    defaults_.spaces = form == "one" ? SpacesForm::one : SpacesForm::many;
     run->finish();
   }
 
@@ -154,7 +162,8 @@ class FileScene final : public Scene {
       place.pose.position = actor.position + copy * actor.spacing + offset.position;
       place.pose.orientation = rotation(radians(actor.heading_deg + offset.heading_deg), Vec3::UnitZ());
       place.velocity = actor.velocity + offset.velocity;
-      place.space = actor.space;
+      place.space = defaults_.spaces == SpacesForm::one ? 0 : actor.space;
+      place.copy = copy;
       actor.plan(place, model);
     }
   }
@@ -176,6 +185,25 @@ class FileScene final : public Scene {
     }
   }
 
+  void refuse_overlap(const model::Model& model, int world) const {
+    const auto overlap = find_overlap(model);
+    if (!overlap) return;
+    const std::string& a = model.actors[overlap->actor_a].name;
+    const std::string& b = model.actors[overlap->actor_b].name;
+    throw core::InputError(where_of(b) + ": actor " + in_quotes(b) + ": in world " + std::to_string(world) +
+                           " it overlaps " + in_quotes(a) + " by " +
+                           std::to_string(std::lround(overlap->depth_m * 100)) +
+                           " cm at the start (it would be thrown out in one step); move one of them");
+  }
+
+  /// The place in the file of an actor or a copy of it.
+  std::string where_of(const std::string& name) const {
+    for (const ActorEntry& actor : actors_) {
+      if (name == actor.name || (actor.has_copies && name.starts_with(actor.name + "."))) return actor.where;
+    }
+    return source_.file;
+  }
+
   SceneSource source_;
   std::string title_;
   RunDefaults defaults_;
@@ -187,12 +215,13 @@ class FileScene final : public Scene {
 
 }  // namespace
 
-std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s) {
+std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s,
+                                   std::optional<SpacesForm> spaces) {
   if (dt_s) {
     core::require_input(std::isfinite(*dt_s) && *dt_s > 0,
                         "dt is " + std::to_string(*dt_s) + " s; it must be finite and above 0");
   }
-  auto scene = std::make_unique<FileScene>(source, dt_s);
+  auto scene = std::make_unique<FileScene>(source, dt_s, spaces);
   scene->build(0, 0);  // finds at once what only shows in a built world: joints to bodies that do not exist
   return scene;
 }

@@ -11,6 +11,10 @@
 
 namespace pbmpi::scenes {
 
+/// A scene's named spaces, or all of them as one: the same world, cut differently. A world's physics does not
+/// depend on it.
+enum class SpacesForm { one, many };
+
 /// What a scene file proposes for a run; the command line overrides each.
 struct RunDefaults {
   int replicas = 1;
@@ -19,6 +23,7 @@ struct RunDefaults {
   int steps_per_frame = 3;
   double dt_s = 0.01;
   int iterations = 20;
+  SpacesForm spaces = SpacesForm::many;
 };
 
 /// Immutable once loaded. A world depends on (scene, world id, seed) only, so that each rank builds just its
@@ -55,6 +60,8 @@ SceneSource find_scene(const std::string& name_or_path);
 /// Parses a scene. Throws core::InputError ("file:line:column: ...") for malformed TOML, unknown keys and
 /// impossible values. Rank 0 finds and reads the text, and every rank parses the same text.
 /// `dt_s` replaces the file's own time step: programmes given in seconds (steering) become steps with it.
-std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s = std::nullopt);
+/// `spaces` replaces the file's `[run] spaces`.
+std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s = std::nullopt,
+                                   std::optional<SpacesForm> spaces = std::nullopt);
 
 }  // namespace pbmpi::scenes

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -110,7 +111,7 @@ struct Joint {
 };
 
 enum class EventKind {
-  launch,  ///< sets a body's velocity and angular velocity
+  launch,  ///< sets a body's velocity and angular velocity, and its pose if it has one
   motor,   ///< replaces the motor of a joint's axis
   steer,   ///< pins a joint's axis 1 to an angle (both limits)
 };
@@ -125,6 +126,7 @@ struct Event {
   int axis = 0;                          ///< motor: 0 or 1
   Vec3 velocity = Vec3::Zero();          ///< launch [m/s]
   Vec3 angular_velocity = Vec3::Zero();  ///< launch [rad/s]
+  std::optional<Pose> pose;              ///< launch: where the body appears, e.g. at a muzzle
   AxisMotor motor;                       ///< motor
   double angle = 0;                      ///< steer [rad]
 };

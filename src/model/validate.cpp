@@ -90,6 +90,9 @@ void validate_event(const Model& model, const Event& event, const std::string& w
     require_index(event.body, model.bodies.size(), who, "body");
     require_input(event.velocity.allFinite() && event.angular_velocity.allFinite(),
                   who + ": the launch velocity is not finite");
+    require_input(!event.pose || (event.pose->position.allFinite() &&
+                                  std::abs(event.pose->orientation.to_eigen().norm() - 1) <= unit_tolerance),
+                  who + ": the launch pose is not finite or its quaternion not of unit length");
   } else {
     require_index(event.joint, model.joints.size(), who, "joint");
     require_index(event.axis, 2, who, "axis");

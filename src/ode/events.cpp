@@ -21,6 +21,14 @@ bool can_drive(model::JointKind kind, int axis) {
   return false;
 }
 
+/// ODE normalises the quaternion: the same each time, so that a restart before or after the launch changes
+/// nothing.
+void place(dBodyID body, const model::Pose& pose) {
+  dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
+  const dQuaternion q = {pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z};
+  dBodySetQuaternion(body, q);
+}
+
 void require_drivable(const model::Model& model) {
   for (const model::Event& event : model.events) {
     if (event.kind == model::EventKind::launch) continue;
@@ -53,6 +61,7 @@ void Events::apply(const model::Event& event) {
     return;
   }
   const dBodyID body = bodies_[event.body];
+  if (event.pose) place(body, *event.pose);
   dBodySetLinearVel(body, event.velocity.x(), event.velocity.y(), event.velocity.z());
   dBodySetAngularVel(body, event.angular_velocity.x(), event.angular_velocity.y(),
                      event.angular_velocity.z());

@@ -38,8 +38,7 @@ class Pack {
   virtual void store(int world, model::State& state) const = 0;
   virtual void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) = 0;
   virtual void set_limit(int world, int joint, int axis, const model::AxisLimit& limit) = 0;
-  virtual void launch(int world, int body, const model::Vec3& velocity,
-                      const model::Vec3& angular_velocity) = 0;
+  virtual void launch(int world, const model::Event& event) = 0;
   /// Poses of a world's bodies: [num_bodies].
   virtual void poses(int world, std::span<model::BodyPose> poses) const = 0;
   /// One step with these contacts (of each world, in canonical order); spans hold during the call.

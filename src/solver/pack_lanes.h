@@ -41,7 +41,7 @@ class PackLanes final : public Pack {
   void store(int world, model::State& state) const override;
   void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) override;
   void set_limit(int world, int joint, int axis, const model::AxisLimit& limit) override;
-  void launch(int world, int body, const model::Vec3& velocity, const model::Vec3& angular_velocity) override;
+  void launch(int world, const model::Event& event) override;
   void poses(int world, std::span<model::BodyPose> poses) const override;
   void step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) override;
   int joint_rows(int world, int joint) const override;
@@ -66,6 +66,7 @@ class PackLanes final : public Pack {
 
   void place(std::span<const PackedWorld> worlds);
   void set_masses(const World& world, int body);
+  void set_pose(const Place& at, const model::Pose& pose);
   void set_terms(const World& world, int joint, const JointTerms& terms);
   void add_joint_rows(ShapeBatches<T>& batches);
   void fill_idle_lanes();
@@ -280,16 +281,10 @@ template <class T>
 void PackLanes<T>::load(int world, const model::State& state) {
   for (std::size_t i = 0; i < worlds_[world].bodies.size(); ++i) {
     const Place& at = worlds_[world].bodies[i];
-    BodyLane<V>& body = bodies_.bodies[at.slot];
-    set_lane<T>(body.position, at.lane, state.position[i]);
-    T::set(body.qw, at.lane, static_cast<Scalar>(state.orientation[i].w));
-    T::set(body.qx, at.lane, static_cast<Scalar>(state.orientation[i].x));
-    T::set(body.qy, at.lane, static_cast<Scalar>(state.orientation[i].y));
-    T::set(body.qz, at.lane, static_cast<Scalar>(state.orientation[i].z));
+    set_pose(at, {state.position[i], state.orientation[i]});
     set_lane<T>(bodies_.twists[at.slot].linear, at.lane, state.velocity[i]);
     set_lane<T>(bodies_.twists[at.slot].angular, at.lane, state.angular_velocity[i]);
   }
-  for (const Place& at : worlds_[world].bodies) refresh(bodies_.bodies[at.slot]);
 }
 
 template <class T>
@@ -333,11 +328,22 @@ void PackLanes<T>::set_limit(int world, int joint, int axis, const model::AxisLi
 }
 
 template <class T>
-void PackLanes<T>::launch(int world, int body, const model::Vec3& velocity,
-                          const model::Vec3& angular_velocity) {
-  const Place& at = worlds_[world].bodies[body];
-  set_lane<T>(bodies_.twists[at.slot].linear, at.lane, velocity);
-  set_lane<T>(bodies_.twists[at.slot].angular, at.lane, angular_velocity);
+void PackLanes<T>::launch(int world, const model::Event& event) {
+  const Place& at = worlds_[world].bodies[event.body];
+  set_lane<T>(bodies_.twists[at.slot].linear, at.lane, event.velocity);
+  set_lane<T>(bodies_.twists[at.slot].angular, at.lane, event.angular_velocity);
+  if (event.pose) set_pose(at, *event.pose);
+}
+
+template <class T>
+void PackLanes<T>::set_pose(const Place& at, const model::Pose& pose) {
+  BodyLane<V>& body = bodies_.bodies[at.slot];
+  set_lane<T>(body.position, at.lane, pose.position);
+  T::set(body.qw, at.lane, static_cast<Scalar>(pose.orientation.w));
+  T::set(body.qx, at.lane, static_cast<Scalar>(pose.orientation.x));
+  T::set(body.qy, at.lane, static_cast<Scalar>(pose.orientation.y));
+  T::set(body.qz, at.lane, static_cast<Scalar>(pose.orientation.z));
+  refresh(body);
 }
 
 template <class T>

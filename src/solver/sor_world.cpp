@@ -51,8 +51,7 @@ void SorWorld::fire_events(Pack& pack, int index) const {
                                 [](const Event& e, std::int64_t step) { return e.step < step; });
   for (; event != events.end() && event->step == step_; ++event) {
     apply_setting(*event, pack, index);
-    if (event->kind == EventKind::launch)
-      pack.launch(index, event->body, event->velocity, event->angular_velocity);
+    if (event->kind == EventKind::launch) pack.launch(index, *event);
   }
 }
 

@@ -10,14 +10,16 @@ namespace pbmpi::scenes {
 namespace {
 
 TEST(GenericBody, takes_its_mass_from_a_density) {
-  const auto model = build(scene_with("box", "size = [0.5, 0.4, 0.1]\ndensity = 600\n"));
+  const auto model =
+      build(scene_with("box", "size = [0.5, 0.4, 0.1]\ndensity = 600\nposition = [0, 0, 1]\n"));
   EXPECT_DOUBLE_EQ(body(*model, "a").mass_kg, 12);  // 600 kg/m^3 x 0.02 m^3
 }
 
 TEST(GenericBody, is_turned_by_its_rotation_and_then_by_its_heading) {
   const auto model = build(scene_with(
       "capsule",
-      "radius = 0.1\nlength = 1\nmass = 1\nrotation = { axis = [0, 2, 0], angle = 90 }\nheading = 90\n"));
+      "radius = 0.1\nlength = 1\nmass = 1\nrotation = { axis = [0, 2, 0], angle = 90 }\nheading = 90\n"
+      "position = [0, 0, 1]\n"));
   // The axis z goes to x, and x to y. 1e-15: rounding of two quarter turns.
   const Vec3 axis = body(*model, "a").pose.direction_to_outer(Vec3::UnitZ());
   EXPECT_LT((axis - Vec3::UnitY()).norm(), 1e-15);
@@ -26,7 +28,8 @@ TEST(GenericBody, is_turned_by_its_rotation_and_then_by_its_heading) {
 TEST(GenericBody, can_be_a_static_obstacle) {
   const auto model =
       build(scene_with("cylinder", "radius = 0.1\nlength = 2\nstatic = true\nposition = [1, 2, 3]\n") +
-            "[[actor]]\nname = \"b\"\ntype = \"sphere\"\nradius = 1\nmass = 1\nkind = \"projectile\"\n");
+            "[[actor]]\nname = \"b\"\ntype = \"sphere\"\nradius = 1\nmass = 1\nkind = \"projectile\"\n"
+            "position = [0, 0, 1]\n");
   ASSERT_EQ(model->num_bodies(), 1);
   const model::Geom& post = model->geoms[1];
   EXPECT_EQ(post.body, model::no_body);
@@ -42,7 +45,8 @@ TEST(GenericBody, refuses_a_mass_for_a_static_obstacle) {
 TEST(Ramp, rises_along_its_heading_from_the_ground_to_its_height) {
   const auto model =
       build(scene_with("ramp", "length = 4\nwidth = 2\nheight = 0.5\nposition = [10, 0, 0]\nheading = 90\n") +
-            "[[actor]]\nname = \"b\"\ntype = \"sphere\"\nradius = 1\nmass = 1\n");
+            "[[actor]]\nname = \"b\"\ntype = \"sphere\"\nradius = 1\nmass = 1\n"
+            "position = [0, 0, 1]\n");
   const model::Geom& board = model->geoms[1];
   EXPECT_EQ(board.body, model::no_body);
   const double half = board.size[0] / 2;

@@ -26,7 +26,7 @@ TEST(Base, an_actor_of_a_new_name_is_added) {
   const auto base = parse_scene(find_scene("CrashSk"))->build(0, 1);
   const auto derived = build(
       "title = \"t\"\nbase = \"CrashSk\"\n[[actor]]\nname = \"ball\"\ntype = \"sphere\"\nradius = 0.1\nmass "
-      "= 1\n");
+      "= 1\nposition = [0, 5, 0.1]\n");
   EXPECT_EQ(derived->num_bodies(), base->num_bodies() + 1);
 }
 

@@ -24,7 +24,8 @@ TEST(Catalog, lists_the_scenes_in_the_order_of_the_papers_table) {
     names.push_back(scene.name);
     EXPECT_FALSE(scene.title.empty()) << scene.name;
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"2-Cars", "10-Cars", "CrashSk", "100CrSk"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk",
+                                             "Battle", "Fight", "Battle2"}));
 }
 
 TEST(Catalog, every_scene_that_it_lists_builds_a_valid_first_and_last_world) {
@@ -44,7 +45,9 @@ TEST(Catalog, suggests_the_nearest_names_for_an_unknown_scene) {
 }
 
 TEST(Catalog, lists_all_scenes_when_no_name_is_near) {
-  EXPECT_NE(error_of_find("Waterfall").find("known: '2-Cars', '10-Cars', 'CrashSk', '100CrSk'"),
+  EXPECT_NE(error_of_find("Waterfall")
+                .find("known: '2-Cars', '10-Cars', 'CrashSk', 'CrashWa', 'Environ', '100CrSk', "
+                      "'Battle', 'Fight', 'Battle2'"),
             std::string::npos);
 }
 
