@@ -64,7 +64,7 @@ apt-config dump Acquire | grep -v '^Acquire::IndexTargets' >"$root/etc/apt/apt.c
 printf '#!/bin/sh\nexit 101\n' >"$root/usr/sbin/policy-rc.d"
 chmod 755 "$root/usr/sbin/policy-rc.d"
 
-git clone --quiet --no-hardlinks "$source_dir" "$root/root/pbmpi"
+git clone --quiet --no-hardlinks "$source_dir" "$root/srv/pbmpi"
 
 # A mount and a process namespace of its own: mounts and stray processes end with it, however it ends. No exec at the
 # end of the inner scripts: a shell stays to reap.
@@ -80,7 +80,7 @@ unshare --mount --pid --fork --kill-child bash -c '
   chroot "$root" /usr/bin/env -i HOME=/root TERM=dumb LANG=C.UTF-8 \
     PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
     ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
-    bash -c "cd /root/pbmpi && \"\$@\"" bash "$@" || exit
+    bash -c "cd /srv/pbmpi && \"\$@\"" bash "$@" || exit
 ' bash "$root" "$@" &
 child=$!
 trap 'kill -KILL "$child" 2>/dev/null; wait "$child" 2>/dev/null; exit 130' INT

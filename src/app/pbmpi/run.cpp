@@ -12,6 +12,7 @@
 #include "app/pbmpi/provenance.h"
 #include "app/pbmpi/signals.h"
 #include "app/pbmpi/stepper_factory.h"
+#include "core/hash.h"
 #include "io/run_file.h"
 #include "io/xdmf.h"
 #include "model/effects.h"
@@ -119,6 +120,20 @@ void print(const mpi::Communicator& comm, const Options& options, const RunSumma
   }
 }
 
+/// A run that fails still writes the frames that its file holds.
+mpi::WorldRunResult run_to_end(mpi::WorldDriver& driver, io::RunFile* file) {
+  try {
+    return driver.run();
+  } catch (const core::RunError&) {
+    try {
+      if (file != nullptr) file->close(false, core::to_hex(0));
+    } catch (const core::RunError&) {
+      // The error that ended the run is the one to report.
+    }
+    throw;
+  }
+}
+
 ExitCode simulate(const mpi::Communicator& comm, const Options& options, const scenes::Scene& scene,
                   const RunSpec& spec) {
   const StopOnSignal stop;
@@ -138,7 +153,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, const s
     driver.add_observer(*progress);
   }
 
-  const mpi::WorldRunResult result = driver.run();
+  const mpi::WorldRunResult result = run_to_end(driver, file.get());
 
   progress.reset();
   RunSummary summary =
