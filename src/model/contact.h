@@ -1,6 +1,8 @@
 /// Contacts, and the interface through which geoms are tested against each other, whatever the engine.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <compare>
 #include <functional>
 #include <memory>
@@ -34,6 +36,11 @@ struct Contact {
   double mu = 0;
   double restitution = 0;
 };
+
+/// The material of a touching pair, as Material says.
+inline Material combined(const Material& a, const Material& b) {
+  return {std::sqrt(a.mu * b.mu), std::max(a.restitution, b.restitution)};
+}
 
 /// Contact points of pairs of geoms.
 class NarrowPhase {

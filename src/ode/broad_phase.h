@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/contact.h"
 #include "ode/geoms.h"
 
 namespace pbmpi::ode {
@@ -13,12 +14,7 @@ enum class SpaceKind { simple, sweep_and_prune };
 /// The ODE space that measures best for so many geoms (bench_worlds --spaces; ODE's hash space never does).
 SpaceKind best_space(std::size_t num_geoms);
 
-/// Two geoms by their indices in the model, first < second. Sorts by (first, second).
-struct GeomPair {
-  int first = 0;
-  int second = 0;
-  auto operator<=>(const GeomPair&) const = default;
-};
+using model::GeomPair;
 
 class BroadPhase {
  public:

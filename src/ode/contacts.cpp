@@ -1,7 +1,6 @@
 #include "ode/contacts.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pbmpi::ode {
 
@@ -49,13 +48,13 @@ void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
 /// it ODE takes mu as a force [N]. An infinite mu (no slip) must go without: ODE would multiply it by a
 /// normal force of 0.
 int Contacts::set_surface(const GeomPair& pair) {
-  const model::Material& a = model_->geoms[pair.first].material;
-  const model::Material& b = model_->geoms[pair.second].material;
+  const model::Material material =
+      model::combined(model_->geoms[pair.first].material, model_->geoms[pair.second].material);
   dSurfaceParameters& surface = contact_.surface;
   surface.mode = dContactSoftERP | dContactSoftCFM;
-  surface.mu = friction_ ? std::sqrt(a.mu * b.mu) : 0;
+  surface.mu = friction_ ? material.mu : 0;
   if (surface.mu > 0 && surface.mu < model::infinity) surface.mode |= dContactApprox1;
-  surface.bounce = restitution_ ? std::max(a.restitution, b.restitution) : 0;
+  surface.bounce = restitution_ ? material.restitution : 0;
   if (surface.bounce > 0) surface.mode |= dContactBounce;
   return surface.mu > 0 ? 3 : 1;
 }

@@ -1,7 +1,5 @@
 #include "ode/narrow_phase.h"
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "model/geometry.h"
@@ -70,8 +68,9 @@ class NarrowPhase final : public model::NarrowPhase {
     contact.position = model::Vec3(found.pos);
     contact.normal = swapped ? model::Vec3(-model::Vec3(found.normal)) : model::Vec3(found.normal);
     contact.depth = found.depth;
-    contact.mu = std::sqrt(a.material.mu * b.material.mu);
-    contact.restitution = std::max(a.material.restitution, b.material.restitution);
+    const model::Material material = model::combined(a.material, b.material);
+    contact.mu = material.mu;
+    contact.restitution = material.restitution;
     return contact;
   }
 

@@ -47,9 +47,8 @@ JointTerms make_terms(const Model& model, const Joint& joint) {
   terms.axis1_a = joint.axis1_a;
   terms.axis1_b = to_local(b, axis1);
   terms.axis2_b = joint.axis2_b;
-  terms.axis2_a = to_local(a, axis2);
   if (joint.kind == JointKind::universal || joint.kind == JointKind::hinge2) {
-    terms.normal1_a = across(terms.axis2_a, terms.axis1_a);
+    terms.normal1_a = across(to_local(a, axis2), terms.axis1_a);
     terms.normal2_b = across(terms.axis1_b, terms.axis2_b);
     terms.cos0 = axis1.dot(axis2);
     terms.sin0 = axis1.cross(axis2).norm();

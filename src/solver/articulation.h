@@ -14,7 +14,7 @@ namespace pbmpi::solver {
 /// is none).
 struct JointTerms {
   model::Vec3 anchor_a, anchor_b;
-  model::Vec3 axis1_a, axis1_b, axis2_b, axis2_a;  ///< axes 1 and 2 as seen from either body at the start
+  model::Vec3 axis1_a, axis1_b, axis2_b;  ///< axis 1 as seen from either body at the start, axis 2 from b
   model::Vec3 normal1_a;      ///< universal, hinge2: direction in a's frame from which angle 1 is measured
   model::Vec3 normal2_b;      ///< universal: direction in b's frame from which angle 2 is measured
   model::Quat relative;       ///< q_a^-1 q_b at the start: hinge, slider, fixed

@@ -25,7 +25,7 @@ struct alignas(sizeof(V)) AxisControl {
 
 template <class V>
 struct alignas(sizeof(V)) JointTermsLane {
-  Vec3L<V> anchor_a, anchor_b, axis1_a, axis1_b, axis2_b, axis2_a, normal1_a, normal2_b;
+  Vec3L<V> anchor_a, anchor_b, axis1_a, axis1_b, axis2_b, normal1_a, normal2_b;
   V relative_w, relative_x, relative_y, relative_z;
   V cos0, sin0, stiffness, damping;
 };
