@@ -20,6 +20,7 @@ inline constexpr std::array<std::string_view, num_joint_kinds> joint_kind_names 
 inline constexpr std::array<std::string_view, 3> stepper_kind_names = {"quick", "direct", "sor"};
 inline constexpr std::array<std::string_view, 2> precision_names = {"double", "single"};
 inline constexpr std::array<std::string_view, 5> simd_names = {"auto", "sse2", "avx2", "avx512", "off"};
+inline constexpr std::array<std::string_view, 2> colliders_names = {"lanes", "ode"};
 
 constexpr std::string_view name_of(ActorKind kind) { return actor_kind_names[static_cast<int>(kind)]; }
 constexpr std::string_view name_of(Shape shape) { return shape_names[static_cast<int>(shape)]; }
@@ -29,6 +30,9 @@ constexpr std::string_view name_of(Precision precision) {
   return precision_names[static_cast<int>(precision)];
 }
 constexpr std::string_view name_of(Simd simd) { return simd_names[static_cast<int>(simd)]; }
+constexpr std::string_view name_of(Colliders colliders) {
+  return colliders_names[static_cast<int>(colliders)];
+}
 
 /// The enumerator whose name stands in `names`, or nothing.
 template <class Enum, std::size_t N>

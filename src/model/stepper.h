@@ -21,6 +21,10 @@ enum class Precision { double_, single };
 /// has.
 enum class Simd { automatic, sse2, avx2, avx512, off };
 
+/// What collides pairs of geoms in the sor stepper: kernels over vector lanes (ODE's dCollide for the shapes
+/// that they lack), or dCollide for all.
+enum class Colliders { lanes, ode };
+
 /// What a run chooses about the step; the rest is in the Model.
 struct StepperSettings {
   StepperKind kind = StepperKind::quick;
@@ -30,6 +34,7 @@ struct StepperSettings {
   double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;
+  Colliders colliders = Colliders::lanes;
   std::uint64_t seed = 1;  ///< of the run; a step's random numbers come from (seed, world, step)
 };
 

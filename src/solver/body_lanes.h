@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/rows.h"
+#include "solver/twist_rows.h"
 
 namespace pbmpi::solver {
 
@@ -29,7 +29,8 @@ class BodyLanes {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  explicit BodyLanes(int num_slots) : static_slot(num_slots), twists(num_slots + 1), bodies(num_slots + 1) {
+  explicit BodyLanes(int num_slots)
+      : static_slot(num_slots), twists(num_slots + 1), bodies(num_slots + 1), contact_twists(num_slots + 1) {
     const V zero = T::broadcast(0), one = T::broadcast(1);
     for (BodyLane<V>& body : bodies) {
       body = BodyLane<V>{};
@@ -40,42 +41,33 @@ class BodyLanes {
   }
 
   /// Where lane `lane` of a slot's twist begins, in scalars; component c is num_lanes further each.
-  static std::int32_t twist_index(int slot, int lane) {
+  PBMPI_LANES static std::int32_t twist_index(int slot, int lane) {
     return static_cast<std::int32_t>(slot * static_cast<int>(sizeof(Twist<V>) / sizeof(Scalar)) + lane);
   }
-  static std::int32_t body_index(int slot, int lane) {
+  PBMPI_LANES static std::int32_t body_index(int slot, int lane) {
     return static_cast<std::int32_t>(slot * static_cast<int>(sizeof(BodyLane<V>) / sizeof(Scalar)) + lane);
   }
 
-  Twist<V> gather_twist(const std::int32_t* index) const {
+  PBMPI_LANES Twist<V> gather_twist(const std::int32_t* index) const {
     const Scalar* base = reinterpret_cast<const Scalar*>(twists.data());
     constexpr int n = T::num_lanes;
     return {{T::gather(base, index), T::gather(base + n, index), T::gather(base + 2 * n, index)},
             {T::gather(base + 3 * n, index), T::gather(base + 4 * n, index), T::gather(base + 5 * n, index)}};
   }
-  void scatter_twist(const std::int32_t* index, const Twist<V>& twist) {
-    Scalar* base = reinterpret_cast<Scalar*>(twists.data());
-    constexpr int n = T::num_lanes;
-    T::scatter(base, index, twist.linear.x);
-    T::scatter(base + n, index, twist.linear.y);
-    T::scatter(base + 2 * n, index, twist.linear.z);
-    T::scatter(base + 3 * n, index, twist.angular.x);
-    T::scatter(base + 4 * n, index, twist.angular.y);
-    T::scatter(base + 5 * n, index, twist.angular.z);
-  }
   /// The lane vector at byte offset `member` (of BodyLane) of the bodies at `index`.
-  V gather_member(std::size_t member, const std::int32_t* index) const {
+  PBMPI_LANES V gather_member(std::size_t member, const std::int32_t* index) const {
     return T::gather(reinterpret_cast<const Scalar*>(bodies.data()) + member / sizeof(Scalar), index);
   }
 
   int static_slot;
   std::vector<Twist<V>> twists;
   std::vector<BodyLane<V>> bodies;
+  TwistRows<T> contact_twists;  ///< of the slots in contact, while contacts are swept
 };
 
 /// The rotation matrix of a unit quaternion (ODE's dQtoR).
 template <class V>
-Mat3L<V> to_matrix(const V& w, const V& x, const V& y, const V& z) {
+PBMPI_LANES Mat3L<V> to_matrix(const V& w, const V& x, const V& y, const V& z) {
   const V qq1 = 2 * x * x, qq2 = 2 * y * y, qq3 = 2 * z * z;
   return {{1 - qq2 - qq3, 2 * (x * y - w * z), 2 * (x * z + w * y)},
           {2 * (x * y + w * z), 1 - qq1 - qq3, 2 * (y * z - w * x)},
@@ -84,7 +76,7 @@ Mat3L<V> to_matrix(const V& w, const V& x, const V& y, const V& z) {
 
 /// R S R^T.
 template <class V>
-Sym3L<V> rotated(const Mat3L<V>& r, const Sym3L<V>& s) {
+PBMPI_LANES Sym3L<V> rotated(const Mat3L<V>& r, const Sym3L<V>& s) {
   const Vec3L<V> a = s * r.row0, b = s * r.row1, c = s * r.row2;
   return {dot(r.row0, a), dot(r.row0, b), dot(r.row0, c), dot(r.row1, b), dot(r.row1, c), dot(r.row2, c)};
 }

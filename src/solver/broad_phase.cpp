@@ -23,14 +23,7 @@ bool overlap(const auto& a, const auto& b) {
 
 }  // namespace
 
-BroadPhase::BroadPhase(const model::Model& model)
-    : model_(&model), boxes_(model.geoms.size()), joined_(model.bodies.size()) {
-  for (const model::Joint& joint : model.joints) {
-    if (joint.body_b == model::no_body) continue;
-    joined_[static_cast<std::size_t>(joint.body_a)].push_back(joint.body_b);
-    joined_[static_cast<std::size_t>(joint.body_b)].push_back(joint.body_a);
-  }
-  for (auto& bodies : joined_) std::sort(bodies.begin(), bodies.end());
+BroadPhase::BroadPhase(const model::Model& model) : model_(&model), rule_(model), boxes_(model.geoms.size()) {
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
     const Geom& geom = model.geoms[i];
     (geom.shape == Shape::plane ? planes_ : solids_).push_back(static_cast<int>(i));
@@ -42,19 +35,9 @@ BroadPhase::BroadPhase(const model::Model& model)
   if (!listed_only_) return;
   for (std::size_t i = 0; i < solids_.size(); ++i) {
     for (std::size_t j = i + 1; j < solids_.size(); ++j) {
-      if (may_touch(solids_[i], solids_[j])) listed_.push_back({solids_[i], solids_[j]});
+      if (rule_.may_touch(solids_[i], solids_[j])) listed_.push_back({solids_[i], solids_[j]});
     }
   }
-}
-
-bool BroadPhase::may_touch(int first, int second) const {
-  const Geom& a = model_->geoms[static_cast<std::size_t>(first)];
-  const Geom& b = model_->geoms[static_cast<std::size_t>(second)];
-  if (a.body == b.body) return false;  // of one body, or both static
-  if (a.actor == b.actor && !model_->actors[static_cast<std::size_t>(a.actor)].self_collision) return false;
-  if (a.body == model::no_body || b.body == model::no_body) return true;
-  const std::vector<int>& joined = joined_[static_cast<std::size_t>(a.body)];
-  return !std::binary_search(joined.begin(), joined.end(), b.body);
 }
 
 BroadPhase::Box BroadPhase::box_of(const Geom& geom, const BodyPose& body) const {
@@ -91,7 +74,7 @@ void BroadPhase::test_planes(std::vector<GeomPair>& pairs) const {
         nearest += normal[k] * (normal[k] > 0 ? box.min[static_cast<std::size_t>(k)]
                                               : box.max[static_cast<std::size_t>(k)]);
       }
-      if (nearest <= offset && may_touch(plane, solid))
+      if (nearest <= offset && rule_.may_touch(plane, solid))
         pairs.push_back({std::min(plane, solid), std::max(plane, solid)});
     }
   }
@@ -120,7 +103,7 @@ void BroadPhase::sweep(std::vector<GeomPair>& pairs) {
     for (std::size_t j = i + 1; j < order_.size() && low(order_[j]) <= box.max[0]; ++j) {
       if (!overlap(box, boxes_[static_cast<std::size_t>(order_[j])])) continue;
       const auto [first, second] = std::minmax(order_[i], order_[j]);
-      if (may_touch(first, second)) pairs.push_back({first, second});
+      if (rule_.may_touch(first, second)) pairs.push_back({first, second});
     }
   }
 }

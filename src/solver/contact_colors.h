@@ -1,8 +1,6 @@
 /// The order in which contacts are solved.
 #pragma once
 
-#include <span>
-#include <utility>
 #include <vector>
 
 namespace pbmpi::solver {
@@ -12,13 +10,15 @@ namespace pbmpi::solver {
 /// of one colour may be solved side by side, in any grouping, with the same bits.
 class ContactColors {
  public:
-  /// `bodies`: the two bodies of each contact (no_body = the environment, which blocks nothing). Colours go
-  /// to `colors`, [contacts]; returns their number.
-  int paint(int num_bodies, std::span<const std::pair<int, int>> bodies, std::vector<int>& colors);
+  /// Forgets what was painted; bodies are 0 to num_bodies - 1.
+  void start(int num_bodies);
+  /// The colour of the next contact, between a body and another one (no_body = the environment, which blocks
+  /// nothing).
+  int paint(int body_a, int body_b);
 
  private:
   std::vector<unsigned long long> used_;  ///< [num_bodies] bit c = colour c is taken
-  std::vector<int> next_;                 ///< [num_bodies] lowest free colour from 64 on
+  std::vector<int> next_;                 ///< [num_bodies] from 64 on; empty until needed
 };
 
 }  // namespace pbmpi::solver

@@ -6,9 +6,16 @@
 /// is off: a lane's bits are those of the scalar code.
 #pragma once
 
+#include <immintrin.h>
+
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
+
+/// What works on lane vectors must melt into its caller: as a call it would pass registers of numbers through
+/// memory, and the caller's own vectors with them.
+#define PBMPI_LANES [[gnu::always_inline]] inline
 
 namespace pbmpi::solver {
 
@@ -21,6 +28,9 @@ struct LanesOf<Scalar, 1> {
   using Vector = Scalar;
 };
 
+/// Stands for infinity: far above any impulse [N s] or length [m], and finite in float.
+inline constexpr double huge_bound = 1e30;
+
 /// `num_lanes` numbers; a plain Scalar for one lane.
 template <class Scalar, int num_lanes>
 using Lanes = typename LanesOf<Scalar, num_lanes>::Vector;
@@ -32,21 +42,21 @@ struct LaneTraits {
   using V = Lanes<Scalar, num_lanes_>;
   static constexpr int num_lanes = num_lanes_;
 
-  static V broadcast(Scalar value) {
+  PBMPI_LANES static V broadcast(Scalar value) {
     if constexpr (num_lanes == 1) {
       return value;
     } else {
       return V{} + value;
     }
   }
-  static Scalar get(const V& v, int lane) {
+  PBMPI_LANES static Scalar get(const V& v, int lane) {
     if constexpr (num_lanes == 1) {
       return v;
     } else {
       return v[lane];
     }
   }
-  static void set(V& v, int lane, Scalar value) {
+  PBMPI_LANES static void set(V& v, int lane, Scalar value) {
     if constexpr (num_lanes == 1) {
       v = value;
     } else {
@@ -54,35 +64,93 @@ struct LaneTraits {
     }
   }
   /// The larger of two, lane by lane (b where either is NaN).
-  static V max(const V& a, const V& b) { return a > b ? a : b; }
-  static V min(const V& a, const V& b) { return a < b ? a : b; }
-  static V abs(const V& a) { return a < V{} ? -a : a; }
-  static V sqrt(const V& a) {
+  PBMPI_LANES static V max(const V& a, const V& b) { return a > b ? a : b; }
+  PBMPI_LANES static V min(const V& a, const V& b) { return a < b ? a : b; }
+  PBMPI_LANES static V abs(const V& a) { return a < V{} ? -a : a; }
+  PBMPI_LANES static V sqrt(const V& a) {
     if constexpr (num_lanes == 1) {
       return std::sqrt(a);
+    } else if constexpr (is_512 && is_single) {
+      return V(_mm512_sqrt_ps(__m512(a)));
+    } else if constexpr (is_512) {
+      return V(_mm512_sqrt_pd(__m512d(a)));
+    } else if constexpr (is_256 && is_single) {
+      return V(_mm256_sqrt_ps(__m256(a)));
+    } else if constexpr (is_256) {
+      return V(_mm256_sqrt_pd(__m256d(a)));
+    } else if constexpr (is_single) {
+      return V(_mm_sqrt_ps(__m128(a)));
     } else {
-      V result;
-      for (int lane = 0; lane < num_lanes; ++lane) result[lane] = std::sqrt(a[lane]);
+      return V(_mm_sqrt_pd(__m128d(a)));
+    }
+  }
+  /// Is any lane other than 0?
+  PBMPI_LANES static bool any(const V& v) { return bits(v) != 0; }
+  /// The angle of the direction (x, y), for x >= 0: within a few units in the last place, from the operations
+  /// that IEEE 754 rounds, so that it has the same bits on every machine. Halving the angle four times leaves
+  /// a tangent below 0.1, for which the series of the arc tangent ends soon.
+  PBMPI_LANES static V atan2(const V& y, const V& x) {
+    const V one = broadcast(1), length = sqrt(x * x + y * y) + x;
+    V t = y / (length > V{} ? length : one);
+    for (int halving = 0; halving < 3; ++halving) t = t / (one + sqrt(one + t * t));
+    const V square = t * t;
+    V series = broadcast(Scalar(1) / Scalar(17));
+    for (int odd = 15; odd > 0; odd -= 2)
+      series = broadcast(Scalar(1) / static_cast<Scalar>(odd)) - square * series;
+    return broadcast(16) * t * series;
+  }
+  /// num_lanes consecutive numbers, aligned or not.
+  PBMPI_LANES static V load(const Scalar* from) {
+    V v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+  }
+  /// Bit `lane` is set where `flags` is not 0.
+  PBMPI_LANES static unsigned bits(const V& flags) {
+    if constexpr (num_lanes == 1) {
+      return flags != 0 ? 1u : 0u;
+    } else if constexpr (is_512 && is_single) {
+      return _mm512_cmp_ps_mask(__m512(flags), _mm512_setzero_ps(), _CMP_NEQ_UQ);
+    } else if constexpr (is_512) {
+      return _mm512_cmp_pd_mask(__m512d(flags), _mm512_setzero_pd(), _CMP_NEQ_UQ);
+    } else {
+      unsigned result = 0;
+      for (int lane = 0; lane < num_lanes; ++lane) result |= flags[lane] != 0 ? 1u << lane : 0u;
       return result;
     }
   }
   /// base[index[lane]] for each lane.
-  static V gather(const Scalar* base, const std::int32_t* index) {
+  PBMPI_LANES static V gather(const Scalar* base, const std::int32_t* index) {
     if constexpr (num_lanes == 1) {
       return base[index[0]];
+    } else if constexpr (is_512 && is_single) {
+      return V(_mm512_i32gather_ps(_mm512_loadu_si512(index), base, sizeof(Scalar)));
+    } else if constexpr (is_512) {
+      return V(_mm512_i32gather_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)), base,
+                                   sizeof(Scalar)));
     } else {
       V result;
       for (int lane = 0; lane < num_lanes; ++lane) result[lane] = base[index[lane]];
       return result;
     }
   }
-  static void scatter(Scalar* base, const std::int32_t* index, const V& v) {
+  PBMPI_LANES static void scatter(Scalar* base, const std::int32_t* index, const V& v) {
     if constexpr (num_lanes == 1) {
       base[index[0]] = v;
+    } else if constexpr (is_512 && is_single) {
+      _mm512_i32scatter_ps(base, _mm512_loadu_si512(index), __m512(v), sizeof(Scalar));
+    } else if constexpr (is_512) {
+      _mm512_i32scatter_pd(base, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)), __m512d(v),
+                           sizeof(Scalar));
     } else {
       for (int lane = 0; lane < num_lanes; ++lane) base[index[lane]] = v[lane];
     }
   }
+
+ private:
+  static constexpr bool is_single = std::is_same_v<Scalar, float>;
+  static constexpr bool is_512 = sizeof(Scalar) * num_lanes == 64;
+  static constexpr bool is_256 = sizeof(Scalar) * num_lanes == 32;
 };
 
 /// Three components, each a lane vector.
@@ -93,19 +161,19 @@ template <class V>
 struct alignas(sizeof(V)) Vec3L {
   V x, y, z;
 
-  Vec3L operator+(const Vec3L& o) const { return {x + o.x, y + o.y, z + o.z}; }
-  Vec3L operator-(const Vec3L& o) const { return {x - o.x, y - o.y, z - o.z}; }
-  Vec3L operator-() const { return {-x, -y, -z}; }
-  Vec3L operator*(const V& s) const { return {x * s, y * s, z * s}; }
+  PBMPI_LANES Vec3L operator+(const Vec3L& o) const { return {x + o.x, y + o.y, z + o.z}; }
+  PBMPI_LANES Vec3L operator-(const Vec3L& o) const { return {x - o.x, y - o.y, z - o.z}; }
+  PBMPI_LANES Vec3L operator-() const { return {-x, -y, -z}; }
+  PBMPI_LANES Vec3L operator*(const V& s) const { return {x * s, y * s, z * s}; }
 };
 
 template <class V>
-V dot(const Vec3L<V>& a, const Vec3L<V>& b) {
+PBMPI_LANES V dot(const Vec3L<V>& a, const Vec3L<V>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 template <class V>
-Vec3L<V> cross(const Vec3L<V>& a, const Vec3L<V>& b) {
+PBMPI_LANES Vec3L<V> cross(const Vec3L<V>& a, const Vec3L<V>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
@@ -114,7 +182,7 @@ template <class V>
 struct alignas(sizeof(V)) Sym3L {
   V xx, xy, xz, yy, yz, zz;
 
-  Vec3L<V> operator*(const Vec3L<V>& v) const {
+  PBMPI_LANES Vec3L<V> operator*(const Vec3L<V>& v) const {
     return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
   }
 };
@@ -124,7 +192,9 @@ template <class V>
 struct alignas(sizeof(V)) Mat3L {
   Vec3L<V> row0, row1, row2;
 
-  Vec3L<V> operator*(const Vec3L<V>& v) const { return {dot(row0, v), dot(row1, v), dot(row2, v)}; }
+  PBMPI_LANES Vec3L<V> operator*(const Vec3L<V>& v) const {
+    return {dot(row0, v), dot(row1, v), dot(row2, v)};
+  }
 };
 
 }  // namespace pbmpi::solver

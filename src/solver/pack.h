@@ -27,6 +27,8 @@ struct StepParameters {
 struct PackedWorld {
   const model::Model* model = nullptr;
   std::vector<Articulation> articulations;
+  model::NarrowPhase* fallback = nullptr;  ///< collides the pairs that the lanes do not
+  bool lanes_collide = true;               ///< false: the fallback collides all pairs
 };
 
 /// One implementation for each number type, number of lanes and instruction set; all give the same bits for a
@@ -41,6 +43,11 @@ class Pack {
   virtual void launch(int world, const model::Event& event) = 0;
   /// Poses of a world's bodies: [num_bodies].
   virtual void poses(int world, std::span<model::BodyPose> poses) const = 0;
+  /// Collision detection at the poses of now: the contacts of each world, in canonical order.
+  virtual void collide(std::span<std::vector<model::Contact>> contacts) = 0;
+  /// The contacts of given pairs (sorted) of one world; appended.
+  virtual void collide_pairs(int world, std::span<const model::GeomPair> pairs,
+                             std::vector<model::Contact>& contacts) = 0;
   /// One step with these contacts (of each world, in canonical order); spans hold during the call.
   /// Adds the seconds spent on rows, solve and integrate to `times`.
   virtual void step(std::span<const std::span<const model::Contact>> contacts,

@@ -3,14 +3,19 @@
 /// machine may lack.
 #pragma once
 
+#include <immintrin.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -20,6 +25,10 @@
 #include "model/geometry.h"
 #include "model/state.h"
 #include "solver/articulation.h"
-#include "solver/contact_colors.h"
+#include "solver/broad_phase.h"
+#include "solver/manifold_order.h"
+#include "solver/may_touch_table.h"
 #include "solver/pack.h"
 #include "solver/pack_instances.h"
+#include "solver/pair_table.h"
+#include "solver/slot_list.h"

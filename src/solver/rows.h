@@ -22,14 +22,14 @@ struct alignas(sizeof(V)) PointRows {
   Vec3L<V> rhs, scale, impulse;
 };
 
-/// A row on the relative angular velocity along an axis; also limits and motors.
+/// A row on the relative angular velocity along an axis.
 template <class V>
 struct alignas(sizeof(V)) AxisRow {
   Vec3L<V> axis, turn_a, turn_b;  ///< turn: I^-1 axis
-  V rhs, scale, cfm, low, high, impulse;
+  V rhs, scale, impulse;
 };
 
-/// A row along a direction through a point: contacts, suspension, slider.
+/// A row along a direction through a point: contacts, suspension, slider. Its CFM is its own.
 template <class V>
 struct alignas(sizeof(V)) LineRow {
   Vec3L<V> direction, moment_a, moment_b;  ///< moments: the angular parts of J; that of b has its sign
@@ -38,24 +38,24 @@ struct alignas(sizeof(V)) LineRow {
 };
 
 template <class V>
-V relative_speed(const LineRow<V>& row, const Twist<V>& a, const Twist<V>& b) {
+PBMPI_LANES V relative_speed(const LineRow<V>& row, const Twist<V>& a, const Twist<V>& b) {
   return dot(row.direction, a.linear - b.linear) + dot(row.moment_a, a.angular) +
          dot(row.moment_b, b.angular);
 }
 
 template <class V>
-V relative_speed(const LineRow<V>& row, const Twist<V>& a) {
+PBMPI_LANES V relative_speed(const LineRow<V>& row, const Twist<V>& a) {
   return dot(row.direction, a.linear) + dot(row.moment_a, a.angular);
 }
 
 template <class V>
-void apply(const LineRow<V>& row, const V& change, const V& inv_mass, Twist<V>& a) {
+PBMPI_LANES void apply(const LineRow<V>& row, const V& change, const V& inv_mass, Twist<V>& a) {
   a.linear = a.linear + row.direction * (inv_mass * change);
   a.angular = a.angular + row.turn_a * change;
 }
 
 template <class V>
-void apply_to_b(const LineRow<V>& row, const V& change, const V& inv_mass, Twist<V>& b) {
+PBMPI_LANES void apply_to_b(const LineRow<V>& row, const V& change, const V& inv_mass, Twist<V>& b) {
   b.linear = b.linear - row.direction * (inv_mass * change);
   b.angular = b.angular + row.turn_b * change;
 }

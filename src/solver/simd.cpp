@@ -30,6 +30,7 @@ Simd best_simd() {
 }
 
 int num_lanes(Simd simd, Precision precision) {
+  if (simd == Simd::automatic) return num_lanes(best_simd(), precision);
   const int doubles = simd == Simd::avx512 ? 8 : (simd == Simd::avx2 ? 4 : (simd == Simd::sse2 ? 2 : 1));
   return simd == Simd::off || precision == Precision::double_ ? doubles : 2 * doubles;
 }

@@ -16,9 +16,13 @@ namespace {
 using core::LapTimer;
 using core::Phase;
 
-/// Bodies of a pack: its rows and velocities then fit the 2 MiB of a core's second cache (48 worlds of
-/// CrashSk).
-constexpr int most_bodies_a_pack = 1800;
+/// Bytes of velocities and rows that a pack may have for each body, about: what a sweep reads again and again
+/// should stay in a core's second cache (measured on 100CrSk: 500 to 2,000 bodies in float are alike, twice
+/// as many cost a tenth; in double half as many).
+constexpr int bytes_a_number(model::Precision precision) {
+  return precision == model::Precision::single ? 4 : 8;
+}
+constexpr int bodies_times_bytes_a_pack = 7200;
 
 /// What the worlds of a pack must have in common.
 bool same_laws(const model::Model& a, const model::Model& b) {
@@ -31,7 +35,8 @@ bool same_laws(const model::Model& a, const model::Model& b) {
 struct Group {
   std::vector<SorWorld*> worlds;
   std::unique_ptr<Pack> pack;
-  std::vector<std::span<const model::Contact>> contacts;
+  std::vector<std::vector<model::Contact>> contacts;  ///< [worlds] of this step
+  std::vector<std::span<const model::Contact>> contact_spans;
 };
 
 class SorStepper final : public model::WorldStepper {
@@ -76,37 +81,42 @@ class SorStepper final : public model::WorldStepper {
   std::vector<Group> groups_;  ///< empty: to be made anew
 };
 
+/// As many packs as the cache asks for, of about equal size, and all but the last with whole batches of
+/// lanes.
 void SorStepper::make_groups() {
-  int bodies = 0;
+  int num_bodies = 0;
+  for (const auto& [id, world] : worlds_) num_bodies += world->model().num_bodies();
+  const int most_bodies = bodies_times_bytes_a_pack / bytes_a_number(settings_.precision);
+  const int num_packs = std::max(1, (num_bodies + most_bodies / 2) / most_bodies);
+  const int lanes = num_lanes(settings_.simd, settings_.precision);
+  const int num_worlds = static_cast<int>(worlds_.size());
+  const int worlds_a_pack = std::max(1, num_worlds / num_packs / lanes) * lanes;
   for (const auto& [id, world] : worlds_) {
-    const int more = world->model().num_bodies();
-    if (groups_.empty() || bodies + more > most_bodies_a_pack ||
-        !same_laws(groups_.back().worlds.front()->model(), world->model())) {
+    const int packed = groups_.empty() ? 0 : static_cast<int>(groups_.back().worlds.size());
+    const bool full = packed >= worlds_a_pack && static_cast<int>(groups_.size()) < num_packs;
+    if (groups_.empty() || full || !same_laws(groups_.back().worlds.front()->model(), world->model()))
       groups_.emplace_back();
-      bodies = 0;
-    }
     groups_.back().worlds.push_back(world.get());
-    bodies += more;
   }
   for (Group& group : groups_) {
     std::vector<PackedWorld> packed;
     for (const SorWorld* world : group.worlds)
-      packed.push_back({&world->model(), find_articulations(world->model())});
+      packed.push_back({&world->model(), find_articulations(world->model()), &world->narrow_phase(),
+                        settings_.colliders == model::Colliders::lanes});
     group.pack = make_pack(packed, settings_.simd, settings_.precision);
     for (std::size_t i = 0; i < group.worlds.size(); ++i)
       group.worlds[i]->enter(*group.pack, static_cast<int>(i));
     group.contacts.resize(group.worlds.size());
+    group.contact_spans.resize(group.worlds.size());
   }
 }
 
 void SorStepper::step(Group& group, core::PhaseTimes& times) {
   LapTimer timer(times);
-  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
-    SorWorld& world = *group.worlds[i];
-    world.fire_events(*group.pack, static_cast<int>(i));
-    world.collide(*group.pack, static_cast<int>(i));
-    group.contacts[i] = world.contacts();
-  }
+  for (std::size_t i = 0; i < group.worlds.size(); ++i)
+    group.worlds[i]->fire_events(*group.pack, static_cast<int>(i));
+  group.pack->collide(group.contacts);
+  std::copy(group.contacts.begin(), group.contacts.end(), group.contact_spans.begin());
   timer.lap(Phase::collide);
   // Worlds of a pack may stand at different steps only if they came to this stepper at different times; the
   // order of the rows then follows each world's own step, so it is the key of the first that all must share.
@@ -117,14 +127,14 @@ void SorStepper::step(Group& group, core::PhaseTimes& times) {
   parameters.sor_factor = settings_.sor_factor;
   parameters.order_key =
       core::mix_key(settings_.seed, static_cast<std::uint64_t>(group.worlds.front()->step()), 0);
-  group.pack->step(group.contacts, parameters, times);
+  group.pack->step(group.contact_spans, parameters, times);
   for (SorWorld* world : group.worlds) world->finish_step();
 }
 
 void SorStepper::observe(Group& group, core::PhaseTimes& times) {
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i)
-    group.worlds[i]->observe(*group.pack, static_cast<int>(i));
+    group.worlds[i]->observe(*group.pack, static_cast<int>(i), group.contacts[i]);
   timer.lap(Phase::islands);
 }
 

@@ -10,28 +10,13 @@ namespace pbmpi::solver {
 using model::Event;
 using model::EventKind;
 
-namespace {
-
-bool all_finite(std::span<const model::BodyPose> poses) {
-  double sum = 0;  // NaN and infinity survive a sum
-  for (const model::BodyPose& pose : poses) {
-    for (const double value : pose.position) sum += value;
-    for (const double value : pose.rotation) sum += value;
-  }
-  return std::isfinite(sum);
-}
-
-}  // namespace
-
 SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state,
                    std::int64_t step, const model::MakeNarrowPhase& make_narrow_phase)
     : id_(id),
       model_(std::move(model)),
       state_(state),
       step_(step),
-      broad_phase_(*model_),
-      narrow_phase_(make_narrow_phase(*model_)),
-      poses_(model_->bodies.size()) {}
+      narrow_phase_(make_narrow_phase(*model_)) {}
 
 void SorWorld::apply_setting(const Event& event, Pack& pack, int index) const {
   if (event.kind == EventKind::motor) pack.set_motor(index, event.joint, event.axis, event.motor);
@@ -55,22 +40,14 @@ void SorWorld::fire_events(Pack& pack, int index) const {
   }
 }
 
-void SorWorld::collide(const Pack& pack, int index) {
-  pack.poses(index, poses_);
-  contacts_.clear();
-  if (!all_finite(poses_)) return;  // the world is lost, and reports so; colliders must not see it
-  broad_phase_.find_pairs(poses_, pairs_);
-  narrow_phase_->collide(poses_, pairs_, contacts_);
-}
-
-void SorWorld::count_rows(const Pack& pack, int index) {
+void SorWorld::count_rows(const Pack& pack, int index, std::span<const model::Contact> contacts) {
   std::vector<std::pair<int, int>> links;
   std::vector<int> rows;
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     links.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
     rows.push_back(pack.joint_rows(index, static_cast<int>(j)));
   }
-  for (const model::Contact& contact : contacts_) {
+  for (const model::Contact& contact : contacts) {
     links.emplace_back(contact.body_a, contact.body_b);
     rows.push_back(contact.mu > 0 ? 3 : 1);
   }
@@ -86,12 +63,12 @@ void SorWorld::count_rows(const Pack& pack, int index) {
   observables_.max_island_rows = *std::max_element(island_rows.begin(), island_rows.end());
 }
 
-void SorWorld::observe(const Pack& pack, int index) {
+void SorWorld::observe(const Pack& pack, int index, std::span<const model::Contact> contacts) {
   pack.store(index, state_);
-  count_rows(pack, index);
-  observables_.contacts = static_cast<int>(contacts_.size());
+  count_rows(pack, index, contacts);
+  observables_.contacts = static_cast<int>(contacts.size());
   observables_.max_penetration_m = 0;
-  for (const model::Contact& contact : contacts_) {
+  for (const model::Contact& contact : contacts) {
     observables_.max_penetration_m = std::max(observables_.max_penetration_m, contact.depth);
   }
   observables_.energy_j = model::mechanical_energy(*model_, state_);

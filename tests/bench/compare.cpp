@@ -164,7 +164,8 @@ std::uint64_t hash_of(const Side& side, std::size_t num_worlds) {
 }
 
 std::unique_ptr<Side> sor_side(const Subject& subject, const std::string& name, model::Precision precision,
-                               model::Simd simd, int substeps, int iterations) {
+                               model::Simd simd, int substeps, int iterations,
+                               model::Colliders colliders = model::Colliders::lanes) {
   model::StepperSettings settings;
   settings.kind = model::StepperKind::sor;
   settings.dt_s = subject.dt_s;
@@ -172,6 +173,7 @@ std::unique_ptr<Side> sor_side(const Subject& subject, const std::string& name, 
   settings.substeps = substeps;
   settings.precision = precision;
   settings.simd = simd;
+  settings.colliders = colliders;
   return std::make_unique<Ours>(subject, name, solver::make_sor_stepper(settings, ode::make_narrow_phase),
                                 "");
 }
@@ -197,6 +199,8 @@ std::vector<std::unique_ptr<Side>> make_sides(const Subject& subject) {
   sides.push_back(sor_side(subject, "sor double, 1 lane", Precision::double_, Simd::off, 1, n));
   sides.push_back(sor_side(subject, "sor double, widest", Precision::double_, Simd::automatic, 1, n));
   sides.push_back(sor_side(subject, "sor single, widest", Precision::single, Simd::automatic, 1, n));
+  sides.push_back(sor_side(subject, "sor single, dCollide", Precision::single, Simd::automatic, 1, n,
+                           model::Colliders::ode));
   sides.push_back(sor_side(subject, "sor single, 5 x 3", Precision::single, Simd::automatic, 5, 3));
   return sides;
 }

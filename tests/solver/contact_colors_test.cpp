@@ -24,15 +24,19 @@ Links random_links(int num_bodies, int count, std::uint64_t seed) {
   return links;
 }
 
-void expect_proper(int num_bodies, const Links& links) {
+std::vector<int> paint(int num_bodies, const Links& links) {
   ContactColors painter;
+  painter.start(num_bodies);
   std::vector<int> colors;
-  const int count = painter.paint(num_bodies, links, colors);
-  ASSERT_EQ(colors.size(), links.size());
+  for (const auto& [a, b] : links) colors.push_back(painter.paint(a, b));
+  return colors;
+}
+
+void expect_proper(int num_bodies, const Links& links) {
+  const std::vector<int> colors = paint(num_bodies, links);
   std::set<std::pair<int, int>> seen;  // (colour, body)
   for (std::size_t i = 0; i < links.size(); ++i) {
     EXPECT_GE(colors[i], 0);
-    EXPECT_LT(colors[i], count);
     EXPECT_TRUE(seen.emplace(colors[i], links[i].first).second) << "contact " << i;
     if (links[i].second == model::no_body) continue;
     EXPECT_TRUE(seen.emplace(colors[i], links[i].second).second) << "contact " << i;
@@ -48,17 +52,20 @@ TEST(ContactColors, a_body_with_hundreds_of_contacts_gets_a_colour_for_each) {
 }
 
 TEST(ContactColors, the_environment_blocks_nothing) {
-  ContactColors painter;
-  std::vector<int> colors;
-  EXPECT_EQ(painter.paint(3, Links{{0, model::no_body}, {1, model::no_body}, {2, model::no_body}}, colors),
-            1);
+  EXPECT_EQ(paint(3, {{0, model::no_body}, {1, model::no_body}, {2, model::no_body}}),
+            (std::vector<int>{0, 0, 0}));
 }
 
-TEST(ContactColors, no_contact_needs_no_colour) {
+TEST(ContactColors, a_contact_takes_the_lowest_colour_that_both_bodies_have_left) {
+  EXPECT_EQ(paint(4, {{0, 1}, {1, 2}, {2, 3}, {0, 3}, {0, 2}}), (std::vector<int>{0, 1, 0, 1, 2}));
+}
+
+TEST(ContactColors, a_start_forgets_what_was_painted) {
   ContactColors painter;
-  std::vector<int> colors{1, 2};
-  EXPECT_EQ(painter.paint(3, Links{}, colors), 0);
-  EXPECT_TRUE(colors.empty());
+  painter.start(2);
+  EXPECT_EQ(painter.paint(0, 1), 0);
+  painter.start(2);
+  EXPECT_EQ(painter.paint(0, 1), 0);
 }
 
 }  // namespace

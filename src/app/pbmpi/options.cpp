@@ -45,7 +45,9 @@ po::options_description options_description() {
       ("precision", po::value<std::string>()->default_value("double")->value_name("double|single"),
        "sor: number type of the solver")  //
       ("simd", po::value<std::string>()->default_value("auto")->value_name("auto|sse2|avx2|avx512|off"),
-       "sor: vector instructions; the result is the same with all");
+       "sor: vector instructions; the result is the same with all")  //
+      ("colliders", po::value<std::string>()->default_value("lanes")->value_name("lanes|ode"),
+       "sor: what collides pairs of geoms; lanes: kernels over vector lanes, ode: dCollide");
 
   po::options_description cut("How to cut the work");
   cut.add_options()  //
@@ -134,6 +136,7 @@ Options parse_options(const std::vector<std::string>& args) {
   options.substeps = values["substeps"].as<int>();
   options.precision = choice<model::Precision>(values, "precision", model::precision_names);
   options.simd = choice<model::Simd>(values, "simd", model::simd_names);
+  options.colliders = choice<model::Colliders>(values, "colliders", model::colliders_names);
   options.decomposition = choice<Decomposition>(values, "decompose", decomposition_names);
   options.seed = values["seed"].as<std::uint64_t>();
   options.output = given<std::string>(values, "output");
@@ -162,6 +165,7 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   spec.stepper.substeps = options.substeps;
   spec.stepper.precision = options.precision;
   spec.stepper.simd = options.simd;
+  spec.stepper.colliders = options.colliders;
   spec.record_every = options.record_every;
   if (!options.no_output) spec.output = options.output.value_or(scene.name() + ".h5");
   require_at_least(spec.num_worlds, 1, "--replicas");
@@ -171,10 +175,12 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   require_at_least(spec.stepper.iterations, 1, "--iterations");
   require_at_least(spec.stepper.substeps, 1, "--substeps");
   const bool own_options = spec.stepper.substeps != 1 || options.precision != model::Precision::double_ ||
-                           options.simd != model::Simd::automatic;
+                           options.simd != model::Simd::automatic ||
+                           options.colliders != model::Colliders::lanes;
   require_input(
       options.stepper == model::StepperKind::sor || !own_options,
-      "--substeps, --precision and --simd are options of --stepper sor; ODE's steppers have none of them");
+      "--substeps, --precision, --simd and --colliders are options of --stepper sor; ODE's steppers "
+      "have none of them");
   require_at_least(spec.record_every, 1, "--record-every");
   return spec;
 }

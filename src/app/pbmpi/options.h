@@ -25,6 +25,7 @@ struct Options {
   int substeps = 1;
   model::Precision precision = model::Precision::double_;
   model::Simd simd = model::Simd::automatic;
+  model::Colliders colliders = model::Colliders::lanes;
   model::StepperKind stepper = model::StepperKind::quick;
   Decomposition decomposition = Decomposition::automatic;
   std::uint64_t seed = 1;

@@ -92,6 +92,7 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("substeps", std::int64_t{spec.stepper.substeps}),
       Parameter::of("precision", std::string(name_of(spec.stepper.precision))),
       Parameter::of("simd", simd_text(spec.stepper)),
+      Parameter::of("colliders", std::string(name_of(spec.stepper.colliders))),
       Parameter::of("seed", static_cast<std::int64_t>(spec.stepper.seed)),
       Parameter::of("decompose", "worlds"),
       Parameter::of("record_every", std::int64_t{spec.record_every}),

@@ -1,0 +1,184 @@
+/// Builds the rows of contacts from the poses of their bodies.
+#pragma once
+
+#include <cstddef>
+
+#include "solver/contact_rows.h"
+#include "solver/joint_builder.h"
+#include "solver/manifold_order.h"
+
+namespace pbmpi::solver {
+
+template <class T, bool two_bodies, bool friction>
+class ContactBuilder {
+ public:
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+  using L3 = Vec3L<V>;
+  using Solver = ContactSolver<T, two_bodies, friction>;
+  using Row = typename Solver::Row;
+  using Point = typename Solver::Point;
+
+  ContactBuilder(const BodyLanes<T>& bodies, const ContactParameters<Scalar>& parameters)
+      : bodies_(&bodies), parameters_(parameters) {}
+
+  /// Rows of manifolds[num_lanes], before forces act on the twists (bounce looks at the speed of approach).
+  /// Impulses start at 0. `points`: [slot.num_points].
+  void build(const Manifold* manifolds, ContactSlot<T>& slot, Point* points) const;
+
+  /// Next substep, with the velocities as the last sweep left them: the depth that the normal speed has left,
+  /// the same directions and arms, impulses at 0.
+  void advance(const ContactSlot<T>& slot, Point* points) const;
+
+ private:
+  /// What is read of a manifold's bodies.
+  struct BodyPair {
+    L3 centre_a, centre_b;
+    Sym3L<V> inv_inertia_a, inv_inertia_b;
+    Twist<V> twist_a, twist_b;
+  };
+  /// The point at hand of each lane's manifold; harmless numbers in idle lanes.
+  struct Given {
+    L3 position, normal;
+    V depth, mu, restitution, factor;
+  };
+
+  BodyPair gather(const Manifold* manifolds, ContactSlot<T>& slot) const;
+  Given read(const Manifold* manifolds, int point) const;
+  void build_point(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, Point& point) const;
+  PBMPI_LANES static void build_row(const ContactSlot<T>& slot, const BodyPair& pair, const L3& direction,
+                                    const L3& arm_a, const L3& arm_b, Scalar cfm, const V& factor, Row& row);
+
+  PBMPI_LANES L3 gather_vector(std::size_t member, const std::int32_t* index) const {
+    return {bodies_->gather_member(member, index), bodies_->gather_member(member + sizeof(V), index),
+            bodies_->gather_member(member + 2 * sizeof(V), index)};
+  }
+  PBMPI_LANES Sym3L<V> gather_inertia(const std::int32_t* index) const {
+    constexpr std::size_t member = offsetof(BodyLane<V>, inv_inertia);
+    const L3 upper = gather_vector(member, index), lower = gather_vector(member + 3 * sizeof(V), index);
+    return {upper.x, upper.y, upper.z, lower.x, lower.y, lower.z};
+  }
+
+  const BodyLanes<T>* bodies_;
+  ContactParameters<Scalar> parameters_;
+};
+
+template <class T, bool two_bodies, bool friction>
+void ContactBuilder<T, two_bodies, friction>::build(const Manifold* manifolds, ContactSlot<T>& slot,
+                                                    Point* points) const {
+  const BodyPair pair = gather(manifolds, slot);
+  for (int i = 0; i < slot.num_points; ++i) build_point(slot, pair, read(manifolds, i), points[i]);
+}
+
+template <class T, bool two_bodies, bool friction>
+typename ContactBuilder<T, two_bodies, friction>::BodyPair ContactBuilder<T, two_bodies, friction>::gather(
+    const Manifold* manifolds, ContactSlot<T>& slot) const {
+  std::int32_t body_a[T::num_lanes], body_b[T::num_lanes], twist_a[T::num_lanes], twist_b[T::num_lanes];
+  for (int lane = 0; lane < T::num_lanes; ++lane) {
+    const LanePlace a = manifolds[lane].a, b = manifolds[lane].b;
+    slot.row_a[lane] = TwistRows<T>::index(a.slot, a.lane);
+    slot.row_b[lane] = TwistRows<T>::index(b.slot, b.lane);
+    twist_a[lane] = BodyLanes<T>::twist_index(a.slot, a.lane);
+    twist_b[lane] = BodyLanes<T>::twist_index(b.slot, b.lane);
+    body_a[lane] = BodyLanes<T>::body_index(a.slot, a.lane);
+    body_b[lane] = BodyLanes<T>::body_index(b.slot, b.lane);
+  }
+  constexpr std::size_t inv_mass = offsetof(BodyLane<V>, inv_mass);
+  constexpr std::size_t centre = offsetof(BodyLane<V>, position);
+  BodyPair pair{};
+  pair.centre_a = gather_vector(centre, body_a);
+  pair.inv_inertia_a = gather_inertia(body_a);
+  pair.twist_a = bodies_->gather_twist(twist_a);
+  slot.inv_mass_a = bodies_->gather_member(inv_mass, body_a);
+  slot.inv_mass_b = T::broadcast(0);
+  if constexpr (two_bodies) {
+    pair.centre_b = gather_vector(centre, body_b);
+    pair.inv_inertia_b = gather_inertia(body_b);
+    pair.twist_b = bodies_->gather_twist(twist_b);
+    slot.inv_mass_b = bodies_->gather_member(inv_mass, body_b);
+  }
+  return pair;
+}
+
+template <class T, bool two_bodies, bool friction>
+typename ContactBuilder<T, two_bodies, friction>::Given ContactBuilder<T, two_bodies, friction>::read(
+    const Manifold* manifolds, int point) const {
+  const V zero = T::broadcast(0);
+  Given given{{zero, zero, zero}, {zero, zero, T::broadcast(1)}, zero, zero, zero, zero};
+  for (int lane = 0; lane < T::num_lanes; ++lane) {
+    if (point >= manifolds[lane].num_points) continue;
+    const model::Contact& contact = manifolds[lane].points[point];
+    T::set(given.position.x, lane, static_cast<Scalar>(contact.position.x()));
+    T::set(given.position.y, lane, static_cast<Scalar>(contact.position.y()));
+    T::set(given.position.z, lane, static_cast<Scalar>(contact.position.z()));
+    T::set(given.normal.x, lane, static_cast<Scalar>(contact.normal.x()));
+    T::set(given.normal.y, lane, static_cast<Scalar>(contact.normal.y()));
+    T::set(given.normal.z, lane, static_cast<Scalar>(contact.normal.z()));
+    T::set(given.depth, lane, static_cast<Scalar>(contact.depth));
+    T::set(given.mu, lane, static_cast<Scalar>(contact.mu));
+    T::set(given.restitution, lane, static_cast<Scalar>(contact.restitution));
+    T::set(given.factor, lane, parameters_.sor_factor);
+  }
+  return given;
+}
+
+template <class T, bool two_bodies, bool friction>
+void ContactBuilder<T, two_bodies, friction>::build_point(const ContactSlot<T>& slot, const BodyPair& pair,
+                                                          const Given& given, Point& point) const {
+  const V zero = T::broadcast(0);
+  const L3 arm_a = given.position - pair.centre_a;
+  const L3 arm_b = two_bodies ? given.position - pair.centre_b : L3{zero, zero, zero};
+  build_row(slot, pair, given.normal, arm_a, arm_b, parameters_.soft_cfm / parameters_.h, given.factor,
+            point.normal);
+  const V outgoing = Solver::speed(point.normal, pair.twist_a, pair.twist_b);
+  const V push = (parameters_.soft_erp / parameters_.h) * given.depth;
+  const V bounce =
+      outgoing < T::broadcast(-parameters_.bounce_velocity) ? -given.restitution * outgoing : zero;
+  point.rhs = T::max(push, bounce);
+  point.depth = given.depth;
+  if constexpr (friction) {
+    point.mu = given.mu;
+    L3 directions[2];
+    plane_space<T>(given.normal, directions[0], directions[1]);
+    for (int i = 0; i < 2; ++i) {
+      build_row(slot, pair, directions[i], arm_a, arm_b, parameters_.cfm / parameters_.h, given.factor,
+                point.friction[i]);
+    }
+  }
+}
+
+template <class T, bool two_bodies, bool friction>
+PBMPI_LANES void ContactBuilder<T, two_bodies, friction>::build_row(const ContactSlot<T>& slot,
+                                                                    const BodyPair& pair, const L3& direction,
+                                                                    const L3& arm_a, const L3& arm_b,
+                                                                    Scalar cfm, const V& factor, Row& row) {
+  row.direction = direction;
+  row.moment_a = cross(arm_a, direction);
+  row.turn_a = pair.inv_inertia_a * row.moment_a;
+  V diagonal = slot.inv_mass_a + dot(row.moment_a, row.turn_a);
+  if constexpr (two_bodies) {
+    row.moment_b = -cross(arm_b, direction);
+    row.turn_b = pair.inv_inertia_b * row.moment_b;
+    diagonal += slot.inv_mass_b + dot(row.moment_b, row.turn_b);
+  }
+  row.scale = factor / (diagonal + cfm);
+  row.impulse = T::broadcast(0);
+}
+
+template <class T, bool two_bodies, bool friction>
+void ContactBuilder<T, two_bodies, friction>::advance(const ContactSlot<T>& slot, Point* points) const {
+  const Twist<V> a = bodies_->contact_twists.gather(slot.row_a);
+  const Twist<V> b = two_bodies ? bodies_->contact_twists.gather(slot.row_b) : Twist<V>{};
+  const V zero = T::broadcast(0);
+  for (int i = 0; i < slot.num_points; ++i) {
+    Point& point = points[i];
+    point.depth = point.depth - Solver::speed(point.normal, a, b) * parameters_.h;
+    // A gap (negative depth) lets the bodies approach until they touch.
+    const V k = point.depth > zero ? T::broadcast(parameters_.soft_erp) : T::broadcast(1);
+    point.rhs = k * point.depth / parameters_.h;
+    point.normal.impulse = zero;
+    if constexpr (friction) point.friction[0].impulse = point.friction[1].impulse = zero;
+  }
+}
+
+}  // namespace pbmpi::solver

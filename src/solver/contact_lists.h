@@ -1,0 +1,131 @@
+/// The contacts of a pack in one step. They are of four kinds, swept one after the other: with or without a
+/// second body, with or without friction; and of each kind those of many points before those of few, since a
+/// slot takes as long as its longest manifold.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "solver/contact_builder.h"
+
+namespace pbmpi::solver {
+
+/// Contacts of one kind.
+template <class T, bool two_bodies, bool friction>
+class ContactList {
+ public:
+  using Scalar = typename T::Scalar;
+  using Parameters = ContactParameters<Scalar>;
+
+  ManifoldOrder order;  ///< to be filled before build()
+
+  void build(const BodyLanes<T>& bodies, const Parameters& parameters) {
+    const std::span<const Manifold> manifolds = order.deal(T::num_lanes, bodies.static_slot);
+    cut();
+    const ContactBuilder<T, two_bodies, friction> builder(bodies, parameters);
+    for (std::size_t i = 0; i < slots_.size(); ++i)
+      builder.build(&manifolds[i * T::num_lanes], slots_[i], points_of(slots_[i]));
+  }
+  /// For the next substep.
+  void advance(const BodyLanes<T>& bodies, const Parameters& parameters) {
+    const ContactBuilder<T, two_bodies, friction> builder(bodies, parameters);
+    for (const ContactSlot<T>& slot : slots_) builder.advance(slot, points_of(slot));
+  }
+  void sweep(TwistRows<T>& twists, const Parameters& parameters, bool backwards) {
+    const ContactSolver<T, two_bodies, friction> solver(parameters);
+    const std::size_t count = slots_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const ContactSlot<T>& slot = slots_[backwards ? count - 1 - i : i];
+      solver.solve(twists, slot, points_of(slot), backwards);
+    }
+  }
+
+ private:
+  using Point = ContactPoint<typename T::V, two_bodies, friction>;
+
+  void cut() {
+    slots_.resize(static_cast<std::size_t>(order.num_slots()));
+    int num_points = 0;
+    for (int i = 0; i < order.num_slots(); ++i) {
+      ContactSlot<T>& slot = slots_[static_cast<std::size_t>(i)];
+      slot.first_point = num_points;
+      slot.num_points = order.num_points(i);
+      num_points += slot.num_points;
+    }
+    points_.resize(static_cast<std::size_t>(num_points));
+  }
+  Point* points_of(const ContactSlot<T>& slot) { return points_.data() + slot.first_point; }
+
+  std::vector<ContactSlot<T>> slots_;
+  std::vector<Point> points_;
+};
+
+template <class T>
+class ContactLists {
+ public:
+  using Parameters = ContactParameters<typename T::Scalar>;
+
+  void clear() {
+    for_each([](auto& list) { list.order.clear(); });
+  }
+
+  /// The contacts of one world, in canonical order. `place_of(body)`: where a body, or the environment, lies.
+  /// Spans hold during the step.
+  template <class PlaceOf>
+  void add_world(int num_bodies, std::span<const model::Contact> contacts, PlaceOf place_of) {
+    for_each([&](auto& list) { list.order.start_world(num_bodies); });
+    for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
+      const model::Contact& first = contacts[begin];
+      const std::size_t last = std::min(contacts.size(), begin + ManifoldOrder::most_points);
+      end = begin + 1;
+      while (end < last && belong_together(first, contacts[end])) ++end;
+      order_of(first, end - begin)
+          .add(contacts.subspan(begin, end - begin), place_of(first.body_a), place_of(first.body_b));
+    }
+  }
+
+  void build(const BodyLanes<T>& bodies, const Parameters& parameters) {
+    for_each([&](auto& list) { list.build(bodies, parameters); });
+  }
+  void advance(const BodyLanes<T>& bodies, const Parameters& parameters) {
+    for_each([&](auto& list) { list.advance(bodies, parameters); });
+  }
+  void sweep(TwistRows<T>& twists, const Parameters& parameters, bool backwards) {
+    for_each([&](auto& list) { list.sweep(twists, parameters, backwards); });
+  }
+  /// visit(slot of a body that is in contact), some of them more than once.
+  template <class Visit>
+  void for_each_body_slot(Visit visit) const {
+    std::apply(
+        [&](const auto&... kind) {
+          ((kind[0].order.for_each_place(visit), kind[1].order.for_each_place(visit)), ...);
+        },
+        lists_);
+  }
+
+ private:
+  static bool belong_together(const model::Contact& a, const model::Contact& b) {
+    return a.body_a == b.body_a && a.body_b == b.body_b && (a.mu > 0) == (b.mu > 0);
+  }
+  /// The lists of one kind: manifolds of many points and of few.
+  template <bool two_bodies, bool friction>
+  using Kind = std::array<ContactList<T, two_bodies, friction>, 2>;
+
+  ManifoldOrder& order_of(const model::Contact& contact, std::size_t num_points) {
+    const std::size_t few = num_points > 2 ? 0 : 1;
+    if (contact.body_b == model::no_body)
+      return contact.mu > 0 ? std::get<1>(lists_)[few].order : std::get<0>(lists_)[few].order;
+    return contact.mu > 0 ? std::get<3>(lists_)[few].order : std::get<2>(lists_)[few].order;
+  }
+  template <class Visit>
+  void for_each(Visit visit) {
+    std::apply([&](auto&... kind) { ((visit(kind[0]), visit(kind[1])), ...); }, lists_);
+  }
+
+  std::tuple<Kind<false, false>, Kind<false, true>, Kind<true, false>, Kind<true, true>> lists_;
+};
+
+}  // namespace pbmpi::solver

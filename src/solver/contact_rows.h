@@ -1,0 +1,110 @@
+/// Rows of contacts in lanes. A slot holds manifolds of which no two touch the same body, so that its lanes
+/// can be solved at once; the sweep over the slots is the same Gauss-Seidel for every number of lanes.
+#pragma once
+
+#include <cstdint>
+
+#include "solver/joint_rows.h"
+
+namespace pbmpi::solver {
+
+/// Uniform numbers of contacts in a substep.
+template <class Scalar>
+struct ContactParameters {
+  Scalar h, soft_erp, soft_cfm, cfm, bounce_velocity, sor_factor;
+};
+
+/// A row of a contact: its direction, the angular parts of J, and M^-1 J^T. Without the parts of b where b is
+/// the environment.
+template <class V, bool two_bodies>
+struct alignas(sizeof(V)) ContactRow {
+  Vec3L<V> direction, moment_a, turn_a;
+  V scale, impulse;
+};
+template <class V>
+struct alignas(sizeof(V)) ContactRow<V, true> : ContactRow<V, false> {
+  Vec3L<V> moment_b, turn_b;  ///< with b's sign in moment_b
+};
+
+/// Normal and friction rows (box friction: ODE's dContactApprox1) of one point of each lane's manifold.
+template <class V, bool two_bodies, bool friction>
+struct alignas(sizeof(V)) ContactPoint {
+  using Row = ContactRow<V, two_bodies>;
+  Row normal;
+  V rhs;  ///< of the normal row; friction rows want 0 [m/s]
+  V depth;
+};
+template <class V, bool two_bodies>
+struct alignas(sizeof(V)) ContactPoint<V, two_bodies, true> : ContactPoint<V, two_bodies, false> {
+  ContactRow<V, two_bodies> friction[2];
+  V mu;
+};
+
+/// The bodies of a slot's manifolds; its points are elsewhere, one after the other.
+template <class T>
+struct alignas(sizeof(typename T::V)) ContactSlot {
+  std::int32_t row_a[T::num_lanes], row_b[T::num_lanes];  ///< in BodyLanes::contact_twists
+  typename T::V inv_mass_a, inv_mass_b;
+  int first_point = 0, num_points = 0;
+};
+
+/// Sweeps over the points of a slot.
+template <class T, bool two_bodies, bool friction>
+class ContactSolver {
+ public:
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+  using Row = ContactRow<V, two_bodies>;
+  using Point = ContactPoint<V, two_bodies, friction>;
+
+  explicit ContactSolver(const ContactParameters<Scalar>& parameters)
+      : normal_cfm_(parameters.soft_cfm / parameters.h), friction_cfm_(parameters.cfm / parameters.h) {}
+
+  /// `points`: those of the slot, [slot.num_points].
+  PBMPI_LANES void solve(TwistRows<T>& twists, const ContactSlot<T>& slot, Point* points,
+                         bool backwards) const {
+    Twist<V> a = twists.gather(slot.row_a), b{};
+    if constexpr (two_bodies) b = twists.gather(slot.row_b);
+    for (int i = 0; i < slot.num_points; ++i)
+      solve_point(slot, points[backwards ? slot.num_points - 1 - i : i], a, b);
+    twists.scatter(slot.row_a, a);
+    if constexpr (two_bodies) twists.scatter(slot.row_b, b);
+  }
+
+  PBMPI_LANES static V speed(const Row& row, const Twist<V>& a, const Twist<V>& b) {
+    if constexpr (two_bodies) {
+      return dot(row.direction, a.linear - b.linear) + dot(row.moment_a, a.angular) +
+             dot(row.moment_b, b.angular);
+    } else {
+      return dot(row.direction, a.linear) + dot(row.moment_a, a.angular);
+    }
+  }
+
+ private:
+  PBMPI_LANES void solve_point(const ContactSlot<T>& slot, Point& point, Twist<V>& a, Twist<V>& b) const {
+    const V zero = T::broadcast(0), unbounded = T::broadcast(static_cast<Scalar>(huge_bound));
+    solve_row(slot, point.normal, point.rhs, normal_cfm_, zero, unbounded, a, b);
+    if constexpr (friction) {
+      const V bound = point.mu * point.normal.impulse;
+      for (Row& row : point.friction) solve_row(slot, row, zero, friction_cfm_, -bound, bound, a, b);
+    }
+  }
+
+  PBMPI_LANES static void solve_row(const ContactSlot<T>& slot, Row& row, const V& rhs, Scalar cfm,
+                                    const V& low, const V& high, Twist<V>& a, Twist<V>& b) {
+    const V change = (rhs - speed(row, a, b) - cfm * row.impulse) * row.scale;
+    const V impulse = T::min(T::max(row.impulse + change, low), high);
+    const V applied = impulse - row.impulse;
+    row.impulse = impulse;
+    a.linear = a.linear + row.direction * (slot.inv_mass_a * applied);
+    a.angular = a.angular + row.turn_a * applied;
+    if constexpr (two_bodies) {
+      b.linear = b.linear - row.direction * (slot.inv_mass_b * applied);
+      b.angular = b.angular + row.turn_b * applied;
+    }
+  }
+
+  Scalar normal_cfm_, friction_cfm_;
+};
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,27 @@
+/// Bits that say which geoms of a world may touch, in rows that fit chunks of lanes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/model.h"
+
+namespace pbmpi::solver {
+
+class MayTouchTable {
+ public:
+  explicit MayTouchTable(const model::Model& model);
+
+  /// Bit b: may geom `row` touch geom first + b? For a solid row only geoms after it and no planes, so that
+  /// each pair stands once; for a plane all solids. `first` is a multiple of 16, or of a power of two below.
+  std::uint32_t bits(int row, int first) const {
+    return words_[static_cast<std::size_t>(row) * words_a_row_ + static_cast<std::size_t>(first / 32)] >>
+           (first % 32);
+  }
+
+ private:
+  std::size_t words_a_row_;
+  std::vector<std::uint32_t> words_;
+};
+
+}  // namespace pbmpi::solver

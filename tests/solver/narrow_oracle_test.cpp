@@ -1,0 +1,271 @@
+/// The kernels over lanes against ODE's dCollide, on a million random pairs in all.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+#include "model/geometry.h"
+#include "model/names.h"
+#include "ode/engine.h"
+#include "ode/narrow_phase.h"
+#include "solver/articulation.h"
+#include "solver/pack.h"
+#include "solver/simd.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::Contact;
+using model::Shape;
+using model::Vec3;
+
+constexpr int num_worlds = 500;
+constexpr int rounds = 225;  // x 500 pairs x 9 kinds: just over a million
+
+struct Kind {
+  Shape a, b;
+};
+
+/// Numbers in [0, 1), one after the other.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : seed_(seed) {}
+  double operator()() { return static_cast<double>(core::mix_key(seed_, next_++, 0) >> 11) * 0x1.0p-53; }
+  double between(double low, double high) { return low + (high - low) * (*this)(); }
+  Vec3 in_cube(double half) {
+    const double x = between(-half, half), y = between(-half, half), z = between(-half, half);
+    return {x, y, z};
+  }
+  model::Quat rotation() {
+    for (;;) {
+      const double w = between(-1, 1), x = between(-1, 1), y = between(-1, 1), z = between(-1, 1);
+      const double norm = std::sqrt(w * w + x * x + y * y + z * z);
+      if (norm > 0.1 && norm < 1) return {w / norm, x / norm, y / norm, z / norm};
+    }
+  }
+
+ private:
+  std::uint64_t seed_, next_ = 0;
+};
+
+model::Geom make_geom(Shape shape, int body, Dice& dice) {
+  model::Geom geom;
+  geom.shape = shape;
+  geom.body = shape == Shape::plane ? model::no_body : body;
+  geom.actor = body;
+  geom.size = {dice.between(0.1, 0.6), dice.between(0.1, 0.9), dice.between(0.1, 0.9)};
+  if (shape == Shape::plane) geom.local = {dice.in_cube(0.3), dice.rotation()};
+  return geom;
+}
+
+/// Two geoms near each other; sizes differ from world to world.
+model::Model make_model(const Kind& kind, Dice& dice) {
+  model::Model model;
+  for (int i = 0; i < 2; ++i) {
+    model.actors.emplace_back().name = std::to_string(i);
+    model::Body& body = model.bodies.emplace_back();
+    body.name = std::to_string(i);
+    body.actor = i;
+    model.geoms.push_back(make_geom(i == 0 ? kind.a : kind.b, i, dice));
+  }
+  return model;
+}
+
+class NarrowOracle : public testing::TestWithParam<Kind> {
+ protected:
+  NarrowOracle() {
+    Dice dice(17);
+    for (int w = 0; w < num_worlds; ++w) models_.push_back(make_model(GetParam(), dice));
+    std::vector<PackedWorld> packed;
+    for (const model::Model& model : models_) {
+      fallbacks_.push_back(ode::make_narrow_phase(model));
+      packed.push_back({&model, find_articulations(model), fallbacks_.back().get()});
+    }
+    pack_ = make_pack(packed, model::Simd::automatic, model::Precision::double_);
+  }
+
+  /// Gives a world random poses; its contacts as ODE has them.
+  void throw_dice(int world, Dice& dice, std::vector<Contact>& ode) {
+    const model::Model& model = models_[static_cast<std::size_t>(world)];
+    model::State state = model::initial_state(model);
+    std::vector<model::BodyPose> poses(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      state.position[i] = dice.in_cube(0.7);
+      state.orientation[i] = dice.rotation();
+    }
+    pack_->load(world, state);
+    pack_->poses(world, poses);
+    const model::GeomPair pair{0, 1};
+    ode.clear();
+    fallbacks_[static_cast<std::size_t>(world)]->collide(poses, {&pair, 1}, ode);
+  }
+
+  ode::Engine engine_;
+  std::vector<model::Model> models_;
+  std::vector<std::unique_ptr<model::NarrowPhase>> fallbacks_;
+  std::unique_ptr<Pack> pack_;
+};
+
+double deepest(const std::vector<Contact>& contacts) {
+  double depth = -1;
+  for (const Contact& contact : contacts) depth = std::max(depth, contact.depth);
+  return depth;
+}
+
+/// Distance from a point to the nearest contact of a set.
+double distance_to(const Vec3& point, const std::vector<Contact>& contacts) {
+  double distance = 1e9;
+  for (const Contact& contact : contacts) distance = std::min(distance, (contact.position - point).norm());
+  return distance;
+}
+
+// Nearer to touching than this the verdict is rounding's [m]: some 1e-15 of the sizes, widened by the
+// divisions of edges against edges.
+constexpr double band_m = 1e-9;
+constexpr double depth_tolerance_m = 1e-6;
+
+TEST_P(NarrowOracle, agrees_with_dcollide) {
+  Dice dice(4711);
+  int touching = 0, other_axis = 0;
+  std::vector<std::vector<Contact>> ode(num_worlds), all(num_worlds);
+  for (int round = 0; round < rounds; ++round) {
+    for (int world = 0; world < num_worlds; ++world)
+      throw_dice(world, dice, ode[static_cast<std::size_t>(world)]);
+    pack_->collide(all);
+    for (int world = 0; world < num_worlds; ++world) {
+      const std::vector<Contact>& own = all[static_cast<std::size_t>(world)];
+      const std::vector<Contact>& oracle = ode[static_cast<std::size_t>(world)];
+      if (own.empty() != oracle.empty()) {
+        ASSERT_LT(std::max(deepest(own), deepest(oracle)), band_m) << "world " << world << " round " << round;
+        continue;
+      }
+      if (own.empty()) continue;
+      ++touching;
+      // Two boxes may overlap equally along two axes; then either answers.
+      if (own.front().normal.dot(oracle.front().normal) < 1 - 1e-9) {
+        ++other_axis;
+        continue;
+      }
+      ASSERT_EQ(own.front().body_a, oracle.front().body_a);
+      ASSERT_NEAR(deepest(own), deepest(oracle), depth_tolerance_m)
+          << "world " << world << " round " << round;
+      const bool boxes = GetParam().a == Shape::box && GetParam().b == Shape::box;
+      if (boxes) {  // of more than four points each keeps those that it thinks span the most
+        ASSERT_EQ(own.size() == 1, oracle.size() == 1);
+        continue;
+      }
+      ASSERT_EQ(own.size(), oracle.size()) << "world " << world << " round " << round;
+      for (const Contact& contact : own) {
+        ASSERT_LT(distance_to(contact.position, oracle), depth_tolerance_m)
+            << "world " << world << " round " << round;
+      }
+    }
+  }
+  EXPECT_GT(touching, rounds * num_worlds / 20) << "too few pairs touch to say much";
+  EXPECT_LE(other_axis, touching / 1000);
+}
+
+/// Contacts of two geoms at rest, the first on a body that lies at `pose`.
+std::vector<Contact> contacts_of(const model::Geom& moving, const model::Pose& pose,
+                                 const model::Geom& other) {
+  model::Model model;
+  for (int i = 0; i < 2; ++i) {
+    model.actors.emplace_back().name = std::to_string(i);
+    model::Body& body = model.bodies.emplace_back();
+    body.name = std::to_string(i);
+    body.actor = i;
+  }
+  model.geoms = {moving, other};
+  model.bodies[0].pose = pose;
+  const auto fallback = ode::make_narrow_phase(model);
+  const PackedWorld world{&model, find_articulations(model), fallback.get()};
+  const auto pack = make_pack({&world, 1}, model::Simd::automatic, model::Precision::double_);
+  std::vector<Contact> contacts;
+  pack->collide({&contacts, 1});
+  return contacts;
+}
+
+model::Geom geom_of(Shape shape, int body, const std::array<double, 3>& size) {
+  model::Geom geom;
+  geom.shape = shape;
+  geom.body = body;
+  geom.actor = body == model::no_body ? 1 : body;
+  geom.size = size;
+  return geom;
+}
+
+TEST(NarrowLanes, a_box_that_lies_on_a_larger_one_touches_at_its_four_corners) {
+  const ode::Engine engine;
+  const auto contacts = contacts_of(geom_of(Shape::box, 0, {1, 2, 0.5}), {{0.1, 0, 0.74}, {}},
+                                    geom_of(Shape::box, 1, {4, 4, 1}));
+  ASSERT_EQ(contacts.size(), 4u);
+  for (const Contact& contact : contacts) {
+    EXPECT_NEAR(contact.depth, 0.01, 1e-12);
+    EXPECT_NEAR(std::abs(contact.position.x() - 0.1), 0.5, 1e-12);
+    EXPECT_NEAR(std::abs(contact.position.y()), 1, 1e-12);
+    EXPECT_EQ(contact.normal, Vec3(0, 0, 1));
+  }
+}
+
+TEST(NarrowLanes, a_wheel_stands_on_two_points_and_a_cylinder_on_its_end_on_four) {
+  const ode::Engine engine;
+  const model::Geom wheel = geom_of(Shape::cylinder, 0, {0.5, 0.2, 0}),
+                    ground = geom_of(Shape::plane, -1, {});
+  const double half = std::sqrt(0.5);
+  const auto rolling = contacts_of(wheel, {{0, 0, 0.49}, {half, half, 0, 0}}, ground);
+  ASSERT_EQ(rolling.size(), 2u);
+  EXPECT_NEAR((rolling[0].position - rolling[1].position).norm(), 0.2, 1e-12);
+  EXPECT_NEAR(rolling[0].depth, 0.01, 1e-12);
+  const auto standing = contacts_of(wheel, {{0, 0, 0.09}, {}}, ground);
+  ASSERT_EQ(standing.size(), 4u);
+  for (const Contact& contact : standing) {
+    EXPECT_NEAR(contact.depth, 0.01, 1e-12);
+    EXPECT_NEAR(std::hypot(contact.position.x(), contact.position.y()), 0.5, 1e-12);
+  }
+}
+
+TEST(NarrowLanes, a_cylinder_is_as_deep_in_a_plane_as_dcollide_says) {
+  const ode::Engine engine;
+  Dice dice(5);
+  int touching = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Kind kind{Shape::cylinder, Shape::plane};
+    const model::Model model = make_model(kind, dice);
+    const model::Pose pose{dice.in_cube(0.7), dice.rotation()};
+    const auto own = contacts_of(model.geoms[0], pose, model.geoms[1]);
+    model::BodyPose poses[2];
+    poses[0].position[0] = pose.position.x();
+    poses[0].position[1] = pose.position.y();
+    poses[0].position[2] = pose.position.z();
+    const model::Quat& q = pose.orientation;
+    model::to_rotation(q.w, q.x, q.y, q.z, poses[0].rotation);
+    poses[1] = model::static_pose();
+    std::vector<Contact> oracle;
+    const model::GeomPair pair{0, 1};
+    ode::make_narrow_phase(model)->collide(poses, {&pair, 1}, oracle);
+    if (own.empty() != oracle.empty()) {
+      ASSERT_LT(std::max(deepest(own), deepest(oracle)), band_m) << i;
+      continue;
+    }
+    touching += own.empty() ? 0 : 1;
+    ASSERT_NEAR(deepest(own), deepest(oracle), depth_tolerance_m) << i;
+  }
+  EXPECT_GT(touching, 200);
+}
+
+std::string kind_name(const testing::TestParamInfo<Kind>& info) {
+  return std::string(model::name_of(info.param.a)) + "_and_" + std::string(model::name_of(info.param.b));
+}
+
+// Either order of the shapes in some, so that the turning of normals is seen too.
+INSTANTIATE_TEST_SUITE_P(EveryKind, NarrowOracle,
+                         testing::Values(Kind{Shape::sphere, Shape::plane},
+                                         Kind{Shape::plane, Shape::capsule}, Kind{Shape::box, Shape::plane},
+                                         Kind{Shape::sphere, Shape::sphere},
+                                         Kind{Shape::sphere, Shape::capsule}, Kind{Shape::box, Shape::sphere},
+                                         Kind{Shape::capsule, Shape::capsule},
+                                         Kind{Shape::capsule, Shape::box}, Kind{Shape::box, Shape::box}),
+                         kind_name);
+
+}  // namespace
+}  // namespace pbmpi::solver
