@@ -55,6 +55,21 @@ std::vector<ColumnSpec> phase_columns() {
   return columns;
 }
 
+const std::vector<ColumnSpec>& island_columns() {
+  static const std::vector<ColumnSpec> columns = {{"bodies", H5T_NATIVE_INT32},
+                                                  {"contacts", H5T_NATIVE_INT32},
+                                                  {"rows", H5T_NATIVE_INT32},
+                                                  {"solve", H5T_NATIVE_DOUBLE, 1, "s"}};
+  return columns;
+}
+
+const std::vector<ColumnSpec>& space_columns() {
+  static const std::vector<ColumnSpec> columns = {{"cross_contacts", H5T_NATIVE_INT32},
+                                                  {"collide", H5T_NATIVE_DOUBLE, 1, "s"},
+                                                  {"collide_spaces", H5T_NATIVE_DOUBLE, 1, "s"}};
+  return columns;
+}
+
 const std::vector<ColumnSpec>& event_columns() {
   static const std::vector<ColumnSpec> columns = {
       {"frame", H5T_NATIVE_INT64}, {"kind", 0, 1, "", 24}, {"detail", 0, 1, "", 160}};
@@ -100,8 +115,11 @@ FrameBytes frame_bytes(const RunShape& shape) {
   const auto bodies = static_cast<hsize_t>(shape.num_bodies);
   const auto worlds = static_cast<hsize_t>(shape.num_worlds);
   const auto ranks = static_cast<hsize_t>(shape.num_ranks);
-  return {GrowingTable::row_bytes(world_columns(), worlds) + GrowingTable::row_bytes(frame_columns(), 1) +
-              GrowingTable::row_bytes(phase_columns(), ranks),
+  const std::size_t profile = shape.profile ? GrowingTable::row_bytes(island_columns(), bodies) +
+                                                  GrowingTable::row_bytes(space_columns(), worlds)
+                                            : 0;
+  return {profile + GrowingTable::row_bytes(world_columns(), worlds) +
+              GrowingTable::row_bytes(frame_columns(), 1) + GrowingTable::row_bytes(phase_columns(), ranks),
           GrowingTable::row_bytes(body_columns(), bodies) + GrowingTable::row_bytes(recorded_columns(), 1)};
 }
 
@@ -124,12 +142,18 @@ FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const model::Worl
               table_shape(shape.num_frames, shape.num_ranks, frames_to_hold(shape))),
       events_(file, ranks, "/events", event_columns(), table_shape(max_events, 0, max_events)) {
   link_step_and_time(file);
+  if (!shape.profile) return;
+  islands_.emplace(file, ranks, "/timings/island", island_columns(),
+                   table_shape(shape.num_frames, shape.num_bodies, frames_to_hold(shape)));
+  spaces_.emplace(file, ranks, "/timings/space", space_columns(),
+                  table_shape(shape.num_frames, shape.num_worlds, frames_to_hold(shape)));
 }
 
 void FrameColumns::add(const model::FrameRecord& frame) {
   core::require_invariant(frame.frame == next_frame_, "frames come in order");
   ++next_frame_;
   add_observables(frame);
+  if (islands_) add_profiles(frame);
   add_times(frame);
   if ((frame.frame + 1) % record_every_ == 0) add_bodies(frame);
 }
@@ -171,6 +195,33 @@ void FrameColumns::add_observables(const model::FrameRecord& frame) {
   }
 }
 
+void FrameColumns::add_profiles(const model::FrameRecord& frame) {
+  std::vector<Range> bodies, worlds;
+  for (const model::LocalWorld& world : frame.worlds) {
+    append_range(bodies, static_cast<hsize_t>(table_.body_offset[world.id]), world.state->position.size());
+    append_range(worlds, static_cast<hsize_t>(world.id), 1);
+  }
+  islands_->begin_row(bodies);
+  spaces_->begin_row(worlds);
+  static const model::StepProfile nothing;  // of a world that has ended
+  for (const model::LocalWorld& world : frame.worlds) {
+    const model::StepProfile& profile = world.profile != nullptr ? *world.profile : nothing;
+    const auto first = static_cast<hsize_t>(table_.body_offset[world.id]);
+    std::vector<model::IslandCost> at_body(world.state->position.size());
+    for (const model::IslandCost& island : profile.islands) at_body[island.first_body] = island;
+    for (std::size_t i = 0; i < at_body.size(); ++i) {
+      islands_->put(0, first + i, at_body[i].bodies);
+      islands_->put(1, first + i, at_body[i].contacts);
+      islands_->put(2, first + i, at_body[i].rows);
+      islands_->put(3, first + i, at_body[i].solve_s);
+    }
+    const auto item = static_cast<hsize_t>(world.id);
+    spaces_->put(0, item, profile.cross_contacts);
+    spaces_->put(1, item, profile.collide_s);
+    spaces_->put(2, item, profile.collide_spaces_s);
+  }
+}
+
 void FrameColumns::add_times(const model::FrameRecord& frame) {
   frames_.begin_row(on_root(ranks_));
   frames_.put(0, 0, frame.step);
@@ -199,7 +250,9 @@ void FrameColumns::add(const model::RunEvent& event) {
 }
 
 std::vector<GrowingTable*> FrameColumns::tables() {
-  return {&bodies_, &recorded_, &worlds_, &frames_, &phases_, &events_};
+  std::vector<GrowingTable*> all = {&bodies_, &recorded_, &worlds_, &frames_, &phases_, &events_};
+  if (islands_) all.insert(all.end(), {&*islands_, &*spaces_});
+  return all;
 }
 
 std::string FrameColumns::write(const PropertyList& transfer) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,7 @@ struct RunShape {
   int num_ranks = 1;
   std::int64_t num_frames = 0;
   int record_every = 1;
+  bool profile = false;  ///< with /timings/island and /timings/space
 
   std::int64_t num_recorded() const { return num_frames / record_every; }
 };
@@ -62,6 +64,7 @@ class FrameColumns {
   std::vector<GrowingTable*> tables();
   void add_bodies(const model::FrameRecord& frame);
   void add_observables(const model::FrameRecord& frame);
+  void add_profiles(const model::FrameRecord& frame);
   void add_times(const model::FrameRecord& frame);
 
   const FileRanks& ranks_;
@@ -70,12 +73,14 @@ class FrameColumns {
   std::int64_t next_frame_ = 0;
   std::int64_t events_dropped_ = 0;
   bool wrote_collectively_ = false;
-  GrowingTable bodies_;    ///< [P][N][width]
-  GrowingTable recorded_;  ///< [P] step and time of the above
-  GrowingTable worlds_;    ///< [T][W]
-  GrowingTable frames_;    ///< [T]
-  GrowingTable phases_;    ///< [T][R]
-  GrowingTable events_;    ///< [E]
+  GrowingTable bodies_;                  ///< [P][N][width]
+  GrowingTable recorded_;                ///< [P] step and time of the above
+  GrowingTable worlds_;                  ///< [T][W]
+  GrowingTable frames_;                  ///< [T]
+  GrowingTable phases_;                  ///< [T][R]
+  GrowingTable events_;                  ///< [E]
+  std::optional<GrowingTable> islands_;  ///< [T][N] at the island's lowest body
+  std::optional<GrowingTable> spaces_;   ///< [T][W]
 };
 
 }  // namespace pbmpi::io

@@ -119,6 +119,30 @@ void read_frames(hid_t file, RunData& run) {
   }
 }
 
+/// Opt-in: older runs and most others are without.
+void read_profiles(hid_t file, RunData& run) {
+  if (H5Lexists(file, "/timings/island", H5P_DEFAULT) <= 0) return;
+  const std::int64_t rows = run.frames_committed;
+  const std::size_t bodies = run.bodies.id.size();
+  const auto column = [&](const char* name) {
+    return read_doubles(file, std::string("/timings/island/") + name, rows, bodies);
+  };
+  const std::vector<double> size = column("bodies"), contacts = column("contacts"),
+                            row_count = column("rows"), solve = column("solve");
+  for (std::size_t frame = 0; frame < static_cast<std::size_t>(rows); ++frame) {
+    std::vector<IslandRow>& islands = run.islands.emplace_back();
+    for (std::size_t body = 0; body < bodies; ++body) {
+      const std::size_t i = frame * bodies + body;
+      if (size[i] == 0) continue;
+      islands.push_back({static_cast<std::int64_t>(body), static_cast<int>(size[i]),
+                         static_cast<int>(contacts[i]), static_cast<int>(row_count[i]), solve[i]});
+    }
+  }
+  for (const char* name : {"cross_contacts", "collide", "collide_spaces"}) {
+    run.space_times[name] = read_table(file, std::string("/timings/space/") + name, rows, run.num_worlds);
+  }
+}
+
 std::vector<std::string> read_events(hid_t file) {
   const std::int64_t count = integer_attribute(file, "/events", "num_events");
   const auto frame = read_integers(file, "/events/frame", count);
@@ -148,6 +172,7 @@ RunData read_all(hid_t file) {
   run.geoms = read_geoms(file, static_cast<std::int64_t>(run.bodies.id.size()));
   read_motion(file, run.frames_committed / record_every, run);
   read_frames(file, run);
+  read_profiles(file, run);
   run.events = read_events(file);
   return run;
 }

@@ -34,6 +34,13 @@ struct GeomRow {
   core::Pose local;
 };
 
+/// One island of a profiled step.
+struct IslandRow {
+  std::int64_t first_body = 0;  ///< global id of its lowest body
+  int bodies = 0, contacts = 0, rows = 0;
+  double solve_s = 0;  ///< alone
+};
+
 /// Per-frame columns of one observable: [T][W], frame first.
 using Table = std::vector<std::vector<double>>;
 
@@ -55,8 +62,10 @@ struct RunData {
   std::vector<bool> frame_measured;                  ///< [T]
   std::vector<bool> deadline_met;                    ///< [T]
   std::map<std::string, Table> rank_times;           ///< phase, "useful" -> [T][R] s
-  std::vector<std::string> hosts;                    ///< [R]
-  std::vector<std::string> events;                   ///< "frame 12: rebalance: ..."
+  std::vector<std::vector<IslandRow>> islands;  ///< [T] of all worlds; empty unless the run recorded them
+  std::map<std::string, Table> space_times;     ///< cross_contacts, collide, collide_spaces; as islands
+  std::vector<std::string> hosts;               ///< [R]
+  std::vector<std::string> events;              ///< "frame 12: rebalance: ..."
 };
 
 /// Reads the committed frames of a pbmpi-run file (also one that was cut off by a kill). Throws

@@ -49,8 +49,9 @@ class RunFile::Impl {
 RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(setup)), ranks_(group) {
   prepare_hdf5();
   ranks_.together<core::InputError>([this] {
-    const std::int64_t bytes = estimate_file_bytes(setup_.table.num_bodies(), setup_.table.num_worlds(),
-                                                   ranks_.size(), setup_.num_frames, setup_.record_every);
+    const std::int64_t bytes =
+        estimate_file_bytes(setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(),
+                            setup_.num_frames, setup_.record_every, setup_.profile);
     if (ranks_.is_root()) target_ = OutputTarget(setup_.path, bytes);
   });
   try {
@@ -73,8 +74,8 @@ void RunFile::Impl::make_skeleton() {
   file_ = ranks_.create(ranks_.broadcast(target_.temporary_path()));
   transfer_ = collective_transfer();
   write_skeleton(ranks_, file_.id(), setup_);
-  const RunShape shape{setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(), setup_.num_frames,
-                       setup_.record_every};
+  const RunShape shape{setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(),
+                       setup_.num_frames,         setup_.record_every,       setup_.profile};
   columns_.emplace(file_.id(), ranks_, setup_.table, shape);
   check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
 }

@@ -47,6 +47,7 @@ struct RunSetup {
   std::vector<std::string> hosts;         ///< [num_ranks]
   std::int64_t num_frames = 0;            ///< warm-up included
   int record_every = 1;                   ///< bodies are stored in frames k with (k + 1) % record_every == 0
+  bool profile = false;                   ///< frames carry step profiles: /timings/island and /timings/space
   double flush_interval_s = 1;
 };
 
@@ -89,6 +90,6 @@ class RunFile final : public model::FrameObserver {
 
 /// Bytes of the file for these numbers, within 10 %: what --describe prints.
 std::int64_t estimate_file_bytes(std::int64_t num_bodies, int num_worlds, int num_ranks,
-                                 std::int64_t num_frames, int record_every);
+                                 std::int64_t num_frames, int record_every, bool profile = false);
 
 }  // namespace pbmpi::io

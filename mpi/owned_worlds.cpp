@@ -70,8 +70,8 @@ std::vector<model::LocalWorld> OwnedWorlds::views() const {
   std::vector<model::LocalWorld> worlds;
   worlds.reserve(ids_.size());
   for (const int world : ids_) {
-    worlds.push_back(
-        {world, &stepper_->model(world), &stepper_->state(world), &stepper_->observables(world)});
+    worlds.push_back({world, &stepper_->model(world), &stepper_->state(world), &stepper_->observables(world),
+                      stepper_->profile(world)});
   }
   return worlds;
 }

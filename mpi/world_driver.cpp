@@ -115,7 +115,8 @@ void WorldDriver::run_frame() {
   record.step = (frame_ + 1) * settings_.steps_per_frame;
   record.time_s = static_cast<double>(record.step) * settings_.dt_s;
   record.measured = frame_ >= settings_.warmup;
-  record.worlds = worlds;
+  const std::vector<model::LocalWorld> profiled = settings_.profile ? profiled_views() : worlds;
+  record.worlds = profiled;
   record.wall_s = verdict.wall_s;
   record.deadline_met = verdict.wall_s <= settings_.budget_s;
   publish(record);
@@ -172,6 +173,12 @@ WorldDriver::Verdict WorldDriver::decide(double frame_start_s, bool last) {
   }
   comm_.bcast_value(verdict);
   return verdict;
+}
+
+std::vector<model::LocalWorld> WorldDriver::profiled_views() {
+  errors_.guard([&] { stepper_->profile_last_step(); });
+  comm_.barrier();  // else the slowest rank's measuring would be the others' wait in the next frame
+  return worlds_.views();
 }
 
 void WorldDriver::publish(const model::FrameRecord& frame) {

@@ -27,7 +27,8 @@ struct WorldRunSettings {
   double dt_s = 0.01;
   double budget_s = 0.1 / 30;        ///< a frame's deadline: 10 % of 1/30 s (paper, section 4.1)
   double rebalance_threshold = 1.1;  ///< worlds move when max/avg useful time passes this; infinity = never
-  std::vector<int> placement;        ///< [num_worlds] owner at the start; empty = equal counts, contiguous
+  bool profile = false;        ///< measure the last step of each frame again, after the frame's time is taken
+  std::vector<int> placement;  ///< [num_worlds] owner at the start; empty = equal counts, contiguous
 };
 
 /// Times of one frame: equal on every rank for wall_s, this rank's for the rest.
@@ -101,6 +102,8 @@ class WorldDriver {
   Status agree_on_status();
   int lowest_nonfinite_world() const;  ///< of this rank's; num_worlds if there is none
   Verdict decide(double frame_start_s, bool last);
+  /// This rank's worlds with their profiles; outside of the frame's time.
+  std::vector<model::LocalWorld> profiled_views();
   void publish(const model::FrameRecord& frame);
   void rebalance_worlds(std::int64_t num_moves, std::int64_t step);
   void note_failure(int world);

@@ -1,14 +1,10 @@
 #include "io/html/page.h"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
 #include "io/html/assets.h"
 #include "io/html/escape.h"
+#include "io/html/page_template.h"
 #include "io/html/plot_data.h"
 #include "io/html/replay_data.h"
 
@@ -50,34 +46,11 @@ std::string field(std::string_view name, const RunData& run, const PageOptions& 
 }  // namespace
 
 std::string make_page(const RunData& run, const PageOptions& options) {
-  std::string page;
-  std::string_view rest = asset("page_html");
-  for (;;) {
-    const std::size_t open = rest.find("{{");
-    page += rest.substr(0, open);
-    if (open == std::string_view::npos) return page;
-    const std::size_t close = rest.find("}}", open);
-    core::require_invariant(close != std::string_view::npos, "page.html closes every {{");
-    page += field(rest.substr(open + 2, close - open - 2), run, options);
-    rest.remove_prefix(close + 2);
-  }
+  return fill_template("page_html", [&](std::string_view name) { return field(name, run, options); });
 }
 
 void write_page(const std::string& path, const RunData& run, const PageOptions& options) {
-  const std::string page = make_page(run, options);
-  const std::string partial = path + ".part";
-  errno = 0;
-  std::ofstream file(partial, std::ios::binary);
-  file << page;
-  file.close();
-  std::error_code error(file ? 0 : (errno != 0 ? errno : EIO), std::generic_category());
-  if (!error) std::filesystem::rename(partial, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw core::InputError(path + ": the page cannot be written (" + error.message() +
-                           "); choose another place");
-  }
+  write_text(path, make_page(run, options));
 }
 
 }  // namespace pbmpi::io::html

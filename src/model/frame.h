@@ -10,6 +10,7 @@
 #include "model/model.h"
 #include "model/observables.h"
 #include "model/state.h"
+#include "model/step_profile.h"
 
 namespace pbmpi::model {
 
@@ -27,6 +28,7 @@ struct LocalWorld {
   const Model* model = nullptr;
   const State* state = nullptr;
   const Observables* observables = nullptr;
+  const StepProfile* profile = nullptr;  ///< null unless the run profiles its frames
 };
 
 /// A finished frame as its rank saw it. Spans and pointers hold until the observer returns.

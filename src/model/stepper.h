@@ -9,6 +9,7 @@
 #include "model/model.h"
 #include "model/observables.h"
 #include "model/state.h"
+#include "model/step_profile.h"
 
 namespace pbmpi::model {
 
@@ -35,6 +36,7 @@ struct StepperSettings {
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;
   Colliders colliders = Colliders::lanes;
+  bool profile = false;    ///< ODE's: keep what profile_last_step() needs
   std::uint64_t seed = 1;  ///< of the run; a step's random numbers come from (seed, world, step)
 };
 
@@ -58,6 +60,15 @@ class WorldStepper {
   virtual const Observables& observables(int world) const = 0;
   /// Seconds that the last advance() spent on this world.
   virtual double cost_s(int world) const = 0;
+
+  /// Measures the last step of the last advance() again, island by island; no state changes by a bit. For
+  /// steppers made with StepperSettings::profile, others do nothing.
+  virtual void profile_last_step() {}
+  /// What it found, until the next call; null if nothing was measured.
+  virtual const StepProfile* profile(int world) const {
+    static_cast<void>(world);
+    return nullptr;
+  }
 };
 
 }  // namespace pbmpi::model

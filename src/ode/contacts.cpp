@@ -36,7 +36,9 @@ int Contacts::count() const {
 void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
   const int body_a = model_->geoms[pair.first].body;
   const int body_b = model_->geoms[pair.second].body;
-  touches_.push_back({body_a, body_b, num_contacts, set_surface(pair)});
+  const bool cross_space = body_a != model::no_body && body_b != model::no_body &&
+                           model_->geoms[pair.first].space != model_->geoms[pair.second].space;
+  touches_.push_back({body_a, body_b, num_contacts, set_surface(pair), cross_space});
   for (int i = 0; i < num_contacts; ++i) {
     contact_.geom = found_[i];
     deepest_m_ = std::max(deepest_m_, found_[i].depth);

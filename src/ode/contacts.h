@@ -14,6 +14,7 @@ struct Touch {
   int body_b = model::no_body;
   int num_contacts = 0;
   int rows_per_contact = 1;  ///< 3 with friction
+  bool cross_space = false;  ///< two real bodies whose geoms lie in different collision spaces
 };
 
 /// Makes the contact joints of a step. Friction and restitution are there only if the plan has them.

@@ -27,6 +27,23 @@ void RowCounter::count(const std::vector<Touch>& touches, model::Observables& ob
   for (int body = 0; body < num_bodies; ++body) observables.islands += sets_.find(body) == body ? 1 : 0;
 }
 
+std::vector<model::IslandCost> RowCounter::islands(const std::vector<Touch>& touches) {
+  std::vector<model::IslandCost> by_body(static_cast<std::size_t>(model_->num_bodies()));
+  for (int body = 0; body < model_->num_bodies(); ++body) ++by_body[sets_.find(body)].bodies;
+  for (const Touch& touch : touches) {
+    by_body[sets_.find(touch.body_a != model::no_body ? touch.body_a : touch.body_b)].contacts +=
+        touch.num_contacts;
+  }
+  std::vector<model::IslandCost> islands;
+  for (int body = 0; body < model_->num_bodies(); ++body) {
+    if (by_body[body].bodies == 0) continue;
+    by_body[body].first_body = body;
+    by_body[body].rows = set_rows_[body];
+    islands.push_back(by_body[body]);
+  }
+  return islands;
+}
+
 void RowCounter::collect(const std::vector<Touch>& touches) {
   links_.clear();
   for (std::size_t i = 0; i < joints_.size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include "model/islands.h"
 #include "model/observables.h"
+#include "model/step_profile.h"
 #include "ode/contacts.h"
 
 namespace pbmpi::ode {
@@ -18,6 +19,10 @@ class RowCounter {
 
   /// Sets rows, islands and max_island_rows.
   void count(const std::vector<Touch>& touches, model::Observables& observables);
+  /// The islands of the last count(), in order of their lowest body, without times.
+  std::vector<model::IslandCost> islands(const std::vector<Touch>& touches);
+  /// The lowest body of the island that `body` was in.
+  int island_of(int body) { return sets_.find(body); }
 
  private:
   /// Rows between two bodies, either of which may be no_body.

@@ -24,7 +24,7 @@ void OdeStepper::add(int world, std::shared_ptr<const model::Model> model, const
   core::require_invariant(state.num_bodies() == model->num_bodies(), "a state does not fit its model");
   log_.set_place(world, step);
   const MessageScope scope(log_);
-  Slot slot{std::move(model), state, {}, 0, nullptr};
+  Slot slot{std::move(model), state, {}, 0, {}, nullptr};
   slot.world = std::make_unique<World>(world, *slot.model, state, step, settings_, *resources_);
   slots_.emplace(world, std::move(slot));
 }
@@ -42,6 +42,21 @@ void OdeStepper::advance(int num_steps, core::PhaseTimes& times) {
     advance_slot(entry.second, num_steps, timer);
     entry.second.cost_s = core::now_s() - start_s;
   }
+}
+
+void OdeStepper::profile_last_step() {
+  if (!settings_.profile) return;
+  const MessageScope scope(log_);
+  for (auto& entry : slots_) {
+    Slot& slot = entry.second;
+    slot.profile.reset();
+    if (slot.world) slot.profile = slot.world->profile_last_step();
+  }
+}
+
+const model::StepProfile* OdeStepper::profile(int world) const {
+  const Slot& slot = get(world);
+  return slot.profile ? &*slot.profile : nullptr;
 }
 
 void OdeStepper::advance_slot(Slot& slot, int num_steps, core::LapTimer& timer) {

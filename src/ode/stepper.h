@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "model/stepper.h"
 #include "ode/engine.h"
@@ -26,6 +27,8 @@ class OdeStepper final : public model::WorldStepper {
   const model::Model& model(int world) const override { return *get(world).model; }
   const model::Observables& observables(int world) const override { return get(world).observables; }
   double cost_s(int world) const override { return get(world).cost_s; }
+  void profile_last_step() override;
+  const model::StepProfile* profile(int world) const override;
 
  private:
   /// What is known of a world after the last advance().
@@ -34,6 +37,7 @@ class OdeStepper final : public model::WorldStepper {
     model::State state;
     model::Observables observables;
     double cost_s = 0;
+    std::optional<model::StepProfile> profile;
     std::unique_ptr<World> world;  ///< none once the state is not finite: ODE would stop at an assertion
   };
   const Slot& get(int world) const;

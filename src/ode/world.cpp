@@ -48,6 +48,10 @@ void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
 
 void World::take_step(bool is_last, core::LapTimer& timer) {
   events_.fire(step_);
+  if (is_last && settings_.profile) {
+    before_last_.resize(model_->num_bodies());
+    copy_out(bodies_, before_last_);
+  }
   if (broad_phase_) {
     collide();
     timer.lap(core::Phase::collide);

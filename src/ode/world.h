@@ -7,6 +7,7 @@
 
 #include "core/clock.h"
 #include "model/effects.h"
+#include "model/step_profile.h"
 #include "model/stepper.h"
 #include "ode/broad_phase.h"
 #include "ode/contacts.h"
@@ -34,6 +35,9 @@ class World {
   void advance(int num_steps, core::LapTimer& timer, MessageLog& log);
   /// Reads out the state after the last step, and what was observed in it.
   void read(model::State& state, model::Observables& observables) const;
+  /// Measures the last step again (model::StepProfile); the world is then as it was, bit for bit. Needs the
+  /// setting `profile` and a step taken before.
+  model::StepProfile profile_last_step();
   /// The next step.
   std::int64_t step() const { return step_; }
 
@@ -41,6 +45,9 @@ class World {
   void take_step(bool is_last, core::LapTimer& timer);
   void collide();
   void solve();
+  void profile_collision(model::StepProfile& profile);
+  void profile_islands(model::StepProfile& profile);
+  double time_solve(const std::vector<dBodyID>& enabled, const model::State& before);
 
   int id_;
   const model::Model* model_;
@@ -54,6 +61,7 @@ class World {
   std::optional<BroadPhase> broad_phase_;  ///< none without the effect "collision"
   RowCounter row_counter_;
   model::Observables counts_;  ///< rows and islands of the last step
+  model::State before_last_;   ///< with `profile`: before the last step's collision detection, events done
   std::int64_t step_;
 };
 

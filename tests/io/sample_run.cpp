@@ -56,6 +56,17 @@ model::Observables sample_observables(int world, std::int64_t frame) {
           .nonfinite = 0};
 }
 
+model::StepProfile sample_profile(const Sample& sample, int world, std::int64_t frame) {
+  const int others = sample.bodies_per_world + world % 2 - 1;
+  const auto k = static_cast<double>(frame);
+  model::StepProfile profile;
+  profile.islands = {{0, 1, world, 3 * world, 1e-6 * (k + 1)}, {1, others, 7, 21, 1e-5 * (world + 1)}};
+  profile.collide_s = 1e-4 * (k + 1);
+  profile.collide_spaces_s = 1e-5 * (k + 1);
+  profile.cross_contacts = world + static_cast<int>(frame);
+  return profile;
+}
+
 RankWorlds::RankWorlds(const Sample& sample, std::int64_t frame) {
   std::vector<int> ids;
   for (int w = 0; w < sample.num_worlds; ++w) {
@@ -65,9 +76,10 @@ RankWorlds::RankWorlds(const Sample& sample, std::int64_t frame) {
     models.push_back(sample_model(sample, w));
     states.push_back(sample_state(sample, w, frame));
     observables.push_back(sample_observables(w, frame));
+    profiles.push_back(sample_profile(sample, w, frame));
   }
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    worlds.push_back({ids[i], models[i].get(), &states[i], &observables[i]});
+    worlds.push_back({ids[i], models[i].get(), &states[i], &observables[i], &profiles[i]});
   }
 }
 
@@ -87,6 +99,7 @@ RunSetup sample_setup(const Sample& sample, const RankWorlds& at_start, const st
   for (int r = 0; r < sample.num_ranks; ++r) setup.hosts.push_back("node" + std::to_string(r));
   setup.num_frames = sample.num_frames;
   setup.record_every = sample.record_every;
+  setup.profile = sample.profile;
   setup.flush_interval_s = 1e9;
   return setup;
 }

@@ -23,7 +23,8 @@ struct Sample {
   int bodies_per_world = 3;  ///< world w has w % 2 more
   int num_ranks = 1;
   int rank = 0;
-  Placement owner;  ///< empty: world w belongs to rank w % num_ranks
+  bool profile = true;  ///< with step profiles
+  Placement owner;      ///< empty: world w belongs to rank w % num_ranks
 
   int owner_of(int world, std::int64_t frame) const {
     return owner ? owner(world, frame) : world % num_ranks;
@@ -33,6 +34,8 @@ struct Sample {
 std::shared_ptr<const model::Model> sample_model(const Sample& sample, int world);
 model::State sample_state(const Sample& sample, int world, std::int64_t frame);
 model::Observables sample_observables(int world, std::int64_t frame);
+/// The first body and the others are one island each.
+model::StepProfile sample_profile(const Sample& sample, int world, std::int64_t frame);
 double sample_wall_s(std::int64_t frame);
 /// Seconds of a phase of a rank.
 double sample_phase_s(int rank, int phase, std::int64_t frame);
@@ -45,6 +48,7 @@ struct RankWorlds {
   std::vector<std::shared_ptr<const model::Model>> models;
   std::vector<model::State> states;
   std::vector<model::Observables> observables;
+  std::vector<model::StepProfile> profiles;
   std::vector<model::LocalWorld> worlds;
 };
 

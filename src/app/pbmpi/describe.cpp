@@ -114,7 +114,8 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
   out << "scene: " << scene.name() << " - " << scene.title() << '\n'
       << "worlds: " << census.table.num_worlds() << ", bodies: " << census.table.num_bodies()
       << ", geoms: " << census.geoms << ", joints: " << census.joints << ", events: " << census.events
-      << ", spaces: " << census.spaces << '\n'
+      << ", spaces: " << census.spaces
+      << (spec.spaces == scenes::SpacesForm::one ? " (form: one)" : " (form: many)") << '\n'
       << "actors:";
   for (const auto& [kind, count] : census.actor_kinds) out << ' ' << count << ' ' << kind;
   out << "\nframes: " << spec.warmup << " warm-up + " << spec.frames << " measured, " << spec.steps_per_frame
@@ -127,7 +128,7 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
   out << "memory: about " << in_units(world_bytes) << " a world (measured on world 0)\n";
   if (spec.output) {
     const auto bytes = io::estimate_file_bytes(census.table.num_bodies(), spec.num_worlds, num_ranks,
-                                               spec.total_frames(), spec.record_every);
+                                               spec.total_frames(), spec.record_every, spec.record_islands);
     out << "output: " << *spec.output << ", about " << in_units(static_cast<double>(bytes)) << '\n';
   } else {
     out << "output: none\n";

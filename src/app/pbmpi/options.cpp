@@ -52,7 +52,10 @@ po::options_description options_description() {
   po::options_description cut("How to cut the work");
   cut.add_options()  //
       ("decompose", po::value<std::string>()->default_value("auto")->value_name("auto|worlds"),
-       "worlds: each rank owns whole worlds; auto: what the scene calls for");
+       "worlds: each rank owns whole worlds; auto: what the scene calls for")  //
+      ("spaces", po::value<std::string>()->value_name("one|many"),
+       "many: the scene's named collision spaces; one: all of them as one, with the same physics; default: "
+       "the scene's");
 
   po::options_description write("What to write");
   write.add_options()  //
@@ -61,6 +64,9 @@ po::options_description options_description() {
       ("no-output", "write no file")                 //
       ("record-every", po::value<int>()->default_value(1)->value_name("N"),
        "store the bodies of every Nth frame; timings are stored for all")  //
+      ("record-islands",
+       "quick, direct: after each frame measure its last step again, island by island (slow; outside of the "
+       "frame's time, and the states stay the same)")  //
       ("report", po::value<std::string>()->default_value("text")->value_name("text|json"),
        "the summary; json: exactly one JSON document on stdout");
 
@@ -87,6 +93,7 @@ Enum choice(const po::variables_map& values, const std::string& name,
 }
 
 constexpr std::array<std::string_view, 2> decomposition_names = {"auto", "worlds"};
+constexpr std::array<std::string_view, 2> spaces_names = {"one", "many"};
 constexpr std::array<std::string_view, 2> report_format_names = {"text", "json"};
 
 Action action_of(const po::variables_map& values) {
@@ -142,6 +149,9 @@ Options parse_options(const std::vector<std::string>& args) {
   options.output = given<std::string>(values, "output");
   options.no_output = values.count("no-output") != 0;
   options.record_every = values["record-every"].as<int>();
+  options.record_islands = values.count("record-islands") != 0;
+  if (values.count("spaces") != 0)
+    options.spaces = choice<scenes::SpacesForm>(values, "spaces", spaces_names);
   options.report = choice<ReportFormat>(values, "report", report_format_names);
   const bool needs_scene = options.action == Action::run || options.action == Action::describe;
   require_input(!needs_scene || !options.scene.empty(),
@@ -182,6 +192,15 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
       "--substeps, --precision, --simd and --colliders are options of --stepper sor; ODE's steppers "
       "have none of them");
   require_at_least(spec.record_every, 1, "--record-every");
+  spec.spaces = scene.defaults().spaces;
+  spec.record_islands = options.record_islands;
+  spec.stepper.profile = options.record_islands;
+  require_input(
+      !options.record_islands || options.stepper != model::StepperKind::sor,
+      "--record-islands: --stepper sor solves many islands in one vector and has no time of one; use "
+      "quick or direct");
+  require_input(!options.record_islands || !options.no_output,
+                "--record-islands writes into the run's file; drop --no-output");
   return spec;
 }
 

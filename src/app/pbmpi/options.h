@@ -31,6 +31,8 @@ struct Options {
   std::uint64_t seed = 1;
   std::optional<std::string> output;
   bool no_output = false;
+  bool record_islands = false;
+  std::optional<scenes::SpacesForm> spaces;
   int record_every = 1;
   ReportFormat report = ReportFormat::text;
   CommonOptions common;
@@ -52,6 +54,8 @@ struct RunSpec {
   model::StepperSettings stepper;
   std::optional<std::string> output;  ///< path of the HDF5 file, or nothing with --no-output
   int record_every = 1;
+  bool record_islands = false;
+  scenes::SpacesForm spaces = scenes::SpacesForm::many;
 
   int total_frames() const { return warmup + frames; }
 };

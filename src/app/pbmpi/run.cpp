@@ -44,7 +44,7 @@ std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const O
   comm.bcast_string(source.name);
   comm.bcast_string(source.file);
   comm.bcast_string(source.text);
-  return scenes::parse_scene(source, options.dt_s);
+  return scenes::parse_scene(source, options.dt_s, options.spaces);
 }
 
 mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
@@ -54,6 +54,7 @@ mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
   settings.frames = spec.frames;
   settings.steps_per_frame = spec.steps_per_frame;
   settings.dt_s = spec.stepper.dt_s;
+  settings.profile = spec.record_islands;
   return settings;
 }
 
@@ -98,6 +99,7 @@ std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const 
   setup.hosts = provenance.hosts;
   setup.num_frames = spec.total_frames();
   setup.record_every = spec.record_every;
+  setup.profile = spec.record_islands;
   return std::make_unique<io::RunFile>(io::FileGroup{comm.fortran_handle(), comm.rank(), comm.size()},
                                        std::move(setup));
 }

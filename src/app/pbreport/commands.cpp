@@ -3,12 +3,16 @@
 #include <algorithm>
 
 #include "app/pbreport/report.h"
+#include "app/pbreport/suite_commands.h"
 
 namespace pbmpi::app {
 
 const std::vector<ReportCommand>& report_commands() {
   static const std::vector<ReportCommand> commands = {
       {"report", "the summary of one run, its HTML page, its ParaView sidecar (the default)", run_report},
+      {"islands", "the paper's Table 1 from runs", run_islands},
+      {"cores", "the paper's Table 2 and Figure 6 from runs with --record-islands", run_cores},
+      {"figure6", "one page of both, from such runs", run_figure6},
   };
   return commands;
 }

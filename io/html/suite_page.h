@@ -1,0 +1,19 @@
+/// One self-contained HTML page of all scenes: frame rates, islands and cores beside the paper's.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pbmpi::io::html {
+
+struct SuiteScene {
+  std::string islands_json;  ///< as "pbreport islands --json" prints a row
+  std::string cores_json;    ///< as "pbreport cores --json" does
+  std::string name;
+  std::string still_png;  ///< bytes of a picture; empty = none
+};
+
+/// Throws core::InputError if `path` cannot be written.
+void write_suite_page(const std::string& path, const std::vector<SuiteScene>& scenes);
+
+}  // namespace pbmpi::io::html

@@ -1,0 +1,52 @@
+#!/bin/bash
+# Runs the nine scenes and writes one page: the paper's Figure 6 and Tables 1 and 2 beside this machine's.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+Usage: jobs/figure6.sh [--quick-look] [--gallery DIR] [OUTDIR]
+
+Writes OUTDIR/figure6.html and the runs' files (default: ./figure6). Needs chromium for the stills. Minutes.
+
+  --quick-look   CrashSk and Fight only
+  --gallery DIR  put the stills into DIR as SCENE.png, too
+TEXT
+}
+
+scenes=(2-Cars 10-Cars CrashSk CrashWa Environ 100CrSk Battle Fight Battle2)
+# The frame that shows most of what happens, and where to look from: camera and target, x,y,z each [m].
+declare -A frame=([2-Cars]=7 [10-Cars]=7 [CrashSk]=7 [CrashWa]=5 [Environ]=5 [100CrSk]=7 [Battle]=7 [Fight]=8 [Battle2]=6)
+out=figure6
+gallery=""
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --help) usage; exit 0 ;;
+    --quick-look) scenes=(CrashSk Fight); shift ;;
+    --gallery) [[ $# -ge 2 ]] || { usage >&2; exit 2; }; gallery=$2; shift 2 ;;
+    -*) echo "figure6.sh: unknown option '$1'; see --help" >&2; exit 2 ;;
+    *) out=$1; shift ;;
+  esac
+done
+
+jobs=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$jobs/mpi_environment.sh"
+bin=${PBMPI_BIN:-$jobs/../build/release/bin}
+[[ -x $bin/pbmpi ]] || { echo "figure6.sh: $bin/pbmpi is missing; build it with jobs/build.sh release" >&2; exit 2; }
+mkdir -p "$out/stills" ${gallery:+"$gallery"}
+
+files=()
+for scene in "${scenes[@]}"; do
+  echo "$scene"
+  # One rank: the serial time is what Figure 6 starts from.
+  "$bin/pbmpi" --scene "$scene" --record-islands --quiet --output "$out/$scene.h5"
+  "$bin/pbreport" "$out/$scene.h5" --quiet --html "$out/$scene.html"
+  view=(--size 640x320)
+  [[ $scene == 100CrSk ]] && view+=(--world 0)
+  "$jobs/stills.sh" "${view[@]}" --bare "$out/$scene.html" "$out/stills" "${frame[$scene]}" >/dev/null
+  mv "$out/stills/$scene-00${frame[$scene]}.png" "$out/stills/$scene.png"
+  [[ -z $gallery ]] || cp "$out/stills/$scene.png" "$gallery/"
+  files+=("$out/$scene.h5")
+done
+"$bin/pbreport" islands "${files[@]}"
+"$bin/pbreport" cores "${files[@]}"
+"$bin/pbreport" figure6 "${files[@]}" --stills "$out/stills" --html "$out/figure6.html"
