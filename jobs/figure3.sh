@@ -1,0 +1,61 @@
+#!/bin/bash
+# Counts instructions with callgrind: the paper's Figure 3 (instructions a frame, quick and direct) and its mix of section 3.3.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+Usage: jobs/figure3.sh [--quick-look] [OUTDIR]
+
+Writes OUTDIR/figure3.html and OUTDIR/figure3.json (default: ./figure3). Needs valgrind and objdump. Up to 10 minutes.
+
+  --quick-look   2-Cars and CrashSk only
+
+The 3 warm-up and 5 measured frames of each scene run under callgrind, which counts inside the stepper only.
+TEXT
+}
+
+quick=(Environ 100CrSk Battle2 Battle CrashWa Fight 10-Cars CrashSk 2-Cars)
+# The big matrix of the others takes 100 s to more than an hour without callgrind, and fifty times that with it.
+direct=(Fight 10-Cars CrashSk 2-Cars)
+limit_s=200
+out=figure3
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --help) usage; exit 0 ;;
+    --quick-look) quick=(2-Cars CrashSk) direct=(2-Cars); shift ;;
+    -*) echo "figure3.sh: unknown option '$1'; see --help" >&2; exit 2 ;;
+    *) out=$1; shift ;;
+  esac
+done
+
+jobs=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$jobs/mpi_environment.sh"
+bin=${PBMPI_BIN:-$jobs/../build/release/bin}
+for tool in valgrind objdump python3; do
+  command -v "$tool" >/dev/null || { echo "figure3.sh: no $tool found; install it (jobs/install_packages.sh --tests)" >&2; exit 2; }
+done
+[[ -x $bin/pbmpi ]] || { echo "figure3.sh: $bin/pbmpi is missing; build it with jobs/build.sh release" >&2; exit 2; }
+mkdir -p "$out"
+
+# One dump a frame: callgrind writes what it has counted after each call of the stepper's advance().
+count() {
+  local stepper=$1 scene=$2 frame='pbmpi::ode::OdeStepper::advance(int, pbmpi::core::PhaseTimes&)'
+  rm -f "$out/$scene-$stepper.callgrind"*
+  if timeout "$limit_s" valgrind --quiet --tool=callgrind --callgrind-out-file="$out/$scene-$stepper.callgrind" \
+    --toggle-collect="$frame" --dump-after="$frame" --dump-instr=yes --dump-line=no --compress-pos=no --compress-strings=no \
+    "$bin/pbmpi" --scene "$scene" --stepper "$stepper" --no-output --quiet >"$out/$scene-$stepper.log" 2>&1; then
+    echo "$scene $stepper"
+  else
+    echo "$scene $stepper: not done within $limit_s s" >&2
+    rm -f "$out/$scene-$stepper.callgrind"*
+  fi
+}
+export -f count
+export out bin limit_s
+{
+  for scene in "${direct[@]}"; do echo "direct $scene"; done
+  for scene in "${quick[@]}"; do echo "quick $scene"; done
+} | xargs -P "$(nproc)" -L 1 bash -c 'count "$0" "$1"'
+python3 "$jobs/figure3.py" "$out" "$out/figure3.html" "$out/figure3.json"
+rm -f "$out"/*.callgrind*
+echo "$out/figure3.html"

@@ -1,0 +1,96 @@
+"""The scripts that make the paper's figures, in their short form, and the classes of instructions."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+JOBS = os.path.join(SOURCE, "jobs")
+sys.path.insert(0, JOBS)
+
+import figure3
+
+
+class Figures(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="pbmpi-test-")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def run_script(self, *args):
+        return subprocess.run([os.path.join(JOBS, args[0]), *args[1:]], cwd=self.folder, capture_output=True, text=True,
+                              timeout=280, check=False)
+
+    def read(self, name):
+        with open(os.path.join(self.folder, name), encoding="utf-8") as file:
+            return file.read()
+
+    @unittest.skipUnless(shutil.which("chromium"), "no chromium for the stills")
+    def test_figure6_makes_one_page_beside_the_papers(self):
+        result = self.run_script("figure6.sh", "--quick-look", "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        page = self.read("out/figure6.html")
+        data = json.loads(page.split('id="suite-data">')[1].split("</script>")[0])
+        self.assertEqual([scene["name"] for scene in data], ["CrashSk", "Fight"])
+        crash = data[0]
+        self.assertEqual(crash["islands"]["islands"]["max"], 3, "CrashSk: 3 islands before the crash")
+        self.assertEqual(crash["cores"]["paper_cores"], 3)
+        self.assertTrue(crash["still"].startswith("data:image/png;base64,iVBOR"))
+        rates = [crash["cores"][kind]["harmonic_mean_hz"] for kind in ("serial", "islands_parallel")]
+        self.assertGreater(rates[1], rates[0], "one core an island leaves less to do")
+        self.assertNotIn("http://", page.split("<script>")[0], "it loads nothing")
+
+    @unittest.skipUnless(shutil.which("valgrind") and shutil.which("objdump"), "no valgrind or objdump")
+    def test_figure3_counts_both_steppers(self):
+        result = self.run_script("figure3.sh", "--quick-look", "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        scenes = json.loads(self.read("out/figure3.json"))["scenes"]
+        quick, direct = scenes["2-Cars"]["quick"], scenes["2-Cars"]["direct"]
+        self.assertEqual(quick["frames"], 5, "warm-up frames are left out")
+        self.assertGreater(direct["instructions_per_frame"], quick["instructions_per_frame"], "the paper's finding")
+        self.assertGreater(scenes["CrashSk"]["quick"]["instructions_per_frame"], quick["instructions_per_frame"],
+                           "37 bodies against 10")
+        for numbers in (quick, direct):
+            self.assertAlmostEqual(sum(numbers["mix"].values()), 1, places=9)
+            self.assertTrue(0 < numbers["collision_share"] < 0.5)
+        self.assertIn("left out", self.read("out/figure3.html"), "CrashSk has no direct in the short form")
+
+    def test_unknown_options_are_refused(self):
+        for script in ("figure3.sh", "figure6.sh"):
+            result = self.run_script(script, "--fast")
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("--fast", result.stderr)
+
+
+class Classes(unittest.TestCase):
+    def test_an_instruction_counts_as_operation_load_and_store(self):
+        for text, expected in {
+            "mov 0x8(%rax),%rbx": ["load"],
+            "mov %rbx,0x8(%rax)": ["store"],
+            "mov %rbx,%rax": ["integer"],
+            "movsd 0x8(%rax,%rcx,8),%xmm1": ["load"],
+            "movsd %xmm1,(%rax)": ["store"],
+            "mulsd %xmm1,%xmm2": ["floating point"],
+            "mulsd 0x8(%rax),%xmm2": ["floating point", "load"],
+            "add $0x1,0x8(%rax)": ["integer", "load", "store"],
+            "cmp $0x1,0x8(%rax)": ["integer", "load"],
+            "cmp 0x8(%rax),%rbx": ["integer", "load"],
+            "jne 1234": ["branch"],
+            "call *0x8(%rax)": ["branch", "load"],
+            "ret ": ["branch"],
+            "lea 0x8(%rax,%rbx,4),%rcx": ["integer"],
+            "push %rbp": ["store"],
+            "pop %rbp": ["load"],
+            "fldt 0x10(%rsp)": ["load"],
+            "fstpt 0x10(%rsp)": ["store"],
+            "ucomisd 0x8(%rax),%xmm0": ["floating point", "load"],
+            "comisd %xmm0,%xmm1": ["floating point"],
+        }.items():
+            mnemonic, _, operands = text.partition(" ")
+            self.assertEqual(figure3.classify(mnemonic, operands), expected, text)
+
+
+if __name__ == "__main__":
+    unittest.main()
