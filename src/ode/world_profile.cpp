@@ -40,7 +40,8 @@ std::vector<std::vector<GeomPair>> cut_by_space(const model::Model& model,
 
 std::vector<double> shares_of_geoms(const model::Model& model) {
   std::vector<double> shares(model.spaces.size(), 0);
-  for (const model::Geom& geom : model.geoms) shares[geom.space] += 1.0 / std::ssize(model.geoms);
+  for (const model::Geom& geom : model.geoms) ++shares[geom.space];
+  for (double& share : shares) share /= static_cast<double>(model.geoms.size());  // exactly 1 for one space
   return shares;
 }
 

@@ -56,6 +56,27 @@ class BadInput(ProgramTest):
         joint = '[[joint]]\nkind = "ball"\nname = "loop"\nbodies = ["box", "box"]\nanchor = [0, 0, 1]\n'
         self.refused(2, self.scene(GOOD_SCENE + joint), "scene.toml:1", "loop", "itself")
 
+    def test_overlapping_actors(self):
+        self.refused(2, self.scene(GOOD_SCENE.replace("[0, 0, 1]", "[0, 0, 0.4]")), "scene.toml:", "overlaps", "10 cm")
+
+    def test_unknown_space(self):
+        self.refused(2, self.scene(GOOD_SCENE + 'space = "yard"\n'), "scene.toml:11:", "yard")
+
+    def test_wall_of_zero_blocks(self):
+        wall = '[[actor]]\nname = "wall"\ntype = "wall"\nposition = [9, 0, 0]\nlength = 2\nheight = 0\nblock = [1, 0.5, 0.5]\n'
+        self.refused(2, self.scene(GOOD_SCENE + wall), "scene.toml:16:", "height")
+
+    def test_projectile_before_step_0(self):
+        tank = '[[actor]]\nname = "tank"\ntype = "tank"\nposition = [20, 0, 0]\n'
+        ball = ('[[actor]]\nname = "ball"\ntype = "projectile"\nshape = "sphere"\nradius = 0.1\ndensity = 4000\n'
+                'position = [0, 9, 0]\nfired_by = "tank"\nmuzzle_speed = 40\nfirst_shot = -0.1\n')
+        self.refused(2, self.scene(GOOD_SCENE + tank + ball), "scene.toml:24:", "first_shot")
+
+    def test_joint_limit_with_low_above_high(self):
+        joint = ('[[joint]]\nkind = "hinge"\nname = "hinge"\nbodies = ["box", "world"]\nanchor = [0, 0, 1]\n'
+                 'axis = [0, 0, 1]\nlimits = [30, -30]\n')
+        self.refused(2, self.scene(GOOD_SCENE + joint), "scene.toml:17:", "low limit", "high")
+
     def test_negative_dt(self):
         self.refused(2, ["--scene", "CrashSk", "--dt", "-0.01"], "--dt", "above 0")
 
