@@ -76,6 +76,23 @@ const std::vector<ColumnSpec>& event_columns() {
   return columns;
 }
 
+const std::vector<ColumnSpec>& estimated_body_columns() {
+  static const std::vector<ColumnSpec> columns = {{"position/value", H5T_NATIVE_DOUBLE, 3, "m"},
+                                                  {"orientation/value", H5T_NATIVE_DOUBLE, 4, ""}};
+  return columns;
+}
+
+const std::vector<ColumnSpec>& estimate_time_columns() {
+  static const std::vector<ColumnSpec> columns = {{"delivered", H5T_NATIVE_DOUBLE, 1, "s"},
+                                                  {"precise", H5T_NATIVE_DOUBLE, 1, "s"}};
+  return columns;
+}
+
+const std::vector<ColumnSpec>& estimate_compute_columns() {
+  static const std::vector<ColumnSpec> columns = {{"compute", H5T_NATIVE_DOUBLE, 1, "s"}};
+  return columns;
+}
+
 /// Frames that wait at most: what all ranks together hold of them stays below 32 MiB, unless one is larger.
 hsize_t frames_to_hold(const RunShape& shape) {
   constexpr std::size_t most_bytes = std::size_t{32} << 20;
@@ -115,12 +132,20 @@ FrameBytes frame_bytes(const RunShape& shape) {
   const auto bodies = static_cast<hsize_t>(shape.num_bodies);
   const auto worlds = static_cast<hsize_t>(shape.num_worlds);
   const auto ranks = static_cast<hsize_t>(shape.num_ranks);
-  const std::size_t profile = shape.profile ? GrowingTable::row_bytes(island_columns(), bodies) +
-                                                  GrowingTable::row_bytes(space_columns(), worlds)
-                                            : 0;
-  return {profile + GrowingTable::row_bytes(world_columns(), worlds) +
-              GrowingTable::row_bytes(frame_columns(), 1) + GrowingTable::row_bytes(phase_columns(), ranks),
-          GrowingTable::row_bytes(body_columns(), bodies) + GrowingTable::row_bytes(recorded_columns(), 1)};
+  FrameBytes bytes = {
+      GrowingTable::row_bytes(world_columns(), worlds) + GrowingTable::row_bytes(frame_columns(), 1) +
+          GrowingTable::row_bytes(phase_columns(), ranks),
+      GrowingTable::row_bytes(body_columns(), bodies) + GrowingTable::row_bytes(recorded_columns(), 1)};
+  if (shape.optional.estimate) {
+    bytes.every_frame += GrowingTable::row_bytes(estimate_time_columns(), 1) +
+                         GrowingTable::row_bytes(estimate_compute_columns(), ranks);
+    bytes.recorded += GrowingTable::row_bytes(estimated_body_columns(), bodies);
+  }
+  if (shape.optional.profile) {
+    bytes.every_frame +=
+        GrowingTable::row_bytes(island_columns(), bodies) + GrowingTable::row_bytes(space_columns(), worlds);
+  }
+  return bytes;
 }
 
 std::size_t event_bytes() { return max_events * GrowingTable::row_bytes(event_columns(), 1); }
@@ -142,11 +167,20 @@ FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const model::Worl
               table_shape(shape.num_frames, shape.num_ranks, frames_to_hold(shape))),
       events_(file, ranks, "/events", event_columns(), table_shape(max_events, 0, max_events)) {
   link_step_and_time(file);
-  if (!shape.profile) return;
-  islands_.emplace(file, ranks, "/timings/island", island_columns(),
-                   table_shape(shape.num_frames, shape.num_bodies, frames_to_hold(shape)));
-  spaces_.emplace(file, ranks, "/timings/space", space_columns(),
-                  table_shape(shape.num_frames, shape.num_worlds, frames_to_hold(shape)));
+  if (shape.optional.profile) {
+    islands_.emplace(file, ranks, "/timings/island", island_columns(),
+                     table_shape(shape.num_frames, shape.num_bodies, frames_to_hold(shape)));
+    spaces_.emplace(file, ranks, "/timings/space", space_columns(),
+                    table_shape(shape.num_frames, shape.num_worlds, frames_to_hold(shape)));
+  }
+  if (!shape.optional.estimate) return;
+  estimate_times_.emplace(file, ranks, "/estimate", estimate_time_columns(),
+                          table_shape(shape.num_frames, 0, frames_to_hold(shape)));
+  estimate_compute_.emplace(file, ranks, "/estimate", estimate_compute_columns(),
+                            table_shape(shape.num_frames, shape.num_ranks, frames_to_hold(shape)));
+  // The largest last: only space at the end of the file goes when a run is cut.
+  estimated_bodies_.emplace(file, ranks, "/estimate", estimated_body_columns(),
+                            table_shape(shape.num_recorded(), shape.num_bodies, recorded_to_hold(shape)));
 }
 
 void FrameColumns::add(const model::FrameRecord& frame) {
@@ -156,6 +190,28 @@ void FrameColumns::add(const model::FrameRecord& frame) {
   if (islands_) add_profiles(frame);
   add_times(frame);
   if ((frame.frame + 1) % record_every_ == 0) add_bodies(frame);
+  if (estimate_times_) add_estimate(frame);
+}
+
+void FrameColumns::add_estimate(const model::FrameRecord& frame) {
+  core::require_invariant(frame.estimate != nullptr, "a frame has the estimate that its file has room for");
+  estimate_times_->begin_row(on_root(ranks_));
+  estimate_times_->put(0, 0, frame.estimate->delivered_s);
+  estimate_times_->put(1, 0, frame.wall_s);
+  const auto rank = static_cast<hsize_t>(ranks_.rank());
+  estimate_compute_->begin_row({{rank, 1}});
+  estimate_compute_->put(0, rank, frame.estimate->compute_s);
+  if ((frame.frame + 1) % record_every_ != 0) return;
+  std::vector<Range> ranges;
+  for (const model::LocalWorld& world : frame.estimate->worlds) {
+    append_range(ranges, static_cast<hsize_t>(table_.body_offset[world.id]), world.state->position.size());
+  }
+  estimated_bodies_->begin_row(ranges);
+  for (const model::LocalWorld& world : frame.estimate->worlds) {
+    const auto first = static_cast<hsize_t>(table_.body_offset[world.id]);
+    estimated_bodies_->put(0, first, world.state->position.data(), world.state->position.size());
+    estimated_bodies_->put(1, first, world.state->orientation.data(), world.state->orientation.size());
+  }
 }
 
 void FrameColumns::add_bodies(const model::FrameRecord& frame) {
@@ -252,6 +308,9 @@ void FrameColumns::add(const model::RunEvent& event) {
 std::vector<GrowingTable*> FrameColumns::tables() {
   std::vector<GrowingTable*> all = {&bodies_, &recorded_, &worlds_, &frames_, &phases_, &events_};
   if (islands_) all.insert(all.end(), {&*islands_, &*spaces_});
+  for (auto* table : {&estimated_bodies_, &estimate_times_, &estimate_compute_}) {
+    if (*table) all.push_back(&**table);
+  }
   return all;
 }
 

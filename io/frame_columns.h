@@ -20,7 +20,7 @@ struct RunShape {
   int num_ranks = 1;
   std::int64_t num_frames = 0;
   int record_every = 1;
-  bool profile = false;  ///< with /timings/island and /timings/space
+  OptionalColumns optional;
 
   std::int64_t num_recorded() const { return num_frames / record_every; }
 };
@@ -66,6 +66,7 @@ class FrameColumns {
   void add_observables(const model::FrameRecord& frame);
   void add_profiles(const model::FrameRecord& frame);
   void add_times(const model::FrameRecord& frame);
+  void add_estimate(const model::FrameRecord& frame);
 
   const FileRanks& ranks_;
   const model::WorldTable& table_;
@@ -73,14 +74,19 @@ class FrameColumns {
   std::int64_t next_frame_ = 0;
   std::int64_t events_dropped_ = 0;
   bool wrote_collectively_ = false;
-  GrowingTable bodies_;                  ///< [P][N][width]
-  GrowingTable recorded_;                ///< [P] step and time of the above
-  GrowingTable worlds_;                  ///< [T][W]
-  GrowingTable frames_;                  ///< [T]
-  GrowingTable phases_;                  ///< [T][R]
-  GrowingTable events_;                  ///< [E]
+  GrowingTable bodies_;    ///< [P][N][width]
+  GrowingTable recorded_;  ///< [P] step and time of the above
+  GrowingTable worlds_;    ///< [T][W]
+  GrowingTable frames_;    ///< [T]
+  GrowingTable phases_;    ///< [T][R]
+  GrowingTable events_;    ///< [E]
+  // With step profiles:
   std::optional<GrowingTable> islands_;  ///< [T][N] at the island's lowest body
   std::optional<GrowingTable> spaces_;   ///< [T][W]
+  // With FEEC:
+  std::optional<GrowingTable> estimated_bodies_;  ///< [P][N][width]
+  std::optional<GrowingTable> estimate_times_;    ///< [T]
+  std::optional<GrowingTable> estimate_compute_;  ///< [T][R]
 };
 
 }  // namespace pbmpi::io

@@ -105,24 +105,27 @@ void read(const FirstRows& rows, hid_t type, void* values, const std::string& pa
         "H5Dread(" + path + ")");
 }
 
-void require_run_file(const std::string& path, hid_t file) {
+void require_type(const std::string& path, hid_t file, const std::string& type, std::int64_t layout) {
   const auto attributes = attributes_as_text(file, "/");
   const auto found = attributes.find("filetype");
-  core::require_input(found != attributes.end() && found->second == filetype,
-                      path + ": not a pbmpi run (its attribute filetype is " +
+  const bool is_run = type == filetype;
+  core::require_input(found != attributes.end() && found->second == type,
+                      path + ": not a " + (is_run ? "pbmpi run" : type) + " (its attribute filetype is " +
                           (found == attributes.end() ? "missing" : "\"" + found->second + "\"") +
-                          "); give a file that pbmpi has written");
+                          "); give a file that " + (is_run ? "pbmpi" : "pbstudy") + " has written");
   const auto version = attributes.find("version");
   const std::int64_t major = version == attributes.end() ? 0 : std::atoll(version->second.c_str());
-  core::require_input(major == layout_major, path + ": its layout has version " +
-                                                 (major == 0 ? "unknown" : version->second) +
-                                                 ", this program reads version " + to_text(layout_major) +
-                                                 ".x; use the pbmpi that wrote it");
+  core::require_input(major == layout, path + ": its layout has version " +
+                                           (major == 0 ? "unknown" : version->second) +
+                                           ", this program reads version " + to_text(layout) +
+                                           ".x; use the pbmpi that wrote it");
 }
 
 }  // namespace
 
-File open_run(const std::string& path) {
+File open_run(const std::string& path) { return open_file(path, filetype, layout_major); }
+
+File open_file(const std::string& path, const std::string& type, std::int64_t major) {
   prepare_hdf5();
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -140,11 +143,17 @@ File open_run(const std::string& path) {
                            "); give a file that pbmpi has written");
   }
   try {
-    require_run_file(path, file.id());
+    require_type(path, file.id(), type, major);
   } catch (const core::RunError& e) {
     throw core::InputError(path + ": " + e.what() + "; the file is damaged");
   }
   return file;
+}
+
+bool has_object(hid_t file, const std::string& path) {
+  const htri_t found = H5Lexists(file, path.c_str(), H5P_DEFAULT);
+  check(found < 0 ? -1 : 0, "H5Lexists(" + path + ")");
+  return found > 0;
 }
 
 std::vector<hsize_t> dims_of(hid_t file, const std::string& path) {

@@ -15,6 +15,12 @@ namespace pbmpi::io {
 /// core::InputError.
 File open_run(const std::string& path);
 
+/// The same for a file of another type and major version of its layout.
+File open_file(const std::string& path, const std::string& type, std::int64_t major);
+
+/// Is there a group or dataset of this path, whose parent exists?
+bool has_object(hid_t file, const std::string& path);
+
 /// Extent of a dataset.
 std::vector<hsize_t> dims_of(hid_t file, const std::string& path);
 

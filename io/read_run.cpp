@@ -83,17 +83,30 @@ std::vector<GeomRow> read_geoms(hid_t file, std::int64_t num_bodies) {
   return geoms;
 }
 
-void read_motion(hid_t file, std::int64_t num_recorded, RunData& run) {
-  const std::string group = "/particles/bodies/";
-  const std::size_t bodies = run.bodies.id.size();
-  run.recorded_step = read_integers(file, group + "position/step", num_recorded);
-  run.recorded_time_s = read_doubles(file, group + "position/time", num_recorded, 1);
-  const auto position = read_doubles(file, group + "position/value", num_recorded, 3 * bodies);
-  const auto orientation = read_doubles(file, group + "orientation/value", num_recorded, 4 * bodies);
-  for (std::size_t row = 0; row < run.recorded_step.size(); ++row) {
-    run.position.push_back(to_vectors(&position[row * 3 * bodies], bodies));
-    run.orientation.push_back(to_quaternions(&orientation[row * 4 * bodies], bodies));
+/// Position [P][N] and orientation [P][N] below `group`.
+void read_poses(hid_t file, const std::string& group, std::int64_t num_recorded, std::size_t bodies,
+                std::vector<std::vector<Vec3>>& positions, std::vector<std::vector<Quat>>& orientations) {
+  const auto position = read_doubles(file, group + "/position/value", num_recorded, 3 * bodies);
+  const auto orientation = read_doubles(file, group + "/orientation/value", num_recorded, 4 * bodies);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(num_recorded); ++row) {
+    positions.push_back(to_vectors(&position[row * 3 * bodies], bodies));
+    orientations.push_back(to_quaternions(&orientation[row * 4 * bodies], bodies));
   }
+}
+
+void read_motion(hid_t file, std::int64_t num_recorded, RunData& run) {
+  const std::string group = "/particles/bodies";
+  run.recorded_step = read_integers(file, group + "/position/step", num_recorded);
+  run.recorded_time_s = read_doubles(file, group + "/position/time", num_recorded, 1);
+  read_poses(file, group, num_recorded, run.bodies.id.size(), run.position, run.orientation);
+}
+
+void read_estimate(hid_t file, std::int64_t num_recorded, RunData& run) {
+  if (!has_object(file, "/estimate")) return;
+  read_poses(file, "/estimate", num_recorded, run.bodies.id.size(), run.estimate.position,
+             run.estimate.orientation);
+  run.estimate.delivered_s = read_doubles(file, "/estimate/delivered", run.frames_committed, 1);
+  run.estimate.precise_s = read_doubles(file, "/estimate/precise", run.frames_committed, 1);
 }
 
 std::vector<bool> to_flags(const std::vector<std::int64_t>& values) {
@@ -173,6 +186,7 @@ RunData read_all(hid_t file) {
   read_motion(file, run.frames_committed / record_every, run);
   read_frames(file, run);
   read_profiles(file, run);
+  read_estimate(file, run.frames_committed / record_every, run);
   run.events = read_events(file);
   return run;
 }

@@ -44,6 +44,14 @@ struct IslandRow {
 /// Per-frame columns of one observable: [T][W], frame first.
 using Table = std::vector<std::vector<double>>;
 
+/// What FEEC adds to a run. Empty without it.
+struct EstimateData {
+  std::vector<std::vector<core::Vec3>> position;     ///< [P][N] m
+  std::vector<std::vector<core::Quat>> orientation;  ///< [P][N]
+  std::vector<double> delivered_s;                   ///< [T] start of the frame until root had the estimate
+  std::vector<double> precise_s;                     ///< [T] the same for the precise result
+};
+
 struct RunData {
   std::map<std::string, std::string> attributes;  ///< of the root, as text
   std::map<std::string, std::string> parameters;  ///< of /parameters, as text
@@ -64,8 +72,9 @@ struct RunData {
   std::map<std::string, Table> rank_times;           ///< phase, "useful" -> [T][R] s
   std::vector<std::vector<IslandRow>> islands;  ///< [T] of all worlds; empty unless the run recorded them
   std::map<std::string, Table> space_times;     ///< cross_contacts, collide, collide_spaces; as islands
-  std::vector<std::string> hosts;               ///< [R]
-  std::vector<std::string> events;              ///< "frame 12: rebalance: ..."
+  EstimateData estimate;
+  std::vector<std::string> hosts;   ///< [R]
+  std::vector<std::string> events;  ///< "frame 12: rebalance: ..."
 };
 
 /// Reads the committed frames of a pbmpi-run file (also one that was cut off by a kill). Throws

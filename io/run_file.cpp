@@ -51,7 +51,7 @@ RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(s
   ranks_.together<core::InputError>([this] {
     const std::int64_t bytes =
         estimate_file_bytes(setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(),
-                            setup_.num_frames, setup_.record_every, setup_.profile);
+                            setup_.num_frames, setup_.record_every, setup_.optional);
     if (ranks_.is_root()) target_ = OutputTarget(setup_.path, bytes);
   });
   try {
@@ -75,7 +75,7 @@ void RunFile::Impl::make_skeleton() {
   transfer_ = collective_transfer();
   write_skeleton(ranks_, file_.id(), setup_);
   const RunShape shape{setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(),
-                       setup_.num_frames,         setup_.record_every,       setup_.profile};
+                       setup_.num_frames,         setup_.record_every,       setup_.optional};
   columns_.emplace(file_.id(), ranks_, setup_.table, shape);
   check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
 }

@@ -36,6 +36,12 @@ struct FileGroup {
   int num_ranks = 1;
 };
 
+/// What a file holds only if the run makes it.
+struct OptionalColumns {
+  bool profile = false;   ///< every frame has step profiles: /timings/island and /timings/space
+  bool estimate = false;  ///< every frame has an EstimateRecord: /estimate
+};
+
 /// Everything that is known before the first frame. Equal on every rank, except `worlds`.
 struct RunSetup {
   std::string path;  ///< final name of the file
@@ -47,8 +53,8 @@ struct RunSetup {
   std::vector<std::string> hosts;         ///< [num_ranks]
   std::int64_t num_frames = 0;            ///< warm-up included
   int record_every = 1;                   ///< bodies are stored in frames k with (k + 1) % record_every == 0
-  bool profile = false;                   ///< frames carry step profiles: /timings/island and /timings/space
   double flush_interval_s = 1;
+  OptionalColumns optional;
 };
 
 /// The file of one run. Every call is collective over the file's ranks. Throws core::InputError from the
@@ -90,6 +96,7 @@ class RunFile final : public model::FrameObserver {
 
 /// Bytes of the file for these numbers, within 10 %: what --describe prints.
 std::int64_t estimate_file_bytes(std::int64_t num_bodies, int num_worlds, int num_ranks,
-                                 std::int64_t num_frames, int record_every, bool profile = false);
+                                 std::int64_t num_frames, int record_every,
+                                 const OptionalColumns& optional = {});
 
 }  // namespace pbmpi::io

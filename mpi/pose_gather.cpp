@@ -7,6 +7,7 @@ namespace pbmpi::mpi {
 namespace {
 
 constexpr std::size_t doubles_per_body = 7;
+constexpr int pose_tag = 2;
 
 std::size_t share_of_world(std::int64_t num_bodies) { return 1 + doubles_per_body * num_bodies; }
 
@@ -14,7 +15,7 @@ std::size_t share_of_world(std::int64_t num_bodies) { return 1 + doubles_per_bod
 
 PoseGather::PoseGather(const Communicator& comm, const model::WorldTable& table,
                        std::span<const int> placement)
-    : comm_(&comm), table_(&table) {
+    : comm_(&comm), table_(&table), messages_(comm) {
   if (comm.is_root()) {
     position_.resize(table.num_bodies());
     orientation_.resize(table.num_bodies());
@@ -44,6 +45,30 @@ void PoseGather::gather(std::span<const model::LocalWorld> worlds, std::span<con
   if (comm_->size() == 1) return;
   comm_->gatherv(std::span<const double>(sent_), std::span(received_), layout_);
   if (comm_->is_root()) unpack();
+}
+
+void PoseGather::expect() {
+  if (!comm_->is_root()) return;
+  for (int rank = 0; rank < comm_->size(); ++rank) {
+    const std::span<double> share =
+        std::span(received_).subspan(static_cast<std::size_t>(layout_.displacements[rank]),
+                                     static_cast<std::size_t>(layout_.counts[rank]));
+    if (!share.empty()) messages_.receive(share, rank, pose_tag);
+  }
+}
+
+void PoseGather::start(std::span<const model::LocalWorld> worlds, std::span<const double> cost_s) {
+  if (comm_->is_root()) {
+    copy_own(worlds, cost_s);
+  } else {
+    pack(worlds, cost_s);
+    messages_.send(sent_, Communicator::root, pose_tag);
+  }
+}
+
+void PoseGather::deliver() {
+  messages_.wait();
+  if (comm_->is_root() && comm_->size() > 1) unpack();
 }
 
 void PoseGather::pack(std::span<const model::LocalWorld> worlds, std::span<const double> cost_s) {

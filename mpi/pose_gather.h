@@ -7,11 +7,12 @@
 #include "core/vector.h"
 #include "model/frame.h"
 #include "mpi/communicator.h"
+#include "mpi/pending_messages.h"
 
 namespace pbmpi::mpi {
 
-/// One MPI_Gatherv a frame into buffers that persist. Root copies its own worlds without a message. The
-/// communicator and the table are borrowed.
+/// One MPI_Gatherv a frame into buffers that persist, or messages that travel while the ranks go on. Root
+/// copies its own worlds without a message. The communicator and the table are borrowed.
 class PoseGather {
  public:
   PoseGather(const Communicator& comm, const model::WorldTable& table, std::span<const int> placement);
@@ -21,6 +22,13 @@ class PoseGather {
 
   /// Collective. `worlds`: this rank's, by ascending id; `cost_s` [worlds.size()].
   void gather(std::span<const model::LocalWorld> worlds, std::span<const double> cost_s);
+
+  /// The same without holding up the other ranks: root calls expect() before its own share, every rank calls
+  /// start() with its share, root deliver() when it wants the poses, and the others deliver() before the next
+  /// start(). Throws core::RunError on the rank whose message failed.
+  void expect();
+  void start(std::span<const model::LocalWorld> worlds, std::span<const double> cost_s);
+  void deliver();
 
   /// What the last gather() brought, on root; empty elsewhere.
   std::span<const core::Vec3> position() const { return position_; }  ///< [num_bodies] m, (world, body) order
@@ -42,6 +50,7 @@ class PoseGather {
   std::vector<core::Vec3> position_;
   std::vector<core::Quat> orientation_;
   std::vector<double> cost_s_;
+  PendingMessages messages_;  ///< last, so that it gives up before the memory that its messages use is gone
 };
 
 }  // namespace pbmpi::mpi

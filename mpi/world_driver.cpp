@@ -78,6 +78,10 @@ WorldDriver::WorldDriver(const Communicator& comm, model::WorldStepper& stepper,
 
 void WorldDriver::add_observer(model::FrameObserver& observer) { observers_.push_back(&observer); }
 void WorldDriver::add_consumer(model::PoseConsumer& consumer) { consumers_.push_back(&consumer); }
+void WorldDriver::set_estimator(model::Estimator& estimator) {
+  estimator_ = &estimator;
+  estimates_ = std::make_unique<PoseGather>(comm_, worlds_.table(), worlds_.placement());
+}
 void WorldDriver::set_stop_flag(const std::atomic<int>& flag) { stop_flag_ = &flag; }
 
 WorldRunResult WorldDriver::run() {
@@ -94,6 +98,8 @@ void WorldDriver::run_frame() {
   const double start_s = core::now_s();
   model::FrameRecord record;
   record.phases[core::Phase::output] = last_output_s_;
+  Estimate estimate;
+  if (estimator_ != nullptr) estimate = make_estimate(start_s, record.phases);
   advance(record.phases);
 
   core::LapTimer timer(record.phases);
@@ -108,8 +114,14 @@ void WorldDriver::run_frame() {
   timer.lap(core::Phase::gather);
 
   const bool last = frame_ + 1 == num_frames() || status.stop != 0 || status.nonfinite_world >= 0;
-  const Verdict verdict = decide(start_s, last);
+  const Verdict verdict = decide(start_s, estimate.record.delivered_s, last);
   timer.lap(core::Phase::wait);
+  if (estimator_ != nullptr) {
+    if (!comm_.is_root()) errors_.guard([&] { estimates_->deliver(); });
+    estimate.record.worlds = estimate.worlds;
+    estimate.record.delivered_s = verdict.delivered_s;
+    record.estimate = &estimate.record;
+  }
 
   record.frame = frame_;
   record.step = (frame_ + 1) * settings_.steps_per_frame;
@@ -120,7 +132,7 @@ void WorldDriver::run_frame() {
   record.wall_s = verdict.wall_s;
   record.deadline_met = verdict.wall_s <= settings_.budget_s;
   publish(record);
-  result_.times.push_back({record.wall_s, record.measured, record.phases});
+  result_.times.push_back({record.wall_s, verdict.delivered_s, record.measured, record.phases});
 
   if (verdict.num_moves > 0) rebalance_worlds(verdict.num_moves, record.step);
   if (status.nonfinite_world >= 0) note_failure(status.nonfinite_world);
@@ -129,6 +141,39 @@ void WorldDriver::run_frame() {
     announce({frame_, "signal", "stop requested (signal " + std::to_string(status.stop) + ")"});
   }
   ++frame_;
+}
+
+/// Messages go out whatever fails here, so that root never waits for one in vain.
+WorldDriver::Estimate WorldDriver::make_estimate(double frame_start_s, core::PhaseTimes& times) {
+  Estimate estimate;
+  const double start_s = core::now_s();
+  estimates_->expect();
+  estimate.worlds = worlds_.views();
+  errors_.guard([&] {
+    estimator_->estimate(estimate.worlds, frame_ * settings_.steps_per_frame, settings_.steps_per_frame,
+                         times);
+    for (model::LocalWorld& world : estimate.worlds) {
+      world.state = &estimator_->state(world.id);
+      world.observables = nullptr;
+    }
+  });
+  estimate.record.compute_s = core::now_s() - start_s;
+
+  core::LapTimer timer(times);
+  estimates_->start(estimate.worlds, std::vector<double>(estimate.worlds.size(), 0));
+  timer.lap(core::Phase::gather);
+  if (!comm_.is_root()) return estimate;
+  estimates_->deliver();
+  timer.lap(core::Phase::wait);
+  estimate.record.delivered_s = core::now_s() - frame_start_s;
+  hand_to_consumers(model::PoseKind::estimate, *estimates_);
+  return estimate;
+}
+
+void WorldDriver::hand_to_consumers(model::PoseKind kind, const PoseGather& poses) {
+  for (model::PoseConsumer* consumer : consumers_) {
+    errors_.guard([&] { consumer->poses(frame_, kind, poses.position(), poses.orientation()); });
+  }
 }
 
 void WorldDriver::advance(core::PhaseTimes& times) {
@@ -161,9 +206,10 @@ int WorldDriver::lowest_nonfinite_world() const {
   return settings_.num_worlds;
 }
 
-WorldDriver::Verdict WorldDriver::decide(double frame_start_s, bool last) {
+WorldDriver::Verdict WorldDriver::decide(double frame_start_s, double delivered_s, bool last) {
   Verdict verdict;
   if (comm_.is_root()) {
+    verdict.delivered_s = delivered_s;
     verdict.wall_s = core::now_s() - frame_start_s;
     planned_ = {};
     if (comm_.size() > 1 && !last) {
@@ -188,11 +234,7 @@ void WorldDriver::publish(const model::FrameRecord& frame) {
   for (model::FrameObserver* observer : observers_) {
     errors_.guard([&] { observer->frame_done(frame); });
   }
-  if (comm_.is_root()) {
-    for (model::PoseConsumer* consumer : consumers_) {
-      errors_.guard([&] { consumer->poses(frame.frame, gather_.position(), gather_.orientation()); });
-    }
-  }
+  if (comm_.is_root()) hand_to_consumers(model::PoseKind::precise, gather_);
   last_output_s_ = core::now_s() - start_s;
 }
 
@@ -205,6 +247,7 @@ void WorldDriver::rebalance_worlds(std::int64_t num_moves, std::int64_t step) {
 
   worlds_.move(planned_.moves, step);
   gather_.set_placement(worlds_.placement());
+  if (estimates_) estimates_->set_placement(worlds_.placement());
   ++result_.num_rebalances;
   result_.worlds_moved += num_moves;
   result_.rebalance_s += core::now_s() - start_s;

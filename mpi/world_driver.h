@@ -4,11 +4,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/clock.h"
+#include "model/estimator.h"
 #include "model/frame.h"
 #include "model/stepper.h"
 #include "mpi/agreement.h"
@@ -33,7 +35,8 @@ struct WorldRunSettings {
 
 /// Times of one frame: equal on every rank for wall_s, this rank's for the rest.
 struct FrameTimes {
-  double wall_s = 0;  ///< root's time from the start of the frame to the end of its gather
+  double wall_s = 0;       ///< root's time from the start of the frame to the end of its gather
+  double delivered_s = 0;  ///< with FEEC: until root had the estimate; 0 without
   bool measured = false;
   core::PhaseTimes phases;  ///< as in model::FrameRecord: `output` is that of the frame before
 };
@@ -57,6 +60,10 @@ std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes);
 /// The frame loop of the worlds decomposition. All ranks construct and run it together. The communicator is
 /// duplicated; the stepper is borrowed and holds this rank's worlds, also after the run.
 ///
+/// With an estimator (FEEC) a frame begins with: estimate -> send the estimated poses to root, without
+/// waiting -> root waits for them and hands them on, while the other ranks advance. The precise states are
+/// the same bits with and without it.
+///
 /// A frame is: advance (no message) -> agree (one allreduce of 4 numbers: stop, error, non-finite) -> gather
 /// (one gatherv of poses and costs) -> verdict (one bcast of 16 bytes: the frame's time, and whether worlds
 /// move) -> publish (observers, consumers) -> perhaps rebalance.
@@ -72,6 +79,8 @@ class WorldDriver {
   /// run().
   void add_observer(model::FrameObserver& observer);
   void add_consumer(model::PoseConsumer& consumer);
+  /// Estimates every frame first. Borrowed; it must outlive run(). On every rank or on none.
+  void set_estimator(model::Estimator& estimator);
   /// Polled once a frame; set it (to the signal's number) from a signal handler. Ranks agree on it in the
   /// frame's own collective.
   void set_stop_flag(const std::atomic<int>& flag);
@@ -94,14 +103,22 @@ class WorldDriver {
   /// What root decides once it has everything.
   struct Verdict {
     double wall_s = 0;
+    double delivered_s = 0;
     std::int64_t num_moves = 0;
   };
 
   void run_frame();
+  /// What this rank knows of a frame's estimate.
+  struct Estimate {
+    std::vector<model::LocalWorld> worlds;
+    model::EstimateRecord record;
+  };
+  Estimate make_estimate(double frame_start_s, core::PhaseTimes& times);
+  void hand_to_consumers(model::PoseKind kind, const PoseGather& poses);
   void advance(core::PhaseTimes& times);
   Status agree_on_status();
   int lowest_nonfinite_world() const;  ///< of this rank's; num_worlds if there is none
-  Verdict decide(double frame_start_s, bool last);
+  Verdict decide(double frame_start_s, double delivered_s, bool last);
   /// This rank's worlds with their profiles; outside of the frame's time.
   std::vector<model::LocalWorld> profiled_views();
   void publish(const model::FrameRecord& frame);
@@ -116,10 +133,12 @@ class WorldDriver {
   WorldRunSettings settings_;
   OwnedWorlds worlds_;
   PoseGather gather_;
-  Rebalancer rebalancer_;  ///< used on root
-  Rebalancing planned_;    ///< root: the moves of the last verdict
+  std::unique_ptr<PoseGather> estimates_;  ///< with an estimator
+  Rebalancer rebalancer_;                  ///< used on root
+  Rebalancing planned_;                    ///< root: the moves of the last verdict
   std::vector<model::FrameObserver*> observers_;
   std::vector<model::PoseConsumer*> consumers_;
+  model::Estimator* estimator_ = nullptr;
   const std::atomic<int>* stop_flag_ = nullptr;
   ErrorHold errors_;
   std::int64_t frame_ = 0;    ///< frames done

@@ -4,7 +4,7 @@
 
 #include "io/html/assets.h"
 #include "io/html/escape.h"
-#include "io/html/page_template.h"
+#include "io/html/fill_template.h"
 #include "io/html/plot_data.h"
 #include "io/html/replay_data.h"
 
@@ -46,11 +46,11 @@ std::string field(std::string_view name, const RunData& run, const PageOptions& 
 }  // namespace
 
 std::string make_page(const RunData& run, const PageOptions& options) {
-  return fill_template("page_html", [&](std::string_view name) { return field(name, run, options); });
+  return fill_template(asset("page_html"), [&](std::string_view name) { return field(name, run, options); });
 }
 
 void write_page(const std::string& path, const RunData& run, const PageOptions& options) {
-  write_text(path, make_page(run, options));
+  write_whole_page(path, make_page(run, options));
 }
 
 }  // namespace pbmpi::io::html

@@ -6,7 +6,7 @@
 #include "io/html/assets.h"
 #include "io/html/base64.h"
 #include "io/html/escape.h"
-#include "io/html/page_template.h"
+#include "io/html/fill_template.h"
 
 namespace pbmpi::io::html {
 namespace {
@@ -30,9 +30,9 @@ std::string suite_json(const std::vector<SuiteScene>& scenes) {
 }  // namespace
 
 void write_suite_page(const std::string& path, const std::vector<SuiteScene>& scenes) {
-  write_text(path, fill_template("suite_html", [&](std::string_view name) {
-               return name == "suite" ? suite_json(scenes) : std::string(asset(name));
-             }));
+  write_whole_page(path, fill_template(asset("suite_html"), [&](std::string_view name) {
+                     return name == "suite" ? suite_json(scenes) : std::string(asset(name));
+                   }));
 }
 
 }  // namespace pbmpi::io::html

@@ -1,6 +1,8 @@
 /// Wall-clock time, and the seconds that a frame spends in each phase.
 #pragma once
 
+#include <time.h>
+
 #include <array>
 #include <chrono>
 #include <string_view>
@@ -11,6 +13,13 @@ namespace pbmpi::core {
 inline double now_s() {
   using namespace std::chrono;
   return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+/// Seconds of processor time that this thread has used: what else runs on the core does not count.
+inline double thread_cpu_s() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 /// The timed parts of a frame, in the order of the step. `wait` is time at a barrier or in a collective

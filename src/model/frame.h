@@ -31,6 +31,13 @@ struct LocalWorld {
   const StepProfile* profile = nullptr;  ///< null unless the run profiles its frames
 };
 
+/// The estimate of a frame, which was there before the precise result (FEEC).
+struct EstimateRecord {
+  std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id: estimated states, no observables
+  double delivered_s = 0;  ///< start of the frame until root had all poses: the same on every rank
+  double compute_s = 0;    ///< time that this rank took for it
+};
+
 /// A finished frame as its rank saw it. Spans and pointers hold until the observer returns.
 struct FrameRecord {
   std::int64_t frame = 0;              ///< 0-based, warm-up frames included
@@ -41,6 +48,7 @@ struct FrameRecord {
   core::PhaseTimes phases;    ///< of this rank; `output` is the time that observers took in the frame before
   double wall_s = 0;          ///< start of the frame to the end of its gather: the same on every rank
   bool deadline_met = false;  ///< wall_s within the frame budget: the same on every rank
+  const EstimateRecord* estimate = nullptr;  ///< none without FEEC
 };
 
 /// Something that happened to the run, for the file's /events.
@@ -59,11 +67,17 @@ class FrameObserver {
   virtual void event(const RunEvent& event) { static_cast<void>(event); }
 };
 
-/// Called on root only, with all bodies' poses gathered in (world, body) order.
+/// FEEC's two results of a frame. The precise one follows from precise ones alone; an estimate is never
+/// stepped on from.
+enum class PoseKind { estimate, precise };
+
+/// Called on root only, with all bodies' poses gathered in (world, body) order: with FEEC twice a frame, for
+/// the estimate as soon as it is there, while the other ranks work on the precise result. Root's own precise
+/// work waits for it to return.
 class PoseConsumer {
  public:
   virtual ~PoseConsumer() = default;
-  virtual void poses(std::int64_t frame, std::span<const Vec3> position,
+  virtual void poses(std::int64_t frame, PoseKind kind, std::span<const Vec3> position,
                      std::span<const Quat> orientation) = 0;
 };
 

@@ -50,6 +50,9 @@ class WorldStepper {
   /// come from another rank at any step boundary: the state restores it bit for bit.
   virtual void add(int world, std::shared_ptr<const Model> model, const State& state, std::int64_t step) = 0;
   virtual void remove(int world) = 0;
+  /// Puts a world into another state, that at the start of step `step`: what follows is the same, bit for
+  /// bit, as after remove() and add(), and cheap if the world stands at that step.
+  virtual void set_state(int world, const State& state, std::int64_t step) = 0;
 
   /// Steps every world `num_steps` times and refreshes state(), observables() and cost_s(). Adds the seconds
   /// spent to `times`.

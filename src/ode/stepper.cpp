@@ -33,6 +33,21 @@ void OdeStepper::remove(int world) {
   core::require_invariant(slots_.erase(world) == 1, "a world was removed that is not there");
 }
 
+void OdeStepper::set_state(int world, const model::State& state, std::int64_t step) {
+  const auto found = slots_.find(world);
+  core::require_invariant(found != slots_.end(), "a state was set of a world that is not there");
+  Slot& slot = found->second;
+  core::require_invariant(state.num_bodies() == slot.model->num_bodies(), "a state does not fit its model");
+  log_.set_place(world, step);
+  const MessageScope scope(log_);
+  slot.state = state;
+  if (slot.world && slot.world->step() == step) {
+    slot.world->set_state(state);
+  } else {  // another step has other joint settings; a world that was lost has no ODE world any more
+    slot.world = std::make_unique<World>(world, *slot.model, state, step, settings_, *resources_);
+  }
+}
+
 void OdeStepper::advance(int num_steps, core::PhaseTimes& times) {
   if (num_steps < 1) return;
   const MessageScope scope(log_);

@@ -20,6 +20,7 @@ class OdeStepper final : public model::WorldStepper {
   void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
            std::int64_t step) override;
   void remove(int world) override;
+  void set_state(int world, const model::State& state, std::int64_t step) override;
   /// Takes the worlds one after the other, each through all its steps: its data stays in the cache.
   void advance(int num_steps, core::PhaseTimes& times) override;
 

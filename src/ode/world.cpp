@@ -39,6 +39,8 @@ World::World(int id, const model::Model& model, const model::State& state, std::
   restore(bodies_, state);
 }
 
+void World::set_state(const model::State& state) { restore(bodies_, state); }
+
 void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
   for (int i = 0; i < num_steps; ++i) {
     log.set_place(id_, step_);

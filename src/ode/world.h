@@ -33,6 +33,8 @@ class World {
 
   /// Takes `num_steps` >= 1 steps.
   void advance(int num_steps, core::LapTimer& timer, MessageLog& log);
+  /// Puts the bodies into the state at the start of step(), where the world stands.
+  void set_state(const model::State& state);
   /// Reads out the state after the last step, and what was observed in it.
   void read(model::State& state, model::Observables& observables) const;
   /// Measures the last step again (model::StepProfile); the world is then as it was, bit for bit. Needs the

@@ -54,6 +54,7 @@ class SorStepper final : public model::WorldStepper {
     worlds_.erase(world);
     groups_.clear();
   }
+  void set_state(int world, const model::State& state, std::int64_t step) override;
   const model::State& state(int world) const override { return worlds_.at(world)->state(); }
   const model::Model& model(int world) const override { return worlds_.at(world)->model(); }
   const model::Observables& observables(int world) const override { return worlds_.at(world)->observables(); }
@@ -78,12 +79,27 @@ class SorStepper final : public model::WorldStepper {
   model::StepperSettings settings_;
   model::MakeNarrowPhase make_narrow_phase_;
   std::map<int, std::unique_ptr<SorWorld>> worlds_;
-  std::vector<Group> groups_;  ///< empty: to be made anew
+  std::vector<Group> groups_;                          ///< empty: to be made anew
+  std::map<int, std::pair<std::size_t, int>> places_;  ///< world -> its group, and its index there
 };
+
+void SorStepper::set_state(int world, const model::State& state, std::int64_t step) {
+  SorWorld& changed = *worlds_.at(world);
+  const bool same_step = changed.step() == step;
+  changed.set_state(state, step);
+  if (groups_.empty()) return;
+  if (same_step) {
+    const auto [group, index] = places_.at(world);
+    groups_[group].pack->load(index, state);
+  } else {
+    groups_.clear();  // the joints' settings of another step
+  }
+}
 
 /// As many packs as the cache asks for, of about equal size, and all but the last with whole batches of
 /// lanes.
 void SorStepper::make_groups() {
+  places_.clear();
   int num_bodies = 0;
   for (const auto& [id, world] : worlds_) num_bodies += world->model().num_bodies();
   const int most_bodies = bodies_times_bytes_a_pack / bytes_a_number(settings_.precision);
@@ -104,8 +120,11 @@ void SorStepper::make_groups() {
       packed.push_back({&world->model(), find_articulations(world->model()), &world->narrow_phase(),
                         settings_.colliders == model::Colliders::lanes});
     group.pack = make_pack(packed, settings_.simd, settings_.precision);
-    for (std::size_t i = 0; i < group.worlds.size(); ++i)
+    for (std::size_t i = 0; i < group.worlds.size(); ++i) {
       group.worlds[i]->enter(*group.pack, static_cast<int>(i));
+      places_[group.worlds[i]->id()] = {static_cast<std::size_t>(&group - groups_.data()),
+                                        static_cast<int>(i)};
+    }
     group.contacts.resize(group.worlds.size());
     group.contact_spans.resize(group.worlds.size());
   }

@@ -24,6 +24,12 @@ class SorWorld {
   const model::State& state() const { return state_; }
   const model::Observables& observables() const { return observables_; }
 
+  /// Forgets where the world was; a pack that holds it must be loaded anew.
+  void set_state(const model::State& state, std::int64_t step) {
+    state_ = state;
+    step_ = step;
+  }
+
   /// Puts the state and the joint settings of this step into a fresh pack.
   void enter(Pack& pack, int index) const;
   /// The events of this step.

@@ -47,6 +47,12 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads(result.stdout)
 
+    def report(self, *args):
+        return self.run_command([PBREPORT, *map(str, args)])
+
+    def json(self, result):
+        return json.loads(result.stdout)
+
     def start(self, ranks, *args):
         """A run in a session of its own, so that its whole process group can be signalled."""
         process = subprocess.Popen(mpirun(ranks, *args), cwd=self.folder, stdout=subprocess.DEVNULL,

@@ -71,8 +71,49 @@ TEST(Options, those_of_sor_are_refused_with_another_stepper) {
   EXPECT_NE(refusal({"--scene", "Fake", "--substeps", "2"}).find("--stepper sor"), std::string::npos);
   EXPECT_NE(refusal({"--scene", "Fake", "--precision", "single"}).find("--stepper sor"), std::string::npos);
   EXPECT_EQ(refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", "2", "--precision", "single"}), "");
+  EXPECT_NE(refusal({"--scene", "Fake", "--sor-factor", "1"}).find("--stepper sor"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "sor", "--sor-factor", "2"}).find("below 2"),
+            std::string::npos);
+  EXPECT_EQ(refusal({"--scene", "Fake", "--stepper", "sor", "--sor-factor", "1.9"}), "");
   EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", "0"}).find("at least 1"),
             std::string::npos);
+}
+
+TEST(Options, feec_estimates_as_the_precise_stepper_does_but_with_one_iteration) {
+  const RunSpec spec =
+      resolve(parse_options({"--scene", "Fake", "--feec", "--solver-seed", "7"}), FakeScene({}));
+  ASSERT_TRUE(spec.estimate.has_value());
+  EXPECT_EQ(spec.estimate->kind, model::StepperKind::quick);
+  EXPECT_EQ(spec.estimate->iterations, 1);
+  EXPECT_EQ(spec.estimate->seed, 7u);
+  EXPECT_EQ(spec.stepper.seed, 7u);
+  EXPECT_EQ(spec.scene_seed, 1u);
+  EXPECT_FALSE(resolve(parse_options({"--scene", "Fake"}), FakeScene({})).estimate.has_value());
+}
+
+TEST(Options, feec_may_estimate_with_another_stepper) {
+  const RunSpec spec =
+      resolve(parse_options({"--scene", "Fake", "--feec", "--estimate-stepper", "sor",
+                             "--estimate-iterations", "3", "--estimate-precision", "single"}),
+              FakeScene({}));
+  ASSERT_TRUE(spec.estimate.has_value());
+  EXPECT_EQ(spec.stepper.kind, model::StepperKind::quick);
+  EXPECT_EQ(spec.estimate->kind, model::StepperKind::sor);
+  EXPECT_EQ(spec.estimate->iterations, 3);
+  EXPECT_EQ(spec.estimate->precision, model::Precision::single);
+}
+
+TEST(Options, those_of_the_estimate_are_refused_where_they_make_no_sense) {
+  EXPECT_NE(refusal({"--scene", "Fake", "--estimate-iterations", "2"}).find("--feec"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--estimate-stepper", "sor"}).find("--feec"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--feec", "--estimate-iterations", "0"}).find("at least 1"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--feec", "--estimate-stepper", "fast"}).find("quick, direct, sor"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal({"--scene", "Fake", "--feec", "--estimate-precision", "single"}).find("--estimate-stepper sor"),
+      std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--solver-seed", "-x"}).find("solver-seed"), std::string::npos);
 }
 
 TEST(Options, a_slip_of_the_pen_gets_a_suggestion) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 namespace pbmpi::core {
 namespace {
 
@@ -11,6 +14,16 @@ TEST(Clock, never_goes_back) {
     const double now = now_s();
     ASSERT_GE(now, last);
     last = now;
+  }
+}
+
+TEST(ThreadCpu, counts_work_and_not_sleep) {
+  const double start_s = thread_cpu_s();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const double slept_s = thread_cpu_s() - start_s;
+  EXPECT_GE(slept_s, 0);
+  EXPECT_LT(slept_s, 0.1) << "half of what passed, to be out of all doubt";
+  while (thread_cpu_s() - start_s < slept_s + 1e-4) {  // ends only if work counts
   }
 }
 

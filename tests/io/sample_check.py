@@ -48,6 +48,9 @@ def check(path):
             assert np.array_equal(found, factor * expected), f"{path}: {name} is wrong"
         assert np.array_equal(bodies["orientation/value"][rows][:, :, 3], 0.5 * np.repeat(recorded, len(world))
                               .reshape(len(recorded), len(world)))
+        ahead = f["estimate/position/value"][rows] - expected
+        assert np.array_equal(ahead, np.broadcast_to([0.5, 0, 0], ahead.shape)), f"{path}: an estimate is wrong"
+        assert np.array_equal(f["estimate/orientation/value"][rows], bodies["orientation/value"][rows])
         assert np.array_equal(bodies["position/step"][rows], 3 * (recorded + 1))
         frames = np.arange(committed)
         contacts = f["observables/world/contacts"][:committed]
@@ -56,6 +59,9 @@ def check(path):
         ranks = np.arange(f["timings/rank/useful"].shape[1])
         collide = 1e-4 * (ranks[None] + 1) + 1e-5 * 1 + 1e-6 * frames[:, None]
         assert np.array_equal(f["timings/rank/collide"][:committed], collide)
+        assert np.array_equal(f["estimate/delivered"][:committed], 0.25 * f["timings/frame/wall"][:committed])
+        assert np.array_equal(f["estimate/precise"][:committed], f["timings/frame/wall"][:committed])
+        assert np.array_equal(f["estimate/compute"][:committed], 1e-4 * (ranks + 1) * np.ones((committed, 1)))
         for name, column in f["events"].items():
             assert len(column) >= f["events"].attrs["num_events"], name
         assert np.array_equal(f["events/frame"][:f["events"].attrs["num_events"]] % 4, np.ones(

@@ -50,6 +50,10 @@ class SyntheticStepper final : public model::WorldStepper {
   void remove(int world) override {
     if (worlds_.erase(world) != 1) throw std::logic_error("world " + std::to_string(world) + " is not here");
   }
+  void set_state(int world, const model::State& state, std::int64_t step) override {
+    worlds_.at(world).state = state;
+    worlds_.at(world).step = step;
+  }
 
   void advance(int num_steps, core::PhaseTimes& times) override {
     core::LapTimer timer(times);

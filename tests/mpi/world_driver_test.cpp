@@ -190,8 +190,9 @@ TEST(WorldDriver, misses_a_deadline_that_nothing_can_meet) {
 /// Compares all poses of each frame with those of a run in one place.
 class PoseChecker : public model::PoseConsumer {
  public:
-  void poses(std::int64_t frame, std::span<const model::Vec3> position,
+  void poses(std::int64_t frame, model::PoseKind kind, std::span<const model::Vec3> position,
              std::span<const model::Quat> orientation) override {
+    EXPECT_EQ(kind, model::PoseKind::precise);
     EXPECT_EQ(frame, frames++);
     core::PhaseTimes times;
     reference.advance(3, times);

@@ -52,11 +52,12 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
                   .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
                   .run(),
               values);
-    if (values.count("config") != 0) {
-      const std::string path = values["config"].as<std::string>();
+    for (const std::string option : {"config", "preset"}) {  // what was stored first wins
+      if (values.count(option) == 0) continue;
+      const std::string path = values[option].as<std::string>();
       std::ifstream file(path);
       core::require_input(file.good(),
-                          path + ": cannot be read; --config wants a file of 'name = value' lines");
+                          path + ": cannot be read; --" + option + " wants a file of 'name = value' lines");
       po::store(po::parse_config_file(file, description), values);
     }
     po::notify(values);

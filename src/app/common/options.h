@@ -19,9 +19,10 @@ struct CommonOptions {
 /// --help, --version, --config, --quiet, --progress.
 boost::program_options::options_description common_options_description();
 
-/// Parses `args` (without the program's name) and, if given, the file named by --config; the command line
-/// wins. `positional` names the option that takes the words without a dash; empty = such words are refused.
-/// Throws core::InputError for anything that is not in `description`, with the nearest option.
+/// Parses `args` (without the program's name) and, if given, the files named by --config and --preset; the
+/// command line wins over both, --config over --preset. `positional` names the option that takes the words
+/// without a dash; empty = such words are refused. Throws core::InputError for anything that is not in
+/// `description`, with the nearest option.
 boost::program_options::variables_map parse_command_line(
     const std::vector<std::string>& args, const boost::program_options::options_description& description,
     const boost::program_options::positional_options_description& positional = {});

@@ -39,7 +39,7 @@ std::string plan_text(const model::Model& model) {
 Census take_census(const scenes::Scene& scene, const RunSpec& spec) {
   Census census;
   for (int world = 0; world < spec.num_worlds; ++world) {
-    const auto model = scene.build(world, spec.stepper.seed);
+    const auto model = scene.build(world, spec.scene_seed);
     census.table.body_offset.push_back(census.table.num_bodies() + model->num_bodies());
     census.geoms += model->geoms.size();
     census.joints += model->joints.size();
@@ -68,7 +68,7 @@ std::string in_units(double bytes) {
 std::size_t measure_world_bytes(const scenes::Scene& scene, const RunSpec& spec) {
   const auto stepper = make_stepper(spec.stepper);
   const std::size_t before = mallinfo2().uordblks;
-  auto model = scene.build(0, spec.stepper.seed);
+  auto model = scene.build(0, spec.scene_seed);
   const model::State state = model::initial_state(*model);
   stepper->add(0, std::move(model), state, 0);
   return mallinfo2().uordblks - before;
@@ -122,13 +122,19 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
       << " steps of " << spec.stepper.dt_s << " s\n"
       << "stepper: " << name_of(spec.stepper.kind) << ", " << spec.stepper.iterations << " iterations, seed "
       << spec.stepper.seed << '\n';
+  if (spec.estimate) {
+    out << "estimate: " << name_of(spec.estimate->kind) << ", " << spec.estimate->iterations << " iteration"
+        << (spec.estimate->iterations == 1 ? "" : "s") << ", " << name_of(spec.estimate->precision)
+        << " precision, before each frame\n";
+  }
   print_plans(out, census);
   out << "decomposition: worlds over " << num_ranks << (num_ranks == 1 ? " rank\n" : " ranks\n");
   print_distribution(out, census, num_ranks, world_bytes);
   out << "memory: about " << in_units(world_bytes) << " a world (measured on world 0)\n";
   if (spec.output) {
-    const auto bytes = io::estimate_file_bytes(census.table.num_bodies(), spec.num_worlds, num_ranks,
-                                               spec.total_frames(), spec.record_every, spec.record_islands);
+    const auto bytes =
+        io::estimate_file_bytes(census.table.num_bodies(), spec.num_worlds, num_ranks, spec.total_frames(),
+                                spec.record_every, {spec.record_islands, spec.estimate.has_value()});
     out << "output: " << *spec.output << ", about " << in_units(static_cast<double>(bytes)) << '\n';
   } else {
     out << "output: none\n";

@@ -28,7 +28,9 @@ po::options_description options_description() {
       ("warmup", po::value<int>()->value_name("N"),
        "frames before the measured ones; default: the scene's, 3")  //
       ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"),
-       "of the solver's row order and of the scene's variation");
+       "of the solver's row order and of the scene's variation")  //
+      ("solver-seed", po::value<std::uint64_t>()->value_name("N"),
+       "of the solver's row order alone: runs that differ in it show the noise floor; default: --seed");
 
   po::options_description how("How to step");
   how.add_options()  //
@@ -42,12 +44,30 @@ po::options_description options_description() {
        "sweeps of the iterative solver, in each substep; default: the scene's, 20")  //
       ("substeps", po::value<int>()->default_value(1)->value_name("N"),
        "sor: parts of a step that share its collision detection")  //
+      ("sor-factor", po::value<double>()->value_name("X"),
+       "sor: over-relaxation, above 0 and below 2; default: 1.3, as in ODE")  //
       ("precision", po::value<std::string>()->default_value("double")->value_name("double|single"),
        "sor: number type of the solver")  //
       ("simd", po::value<std::string>()->default_value("auto")->value_name("auto|sse2|avx2|avx512|off"),
        "sor: vector instructions; the result is the same with all")  //
       ("colliders", po::value<std::string>()->default_value("lanes")->value_name("lanes|ode"),
        "sor: what collides pairs of geoms; lanes: kernels over vector lanes, ode: dCollide");
+
+  how.add_options()(
+      "preset", po::value<std::string>()->value_name("FILE"),
+      "a setting that pbreport has chosen from a study (pbreport --write-preset); other options win");
+
+  po::options_description feec("Fast estimation with error control (FEEC)");
+  feec.add_options()  //
+      ("feec",
+       "estimate every frame from the precise state before it is computed: the estimate goes to root at "
+       "once, "
+       "and is dropped when the precise result is there")                                               //
+      ("estimate-iterations", po::value<int>()->value_name("N"), "sweeps of the estimate; default: 1")  //
+      ("estimate-stepper", po::value<std::string>()->value_name("quick|direct|sor"),
+       "what estimates; default: that of --stepper")  //
+      ("estimate-precision", po::value<std::string>()->value_name("double|single"),
+       "of an estimate by sor; default: that of --precision, or double");
 
   po::options_description cut("How to cut the work");
   cut.add_options()  //
@@ -71,7 +91,7 @@ po::options_description options_description() {
        "the summary; json: exactly one JSON document on stdout");
 
   po::options_description all;
-  all.add(what).add(how).add(cut).add(write).add(common_options_description());
+  all.add(what).add(how).add(feec).add(cut).add(write).add(common_options_description());
   return all;
 }
 
@@ -90,6 +110,14 @@ Enum choice(const po::variables_map& values, const std::string& name,
   std::string known;
   for (const std::string_view text : names) known += (known.empty() ? "" : ", ") + std::string(text);
   throw core::InputError("--" + name + " " + word + ": it must be one of " + known);
+}
+
+/// The same for an option that has no default.
+template <class Enum, std::size_t N>
+std::optional<Enum> choice_if_given(const po::variables_map& values, const std::string& name,
+                                    const std::array<std::string_view, N>& names) {
+  if (values.count(name) == 0) return std::nullopt;
+  return choice<Enum>(values, name, names);
 }
 
 constexpr std::array<std::string_view, 2> decomposition_names = {"auto", "worlds"};
@@ -141,11 +169,22 @@ Options parse_options(const std::vector<std::string>& args) {
                 "--dt " + std::to_string(options.dt_s.value_or(0)) + " s: a step must be finite and above 0");
   options.stepper = choice<model::StepperKind>(values, "stepper", model::stepper_kind_names);
   options.substeps = values["substeps"].as<int>();
+  options.sor_factor = given<double>(values, "sor-factor");
+  require_input(!options.sor_factor || (*options.sor_factor > 0 && *options.sor_factor < 2),
+                "--sor-factor " + std::to_string(options.sor_factor.value_or(0)) +
+                    ": the iteration converges above 0 and below 2 only");
   options.precision = choice<model::Precision>(values, "precision", model::precision_names);
   options.simd = choice<model::Simd>(values, "simd", model::simd_names);
   options.colliders = choice<model::Colliders>(values, "colliders", model::colliders_names);
   options.decomposition = choice<Decomposition>(values, "decompose", decomposition_names);
   options.seed = values["seed"].as<std::uint64_t>();
+  options.solver_seed = given<std::uint64_t>(values, "solver-seed");
+  options.feec = values.count("feec") != 0;
+  options.estimate_iterations = given<int>(values, "estimate-iterations");
+  options.estimate_stepper =
+      choice_if_given<model::StepperKind>(values, "estimate-stepper", model::stepper_kind_names);
+  options.estimate_precision =
+      choice_if_given<model::Precision>(values, "estimate-precision", model::precision_names);
   options.output = given<std::string>(values, "output");
   options.no_output = values.count("no-output") != 0;
   options.record_every = values["record-every"].as<int>();
@@ -161,6 +200,27 @@ Options parse_options(const std::vector<std::string>& args) {
   return options;
 }
 
+/// The estimate's own settings over those of the precise stepper, whose step and seed it shares.
+std::optional<model::StepperSettings> resolve_estimate(const Options& options,
+                                                       const model::StepperSettings& precise) {
+  const bool asked = options.estimate_iterations || options.estimate_stepper || options.estimate_precision;
+  require_input(
+      options.feec || !asked,
+      "--estimate-iterations, --estimate-stepper and --estimate-precision say how --feec estimates; "
+      "give --feec too");
+  if (!options.feec) return std::nullopt;
+  model::StepperSettings estimate = precise;
+  estimate.kind = options.estimate_stepper.value_or(precise.kind);
+  estimate.iterations = options.estimate_iterations.value_or(1);
+  estimate.precision = options.estimate_precision.value_or(precise.precision);
+  estimate.substeps = 1;
+  require_at_least(estimate.iterations, 1, "--estimate-iterations");
+  require_input(estimate.kind == model::StepperKind::sor || !options.estimate_precision,
+                "--estimate-precision is an option of an estimate by sor; give --estimate-stepper sor");
+  if (estimate.kind != model::StepperKind::sor) estimate.precision = model::Precision::double_;
+  return estimate;
+}
+
 RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   const scenes::RunDefaults& defaults = scene.defaults();
   RunSpec spec;
@@ -171,8 +231,10 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   spec.stepper.kind = options.stepper;
   spec.stepper.dt_s = options.dt_s.value_or(defaults.dt_s);
   spec.stepper.iterations = options.iterations.value_or(defaults.iterations);
-  spec.stepper.seed = options.seed;
+  spec.scene_seed = options.seed;
+  spec.stepper.seed = options.solver_seed.value_or(options.seed);
   spec.stepper.substeps = options.substeps;
+  spec.stepper.sor_factor = options.sor_factor.value_or(spec.stepper.sor_factor);
   spec.stepper.precision = options.precision;
   spec.stepper.simd = options.simd;
   spec.stepper.colliders = options.colliders;
@@ -184,23 +246,22 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   require_at_least(spec.steps_per_frame, 1, "--steps-per-frame");
   require_at_least(spec.stepper.iterations, 1, "--iterations");
   require_at_least(spec.stepper.substeps, 1, "--substeps");
-  const bool own_options = spec.stepper.substeps != 1 || options.precision != model::Precision::double_ ||
-                           options.simd != model::Simd::automatic ||
-                           options.colliders != model::Colliders::lanes;
-  require_input(
-      options.stepper == model::StepperKind::sor || !own_options,
-      "--substeps, --precision, --simd and --colliders are options of --stepper sor; ODE's steppers "
-      "have none of them");
+  const bool own_options =
+      spec.stepper.substeps != 1 || options.sor_factor || options.precision != model::Precision::double_ ||
+      options.simd != model::Simd::automatic || options.colliders != model::Colliders::lanes;
+  require_input(options.stepper == model::StepperKind::sor || !own_options,
+                "--substeps, --sor-factor, --precision, --simd and --colliders are options of --stepper sor; "
+                "ODE's steppers have none of them");
   require_at_least(spec.record_every, 1, "--record-every");
   spec.spaces = scene.defaults().spaces;
   spec.record_islands = options.record_islands;
   spec.stepper.profile = options.record_islands;
-  require_input(
-      !options.record_islands || options.stepper != model::StepperKind::sor,
-      "--record-islands: --stepper sor solves many islands in one vector and has no time of one; use "
-      "quick or direct");
+  require_input(!options.record_islands || options.stepper != model::StepperKind::sor,
+                "--record-islands: --stepper sor solves many islands in one vector and has no time of one; "
+                "use quick or direct");
   require_input(!options.record_islands || !options.no_output,
                 "--record-islands writes into the run's file; drop --no-output");
+  spec.estimate = resolve_estimate(options, spec.stepper);
   return spec;
 }
 

@@ -23,12 +23,18 @@ struct Options {
   std::optional<int> replicas, frames, warmup, steps_per_frame, iterations;
   std::optional<double> dt_s;
   int substeps = 1;
+  std::optional<double> sor_factor;
   model::Precision precision = model::Precision::double_;
   model::Simd simd = model::Simd::automatic;
   model::Colliders colliders = model::Colliders::lanes;
   model::StepperKind stepper = model::StepperKind::quick;
   Decomposition decomposition = Decomposition::automatic;
   std::uint64_t seed = 1;
+  std::optional<std::uint64_t> solver_seed;
+  bool feec = false;
+  std::optional<int> estimate_iterations;
+  std::optional<model::StepperKind> estimate_stepper;
+  std::optional<model::Precision> estimate_precision;
   std::optional<std::string> output;
   bool no_output = false;
   bool record_islands = false;
@@ -51,8 +57,10 @@ struct RunSpec {
   int warmup = 3;
   int frames = 5;
   int steps_per_frame = 3;
+  std::uint64_t scene_seed = 1;  ///< of the scene's variation; the stepper has its own
   model::StepperSettings stepper;
-  std::optional<std::string> output;  ///< path of the HDF5 file, or nothing with --no-output
+  std::optional<model::StepperSettings> estimate;  ///< FEEC: what estimates each frame first
+  std::optional<std::string> output;               ///< path of the HDF5 file, or nothing with --no-output
   int record_every = 1;
   bool record_islands = false;
   scenes::SpacesForm spaces = scenes::SpacesForm::many;

@@ -72,7 +72,7 @@ std::vector<Parameter> run_attributes(const scenes::Scene& scene, const RunSpec&
   return {Parameter::of("pbmpi_version", program_version),
           Parameter::of("git_revision", git_revision),
           Parameter::of("created", provenance.created),
-          Parameter::of("seed", static_cast<std::int64_t>(spec.stepper.seed)),
+          Parameter::of("seed", static_cast<std::int64_t>(spec.scene_seed)),
           Parameter::of("scene", scene.name()),
           Parameter::of("command_line", provenance.command_line)};
 }
@@ -90,10 +90,13 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("stepper", std::string(name_of(spec.stepper.kind))),
       Parameter::of("iterations", std::int64_t{spec.stepper.iterations}),
       Parameter::of("substeps", std::int64_t{spec.stepper.substeps}),
+      Parameter::of("sor_factor", spec.stepper.sor_factor),
       Parameter::of("precision", std::string(name_of(spec.stepper.precision))),
       Parameter::of("simd", simd_text(spec.stepper)),
       Parameter::of("colliders", std::string(name_of(spec.stepper.colliders))),
-      Parameter::of("seed", static_cast<std::int64_t>(spec.stepper.seed)),
+      Parameter::of("seed", static_cast<std::int64_t>(spec.scene_seed)),
+      Parameter::of("solver_seed", static_cast<std::int64_t>(spec.stepper.seed)),
+      Parameter::of("feec", std::int64_t{spec.estimate ? 1 : 0}),
       Parameter::of("decompose", "worlds"),
       Parameter::of("spaces", spec.spaces == scenes::SpacesForm::one ? "one" : "many"),
       Parameter::of("num_spaces",
@@ -106,6 +109,11 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("library_hdf5", hdf5_version),
       Parameter::of("library_ode", ode_version),
   };
+  if (spec.estimate) {
+    parameters.push_back(Parameter::of("estimate_stepper", std::string(name_of(spec.estimate->kind))));
+    parameters.push_back(Parameter::of("estimate_iterations", std::int64_t{spec.estimate->iterations}));
+    parameters.push_back(Parameter::of("estimate_precision", std::string(name_of(spec.estimate->precision))));
+  }
   for (const std::string& line : provenance.environment) {
     const std::size_t equals = line.find('=');
     parameters.push_back(Parameter::of("env_" + line.substr(0, equals), line.substr(equals + 1)));

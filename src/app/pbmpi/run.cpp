@@ -4,8 +4,10 @@
 #include <iostream>
 #include <memory>
 
+#include "app/common/load_scene.h"
 #include "app/common/version.h"
 #include "app/pbmpi/describe.h"
+#include "app/pbmpi/estimate_monitor.h"
 #include "app/pbmpi/live_summary.h"
 #include "app/pbmpi/options.h"
 #include "app/pbmpi/progress.h"
@@ -13,6 +15,7 @@
 #include "app/pbmpi/signals.h"
 #include "app/pbmpi/stepper_factory.h"
 #include "core/hash.h"
+#include "estimate/short_run.h"
 #include "io/run_file.h"
 #include "io/xdmf.h"
 #include "model/effects.h"
@@ -32,19 +35,6 @@ std::string scene_list() {
             "\n";
   }
   return text;
-}
-
-/// Root reads the scene's text and every rank parses the same copy, so that a file that only some ranks can
-/// read is no special case.
-std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const Options& options) {
-  scenes::SceneSource source;
-  mpi::agree_on_errors(comm, [&] {
-    if (comm.is_root()) source = scenes::find_scene(options.scene);
-  });
-  comm.bcast_string(source.name);
-  comm.bcast_string(source.file);
-  comm.bcast_string(source.text);
-  return scenes::parse_scene(source, options.dt_s, options.spaces);
 }
 
 mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
@@ -75,14 +65,32 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.simd = simd_text(spec.stepper);
   summary.steps_per_frame = spec.steps_per_frame;
   summary.bodies = num_bodies;
-  summary.seed = spec.stepper.seed;
+  summary.seed = spec.scene_seed;
   summary.dt_s = spec.stepper.dt_s;
   summary.budget_s = budget_s;
   summary.warmup_frames = spec.warmup;
-  const model::StepPlan plan(*scene.build(0, spec.stepper.seed));
+  const model::StepPlan plan(*scene.build(0, spec.scene_seed));
   for (const model::Pass& pass : plan.passes()) {
     summary.effects.push_back({std::string(pass.effect->name), pass.reason});
   }
+  return summary;
+}
+
+EstimateSummary estimate_summary(const model::StepperSettings& settings, const mpi::WorldRunResult& result,
+                                 const EstimateMonitor& monitor, double budget_s) {
+  EstimateSummary summary;
+  summary.stepper = name_of(settings.kind);
+  summary.iterations = settings.iterations;
+  summary.precision = name_of(settings.precision);
+  std::vector<double> delivered_s, precise_s;
+  for (const mpi::FrameTimes& times : result.times) {
+    if (!times.measured) continue;
+    delivered_s.push_back(times.delivered_s);
+    precise_s.push_back(times.wall_s);
+  }
+  compute_delivery(delivered_s, precise_s, budget_s, summary);
+  summary.position_defect = monitor.position_defect();
+  summary.orientation_defect = monitor.orientation_defect();
   return summary;
 }
 
@@ -99,7 +107,7 @@ std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const 
   setup.hosts = provenance.hosts;
   setup.num_frames = spec.total_frames();
   setup.record_every = spec.record_every;
-  setup.profile = spec.record_islands;
+  setup.optional = {spec.record_islands, spec.estimate.has_value()};
   return std::make_unique<io::RunFile>(io::FileGroup{comm.fortran_handle(), comm.rank(), comm.size()},
                                        std::move(setup));
 }
@@ -140,12 +148,19 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, const s
                   const RunSpec& spec) {
   const StopOnSignal stop;
   const auto stepper = make_stepper(spec.stepper);
-  const auto build = [&](int world) { return scene.build(world, spec.stepper.seed); };
+  const auto build = [&](int world) { return scene.build(world, spec.scene_seed); };
   mpi::WorldDriver driver(comm, *stepper, build, driver_settings(spec));
   driver.set_stop_flag(stop.flag());
 
   const Provenance provenance = collect_provenance(comm, options.command_line);
   const auto file = create_output(comm, driver, scene, spec, provenance);
+  std::unique_ptr<model::Estimator> estimator;
+  EstimateMonitor monitor(spec.warmup);
+  if (spec.estimate) {
+    estimator = std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
+    driver.set_estimator(*estimator);
+    driver.add_consumer(monitor);
+  }
   LiveSummary live;
   driver.add_observer(live);
   if (file) driver.add_observer(*file);
@@ -161,6 +176,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, const s
   RunSummary summary =
       settings_summary(scene, spec, provenance, driver.table().num_bodies(), driver_settings(spec).budget_s);
   live.finish(comm, result, summary);
+  if (spec.estimate) summary.estimate = estimate_summary(*spec.estimate, result, monitor, summary.budget_s);
   if (file) {
     file->close(summary.complete, summary.state_hash);
     write_sidecar(comm, *spec.output);
@@ -189,7 +205,7 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
     case Action::run:
       break;
   }
-  const auto scene = load_scene(comm, options);
+  const auto scene = load_scene(comm, options.scene, options.dt_s, options.spaces);
   const RunSpec spec = resolve(options, *scene);
   if (options.action == Action::run) return simulate(comm, options, *scene, spec);
   mpi::agree_on_errors(comm, [&] {

@@ -8,10 +8,12 @@
 
 namespace pbmpi::app {
 
-std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings) {
+std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings,
+                                                  const std::string& warning_prefix) {
   if (settings.kind == model::StepperKind::sor)
     return solver::make_sor_stepper(settings, ode::make_narrow_phase);
-  return ode::make_ode_stepper(settings);
+  return ode::make_ode_stepper(
+      settings, [warning_prefix](const std::string& line) { ode::warn_on_stderr(warning_prefix + line); });
 }
 
 std::string simd_text(const model::StepperSettings& settings) {

@@ -9,8 +9,9 @@
 namespace pbmpi::app {
 
 /// quick and direct are ODE's; sor is pbmpi's own, with ODE's dCollide. Throws core::InputError for settings
-/// that the stepper refuses.
-std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings);
+/// that the stepper refuses. Warnings go to stderr behind `warning_prefix`.
+std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings,
+                                                  const std::string& warning_prefix = "");
 
 /// The vector instructions that the stepper uses and its lanes, e.g. "avx512, 16 lanes"; empty for ODE's.
 std::string simd_text(const model::StepperSettings& settings);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "app/pbreport/diff.h"
+#include "app/pbreport/figures.h"
 #include "app/pbreport/report.h"
+#include "app/pbreport/study.h"
 #include "app/pbreport/suite_commands.h"
 
 namespace pbmpi::app {
@@ -13,6 +16,9 @@ const std::vector<ReportCommand>& report_commands() {
       {"islands", "the paper's Table 1 from runs", run_islands},
       {"cores", "the paper's Table 2 and Figure 6 from runs with --record-islands", run_cores},
       {"figure6", "one page of both, from such runs", run_figure6},
+      {"diff", "how far two recorded runs of the same bodies are apart", run_diff},
+      {"figures", "figures 8 and 9 of the paper from recorded runs", run_figures},
+      {"study", "what accuracy costs in time: the file of pbstudy, and the setting for a budget", run_study},
   };
   return commands;
 }
@@ -23,7 +29,8 @@ core::ExitCode run_pbreport(const std::vector<std::string>& args, std::ostream& 
                          ? commands.end()
                          : std::find_if(commands.begin(), commands.end(),
                                         [&](const ReportCommand& c) { return c.name == args.front(); });
-  if (named == commands.end()) return commands.front().run(args, out);
+  if (named == commands.end())
+    return names_a_study(args) ? run_study(args, out) : commands.front().run(args, out);
   return named->run({args.begin() + 1, args.end()}, out);
 }
 

@@ -47,6 +47,11 @@ std::vector<io::html::Fact> facts_of(const RunSummary& s) {
   facts.push_back(
       {"Efficiency", format("%.0f %%", 100 * s.parallel_efficiency),
        format("balance %.0f %% × comm. %.0f %%", 100 * s.load_balance, 100 * s.communication_efficiency)});
+  if (s.estimate) {
+    facts.push_back({"Estimate", format("%.2f ms", 1e3 * s.estimate->delivered_p50_s),
+                     format("delivered; precise %.1f × later, rms off %.1f mm",
+                            s.estimate->precise_over_delivered, 1e3 * s.estimate->position_defect.rms)});
+  }
   facts.push_back({"Invariants", format("%.2f mm", 1e3 * s.max_joint_gap_m),
                    format("joint gap; penetration %.2f mm", 1e3 * s.max_penetration_m)});
   return facts;

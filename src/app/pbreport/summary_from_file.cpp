@@ -4,6 +4,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "analysis/pose_errors.h"
 #include "core/error.h"
 #include "model/effects.h"
 #include "scenes/scene.h"
@@ -126,6 +127,29 @@ void read_settings(const io::RunData& run, const std::string& path, RunSummary& 
   summary.budget_s = frame_budget_s;
 }
 
+/// The run's estimates against its precise poses; those of recorded, measured frames.
+EstimateSummary estimate_of(const io::RunData& run, const std::string& path, double budget_s) {
+  EstimateSummary summary;
+  summary.stepper = text_of(run.parameters, "estimate_stepper");
+  summary.iterations = number_of<int>(run, "estimate_iterations", path);
+  summary.precision = text_of(run.parameters, "estimate_precision");
+  compute_delivery(only_measured(run.estimate.delivered_s, run.frame_measured),
+                   only_measured(run.estimate.precise_s, run.frame_measured), budget_s, summary);
+  const std::size_t record_every = run.position.empty() ? 1 : run.frame_measured.size() / run.position.size();
+  std::vector<double> distances, angles;
+  for (std::size_t row = 0; row < run.position.size(); ++row) {
+    if (!run.frame_measured[(row + 1) * record_every - 1]) continue;
+    const analysis::PoseErrors errors =
+        analysis::compare_bodies({run.estimate.position[row], run.estimate.orientation[row]},
+                                 {run.position[row], run.orientation[row]});
+    distances.insert(distances.end(), errors.body_position_m.begin(), errors.body_position_m.end());
+    angles.insert(angles.end(), errors.body_orientation_rad.begin(), errors.body_orientation_rad.end());
+  }
+  summary.position_defect = analysis::summarize_positions(distances);
+  summary.orientation_defect = analysis::summarize_orientations(angles);
+  return summary;
+}
+
 }  // namespace
 
 MeasuredFrames measured_frames(const io::RunData& run) {
@@ -169,6 +193,7 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   summary.max_penetration_m = largest_measured(run, "max_penetration");
   summary.effects = effects_of(run, summary.seed);
   for (const std::string& event : run.events) count_rebalance(event, summary);
+  if (!run.estimate.delivered_s.empty()) summary.estimate = estimate_of(run, path, summary.budget_s);
   return summary;
 }
 

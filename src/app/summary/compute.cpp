@@ -77,4 +77,19 @@ void compute_performance(const MeasuredFrames& frames, RunSummary& summary) {
   summary.rows_max = largest(frames.rows);
 }
 
+void compute_delivery(const std::vector<double>& delivered_s, const std::vector<double>& precise_s,
+                      double budget_s, EstimateSummary& estimate) {
+  const double elapsed_s = sum(delivered_s);
+  if (elapsed_s <= 0) return;
+  const auto num_frames = static_cast<double>(delivered_s.size());
+  const auto satisfied = std::count_if(delivered_s.begin(), delivered_s.end(),
+                                       [&](double time_s) { return time_s <= budget_s; });
+  estimate.delivered_p50_s = core::quantile(delivered_s, 0.50);
+  estimate.delivered_p99_s = core::quantile(delivered_s, 0.99);
+  estimate.delivered_max_s = largest(delivered_s);
+  estimate.harmonic_mean_hz = num_frames / elapsed_s;
+  estimate.satisfied_fraction = static_cast<double>(satisfied) / num_frames;
+  estimate.precise_over_delivered = sum(precise_s) / elapsed_s;
+}
+
 }  // namespace pbmpi::app

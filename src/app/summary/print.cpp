@@ -1,20 +1,10 @@
-#include <cstdio>
-
 #include <nlohmann/json.hpp>
 
+#include "app/common/format.h"
 #include "app/summary/run_summary.h"
 
 namespace pbmpi::app {
 namespace {
-
-/// printf into a string.
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-  const int length = std::snprintf(nullptr, 0, pattern, args...);
-  std::string text(static_cast<std::size_t>(length), '\0');
-  std::snprintf(text.data(), text.size() + 1, pattern, args...);
-  return text;
-}
 
 template <class Items, class ToText>
 std::string join(const Items& items, ToText to_text) {
@@ -65,6 +55,52 @@ std::string speed_lines(const RunSummary& s) {
   return text;
 }
 
+template <class Names>
+std::string bands_text(const analysis::ErrorSummary& errors, const Names& names) {
+  std::string text;
+  for (std::size_t band = 0; band < names.size(); ++band) {
+    text += format("%s%lld %s", band == 0 ? "" : ", ", static_cast<long long>(errors.bands[band]),
+                   std::string(names[band]).c_str());
+  }
+  return text;
+}
+
+std::string estimate_lines(const EstimateSummary& e, double budget_s) {
+  std::string text;
+  text +=
+      format("estimate: %s, %d iterations, %s precision; delivered p50 %.3f ms, p99 %.3f ms, max %.3f ms\n",
+             e.stepper.c_str(), e.iterations, e.precision.c_str(), 1e3 * e.delivered_p50_s,
+             1e3 * e.delivered_p99_s, 1e3 * e.delivered_max_s);
+  text += format(
+      "estimate_rate: %.1f Hz harmonic mean, %.0f %% of the estimates within %.2f ms, precise %.2f times "
+      "later\n",
+      e.harmonic_mean_hz, 100 * e.satisfied_fraction, 1e3 * budget_s, e.precise_over_delivered);
+  text += format("estimate_defect: position rms %.3g mm, p99 %.3g mm, max %.3g mm (%s)\n",
+                 1e3 * e.position_defect.rms, 1e3 * e.position_defect.p99, 1e3 * e.position_defect.max,
+                 bands_text(e.position_defect, analysis::position_band_names).c_str());
+  text += format("estimate_defect: orientation rms %.3g rad, p99 %.3g rad, max %.3g rad (%s)\n",
+                 e.orientation_defect.rms, e.orientation_defect.p99, e.orientation_defect.max,
+                 bands_text(e.orientation_defect, analysis::orientation_band_names).c_str());
+  return text;
+}
+
+nlohmann::ordered_json errors_json(const analysis::ErrorSummary& e) {
+  return {{"count", e.count}, {"rms", e.rms}, {"p99", e.p99}, {"max", e.max}, {"bands", e.bands}};
+}
+
+nlohmann::ordered_json estimate_json(const EstimateSummary& e) {
+  return {
+      {"stepper", e.stepper},
+      {"iterations", e.iterations},
+      {"precision", e.precision},
+      {"delivered_s", {{"p50", e.delivered_p50_s}, {"p99", e.delivered_p99_s}, {"max", e.delivered_max_s}}},
+      {"harmonic_mean_hz", e.harmonic_mean_hz},
+      {"satisfied_fraction", e.satisfied_fraction},
+      {"precise_over_delivered", e.precise_over_delivered},
+      {"position_defect_m", errors_json(e.position_defect)},
+      {"orientation_defect_rad", errors_json(e.orientation_defect)}};
+}
+
 std::string state_lines(const RunSummary& s) {
   std::string text;
   text += format("islands: max %.0f, min %.0f, mean %.2f, stddev %.2f\n", s.islands.max, s.islands.min,
@@ -102,7 +138,8 @@ nlohmann::ordered_json effects_json(const RunSummary& s) {
 }  // namespace
 
 std::string to_text(const RunSummary& summary) {
-  return run_lines(summary) + speed_lines(summary) + state_lines(summary);
+  const std::string estimate = summary.estimate ? estimate_lines(*summary.estimate, summary.budget_s) : "";
+  return run_lines(summary) + speed_lines(summary) + estimate + state_lines(summary);
 }
 
 std::string to_json(const RunSummary& s) {
@@ -147,6 +184,7 @@ std::string to_json(const RunSummary& s) {
                         {"energy_j", s.energy_j}};
   json["effects"] = effects_json(s);
   json["rebalances"] = {{"count", s.rebalances}, {"worlds_moved", s.worlds_moved}};
+  if (s.estimate) json["estimate"] = estimate_json(*s.estimate);
   json["output"] = s.output;
   json["state_hash"] = s.state_hash;
   return json.dump(2) + "\n";

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/error_bands.h"
 #include "core/clock.h"
 #include "core/statistics.h"
 
@@ -22,6 +24,18 @@ struct PhaseSummary {
 struct EffectSummary {
   std::string name;
   std::string reason;
+};
+
+/// FEEC, over the measured frames. Defects are of all bodies: estimate against precise pose of the same
+/// frame.
+struct EstimateSummary {
+  std::string stepper, precision = "double";
+  int iterations = 1;
+  double delivered_p50_s = 0, delivered_p99_s = 0, delivered_max_s = 0;  ///< start of the frame to delivery
+  double harmonic_mean_hz = 0, satisfied_fraction = 0;                   ///< of the deliveries
+  double precise_over_delivered = 0;       ///< sum of the frames' precise times over that of their deliveries
+  analysis::ErrorSummary position_defect;  ///< [m]
+  analysis::ErrorSummary orientation_defect;  ///< [rad]
 };
 
 /// Counts and invariants over the measured frames; counts are sums over all worlds at the end of a frame.
@@ -46,6 +60,7 @@ struct RunSummary {
   double max_joint_gap_m = 0, max_penetration_m = 0, energy_j = 0;  ///< energy: at the end
   std::vector<EffectSummary> effects;
   std::int64_t rebalances = 0, worlds_moved = 0;
+  std::optional<EstimateSummary> estimate;  ///< with FEEC
 };
 
 /// The measured part of a run, frame by frame: what the numbers above are computed from.
@@ -62,6 +77,10 @@ struct MeasuredFrames {
 /// time over ranks, communication efficiency = max useful / elapsed time, parallel efficiency = their
 /// product.
 void compute_performance(const MeasuredFrames& frames, RunSummary& summary);
+
+/// Fills the times of `estimate` from those of the measured frames [T].
+void compute_delivery(const std::vector<double>& delivered_s, const std::vector<double>& precise_s,
+                      double budget_s, EstimateSummary& estimate);
 
 /// One line each, grep-able ("state_hash: ...").
 std::string to_text(const RunSummary& summary);

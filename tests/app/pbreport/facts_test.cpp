@@ -37,5 +37,17 @@ TEST(Facts, times_are_in_milliseconds) {
   EXPECT_EQ(fact(summary, "Within budget").note, "of frames in 3.33 ms");
 }
 
+TEST(Facts, estimates_are_shown_where_there_are_any) {
+  RunSummary summary;
+  summary.measured_frames = 5;
+  EXPECT_EQ(fact(summary, "Estimate").value, "");
+  summary.estimate.emplace();
+  summary.estimate->delivered_p50_s = 0.00125;
+  summary.estimate->precise_over_delivered = 3.25;
+  summary.estimate->position_defect.rms = 0.04;
+  EXPECT_EQ(fact(summary, "Estimate").value, "1.25 ms");
+  EXPECT_EQ(fact(summary, "Estimate").note, "delivered; precise 3.2 × later, rms off 40.0 mm");
+}
+
 }  // namespace
 }  // namespace pbmpi::app

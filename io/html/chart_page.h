@@ -1,0 +1,43 @@
+/// A self-contained HTML page of charts and tables. It loads nothing from anywhere.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pbmpi::io::html {
+
+/// One chart: a configuration of Chart.js 3 as JSON text (type, data, options). Two additions: in
+/// "options.pbmpi", {"bands": [{"from", "to", "label", "align", "colour"}]} draws horizontal bands behind the
+/// data, at values of the y axis.
+struct Chart {
+  std::string title;
+  std::string text;    ///< one line below the title
+  std::string config;  ///< JSON
+};
+
+struct TextTable {
+  std::string title;
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// A heading with what belongs to it.
+struct PageSection {
+  std::string title;
+  std::string text;  ///< paragraphs, separated by an empty line
+  std::vector<Chart> charts;
+  std::vector<TextTable> tables;
+};
+
+struct ChartPage {
+  std::string title;
+  std::string subtitle;
+  std::vector<PageSection> sections;
+};
+
+std::string make_chart_page(const ChartPage& page);
+
+/// By way of a temporary file beside it. Throws core::InputError if it cannot be written.
+void write_chart_page(const std::string& path, const ChartPage& page);
+
+}  // namespace pbmpi::io::html

@@ -1,0 +1,68 @@
+/// Files that are tables: attributes, parameters, and groups of equal-length columns. Written and read whole,
+/// by one rank (io/SCHEMA.md, "The file of a study").
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/run_file.h"
+
+namespace pbmpi::io {
+
+/// One column; a row has `width` numbers, one after the other.
+struct TableColumn {
+  std::string name;
+  std::string unit;
+  std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>> values;
+  std::size_t width = 1;
+
+  std::size_t num_rows() const;
+};
+
+struct TableFile {
+  std::map<std::string, std::string> attributes;           ///< of the root, as text
+  std::vector<Parameter> parameters;                       ///< of /parameters
+  std::map<std::string, std::vector<TableColumn>> tables;  ///< by group name
+
+  /// A column of a table. Throws core::InputError if there is none, or of another type.
+  template <class Value>
+  const std::vector<Value>& column(const std::string& table, const std::string& name) const {
+    const auto* values = std::get_if<std::vector<Value>>(&find(table, name).values);
+    if (values == nullptr) throw_type(table, name);
+    return *values;
+  }
+
+ private:
+  const TableColumn& find(const std::string& table, const std::string& name) const;
+  [[noreturn]] static void throw_type(const std::string& table, const std::string& name);
+};
+
+/// Makes sure that `path` can be written before the work begins; the file appears under its name only when it
+/// is complete.
+class TableWriter {
+ public:
+  /// Throws core::InputError if the file cannot be created.
+  explicit TableWriter(const std::string& path);
+  ~TableWriter();
+  TableWriter(const TableWriter&) = delete;
+  TableWriter& operator=(const TableWriter&) = delete;
+
+  /// Throws core::RunError if it cannot be written.
+  void write(const std::string& filetype, const TableFile& file);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Throws core::InputError: missing, not HDF5, of another file type or a newer layout, damaged.
+TableFile read_table_file(const std::string& path, const std::string& filetype);
+
+/// The attribute filetype of an HDF5 file; empty if `path` is none or has none.
+std::string filetype_of(const std::string& path);
+
+}  // namespace pbmpi::io

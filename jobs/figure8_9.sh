@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Figures 8 and 9 of the paper: `jobs/figure8_9.sh [OUTDIR [scene ...]]`, default ./figure8_9 and all nine scenes.
+# Records each scene on RANKS ranks (2) with 20, 19 and 1 iterations and with FEEC (the paper's estimate of one
+# iteration, and one by sor in single precision), REPEATS times each (5; the time of a frame is the least of them), and with SEEDS other solver
+# seeds (8; the noise floor). Writes OUTDIR/figure8_9.html and .txt. Minutes on 2 cores.
+set -euo pipefail
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+. "$source_dir/jobs/mpi_environment.sh"
+PATH=$source_dir/build/release/bin:$PATH
+out=${1:-figure8_9}
+shift || true
+scenes=("$@")
+if [[ ${#scenes[@]} -eq 0 ]]; then
+  mapfile -t scenes < <(pbmpi --list-scenes | awk '{ print $1 }')
+fi
+mkdir -p "$out"
+
+files=()
+# record NAME option...: one run, into $out/NAME.h5
+record() {
+  local file=$out/$1.h5
+  shift
+  mpirun -n "${RANKS:-2}" pbmpi --quiet --progress never --output "$file" "$@"
+  files+=("$file")
+}
+
+for scene in "${scenes[@]}"; do
+  echo "$scene" >&2
+  name=$(basename "$scene" .toml)
+  for ((repeat = 1; repeat <= ${REPEATS:-5}; ++repeat)); do
+    record "$name.iter20.$repeat" --scene "$scene"
+    record "$name.iter19.$repeat" --scene "$scene" --iterations 19
+    record "$name.iter1.$repeat" --scene "$scene" --iterations 1
+    record "$name.feec.$repeat" --scene "$scene" --feec
+    record "$name.feec_sor.$repeat" --scene "$scene" --feec --estimate-stepper sor --estimate-precision single \
+      --estimate-iterations 5
+  done
+  for ((seed = 2; seed <= ${SEEDS:-8} + 1; ++seed)); do
+    record "$name.seed$seed" --scene "$scene" --solver-seed "$seed"
+  done
+done
+pbreport figures "${files[@]}" --html "$out/figure8_9.html" | tee "$out/figure8_9.txt"

@@ -1,0 +1,42 @@
+/// The paper's five error categories (section 5.3), and what a set of errors amounts to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace pbmpi::analysis {
+
+inline constexpr int num_bands = 5;
+using BandCounts = std::array<std::int64_t, num_bands>;
+
+/// Edges of the position categories [m]: < 1 cm, 1 to 10 cm, 10 to 100 cm, > 100 cm; then inf or NaN.
+inline constexpr std::array<double, 3> position_edges_m = {0.01, 0.1, 1.0};
+inline constexpr std::array<std::string_view, num_bands> position_band_names = {
+    "< 1 cm", "1-10 cm", "10-100 cm", "> 100 cm", "inf/NaN"};
+/// Edges of the orientation categories as shares of 2 pi: < 5 %, 5 to 25 %, 25 to 50 %, > 50 %; then inf or
+/// NaN. The shortest rotation between two orientations is at most 50 %, so that the fourth stays empty; it is
+/// kept for the comparison with the paper.
+inline constexpr std::array<double, 3> orientation_edges = {0.05, 0.25, 0.5};
+inline constexpr std::array<std::string_view, num_bands> orientation_band_names = {
+    "< 5 %", "5-25 %", "25-50 %", "> 50 %", "inf/NaN"};
+
+/// Index of the category of an error [m]; an error on an edge is in the worse one.
+int position_band(double error_m);
+/// The same for an angle [rad]; half a turn is in the category 25-50 %.
+int orientation_band(double angle_rad);
+
+/// A set of errors, every one of which is in one category. rms, p99 and max are over the finite ones, 0 if
+/// there is none.
+struct ErrorSummary {
+  std::int64_t count = 0;
+  double rms = 0, p99 = 0, max = 0;  ///< [m] or [rad]
+  BandCounts bands{};
+};
+
+ErrorSummary summarize_positions(std::span<const double> errors_m);
+ErrorSummary summarize_orientations(std::span<const double> angles_rad);
+
+}  // namespace pbmpi::analysis

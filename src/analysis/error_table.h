@@ -1,0 +1,33 @@
+/// The errors of a world, or of many, in four summaries.
+#pragma once
+
+#include <array>
+
+#include "analysis/error_bands.h"
+#include "analysis/pose_errors.h"
+
+namespace pbmpi::analysis {
+
+/// Errors of all bodies and all joints, summed up.
+struct ErrorTable {
+  ErrorSummary body_position;      ///< [m]
+  ErrorSummary body_orientation;   ///< [rad]
+  ErrorSummary joint_position;     ///< [m] of the anchor gap
+  ErrorSummary joint_orientation;  ///< [rad] of the axis angle
+};
+ErrorTable summarize(const PoseErrors& errors);
+
+/// The four summaries of a table with the names that they have in reports and files.
+struct NamedSummary {
+  const char* name;
+  const char* unit;
+  ErrorSummary ErrorTable::*summary;
+};
+inline constexpr std::array<NamedSummary, 4> error_columns = {{
+    {"body_position", "m", &ErrorTable::body_position},
+    {"body_orientation", "rad", &ErrorTable::body_orientation},
+    {"joint_position", "m", &ErrorTable::joint_position},
+    {"joint_orientation", "rad", &ErrorTable::joint_orientation},
+}};
+
+}  // namespace pbmpi::analysis

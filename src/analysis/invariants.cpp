@@ -1,0 +1,100 @@
+#include "analysis/invariants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pbmpi::analysis {
+
+using core::Pose;
+using core::Vec3;
+using model::Joint;
+using model::Model;
+
+namespace {
+
+/// Anchor of `joint` in the frame of `body`, one of its two.
+const Vec3& anchor_in(const Joint& joint, int body) {
+  return joint.body_a == body ? joint.anchor_a : joint.anchor_b;
+}
+
+/// Anchor of `joint` where the other body than `body` has it [m, world frame].
+Vec3 anchor_of_neighbour(const Joint& joint, int body, PoseView poses) {
+  const int other = joint.body_a == body ? joint.body_b : joint.body_a;
+  const auto i = static_cast<std::size_t>(other);
+  return Pose{poses.position[i], poses.orientation[i]}.point_to_outer(anchor_in(joint, other));
+}
+
+/// Slider and fixed joints have no anchors.
+bool joins_segments(const Joint& joint, int body) {
+  const bool anchored = joint.kind != model::JointKind::slider && joint.kind != model::JointKind::fixed;
+  return anchored && joint.body_b != model::no_body && (joint.body_a == body || joint.body_b == body);
+}
+
+}  // namespace
+
+Vec3 linear_momentum(const Model& model, const model::State& state) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) sum += model.bodies[i].mass_kg * state.velocity[i];
+  return sum;
+}
+
+Vec3 angular_momentum(const Model& model, const model::State& state) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const auto q = state.orientation[i].to_eigen();
+    const Vec3 spin = q * (model.bodies[i].inertia * (q.conjugate() * state.angular_velocity[i]));
+    sum += spin + model.bodies[i].mass_kg * state.position[i].cross(state.velocity[i]);
+  }
+  return sum;
+}
+
+std::vector<Segment> human_segments(const Model& model) {
+  constexpr double least_length_m = 0.01;  // two joints at one point have no segment between them
+  std::vector<Segment> segments;
+  for (int body = 0; body < model.num_bodies(); ++body) {
+    const auto actor = static_cast<std::size_t>(model.bodies[static_cast<std::size_t>(body)].actor);
+    if (model.actors[actor].kind != model::ActorKind::human) continue;
+    std::vector<int> joints;
+    for (std::size_t j = 0; j < model.joints.size(); ++j) {
+      if (joins_segments(model.joints[j], body)) joints.push_back(static_cast<int>(j));
+    }
+    for (std::size_t a = 0; a < joints.size(); ++a) {
+      for (std::size_t b = a + 1; b < joints.size(); ++b) {
+        const Joint& first = model.joints[static_cast<std::size_t>(joints[a])];
+        const Joint& second = model.joints[static_cast<std::size_t>(joints[b])];
+        const double length = (anchor_in(first, body) - anchor_in(second, body)).norm();
+        if (length >= least_length_m) segments.push_back({body, joints[a], joints[b], length});
+      }
+    }
+  }
+  return segments;
+}
+
+std::vector<double> segment_stretch(const Model& model, const std::vector<Segment>& segments,
+                                    PoseView poses) {
+  std::vector<double> stretch;
+  stretch.reserve(segments.size());
+  for (const Segment& segment : segments) {
+    const Joint& a = model.joints[static_cast<std::size_t>(segment.joint_a)];
+    const Joint& b = model.joints[static_cast<std::size_t>(segment.joint_b)];
+    const Vec3 across =
+        anchor_of_neighbour(a, segment.body, poses) - anchor_of_neighbour(b, segment.body, poses);
+    stretch.push_back(across.allFinite() ? std::abs(across.norm() / segment.length_m - 1)
+                                         : std::numeric_limits<double>::quiet_NaN());
+  }
+  return stretch;
+}
+
+StretchBands count_stretch(const std::vector<double>& stretch) {
+  StretchBands bands{};
+  for (const double s : stretch) {
+    const auto band = std::isfinite(s) ? std::upper_bound(stretch_edges.begin(), stretch_edges.end(), s) -
+                                             stretch_edges.begin()
+                                       : std::ptrdiff_t{3};
+    ++bands[static_cast<std::size_t>(band)];
+  }
+  return bands;
+}
+
+}  // namespace pbmpi::analysis

@@ -1,0 +1,40 @@
+/// What a world must keep, whatever it is compared with: its momentum, and the length of human segments.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "analysis/pose_errors.h"
+#include "model/state.h"
+
+namespace pbmpi::analysis {
+
+/// Sum of mass times velocity [kg m/s]; bodies in order. (Energy: model::mechanical_energy.)
+model::Vec3 linear_momentum(const model::Model& model, const model::State& state);
+
+/// Angular momentum about the origin of the world frame [kg m^2/s].
+model::Vec3 angular_momentum(const model::Model& model, const model::State& state);
+
+/// A part of a human between two joints: a body of an actor of kind human, and two joints that it has with
+/// other bodies.
+struct Segment {
+  int body = 0;
+  int joint_a = 0, joint_b = 0;  ///< indices into Model::joints
+  double length_m = 0;           ///< distance of the two anchors in the body, at least 1 cm
+};
+
+std::vector<Segment> human_segments(const model::Model& model);
+
+/// |d / length - 1| of each segment: d is the distance of the two anchors where the neighbouring segments
+/// have them, so that joints pulled apart show as stretch. NaN if d is not finite.
+std::vector<double> segment_stretch(const model::Model& model, const std::vector<Segment>& segments,
+                                    PoseView poses);
+
+/// Stretch below 3 %, 3 to 20 %, beyond 20 %, not finite. Harrison, Rensink and van de Panne (SIGGRAPH 2004):
+/// 3 % can be seen with full attention; more than 20 % can go unnoticed without.
+inline constexpr std::array<double, 2> stretch_edges = {0.03, 0.20};
+using StretchBands = std::array<std::int64_t, 4>;
+StretchBands count_stretch(const std::vector<double>& stretch);
+
+}  // namespace pbmpi::analysis

@@ -1,0 +1,136 @@
+#include "analysis/pose_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pbmpi::analysis {
+
+using core::Pose;
+using core::Quat;
+using core::Vec3;
+using model::Joint;
+using model::JointKind;
+using model::Model;
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Pose pose_of(PoseView poses, int body) {
+  if (body == model::no_body) return {};
+  const auto i = static_cast<std::size_t>(body);
+  return {poses.position[i], poses.orientation[i]};
+}
+
+Pose start_of(const Model& model, int body) {
+  return body == model::no_body ? Pose{} : model.bodies[static_cast<std::size_t>(body)].pose;
+}
+
+/// Angle between two directions [rad]; exact for small angles, where acos loses half the digits.
+double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+/// `direction`, given in the frame of a, in the frame of b as the two stood at the start.
+Vec3 at_start_in_b(const Model& model, const Joint& joint, const Vec3& direction) {
+  const Pose a = start_of(model, joint.body_a), b = start_of(model, joint.body_b);
+  return b.orientation.to_eigen().conjugate() * a.direction_to_outer(direction);
+}
+
+bool slides(const Joint& joint) {
+  return joint.kind == JointKind::slider ||
+         (joint.kind == JointKind::hinge2 && joint.suspension.stiffness > 0);
+}
+
+/// What must be zero in every finite result, so that a NaN is never hidden by a comparison that it does not
+/// enter.
+double poison(const Pose& pose) {
+  const Quat& q = pose.orientation;
+  return 0 * (pose.position.sum() + q.w + q.x + q.y + q.z);
+}
+
+double distance(const Vec3& a, const Vec3& b) {
+  const Vec3 difference = a - b;
+  return difference.allFinite() ? difference.norm() : nan;
+}
+
+}  // namespace
+
+double rotation_angle(const Quat& a, const Quat& b) {
+  const Eigen::Quaterniond turn = a.to_eigen().conjugate() * b.to_eigen();
+  const double angle = 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+  return std::isfinite(turn.coeffs().sum()) ? angle : nan;
+}
+
+Vec3 joint_gap_vector(const Model& model, const Joint& joint, PoseView poses) {
+  const Pose a = pose_of(poses, joint.body_a), b = pose_of(poses, joint.body_b);
+  const Eigen::Quaterniond to_a = a.orientation.to_eigen().conjugate();
+  Vec3 gap;
+  if (joint.kind == JointKind::slider || joint.kind == JointKind::fixed) {
+    const Pose start_a = start_of(model, joint.body_a), start_b = start_of(model, joint.body_b);
+    const Vec3 offset = start_a.orientation.to_eigen().conjugate() * (start_b.position - start_a.position);
+    gap = joint.body_b == model::no_body ? Vec3(to_a * (a.position - start_a.position))
+                                         : Vec3(offset - to_a * (b.position - a.position));
+  } else {
+    gap = joint.anchor_a - to_a * (b.point_to_outer(joint.anchor_b) - a.position);
+  }
+  if (slides(joint)) gap -= joint.axis1_a * joint.axis1_a.dot(gap);
+  return gap;
+}
+
+double joint_axis_angle(const Model& model, const Joint& joint, PoseView poses) {
+  const Pose a = pose_of(poses, joint.body_a), b = pose_of(poses, joint.body_b);
+  const Vec3 axis1 = a.direction_to_outer(joint.axis1_a);
+  const double spoilt = poison(a) + poison(b);
+  switch (joint.kind) {
+    case JointKind::ball:
+      return spoilt;
+    case JointKind::hinge:
+      return spoilt + angle_between(axis1, b.direction_to_outer(at_start_in_b(model, joint, joint.axis1_a)));
+    case JointKind::universal:
+    case JointKind::hinge2: {
+      const double now = angle_between(axis1, b.direction_to_outer(joint.axis2_b));
+      const double start = angle_between(at_start_in_b(model, joint, joint.axis1_a), joint.axis2_b);
+      return spoilt + std::abs(now - start);
+    }
+    case JointKind::slider:
+    case JointKind::fixed: {
+      const auto start = start_of(model, joint.body_a).orientation.to_eigen().conjugate() *
+                         start_of(model, joint.body_b).orientation.to_eigen();
+      const auto now = a.orientation.to_eigen().conjugate() * b.orientation.to_eigen();
+      return rotation_angle(Quat::from_eigen(start), Quat::from_eigen(now));
+    }
+  }
+  return nan;
+}
+
+void PoseErrors::append(const PoseErrors& more) {
+  const auto add = [](std::vector<double>& to, const std::vector<double>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  add(body_position_m, more.body_position_m);
+  add(body_orientation_rad, more.body_orientation_rad);
+  add(joint_position_m, more.joint_position_m);
+  add(joint_orientation_rad, more.joint_orientation_rad);
+}
+
+PoseErrors compare_bodies(PoseView poses, PoseView reference) {
+  PoseErrors errors;
+  for (std::size_t i = 0; i < reference.position.size(); ++i) {
+    errors.body_position_m.push_back(distance(poses.position[i], reference.position[i]));
+    errors.body_orientation_rad.push_back(rotation_angle(poses.orientation[i], reference.orientation[i]));
+  }
+  return errors;
+}
+
+PoseErrors compare(const Model& model, PoseView poses, PoseView reference) {
+  PoseErrors errors = compare_bodies(poses, reference);
+  for (const Joint& joint : model.joints) {
+    errors.joint_position_m.push_back(
+        distance(joint_gap_vector(model, joint, poses), joint_gap_vector(model, joint, reference)));
+    errors.joint_orientation_rad.push_back(
+        std::abs(joint_axis_angle(model, joint, poses) - joint_axis_angle(model, joint, reference)));
+  }
+  return errors;
+}
+
+}  // namespace pbmpi::analysis

@@ -1,0 +1,47 @@
+/// How far two results for the same bodies are apart: body by body and joint by joint.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/model.h"
+
+namespace pbmpi::analysis {
+
+/// Poses of the bodies of one world [num_bodies]; borrowed.
+struct PoseView {
+  std::span<const model::Vec3> position;     ///< m, world frame
+  std::span<const model::Quat> orientation;  ///< (w, x, y, z), of any length but zero
+};
+
+/// Angle [rad, 0 to pi] of the shortest rotation between two orientations; q and -q are the same one. NaN if
+/// a number is.
+double rotation_angle(const model::Quat& a, const model::Quat& b);
+
+/// The gap of a joint [m]: from the anchor of b to the anchor of a, in the frame of a. Directions in which
+/// the joint is free to move (a slider's, a suspension's) are left out. Slider and fixed joints hold the
+/// offset that the bodies had at the start.
+model::Vec3 joint_gap_vector(const model::Model& model, const model::Joint& joint, PoseView poses);
+
+/// The angle [rad] by which a joint is bent where it must not bend. ball: 0 (nothing is held). hinge: between
+/// the two bodies' hinge axes. universal, hinge2: change of the angle between axis 1 and axis 2. slider,
+/// fixed: rotation against the start.
+double joint_axis_angle(const model::Model& model, const model::Joint& joint, PoseView poses);
+
+/// Errors of every body and of every joint of a world, whatever the method: always as many entries. An entry
+/// that cannot be computed is NaN.
+struct PoseErrors {
+  std::vector<double> body_position_m;        ///< [num_bodies] distance
+  std::vector<double> body_orientation_rad;   ///< [num_bodies] angle
+  std::vector<double> joint_position_m;       ///< [num_joints] distance of the two gap vectors
+  std::vector<double> joint_orientation_rad;  ///< [num_joints] difference of the two axis angles
+
+  void append(const PoseErrors& more);
+};
+
+/// Bodies alone: no entries for joints.
+PoseErrors compare_bodies(PoseView poses, PoseView reference);
+
+PoseErrors compare(const model::Model& model, PoseView poses, PoseView reference);
+
+}  // namespace pbmpi::analysis

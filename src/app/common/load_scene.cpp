@@ -1,0 +1,24 @@
+#include "app/common/load_scene.h"
+
+#include "mpi/agreement.h"
+
+namespace pbmpi::app {
+
+scenes::SceneSource share_scene(const mpi::Communicator& comm, const std::string& name_or_path) {
+  scenes::SceneSource source;
+  mpi::agree_on_errors(comm, [&] {
+    if (comm.is_root()) source = scenes::find_scene(name_or_path);
+  });
+  comm.bcast_string(source.name);
+  comm.bcast_string(source.file);
+  comm.bcast_string(source.text);
+  return source;
+}
+
+std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const std::string& name_or_path,
+                                          std::optional<double> dt_s,
+                                          std::optional<scenes::SpacesForm> spaces) {
+  return scenes::parse_scene(share_scene(comm, name_or_path), dt_s, spaces);
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,22 @@
+/// How the ranks come by one scene.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "mpi/communicator.h"
+#include "scenes/scene.h"
+
+namespace pbmpi::app {
+
+/// Collective. Root reads the text and every rank has the same copy, so that a file that only some ranks can
+/// read is no special case. Throws core::InputError on every rank.
+scenes::SceneSource share_scene(const mpi::Communicator& comm, const std::string& name_or_path);
+
+/// Collective. The same, parsed.
+std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const std::string& name_or_path,
+                                          std::optional<double> dt_s,
+                                          std::optional<scenes::SpacesForm> spaces = std::nullopt);
+
+}  // namespace pbmpi::app

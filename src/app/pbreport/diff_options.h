@@ -1,0 +1,21 @@
+/// The command line of "pbreport diff".
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pbmpi::app {
+
+struct DiffOptions {
+  bool help = false;
+  std::string run, reference;
+  std::vector<std::string> floor;  ///< the reference with other solver seeds
+  bool json = false;
+};
+
+/// Throws core::InputError with one clear message.
+DiffOptions parse_diff_options(const std::vector<std::string>& args);
+
+std::string diff_help_text();
+
+}  // namespace pbmpi::app

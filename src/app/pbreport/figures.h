@@ -1,0 +1,15 @@
+/// "pbreport figures FILE...": figures 8 and 9 of the paper from recorded runs.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace pbmpi::app {
+
+/// Throws core::InputError: bad usage, files that are not runs, a scene without its reference.
+core::ExitCode run_figures(const std::vector<std::string>& args, std::ostream& out);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,39 @@
+/// What figures 8 and 9 show, from recorded runs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/error_table.h"
+
+namespace pbmpi::app {
+
+/// A way to compute a scene's frames: "Iter20", "Iter19", "FEEC quick x 1".
+struct FigureMethod {
+  std::string label;
+  bool is_estimate = false;
+  int num_runs = 0;               ///< recorded; a frame's time is its least over them
+  double frame_rate_hz = 0;       ///< harmonic mean of the measured frames; of an estimate: of its deliveries
+  double satisfied_fraction = 0;  ///< frames, or deliveries, within the budget
+  double mean_frame_s = 0;        ///< time of the precise result, or of the delivery
+  analysis::ErrorTable errors;    ///< against Iter20: drift; of an estimate: of what was delivered
+  bool same_hash = false;         ///< is the run's precise state that of Iter20, bit for bit?
+};
+
+struct FigureScene {
+  std::string name;
+  std::vector<FigureMethod> methods;        ///< Iter20 first
+  std::vector<analysis::ErrorTable> floor;  ///< Iter20 with other solver seeds against Iter20
+
+  const FigureMethod* find(const std::string& label) const;
+  /// Mean time of an Iter20 frame over that of an estimate's delivery.
+  double ratio(const FigureMethod& estimate) const {
+    return methods.front().mean_frame_s / estimate.mean_frame_s;
+  }
+};
+
+/// Sorts the runs by scene and by what their files say of stepper, iterations, seed and estimate. Throws
+/// core::InputError for a file that is no run, or a scene without a run of `quick` with 20 iterations.
+std::vector<FigureScene> figure_scenes(const std::vector<std::string>& paths);
+
+}  // namespace pbmpi::app

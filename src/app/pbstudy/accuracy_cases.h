@@ -1,0 +1,55 @@
+/// The cases of "pbstudy accuracy": pure data, the same on every rank.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "app/pbstudy/accuracy_options.h"
+#include "scenes/scene.h"
+
+namespace pbmpi::app {
+
+/// Why a case is there.
+enum class CaseKind {
+  setting,            ///< one of the matrix
+  floor,              ///< the reference with another solver seed: what noise alone does
+  halved_iterations,  ///< the reference with half its iterations: is it converged?
+  halved_substeps,    ///< the same for its substeps, if it has several
+  halved_dt,  ///< the reference with half the step: what the step's length does, which no solver mends
+};
+inline constexpr std::array<std::string_view, 5> case_kind_names = {"setting", "floor", "halved_iterations",
+                                                                    "halved_substeps", "halved_dt"};
+
+/// What of a scene does not depend on the setting.
+struct StudyScene {
+  scenes::SceneSource source;
+  int num_worlds = 1;
+  int warmup = 3, frames = 5;  ///< frames
+  double frame_s = 0.03;       ///< length of a frame, simulated
+  double dt_s = 0.01;          ///< the scene's step: that of the reference
+
+  int total_frames() const { return warmup + frames; }
+};
+
+struct AccuracyCase {
+  int scene = 0;  ///< index into the study's scenes
+  CaseKind kind = CaseKind::setting;
+  model::StepperSettings stepper;
+  int steps_per_frame = 3;
+
+  int sweeps() const { return stepper.iterations * stepper.substeps; }  ///< in a step
+};
+
+StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions& options);
+
+/// The setting of the reference: sor, double.
+model::StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options);
+
+/// All cases of all scenes, scene by scene. Throws core::InputError for a dt that does not fill a frame.
+std::vector<AccuracyCase> make_cases(const std::vector<StudyScene>& scenes, const AccuracyOptions& options);
+
+/// Which rank works on which case [num_cases]: by expected cost, the dearest first.
+std::vector<int> deal_out(const std::vector<AccuracyCase>& cases, const std::vector<StudyScene>& scenes,
+                          int num_ranks);
+
+}  // namespace pbmpi::app

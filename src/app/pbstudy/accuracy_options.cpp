@@ -1,0 +1,164 @@
+#include "app/pbstudy/accuracy_options.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "core/error.h"
+#include "model/names.h"
+#include "scenes/scene.h"
+
+namespace pbmpi::app {
+namespace {
+
+namespace po = boost::program_options;
+using core::require_input;
+
+template <class T>
+auto list_of() {
+  return po::value<std::vector<T>>()->multitoken()->value_name("LIST");
+}
+
+po::options_description options_description() {
+  po::options_description what("What to vary (lists, separated by blanks; all are crossed)");
+  what.add_options()  //
+      ("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE.toml..."),
+       "scenes; default: all nine")                                                                       //
+      ("stepper", list_of<std::string>(), "quick, direct, sor; default: quick sor")                       //
+      ("iterations", list_of<int>(), "default: 1 2 3 5 10 15 19 20 40 80")                                //
+      ("substeps", list_of<int>(), "sor; default: 1 2 4 8 16")                                            //
+      ("precision", list_of<std::string>(), "sor: double, single; default: both")                         //
+      ("sor-factor", list_of<double>(), "sor: over-relaxation; default: 1.3")                             //
+      ("dt", list_of<double>(), "step [s], a whole number of which fills a frame; default: the scene's")  //
+      ("max-sweeps", po::value<int>()->default_value(320)->value_name("N"),
+       "leave out cases with more iterations x substeps");
+  po::options_description how("How to measure");
+  how.add_options()                                                                              //
+      ("replicas", po::value<int>()->value_name("N"), "worlds of a case; default: the scene's")  //
+      ("frames", po::value<int>()->value_name("N"), "measured frames; default: the scene's")     //
+      ("warmup", po::value<int>()->value_name("N"), "frames before them; default: the scene's")  //
+      ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"),
+       "of the scene's variation and of the reference's row order")  //
+      ("repeats", po::value<int>()->default_value(5)->value_name("N"),
+       "how often each frame is timed, the process being alone on its core")  //
+      ("floor-seeds", po::value<int>()->default_value(8)->value_name("N"),
+       "noise floor: the reference with this many other solver seeds")  //
+      ("reference-iterations", po::value<int>()->default_value(640)->value_name("N"),
+       "the reference is sor in double precision with these iterations, so that it solves the scene's own "
+       "step; "
+       "checked by halving")  //
+      ("reference-substeps", po::value<int>()->default_value(1)->value_name("N"),
+       "... in each of these substeps; checked by halving. More than 1 only for scenes without fast impacts");
+  po::options_description write("What to write");
+  write.add_options()("output,o", po::value<std::string>()->default_value("accuracy.h5")->value_name("FILE"),
+                      "HDF5 file of the study (io/SCHEMA.md)");
+  po::options_description all;
+  all.add(what).add(how).add(write).add(common_options_description());
+  return all;
+}
+
+template <class T>
+std::vector<T> list(const po::variables_map& values, const char* name, std::vector<T> fallback) {
+  return values.count(name) != 0 ? values[name].as<std::vector<T>>() : fallback;
+}
+
+template <class Enum, std::size_t N>
+std::vector<Enum> choices(const po::variables_map& values, const std::string& name,
+                          const std::array<std::string_view, N>& names,
+                          const std::vector<std::string>& fallback) {
+  std::vector<Enum> chosen;
+  std::string known;
+  for (const std::string_view text : names) known.append(known.empty() ? "" : ", ").append(text);
+  for (const std::string& word : list<std::string>(values, name.c_str(), fallback)) {
+    const auto value = model::enum_from_name<Enum>(word, names);
+    if (!value) throw core::InputError("--" + name + " " + word + ": it must be one of " + known);
+    chosen.push_back(*value);
+  }
+  return chosen;
+}
+
+void require_at_least(const std::vector<int>& given, int least, const char* option) {
+  for (const int value : given) {
+    require_input(value >= least, std::string(option) + " " + std::to_string(value) +
+                                      ": it must be at least " + std::to_string(least));
+  }
+}
+
+std::optional<int> given(const po::variables_map& values, const char* name, int least) {
+  if (values.count(name) == 0) return std::nullopt;
+  const int value = values[name].as<int>();
+  require_at_least({value}, least, ("--" + std::string(name)).c_str());
+  return value;
+}
+
+std::vector<std::string> all_scenes() {
+  std::vector<std::string> names;
+  for (const scenes::SceneInfo& scene : scenes::list_scenes()) names.push_back(scene.name);
+  return names;
+}
+
+void require_possible(const AccuracyOptions& options) {
+  require_at_least(options.iterations, 1, "--iterations");
+  require_at_least(options.substeps, 1, "--substeps");
+  require_at_least({options.max_sweeps}, 1, "--max-sweeps");
+  require_at_least({options.repeats}, 1, "--repeats");
+  require_at_least({options.floor_seeds}, 1, "--floor-seeds");
+  require_at_least({options.reference_iterations}, 2, "--reference-iterations");
+  require_at_least({options.reference_substeps}, 1, "--reference-substeps");
+  for (const double factor : options.sor_factors) {
+    require_input(factor > 0 && factor < 2, "--sor-factor " + std::to_string(factor) +
+                                                ": the iteration converges above 0 and below 2 only");
+  }
+  for (const double dt_s : options.dts_s) {
+    require_input(std::isfinite(dt_s) && dt_s > 0,
+                  "--dt " + std::to_string(dt_s) + " s: a step must be finite and above 0");
+  }
+}
+
+}  // namespace
+
+std::string accuracy_help_text() {
+  std::ostringstream text;
+  text << "pbstudy accuracy measures what accuracy costs in time. Each case is a world of its own (with its "
+          "scene's "
+          "replicas) and a setting. Its defect is the error after one frame from the reference's own state, "
+          "anew in "
+          "every measured frame; its drift is the error along the trajectory from the start.\n\n"
+       << "Usage: mpirun -n RANKS pbstudy accuracy [--scene NAME...] [options]\n\n"
+       << options_description()
+       << "\nThe cases are dealt out over the ranks; a rank works on one at a time. More ranks than cores "
+          "spoil the "
+          "times.\nThen: pbreport accuracy.h5 --budget 3.33ms --html accuracy.html\n";
+  return text.str();
+}
+
+AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
+  const po::variables_map values = parse_command_line(args, options_description());
+  AccuracyOptions options;
+  options.help = values.count("help") != 0;
+  options.common = common_options(values);
+  options.command_line = "pbstudy accuracy";
+  for (const std::string& arg : args) options.command_line += " " + arg;
+  options.scenes = list<std::string>(values, "scene", all_scenes());
+  options.steppers =
+      choices<model::StepperKind>(values, "stepper", model::stepper_kind_names, {"quick", "sor"});
+  options.iterations = list<int>(values, "iterations", {1, 2, 3, 5, 10, 15, 19, 20, 40, 80});
+  options.substeps = list<int>(values, "substeps", {1, 2, 4, 8, 16});
+  options.precisions =
+      choices<model::Precision>(values, "precision", model::precision_names, {"double", "single"});
+  options.sor_factors = list<double>(values, "sor-factor", {1.3});
+  options.dts_s = list<double>(values, "dt", {});
+  options.replicas = given(values, "replicas", 1);
+  options.frames = given(values, "frames", 1);
+  options.warmup = given(values, "warmup", 0);
+  options.max_sweeps = values["max-sweeps"].as<int>();
+  options.repeats = values["repeats"].as<int>();
+  options.floor_seeds = values["floor-seeds"].as<int>();
+  options.reference_iterations = values["reference-iterations"].as<int>();
+  options.reference_substeps = values["reference-substeps"].as<int>();
+  options.seed = values["seed"].as<std::uint64_t>();
+  options.output = values["output"].as<std::string>();
+  require_possible(options);
+  return options;
+}
+
+}  // namespace pbmpi::app

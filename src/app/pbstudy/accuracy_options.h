@@ -1,0 +1,41 @@
+/// The command line of "pbstudy accuracy".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/common/options.h"
+#include "model/stepper.h"
+
+namespace pbmpi::app {
+
+/// The settings that are crossed, and how each is measured.
+struct AccuracyOptions {
+  bool help = false;
+  std::vector<std::string> scenes;
+  std::vector<model::StepperKind> steppers;
+  std::vector<int> iterations;
+  std::vector<int> substeps;                 ///< sor
+  std::vector<model::Precision> precisions;  ///< sor
+  std::vector<double> sor_factors;           ///< sor
+  std::vector<double> dts_s;                 ///< empty: the scene's
+  std::optional<int> replicas, frames, warmup;
+  int max_sweeps = 320;  ///< iterations x substeps of a case, at most
+  int repeats = 5;       ///< times that each frame is timed
+  int floor_seeds = 8;   ///< other solver seeds of the reference
+  int reference_iterations = 640;
+  int reference_substeps = 1;
+  std::uint64_t seed = 1;
+  std::string output = "accuracy.h5";
+  CommonOptions common;
+  std::string command_line;
+};
+
+/// Throws core::InputError with one clear message.
+AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args);
+
+std::string accuracy_help_text();
+
+}  // namespace pbmpi::app

@@ -1,0 +1,26 @@
+/// The studies that pbstudy can make.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "mpi/communicator.h"
+
+namespace pbmpi::app {
+
+/// One study. It reads its own options, and its run is collective.
+struct StudyCommand {
+  std::string_view name;
+  std::string_view meaning;  ///< one line for --help
+  core::ExitCode (*run)(const mpi::Communicator& comm, const std::vector<std::string>& args);
+};
+
+const std::vector<StudyCommand>& study_commands();
+
+/// Collective. Runs the study that args[0] names. Throws core::InputError and core::RunError, the same on
+/// every rank.
+core::ExitCode run_pbstudy(const mpi::Communicator& comm, const std::vector<std::string>& args);
+
+}  // namespace pbmpi::app

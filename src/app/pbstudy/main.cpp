@@ -1,0 +1,12 @@
+/// pbstudy: runs a matrix of cases over the ranks, and writes what each of them costs and how good it is.
+#include "app/common/options.h"
+#include "app/common/run_program.h"
+#include "app/pbstudy/commands.h"
+#include "mpi/session.h"
+
+int main(int argc, char** argv) {
+  const pbmpi::mpi::Session session(argc, argv);
+  return pbmpi::app::run_program("pbstudy", [&](const pbmpi::mpi::Communicator& world) {
+    return pbmpi::app::run_pbstudy(world, pbmpi::app::arguments(argc, argv));
+  });
+}

@@ -1,0 +1,144 @@
+#include "app/pbstudy/accuracy_cases.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "app/pbstudy/case_runner.h"
+#include "core/error.h"
+
+namespace pbmpi::app {
+namespace {
+
+AccuracyOptions options_of(std::vector<std::string> args) {
+  args.insert(args.begin(), {"--scene", "CrashSk"});
+  return parse_accuracy_options(args);
+}
+
+std::vector<AccuracyCase> cases_of(const AccuracyOptions& options) {
+  return make_cases({study_scene(scenes::find_scene("CrashSk"), options)}, options);
+}
+
+std::int64_t count(const std::vector<AccuracyCase>& cases, CaseKind kind) {
+  return std::count_if(cases.begin(), cases.end(),
+                       [kind](const AccuracyCase& one) { return one.kind == kind; });
+}
+
+std::string refusal(const std::vector<std::string>& args) {
+  try {
+    cases_of(options_of(args));
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AccuracyCases, all_settings_are_crossed_and_odes_steppers_have_fewer) {
+  const auto cases =
+      cases_of(options_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20", "--substeps",
+                           "1", "2", "--sor-factor", "1", "1.3", "--precision", "single"}));
+  // quick: 2 iterations; direct: one; sor: 2 iterations x 2 substeps x 2 factors
+  EXPECT_EQ(count(cases, CaseKind::setting), 2 + 1 + 8);
+}
+
+TEST(AccuracyCases, the_yardsticks_are_other_seeds_and_halves_of_the_reference) {
+  const auto cases = cases_of(options_of({"--floor-seeds", "9", "--reference-substeps", "4"}));
+  EXPECT_EQ(count(cases, CaseKind::floor), 9);
+  std::set<std::uint64_t> seeds;
+  for (const AccuracyCase& one : cases) {
+    if (one.kind == CaseKind::floor) seeds.insert(one.stepper.seed);
+    if (one.kind == CaseKind::halved_iterations) {
+      EXPECT_EQ(one.sweeps(), 4 * 320);
+    }
+    if (one.kind == CaseKind::halved_substeps) {
+      EXPECT_EQ(one.sweeps(), 2 * 640);
+    }
+    if (one.kind == CaseKind::halved_dt) {
+      EXPECT_EQ(one.stepper.dt_s * one.steps_per_frame, 0.03);
+    }
+  }
+  EXPECT_EQ(seeds.size(), 9u);
+  EXPECT_FALSE(seeds.contains(1)) << "that of the reference itself";
+  EXPECT_EQ(count(cases, CaseKind::halved_dt), 1);
+  EXPECT_EQ(count(cases_of(options_of({})), CaseKind::halved_substeps), 0) << "one substep has no half";
+}
+
+TEST(AccuracyCases, max_sweeps_leaves_out_the_dear_ones) {
+  for (const AccuracyCase& one : cases_of(options_of({"--max-sweeps", "40"}))) {
+    if (one.kind == CaseKind::setting && one.stepper.kind == model::StepperKind::sor) {
+      EXPECT_LE(one.sweeps(), 40);
+    }
+  }
+}
+
+TEST(AccuracyCases, another_step_fills_the_same_frame) {
+  const auto cases = cases_of(options_of({"--dt", "0.005", "0.015"}));
+  for (const AccuracyCase& one : cases) {
+    EXPECT_NEAR(one.stepper.dt_s * one.steps_per_frame, 0.03, 1e-15);  // one rounding
+  }
+  EXPECT_NE(refusal({"--dt", "0.007"}).find("whole number"), std::string::npos);
+}
+
+TEST(AccuracyCases, every_case_has_one_owner_and_no_rank_has_all_the_work) {
+  const AccuracyOptions options = options_of({});
+  const std::vector<StudyScene> scenes = {study_scene(scenes::find_scene("CrashSk"), options)};
+  const auto cases = make_cases(scenes, options);
+  const std::vector<int> owner = deal_out(cases, scenes, 3);
+  ASSERT_EQ(owner.size(), cases.size());
+  EXPECT_EQ(std::set<int>(owner.begin(), owner.end()), (std::set<int>{0, 1, 2}));
+}
+
+TEST(AccuracyCases, bad_values_are_named) {
+  EXPECT_NE(refusal({"--iterations", "0"}).find("--iterations 0"), std::string::npos);
+  EXPECT_NE(refusal({"--substeps", "-1"}).find("--substeps"), std::string::npos);
+  EXPECT_NE(refusal({"--stepper", "fast"}).find("quick, direct, sor"), std::string::npos);
+  EXPECT_NE(refusal({"--precision", "half"}).find("double, single"), std::string::npos);
+  EXPECT_NE(refusal({"--sor-factor", "2"}).find("below 2"), std::string::npos);
+  EXPECT_NE(refusal({"--dt", "nan"}).find("--dt"), std::string::npos);
+  EXPECT_NE(refusal({"--repeats", "0"}).find("--repeats"), std::string::npos);
+  EXPECT_NE(refusal({"--floor-seeds", "0"}).find("--floor-seeds"), std::string::npos);
+  EXPECT_NE(refusal({"--reference-iterations", "1"}).find("--reference-iterations"), std::string::npos);
+  EXPECT_NE(refusal({"--max-sweeps", "0"}).find("--max-sweeps"), std::string::npos);
+  EXPECT_NE(refusal({"--reference-substeps", "0"}).find("--reference-substeps"), std::string::npos);
+  EXPECT_NE(refusal({"--replicas", "0"}).find("--replicas"), std::string::npos);
+  EXPECT_NE(refusal({"--warmup", "-1"}).find("--warmup"), std::string::npos);
+  EXPECT_NE(refusal({"--frames", "0"}).find("--frames"), std::string::npos);
+}
+
+TEST(CaseRunner, the_reference_has_no_error_against_itself_and_few_iterations_have) {
+  const AccuracyOptions options = options_of({"--reference-iterations", "40"});
+  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
+  const Reference reference = make_reference(scene, reference_settings(scene, options));
+  ASSERT_EQ(reference.states.size(), 9u);
+  AccuracyCase one{0, CaseKind::setting, reference_settings(scene, options), 3};
+  const CaseResult itself = run_case(one, scene, reference, 2);
+  EXPECT_EQ(itself.defect.body_position.max, 0);
+  EXPECT_EQ(itself.drift.body_position.max, 0);
+  EXPECT_EQ(itself.energy_change_j, 0);
+  EXPECT_EQ(itself.momentum_change_ns, 0);
+  EXPECT_EQ(itself.defect.body_position.count, 5 * 37);
+  EXPECT_EQ(itself.defect.joint_position.count, 5 * 34);
+  EXPECT_EQ(itself.row_visits, itself.rows * 40 * 3);
+
+  one.stepper.iterations = 2;
+  const CaseResult few = run_case(one, scene, reference, 1);
+  EXPECT_GT(few.defect.body_position.max, 1e-3) << "two iterations are seen in a crash";
+  EXPECT_GE(few.drift.body_position.rms, few.defect.body_position.rms)
+      << "a frame's error grows along the way";
+  EXPECT_EQ(few.defect.body_position.count, itself.defect.body_position.count);
+}
+
+TEST(CaseRunner, repeats_change_times_only) {
+  const AccuracyOptions options = options_of({"--reference-iterations", "10"});
+  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
+  const Reference reference = make_reference(scene, reference_settings(scene, options));
+  AccuracyCase one{0, CaseKind::setting, {}, 3};
+  one.stepper.iterations = 5;
+  const CaseResult once = run_case(one, scene, reference, 1), thrice = run_case(one, scene, reference, 3);
+  EXPECT_EQ(once.defect.body_position.rms, thrice.defect.body_position.rms);
+  EXPECT_EQ(once.max_joint_gap_m, thrice.max_joint_gap_m);
+}
+
+}  // namespace
+}  // namespace pbmpi::app

@@ -1,0 +1,159 @@
+"""pbstudy accuracy and the report of its file, end to end."""
+import csv
+import json
+import os
+import shutil
+import sys
+import unittest
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import BIN, SOURCE, ProgramTest  # noqa: E402
+
+FAST = ["--frames", 3, "--repeats", 2, "--reference-iterations", 80, "--floor-seeds", 2]
+
+
+class Accuracy(ProgramTest):
+    def study(self, ranks, *args):
+        command = ["mpirun", "-n", str(ranks), os.path.join(BIN, "pbstudy"), "accuracy", *map(str, args)]
+        return self.run_command(command)
+
+    def made(self, ranks, name, *args):
+        result = self.study(ranks, *args, "--output", name, "--quiet")
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        with h5py.File(self.path(name)) as file:
+            self.assertEqual(file.attrs["filetype"], b"pbmpi-study")
+            return {key: column[:] for key, column in file["cases"].items()}
+
+    def front(self, *args):
+        result = self.report(*args, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return self.json(result)["scenes"]
+
+    def test_errors_are_the_same_for_any_number_of_ranks(self):
+        args = ["--scene", "CrashSk", "--iterations", 1, 5, 20, "--substeps", 1, 2, *FAST]
+        one, three = self.made(1, "one.h5", *args), self.made(3, "three.h5", *args)
+        self.assertEqual(len(one["scene"]), 3 + 3 * 2 * 2 + 2 + 2, "quick, sor, seeds, halves")
+        for name, column in one.items():
+            if not name.startswith("frame_time"):
+                self.assertEqual(column.tobytes(), three[name].tobytes(), name)
+        self.assertTrue((one["frame_time_worst"] >= one["frame_time_median"]).all())
+        self.assertTrue((one["frame_time_median"] > 0).all())
+        setting = one["kind"] == b"setting"
+        visits = one["rows"] * one["iterations"] * one["substeps"] * one["steps_per_frame"]
+        self.assertTrue(np.array_equal(one["row_visits"], visits))
+        bands = one["defect_body_position_bands"]
+        self.assertTrue((bands.sum(axis=1) == 3 * 37).all(), "the same number of entries for every method")
+        self.assertGreater(one["defect_body_position_rms"][setting].min(), 0)
+
+    def test_the_error_falls_along_the_front_and_the_choice_reproduces_its_error(self):
+        self.made(2, "study.h5", "--scene", "CrashWa", "--iterations", 1, 5, 20, "--substeps", 1, "--precision", "double",
+                  *FAST)
+        [scene] = self.front("study.h5", "--budget", "1s")
+        errors = [row["error_m"] for row in scene["front"]]
+        times = [row["frame_time_s"]["worst"] for row in scene["front"]]
+        self.assertGreater(len(errors), 1)
+        self.assertEqual(errors, sorted(errors, reverse=True))
+        self.assertEqual(times, sorted(times))
+        for row in scene["front"]:
+            self.assertEqual(row["at_noise_floor"], row["error_m"] <= scene["noise_floor_m"])
+        chosen = scene["chosen"]
+        self.assertEqual(chosen["error_m"], errors[-1], "all fits into a second")
+        options = chosen["options"]
+        again = self.made(1, "again.h5", "--scene", "CrashWa", "--stepper", options["stepper"], "--iterations",
+                          options["iterations"], "--substeps", options.get("substeps", 1), "--precision", "double", *FAST)
+        found = again["defect_body_position_rms"][again["kind"] == b"setting"]
+        self.assertEqual(list(found), [chosen["error_m"]], "the same bits, so also within the floor")
+
+    def test_the_preset_of_a_tolerance_runs(self):
+        self.made(2, "study.h5", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, "--stepper", "sor", *FAST)
+        result = self.report("study.h5", "--tolerance", "1m", "--write-preset", "crash.preset", "--html", "page.html",
+                             "--csv", "table.csv")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("run: mpirun -n 1 pbmpi --scene CrashSk --stepper sor", result.stdout)
+        self.assertIn("noise floor", result.stdout)
+        run = self.pbmpi(1, "--preset", "crash.preset", "--no-output", "--report", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual((json.loads(run.stdout)["stepper"], json.loads(run.stdout)["iterations"]), ("sor", 1))
+        wins = self.pbmpi(1, "--preset", "crash.preset", "--iterations", "7", "--no-output", "--report", "json")
+        self.assertEqual(json.loads(wins.stdout)["iterations"], 7, "the command line wins")
+        with open(self.path("table.csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 4 + 2 + 2)
+        with open(self.path("page.html"), encoding="utf-8") as file:
+            page = file.read()
+        self.assertIn("Pareto front", page)
+        self.assertNotIn("src=\"http", page)
+
+    @unittest.skipUnless(shutil.which("chromium"), "the page is looked at in Chromium, which is not installed")
+    def test_the_page_draws_its_charts_in_a_browser(self):
+        self.made(1, "study.h5", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, "--stepper", "sor", *FAST)
+        result = self.report("study.h5", "--quiet", "--html", "page.html")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        page = self.run_command(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic",
+                                 "--no-first-run", "--disable-background-networking", "--disable-component-update",
+                                 "--disable-sync", f"--user-data-dir={self.path('profile')}", "--dump-dom",
+                                 f"file://{self.path('page.html')}"]).stdout
+        self.assertIn('data-ready="yes"', page, "the last line of the page's script was reached")
+        self.assertEqual(page.count("<canvas"), 4, "rms, p99, max, joint gap")
+        self.assertIn("<td>sor double, 1 x 20, dt 0.01 s</td>", page)
+
+    def refused(self, result, *words):
+        self.assertEqual(result.returncode, 2, result.stderr)
+        lines = [line for line in result.stderr.splitlines() if line.startswith(("pbstudy: ", "pbreport: ", "pbmpi: "))]
+        self.assertEqual((result.stdout, len(lines)), ("", 1), result.stderr)
+        for word in words:
+            self.assertIn(word, lines[0])
+
+    def test_bad_input_is_refused_by_one_rank_before_any_work(self):
+        before = set(os.listdir(self.folder))
+        self.refused(self.study(2, "--scene", "CrashSq"), "CrashSq", "CrashSk")
+        self.refused(self.study(2, "--scene", "CrashSk", "--iterations", "0"), "--iterations")
+        self.refused(self.study(2, "--scene", "CrashSk", "--dt", "0.007"), "whole number")
+        self.refused(self.study(3, "--scene", "CrashSk", "--output", "no/folder/x.h5"), "no/folder/x.h5")
+        program = os.path.join(BIN, "pbstudy")
+        self.refused(self.run_command([program]), "pbstudy accuracy")
+        self.refused(self.run_command([program, "acuracy"]), "acuracy", "accuracy")
+        self.refused(self.pbmpi(2, "--preset", "absent.preset"), "absent.preset", "--preset")
+        self.assertEqual(set(os.listdir(self.folder)), before)
+
+    def test_reports_refuse_what_they_cannot_show(self):
+        self.made(1, "study.h5", "--scene", "CrashSk", "--iterations", 1, "--stepper", "quick", *FAST)
+        self.refused(self.report("study.h5", "--budget", "3.33"), "--budget", "unit")
+        self.refused(self.report("study.h5", "--scene", "Fight", "--budget", "1ms"), "Fight", "CrashSk")
+        self.refused(self.report("study.h5", "--budget", "1us", "--write-preset", "p"), "no setting")
+        self.refused(self.report("study", "absent.h5"), "absent.h5")
+        self.refused(self.report("diff", "study.h5", "study.h5"), "study.h5", "not a pbmpi run")
+
+    def test_help_names_every_option(self):
+        result = self.study(1, "--help")
+        self.assertEqual(result.returncode, 0)
+        for option in ("--scene", "--iterations", "--substeps", "--floor-seeds", "--reference-iterations", "--repeats"):
+            self.assertIn(option, result.stdout)
+
+
+class Figures(ProgramTest):
+    def test_one_command_draws_both_figures(self):
+        result = self.run_command([f"{SOURCE}/jobs/figure8_9.sh", self.path("out"), "CrashSk"],
+                                  env={**os.environ, "PATH": BIN + ":" + os.environ["PATH"], "REPEATS": "1", "SEEDS": "2"})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        methods = [line.split()[1] for line in result.stdout.splitlines() if line.startswith("CrashSk")]
+        self.assertEqual(methods, ["Iter20", "Iter19", "Iter1", "FEEC", "FEEC", "another", "another"])
+        self.assertEqual(result.stdout.count("precise_over_delivery: FEEC"), 2)
+        with open(self.path("out/figure8_9.html"), encoding="utf-8") as file:
+            page = file.read()
+        for words in ("Figure 8", "Figure 9", "noise floor", "Constraint, orientation", "equal to Iter20"):
+            self.assertIn(words, page)
+
+    def test_a_scene_without_its_reference_is_refused(self):
+        self.summary(1, "--scene", "CrashSk", "--iterations", 19, "--output", "run.h5")
+        result = self.report("figures", "run.h5")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("20 iterations", result.stderr)
+        self.assertEqual(self.report("figures").returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

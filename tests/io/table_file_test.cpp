@@ -1,0 +1,77 @@
+#include "io/table_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+
+#include "core/error.h"
+#include "scratch.h"
+
+namespace pbmpi::io::test {
+namespace {
+
+TableFile sample() {
+  TableFile file;
+  file.attributes = {{"study", "accuracy"}};
+  file.parameters = {Parameter::of("seed", std::int64_t{7}), Parameter::of("factor", 1.5)};
+  const double inf = std::numeric_limits<double>::infinity();
+  file.tables["cases"] = {{"scene", "", std::vector<std::string>{"a", "", "longer"}},
+                          {"error", "m", std::vector<double>{1.25, inf, -3}},
+                          {"bands", "", std::vector<std::int64_t>{1, 2, 3, 4, 5, 6}, 2}};
+  return file;
+}
+
+std::string refusal(const std::string& path, const std::string& type) {
+  try {
+    read_table_file(path, type);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TableFile, reads_back_what_was_written) {
+  const Scratch scratch;
+  const std::string path = scratch.file("study.h5");
+  TableWriter(path).write("pbmpi-test", sample());
+  const TableFile found = read_table_file(path, "pbmpi-test");
+  EXPECT_EQ(found.attributes.at("study"), "accuracy");
+  EXPECT_EQ(found.column<std::string>("cases", "scene"), (std::vector<std::string>{"a", "", "longer"}));
+  EXPECT_EQ(found.column<double>("cases", "error"),
+            (std::vector<double>{1.25, std::numeric_limits<double>::infinity(), -3}));
+  EXPECT_EQ(found.column<std::int64_t>("cases", "bands"), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6}));
+  ASSERT_EQ(found.parameters.size(), 2u);
+  EXPECT_EQ(found.parameters[0].text, "1.5");
+  EXPECT_EQ(found.parameters[1].text, "7");
+  EXPECT_EQ(filetype_of(path), "pbmpi-test");
+}
+
+TEST(TableFile, a_missing_column_or_another_type_is_named) {
+  const TableFile file = sample();
+  EXPECT_THROW(file.column<double>("cases", "absent"), core::InputError);
+  EXPECT_THROW(file.column<double>("cases", "scene"), core::InputError);
+}
+
+TEST(TableFile, other_files_are_refused) {
+  const Scratch scratch;
+  const std::string path = scratch.file("study.h5");
+  TableWriter(path).write("pbmpi-test", sample());
+  EXPECT_NE(refusal(path, "pbmpi-study").find("not a pbmpi-study"), std::string::npos);
+  EXPECT_NE(refusal(scratch.file("absent.h5"), "pbmpi-study").find("no such file"), std::string::npos);
+  std::ofstream(scratch.file("text.h5")) << "text";
+  EXPECT_NE(refusal(scratch.file("text.h5"), "pbmpi-study").find("HDF5"), std::string::npos);
+  EXPECT_EQ(filetype_of(scratch.file("text.h5")), "");
+  EXPECT_EQ(filetype_of(scratch.file("absent.h5")), "");
+}
+
+TEST(TableFile, nothing_appears_before_it_is_written_and_bad_places_are_refused_at_once) {
+  const Scratch scratch;
+  const std::string path = scratch.file("study.h5");
+  { const TableWriter writer(path); }
+  EXPECT_EQ(scratch.num_files(), 0u);
+  EXPECT_THROW(TableWriter(scratch.file("no/folder/study.h5")), core::InputError);
+}
+
+}  // namespace
+}  // namespace pbmpi::io::test
