@@ -47,11 +47,13 @@ const std::vector<ColumnSpec>& frame_columns() {
 
 std::vector<ColumnSpec> phase_columns() {
   std::vector<ColumnSpec> columns;
-  columns.reserve(core::phase_names.size() + 1);
+  columns.reserve(core::phase_names.size() + 3);
   for (const std::string_view phase : core::phase_names) {
     columns.push_back({std::string(phase), H5T_NATIVE_DOUBLE, 1, "s"});
   }
   columns.push_back({"useful", H5T_NATIVE_DOUBLE, 1, "s"});
+  columns.push_back({"messages", H5T_NATIVE_INT64});
+  columns.push_back({"bytes", H5T_NATIVE_INT64, 1, "B"});
   return columns;
 }
 
@@ -292,6 +294,8 @@ void FrameColumns::add_times(const model::FrameRecord& frame) {
     phases_.put(phase, rank, frame.phases.seconds[phase]);
   }
   phases_.put(core::num_phases, rank, frame.phases.useful_s());
+  phases_.put(core::num_phases + 1, rank, frame.traffic.messages);
+  phases_.put(core::num_phases + 2, rank, frame.traffic.bytes);
 }
 
 void FrameColumns::add(const model::RunEvent& event) {

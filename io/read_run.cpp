@@ -126,7 +126,7 @@ void read_frames(hid_t file, RunData& run) {
   run.frame_measured = to_flags(read_integers(file, "/timings/frame/measured", rows));
   run.deadline_met = to_flags(read_integers(file, "/timings/frame/deadline_met", rows));
   std::vector<std::string> phases(core::phase_names.begin(), core::phase_names.end());
-  phases.emplace_back("useful");
+  for (const char* column : {"useful", "messages", "bytes"}) phases.emplace_back(column);
   for (const std::string& phase : phases) {
     run.rank_times[phase] = read_table(file, "/timings/rank/" + phase, rows, run.num_ranks);
   }

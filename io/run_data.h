@@ -69,7 +69,7 @@ struct RunData {
   std::vector<double> frame_wall_s;                  ///< [T]
   std::vector<bool> frame_measured;                  ///< [T]
   std::vector<bool> deadline_met;                    ///< [T]
-  std::map<std::string, Table> rank_times;           ///< phase, "useful" -> [T][R] s
+  std::map<std::string, Table> rank_times;           ///< phase, "useful" -> [T][R] s; "messages", "bytes"
   std::vector<std::vector<IslandRow>> islands;  ///< [T] of all worlds; empty unless the run recorded them
   std::map<std::string, Table> space_times;     ///< cross_contacts, collide, collide_spaces; as islands
   EstimateData estimate;

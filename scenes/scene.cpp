@@ -98,6 +98,10 @@ class FileScene final : public Scene {
       contact->finish();
     }
     if (scene.has("spaces")) read_spaces(scene);
+    const std::string meet = scene.text("inter_space", "any");
+    if (meet != "any" && meet != "none")
+      scene.fail("inter_space", "'inter_space' must be \"any\" or \"none\"");
+    empty_.spaces_meet = meet == "any";
   }
 
   void read_spaces(TableReader& scene) {

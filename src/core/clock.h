@@ -22,12 +22,13 @@ inline double thread_cpu_s() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// The timed parts of a frame, in the order of the step. `wait` is time at a barrier or in a collective
-/// before the last rank arrives.
-enum class Phase { collide, islands, rows, solve, integrate, cross_space, gather, wait, output };
-inline constexpr int num_phases = 9;
+/// The timed parts of a frame. Of one world cut into spaces: `cross_space` is root's section (collisions
+/// across spaces, islands joined over the ranks), `ship` the passing of islands from rank to rank and back.
+/// `wait` is time in which another rank's part is awaited.
+enum class Phase { collide, islands, rows, solve, integrate, cross_space, ship, gather, wait, output };
+inline constexpr int num_phases = 10;
 inline constexpr std::array<std::string_view, num_phases> phase_names = {
-    "collide", "islands", "rows", "solve", "integrate", "cross_space", "gather", "wait", "output"};
+    "collide", "islands", "rows", "solve", "integrate", "cross_space", "ship", "gather", "wait", "output"};
 
 /// Seconds per phase of one rank in one frame.
 struct PhaseTimes {
@@ -35,7 +36,7 @@ struct PhaseTimes {
 
   double& operator[](Phase phase) { return seconds[static_cast<int>(phase)]; }
   double operator[](Phase phase) const { return seconds[static_cast<int>(phase)]; }
-  /// Time spent on the simulation itself: all but gather, wait and output.
+  /// Time spent on the simulation itself: all but ship, gather, wait and output.
   double useful_s() const {
     double sum = 0;
     for (int phase = 0; phase <= static_cast<int>(Phase::cross_space); ++phase) sum += seconds[phase];

@@ -35,6 +35,7 @@ struct Contact {
   double depth = 0;      ///< [m]
   double mu = 0;
   double restitution = 0;
+  GeomPair geoms;  ///< that touch: contacts are in canonical order if sorted by them
 };
 
 /// The material of a touching pair, as Material says.

@@ -145,10 +145,11 @@ struct Model {
   std::vector<Geom> geoms;
   std::vector<Joint> joints;
   std::vector<std::string> spaces{"world"};  ///< names; Geom::space points here
-  std::vector<Event> events;                 ///< sorted by step, stable
-  Vec3 gravity{0, 0, -9.81};                 ///< [m/s^2]
-  double erp = 0.2;                          ///< of joints
-  double cfm = 1e-10;                        ///< of joints [s/kg]
+  bool spaces_meet = true;    ///< false: by the author's word bodies of two spaces never touch each other
+  std::vector<Event> events;  ///< sorted by step, stable
+  Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
+  double erp = 0.2;           ///< of joints
+  double cfm = 1e-10;         ///< of joints [s/kg]
   ContactLaw contact_law;
 
   int num_bodies() const { return static_cast<int>(bodies.size()); }

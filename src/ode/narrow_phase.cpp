@@ -71,6 +71,7 @@ class NarrowPhase final : public model::NarrowPhase {
     const model::Material material = model::combined(a.material, b.material);
     contact.mu = material.mu;
     contact.restitution = material.restitution;
+    contact.geoms = pair;
     return contact;
   }
 

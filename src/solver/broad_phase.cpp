@@ -16,11 +16,6 @@ using model::Shape;
 /// From here on sorting beats testing the list of all pairs (bench_sor --broad-phase).
 constexpr std::size_t most_listed_solids = 96;
 
-bool overlap(const auto& a, const auto& b) {
-  return a.min[0] <= b.max[0] && b.min[0] <= a.max[0] && a.min[1] <= b.max[1] && b.min[1] <= a.max[1] &&
-         a.min[2] <= b.max[2] && b.min[2] <= a.max[2];
-}
-
 }  // namespace
 
 BroadPhase::BroadPhase(const model::Model& model) : model_(&model), rule_(model), boxes_(model.geoms.size()) {
@@ -28,7 +23,7 @@ BroadPhase::BroadPhase(const model::Model& model) : model_(&model), rule_(model)
     const Geom& geom = model.geoms[i];
     (geom.shape == Shape::plane ? planes_ : solids_).push_back(static_cast<int>(i));
     if (geom.body == model::no_body && geom.shape != Shape::plane)
-      boxes_[i] = box_of(geom, model::static_pose());
+      boxes_[i] = model::geom_box(geom, model::static_pose());
   }
   order_ = solids_;
   listed_only_ = solids_.size() <= most_listed_solids;
@@ -40,22 +35,11 @@ BroadPhase::BroadPhase(const model::Model& model) : model_(&model), rule_(model)
   }
 }
 
-BroadPhase::Box BroadPhase::box_of(const Geom& geom, const BodyPose& body) const {
-  const model::BodyPose pose = model::geom_pose(geom, body);
-  std::array<double, 3> half = model::half_extents(geom, pose.rotation);
-  Box box;
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.min[k] = pose.position[k] - half[k];
-    box.max[k] = pose.position[k] + half[k];
-  }
-  return box;
-}
-
 void BroadPhase::update_boxes(std::span<const BodyPose> poses) {
   for (int index : solids_) {
     const Geom& geom = model_->geoms[static_cast<std::size_t>(index)];
     if (geom.body != model::no_body) {
-      boxes_[static_cast<std::size_t>(index)] = box_of(geom, poses[static_cast<std::size_t>(geom.body)]);
+      boxes_[static_cast<std::size_t>(index)] = model::geom_box(geom, poses[static_cast<std::size_t>(geom.body)]);
     }
   }
 }
@@ -68,7 +52,7 @@ void BroadPhase::test_planes(std::vector<GeomPair>& pairs) const {
     const double offset = normal.dot(geom.local.position);
     for (int solid : solids_) {
       if (model_->geoms[static_cast<std::size_t>(solid)].body == model::no_body) continue;
-      const Box& box = boxes_[static_cast<std::size_t>(solid)];
+      const model::Box& box = boxes_[static_cast<std::size_t>(solid)];
       double nearest = 0;
       for (int k = 0; k < 3; ++k) {
         nearest += normal[k] * (normal[k] > 0 ? box.min[static_cast<std::size_t>(k)]
@@ -82,8 +66,7 @@ void BroadPhase::test_planes(std::vector<GeomPair>& pairs) const {
 
 void BroadPhase::test_listed(std::vector<GeomPair>& pairs) const {
   for (const GeomPair& pair : listed_) {
-    if (overlap(boxes_[static_cast<std::size_t>(pair.first)],
-                boxes_[static_cast<std::size_t>(pair.second)])) {
+    if (boxes_[static_cast<std::size_t>(pair.first)].overlaps(boxes_[static_cast<std::size_t>(pair.second)])) {
       pairs.push_back(pair);
     }
   }
@@ -99,9 +82,9 @@ void BroadPhase::sweep(std::vector<GeomPair>& pairs) {
     order_[j] = geom;
   }
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    const Box& box = boxes_[static_cast<std::size_t>(order_[i])];
+    const model::Box& box = boxes_[static_cast<std::size_t>(order_[i])];
     for (std::size_t j = i + 1; j < order_.size() && low(order_[j]) <= box.max[0]; ++j) {
-      if (!overlap(box, boxes_[static_cast<std::size_t>(order_[j])])) continue;
+      if (!box.overlaps(boxes_[static_cast<std::size_t>(order_[j])])) continue;
       const auto [first, second] = std::minmax(order_[i], order_[j]);
       if (rule_.may_touch(first, second)) pairs.push_back({first, second});
     }

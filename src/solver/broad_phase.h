@@ -1,10 +1,10 @@
 /// Finds the pairs of geoms of one world that may touch.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
+#include "model/box.h"
 #include "model/contact.h"
 #include "model/model.h"
 #include "model/touch_rule.h"
@@ -21,10 +21,6 @@ class BroadPhase {
   void find_pairs(std::span<const model::BodyPose> poses, std::vector<model::GeomPair>& pairs);
 
  private:
-  struct Box {
-    std::array<double, 3> min, max;
-  };
-  Box box_of(const model::Geom& geom, const model::BodyPose& body) const;
   void update_boxes(std::span<const model::BodyPose> poses);
   void test_planes(std::vector<model::GeomPair>& pairs) const;
   void test_listed(std::vector<model::GeomPair>& pairs) const;
@@ -32,7 +28,7 @@ class BroadPhase {
 
   const model::Model* model_;
   model::TouchRule rule_;
-  std::vector<Box> boxes_;   ///< [geoms]; planes have none
+  std::vector<model::Box> boxes_;   ///< [geoms]; planes have none
   std::vector<int> solids_;  ///< geoms that are not planes
   std::vector<int> planes_;
   std::vector<model::GeomPair> listed_;  ///< pairs that may touch, in a world of few geoms

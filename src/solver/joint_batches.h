@@ -1,6 +1,7 @@
 /// The joints of a pack: copies of one articulation shape lie in the lanes of consecutive batches.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <tuple>
@@ -23,6 +24,22 @@ class JointBatches {
   /// The joints of a shape: [num_batches][shape.joints].
   std::vector<JointLane<V>>& joints(int shape) { return shapes_[static_cast<std::size_t>(shape)].joints; }
 
+  /// Which batches a step works on, by the slots of their bodies; at the start all.
+  void deactivate_all() {
+    for (Shape& shape : shapes_) std::fill(shape.active.begin(), shape.active.end(), 0);
+  }
+  void activate(int slot);
+  /// visit(first slot, number of bodies).
+  template <class Visit>
+  void for_each_active_batch(Visit visit) const {
+    for (const Shape& shape : shapes_) {
+      for (std::size_t batch = 0; batch < shape.active.size(); ++batch) {
+        if (shape.active[batch])
+          visit(shape.first_slot + static_cast<int>(batch) * shape.num_bodies, shape.num_bodies);
+      }
+    }
+  }
+
   void build(const JointBuilder<T>& builder, BodyLanes<T>& bodies);
   /// Fisher-Yates with keyed numbers: the same order in every batch of a shape, so in every world.
   void shuffle(std::uint64_t key);
@@ -39,7 +56,9 @@ class JointBatches {
     int index = 0;
   };
   struct Shape {
-    std::size_t num_joints = 0;        ///< of one articulation
+    std::size_t num_joints = 0;  ///< of one articulation
+    int first_slot = 0, num_bodies = 0;
+    std::vector<char> active;          ///< [num_batches]
     std::vector<JointLane<V>> joints;  ///< [num_batches][num_joints]
     std::vector<RowsAt> rows;          ///< likewise
     std::vector<std::size_t> order;    ///< of the joints within a batch, in this sweep
@@ -86,6 +105,9 @@ int JointBatches<T>::add_shape(const ArticulationShape& shape, int first_slot, i
                                int static_slot) {
   Shape batches;
   batches.num_joints = shape.joints.size();
+  batches.first_slot = first_slot;
+  batches.num_bodies = shape.num_bodies;
+  batches.active.assign(static_cast<std::size_t>(num_batches), 1);
   batches.order.resize(batches.num_joints);
   for (int batch = 0; batch < num_batches; ++batch) {
     const int first = first_slot + batch * shape.num_bodies;
@@ -107,9 +129,19 @@ int JointBatches<T>::add_shape(const ArticulationShape& shape, int first_slot, i
 }
 
 template <class T>
+void JointBatches<T>::activate(int slot) {
+  for (Shape& shape : shapes_) {
+    const int batch = (slot - shape.first_slot) / shape.num_bodies;
+    if (slot < shape.first_slot || batch >= static_cast<int>(shape.active.size())) continue;
+    shape.active[static_cast<std::size_t>(batch)] = 1;
+  }
+}
+
+template <class T>
 void JointBatches<T>::build(const JointBuilder<T>& builder, BodyLanes<T>& bodies) {
   for (Shape& shape : shapes_) {
     for (std::size_t i = 0; i < shape.joints.size(); ++i) {
+      if (!shape.active[i / shape.num_joints]) continue;
       const RowsAt at = shape.rows[i];
       with_kind(at.kind, [&](auto kind) {
         builder.build(shape.joints[i], bodies, rows_of<kind.value>()[static_cast<std::size_t>(at.index)]);
@@ -134,6 +166,7 @@ void JointBatches<T>::sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies) 
   for (const Shape& shape : shapes_) {
     for (const std::size_t joint : shape.order) {
       for (std::size_t i = joint; i < shape.rows.size(); i += shape.num_joints) {
+        if (!shape.active[i / shape.num_joints]) continue;
         const RowsAt at = shape.rows[i];
         with_kind(at.kind, [&](auto kind) {
           solver.solve(rows_of<kind.value>()[static_cast<std::size_t>(at.index)], bodies);

@@ -21,6 +21,13 @@ class PackLanes final : public Pack {
 
   void load(int world, const model::State& state) override { worlds_.load(world, state); }
   void store(int world, model::State& state) const override { worlds_.store(world, state); }
+  void load(int world, std::span<const int> bodies, const model::State& state) override {
+    for (const int body : bodies) worlds_.load_body(world, body, state);
+  }
+  void store(int world, std::span<const int> bodies, model::State& state) const override {
+    for (const int body : bodies) worlds_.store_body(world, body, state);
+  }
+  void set_active(int world, std::span<const int> bodies) override { worlds_.set_active(world, bodies); }
   void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) override {
     worlds_.set_motor(world, joint, axis, motor);
   }
@@ -90,19 +97,19 @@ void PackLanes<T>::read_contact_twists(const SlotList& slots) {
 
 template <class T>
 void PackLanes<T>::apply_forces(Scalar h) {
-  for (int slot = 0; slot < worlds_.bodies.static_slot; ++slot) {
+  worlds_.for_each_active_slot([&](int slot) {
     Twist<V>& twist = worlds_.bodies.twists[slot];
     apply_gyroscopic_torque<T>(worlds_.bodies.bodies[slot], twist, h);
     twist.linear = twist.linear + worlds_.gravity[slot] * T::broadcast(h);
-  }
+  });
 }
 
 template <class T>
 void PackLanes<T>::integrate_bodies(Scalar h) {
-  for (int slot = 0; slot < worlds_.bodies.static_slot; ++slot) {
+  worlds_.for_each_active_slot([&](int slot) {
     integrate<T>(worlds_.bodies.bodies[slot], worlds_.bodies.twists[slot], h);
     refresh(worlds_.bodies.bodies[slot]);
-  }
+  });
 }
 
 template <class T>

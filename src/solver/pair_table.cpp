@@ -139,6 +139,7 @@ void PairTable::append(int world, const model::GeomPair& pair, const Touch& touc
   contact.body_b = first_is_a ? second.body : first.body;
   contact.mu = material.mu;
   contact.restitution = material.restitution;
+  contact.geoms = pair;
   const double sign = kernel_swapped == first_is_a ? -1 : 1;
   for (int i = 0; i < std::min<int>(touch.num_points, model.contact_law.max_per_pair); ++i) {
     const TouchPoint& point = points_[static_cast<std::size_t>(touch.first_point + i)];

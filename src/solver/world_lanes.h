@@ -22,8 +22,24 @@ class WorldLanes {
 
   explicit WorldLanes(std::span<const PackedWorld> worlds);
 
-  void load(int world, const model::State& state);
-  void store(int world, model::State& state) const;
+  void load(int world, const model::State& state) {
+    for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body)
+      load_body(world, static_cast<int>(body), state);
+  }
+  void store(int world, model::State& state) const {
+    for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body)
+      store_body(world, static_cast<int>(body), state);
+  }
+  void load_body(int world, int body, const model::State& state);
+  void store_body(int world, int body, model::State& state) const;
+  /// See Pack::set_active().
+  void set_active(int world, std::span<const int> bodies);
+  template <class Visit>
+  void for_each_active_slot(Visit visit) const {
+    joints.for_each_active_batch([&](int first_slot, int num_bodies) {
+      for (int slot = first_slot; slot < first_slot + num_bodies; ++slot) visit(slot);
+    });
+  }
   void set_motor(int world, int joint, int axis, const model::AxisMotor& motor);
   void set_limit(int world, int joint, int axis, const model::AxisLimit& limit);
   void launch(int world, const model::Event& event);
@@ -228,29 +244,31 @@ void WorldLanes<T>::fill_idle_lanes() {
 }
 
 template <class T>
-void WorldLanes<T>::load(int world, const model::State& state) {
-  for (std::size_t i = 0; i < worlds_[world].bodies.size(); ++i) {
-    const LanePlace& at = worlds_[world].bodies[i];
-    set_pose(at, {state.position[i], state.orientation[i]});
-    set_lane<T>(bodies.twists[at.slot].linear, at.lane, state.velocity[i]);
-    set_lane<T>(bodies.twists[at.slot].angular, at.lane, state.angular_velocity[i]);
-  }
+void WorldLanes<T>::load_body(int world, int body, const model::State& state) {
+  const LanePlace& at = worlds_[world].bodies[body];
+  set_pose(at, {state.position[body], state.orientation[body]});
+  set_lane<T>(bodies.twists[at.slot].linear, at.lane, state.velocity[body]);
+  set_lane<T>(bodies.twists[at.slot].angular, at.lane, state.angular_velocity[body]);
 }
 
 template <class T>
-void WorldLanes<T>::store(int world, model::State& state) const {
+void WorldLanes<T>::store_body(int world, int body, model::State& state) const {
   const auto vector_of = [](const Vec3L<V>& v, int lane) {
     return model::Vec3(T::get(v.x, lane), T::get(v.y, lane), T::get(v.z, lane));
   };
-  for (std::size_t i = 0; i < worlds_[world].bodies.size(); ++i) {
-    const LanePlace& at = worlds_[world].bodies[i];
-    const BodyLane<V>& body = bodies.bodies[at.slot];
-    state.position[i] = vector_of(body.position, at.lane);
-    state.orientation[i] = {T::get(body.qw, at.lane), T::get(body.qx, at.lane), T::get(body.qy, at.lane),
-                            T::get(body.qz, at.lane)};
-    state.velocity[i] = vector_of(bodies.twists[at.slot].linear, at.lane);
-    state.angular_velocity[i] = vector_of(bodies.twists[at.slot].angular, at.lane);
-  }
+  const LanePlace& at = worlds_[world].bodies[body];
+  const BodyLane<V>& lanes = bodies.bodies[at.slot];
+  state.position[body] = vector_of(lanes.position, at.lane);
+  state.orientation[body] = {T::get(lanes.qw, at.lane), T::get(lanes.qx, at.lane), T::get(lanes.qy, at.lane),
+                             T::get(lanes.qz, at.lane)};
+  state.velocity[body] = vector_of(bodies.twists[at.slot].linear, at.lane);
+  state.angular_velocity[body] = vector_of(bodies.twists[at.slot].angular, at.lane);
+}
+
+template <class T>
+void WorldLanes<T>::set_active(int world, std::span<const int> active) {
+  joints.deactivate_all();
+  for (const int body : active) joints.activate(worlds_[world].bodies[body].slot);
 }
 
 template <class T>

@@ -130,5 +130,41 @@ TEST(Options, help_names_every_group_and_exit_code) {
   }
 }
 
+Decomposition decided(const std::vector<std::string>& args, int num_spaces, int num_ranks) {
+  return decompose(resolve(parse_options(args), FakeScene({})), num_spaces, num_ranks);
+}
+
+TEST(Options, cut_into_spaces_by_themselves_only_where_it_helps) {
+  const std::vector<std::string> sor = {"--scene", "Fake", "--stepper", "sor"};
+  EXPECT_EQ(decided(sor, 3, 2), Decomposition::spaces);
+  EXPECT_EQ(decided(sor, 1, 2), Decomposition::worlds);
+  EXPECT_EQ(decided(sor, 3, 1), Decomposition::worlds);
+  EXPECT_EQ(decided({"--scene", "Fake"}, 3, 2), Decomposition::worlds) << "quick is the default stepper";
+  EXPECT_EQ(decided({"--scene", "Fake", "--stepper", "sor", "--replicas", "2"}, 3, 2), Decomposition::worlds);
+}
+
+TEST(Options, cut_as_they_are_told) {
+  const std::vector<std::string> worlds = {"--scene", "Fake", "--stepper", "sor", "--decompose", "worlds"};
+  const std::vector<std::string> spaces = {"--scene", "Fake", "--stepper", "sor", "--decompose", "spaces"};
+  EXPECT_EQ(decided(worlds, 3, 2), Decomposition::worlds);
+  EXPECT_EQ(decided(spaces, 1, 1), Decomposition::spaces);
+}
+
+TEST(Options, refuse_spaces_where_they_cannot_be_had_and_say_why) {
+  const auto refused = [](std::vector<std::string> more) {
+    std::vector<std::string> args = {"--scene", "Fake", "--decompose", "spaces"};
+    args.insert(args.end(), more.begin(), more.end());
+    try {
+      decided(args, 3, 2);
+    } catch (const core::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const char* stepper : {"quick", "direct"})
+    EXPECT_NE(refused({"--stepper", stepper}).find("add --stepper sor"), std::string::npos);
+  EXPECT_NE(refused({"--stepper", "sor", "--replicas", "4"}).find("there are 4"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pbmpi::app

@@ -87,6 +87,57 @@ TEST(Summary, text_has_greppable_lines) {
   EXPECT_NE(text.find("\nidle_ranks: 1 "), std::string::npos);
 }
 
+/// One world cut into spaces: 8 ms of work on two ranks, of which 1 ms is root's section, in 5 ms.
+RunSummary cut_into_spaces() {
+  MeasuredFrames frames;
+  core::PhaseTimes root, other;
+  root[core::Phase::collide] = 0.001;
+  root[core::Phase::solve] = 0.002;
+  root[core::Phase::cross_space] = 0.001;
+  root[core::Phase::ship] = 0.0005;
+  other[core::Phase::collide] = 0.001;
+  other[core::Phase::rows] = 0.003;
+  frames.wall_s = {0.005};
+  frames.phases = {{root.seconds}, {other.seconds}};
+  frames.islands = {2};
+  frames.contacts = {10};
+  frames.rows = {100};
+  frames.max_island_rows = {80};
+  frames.messages = {12};
+  frames.bytes = {6000};
+  RunSummary summary;
+  summary.decomposition = "spaces";
+  summary.worlds = 1;
+  summary.ranks = 2;
+  summary.steps_per_frame = 3;
+  compute_performance(frames, summary);
+  return summary;
+}
+
+// By hand from the milliseconds above; 1e-12 is rounding.
+TEST(Summary, bounds_a_world_cut_into_spaces_by_roots_section_and_the_largest_island) {
+  const SpacesSummary spaces = cut_into_spaces().spaces;
+  EXPECT_NEAR(spaces.serial_share, 1.0 / 8, 1e-12);
+  EXPECT_NEAR(spaces.amdahl_bound, 7.0 / (1 + 7.0 / 2), 1e-12);
+  EXPECT_NEAR(spaces.island_bound, 7.0 / (1 + 2.0 / 2 + 5 * 0.8), 1e-12);
+  EXPECT_NEAR(spaces.speed_up, 7.0 / 5, 1e-12);
+  EXPECT_NEAR(spaces.messages_per_step, 4, 1e-12);
+  EXPECT_NEAR(spaces.bytes_per_step, 2000, 1e-9);
+}
+
+TEST(Summary, shows_the_phases_of_each_rank_of_a_world_cut_into_spaces) {
+  const std::string text = to_text(cut_into_spaces());
+  EXPECT_NE(text.find("\nrank: 0   collide 1.000 rows 0.000 solve 2.000 cross_space 1.000"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("\nrank: 1   collide 1.000 "), std::string::npos) << text;
+  EXPECT_NE(text.find("\ntraffic: 4.0 messages and 2000 bytes a step\n"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(to_json(cut_into_spaces()));
+  EXPECT_EQ(json["decomposition"], "spaces");
+  EXPECT_EQ(json["phases"][0]["by_rank_s"].size(), 2u);
+  EXPECT_FALSE(nlohmann::json::parse(to_json(computed())).contains("spaces"));
+}
+
 TEST(Summary, no_measured_frame_divides_by_nothing) {
   RunSummary summary;
   compute_performance({}, summary);

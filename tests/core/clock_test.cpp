@@ -27,10 +27,10 @@ TEST(ThreadCpu, counts_work_and_not_sleep) {
   }
 }
 
-TEST(PhaseTimes, counts_as_useful_what_comes_before_gather) {
+TEST(PhaseTimes, counts_as_useful_what_comes_before_ship) {
   PhaseTimes times;
   for (int phase = 0; phase < num_phases; ++phase) times.seconds[phase] = 1 << phase;
-  EXPECT_EQ(times[Phase::gather], 64);
+  EXPECT_EQ(times[Phase::ship], 64);
   EXPECT_EQ(times.useful_s(), 1 + 2 + 4 + 8 + 16 + 32);
 }
 

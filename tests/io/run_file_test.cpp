@@ -70,7 +70,9 @@ void expect_sample(const RunData& run, const Sample& sample, std::int64_t num_fr
     }
     for (int r = 0; r < sample.num_ranks; ++r) {
       EXPECT_EQ(run.rank_times.at("collide")[k][r], sample_phase_s(r, 0, k));
-      EXPECT_EQ(run.rank_times.at("output")[k][r], sample_phase_s(r, 8, k));
+      EXPECT_EQ(run.rank_times.at("output")[k][r], sample_phase_s(r, core::num_phases - 1, k));
+      EXPECT_EQ(run.rank_times.at("messages")[k][r], k + 10 * r);
+      EXPECT_EQ(run.rank_times.at("bytes")[k][r], 8 * k + 1000 * r);
     }
   }
 }

@@ -125,6 +125,7 @@ void put_frame(RunFile& file, const Sample& sample, std::int64_t frame) {
   for (int phase = 0; phase < core::num_phases; ++phase) {
     record.phases.seconds[phase] = sample_phase_s(sample.rank, phase, frame);
   }
+  record.traffic = {frame + 10 * sample.rank, 8 * frame + 1000 * sample.rank};
   record.wall_s = sample_wall_s(frame);
   record.deadline_met = frame % 2 == 0;
   const RankWorlds estimated = sample_estimate(sample, frame);

@@ -35,6 +35,11 @@ TEST(Scene, passes_the_worlds_numbers_on_to_the_model) {
   EXPECT_EQ(model->geoms[0].material.restitution, 0.2);
 }
 
+TEST(Scene, says_whether_its_spaces_meet) {
+  EXPECT_TRUE(build("title = \"t\"\n" + box + "mass = 1\n")->spaces_meet);
+  EXPECT_FALSE(build("title = \"t\"\ninter_space = \"none\"\n" + box + "mass = 1\n")->spaces_meet);
+}
+
 TEST(Scene, a_time_step_given_by_the_caller_replaces_the_files_own) {
   const SceneSource source{"t", "t.toml", "title = \"t\"\n[run]\ndt = 0.01\n" + box + "mass = 1\n"};
   EXPECT_EQ(parse_scene(source, 0.002)->defaults().dt_s, 0.002);
@@ -102,6 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"unknown_space",
                 title + "spaces = [\"left\", \"right\"]\n" + box + "mass = 1\nspace = \"rigth\"\n", "8:9",
                 "unknown space 'rigth'; did you mean 'right'"},
+        Mistake{"inter_space", title + "inter_space = \"some\"\n" + box + "mass = 1\n", "2:15",
+                "'inter_space' must be \"any\" or \"none\""},
         Mistake{"same_space", title + "spaces = [\"a\", \"a\"]\n" + box + "mass = 1\n", "2:10",
                 "names one space twice"},
         Mistake{"bouncy", title + box + "mass = 1\nmaterial = { restitution = 1.5 }\n", "7:28",

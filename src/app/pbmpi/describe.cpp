@@ -13,6 +13,7 @@
 #include "model/frame.h"
 #include "model/names.h"
 #include "mpi/partition.h"
+#include "mpi/space_driver.h"
 
 namespace pbmpi::app {
 namespace {
@@ -97,6 +98,23 @@ void print_distribution(std::ostream& out, const Census& census, int num_ranks, 
   }
 }
 
+void print_spaces(std::ostream& out, const model::Model& model, int num_ranks) {
+  const model::SpaceMap map = model::make_space_map(model);
+  const mpi::SpaceOwnership ownership(map, mpi::initial_owners(map, num_ranks), num_ranks);
+  for (int rank = 0; rank < num_ranks; ++rank) {
+    const auto at = static_cast<std::size_t>(rank);
+    out << "  rank " << rank << ": ";
+    if (ownership.bodies[at].empty()) {
+      out << "idle (more ranks than spaces)\n";
+      continue;
+    }
+    out << "spaces";
+    for (const int space : ownership.spaces[at]) out << ' ' << model.spaces[static_cast<std::size_t>(space)];
+    out << " (" << ownership.bodies[at].size() << " bodies)" << (rank == 0 ? ", and what crosses spaces" : "")
+        << '\n';
+  }
+}
+
 void print_plans(std::ostream& out, const Census& census) {
   for (const auto& [plan, worlds] : census.plans) {
     out << "step plan";
@@ -128,8 +146,14 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
         << " precision, before each frame\n";
   }
   print_plans(out, census);
-  out << "decomposition: worlds over " << num_ranks << (num_ranks == 1 ? " rank\n" : " ranks\n");
-  print_distribution(out, census, num_ranks, world_bytes);
+  const bool spaces = spec.decomposition == Decomposition::spaces;
+  out << "decomposition: " << (spaces ? "spaces" : "worlds") << " over " << num_ranks
+      << (num_ranks == 1 ? " rank\n" : " ranks\n");
+  if (spaces) {
+    print_spaces(out, *scene.build(0, spec.stepper.seed), num_ranks);
+  } else {
+    print_distribution(out, census, num_ranks, world_bytes);
+  }
   out << "memory: about " << in_units(world_bytes) << " a world (measured on world 0)\n";
   if (spec.output) {
     const auto bytes =

@@ -7,7 +7,7 @@
 namespace pbmpi::app {
 
 void LiveSummary::frame_done(const model::FrameRecord& frame) {
-  double islands = 0, contacts = 0, rows = 0;
+  double islands = 0, contacts = 0, rows = 0, largest = 0;
   energy_j_ = 0;
   nonfinite_ = 0;
   for (const model::LocalWorld& world : frame.worlds) {
@@ -15,6 +15,7 @@ void LiveSummary::frame_done(const model::FrameRecord& frame) {
     islands += seen.islands;
     contacts += seen.contacts;
     rows += seen.rows;
+    largest = std::max(largest, static_cast<double>(seen.max_island_rows));
     energy_j_ += seen.energy_j;
     nonfinite_ += seen.nonfinite;
     if (frame.measured) {
@@ -26,6 +27,7 @@ void LiveSummary::frame_done(const model::FrameRecord& frame) {
   islands_.push_back(islands);
   contacts_.push_back(contacts);
   rows_.push_back(rows);
+  max_island_rows_.push_back(largest);
 }
 
 namespace {
@@ -41,8 +43,12 @@ MeasuredFrames gather_times(const mpi::Communicator& comm, const mpi::WorldRunRe
   for (const mpi::FrameTimes& times : result.times) {
     if (!times.measured) continue;
     frames.wall_s.push_back(times.wall_s);
+    frames.messages.push_back(static_cast<double>(times.traffic.messages));
+    frames.bytes.push_back(static_cast<double>(times.traffic.bytes));
     own.insert(own.end(), times.phases.seconds.begin(), times.phases.seconds.end());
   }
+  frames.messages = reduced(comm, frames.messages, mpi::Reduce::sum);
+  frames.bytes = reduced(comm, frames.bytes, mpi::Reduce::sum);
   const std::vector<double> all = comm.allgatherv(std::span<const double>(own));
   frames.phases.resize(static_cast<std::size_t>(comm.size()));
   auto next = all.begin();
@@ -64,6 +70,7 @@ void LiveSummary::finish(const mpi::Communicator& comm, const mpi::WorldRunResul
   frames.islands = reduced(comm, islands_, mpi::Reduce::sum);
   frames.contacts = reduced(comm, contacts_, mpi::Reduce::sum);
   frames.rows = reduced(comm, rows_, mpi::Reduce::sum);
+  frames.max_island_rows = reduced(comm, max_island_rows_, mpi::Reduce::max);
   const std::vector<double> last = reduced(comm, {energy_j_, nonfinite_}, mpi::Reduce::sum);
   const std::vector<double> largest = reduced(comm, {max_joint_gap_m_, max_penetration_m_}, mpi::Reduce::max);
   summary.energy_j = last[0];

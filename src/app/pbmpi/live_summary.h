@@ -19,6 +19,7 @@ class LiveSummary final : public model::FrameObserver {
 
  private:
   std::vector<double> islands_, contacts_, rows_;  ///< [measured frames] sums over this rank's worlds
+  std::vector<double> max_island_rows_;            ///< [measured frames]
   double max_joint_gap_m_ = 0, max_penetration_m_ = 0;
   double energy_j_ = 0;   ///< at the last frame
   double nonfinite_ = 0;  ///< at the last frame

@@ -71,8 +71,9 @@ po::options_description options_description() {
 
   po::options_description cut("How to cut the work");
   cut.add_options()  //
-      ("decompose", po::value<std::string>()->default_value("auto")->value_name("auto|worlds"),
-       "worlds: each rank owns whole worlds; auto: what the scene calls for")  //
+      ("decompose", po::value<std::string>()->default_value("auto")->value_name("auto|worlds|spaces"),
+       "worlds: each rank owns whole worlds; spaces: each rank owns collision spaces of the one world (sor "
+       "only); auto: spaces for one world of several spaces on several ranks with sor, else worlds")  //
       ("spaces", po::value<std::string>()->value_name("one|many"),
        "many: the scene's named collision spaces; one: all of them as one, with the same physics; default: "
        "the scene's");
@@ -120,7 +121,7 @@ std::optional<Enum> choice_if_given(const po::variables_map& values, const std::
   return choice<Enum>(values, name, names);
 }
 
-constexpr std::array<std::string_view, 2> decomposition_names = {"auto", "worlds"};
+constexpr std::array<std::string_view, 3> decomposition_names = {"auto", "worlds", "spaces"};
 constexpr std::array<std::string_view, 2> spaces_names = {"one", "many"};
 constexpr std::array<std::string_view, 2> report_format_names = {"text", "json"};
 
@@ -239,6 +240,7 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   spec.stepper.simd = options.simd;
   spec.stepper.colliders = options.colliders;
   spec.record_every = options.record_every;
+  spec.decomposition = options.decomposition;
   if (!options.no_output) spec.output = options.output.value_or(scene.name() + ".h5");
   require_at_least(spec.num_worlds, 1, "--replicas");
   require_at_least(spec.warmup, 0, "--warmup");
@@ -263,6 +265,25 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
                 "--record-islands writes into the run's file; drop --no-output");
   spec.estimate = resolve_estimate(options, spec.stepper);
   return spec;
+}
+
+Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks) {
+  const bool is_sor = spec.stepper.kind == model::StepperKind::sor;
+  if (spec.decomposition == Decomposition::automatic) {
+    return spec.num_worlds == 1 && num_spaces > 1 && num_ranks > 1 && is_sor ? Decomposition::spaces
+                                                                             : Decomposition::worlds;
+  }
+  if (spec.decomposition == Decomposition::spaces) {
+    require_input(
+        is_sor,
+        "--decompose spaces needs --stepper sor (ODE's solvers give no access to single islands, and "
+        "quick draws from one random seed for the whole world); add --stepper sor, or use "
+        "--decompose worlds");
+    require_input(spec.num_worlds == 1, "--decompose spaces cuts one world, and there are " +
+                                            std::to_string(spec.num_worlds) +
+                                            "; use --replicas 1 or --decompose worlds");
+  }
+  return spec.decomposition;
 }
 
 }  // namespace pbmpi::app

@@ -14,7 +14,7 @@ namespace pbmpi::app {
 
 enum class Action { run, help, version, list_scenes, describe };
 enum class ReportFormat { text, json };
-enum class Decomposition { automatic, worlds };
+enum class Decomposition { automatic, worlds, spaces };
 
 /// The command line as given; what is absent is left to the scene.
 struct Options {
@@ -64,11 +64,17 @@ struct RunSpec {
   int record_every = 1;
   bool record_islands = false;
   scenes::SpacesForm spaces = scenes::SpacesForm::many;
+  Decomposition decomposition = Decomposition::automatic;  ///< of resolve(): as asked; decided by decompose()
 
   int total_frames() const { return warmup + frames; }
 };
 
 /// Throws core::InputError for impossible values.
 RunSpec resolve(const Options& options, const scenes::Scene& scene);
+
+/// How the work is cut on so many ranks: as asked, and by itself into spaces if there is one world, it has
+/// more than one space, there is more than one rank, and the stepper is sor. `num_spaces`: of world 0. Throws
+/// core::InputError where spaces are asked for and cannot be had.
+Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks);
 
 }  // namespace pbmpi::app

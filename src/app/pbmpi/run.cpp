@@ -21,6 +21,7 @@
 #include "model/effects.h"
 #include "model/names.h"
 #include "mpi/agreement.h"
+#include "mpi/space_driver.h"
 #include "mpi/world_driver.h"
 
 namespace pbmpi::app {
@@ -58,7 +59,7 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.hosts = distinct(provenance.hosts);
   summary.worlds = spec.num_worlds;
   summary.ranks = static_cast<int>(provenance.hosts.size());
-  for (int rank = spec.num_worlds; rank < summary.ranks; ++rank) summary.idle_ranks.push_back(rank);
+  summary.decomposition = spec.decomposition == Decomposition::spaces ? "spaces" : "worlds";
   summary.iterations = spec.stepper.iterations;
   summary.substeps = spec.stepper.substeps;
   summary.precision = model::name_of(spec.stepper.precision);
@@ -94,7 +95,7 @@ EstimateSummary estimate_summary(const model::StepperSettings& settings, const m
   return summary;
 }
 
-std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const mpi::WorldDriver& driver,
+std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const mpi::FrameDriver& driver,
                                            const scenes::Scene& scene, const RunSpec& spec,
                                            const Provenance& provenance) {
   if (!spec.output) return nullptr;
@@ -131,7 +132,7 @@ void print(const mpi::Communicator& comm, const Options& options, const RunSumma
 }
 
 /// A run that fails still writes the frames that its file holds.
-mpi::WorldRunResult run_to_end(mpi::WorldDriver& driver, io::RunFile* file) {
+mpi::WorldRunResult run_to_end(mpi::FrameDriver& driver, io::RunFile* file) {
   try {
     return driver.run();
   } catch (const core::RunError&) {
@@ -144,23 +145,44 @@ mpi::WorldRunResult run_to_end(mpi::WorldDriver& driver, io::RunFile* file) {
   }
 }
 
+/// A driver and what it borrows.
+struct Simulation {
+  std::unique_ptr<model::WorldStepper> worlds;
+  std::unique_ptr<model::SpaceStepper> spaces;
+  std::unique_ptr<model::Estimator> estimator;  ///< with FEEC
+  std::unique_ptr<mpi::FrameDriver> driver;
+};
+
+Simulation make_simulation(const mpi::Communicator& comm, const scenes::Scene& scene, const RunSpec& spec) {
+  Simulation simulation;
+  const auto build = [&](int world) { return scene.build(world, spec.scene_seed); };
+  if (spec.decomposition == Decomposition::spaces) {
+    simulation.spaces =
+        mpi::agree_on_errors(comm, [&] { return make_space_stepper(spec.stepper, build(0)); });
+    simulation.driver = std::make_unique<mpi::SpaceDriver>(comm, *simulation.spaces, driver_settings(spec));
+  } else {
+    simulation.worlds = make_stepper(spec.stepper);
+    auto driver = std::make_unique<mpi::WorldDriver>(comm, *simulation.worlds, build, driver_settings(spec));
+    if (spec.estimate) {
+      simulation.estimator = std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
+      driver->set_estimator(*simulation.estimator);
+    }
+    simulation.driver = std::move(driver);
+  }
+  return simulation;
+}
+
 ExitCode simulate(const mpi::Communicator& comm, const Options& options, const scenes::Scene& scene,
                   const RunSpec& spec) {
   const StopOnSignal stop;
-  const auto stepper = make_stepper(spec.stepper);
-  const auto build = [&](int world) { return scene.build(world, spec.scene_seed); };
-  mpi::WorldDriver driver(comm, *stepper, build, driver_settings(spec));
+  const Simulation simulation = make_simulation(comm, scene, spec);
+  mpi::FrameDriver& driver = *simulation.driver;
   driver.set_stop_flag(stop.flag());
 
   const Provenance provenance = collect_provenance(comm, options.command_line);
   const auto file = create_output(comm, driver, scene, spec, provenance);
-  std::unique_ptr<model::Estimator> estimator;
   EstimateMonitor monitor(spec.warmup);
-  if (spec.estimate) {
-    estimator = std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
-    driver.set_estimator(*estimator);
-    driver.add_consumer(monitor);
-  }
+  if (spec.estimate) driver.add_consumer(monitor);
   LiveSummary live;
   driver.add_observer(live);
   if (file) driver.add_observer(*file);
@@ -175,6 +197,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, const s
   progress.reset();
   RunSummary summary =
       settings_summary(scene, spec, provenance, driver.table().num_bodies(), driver_settings(spec).budget_s);
+  summary.idle_ranks = driver.idle_ranks();
   live.finish(comm, result, summary);
   if (spec.estimate) summary.estimate = estimate_summary(*spec.estimate, result, monitor, summary.budget_s);
   if (file) {
@@ -206,7 +229,9 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
       break;
   }
   const auto scene = load_scene(comm, options.scene, options.dt_s, options.spaces);
-  const RunSpec spec = resolve(options, *scene);
+  RunSpec spec = resolve(options, *scene);
+  const auto num_spaces = static_cast<int>(scene->build(0, spec.scene_seed)->spaces.size());
+  spec.decomposition = decompose(spec, num_spaces, comm.size());
   if (options.action == Action::run) return simulate(comm, options, *scene, spec);
   mpi::agree_on_errors(comm, [&] {
     if (comm.is_root()) say(describe(*scene, spec, comm.size()));

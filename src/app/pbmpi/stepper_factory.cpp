@@ -1,10 +1,13 @@
 #include "app/pbmpi/stepper_factory.h"
 
+#include <utility>
+
 #include "model/names.h"
 #include "ode/narrow_phase.h"
 #include "ode/ode_stepper.h"
 #include "solver/simd.h"
 #include "solver/sor_stepper.h"
+#include "solver/space_world.h"
 
 namespace pbmpi::app {
 
@@ -14,6 +17,11 @@ std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& 
     return solver::make_sor_stepper(settings, ode::make_narrow_phase);
   return ode::make_ode_stepper(
       settings, [warning_prefix](const std::string& line) { ode::warn_on_stderr(warning_prefix + line); });
+}
+
+std::unique_ptr<model::SpaceStepper> make_space_stepper(const model::StepperSettings& settings,
+                                                        std::shared_ptr<const model::Model> model) {
+  return solver::make_space_world(settings, ode::make_narrow_phase, std::move(model));
 }
 
 std::string simd_text(const model::StepperSettings& settings) {

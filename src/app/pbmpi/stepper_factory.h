@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "model/space_stepper.h"
 #include "model/stepper.h"
 
 namespace pbmpi::app {
@@ -12,6 +13,10 @@ namespace pbmpi::app {
 /// that the stepper refuses. Warnings go to stderr behind `warning_prefix`.
 std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings,
                                                   const std::string& warning_prefix = "");
+
+/// The same for one world that is cut into spaces; sor only.
+std::unique_ptr<model::SpaceStepper> make_space_stepper(const model::StepperSettings& settings,
+                                                        std::shared_ptr<const model::Model> model);
 
 /// The vector instructions that the stepper uses and its lanes, e.g. "avx512, 16 lanes"; empty for ODE's.
 std::string simd_text(const model::StepperSettings& settings);

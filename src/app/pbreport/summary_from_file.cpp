@@ -38,6 +38,25 @@ std::vector<double> sum_over_worlds(const io::RunData& run, const std::string& n
   return sums;
 }
 
+/// A column of /timings/rank summed over the ranks, of every frame.
+std::vector<double> sum_over_ranks(const io::RunData& run, const std::string& name) {
+  std::vector<double> sums(run.frame_measured.size(), 0);
+  const auto found = run.rank_times.find(name);
+  if (found == run.rank_times.end()) return sums;
+  for (std::size_t frame = 0; frame < sums.size(); ++frame)
+    sums[frame] = std::accumulate(found->second[frame].begin(), found->second[frame].end(), 0.0);
+  return sums;
+}
+
+/// Rows of the largest island of any world, of every frame.
+std::vector<double> largest_islands(const io::RunData& run) {
+  std::vector<double> rows;
+  const auto found = run.observables.find("max_island_rows");
+  if (found == run.observables.end()) return std::vector<double>(run.frame_measured.size(), 0);
+  for (const auto& worlds : found->second) rows.push_back(*std::max_element(worlds.begin(), worlds.end()));
+  return rows;
+}
+
 /// The largest value in any world in the measured frames.
 double largest_measured(const io::RunData& run, const std::string& name) {
   double largest = 0;
@@ -119,6 +138,7 @@ void read_settings(const io::RunData& run, const std::string& path, RunSummary& 
   summary.stepper = text_of(run.parameters, "stepper");
   summary.precision = text_of(run.parameters, "precision");
   summary.simd = text_of(run.parameters, "simd");
+  if (text_of(run.parameters, "decompose") == "spaces") summary.decomposition = "spaces";
   summary.iterations = number_of<int>(run, "iterations", path);
   summary.substeps = number_of<int>(run, "substeps", path);
   summary.steps_per_frame = number_of<int>(run, "steps_per_frame", path);
@@ -159,6 +179,9 @@ MeasuredFrames measured_frames(const io::RunData& run) {
   frames.islands = only_measured(sum_over_worlds(run, "islands"), run.frame_measured);
   frames.contacts = only_measured(sum_over_worlds(run, "contacts"), run.frame_measured);
   frames.rows = only_measured(sum_over_worlds(run, "rows"), run.frame_measured);
+  frames.max_island_rows = only_measured(largest_islands(run), run.frame_measured);
+  frames.messages = only_measured(sum_over_ranks(run, "messages"), run.frame_measured);
+  frames.bytes = only_measured(sum_over_ranks(run, "bytes"), run.frame_measured);
   return frames;
 }
 

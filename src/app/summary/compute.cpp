@@ -31,7 +31,8 @@ std::vector<PhaseSummary> summarize_phases(const MeasuredFrames& frames) {
     if (largest(totals) == 0) continue;
     const auto [min, max] = std::minmax_element(totals.begin(), totals.end());
     phases.push_back({std::string(core::phase_names[static_cast<std::size_t>(phase)]), *min, mean(totals),
-                      *max, static_cast<int>(min - totals.begin()), static_cast<int>(max - totals.begin())});
+                      *max, static_cast<int>(min - totals.begin()), static_cast<int>(max - totals.begin()),
+                      totals});
   }
   return phases;
 }
@@ -47,6 +48,43 @@ void compute_efficiency(const MeasuredFrames& frames, double elapsed_s, RunSumma
   summary.load_balance = mean(useful) / largest(useful);
   summary.communication_efficiency = std::min(1.0, largest(useful) / elapsed_s);
   summary.parallel_efficiency = summary.load_balance * summary.communication_efficiency;
+}
+
+/// Seconds of all ranks in one frame.
+struct FrameWork {
+  double collide_s = 0, solve_s = 0, section_s = 0;
+};
+
+FrameWork work_of_frame(const MeasuredFrames& frames, std::size_t frame) {
+  FrameWork work;
+  for (const auto& rank : frames.phases) {
+    const core::PhaseTimes times{rank[frame]};
+    work.collide_s += times[core::Phase::collide] + times[core::Phase::islands];
+    work.solve_s += times[core::Phase::rows] + times[core::Phase::solve] + times[core::Phase::integrate];
+    work.section_s += times[core::Phase::cross_space];
+  }
+  return work;
+}
+
+void compute_spaces(const MeasuredFrames& frames, double elapsed_s, RunSummary& summary) {
+  const auto ranks = static_cast<double>(summary.ranks);
+  double work_s = 0, section_s = 0, island_bound_s = 0;
+  for (std::size_t frame = 0; frame < frames.wall_s.size(); ++frame) {
+    const FrameWork work = work_of_frame(frames, frame);
+    const double share = frames.rows[frame] > 0 ? frames.max_island_rows[frame] / frames.rows[frame] : 0;
+    work_s += work.collide_s + work.solve_s;
+    section_s += work.section_s;
+    island_bound_s += work.section_s + work.collide_s / ranks + work.solve_s * std::max(share, 1 / ranks);
+  }
+  if (work_s <= 0 || elapsed_s <= 0) return;
+  SpacesSummary& spaces = summary.spaces;
+  spaces.serial_share = section_s / (section_s + work_s);
+  spaces.amdahl_bound = work_s / (section_s + work_s / ranks);
+  spaces.island_bound = work_s / island_bound_s;
+  spaces.speed_up = work_s / elapsed_s;
+  const double steps = static_cast<double>(frames.wall_s.size()) * summary.steps_per_frame;
+  spaces.messages_per_step = sum(frames.messages) / steps;
+  spaces.bytes_per_step = sum(frames.bytes) / steps;
 }
 
 }  // namespace
@@ -70,6 +108,7 @@ void compute_performance(const MeasuredFrames& frames, RunSummary& summary) {
   summary.frame_max_s = largest(frames.wall_s);
   summary.phases = summarize_phases(frames);
   compute_efficiency(frames, elapsed_s, summary);
+  if (summary.decomposition == "spaces") compute_spaces(frames, elapsed_s, summary);
   summary.islands = core::summarize(frames.islands);
   summary.contacts_mean = mean(frames.contacts);
   summary.contacts_max = largest(frames.contacts);

@@ -20,8 +20,9 @@ std::string run_lines(const RunSummary& s) {
   text += format("ranks: %d on %s\n", s.ranks,
                  join(s.hosts, [](const std::string& host) { return host; }).c_str());
   if (!s.idle_ranks.empty()) {
-    text += format("idle_ranks: %s (more ranks than worlds)\n",
-                   join(s.idle_ranks, [](int rank) { return std::to_string(rank); }).c_str());
+    text += format("idle_ranks: %s (more ranks than %s)\n",
+                   join(s.idle_ranks, [](int rank) { return std::to_string(rank); }).c_str(),
+                   s.decomposition.c_str());
   }
   text +=
       format("stepper: %s, %d iterations, %d substeps, %s precision, dt %g s, %d steps a frame, seed %llu\n",
@@ -31,6 +32,24 @@ std::string run_lines(const RunSummary& s) {
   text += format("effects: %s\n", join(s.effects, [](const EffectSummary& e) { return e.name; }).c_str());
   text += format("frames: %lld measured after %lld of warm-up%s\n", static_cast<long long>(s.measured_frames),
                  static_cast<long long>(s.warmup_frames), s.complete ? "" : " (stopped before the last)");
+  return text;
+}
+
+std::string spaces_lines(const RunSummary& s) {
+  const SpacesSummary& spaces = s.spaces;
+  std::string text;
+  for (int rank = 0; rank < s.ranks; ++rank) {
+    text += format("rank: %-3d", rank);
+    for (const PhaseSummary& p : s.phases)
+      text += format(" %s %.3f", p.name.c_str(), 1e3 * p.by_rank_s[static_cast<std::size_t>(rank)]);
+    text += " ms\n";
+  }
+  text += format(
+      "spaces: serial share %.2f %% (root's section), so at most %.2f times one rank (Amdahl), %.2f with the "
+      "largest island on one rank; measured %.2f (work over elapsed time)\n",
+      100 * spaces.serial_share, spaces.amdahl_bound, spaces.island_bound, spaces.speed_up);
+  text += format("traffic: %.1f messages and %.0f bytes a step\n", spaces.messages_per_step,
+                 spaces.bytes_per_step);
   return text;
 }
 
@@ -48,9 +67,10 @@ std::string speed_lines(const RunSummary& s) {
   }
   text += format("efficiency: parallel %.1f %% = load balance %.1f %% x communication %.1f %%\n",
                  100 * s.parallel_efficiency, 100 * s.load_balance, 100 * s.communication_efficiency);
+  if (s.decomposition == "spaces") text += spaces_lines(s);
   if (s.rebalances > 0) {
-    text += format("rebalances: %lld (%lld worlds moved)\n", static_cast<long long>(s.rebalances),
-                   static_cast<long long>(s.worlds_moved));
+    text += format("rebalances: %lld (%lld %s moved)\n", static_cast<long long>(s.rebalances),
+                   static_cast<long long>(s.worlds_moved), s.decomposition.c_str());
   }
   return text;
 }
@@ -124,7 +144,8 @@ nlohmann::ordered_json phases_json(const RunSummary& s) {
                       {"min_rank", p.min_rank},
                       {"avg_s", p.avg_s},
                       {"max_s", p.max_s},
-                      {"max_rank", p.max_rank}});
+                      {"max_rank", p.max_rank},
+                      {"by_rank_s", p.by_rank_s}});
   }
   return phases;
 }
@@ -183,7 +204,14 @@ std::string to_json(const RunSummary& s) {
                         {"max_penetration_m", s.max_penetration_m},
                         {"energy_j", s.energy_j}};
   json["effects"] = effects_json(s);
-  json["rebalances"] = {{"count", s.rebalances}, {"worlds_moved", s.worlds_moved}};
+  json["decomposition"] = s.decomposition;
+  if (s.decomposition == "spaces") {
+    json["spaces"] = {
+        {"serial_share", s.spaces.serial_share},           {"amdahl_bound", s.spaces.amdahl_bound},
+        {"island_bound", s.spaces.island_bound},           {"speed_up", s.spaces.speed_up},
+        {"messages_per_step", s.spaces.messages_per_step}, {"bytes_per_step", s.spaces.bytes_per_step}};
+  }
+  json["rebalances"] = {{"count", s.rebalances}, {"worlds_moved", s.worlds_moved}};  // or spaces
   if (s.estimate) json["estimate"] = estimate_json(*s.estimate);
   json["output"] = s.output;
   json["state_hash"] = s.state_hash;

@@ -19,6 +19,7 @@ struct PhaseSummary {
   std::string name;
   double min_s = 0, avg_s = 0, max_s = 0;
   int min_rank = 0, max_rank = 0;
+  std::vector<double> by_rank_s;  ///< [ranks]
 };
 
 struct EffectSummary {
@@ -36,6 +37,16 @@ struct EstimateSummary {
   double precise_over_delivered = 0;       ///< sum of the frames' precise times over that of their deliveries
   analysis::ErrorSummary position_defect;  ///< [m]
   analysis::ErrorSummary orientation_defect;  ///< [rad]
+};
+
+/// What limits one world that is cut into spaces. Work = the useful seconds of all ranks; speed-ups are
+/// against one rank that does all of it but root's section, which one rank alone need not do.
+struct SpacesSummary {
+  double serial_share = 0;  ///< root's section (cross_space) over the elapsed time that one rank would take
+  double amdahl_bound = 1;  ///< speed-up if all but root's section were spread evenly
+  double island_bound = 1;  ///< speed-up if, besides, each frame's largest island were solved by one rank
+  double speed_up = 1;      ///< measured: work over elapsed time
+  double messages_per_step = 0, bytes_per_step = 0;  ///< of all ranks
 };
 
 /// Counts and invariants over the measured frames; counts are sums over all worlds at the end of a frame.
@@ -59,7 +70,9 @@ struct RunSummary {
   std::int64_t nonfinite_bodies = 0;
   double max_joint_gap_m = 0, max_penetration_m = 0, energy_j = 0;  ///< energy: at the end
   std::vector<EffectSummary> effects;
-  std::int64_t rebalances = 0, worlds_moved = 0;
+  std::int64_t rebalances = 0, worlds_moved = 0;  ///< moved: worlds, or spaces
+  std::string decomposition = "worlds";
+  SpacesSummary spaces;                     ///< counts if decomposition is "spaces"
   std::optional<EstimateSummary> estimate;  ///< with FEEC
 };
 
@@ -68,6 +81,8 @@ struct MeasuredFrames {
   std::vector<double> wall_s;                                             ///< [T] frames, measured ones only
   std::vector<std::vector<std::array<double, core::num_phases>>> phases;  ///< [R][T] s
   std::vector<double> islands, contacts, rows;                            ///< [T] sums over worlds
+  std::vector<double> max_island_rows;                                    ///< [T] of the largest island
+  std::vector<double> messages, bytes;                                    ///< [T] sums over ranks
 };
 
 /// Fills frame rate, throughput, frame times, phases, efficiency, islands, contacts and rows of `summary`,

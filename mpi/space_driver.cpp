@@ -1,0 +1,219 @@
+#include "mpi/space_driver.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "core/error.h"
+#include "mpi/wire.h"
+
+namespace pbmpi::mpi {
+
+using core::Phase;
+
+namespace {
+
+std::string describe(const Reassignment& plan) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%zu space%s moved: busiest rank %.3f -> %.3f ms a frame",
+                plan.moves.size(), plan.moves.size() == 1 ? "" : "s", 1e3 * plan.makespan_before_s,
+                1e3 * plan.makespan_after_s);
+  return text;
+}
+
+std::vector<int> all_bodies(int count) {
+  std::vector<int> bodies(static_cast<std::size_t>(count));
+  for (int body = 0; body < count; ++body) bodies[body] = body;
+  return bodies;
+}
+
+}  // namespace
+
+std::vector<int> initial_owners(const model::SpaceMap& map, int num_ranks) {
+  std::vector<double> cost;
+  for (const std::vector<int>& units : map.units_of_space) {
+    double rows = 0;
+    for (const int unit : units)
+      rows += map.rows_of_unit[unit] + static_cast<double>(map.bodies_of_unit[unit].size());
+    cost.push_back(rows);
+  }
+  return lpt_placement(cost, num_ranks);
+}
+
+SpaceDriver::SpaceDriver(const Communicator& comm, model::SpaceStepper& stepper,
+                         const WorldRunSettings& settings)
+    : FrameDriver(comm, settings, stepper.map().num_spaces()),
+      stepper_(&stepper),
+      ownership_(stepper.map(),
+                 settings.placement.empty() ? initial_owners(stepper.map(), comm.size()) : settings.placement,
+                 comm.size()),
+      step_(this->comm(), stepper, errors()) {
+  core::require_invariant(settings.num_worlds == 1, "SpaceDriver: one world");
+  table_.body_offset.push_back(stepper.model().num_bodies());
+  step_.own(ownership_, model::initial_state(stepper.model()), 0);
+  agree(this->comm(), errors());
+}
+
+std::vector<model::LocalWorld> SpaceDriver::local_worlds() const {
+  if (!comm().is_root()) return {};
+  return {{0, &stepper_->model(), &stepper_->state(), &observables_}};
+}
+
+std::vector<int> SpaceDriver::idle_ranks() const {
+  std::vector<int> idle;
+  for (int rank = 0; rank < comm().size(); ++rank) {
+    if (ownership_.bodies[rank].empty()) idle.push_back(rank);
+  }
+  return idle;
+}
+
+void SpaceDriver::advance(core::PhaseTimes& times) {
+  core::LapTimer timer(times);
+  // A rank without bodies only waits for the others, whatever the phases in which it does so.
+  const bool idle = !comm().is_root() && ownership_.bodies[comm().rank()].empty();
+  core::PhaseTimes unused;
+  for (int i = 0; i < settings().steps_per_frame; ++i) {
+    step_.run(steps_done_, i + 1 == settings().steps_per_frame, idle ? unused : times);
+    if (hook_) hook_(steps_done_, step_.contacts());
+    ++steps_done_;
+  }
+  if (idle) timer.lap(Phase::wait);
+  if (!comm().is_root()) return;
+  core::LapTimer observing(times);
+  observe();
+  observing.lap(Phase::islands);
+}
+
+void SpaceDriver::observe() {
+  const model::IslandCounts& counts = step_.findings().counts;
+  const model::State& state = stepper_->state();
+  observables_.contacts = counts.contacts;
+  observables_.rows = counts.rows;
+  observables_.islands = counts.islands;
+  observables_.max_island_rows = counts.max_island_rows;
+  observables_.max_penetration_m = counts.max_penetration_m;
+  observables_.energy_j = model::mechanical_energy(stepper_->model(), state);
+  observables_.joint_gap_m = model::max_joint_gap(stepper_->model(), state);
+  observables_.nonfinite = model::count_nonfinite(state);
+}
+
+int SpaceDriver::lowest_nonfinite_world() const {
+  return comm().is_root() && observables_.nonfinite > 0 ? 0 : settings().num_worlds;
+}
+
+std::int64_t SpaceDriver::count_nonfinite(int) const { return observables_.nonfinite; }
+int SpaceDriver::reporter_of(int) const { return Communicator::root; }
+
+/// Root got everything with the last step.
+void SpaceDriver::gather(core::PhaseTimes&) {}
+
+/// Seconds of a rank in the solver, in one frame.
+static double solver_s(const core::PhaseTimes& times) {
+  return times[Phase::rows] + times[Phase::solve] + times[Phase::integrate];
+}
+
+/// The seconds of collision go to the spaces of the rank that spent them, by contact rows and bodies; those
+/// of the solver to batches of equal units and to contacts, by their rows, over all ranks (an island costs
+/// the same anywhere).
+SpaceLoads SpaceDriver::loads() const {
+  const FrameFindings& found = step_.findings();
+  const model::SpaceMap& map = stepper_->map();
+  const std::size_t num_spaces = ownership_.owner.size();
+  const auto num_shapes = static_cast<std::size_t>(map.num_shapes());
+  SpaceLoads loads;
+  loads.num_lanes = stepper_->num_lanes();
+  loads.batch_s.assign(num_shapes, 0);
+  loads.inside.assign(num_spaces, {std::vector<int>(num_shapes, 0), 0, 0});
+  std::vector<double> space_weight(num_spaces, 0), rank_weight(ownership_.spaces.size(), 0);
+  std::map<int, std::map<int, SpacePart>> islands;  // by island and space; weights instead of seconds
+  for (int unit = 0; unit < map.num_units(); ++unit) {
+    const int space = map.space_of_unit[unit];
+    const auto bodies = static_cast<int>(map.bodies_of_unit[unit].size());
+    const double contact_rows = found.weight[unit] - map.rows_of_unit[unit] - bodies;
+    loads.batch_s[map.shape_of_unit[unit]] = loads.num_lanes * (map.rows_of_unit[unit] + bodies);
+    SpacePart& part = islands[found.island[unit]][space];
+    part.space = space;
+    part.work.units.resize(num_shapes);
+    ++part.work.units[map.shape_of_unit[unit]];
+    part.work.contacts_s += contact_rows;
+    part.work.bodies += bodies;
+    space_weight[space] += contact_rows + bodies;
+    rank_weight[ownership_.owner[space]] += contact_rows + bodies;
+  }
+  for (const auto& [island, parts] : islands) {
+    if (parts.size() == 1) {
+      loads.inside[parts.begin()->first].add(parts.begin()->second.work);
+      continue;
+    }
+    std::vector<SpacePart>& shared = loads.islands.emplace_back();
+    for (const auto& [space, part] : parts) shared.push_back(part);
+  }
+  for (std::size_t space = 0; space < num_spaces; ++space) {
+    const int owner = ownership_.owner[space];
+    const double rank_s = found.times[owner][Phase::collide] + found.times[owner][Phase::islands];
+    loads.collide_s.push_back(rank_weight[owner] > 0 ? rank_s * space_weight[space] / rank_weight[owner] : 0);
+  }
+  scale_to_seconds(loads);
+  return loads;
+}
+
+/// From weights to the seconds that the frame took with the present owners.
+void SpaceDriver::scale_to_seconds(SpaceLoads& loads) const {
+  const FrameFindings& found = step_.findings();
+  double seconds = 0, ship_s = 0, weight = 0;
+  for (const core::PhaseTimes& times : found.times) {
+    seconds += solver_s(times);
+    ship_s += times[Phase::ship];
+  }
+  for (const RankLoad& rank : predict_loads(loads, ownership_.owner, comm().size()).ranks)
+    weight += rank.solve_s;
+  const double scale = weight > 0 ? seconds / weight : 0;
+  for (double& batch : loads.batch_s) batch *= scale;
+  for (SolverWork& work : loads.inside) work.contacts_s *= scale;
+  for (std::vector<SpacePart>& island : loads.islands) {
+    for (SpacePart& part : island) part.work.contacts_s *= scale;
+  }
+  loads.root_extra_s = found.times.front()[Phase::cross_space];
+  if (found.bodies_shipped > 0) {
+    loads.ship_s = settings().steps_per_frame * ship_s / (2.0 * static_cast<double>(found.bodies_shipped));
+  }
+}
+
+std::int64_t SpaceDriver::plan_moves(bool last) {
+  planned_ = {};
+  frames_until_decision_ = std::max(0, frames_until_decision_ - 1);
+  if (comm().size() == 1 || last || frames_until_decision_ > 0) return 0;
+  planned_ = reassign_spaces(loads(), ownership_.owner, comm().size(), settings().rebalance_threshold);
+  if (!planned_.moves.empty()) frames_until_decision_ = frames_between_decisions + 1;
+  return std::ssize(planned_.moves);
+}
+
+std::string SpaceDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
+  planned_.moves.resize(num_moves);
+  comm().bcast(std::span(planned_.moves));
+  const int num_bodies = stepper_->model().num_bodies();
+  const std::vector<int> bodies = all_bodies(num_bodies);
+  std::vector<double> rows(numbers_of_state * static_cast<std::size_t>(num_bodies));
+  if (comm().is_root()) rows = state_rows(stepper_->state(), bodies);
+  comm().bcast(std::span(rows));
+  std::vector<int> owner = ownership_.owner;
+  for (const Move& move : planned_.moves) owner[move.world] = move.to;
+  ownership_ = SpaceOwnership(stepper_->map(), std::move(owner), comm().size());
+  stepper_->put_states(bodies, rows);
+  const model::State state = stepper_->state();
+  step_.own(ownership_, state, step);
+  return describe(planned_);
+}
+
+std::uint64_t SpaceDriver::state_hash() const {
+  std::uint64_t hash = 0;
+  if (comm().is_root()) {
+    const std::uint64_t world = model::hash(stepper_->state());
+    hash = combine_world_hashes(std::span(&world, 1));
+  }
+  comm().bcast_value(hash);
+  return hash;
+}
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,126 @@
+#include "mpi/space_step.h"
+
+#include <memory>
+
+#include "model/islands.h"
+#include "mpi/message.h"
+
+namespace pbmpi::mpi {
+
+using core::Phase;
+using model::Contact;
+
+SpaceStep::SpaceStep(const Communicator& comm, model::SpaceStepper& stepper, ErrorHold& errors)
+    : comm_(&comm), stepper_(&stepper), errors_(&errors) {
+  if (comm.size() > 1) mail_ = std::make_unique<Mail>(comm);
+}
+
+void SpaceStep::own(const SpaceOwnership& ownership, const model::State& state, std::int64_t step) {
+  ownership_ = ownership;
+  crosses_ = ownership.is_divided() && stepper_->model().spaces_meet;
+  active_units_ = own_units();
+  guard([&] { stepper_->own(ownership.spaces[comm_->rank()], state, step); });
+  if (!is_root()) return;
+  has_poses_ = true;
+  boxes_.resize(ownership.owner.size());
+  for (std::size_t space = 0; space < boxes_.size(); ++space)
+    boxes_[space] = stepper_->space_box(static_cast<int>(space));
+  reports_.assign(static_cast<std::size_t>(comm_->size()), {});
+  place_of_unit_.assign(stepper_->map().unit_of_body.size(), {});
+}
+
+void SpaceStep::run(std::int64_t step, bool last, core::PhaseTimes& times) {
+  core::LapTimer timer(times);
+  guard([&] {
+    stepper_->fire_events(step);
+    stepper_->collide(contacts_);
+  });
+  timer.lap(Phase::collide);
+  if (crosses_) exchange(step, timer);
+  guard([&] { stepper_->solve(active_units_, contacts_, step, times); });
+  core::LapTimer after(times);
+  if (crosses_) ship_back(after);
+  if (last) {
+    finish_frame(times);
+  } else if (crosses_ && !is_root()) {
+    post_poses();
+    after.lap(Phase::gather);
+  }
+}
+
+void SpaceStep::exchange(std::int64_t step, core::LapTimer& timer) {
+  find_local_islands();
+  timer.lap(Phase::islands);
+  Orders orders;
+  if (is_root()) {
+    orders = direct(step, timer);
+  } else {
+    post_report();
+    timer.lap(Phase::gather);
+    orders = receive_orders();
+    timer.lap(Phase::wait);
+  }
+  // By now root has received what this rank had posted, so that nothing is waited for here.
+  mail_->finish();
+  ship(orders, timer);
+}
+
+void SpaceStep::find_local_islands() {
+  const model::SpaceMap& map = stepper_->map();
+  model::DisjointSets sets(map.num_units());
+  std::vector<std::int32_t> weight(static_cast<std::size_t>(map.num_units()), 0);
+  for (const Contact& contact : contacts_) {
+    const int unit = map.unit_of_body[contact.body_a];
+    weight[unit] += contact.mu > 0 ? 3 : 1;
+    if (contact.body_b != model::no_body) sets.unite(unit, map.unit_of_body[contact.body_b]);
+  }
+  std::vector<std::int32_t> island(static_cast<std::size_t>(map.num_units()), -1);
+  islands_.of_unit.clear();
+  islands_.weight.clear();
+  unit_weight_.clear();
+  for (const int unit : own_units()) {
+    const int lowest = sets.find(unit);
+    if (lowest == unit) {
+      island[unit] = static_cast<std::int32_t>(islands_.weight.size());
+      islands_.weight.push_back(0);
+    }
+    islands_.of_unit.push_back(island[lowest]);
+    unit_weight_.push_back(weight[unit] + map.rows_of_unit[unit] +
+                           static_cast<std::int32_t>(map.bodies_of_unit[unit].size()));
+    islands_.weight[island[lowest]] += unit_weight_.back();
+  }
+}
+
+void SpaceStep::post_report() {
+  MessageWriter message;
+  message.put(islands_.of_unit);
+  message.put(islands_.weight);
+  mail_->post(message.take(), Communicator::root, report_tag);
+}
+
+SpaceStep::Orders SpaceStep::receive_orders() {
+  MessageReader message(mail_->take(Communicator::root, orders_tag));
+  Orders orders;
+  const auto outgoing = message.get<std::int32_t>();
+  const auto arrivals = message.get<std::int32_t>();
+  const auto contacts = message.get<WireContact>();
+  orders.outgoing.assign(outgoing.begin(), outgoing.end());
+  orders.arrivals.assign(arrivals.begin(), arrivals.end());
+  orders.contacts.assign(contacts.begin(), contacts.end());
+  return orders;
+}
+
+std::vector<model::Box> SpaceStep::own_boxes() const {
+  std::vector<model::Box> boxes;
+  for (const int space : ownership_->spaces[comm_->rank()]) boxes.push_back(stepper_->space_box(space));
+  return boxes;
+}
+
+void SpaceStep::post_poses() {
+  MessageWriter message;
+  message.put(pose_rows(stepper_->state(), ownership_->bodies[comm_->rank()]));
+  message.put(own_boxes());
+  mail_->post(message.take(), Communicator::root, poses_tag);
+}
+
+}  // namespace pbmpi::mpi

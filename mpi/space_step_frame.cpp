@@ -1,0 +1,123 @@
+/// The end of a frame: root gets all states, counts and times.
+#include "mpi/space_step.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "model/islands.h"
+
+namespace pbmpi::mpi {
+
+using core::Phase;
+using model::Contact;
+
+void SpaceStep::finish_frame(core::PhaseTimes& times) {
+  core::LapTimer timer(times);
+  if (!crosses_) find_local_islands();
+  model::IslandCounts counts;
+  guard([&] { counts = stepper_->count(active_units_, contacts_); });
+  timer.lap(Phase::islands);
+  if (is_root()) {
+    receive_frame(counts, times, timer);
+  } else {
+    post_frame(counts, times);
+    timer.lap(Phase::gather);
+  }
+  bodies_shipped_ = 0;
+}
+
+void SpaceStep::post_frame(const model::IslandCounts& counts, const core::PhaseTimes& times) {
+  if (!crosses_) mail_->finish();  // root has the message of the frame before
+  MessageWriter message;
+  message.put(state_rows(stepper_->state(), ownership_->bodies[comm_->rank()]));
+  message.put(own_boxes());
+  message.put_value(counts);
+  message.put_value(times);
+  message.put_value(bodies_shipped_);
+  message.put(islands_.of_unit);
+  message.put(unit_weight_);
+  mail_->post(message.take(), Communicator::root, frame_tag);
+}
+
+void SpaceStep::receive_frame(const model::IslandCounts& counts, const core::PhaseTimes& times,
+                              core::LapTimer& timer) {
+  findings_ = {};
+  findings_.counts = counts;
+  findings_.weight.resize(static_cast<std::size_t>(stepper_->map().num_units()));
+  findings_.times.resize(static_cast<std::size_t>(comm_->size()));
+  findings_.times.front() = times;
+  findings_.bodies_shipped = bodies_shipped_;
+  std::vector<std::vector<std::int32_t>> islands(static_cast<std::size_t>(comm_->size()));
+  islands.front() = islands_.of_unit;
+  note_weights(Communicator::root, unit_weight_);
+  for (int rank = 1; rank < comm_->size(); ++rank) {
+    MessageReader message(mail_->take(rank, frame_tag));
+    timer.lap(Phase::wait);
+    take_frame(rank, message);
+    const auto of_unit = message.get<std::int32_t>();
+    islands[rank].assign(of_unit.begin(), of_unit.end());
+    note_weights(rank, message.get<std::int32_t>());
+    timer.lap(Phase::gather);
+  }
+  has_poses_ = true;
+  if (!crosses_ && ownership_->is_divided()) guard([&] { require_apart(); });
+  join_findings(islands);
+  timer.lap(Phase::islands);
+}
+
+/// The scene's word is taken for each step, and checked once a frame.
+void SpaceStep::require_apart() {
+  for (const int space : ownership_->spaces[comm_->rank()]) boxes_[space] = stepper_->space_box(space);
+  stepper_->collide_across(ownership_->owner, boxes_, crossing_);
+  if (crossing_.empty()) return;
+  const model::Model& model = stepper_->model();
+  const auto name = [&](int body) {
+    return "'" + model.bodies[body].name + "' of space '" +
+           model.spaces[stepper_->map().space_of_body(body)] + "'";
+  };
+  throw core::RunError(name(crossing_.front().body_a) + " touches " + name(crossing_.front().body_b) +
+                       ", though the scene says inter_space = \"none\"; drop that line");
+}
+
+void SpaceStep::take_frame(int rank, MessageReader& message) {
+  stepper_->put_states(ownership_->bodies[rank], message.get<double>());
+  const auto boxes = message.get<model::Box>();
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes_[ownership_->spaces[rank][i]] = boxes[i];
+  const auto counts = message.get_value<model::IslandCounts>();
+  model::IslandCounts& all = findings_.counts;
+  all.contacts += counts.contacts;
+  all.rows += counts.rows;
+  all.islands += counts.islands;
+  all.max_island_rows = std::max(all.max_island_rows, counts.max_island_rows);
+  all.max_penetration_m = std::max(all.max_penetration_m, counts.max_penetration_m);
+  findings_.times[rank] = message.get_value<core::PhaseTimes>();
+  findings_.bodies_shipped += message.get_value<std::int64_t>();
+}
+
+void SpaceStep::note_weights(int rank, std::span<const std::int32_t> weights) {
+  for (std::size_t i = 0; i < weights.size(); ++i) findings_.weight[ownership_->units[rank][i]] = weights[i];
+}
+
+/// Islands of the world: those of the ranks, joined by the contacts across spaces.
+void SpaceStep::join_findings(std::span<const std::vector<std::int32_t>> islands) {
+  const model::SpaceMap& map = stepper_->map();
+  model::DisjointSets sets(map.num_units());
+  for (int rank = 0; rank < comm_->size(); ++rank) {
+    std::vector<int> first(islands[rank].size(), -1);
+    for (std::size_t i = 0; i < islands[rank].size(); ++i) {
+      int& lowest = first[islands[rank][i]];
+      if (lowest < 0) lowest = ownership_->units[rank][i];
+      sets.unite(lowest, ownership_->units[rank][i]);
+    }
+  }
+  if (crosses_) {
+    for (const Contact& contact : crossing_) {
+      const int unit = map.unit_of_body[contact.body_a];
+      sets.unite(unit, map.unit_of_body[contact.body_b]);
+      findings_.weight[unit] += contact.mu > 0 ? 3 : 1;
+    }
+  }
+  for (int unit = 0; unit < map.num_units(); ++unit) findings_.island.push_back(sets.find(unit));
+}
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,86 @@
+/// Root's section of a step: what crosses spaces.
+#include "mpi/space_step.h"
+
+#include <utility>
+
+namespace pbmpi::mpi {
+
+using core::Phase;
+using model::Contact;
+
+/// Root's section of the step.
+SpaceStep::Orders SpaceStep::direct(std::int64_t step, core::LapTimer& timer) {
+  if (!has_poses_) receive_poses(timer);
+  has_poses_ = false;
+  guard([&] {
+    stepper_->launch_others(step, boxes_);
+    for (const int space : ownership_->spaces[comm_->rank()]) boxes_[space] = stepper_->space_box(space);
+    stepper_->collide_across(ownership_->owner, boxes_, crossing_);
+  });
+  timer.lap(Phase::cross_space);
+  receive_reports(timer);
+  std::vector<Orders> orders = join_islands();
+  for (int rank = 1; rank < comm_->size(); ++rank) {
+    MessageWriter message;
+    message.put(orders[rank].outgoing);
+    message.put(orders[rank].arrivals);
+    message.put(orders[rank].contacts);
+    mail_->post(message.take(), rank, orders_tag);
+  }
+  timer.lap(Phase::cross_space);
+  return std::move(orders.front());
+}
+
+void SpaceStep::receive_poses(core::LapTimer& timer) {
+  for (int rank = 1; rank < comm_->size(); ++rank) {
+    MessageReader message(mail_->take(rank, poses_tag));
+    timer.lap(Phase::wait);
+    stepper_->put_poses(ownership_->bodies[rank], message.get<double>());
+    const std::span<const model::Box> boxes = message.get<model::Box>();
+    for (std::size_t i = 0; i < boxes.size(); ++i) boxes_[ownership_->spaces[rank][i]] = boxes[i];
+    timer.lap(Phase::gather);
+  }
+}
+
+void SpaceStep::receive_reports(core::LapTimer& timer) {
+  reports_[comm_->rank()] = islands_;
+  for (int rank = 1; rank < comm_->size(); ++rank) {
+    MessageReader message(mail_->take(rank, report_tag));
+    timer.lap(Phase::wait);
+    const auto of_unit = message.get<std::int32_t>();
+    const auto weight = message.get<std::int32_t>();
+    reports_[rank].of_unit.assign(of_unit.begin(), of_unit.end());
+    reports_[rank].weight.assign(weight.begin(), weight.end());
+  }
+  timer.lap(Phase::gather);
+}
+
+std::vector<SpaceStep::Orders> SpaceStep::join_islands() {
+  const model::SpaceMap& map = stepper_->map();
+  std::vector<Orders> orders(static_cast<std::size_t>(comm_->size()));
+  if (crossing_.empty()) return orders;
+  for (int rank = 0; rank < comm_->size(); ++rank) {
+    for (std::size_t i = 0; i < ownership_->units[rank].size(); ++i)
+      place_of_unit_[ownership_->units[rank][i]] = {rank, reports_[rank].of_unit[i]};
+  }
+  std::vector<IslandLink> links;
+  links.reserve(crossing_.size());
+  for (const Contact& contact : crossing_) {
+    links.push_back(
+        {place_of_unit_[map.unit_of_body[contact.body_a]], place_of_unit_[map.unit_of_body[contact.body_b]]});
+  }
+  const std::vector<double> head_start(static_cast<std::size_t>(comm_->size()), 0);
+  const IslandPlan plan = plan_islands(reports_, links, head_start);
+  for (const Transfer& transfer : plan.transfers) {
+    std::vector<std::int32_t>& outgoing = orders[transfer.island.rank].outgoing;
+    outgoing.push_back(transfer.island.island);
+    outgoing.push_back(transfer.to);
+    std::vector<std::int32_t>& arrivals = orders[transfer.to].arrivals;
+    if (arrivals.empty() || arrivals.back() != transfer.island.rank) arrivals.push_back(transfer.island.rank);
+  }
+  for (std::size_t i = 0; i < crossing_.size(); ++i)
+    orders[plan.solver_of_link[i]].contacts.push_back(to_wire(crossing_[i]));
+  return orders;
+}
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,81 @@
+/// The interface through which one world is stepped by several ranks, each of which owns some of its spaces,
+/// whatever the engine.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/clock.h"
+#include "model/box.h"
+#include "model/contact.h"
+#include "model/model.h"
+#include "model/space_map.h"
+#include "model/state.h"
+
+namespace pbmpi::model {
+
+/// What is counted of the islands that one rank has solved.
+struct IslandCounts {
+  int contacts = 0;
+  int rows = 0;
+  int islands = 0;
+  int max_island_rows = 0;
+  double max_penetration_m = 0;
+};
+
+/// One rank's view of the world. It knows all bodies; the rows of state() that belong to its own spaces are
+/// current, others are as the rank last heard of them. The result of a step depends neither on who owns what
+/// nor on where an island is solved.
+///
+/// A step is fire_events(), collide(), perhaps collide_across(), solve(). Units, spaces: model/space_map.h.
+class SpaceStepper {
+ public:
+  virtual ~SpaceStepper() = default;
+
+  virtual const Model& model() const = 0;
+  virtual const SpaceMap& map() const = 0;
+  virtual const State& state() const = 0;
+  /// Units of one shape that are solved at the cost of one.
+  virtual int num_lanes() const = 0;
+
+  /// From now on these spaces (ascending) are this rank's own. `state`: of all bodies at the start of step
+  /// `step`.
+  virtual void own(std::span<const int> spaces, const State& state, std::int64_t step) = 0;
+
+  /// Takes in rows of state() that were computed elsewhere: of each body position, orientation, velocity and
+  /// angular velocity, 13 numbers.
+  virtual void put_states(std::span<const int> bodies, std::span<const double> rows) = 0;
+  /// The same for position and orientation only, 7 numbers: enough to collide, not to solve.
+  virtual void put_poses(std::span<const int> bodies, std::span<const double> rows) = 0;
+
+  /// The events of this step: all settings of joints, and the launches of own bodies.
+  virtual void fire_events(std::int64_t step) = 0;
+  /// The launches of the other bodies, for a rank that has their poses; adds their boxes to those of their
+  /// spaces, `boxes` [num_spaces].
+  virtual void launch_others(std::int64_t step, std::span<Box> boxes) = 0;
+
+  /// Contacts between bodies of own spaces, and of these with static geoms, in canonical order (sorted by
+  /// Contact::geoms). None if a pose is not finite: the world is lost, and colliders must not see it.
+  virtual void collide(std::vector<Contact>& contacts) = 0;
+  /// The box of an own space at the poses of state().
+  virtual Box space_box(int space) const = 0;
+  /// Contacts between bodies of spaces that different ranks own, in canonical order. `owner`, `boxes`:
+  /// [num_spaces]. Only geoms in the box of a space of another owner are looked at.
+  virtual void collide_across(std::span<const int> owner, std::span<const Box> boxes,
+                              std::vector<Contact>& contacts) = 0;
+
+  /// Moves the bodies of these units (ascending) by a step. `contacts`: all that touch them, in canonical
+  /// order; both bodies of a contact belong to these units. Adds the seconds spent to rows, solve, integrate.
+  virtual void solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
+                     core::PhaseTimes& times) = 0;
+  /// Counts of the last solve(), whose arguments are given again.
+  virtual IslandCounts count(std::span<const int> units, std::span<const Contact> contacts) const = 0;
+};
+
+/// Makes the engine of one world.
+using MakeSpaceStepper = std::function<std::unique_ptr<SpaceStepper>(std::shared_ptr<const Model> model)>;
+
+}  // namespace pbmpi::model

@@ -1,0 +1,325 @@
+#include "solver/space_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "model/geometry.h"
+#include "model/islands.h"
+#include "solver/articulation.h"
+#include "solver/cross_broad_phase.h"
+#include "solver/pair_table.h"
+#include "solver/region.h"
+#include "solver/simd.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::Contact;
+using model::Event;
+using model::EventKind;
+
+class SpaceWorld final : public model::SpaceStepper {
+ public:
+  SpaceWorld(const model::StepperSettings& settings, const model::MakeNarrowPhase& make_narrow_phase,
+             std::shared_ptr<const model::Model> model);
+
+  const model::Model& model() const override { return *model_; }
+  const model::SpaceMap& map() const override { return map_; }
+  const model::State& state() const override { return state_; }
+  int num_lanes() const override { return solver::num_lanes(simd(), settings_.precision); }
+  void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override;
+  void put_states(std::span<const int> bodies, std::span<const double> rows) override;
+  void put_poses(std::span<const int> bodies, std::span<const double> rows) override;
+  void fire_events(std::int64_t step) override;
+  void launch_others(std::int64_t step, std::span<model::Box> boxes) override;
+  void collide(std::vector<Contact>& contacts) override;
+  model::Box space_box(int space) const override;
+  void collide_across(std::span<const int> owner, std::span<const model::Box> boxes,
+                      std::vector<Contact>& contacts) override;
+  void solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
+             core::PhaseTimes& times) override;
+  model::IslandCounts count(std::span<const int> units, std::span<const Contact> contacts) const override;
+
+ private:
+  model::Simd simd() const { return settings_.simd == model::Simd::automatic ? best_simd() : settings_.simd; }
+  std::vector<PackedWorld> packed_own_first() const;
+  std::span<const Event> events_of(std::int64_t step) const;
+  void apply_setting(const Event& event);
+  void launch(const Event& event);
+  void put_pose(int body, const double* row);
+  void place(int body);
+  bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
+  void activate(std::span<const int> units);
+  void collide_pairs(std::vector<Contact>& contacts);
+
+  model::StepperSettings settings_;
+  std::shared_ptr<const model::Model> model_;
+  model::SpaceMap map_;
+  std::vector<Articulation> articulations_;
+  std::unique_ptr<model::NarrowPhase> narrow_phase_;
+  CrossBroadPhase cross_;
+  std::unique_ptr<Region> region_;
+  std::unique_ptr<Pack> pack_;
+  model::State state_;
+  std::vector<model::BodyPose> poses_;  ///< [num_bodies] of state_
+  std::vector<char> stale_;             ///< [num_bodies] state_ is newer than the pack
+  std::vector<char> is_own_;            ///< [num_spaces]
+  std::vector<int> own_bodies_;         ///< ascending
+  std::vector<int> active_units_;       ///< of the last solve()
+  std::vector<int> active_bodies_;
+  std::vector<int> lent_;    ///< bodies that were loaded for their contacts alone, since the last solve()
+  std::vector<int> loaded_;  ///< scratch: active bodies that are stale
+  std::vector<model::GeomPair> pairs_;
+};
+
+SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
+                       const model::MakeNarrowPhase& make_narrow_phase,
+                       std::shared_ptr<const model::Model> model)
+    : settings_(settings),
+      model_(std::move(model)),
+      map_(model::make_space_map(*model_)),
+      articulations_(find_articulations(*model_)),
+      narrow_phase_(make_narrow_phase(*model_)),
+      cross_(*model_, map_),
+      state_(model::initial_state(*model_)),
+      poses_(model_->bodies.size()),
+      stale_(model_->bodies.size(), 0) {}
+
+/// The articulations of one space lie side by side, own spaces first, so that the batches of a rank hold few
+/// lanes that it does not move.
+std::vector<PackedWorld> SpaceWorld::packed_own_first() const {
+  std::vector<const Articulation*> order;
+  for (const Articulation& articulation : articulations_) order.push_back(&articulation);
+  const auto key = [&](const Articulation* articulation) {
+    const int space = map_.space_of_body(articulation->bodies.front());
+    return std::pair(is_own_[space] == 0, space);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) { return key(a) < key(b); });
+  std::vector<PackedWorld> packed(1);
+  packed[0].model = model_.get();
+  packed[0].fallback = narrow_phase_.get();
+  packed[0].lanes_collide = settings_.colliders == model::Colliders::lanes;
+  for (const Articulation* articulation : order) packed[0].articulations.push_back(*articulation);
+  return packed;
+}
+
+void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std::int64_t step) {
+  is_own_.assign(static_cast<std::size_t>(map_.num_spaces()), 0);
+  for (const int space : spaces) is_own_[space] = 1;
+  own_bodies_.clear();
+  for (int body = 0; body < model_->num_bodies(); ++body) {
+    if (is_own(body)) own_bodies_.push_back(body);
+  }
+  region_ = std::make_unique<Region>(*model_, map_, is_own_);
+  pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
+  pack_->load(0, state);
+  state_ = state;
+  pack_->store(0, state_);  // as the pack's number type has it
+  for (int body = 0; body < model_->num_bodies(); ++body) place(body);
+  std::fill(stale_.begin(), stale_.end(), 0);
+  active_units_.clear();
+  active_bodies_.clear();
+  pack_->set_active(0, active_bodies_);
+  for (const Event& event : model_->events) {
+    if (event.step < step) apply_setting(event);
+  }
+}
+
+void SpaceWorld::place(int body) {
+  const model::Quat& q = state_.orientation[body];
+  std::memcpy(poses_[body].position, state_.position[body].data(), sizeof poses_[body].position);
+  model::to_rotation(q.w, q.x, q.y, q.z, poses_[body].rotation);
+}
+
+void SpaceWorld::put_pose(int body, const double* row) {
+  std::memcpy(state_.position[body].data(), row, 3 * sizeof(double));
+  state_.orientation[body] = {row[3], row[4], row[5], row[6]};
+  stale_[body] = 1;
+  place(body);
+}
+
+void SpaceWorld::put_poses(std::span<const int> bodies, std::span<const double> rows) {
+  const double* row = rows.data();
+  for (const int body : bodies) {
+    put_pose(body, row);
+    row += 7;
+  }
+}
+
+void SpaceWorld::put_states(std::span<const int> bodies, std::span<const double> rows) {
+  const double* row = rows.data();
+  for (const int body : bodies) {
+    put_pose(body, row);
+    std::memcpy(state_.velocity[body].data(), row + 7, 3 * sizeof(double));
+    std::memcpy(state_.angular_velocity[body].data(), row + 10, 3 * sizeof(double));
+    row += 13;
+  }
+}
+
+std::span<const Event> SpaceWorld::events_of(std::int64_t step) const {
+  const auto& events = model_->events;
+  const auto first = std::partition_point(events.begin(), events.end(),
+                                          [&](const Event& event) { return event.step < step; });
+  const auto last =
+      std::partition_point(first, events.end(), [&](const Event& event) { return event.step == step; });
+  return {first, last};
+}
+
+void SpaceWorld::apply_setting(const Event& event) {
+  if (event.kind == EventKind::motor) pack_->set_motor(0, event.joint, event.axis, event.motor);
+  if (event.kind == EventKind::steer) pack_->set_limit(0, event.joint, 0, {event.angle, event.angle});
+}
+
+/// Through the pack and back, so that the numbers are rounded as the pack has them.
+void SpaceWorld::launch(const Event& event) {
+  const std::span<const int> body(&event.body, 1);
+  pack_->load(0, body, state_);
+  pack_->launch(0, event);
+  pack_->store(0, body, state_);
+  stale_[event.body] = 0;
+  place(event.body);
+}
+
+void SpaceWorld::fire_events(std::int64_t step) {
+  for (const Event& event : events_of(step)) {
+    apply_setting(event);
+    if (event.kind == EventKind::launch && is_own(event.body)) launch(event);
+  }
+}
+
+void SpaceWorld::launch_others(std::int64_t step, std::span<model::Box> boxes) {
+  for (const Event& event : events_of(step)) {
+    if (event.kind != EventKind::launch || is_own(event.body)) continue;
+    launch(event);
+    const int space = map_.space_of_body(event.body);
+    for (const int geom : map_.geoms_of_space[space]) {
+      if (model_->geoms[geom].body == event.body)
+        boxes[space].include(model::geom_box(model_->geoms[geom], poses_[event.body]));
+    }
+  }
+}
+
+void SpaceWorld::collide(std::vector<Contact>& contacts) {
+  contacts.clear();
+  const bool finite =
+      std::all_of(own_bodies_.begin(), own_bodies_.end(), [&](int body) { return is_finite(poses_[body]); });
+  if (!finite) return;
+  region_->find_pairs(poses_, pairs_);
+  collide_pairs(contacts);
+}
+
+/// At the poses of state_: what came from others goes into the pack first.
+void SpaceWorld::collide_pairs(std::vector<Contact>& contacts) {
+  loaded_.clear();
+  for (const model::GeomPair& pair : pairs_) {
+    for (const int geom : {pair.first, pair.second}) {
+      const int body = model_->geoms[geom].body;
+      if (body == model::no_body || !stale_[body]) continue;
+      loaded_.push_back(body);
+      lent_.push_back(body);
+      stale_[body] = 0;
+    }
+  }
+  pack_->load(0, loaded_, state_);
+  pack_->collide_pairs(0, pairs_, contacts);
+}
+
+model::Box SpaceWorld::space_box(int space) const {
+  model::Box box;
+  for (const int geom : map_.geoms_of_space[space])
+    box.include(model::geom_box(model_->geoms[geom], poses_[model_->geoms[geom].body]));
+  return box;
+}
+
+void SpaceWorld::collide_across(std::span<const int> owner, std::span<const model::Box> boxes,
+                                std::vector<Contact>& contacts) {
+  contacts.clear();
+  if (!std::all_of(poses_.begin(), poses_.end(), is_finite)) return;
+  cross_.find_pairs(owner, boxes, poses_, pairs_);
+  collide_pairs(contacts);
+}
+
+void SpaceWorld::activate(std::span<const int> units) {
+  if (std::equal(units.begin(), units.end(), active_units_.begin(), active_units_.end())) return;
+  active_units_.assign(units.begin(), units.end());
+  active_bodies_.clear();
+  for (const int unit : units) {
+    const std::vector<int>& bodies = map_.bodies_of_unit[unit];
+    active_bodies_.insert(active_bodies_.end(), bodies.begin(), bodies.end());
+  }
+  pack_->set_active(0, active_bodies_);
+  // The others' lanes may be moved along with their neighbours': state_ has what they are.
+  std::vector<char> others(stale_.size(), 1);
+  for (const int body : active_bodies_) others[body] = stale_[body];
+  stale_ = std::move(others);
+}
+
+void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
+                       core::PhaseTimes& times) {
+  core::LapTimer timer(times);
+  activate(units);
+  loaded_.clear();
+  for (const int body : active_bodies_) {
+    if (stale_[body]) loaded_.push_back(body);
+    stale_[body] = 0;
+  }
+  pack_->load(0, loaded_, state_);
+  timer.lap(core::Phase::rows);
+  StepParameters parameters;
+  parameters.dt_s = settings_.dt_s;
+  parameters.substeps = settings_.substeps;
+  parameters.iterations = settings_.iterations;
+  parameters.sor_factor = settings_.sor_factor;
+  parameters.order_key = core::mix_key(settings_.seed, static_cast<std::uint64_t>(step), 0);
+  pack_->step(std::span(&contacts, 1), parameters, times);
+  core::LapTimer after(times);
+  pack_->store(0, active_bodies_, state_);
+  for (const int body : lent_) stale_[body] = 1;  // may have moved along with its neighbours
+  for (const int body : active_bodies_) stale_[body] = 0;
+  lent_.clear();
+  for (const int body : active_bodies_) place(body);
+  after.lap(core::Phase::integrate);
+}
+
+model::IslandCounts SpaceWorld::count(std::span<const int> units, std::span<const Contact> contacts) const {
+  model::IslandCounts counts;
+  model::DisjointSets sets(map_.num_units());
+  std::vector<int> rows(static_cast<std::size_t>(map_.num_units()), 0);
+  for (const Contact& contact : contacts) {
+    const int unit = map_.unit_of_body[contact.body_a];
+    if (contact.body_b != model::no_body) sets.unite(unit, map_.unit_of_body[contact.body_b]);
+    rows[unit] += contact.mu > 0 ? 3 : 1;
+    counts.max_penetration_m = std::max(counts.max_penetration_m, contact.depth);
+  }
+  for (const int unit : units) {
+    for (const int joint : articulations_[unit].joints) rows[unit] += pack_->joint_rows(0, joint);
+  }
+  std::vector<int> island_rows(rows.size(), 0);
+  for (const int unit : units) {
+    const int island = sets.find(unit);
+    counts.islands += island == unit ? 1 : 0;
+    island_rows[island] += rows[unit];
+    counts.rows += rows[unit];
+  }
+  counts.contacts = static_cast<int>(contacts.size());
+  counts.max_island_rows = *std::max_element(island_rows.begin(), island_rows.end());
+  return counts;
+}
+
+}  // namespace
+
+std::unique_ptr<model::SpaceStepper> make_space_world(const model::StepperSettings& settings,
+                                                      const model::MakeNarrowPhase& make_narrow_phase,
+                                                      std::shared_ptr<const model::Model> model) {
+  core::require_input(settings.dt_s > 0, "a step must be longer than 0 s");
+  core::require_input(settings.iterations >= 1, "the solver needs at least 1 iteration");
+  core::require_input(settings.substeps >= 1, "a step has at least 1 substep");
+  core::require_input(has_simd(settings.simd),
+                      "this machine lacks the instruction set asked for with --simd; use auto");
+  return std::make_unique<SpaceWorld>(settings, make_narrow_phase, std::move(model));
+}
+
+}  // namespace pbmpi::solver

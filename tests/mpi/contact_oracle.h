@@ -1,0 +1,43 @@
+/// What the contacts of one world must be, found without spaces on one rank.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/contact.h"
+#include "model/stepper.h"
+#include "model/touch_rule.h"
+#include "mpi/communicator.h"
+#include "mpi/wire.h"
+#include "solver/pack.h"
+
+namespace pbmpi::testing_support {
+
+/// Steps the undecomposed world beside the run on root, and tests each pair of its geoms.
+class ContactOracle {
+ public:
+  ContactOracle(const mpi::Communicator& comm, std::shared_ptr<const model::Model> model,
+                const model::StepperSettings& settings);
+
+  /// Collective, once a step: the contacts that this rank solved. Fails the test on root if those of all
+  /// ranks together are not, bit for bit and each once, those of the undecomposed world at the start of the
+  /// step.
+  void check(std::int64_t step, std::span<const model::Contact> contacts);
+
+  std::int64_t contacts_checked() const { return contacts_checked_; }  ///< on root
+
+ private:
+  std::vector<model::Contact> brute_force(std::int64_t step);
+
+  const mpi::Communicator* comm_;
+  std::shared_ptr<const model::Model> model_;
+  model::TouchRule rule_;
+  std::unique_ptr<model::WorldStepper> whole_;
+  std::unique_ptr<model::NarrowPhase> narrow_phase_;
+  std::unique_ptr<solver::Pack> pack_;  ///< of the world, for its colliders
+  std::int64_t contacts_checked_ = 0;
+};
+
+}  // namespace pbmpi::testing_support

@@ -1,0 +1,47 @@
+/// One world cut into spaces, run on the ranks of a test, and the same world in one piece.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "model/stepper.h"
+#include "mpi/space_driver.h"
+#include "mpi/world_driver.h"
+
+namespace pbmpi::testing_support {
+
+using SharedModel = std::shared_ptr<const model::Model>;
+
+/// 2 warm-up and `frames` measured frames of 3 steps.
+mpi::WorldRunSettings space_settings(int frames = 20);
+
+struct SpaceRun {
+  mpi::WorldRunResult result;
+  std::vector<model::RunEvent> events;
+  std::vector<int> idle_ranks;
+  std::vector<int> owners;            ///< at the end
+  std::int64_t contacts_checked = 0;  ///< on root
+  std::int64_t messages = 0;          ///< of this rank
+};
+
+enum class Oracle { each_step, none };
+
+/// A sor world with ODE's colliders.
+std::unique_ptr<model::SpaceStepper> make_space_stepper(const SharedModel& model,
+                                                        const model::StepperSettings& stepper = {});
+
+/// Runs, with the brute-force oracle unless told otherwise.
+SpaceRun run_spaces(const mpi::Communicator& comm, const SharedModel& model,
+                    const mpi::WorldRunSettings& settings = space_settings(),
+                    const model::StepperSettings& stepper = {}, Oracle oracle = Oracle::each_step);
+
+/// The state hash of the same run in one piece on one rank. Steps like the above.
+std::uint64_t whole_hash(const SharedModel& model, const mpi::WorldRunSettings& settings = space_settings(),
+                         const model::StepperSettings& stepper = {});
+
+/// Four spaces in a row, 1 m apart: a pile of boxes, a chain that falls on its neighbours, a pile, loose
+/// balls that roll from one end to the other and are launched into other spaces.
+model::Model neighbours();
+
+}  // namespace pbmpi::testing_support
