@@ -22,7 +22,7 @@ SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Batt
 COLLISION = ("pbmpi::ode::BroadPhase::find_pairs", "pbmpi::ode::Contacts::make")
 # Of the 8 frames with direct on a busy 2-core machine.
 DIRECT_TIME = {"CrashWa": "70 s", "Environ": "about 10 minutes a frame", "100CrSk": "3 s", "Battle": "2 s",
-               "Battle2": "several minutes"}
+               "Battle2": "9 minutes"}
 
 NO_DESTINATION = ("cmp", "test", "bt", "comis", "ucomis", "comisd", "ucomisd")
 
