@@ -13,10 +13,10 @@ namespace {
 struct Car {
   double chassis_mass_kg = 1200;
   double wheel_mass_kg = 20;                 // tyre, rim, hub and brake
-  double length_m = 4.2, width_m = 1.7;      // of the body
+  double length_m = 4.2, width_m = 1.4;      // of the body, which leaves the wheels free at its sides
   double floor_m = 0.2, bonnet_m = 0.8;      // heights of its underside and of the bonnet above the ground
   double roof_m = 1.4;                       // height of the cabin's roof
-  double wheelbase_m = 2.6, track_m = 1.45;  // distances of the wheels' centres, along and across
+  double wheelbase_m = 2.6, track_m = 1.62;  // distances of the wheels' centres, along and across
   double wheel_radius_m = 0.3, wheel_width_m = 0.2;
   // Passenger cars bounce at 1 to 1.5 Hz and are damped at 0.2 to 0.4 of critical (Gillespie, Fundamentals of
   // Vehicle Dynamics, ch. 5).

@@ -112,7 +112,7 @@ class CentipedeBuilder {
     event.kind = model::EventKind::motor;
     event.joint = joint;
     event.axis = axis;
-    event.motor = {speed_rad_s, c_.torque_nm};
+    event.motor = {speed_rad_s, c_.torque_nm, 0};
     model_.events.push_back(event);
   }
 

@@ -69,16 +69,18 @@ struct Motion {
 /// Recording, 1965. Positive: flexion; abduction (hip), to the left (neck, trunk), towards the thumb (wrist).
 /// Torques, rounded: legs Anderson, Madigan and Nussbaum, J. Biomech. 40, 2007; arms Holzbaur et al.,
 /// J. Biomech. 40, 2007; neck Vasavada, Li and Delp, Spine 26, 2001; trunk about 250 N m in extension.
+/// Knees and elbows stretch 5 degrees beyond straight, as most people's do: a motor that holds a pose needs
+/// play on both sides of it.
 inline constexpr Motion neck_bend = {-45, 45, 40};
 inline constexpr Motion neck_tilt = {-45, 45, 40};
 inline constexpr Motion trunk_bend = {-30, 80, 250};
 inline constexpr Motion trunk_tilt = {-35, 35, 200};
-inline constexpr Motion elbow_bend = {0, 150, 60};
+inline constexpr Motion elbow_bend = {-5, 150, 60};
 inline constexpr Motion wrist_bend = {-70, 80, 10};
 inline constexpr Motion wrist_tilt = {-30, 20, 10};
 inline constexpr Motion hip_bend = {-30, 120, 200};
 inline constexpr Motion hip_tilt = {-30, 45, 120};
-inline constexpr Motion knee_bend = {0, 135, 180};
+inline constexpr Motion knee_bend = {-5, 135, 180};
 inline constexpr double ankle_dorsiflexion_deg = 20;
 
 /// Heights above the sole, and lengths, of a man of the given stature [m].

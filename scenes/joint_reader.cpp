@@ -67,8 +67,9 @@ model::AxisMotor read_motor(TableReader& table, const char* key) {
   if (!motor) return {};
   const double velocity = motor->number("velocity", Sign::any);
   const double max_force = motor->number("max_force", Sign::non_negative);
+  const double hold_rate = motor->number("hold_rate", Sign::non_negative, 0.0);
   motor->finish();
-  return {velocity, max_force};
+  return {velocity, max_force, hold_rate};
 }
 
 void read_axes(TableReader& table, JointSpec& joint) {

@@ -79,10 +79,14 @@ struct AxisLimit {
 };
 
 /// Drives the axis to `velocity` [rad/s or m/s] with at most `max_force` [N m or N]. velocity 0 is dry
-/// friction: the muscle tone that holds a pose.
+/// friction, which creeps under a load that the solver's few iterations do not carry whole; with a
+/// `hold_rate` the motor turns back to the initial pose.
 struct AxisMotor {
   double velocity = 0;
   double max_force = 0;  ///< 0 = no motor
+  /// [1/s] Each step aims at velocity - hold_rate x (coordinate of the axis at the step's start), so that a
+  /// displacement dies away as exp(-hold_rate t). Above 1 / dt it overshoots: a step then takes 1 / dt.
+  double hold_rate = 0;
   bool active() const { return max_force > 0; }
 };
 

@@ -62,6 +62,16 @@ void validate_geom(const Model& model, const Geom& geom, const std::string& who)
                 who + ": mu must be at least 0 and restitution in [0, 1]");
 }
 
+/// `is_axle`: of a hinge2's axis 2.
+void require_motor(const AxisMotor& motor, bool is_axle, const std::string& who) {
+  require_input(std::isfinite(motor.velocity) && motor.max_force >= 0,
+                who + ": a motor needs a finite velocity and max_force >= 0");
+  require_input(std::isfinite(motor.hold_rate) && motor.hold_rate >= 0,
+                who + ": a motor needs a finite hold_rate >= 0");
+  require_input(!is_axle || motor.hold_rate == 0,
+                who + ": a hinge2's axle turns without end and has no pose to hold; remove hold_rate");
+}
+
 void validate_joint(const Model& model, const Joint& joint, const std::string& who) {
   require_index(joint.body_a, model.bodies.size(), who, "body");
   if (joint.body_b != no_body) require_index(joint.body_b, model.bodies.size(), who, "body");
@@ -75,9 +85,8 @@ void validate_joint(const Model& model, const Joint& joint, const std::string& w
                                                " is above high = " + std::to_string(limit.high) +
                                                "; swap them");
   }
-  for (const AxisMotor& motor : joint.motors) {
-    require_input(std::isfinite(motor.velocity) && motor.max_force >= 0,
-                  who + ": a motor needs a finite velocity and max_force >= 0");
+  for (int axis = 0; axis < 2; ++axis) {
+    require_motor(joint.motors[axis], joint.kind == JointKind::hinge2 && axis == 1, who);
   }
   require_input(joint.suspension.stiffness >= 0 && joint.suspension.damping >= 0,
                 who + ": a spring needs stiffness and damping >= 0");
@@ -96,6 +105,8 @@ void validate_event(const Model& model, const Event& event, const std::string& w
   } else {
     require_index(event.joint, model.joints.size(), who, "joint");
     require_index(event.axis, 2, who, "axis");
+    const bool is_axle = model.joints[event.joint].kind == JointKind::hinge2 && event.axis == 1;
+    require_motor(event.motor, is_axle, who);
   }
 }
 

@@ -43,8 +43,8 @@ void require_drivable(const model::Model& model) {
 }  // namespace
 
 Events::Events(const model::Model& model, const std::vector<dBodyID>& bodies,
-               const std::vector<dJointID>& joints)
-    : model_(&model), bodies_(bodies), joints_(joints) {
+               const std::vector<dJointID>& joints, HeldPoses& poses)
+    : model_(&model), bodies_(bodies), joints_(joints), poses_(&poses) {
   require_drivable(model);
 }
 
@@ -71,6 +71,7 @@ void Events::set_joint(const model::Event& event) {
   const model::JointKind kind = model_->joints[event.joint].kind;
   if (event.kind == model::EventKind::motor) {
     set_motor(joints_[event.joint], kind, event.axis, event.motor);
+    poses_->replace(event.joint, event.axis, event.motor);
   } else {
     set_limit(joints_[event.joint], kind, 0, {event.angle, event.angle});
   }

@@ -6,14 +6,17 @@
 
 #include "model/model.h"
 #include "ode/handles.h"
+#include "ode/held_poses.h"
 
 namespace pbmpi::ode {
 
 /// Walks through Model::events. Joint settings are a pure function of the step; launches act on the state.
 class Events {
  public:
-  /// `model` is borrowed. Throws core::InputError for a motor or steer event on an axis that its joint lacks.
-  Events(const model::Model& model, const std::vector<dBodyID>& bodies, const std::vector<dJointID>& joints);
+  /// `model` and `poses` are borrowed. Throws core::InputError for a motor or steer event on an axis that its
+  /// joint lacks.
+  Events(const model::Model& model, const std::vector<dBodyID>& bodies, const std::vector<dJointID>& joints,
+         HeldPoses& poses);
 
   /// Brings the joints, fresh from make_joints(), to where they stand at the start of step `step`, before
   /// that step's own events. Launches of earlier steps are part of the state already.
@@ -32,6 +35,7 @@ class Events {
   const model::Model* model_;
   std::vector<dBodyID> bodies_;
   std::vector<dJointID> joints_;
+  HeldPoses* poses_;
   std::size_t next_ = 0;
 };
 

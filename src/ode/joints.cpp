@@ -1,5 +1,6 @@
 #include "ode/joints.h"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
@@ -195,6 +196,12 @@ void set_motor(dJointID joint, JointKind kind, int axis, const model::AxisMotor&
   const auto set = api_of(kind).set_param;
   set(joint, param_of(axis, dParamVel), motor.velocity);
   set(joint, param_of(axis, dParamFMax), motor.max_force);
+}
+
+void aim_motor(dJointID joint, JointKind kind, int axis, const model::AxisMotor& motor, double dt_s) {
+  const KindApi& api = api_of(kind);
+  const double rate = std::min(motor.hold_rate, 1 / dt_s);
+  api.set_param(joint, param_of(axis, dParamVel), motor.velocity - rate * api.coordinate[axis](joint));
 }
 
 /// The low stop is set twice: ODE ignores a stop that lies beyond the other one as it then stands (ODE

@@ -16,6 +16,8 @@ std::vector<dJointID> make_joints(dWorldID world, const std::vector<dBodyID>& bo
 
 /// `axis`: 0 or 1.
 void set_motor(dJointID joint, model::JointKind kind, int axis, const model::AxisMotor& motor);
+/// Aims a motor with a hold rate at the initial pose for the next step of `dt_s`.
+void aim_motor(dJointID joint, model::JointKind kind, int axis, const model::AxisMotor& motor, double dt_s);
 void set_limit(dJointID joint, model::JointKind kind, int axis, const model::AxisLimit& limit);
 
 /// The scalar rows that the joint has in a step from the present poses: the degrees of freedom that its kind

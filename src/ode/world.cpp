@@ -30,7 +30,8 @@ World::World(int id, const model::Model& model, const model::State& state, std::
       world_(make_world(model, settings, resources)),
       bodies_(make_bodies(world_.get(), model)),
       joints_(make_joints(world_.get(), bodies_, model, settings.dt_s)),
-      events_(model, bodies_, joints_),
+      held_poses_(model, joints_),
+      events_(model, bodies_, joints_, held_poses_),
       contacts_(model, plan_, bodies_),
       row_counter_(model, joints_),
       step_(step) {
@@ -50,6 +51,7 @@ void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
 
 void World::take_step(bool is_last, core::LapTimer& timer) {
   events_.fire(step_);
+  held_poses_.aim(settings_.dt_s);
   if (is_last && settings_.profile) {
     before_last_.resize(model_->num_bodies());
     copy_out(bodies_, before_last_);

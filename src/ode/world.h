@@ -58,6 +58,7 @@ class World {
   WorldHandle world_;
   std::vector<dBodyID> bodies_;
   std::vector<dJointID> joints_;
+  HeldPoses held_poses_;
   Events events_;
   Contacts contacts_;
   std::optional<BroadPhase> broad_phase_;  ///< none without the effect "collision"

@@ -74,8 +74,12 @@ class JointBuilder {
   /// row.
   bool set_axis_control(const AxisControl<V>& control, const L3& axis, const V& s, const V& c,
                         const Pair& pair, Bounded<AxisRow<V>, V>& row) const;
-  /// at_low, at_high: 1 where the coordinate is at or past the limit, else 0; error: its distance from it.
-  ControlState decide(const AxisControl<V>& control, const V& at_low, const V& at_high, const V& error) const;
+  /// The velocity at which a motor aims in this step, from the coordinate (0 where no lane holds a pose).
+  V aim(const AxisControl<V>& control, const V& coordinate) const;
+  /// at_low, at_high: 1 where the coordinate is at or past the limit, else 0; error: its distance from it;
+  /// velocity: of the motor.
+  ControlState decide(const AxisControl<V>& control, const V& at_low, const V& at_high, const V& error,
+                      const V& velocity) const;
   static RelativeRotation relative_rotation(const JointTermsLane<V>& terms, const Pair& pair);
 
   Scalar h_, k_, cfm_, factor_;
@@ -271,9 +275,15 @@ void JointBuilder<T>::set_hinge_control(const JointLane<V>& joint, const Pair& p
 }
 
 template <class T>
+typename T::V JointBuilder<T>::aim(const AxisControl<V>& control, const V& coordinate) const {
+  const V fastest = T::broadcast(1 / h_);
+  return control.velocity - (control.hold_rate > fastest ? fastest : control.hold_rate) * coordinate;
+}
+
+template <class T>
 typename JointBuilder<T>::ControlState JointBuilder<T>::decide(const AxisControl<V>& control,
                                                                const V& at_low_flag, const V& at_high_flag,
-                                                               const V& error) const {
+                                                               const V& error, const V& velocity) const {
   const V zero = T::broadcast(0);
   const V bound = T::broadcast(static_cast<Scalar>(huge_bound));
   const auto at_low = at_low_flag != zero;
@@ -281,12 +291,12 @@ typename JointBuilder<T>::ControlState JointBuilder<T>::decide(const AxisControl
   const auto locked = control.low == control.high;
   const V force = control.max_force * h_;
   ControlState state;
-  state.rhs = at_low ? -k_ * error : (at_high ? -k_ * error : control.velocity);
+  state.rhs = at_low ? -k_ * error : (at_high ? -k_ * error : velocity);
   state.low = at_low ? (locked ? -bound : zero) : (at_high ? -bound : -force);
   state.high = at_low ? bound : (at_high ? (locked ? bound : zero) : force);
   // A motor at its limit is a constant torque, into the limit unless the motor turns away from it.
   const V at_rest = at_low ? force : -force;
-  const V push = control.velocity > zero ? -force : (control.velocity < zero ? force : at_rest);
+  const V push = velocity > zero ? -force : (velocity < zero ? force : at_rest);
   state.push = at_low ? push : (at_high ? push : zero);
   state.push = locked ? zero : state.push;
   return state;
@@ -296,7 +306,8 @@ template <class T>
 bool JointBuilder<T>::set_axis_control(const AxisControl<V>& control, const L3& axis, const V& s, const V& c,
                                        const Pair& pair, Bounded<AxisRow<V>, V>& row) const {
   const V zero = T::broadcast(0), one = T::broadcast(1);
-  V at_low = zero, at_high = zero, error = zero;
+  V at_low = zero, at_high = zero, error = zero, velocity = control.velocity;
+  if (control.has_hold) velocity = aim(control, 2 * T::atan2(s, c));
   if (control.has_limit) {
     at_low = s * control.cos_low <= c * control.sin_low ? one : zero;
     at_high = s * control.cos_high >= c * control.sin_high ? one : zero;
@@ -305,7 +316,7 @@ bool JointBuilder<T>::set_axis_control(const AxisControl<V>& control, const L3& 
     if (!at_limit && !control.has_motor) return false;
     if (at_limit) error = 2 * T::atan2(s, c) - (at_low > zero ? control.low : control.high);
   }
-  const ControlState state = decide(control, at_low, at_high, error);
+  const ControlState state = decide(control, at_low, at_high, error, velocity);
   set_axis(axis, state.rhs, pair, row.row);
   row.low = state.low;
   row.high = state.high;
@@ -326,8 +337,9 @@ void JointBuilder<T>::set_slider_control(const JointLane<V>& joint, const Pair& 
   const V at_high = at_low > zero ? zero : (place >= control.high ? one : zero);
   rows.control_on[0] = control.has_motor || T::any(at_low + at_high);
   if (!rows.control_on[0]) return;
+  const V velocity = control.has_hold ? aim(control, place) : control.velocity;
   const ControlState state =
-      decide(control, at_low, at_high, place - (at_low > zero ? control.low : control.high));
+      decide(control, at_low, at_high, place - (at_low > zero ? control.low : control.high), velocity);
   const L3 moment = cross(apart * T::broadcast(static_cast<Scalar>(0.5)), axis);
   auto& row = rows.line_controls[0];
   set_line(axis, moment, moment, state.rhs, T::broadcast(cfm_), pair, row.row);

@@ -11,8 +11,8 @@ template <class V>
 struct alignas(sizeof(V)) AxisControl {
   V low, high;                             ///< [rad] or [m]; +-huge = none
   V sin_low, cos_low, sin_high, cos_high;  ///< of half the angles
-  V velocity, max_force;
-  bool has_motor = false, has_limit = false;  ///< in any lane
+  V velocity, max_force, hold_rate;
+  bool has_motor = false, has_limit = false, has_hold = false;  ///< in any lane
 
   bool any() const { return has_motor || has_limit; }
 };

@@ -235,7 +235,7 @@ void WorldLanes<T>::fill_idle_lanes() {
       repeat(joint.terms, from);
       for (AxisControl<V>& control : joint.controls) {
         for (V* v : {&control.low, &control.high, &control.sin_low, &control.cos_low, &control.sin_high,
-                     &control.cos_high, &control.velocity, &control.max_force}) {
+                     &control.cos_high, &control.velocity, &control.max_force, &control.hold_rate}) {
           repeat(*v, from);
         }
       }
@@ -277,7 +277,9 @@ void WorldLanes<T>::set_motor(int world, int joint, int axis, const model::AxisM
   AxisControl<V>& control = joint_at(worlds_[world], joint).controls[axis];
   T::set(control.velocity, lane, static_cast<Scalar>(motor.velocity));
   T::set(control.max_force, lane, static_cast<Scalar>(motor.max_force));
+  T::set(control.hold_rate, lane, static_cast<Scalar>(motor.hold_rate));
   control.has_motor = control.has_motor || motor.active();
+  control.has_hold = control.has_hold || (motor.active() && motor.hold_rate > 0);
 }
 
 template <class T>

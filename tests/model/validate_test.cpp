@@ -68,6 +68,13 @@ const std::vector<Case>& cases() {
       {"limit NaN", [](Model& m) { m.joints[0].limits[0].low = NAN; }, "limit"},
       {"motor NaN", [](Model& m) { m.joints[0].motors[0].velocity = NAN; }, "motor"},
       {"motor pushes back", [](Model& m) { m.joints[0].motors[0].max_force = -1; }, "motor"},
+      {"motor held backwards", [](Model& m) { m.joints[0].motors[0].hold_rate = -1; }, "hold_rate"},
+      {"axle held",
+       [](Model& m) {
+         m.joints[0].kind = JointKind::hinge2;
+         m.joints[0].motors[1] = {0, 1, 5};
+       },
+       "no pose to hold"},
       {"spring negative", [](Model& m) { m.joints[0].suspension.damping = -1; }, "spring"},
       {"event too early", [](Model& m) { m.events[0].step = -1; }, "event 0: it is scheduled at step -1"},
       {"event's body", [](Model& m) { m.events[0].body = 37; }, "body 37"},

@@ -229,6 +229,48 @@ TEST(Joints, hold_a_pose_with_a_motor_of_speed_zero_up_to_its_force) {
   }
 }
 
+// A pendulum under gravity: dry friction keeps it where it is pushed, a hold rate brings it back.
+TEST(Joints, turn_back_to_the_pose_that_a_motor_holds) {
+  for (const StepperKind kind : {StepperKind::quick, StepperKind::direct}) {
+    for (const auto& [rate, left] : {std::pair{0.0, 1.0}, {4.0, std::exp(-4 * 0.5)}}) {
+      Model model = support::pendulum(1, 0);
+      model.joints[0].motors[0] = {0, 100, rate};
+      model::State pushed = model::initial_state(model);
+      const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.2, Vec3::UnitY()));
+      pushed.position[0] = turn * pushed.position[0];
+      pushed.orientation[0] = {turn.w(), turn.x(), turn.y(), turn.z()};
+      model::StepperSettings settings = fine;
+      settings.kind = kind;
+      const auto stepper = make_ode_stepper(settings, fail_on_warning);
+      stepper->add(0, std::make_shared<Model>(model), pushed, 0);
+      core::PhaseTimes times;
+      stepper->advance(250, times);  // 0.5 s
+      const Vec3& position = stepper->state(0).position[0];
+      const double angle = std::abs(std::atan2(position.x(), position.z()));
+      const double from_rest = std::min(angle, std::numbers::pi - angle);
+      // (1 - 4 x 0.002)^250 is 0.8 % below exp(-2).
+      EXPECT_NEAR(from_rest, 0.2 * left, 0.002) << rate;
+    }
+  }
+}
+
+TEST(Joints, hold_what_an_event_says_from_then_on) {
+  Model model = support::pendulum(1, 0);
+  model.joints[0].motors[0] = {0.5, 100, 0};
+  model::Event hold;
+  hold.step = 100;
+  hold.kind = model::EventKind::motor;
+  hold.joint = 0;
+  hold.motor = {0, 100, 20};
+  model.events.push_back(hold);
+  Simulation simulation(model, fine);
+  simulation.advance(100);
+  const auto moved = [&] { return (simulation.state().position[0] - model.bodies[0].pose.position).norm(); };
+  EXPECT_GT(moved(), 0.05);  // 0.5 rad/s for 0.2 s
+  simulation.advance(400);
+  EXPECT_LT(moved(), 1e-3);
+}
+
 /// A chassis of 100 kg over a wheel that a fixed joint holds to the world.
 Model car_corner() {
   Model model;

@@ -46,13 +46,14 @@ TEST(JointReader, reads_limits_in_degrees_and_motors) {
   const auto model =
       build(with_joint("kind = \"hinge\"\nbodies = [\"a\", \"world\"]\nanchor = [0, 0, 0]\naxis = [0, 0, "
                        "1]\nlimits = [-90, 45]\n"
-                       "motor = { velocity = 2, max_force = 30 }\n"));
+                       "motor = { velocity = 2, max_force = 30, hold_rate = 8 }\n"));
   const model::Joint& j = joint(*model, "j");
   EXPECT_EQ(j.body_b, model::no_body);
   EXPECT_DOUBLE_EQ(j.limits[0].low, -std::numbers::pi / 2);
   EXPECT_DOUBLE_EQ(j.limits[0].high, std::numbers::pi / 4);
   EXPECT_EQ(j.motors[0].velocity, 2);
   EXPECT_EQ(j.motors[0].max_force, 30);
+  EXPECT_EQ(j.motors[0].hold_rate, 8);
 }
 
 TEST(JointReader, reads_a_sliders_limits_in_metres) {

@@ -2,6 +2,8 @@
 /// solver.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "model/names.h"
 #include "ode/ode_stepper.h"
 #include "solver/sor_run.h"
@@ -98,6 +100,19 @@ TEST_P(JointOracle, limits_hold_alike) {
   EXPECT_LT(velocity_difference(model, 4), tolerance);
 }
 
+TEST_P(JointOracle, a_motor_that_holds_a_pose_turns_back_alike) {
+  model::Model model = linked_boxes(GetParam());
+  if (GetParam() == JointKind::ball || GetParam() == JointKind::fixed) GTEST_SKIP() << "has no axis";
+  for (const auto& [velocity, force, rate] :
+       {std::array{0.0, 40.0, 20.0}, std::array{1.5, 0.7, 50.0}, std::array{0.0, 40.0, 1e3}}) {
+    model.joints[0].motors[0] = {velocity, force, rate};  // strong, weak, and faster than a step allows
+    EXPECT_LT(velocity_difference(model, 5), tolerance) << rate;
+  }
+  model.joints[0].limits[0] = {0.05, 0.3};   // beyond its low limit the motor only pushes
+  model.joints[0].motors[0] = {2, 0.5, 20};  // clearly upwards: at angle 0 rounding would choose the side
+  EXPECT_LT(velocity_difference(model, 2), tolerance);
+}
+
 TEST_P(JointOracle, a_motor_at_its_limit_pushes_alike) {
   model::Model model = linked_boxes(GetParam());
   if (GetParam() == JointKind::ball || GetParam() == JointKind::fixed) GTEST_SKIP() << "has no axis";
@@ -120,6 +135,8 @@ TEST(JointOracle, a_universal_joint_limits_and_drives_its_second_axis_alike) {
   model.joints[0].limits[1] = {};
   model.joints[0].motors[1] = {2, 0.5};
   EXPECT_LT(velocity_difference(model, 4), tolerance);
+  model.joints[0].motors[1] = {0, 40, 30};
+  EXPECT_LT(velocity_difference(model, 5), tolerance);
 }
 
 TEST(JointOracle, a_suspension_springs_alike) {
