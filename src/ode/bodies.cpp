@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/effects.h"
+
 namespace pbmpi::ode {
 namespace {
 
@@ -25,13 +27,14 @@ void set_orientation_bits(dBodyID body, const model::Quat& orientation) {
 }  // namespace
 
 std::vector<dBodyID> make_bodies(dWorldID world, const model::Model& model) {
+  const bool gyroscopic = model::StepPlan(model).has("gyroscopic_torque");
   std::vector<dBodyID> bodies;
   bodies.reserve(model.bodies.size());
   for (const model::Body& body : model.bodies) {
     const dBodyID id = dBodyCreate(world);
     const dMass mass = mass_of(body);
     dBodySetMass(id, &mass);
-    dBodySetGyroscopicMode(id, 1);
+    dBodySetGyroscopicMode(id, gyroscopic && model::has_gyroscopic_torque(body) ? 1 : 0);
     dBodySetAutoDisableFlag(id, 0);
     bodies.push_back(id);
   }

@@ -29,7 +29,7 @@ std::string plan_text(const model::Model& model) {
   std::ostringstream text;
   const model::StepPlan plan(model);
   for (const model::Pass& pass : plan.passes()) {
-    text << "  " << std::left << std::setw(12) << pass.effect->name << std::setw(10)
+    text << "  " << std::left << std::setw(18) << pass.effect->name << std::setw(10)
          << core::phase_names[static_cast<std::size_t>(pass.effect->phase)] << pass.effect->meaning << ": "
          << pass.reason << '\n';
   }
@@ -122,6 +122,7 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
       << " steps of " << spec.stepper.dt_s << " s\n"
       << "stepper: " << name_of(spec.stepper.kind) << ", " << spec.stepper.iterations << " iterations, seed "
       << spec.stepper.seed << '\n';
+  if (!spec.effects.empty()) out << "effects chosen: " << model::to_text(spec.effects) << '\n';
   print_plans(out, census);
   out << "decomposition: worlds over " << num_ranks << (num_ranks == 1 ? " rank\n" : " ranks\n");
   print_distribution(out, census, num_ranks, world_bytes);

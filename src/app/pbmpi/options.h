@@ -33,6 +33,7 @@ struct Options {
   bool no_output = false;
   bool record_islands = false;
   std::optional<scenes::SpacesForm> spaces;
+  model::EffectChoices effects;
   int record_every = 1;
   ReportFormat report = ReportFormat::text;
   CommonOptions common;
@@ -56,6 +57,7 @@ struct RunSpec {
   int record_every = 1;
   bool record_islands = false;
   scenes::SpacesForm spaces = scenes::SpacesForm::many;
+  model::EffectChoices effects;  ///< of the scene file and the command line
 
   int total_frames() const { return warmup + frames; }
 };

@@ -96,6 +96,7 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("seed", static_cast<std::int64_t>(spec.stepper.seed)),
       Parameter::of("decompose", "worlds"),
       Parameter::of("spaces", spec.spaces == scenes::SpacesForm::one ? "one" : "many"),
+      Parameter::of("effects", model::to_text(spec.effects)),
       Parameter::of("num_spaces",
                     static_cast<std::int64_t>(scene.build(0, spec.stepper.seed)->spaces.size())),
       Parameter::of("record_every", std::int64_t{spec.record_every}),

@@ -44,7 +44,7 @@ std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const O
   comm.bcast_string(source.name);
   comm.bcast_string(source.file);
   comm.bcast_string(source.text);
-  return scenes::parse_scene(source, options.dt_s, options.spaces);
+  return scenes::parse_scene(source, options.dt_s, options.spaces, options.effects);
 }
 
 mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
@@ -79,6 +79,7 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.dt_s = spec.stepper.dt_s;
   summary.budget_s = budget_s;
   summary.warmup_frames = spec.warmup;
+  summary.effects_chosen = model::to_text(spec.effects);
   const model::StepPlan plan(*scene.build(0, spec.stepper.seed));
   for (const model::Pass& pass : plan.passes()) {
     summary.effects.push_back({std::string(pass.effect->name), pass.reason});
