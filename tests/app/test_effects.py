@@ -1,0 +1,75 @@
+"""Effects that a user demands or leaves out: what is printed, recorded and refused."""
+import json
+import os
+import unittest
+
+import h5py
+
+from harness import PBREPORT, ProgramTest
+
+PLAN = ("--scene", "CrashSk", "--frames", 2)
+
+
+def names(summary):
+    return [effect["name"] for effect in summary["effects"]]
+
+
+class Effects(ProgramTest):
+    def test_demanding_an_unneeded_effect_is_recorded_and_changes_no_bit(self):
+        for stepper in ("quick", "sor"):
+            run = (*PLAN, "--stepper", stepper)
+            plain = self.summary(1, *run, "--no-output")
+            forced = self.summary(2, *run, "--effects", "+restitution,+steering", "-o", "forced.h5")
+            self.assertNotIn("restitution", names(plain))
+            self.assertIn("restitution", names(forced))
+            self.assertEqual(plain["effects_chosen"], "")
+            self.assertEqual(forced["effects_chosen"], "+restitution,+steering")
+            self.assertEqual(plain["state_hash"], forced["state_hash"])
+            with h5py.File(self.path("forced.h5")) as file:
+                self.assertEqual(file["parameters/effects"][()].decode(), "+restitution,+steering")
+            report = self.run_command([PBREPORT, "forced.h5", "--report", "json"])
+            self.assertEqual(report.returncode, 0, report.stderr)
+            self.assertEqual(json.loads(report.stdout)["effects"], forced["effects"])
+
+    def test_leaving_gravity_out_leaves_it_out_of_the_plan_the_motion_and_the_text(self):
+        plain = self.summary(1, *PLAN, "--no-output")
+        floating = self.summary(1, *PLAN, "--no-output", "--effects", "-gravity")
+        self.assertIn("gravity", names(plain))
+        self.assertNotIn("gravity", names(floating))
+        self.assertNotEqual(plain["state_hash"], floating["state_hash"])
+        text = self.pbmpi(1, *PLAN, "--no-output", "--effects", "-gravity").stdout
+        self.assertIn("effects_chosen: -gravity\n", text)
+
+    def test_describe_gives_a_reason_for_each_pass(self):
+        text = self.pbmpi(1, "--scene", "CrashWa", "--describe", "--effects", "+steering").stdout
+        for words in ("195 geoms with mu > 0", "99 launches", "3 collision spaces", "effects chosen: +steering",
+                      "demanded; nothing calls for it"):
+            self.assertIn(words, text)
+
+    def test_leaving_cross_space_out_makes_one_space(self):
+        text = self.pbmpi(1, "--scene", "CrashWa", "--describe", "--effects", "-cross_space").stdout
+        self.assertNotIn("cross_space ", text)
+        self.assertIn("spaces: 1 ", text)
+
+    def test_a_scene_file_chooses_and_the_command_line_goes_before_it(self):
+        self.write("mine.toml", 'title = "t"\nbase = "CrashSk"\n[effects]\nfriction = false\nsteering = true\n')
+        run = ("--scene", "mine.toml", "--frames", 1, "--no-output")
+        chosen = self.summary(1, *run)
+        self.assertNotIn("friction", names(chosen))
+        self.assertIn("steering", names(chosen))
+        self.assertIn("friction", names(self.summary(1, *run, "--effects", "+friction")))
+
+    def test_what_cannot_be_is_refused_with_2_and_nothing_is_written(self):
+        for effects, words in (("+fricton", "did you mean 'friction'?"), ("friction", "write +name"),
+                               ("+friction,-friction", "twice"), ("-joints", "34 joints hold the bodies"),
+                               ("+friction,-collision", "which it needs")):
+            result = self.pbmpi(2, *PLAN, "--effects", effects)
+            self.assertEqual(result.returncode, 2, effects)
+            lines = [line for line in result.stderr.splitlines() if line.startswith("pbmpi: ")]
+            self.assertEqual(len(lines), 1, result.stderr)
+            self.assertIn(words, lines[0])
+            self.assertEqual(os.listdir(self.folder), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
