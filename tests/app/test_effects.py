@@ -1,11 +1,12 @@
 """Effects that a user demands or leaves out: what is printed, recorded and refused."""
 import json
 import os
+import re
 import unittest
 
 import h5py
 
-from harness import PBREPORT, ProgramTest
+from harness import PBREPORT, SOURCE, ProgramTest
 
 PLAN = ("--scene", "CrashSk", "--frames", 2)
 
@@ -27,7 +28,7 @@ class Effects(ProgramTest):
             self.assertEqual(plain["state_hash"], forced["state_hash"])
             with h5py.File(self.path("forced.h5")) as file:
                 self.assertEqual(file["parameters/effects"][()].decode(), "+restitution,+steering")
-            report = self.run_command([PBREPORT, "forced.h5", "--report", "json"])
+            report = self.run_command([PBREPORT, "forced.h5", "--json"])
             self.assertEqual(report.returncode, 0, report.stderr)
             self.assertEqual(json.loads(report.stdout)["effects"], forced["effects"])
 
@@ -45,6 +46,19 @@ class Effects(ProgramTest):
         for words in ("195 geoms with mu > 0", "99 launches", "3 collision spaces", "effects chosen: +steering",
                       "demanded; nothing calls for it"):
             self.assertIn(words, text)
+
+    def test_the_table_in_the_readme_is_what_describe_says(self):
+        with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as file:
+            rows = [[cell.strip() for cell in line.strip().strip("|").split("|")]
+                    for line in file.read().split("## Effects")[1].split("## Steppers")[0].splitlines()
+                    if line.startswith("|") and not line.startswith("|--")]
+        self.assertGreaterEqual(len(rows), 12)
+        for column, scene in enumerate(rows[0][1:], 1):
+            scene = scene.split(",")[0]
+            told = {row[0].split("`")[1]: row[column] for row in rows[1:] if row[column]}
+            text = self.pbmpi(1, "--scene", scene, "--describe").stdout
+            passes = re.findall(r"^  (\w+) +\w+ +[^:]+: (?:gravity of )?([\d.]+)", text, re.MULTILINE)
+            self.assertEqual({name: f"{float(number):g}" for name, number in passes}, told, scene)
 
     def test_leaving_cross_space_out_makes_one_space(self):
         text = self.pbmpi(1, "--scene", "CrashWa", "--describe", "--effects", "-cross_space").stdout
