@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "model/effects.h"
 #include "model/validate.h"
 #include "scenes/actor.h"
 #include "scenes/joint_reader.h"
@@ -35,7 +36,8 @@ struct ActorEntry {
 
 class FileScene final : public Scene {
  public:
-  FileScene(const SceneSource& source, std::optional<double> dt_s, std::optional<SpacesForm> spaces)
+  FileScene(const SceneSource& source, std::optional<double> dt_s, std::optional<SpacesForm> spaces,
+            const model::EffectChoices& effects)
       : source_(source) {
     const toml::table toml = parse_with_base(source);
     TableReader scene(toml, "scene");
@@ -43,6 +45,8 @@ class FileScene final : public Scene {
     read_defaults(scene);
     if (dt_s) defaults_.dt_s = *dt_s;
     if (spaces) defaults_.spaces = *spaces;
+    read_effects(scene);
+    for (const auto& [name, on] : effects) defaults_.effects[name] = on;
     read_world(scene);
     for (TableReader& actor : scene.tables("actor")) read_actor(actor);
     for (TableReader& joint : scene.tables("joint")) read_named_joint(joint);
@@ -62,6 +66,7 @@ class FileScene final : public Scene {
     for (const JointPlan& joint : joints_) joint(*result);
     std::stable_sort(result->events.begin(), result->events.end(),
                      [](const model::Event& a, const model::Event& b) { return a.step < b.step; });
+    leave_out_effects(*result);
     validate(*result, world);
     refuse_overlap(*result, world);
     return result;
@@ -81,6 +86,17 @@ class FileScene final : public Scene {
     if (form != "one" && form != "many") run->fail("spaces", "'spaces' must be \"one\" or \"many\"");
     defaults_.spaces = form == "one" ? SpacesForm::one : SpacesForm::many;
     run->finish();
+  }
+
+  /// Effects by name, true or false.
+  void read_effects(TableReader& scene) {
+    auto table = scene.table("effects");
+    if (!table) return;
+    for (const model::Effect& effect : model::effect_registry()) {
+      const std::string name(effect.name);
+      if (table->has(name)) defaults_.effects[name] = table->flag(name, true);
+    }
+    table->finish();
   }
 
   void read_world(TableReader& scene) {
@@ -172,6 +188,15 @@ class FileScene final : public Scene {
     }
   }
 
+  void leave_out_effects(model::Model& model) const {
+    model.effects = defaults_.effects;
+    try {
+      model::leave_out_effects(model);
+    } catch (const core::InputError& error) {
+      throw core::InputError(source_.file + ": " + error.what());
+    }
+  }
+
   /// The readers leave little for validate() to find; what it finds is told at the actor that it names.
   void validate(const model::Model& model, int world) const {
     try {
@@ -220,12 +245,12 @@ class FileScene final : public Scene {
 }  // namespace
 
 std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s,
-                                   std::optional<SpacesForm> spaces) {
+                                   std::optional<SpacesForm> spaces, const model::EffectChoices& effects) {
   if (dt_s) {
     core::require_input(std::isfinite(*dt_s) && *dt_s > 0,
                         "dt is " + std::to_string(*dt_s) + " s; it must be finite and above 0");
   }
-  auto scene = std::make_unique<FileScene>(source, dt_s, spaces);
+  auto scene = std::make_unique<FileScene>(source, dt_s, spaces, effects);
   scene->build(0, 0);  // finds at once what only shows in a built world: joints to bodies that do not exist
   return scene;
 }

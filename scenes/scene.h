@@ -24,6 +24,7 @@ struct RunDefaults {
   double dt_s = 0.01;
   int iterations = 20;
   SpacesForm spaces = SpacesForm::many;
+  model::EffectChoices effects;  ///< merged effect by effect
 };
 
 /// Immutable once loaded. A world depends on (scene, world id, seed) only, so that each rank builds just its
@@ -60,8 +61,9 @@ SceneSource find_scene(const std::string& name_or_path);
 /// Parses a scene. Throws core::InputError ("file:line:column: ...") for malformed TOML, unknown keys and
 /// impossible values. Rank 0 finds and reads the text, and every rank parses the same text.
 /// `dt_s` replaces the file's own time step: programmes given in seconds (steering) become steps with it.
-/// `spaces` replaces the file's `[run] spaces`.
+/// `spaces` replaces the file's `[run] spaces`; `effects` go before those of the file's `[effects]`.
 std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s = std::nullopt,
-                                   std::optional<SpacesForm> spaces = std::nullopt);
+                                   std::optional<SpacesForm> spaces = std::nullopt,
+                                   const model::EffectChoices& effects = {});
 
 }  // namespace pbmpi::scenes

@@ -31,6 +31,8 @@ std::optional<std::string> gravity(const Model& model) {
 }
 
 std::optional<std::string> collision(const Model& model) {
+  if (const auto choice = model.effects.find("collision"); choice != model.effects.end() && !choice->second)
+    return std::nullopt;
   const bool moving =
       std::any_of(model.geoms.begin(), model.geoms.end(), [](const Geom& g) { return g.body != no_body; });
   if (!moving || model.geoms.size() < 2) return std::nullopt;
@@ -47,6 +49,17 @@ std::optional<std::string> restitution(const Model& model) {
   if (!collision(model)) return std::nullopt;
   return counted_if(
       model.geoms, [](const Geom& g) { return g.material.restitution > 0; }, "geoms with restitution > 0");
+}
+
+/// Spaces in which a body moves.
+std::optional<std::string> cross_space(const Model& model) {
+  if (!collision(model)) return std::nullopt;
+  std::vector<bool> in_use(model.spaces.size(), false);
+  for (const Geom& geom : model.geoms) {
+    if (geom.body != no_body) in_use[static_cast<std::size_t>(geom.space)] = true;
+  }
+  const auto count = std::count(in_use.begin(), in_use.end(), true);
+  return counted(count > 1 ? count : 0, "collision spaces with bodies");
 }
 
 std::optional<std::string> joints(const Model& model) {
@@ -81,36 +94,95 @@ std::optional<std::string> launches(const Model& model) {
       model, [](const Event& e) { return e.kind == EventKind::launch; }, "launches");
 }
 
+std::optional<std::string> gyroscopic_torque(const Model& model) {
+  return counted_if(model.bodies, has_gyroscopic_torque, "bodies whose inertia differs by axis");
+}
+
+template <EventKind kind>
+void drop_events(Model& model) {
+  std::erase_if(model.events, [](const Event& e) { return e.kind == kind; });
+}
+
+void keep(Model&) {}
+void drop_gravity(Model& model) { model.gravity.setZero(); }
+void drop_friction(Model& model) {
+  for (Geom& geom : model.geoms) geom.material.mu = 0;
+}
+void drop_restitution(Model& model) {
+  for (Geom& geom : model.geoms) geom.material.restitution = 0;
+}
+void drop_spaces(Model& model) {
+  model.spaces.resize(1);
+  for (Geom& geom : model.geoms) geom.space = 0;
+}
+void drop_limits(Model& model) {
+  for (Joint& joint : model.joints) joint.limits = {};
+}
+void drop_motors(Model& model) {
+  for (Joint& joint : model.joints) joint.motors = {};
+  drop_events<EventKind::motor>(model);
+}
+void drop_suspension(Model& model) {
+  for (Joint& joint : model.joints) joint.suspension = {};
+}
+void refuse_without_joints(Model& model) {
+  core::require_input(model.joints.empty(),
+                      "effect 'joints' cannot be left out: " + std::to_string(model.joints.size()) +
+                          " joints hold the bodies of this world together; take them out of the scene");
+}
+
 }  // namespace
 
 const std::vector<Effect>& effect_registry() {
   static const std::vector<Effect> effects = {
-      {"events", "bodies are launched at given steps", Phase::integrate, launches},
-      {"steering", "joint axes are pinned to angles at given steps", Phase::integrate, steering},
-      {"collision", "geoms that touch get contacts", Phase::collide, collision},
-      {"friction", "contacts resist sliding (Coulomb, box friction)", Phase::rows, friction},
-      {"restitution", "contacts bounce", Phase::rows, restitution},
-      {"joints", "bodies are held together", Phase::rows, joints},
-      {"limits", "joint angles stay in their range", Phase::rows, limits},
-      {"motors", "joint axes are driven or held", Phase::rows, motors},
-      {"suspension", "wheels spring along the steering axis", Phase::rows, suspension},
-      {"gravity", "bodies fall", Phase::integrate, gravity},
+      {"events", "bodies are launched at given steps", Phase::integrate, launches,
+       drop_events<EventKind::launch>},
+      {"steering", "joint axes are pinned to angles at given steps", Phase::integrate, steering,
+       drop_events<EventKind::steer>},
+      {"collision", "geoms that touch get contacts", Phase::collide, collision, keep},
+      {"cross_space", "contacts between collision spaces are told apart", Phase::collide, cross_space,
+       drop_spaces},
+      {"friction", "contacts resist sliding (Coulomb, box friction)", Phase::rows, friction, drop_friction},
+      {"restitution", "contacts bounce", Phase::rows, restitution, drop_restitution},
+      {"joints", "bodies are held together", Phase::rows, joints, refuse_without_joints},
+      {"limits", "joint angles stay in their range", Phase::rows, limits, drop_limits},
+      {"motors", "joint axes are driven or held", Phase::rows, motors, drop_motors},
+      {"suspension", "wheels spring along the steering axis", Phase::rows, suspension, drop_suspension},
+      {"gyroscopic_torque", "spinning bodies precess", Phase::integrate, gyroscopic_torque, keep},
+      {"gravity", "bodies fall", Phase::integrate, gravity, drop_gravity},
   };
   return effects;
 }
 
+bool has_gyroscopic_torque(const Body& body) {
+  return body.inertia != Mat3(body.inertia(0, 0) * Mat3::Identity());
+}
+
 StepPlan::StepPlan(const Model& model) {
   for (const Effect& effect : effect_registry()) {
-    if (auto reason = effect.reason(model)) passes_.push_back({&effect, *reason});
+    const auto choice = model.effects.find(effect.name);
+    if (choice != model.effects.end() && !choice->second) continue;
+    if (auto reason = effect.reason(model)) {
+      passes_.push_back({&effect, *reason, false});
+    } else if (choice != model.effects.end()) {
+      passes_.push_back({&effect, "demanded; nothing calls for it", true});
+    }
   }
 }
 
-bool StepPlan::has(std::string_view effect) const {
+const Pass* StepPlan::find(std::string_view effect) const {
   const auto& registry = effect_registry();
   core::require_invariant(
       std::any_of(registry.begin(), registry.end(), [&](const Effect& e) { return e.name == effect; }),
-      "StepPlan::has() of a name that is not in the registry");
-  return std::any_of(passes_.begin(), passes_.end(), [&](const Pass& p) { return p.effect->name == effect; });
+      "StepPlan was asked for a name that is not in the registry");
+  const auto found =
+      std::find_if(passes_.begin(), passes_.end(), [&](const Pass& p) { return p.effect->name == effect; });
+  return found == passes_.end() ? nullptr : &*found;
+}
+
+bool StepPlan::is_idle(std::string_view effect) const {
+  const Pass* pass = find(effect);
+  return pass != nullptr && pass->idle;
 }
 
 }  // namespace pbmpi::model

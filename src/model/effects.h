@@ -18,6 +18,9 @@ struct Effect {
   core::Phase phase;         ///< the phase of the step that its pass joins
   /// Why the model calls for it ("212 geoms with mu > 0"), or nothing if it does not.
   std::optional<std::string> (*reason)(const Model& model);
+  /// Takes out of the model what calls for it; does nothing where only its pass is left out. Throws
+  /// core::InputError if the model falls apart without.
+  void (*leave_out)(Model& model);
 };
 
 /// All effects, in the order of the step.
@@ -27,16 +30,26 @@ const std::vector<Effect>& effect_registry();
 struct Pass {
   const Effect* effect = nullptr;
   std::string reason;
+  bool idle = false;  ///< demanded, though nothing calls for it
 };
 
-/// The passes of a world's step, in order. An effect that nothing calls for has none.
+/// False for a body whose inertia is the same about every axis, like a sphere's or a cube's: its torque is
+/// exactly zero.
+bool has_gyroscopic_torque(const Body& body);
+
+/// The passes of a world's step, in order. An effect that nothing calls for has none, unless it is demanded;
+/// one that is left out has none. A pass that nothing calls for changes no bit of a state.
 class StepPlan {
  public:
   explicit StepPlan(const Model& model);
-  bool has(std::string_view effect) const;
+  bool has(std::string_view effect) const { return find(effect) != nullptr; }
+  /// Is the pass there only because it is demanded?
+  bool is_idle(std::string_view effect) const;
   const std::vector<Pass>& passes() const { return passes_; }
 
  private:
+  const Pass* find(std::string_view effect) const;
+
   std::vector<Pass> passes_;
 };
 

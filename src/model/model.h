@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/vector.h"
+#include "model/effect_choices.h"
 
 namespace pbmpi::model {
 
@@ -155,6 +156,7 @@ struct Model {
   double erp = 0.2;           ///< of joints
   double cfm = 1e-10;         ///< of joints [s/kg]
   ContactLaw contact_law;
+  EffectChoices effects;  ///< what is demanded or left out, whatever the rest calls for
 
   int num_bodies() const { return static_cast<int>(bodies.size()); }
 };

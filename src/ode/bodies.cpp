@@ -25,13 +25,15 @@ void set_orientation_bits(dBodyID body, const model::Quat& orientation) {
 }  // namespace
 
 std::vector<dBodyID> make_bodies(dWorldID world, const model::Model& model) {
+  const auto choice = model.effects.find("gyroscopic_torque");
+  const bool gyroscopic = choice == model.effects.end() || choice->second;
   std::vector<dBodyID> bodies;
   bodies.reserve(model.bodies.size());
   for (const model::Body& body : model.bodies) {
     const dBodyID id = dBodyCreate(world);
     const dMass mass = mass_of(body);
     dBodySetMass(id, &mass);
-    dBodySetGyroscopicMode(id, 1);
+    dBodySetGyroscopicMode(id, gyroscopic ? 1 : 0);
     dBodySetAutoDisableFlag(id, 0);
     bodies.push_back(id);
   }

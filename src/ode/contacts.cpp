@@ -9,6 +9,7 @@ Contacts::Contacts(const model::Model& model, const model::StepPlan& plan, const
       bodies_(bodies),
       friction_(plan.has("friction")),
       restitution_(plan.has("restitution")),
+      cross_space_(plan.has("cross_space")),
       joints_(dJointGroupCreate(0)) {
   constexpr int most_of_dcollide = 0xffff;  // the flags of dCollide hold the count in 16 bits
   found_.resize(static_cast<std::size_t>(std::min(model.contact_law.max_per_pair, most_of_dcollide)));
@@ -36,7 +37,7 @@ int Contacts::count() const {
 void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
   const int body_a = model_->geoms[pair.first].body;
   const int body_b = model_->geoms[pair.second].body;
-  const bool cross_space = body_a != model::no_body && body_b != model::no_body &&
+  const bool cross_space = cross_space_ && body_a != model::no_body && body_b != model::no_body &&
                            model_->geoms[pair.first].space != model_->geoms[pair.second].space;
   touches_.push_back({body_a, body_b, num_contacts, set_surface(pair), cross_space});
   for (int i = 0; i < num_contacts; ++i) {
@@ -56,8 +57,8 @@ int Contacts::set_surface(const GeomPair& pair) {
   surface.mode = dContactSoftERP | dContactSoftCFM;
   surface.mu = friction_ ? material.mu : 0;
   if (surface.mu > 0 && surface.mu < model::infinity) surface.mode |= dContactApprox1;
-  surface.bounce = restitution_ ? material.restitution : 0;
-  if (surface.bounce > 0) surface.mode |= dContactBounce;
+  surface.bounce = material.restitution;
+  if (restitution_) surface.mode |= dContactBounce;
   return surface.mu > 0 ? 3 : 1;
 }
 

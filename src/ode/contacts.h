@@ -17,7 +17,8 @@ struct Touch {
   bool cross_space = false;  ///< two real bodies whose geoms lie in different collision spaces
 };
 
-/// Makes the contact joints of a step. Friction and restitution are there only if the plan has them.
+/// Makes the contact joints of a step. Friction, restitution and the telling apart of
+/// spaces are there only if the plan has them.
 class Contacts {
  public:
   /// `model` is borrowed.
@@ -41,6 +42,7 @@ class Contacts {
   std::vector<dBodyID> bodies_;
   bool friction_;
   bool restitution_;
+  bool cross_space_;
   JointGroupHandle joints_;
   dContact contact_{};               ///< the one that is being filled
   std::vector<dContactGeom> found_;  ///< [max_per_pair]

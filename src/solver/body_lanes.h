@@ -113,9 +113,10 @@ void integrate(BodyLane<typename T::V>& body, const Twist<typename T::V>& twist,
 /// The implicit gyroscopic torque of ODE 0.16 (Lacoursiere, "Stabilizing gyroscopic forces in rigid multibody
 /// simulations", 2006): angular velocity after a torque-free step of the body's Euler equation,
 ///   (I + h [L]x^T) w' = L with L = I w, all in the world frame.
+/// Lanes where `has_torque` is 0 keep their velocity to the bit: rounding would turn a sphere's a little.
 template <class T>
-void apply_gyroscopic_torque(const BodyLane<typename T::V>& body, Twist<typename T::V>& twist,
-                             typename T::Scalar h) {
+void apply_gyroscopic_torque(const BodyLane<typename T::V>& body, const typename T::V& has_torque,
+                             Twist<typename T::V>& twist, typename T::Scalar h) {
   using V = typename T::V;
   const Sym3L<V> inertia = rotated(body.rotation, body.inertia_body);
   const Vec3L<V> momentum = inertia * twist.angular;
@@ -127,7 +128,10 @@ void apply_gyroscopic_torque(const BodyLane<typename T::V>& body, Twist<typename
   // Solve Itild w' = L by Cramer's rule: the columns of the adjugate are cross products of rows.
   const Vec3L<V> c0 = cross(row1, row2), c1 = cross(row2, row0), c2 = cross(row0, row1);
   const V inverse = 1 / dot(row0, c0);
-  twist.angular = (c0 * momentum.x + c1 * momentum.y + c2 * momentum.z) * inverse;
+  const Vec3L<V> turned = (c0 * momentum.x + c1 * momentum.y + c2 * momentum.z) * inverse;
+  const auto has = has_torque > T::broadcast(0);
+  twist.angular = {has ? turned.x : twist.angular.x, has ? turned.y : twist.angular.y,
+                   has ? turned.z : twist.angular.z};
 }
 
 }  // namespace pbmpi::solver

@@ -28,8 +28,8 @@ class BroadPhase {
 
   const model::Model* model_;
   model::TouchRule rule_;
-  std::vector<model::Box> boxes_;   ///< [geoms]; planes have none
-  std::vector<int> solids_;  ///< geoms that are not planes
+  std::vector<model::Box> boxes_;  ///< [geoms]; planes have none
+  std::vector<int> solids_;        ///< geoms that are not planes
   std::vector<int> planes_;
   std::vector<model::GeomPair> listed_;  ///< pairs that may touch, in a world of few geoms
   bool listed_only_ = false;

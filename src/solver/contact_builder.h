@@ -45,6 +45,7 @@ class ContactBuilder {
 
   BodyPair gather(const Manifold* manifolds, ContactSlot<T>& slot) const;
   Given read(const Manifold* manifolds, int point) const;
+  template <bool bounces>
   void build_point(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, Point& point) const;
   PBMPI_LANES static void build_row(const ContactSlot<T>& slot, const BodyPair& pair, const L3& direction,
                                     const L3& arm_a, const L3& arm_b, Scalar cfm, const V& factor, Row& row);
@@ -67,7 +68,14 @@ template <class T, bool two_bodies, bool friction>
 void ContactBuilder<T, two_bodies, friction>::build(const Manifold* manifolds, ContactSlot<T>& slot,
                                                     Point* points) const {
   const BodyPair pair = gather(manifolds, slot);
-  for (int i = 0; i < slot.num_points; ++i) build_point(slot, pair, read(manifolds, i), points[i]);
+  for (int i = 0; i < slot.num_points; ++i) {
+    const Given given = read(manifolds, i);
+    if (parameters_.restitution) {
+      build_point<true>(slot, pair, given, points[i]);
+    } else {
+      build_point<false>(slot, pair, given, points[i]);
+    }
+  }
 }
 
 template <class T, bool two_bodies, bool friction>
@@ -123,6 +131,7 @@ typename ContactBuilder<T, two_bodies, friction>::Given ContactBuilder<T, two_bo
 }
 
 template <class T, bool two_bodies, bool friction>
+template <bool bounces>
 void ContactBuilder<T, two_bodies, friction>::build_point(const ContactSlot<T>& slot, const BodyPair& pair,
                                                           const Given& given, Point& point) const {
   const V zero = T::broadcast(0);
@@ -130,10 +139,12 @@ void ContactBuilder<T, two_bodies, friction>::build_point(const ContactSlot<T>& 
   const L3 arm_b = two_bodies ? given.position - pair.centre_b : L3{zero, zero, zero};
   build_row(slot, pair, given.normal, arm_a, arm_b, parameters_.soft_cfm / parameters_.h, given.factor,
             point.normal);
-  const V outgoing = Solver::speed(point.normal, pair.twist_a, pair.twist_b);
+  V bounce = zero;
+  if constexpr (bounces) {
+    const V outgoing = Solver::speed(point.normal, pair.twist_a, pair.twist_b);
+    bounce = outgoing < T::broadcast(-parameters_.bounce_velocity) ? -given.restitution * outgoing : zero;
+  }
   const V push = (parameters_.soft_erp / parameters_.h) * given.depth;
-  const V bounce =
-      outgoing < T::broadcast(-parameters_.bounce_velocity) ? -given.restitution * outgoing : zero;
   point.rhs = T::max(push, bounce);
   point.depth = given.depth;
   if constexpr (friction) {

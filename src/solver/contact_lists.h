@@ -68,6 +68,9 @@ class ContactLists {
  public:
   using Parameters = ContactParameters<typename T::Scalar>;
 
+  /// `always_rub`: friction rows for all contacts, also where mu is 0.
+  explicit ContactLists(bool always_rub) : always_rub_(always_rub) {}
+
   void clear() {
     for_each([](auto& list) { list.order.clear(); });
   }
@@ -116,15 +119,17 @@ class ContactLists {
 
   ManifoldOrder& order_of(const model::Contact& contact, std::size_t num_points) {
     const std::size_t few = num_points > 2 ? 0 : 1;
+    const bool rubs = contact.mu > 0 || always_rub_;
     if (contact.body_b == model::no_body)
-      return contact.mu > 0 ? std::get<1>(lists_)[few].order : std::get<0>(lists_)[few].order;
-    return contact.mu > 0 ? std::get<3>(lists_)[few].order : std::get<2>(lists_)[few].order;
+      return rubs ? std::get<1>(lists_)[few].order : std::get<0>(lists_)[few].order;
+    return rubs ? std::get<3>(lists_)[few].order : std::get<2>(lists_)[few].order;
   }
   template <class Visit>
   void for_each(Visit visit) {
     std::apply([&](auto&... kind) { ((visit(kind[0]), visit(kind[1])), ...); }, lists_);
   }
 
+  bool always_rub_;
   std::tuple<Kind<false, false>, Kind<false, true>, Kind<true, false>, Kind<true, true>> lists_;
 };
 

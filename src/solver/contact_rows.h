@@ -12,6 +12,7 @@ namespace pbmpi::solver {
 template <class Scalar>
 struct ContactParameters {
   Scalar h, soft_erp, soft_cfm, cfm, bounce_velocity, sor_factor;
+  bool restitution;  ///< may a contact bounce?
 };
 
 /// A row of a contact: its direction, the angular parts of J, and M^-1 J^T. Without the parts of b where b is

@@ -51,7 +51,8 @@ class Pack {
   virtual void launch(int world, const model::Event& event) = 0;
   /// Poses of a world's bodies: [num_bodies].
   virtual void poses(int world, std::span<model::BodyPose> poses) const = 0;
-  /// Collision detection at the poses of now: the contacts of each world, in canonical order.
+  /// Collision detection at the poses of now: the contacts of each world, in canonical order. Nothing without
+  /// the pass "collision".
   virtual void collide(std::span<std::vector<model::Contact>> contacts) = 0;
   /// The contacts of given pairs (sorted) of one world; appended.
   virtual void collide_pairs(int world, std::span<const model::GeomPair> pairs,

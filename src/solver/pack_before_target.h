@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <type_traits>
@@ -31,4 +32,5 @@
 #include "solver/pack.h"
 #include "solver/pack_instances.h"
 #include "solver/pair_table.h"
+#include "solver/passes.h"
 #include "solver/slot_list.h"

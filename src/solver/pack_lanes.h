@@ -1,10 +1,13 @@
 /// The pack itself, for one number type and number of lanes. Compiled once for each instruction set.
 #pragma once
 
+#include <optional>
+
 #include "core/clock.h"
 #include "core/random.h"
 #include "solver/collider_lanes.h"
 #include "solver/contact_lists.h"
+#include "solver/passes.h"
 #include "solver/slot_list.h"
 #include "solver/world_lanes.h"
 
@@ -17,7 +20,10 @@ class PackLanes final : public Pack {
   using Scalar = typename T::Scalar;
   using Contacts = std::span<const std::span<const model::Contact>>;
 
-  explicit PackLanes(std::span<const PackedWorld> worlds) : worlds_(worlds), collider_(worlds, worlds_) {}
+  explicit PackLanes(std::span<const PackedWorld> worlds)
+      : passes_(shared_passes(worlds)), worlds_(worlds, passes_), contacts_(passes_.idle_friction) {
+    if (passes_.collision) collider_.emplace(worlds, worlds_);
+  }
 
   void load(int world, const model::State& state) override { worlds_.load(world, state); }
   void store(int world, model::State& state) const override { worlds_.store(world, state); }
@@ -40,11 +46,11 @@ class PackLanes final : public Pack {
   int num_lanes() const override { return T::num_lanes; }
 
   void collide(std::span<std::vector<model::Contact>> contacts) override {
-    collider_.collide(worlds_, contacts);
+    if (collider_) collider_->collide(worlds_, contacts);
   }
   void collide_pairs(int world, std::span<const model::GeomPair> pairs,
                      std::vector<model::Contact>& contacts) override {
-    collider_.collide_pairs(worlds_, world, pairs, contacts);
+    if (collider_) collider_->collide_pairs(worlds_, world, pairs, contacts);
   }
   void step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) override;
 
@@ -54,13 +60,15 @@ class PackLanes final : public Pack {
   void find_contact_slots();
   void write_contact_twists(const SlotList& slots);
   void read_contact_twists(const SlotList& slots);
-  void apply_forces(Scalar h);
+  void apply_gyroscopic_torques(Scalar h);
+  void apply_gravity(Scalar h);
   void integrate_bodies(Scalar h);
 
   SlotList jointed_, free_;  ///< slots in contact
   SlotSet seen_;
+  Passes passes_;
   WorldLanes<T> worlds_;
-  ColliderLanes<T> collider_;
+  std::optional<ColliderLanes<T>> collider_;  ///< none without the pass "collision"
   ContactLists<T> contacts_;
 };
 
@@ -96,10 +104,18 @@ void PackLanes<T>::read_contact_twists(const SlotList& slots) {
 }
 
 template <class T>
-void PackLanes<T>::apply_forces(Scalar h) {
+void PackLanes<T>::apply_gyroscopic_torques(Scalar h) {
+  for (const auto& at : worlds_.gyroscopic) {
+    if (worlds_.is_active(at.slot))
+      apply_gyroscopic_torque<T>(worlds_.bodies.bodies[at.slot], at.has_torque,
+                                 worlds_.bodies.twists[at.slot], h);
+  }
+}
+
+template <class T>
+void PackLanes<T>::apply_gravity(Scalar h) {
   worlds_.for_each_active_slot([&](int slot) {
     Twist<V>& twist = worlds_.bodies.twists[slot];
-    apply_gyroscopic_torque<T>(worlds_.bodies.bodies[slot], twist, h);
     twist.linear = twist.linear + worlds_.gravity[slot] * T::broadcast(h);
   });
 }
@@ -125,7 +141,8 @@ void PackLanes<T>::step(Contacts contacts, const StepParameters& parameters, cor
                                                      scalar(laws.contact_law.soft_cfm),
                                                      scalar(laws.cfm),
                                                      scalar(laws.contact_law.bounce_velocity),
-                                                     scalar(parameters.sor_factor)};
+                                                     scalar(parameters.sor_factor),
+                                                     passes_.restitution};
   BodyLanes<T>& bodies = worlds_.bodies;
   core::LapTimer timer(times);
   sort_contacts(contacts);
@@ -136,7 +153,8 @@ void PackLanes<T>::step(Contacts contacts, const StepParameters& parameters, cor
     } else {
       contacts_.advance(bodies, contact_parameters);
     }
-    apply_forces(h);
+    if (passes_.gyroscopic_torque) apply_gyroscopic_torques(h);
+    if (passes_.gravity) apply_gravity(h);
     worlds_.joints.build(joint_builder, bodies);
     timer.lap(core::Phase::rows);
     write_contact_twists(free_);

@@ -11,6 +11,7 @@
 #include "solver/joint_batches.h"
 #include "solver/manifold_order.h"
 #include "solver/pack.h"
+#include "solver/passes.h"
 
 namespace pbmpi::solver {
 
@@ -20,7 +21,13 @@ class WorldLanes {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  explicit WorldLanes(std::span<const PackedWorld> worlds);
+  /// A slot of bodies with gyroscopic torque, and 1 in the lanes that have it, else 0.
+  struct alignas(sizeof(V)) GyroscopicSlot {
+    V has_torque;
+    int slot = 0;
+  };
+
+  WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes);
 
   void load(int world, const model::State& state) {
     for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body)
@@ -34,6 +41,7 @@ class WorldLanes {
   void store_body(int world, int body, model::State& state) const;
   /// See Pack::set_active().
   void set_active(int world, std::span<const int> bodies);
+  bool is_active(int slot) const { return active_.empty() || active_[slot] != 0; }
   template <class Visit>
   void for_each_active_slot(Visit visit) const {
     joints.for_each_active_batch([&](int first_slot, int num_bodies) {
@@ -60,7 +68,8 @@ class WorldLanes {
 
   BodyLanes<T> bodies{0};
   JointBatches<T> joints;
-  std::vector<Vec3L<V>> gravity;  ///< [slots] worlds may differ
+  std::vector<Vec3L<V>> gravity;           ///< [slots] worlds may differ
+  std::vector<GyroscopicSlot> gyroscopic;  ///< none without the pass
 
  private:
   struct JointPlace {
@@ -80,17 +89,20 @@ class WorldLanes {
   void set_pose(const LanePlace& at, const model::Pose& pose);
   void set_terms(const World& world, int joint, const JointTerms& terms);
   void fill_idle_lanes();
+  void find_gyroscopic(bool all_slots);
+  void allow_idle_controls(const Passes& passes);
   JointLane<V>& joint_at(const World& world, int joint) {
     const JointPlace& at = world.joints[joint];
     return joints.joints(at.shape)[at.joint];
   }
 
   std::vector<World> worlds_;
+  std::vector<char> active_;      ///< [slots]; empty: all are
   std::vector<int> joint_count_;  ///< [slots] of the articulation that a slot belongs to
 };
 
 template <class T>
-WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds) {
+WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes) {
   place(worlds);
   for (std::size_t w = 0; w < worlds.size(); ++w) {
     const World& world = worlds_[w];
@@ -110,6 +122,8 @@ WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds) {
     }
     load(static_cast<int>(w), model::initial_state(*world.model));
   }
+  allow_idle_controls(passes);
+  if (passes.gyroscopic_torque) find_gyroscopic(passes.idle_gyroscopic_torque);
   fill_idle_lanes();
   for (BodyLane<V>& body : bodies.bodies) refresh(body);
 }
@@ -188,7 +202,46 @@ void WorldLanes<T>::set_masses(const World& world, int body) {
   T::set(lane.inv_mass, at.lane, static_cast<Scalar>(1 / source.mass_kg));
   set_lane<T>(lane.inertia_body, at.lane, source.inertia);
   set_lane<T>(lane.inv_inertia_body, at.lane, source.inertia.inverse());
-  set_lane<T>(gravity[at.slot], at.lane, world.model->gravity);
+  // Adding -0 changes no number, adding +0 changes -0.
+  const bool falls = !world.model->gravity.isZero(0);
+  set_lane<T>(gravity[at.slot], at.lane,
+              falls ? world.model->gravity : model::Vec3(model::Vec3::Constant(-0.0)));
+}
+
+template <class T>
+void WorldLanes<T>::find_gyroscopic(bool all_slots) {
+  std::vector<GyroscopicSlot> slots(static_cast<std::size_t>(bodies.static_slot), {T::broadcast(0), 0});
+  std::vector<bool> used(slots.size(), all_slots);
+  for (const World& world : worlds_) {
+    for (std::size_t body = 0; body < world.bodies.size(); ++body) {
+      if (!model::has_gyroscopic_torque(world.model->bodies[body])) continue;
+      const LanePlace& at = world.bodies[body];
+      T::set(slots[static_cast<std::size_t>(at.slot)].has_torque, at.lane, 1);
+      used[static_cast<std::size_t>(at.slot)] = true;
+    }
+  }
+  for (std::size_t slot = 0; slot < used.size(); ++slot) {
+    slots[slot].slot = static_cast<int>(slot);
+    if (used[slot]) gyroscopic.push_back(slots[slot]);
+  }
+}
+
+/// Their limits are out of reach and their motors have no force, so that their rows push nothing.
+template <class T>
+void WorldLanes<T>::allow_idle_controls(const Passes& passes) {
+  using model::JointKind;
+  for (const World& world : worlds_) {
+    for (std::size_t j = 0; j < world.joints.size(); ++j) {
+      const JointKind kind = world.model->joints[j].kind;
+      if (kind == JointKind::ball || kind == JointKind::fixed) continue;
+      const bool two_motors = kind == JointKind::universal || kind == JointKind::hinge2;
+      AxisControl<V>* controls = joint_at(world, static_cast<int>(j)).controls;
+      controls[0].has_limit |= passes.idle_limits;
+      controls[1].has_limit |= passes.idle_limits && kind == JointKind::universal;
+      controls[0].has_motor |= passes.idle_motors;
+      controls[1].has_motor |= passes.idle_motors && two_motors;
+    }
+  }
 }
 
 template <class T>
@@ -269,6 +322,8 @@ template <class T>
 void WorldLanes<T>::set_active(int world, std::span<const int> active) {
   joints.deactivate_all();
   for (const int body : active) joints.activate(worlds_[world].bodies[body].slot);
+  active_.assign(gravity.size(), 0);
+  for_each_active_slot([&](int slot) { active_[slot] = 1; });
 }
 
 template <class T>

@@ -32,8 +32,13 @@ std::string refusal(const std::vector<std::string>& args) {
 }
 
 TEST(Options, absent_ones_come_from_the_scene) {
-  const FakeScene scene(
-      {.replicas = 7, .warmup = 1, .frames = 9, .steps_per_frame = 2, .dt_s = 0.004, .iterations = 33});
+  const FakeScene scene({.replicas = 7,
+                         .warmup = 1,
+                         .frames = 9,
+                         .steps_per_frame = 2,
+                         .dt_s = 0.004,
+                         .iterations = 33,
+                         .effects = {}});
   const RunSpec spec = resolve(parse_options({"--scene", "Fake"}), scene);
   EXPECT_EQ(spec.num_worlds, 7);
   EXPECT_EQ(spec.total_frames(), 10);

@@ -1,11 +1,13 @@
 /// bench_worlds [SUBJECT] [WORLDS] [FRAMES] [ROUNDS]: pbmpi's steppers against the bare ODE loop over the
-/// same worlds. bench_worlds --spaces: ODE's spaces against each other.
+/// same worlds. bench_worlds --spaces: ODE's spaces against each other. bench_worlds --effects: what
+/// effects cost.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
 #include "compare.h"
 #include "core/error.h"
+#include "effects.h"
 #include "mpi/session.h"
 #include "spaces.h"
 
@@ -24,6 +26,10 @@ void run(int argc, char** argv) {
   const std::string name = argc > 1 ? argv[1] : "100CrSk";
   if (name == "--spaces") {
     pbmpi::bench::compare_spaces();
+    return;
+  }
+  if (name == "--effects") {
+    pbmpi::bench::compare_effects();
     return;
   }
   const auto subject = pbmpi::bench::load_subject(name, number(argc, argv, 2, 0));

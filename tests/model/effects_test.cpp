@@ -21,13 +21,14 @@ using Names = std::vector<std::string>;
 TEST(StepPlan, of_a_free_smooth_body_has_gravity_only) {
   Model model = support::free_box();
   model.geoms[0].material.mu = 0;
-  EXPECT_EQ(pass_names(model), Names{"gravity"});
+  EXPECT_EQ(pass_names(model), (Names{"gyroscopic_torque", "gravity"}));
 }
 
 TEST(StepPlan, is_empty_where_nothing_is_called_for) {
   Model model = support::free_box();
   model.geoms[0].material.mu = 0;
   model.gravity.setZero();
+  model.bodies[0].inertia = 0.3 * Mat3::Identity();
   EXPECT_EQ(pass_names(model), Names{});
 }
 
@@ -74,6 +75,37 @@ TEST(StepPlan, keeps_the_order_of_the_registry) {
     ASSERT_LT(at, effect_registry().size()) << pass.effect->name << " stands too early";
   }
   EXPECT_GE(plan.passes().size(), 7u);
+}
+
+TEST(StepPlan, has_gyroscopic_torque_only_for_bodies_whose_inertia_differs_by_axis) {
+  EXPECT_TRUE(StepPlan(support::free_box()).has("gyroscopic_torque"));
+  EXPECT_FALSE(StepPlan(support::box_over_ground(1)).has("gyroscopic_torque"));  // a cube
+  EXPECT_FALSE(StepPlan(support::pendulum(1, 0)).has("gyroscopic_torque"));      // a ball
+}
+
+TEST(StepPlan, crosses_spaces_only_if_bodies_move_in_two) {
+  Model model = support::pile(2);
+  model.spaces = {"ground", "pile", "empty"};
+  for (Geom& geom : model.geoms) geom.space = geom.body == no_body ? 0 : 1;
+  EXPECT_FALSE(StepPlan(model).has("cross_space"));
+  model.geoms.back().space = 2;
+  EXPECT_TRUE(StepPlan(model).has("cross_space"));
+}
+
+TEST(StepPlan, has_what_is_demanded_and_lacks_what_is_left_out) {
+  Model model = support::box_over_ground(0);
+  model.effects = {{"restitution", true}, {"gravity", false}, {"friction", true}};
+  EXPECT_EQ(pass_names(model), (Names{"collision", "friction", "restitution"}));
+  const StepPlan plan(model);
+  EXPECT_TRUE(plan.is_idle("restitution"));
+  EXPECT_FALSE(plan.is_idle("friction"));  // the model calls for it
+  EXPECT_FALSE(plan.is_idle("gravity"));
+}
+
+TEST(StepPlan, has_nothing_of_contacts_without_collision) {
+  Model model = support::pile(3);
+  model.effects = {{"collision", false}};
+  EXPECT_EQ(pass_names(model), Names{"gravity"});
 }
 
 TEST(StepPlan, says_why) {

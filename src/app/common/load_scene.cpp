@@ -17,8 +17,9 @@ scenes::SceneSource share_scene(const mpi::Communicator& comm, const std::string
 
 std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const std::string& name_or_path,
                                           std::optional<double> dt_s,
-                                          std::optional<scenes::SpacesForm> spaces) {
-  return scenes::parse_scene(share_scene(comm, name_or_path), dt_s, spaces);
+                                          std::optional<scenes::SpacesForm> spaces,
+                                          const model::EffectChoices& effects) {
+  return scenes::parse_scene(share_scene(comm, name_or_path), dt_s, spaces, effects);
 }
 
 }  // namespace pbmpi::app

@@ -17,6 +17,7 @@ scenes::SceneSource share_scene(const mpi::Communicator& comm, const std::string
 /// Collective. The same, parsed.
 std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const std::string& name_or_path,
                                           std::optional<double> dt_s,
-                                          std::optional<scenes::SpacesForm> spaces = std::nullopt);
+                                          std::optional<scenes::SpacesForm> spaces = std::nullopt,
+                                          const model::EffectChoices& effects = {});
 
 }  // namespace pbmpi::app

@@ -30,7 +30,7 @@ std::string plan_text(const model::Model& model) {
   std::ostringstream text;
   const model::StepPlan plan(model);
   for (const model::Pass& pass : plan.passes()) {
-    text << "  " << std::left << std::setw(12) << pass.effect->name << std::setw(10)
+    text << "  " << std::left << std::setw(18) << pass.effect->name << std::setw(10)
          << core::phase_names[static_cast<std::size_t>(pass.effect->phase)] << pass.effect->meaning << ": "
          << pass.reason << '\n';
   }
@@ -145,6 +145,7 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
         << (spec.estimate->iterations == 1 ? "" : "s") << ", " << name_of(spec.estimate->precision)
         << " precision, before each frame\n";
   }
+  if (!spec.effects.empty()) out << "effects chosen: " << model::to_text(spec.effects) << '\n';
   print_plans(out, census);
   const bool spaces = spec.decomposition == Decomposition::spaces;
   out << "decomposition: " << (spaces ? "spaces" : "worlds") << " over " << num_ranks

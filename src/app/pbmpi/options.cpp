@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "model/effects.h"
 #include "model/names.h"
 
 namespace pbmpi::app {
@@ -14,6 +15,13 @@ namespace po = boost::program_options;
 using core::require_input;
 
 namespace {
+
+std::string effect_list() {
+  std::string list;
+  for (const model::Effect& effect : model::effect_registry())
+    list += (list.empty() ? "" : ", ") + std::string(effect.name);
+  return list;
+}
 
 po::options_description options_description() {
   po::options_description what("What to simulate");
@@ -30,7 +38,12 @@ po::options_description options_description() {
       ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"),
        "of the solver's row order and of the scene's variation")  //
       ("solver-seed", po::value<std::uint64_t>()->value_name("N"),
-       "of the solver's row order alone: runs that differ in it show the noise floor; default: --seed");
+       "of the solver's row order alone: runs that differ in it show the noise floor; default: --seed")  //
+      ("effects", po::value<std::string>()->value_name("+NAME,-NAME"),
+       ("for an experiment: + demands an effect that the scene does not call for, - leaves one out; they "
+        "are " +
+        effect_list())
+           .c_str());
 
   po::options_description how("How to step");
   how.add_options()  //
@@ -113,6 +126,14 @@ Enum choice(const po::variables_map& values, const std::string& name,
   throw core::InputError("--" + name + " " + word + ": it must be one of " + known);
 }
 
+model::EffectChoices effect_choices(const std::string& text) {
+  try {
+    return model::parse_effect_choices(text);
+  } catch (const core::InputError& error) {
+    throw core::InputError("--effects " + text + ": " + error.what());
+  }
+}
+
 /// The same for an option that has no default.
 template <class Enum, std::size_t N>
 std::optional<Enum> choice_if_given(const po::variables_map& values, const std::string& name,
@@ -192,6 +213,7 @@ Options parse_options(const std::vector<std::string>& args) {
   options.record_islands = values.count("record-islands") != 0;
   if (values.count("spaces") != 0)
     options.spaces = choice<scenes::SpacesForm>(values, "spaces", spaces_names);
+  options.effects = effect_choices(given<std::string>(values, "effects").value_or(""));
   options.report = choice<ReportFormat>(values, "report", report_format_names);
   const bool needs_scene = options.action == Action::run || options.action == Action::describe;
   require_input(!needs_scene || !options.scene.empty(),
@@ -256,6 +278,7 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
                 "ODE's steppers have none of them");
   require_at_least(spec.record_every, 1, "--record-every");
   spec.spaces = scene.defaults().spaces;
+  spec.effects = scene.defaults().effects;
   spec.record_islands = options.record_islands;
   spec.stepper.profile = options.record_islands;
   require_input(!options.record_islands || options.stepper != model::StepperKind::sor,

@@ -39,6 +39,7 @@ struct Options {
   bool no_output = false;
   bool record_islands = false;
   std::optional<scenes::SpacesForm> spaces;
+  model::EffectChoices effects;
   int record_every = 1;
   ReportFormat report = ReportFormat::text;
   CommonOptions common;
@@ -65,6 +66,7 @@ struct RunSpec {
   bool record_islands = false;
   scenes::SpacesForm spaces = scenes::SpacesForm::many;
   Decomposition decomposition = Decomposition::automatic;  ///< of resolve(): as asked; decided by decompose()
+  model::EffectChoices effects;  ///< of the scene file and the command line
 
   int total_frames() const { return warmup + frames; }
 };

@@ -70,6 +70,7 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.dt_s = spec.stepper.dt_s;
   summary.budget_s = budget_s;
   summary.warmup_frames = spec.warmup;
+  summary.effects_chosen = model::to_text(spec.effects);
   const model::StepPlan plan(*scene.build(0, spec.scene_seed));
   for (const model::Pass& pass : plan.passes()) {
     summary.effects.push_back({std::string(pass.effect->name), pass.reason});
@@ -228,7 +229,7 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
     case Action::run:
       break;
   }
-  const auto scene = load_scene(comm, options.scene, options.dt_s, options.spaces);
+  const auto scene = load_scene(comm, options.scene, options.dt_s, options.spaces, options.effects);
   RunSpec spec = resolve(options, *scene);
   const auto num_spaces = static_cast<int>(scene->build(0, spec.scene_seed)->spaces.size());
   spec.decomposition = decompose(spec, num_spaces, comm.size());

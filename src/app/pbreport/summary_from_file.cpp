@@ -111,7 +111,11 @@ std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed
   std::vector<EffectSummary> effects;
   try {
     const std::string name = text_of(run.attributes, "scene");
-    const auto scene = scenes::parse_scene({name, name + ".toml", text_of(run.parameters, "scene_text")});
+    const auto form =
+        text_of(run.parameters, "spaces") == "one" ? scenes::SpacesForm::one : scenes::SpacesForm::many;
+    const auto scene =
+        scenes::parse_scene({name, name + ".toml", text_of(run.parameters, "scene_text")}, {}, form,
+                            model::parse_effect_choices(text_of(run.parameters, "effects")));
     const model::StepPlan plan(*scene->build(0, seed));
     for (const model::Pass& pass : plan.passes()) {
       effects.push_back({std::string(pass.effect->name), pass.reason});
@@ -215,6 +219,7 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   summary.max_joint_gap_m = largest_measured(run, "joint_gap");
   summary.max_penetration_m = largest_measured(run, "max_penetration");
   summary.effects = effects_of(run, summary.seed);
+  summary.effects_chosen = text_of(run.parameters, "effects");
   for (const std::string& event : run.events) count_rebalance(event, summary);
   if (!run.estimate.delivered_s.empty()) summary.estimate = estimate_of(run, path, summary.budget_s);
   return summary;

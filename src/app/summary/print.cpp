@@ -30,6 +30,7 @@ std::string run_lines(const RunSummary& s) {
              static_cast<unsigned long long>(s.seed));
   if (!s.simd.empty()) text += "simd: " + s.simd + "\n";
   text += format("effects: %s\n", join(s.effects, [](const EffectSummary& e) { return e.name; }).c_str());
+  if (!s.effects_chosen.empty()) text += "effects_chosen: " + s.effects_chosen + "\n";
   text += format("frames: %lld measured after %lld of warm-up%s\n", static_cast<long long>(s.measured_frames),
                  static_cast<long long>(s.warmup_frames), s.complete ? "" : " (stopped before the last)");
   return text;
@@ -204,6 +205,7 @@ std::string to_json(const RunSummary& s) {
                         {"max_penetration_m", s.max_penetration_m},
                         {"energy_j", s.energy_j}};
   json["effects"] = effects_json(s);
+  json["effects_chosen"] = s.effects_chosen;
   json["decomposition"] = s.decomposition;
   if (s.decomposition == "spaces") {
     json["spaces"] = {

@@ -70,6 +70,7 @@ struct RunSummary {
   std::int64_t nonfinite_bodies = 0;
   double max_joint_gap_m = 0, max_penetration_m = 0, energy_j = 0;  ///< energy: at the end
   std::vector<EffectSummary> effects;
+  std::string effects_chosen;  ///< "+friction,-gravity": demanded and left out; empty: as the scene calls for
   std::int64_t rebalances = 0, worlds_moved = 0;  ///< moved: worlds, or spaces
   std::string decomposition = "worlds";
   SpacesSummary spaces;                     ///< counts if decomposition is "spaces"

@@ -1,0 +1,30 @@
+#include "solver/passes.h"
+
+#include "solver/pack.h"
+
+namespace pbmpi::solver {
+
+Passes passes_of(const model::Model& model) {
+  const model::StepPlan plan(model);
+  return {plan.has("collision"),  plan.has("restitution"),          plan.has("gyroscopic_torque"),
+          plan.has("gravity"),    plan.is_idle("friction"),         plan.is_idle("limits"),
+          plan.is_idle("motors"), plan.is_idle("gyroscopic_torque")};
+}
+
+Passes shared_passes(std::span<const PackedWorld> worlds) {
+  Passes all;
+  for (const PackedWorld& world : worlds) {
+    const Passes own = passes_of(*world.model);
+    all.collision |= own.collision;
+    all.restitution |= own.restitution;
+    all.gyroscopic_torque |= own.gyroscopic_torque;
+    all.gravity |= own.gravity;
+    all.idle_friction |= own.idle_friction;
+    all.idle_limits |= own.idle_limits;
+    all.idle_motors |= own.idle_motors;
+    all.idle_gyroscopic_torque |= own.idle_gyroscopic_torque;
+  }
+  return all;
+}
+
+}  // namespace pbmpi::solver

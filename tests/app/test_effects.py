@@ -1,0 +1,89 @@
+"""Effects that a user demands or leaves out: what is printed, recorded and refused."""
+import json
+import os
+import re
+import unittest
+
+import h5py
+
+from harness import PBREPORT, SOURCE, ProgramTest
+
+PLAN = ("--scene", "CrashSk", "--frames", 2)
+
+
+def names(summary):
+    return [effect["name"] for effect in summary["effects"]]
+
+
+class Effects(ProgramTest):
+    def test_demanding_an_unneeded_effect_is_recorded_and_changes_no_bit(self):
+        for stepper in ("quick", "sor"):
+            run = (*PLAN, "--stepper", stepper)
+            plain = self.summary(1, *run, "--no-output")
+            forced = self.summary(2, *run, "--effects", "+restitution,+steering", "-o", "forced.h5")
+            self.assertNotIn("restitution", names(plain))
+            self.assertIn("restitution", names(forced))
+            self.assertEqual(plain["effects_chosen"], "")
+            self.assertEqual(forced["effects_chosen"], "+restitution,+steering")
+            self.assertEqual(plain["state_hash"], forced["state_hash"])
+            with h5py.File(self.path("forced.h5")) as file:
+                self.assertEqual(file["parameters/effects"][()].decode(), "+restitution,+steering")
+            report = self.run_command([PBREPORT, "forced.h5", "--json"])
+            self.assertEqual(report.returncode, 0, report.stderr)
+            self.assertEqual(json.loads(report.stdout)["effects"], forced["effects"])
+
+    def test_leaving_gravity_out_leaves_it_out_of_the_plan_the_motion_and_the_text(self):
+        plain = self.summary(1, *PLAN, "--no-output")
+        floating = self.summary(1, *PLAN, "--no-output", "--effects", "-gravity")
+        self.assertIn("gravity", names(plain))
+        self.assertNotIn("gravity", names(floating))
+        self.assertNotEqual(plain["state_hash"], floating["state_hash"])
+        text = self.pbmpi(1, *PLAN, "--no-output", "--effects", "-gravity").stdout
+        self.assertIn("effects_chosen: -gravity\n", text)
+
+    def test_describe_gives_a_reason_for_each_pass(self):
+        text = self.pbmpi(1, "--scene", "CrashWa", "--describe", "--effects", "+steering").stdout
+        for words in ("195 geoms with mu > 0", "99 launches", "3 collision spaces", "effects chosen: +steering",
+                      "demanded; nothing calls for it"):
+            self.assertIn(words, text)
+
+    def test_the_table_in_the_readme_is_what_describe_says(self):
+        with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as file:
+            rows = [[cell.strip() for cell in line.strip().strip("|").split("|")]
+                    for line in file.read().split("## Effects")[1].split("## Steppers")[0].splitlines()
+                    if line.startswith("|") and not line.startswith("|--")]
+        self.assertGreaterEqual(len(rows), 12)
+        for column, scene in enumerate(rows[0][1:], 1):
+            scene = scene.split(",")[0]
+            told = {row[0].split("`")[1]: row[column] for row in rows[1:] if row[column]}
+            text = self.pbmpi(1, "--scene", scene, "--describe").stdout
+            passes = re.findall(r"^  (\w+) +\w+ +[^:]+: (?:gravity of )?([\d.]+)", text, re.MULTILINE)
+            self.assertEqual({name: f"{float(number):g}" for name, number in passes}, told, scene)
+
+    def test_leaving_cross_space_out_makes_one_space(self):
+        text = self.pbmpi(1, "--scene", "CrashWa", "--describe", "--effects", "-cross_space").stdout
+        self.assertNotIn("cross_space ", text)
+        self.assertIn("spaces: 1 ", text)
+
+    def test_a_scene_file_chooses_and_the_command_line_goes_before_it(self):
+        self.write("mine.toml", 'title = "t"\nbase = "CrashSk"\n[effects]\nfriction = false\nsteering = true\n')
+        run = ("--scene", "mine.toml", "--frames", 1, "--no-output")
+        chosen = self.summary(1, *run)
+        self.assertNotIn("friction", names(chosen))
+        self.assertIn("steering", names(chosen))
+        self.assertIn("friction", names(self.summary(1, *run, "--effects", "+friction")))
+
+    def test_what_cannot_be_is_refused_with_2_and_nothing_is_written(self):
+        for effects, words in (("+fricton", "did you mean 'friction'?"), ("friction", "write +name"),
+                               ("+friction,-friction", "twice"), ("-joints", "34 joints hold the bodies"),
+                               ("+friction,-collision", "which it needs")):
+            result = self.pbmpi(2, *PLAN, "--effects", effects)
+            self.assertEqual(result.returncode, 2, effects)
+            lines = [line for line in result.stderr.splitlines() if line.startswith("pbmpi: ")]
+            self.assertEqual(len(lines), 1, result.stderr)
+            self.assertIn(words, lines[0])
+            self.assertEqual(os.listdir(self.folder), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

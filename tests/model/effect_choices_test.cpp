@@ -1,0 +1,78 @@
+#include "model/effect_choices.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "model/effects.h"
+#include "support/models.h"
+
+namespace pbmpi::model {
+namespace {
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_effect_choices(text);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(EffectChoices, are_read_and_written_alike) {
+  const EffectChoices choices = parse_effect_choices("+restitution,-gravity");
+  EXPECT_EQ(choices, (EffectChoices{{"gravity", false}, {"restitution", true}}));
+  EXPECT_EQ(parse_effect_choices(to_text(choices)), choices);
+  EXPECT_EQ(parse_effect_choices(""), EffectChoices{});
+  EXPECT_EQ(to_text({}), "");
+}
+
+TEST(EffectChoices, refuse_what_is_no_choice) {
+  EXPECT_NE(error_of("+fricton").find("did you mean 'friction'?"), std::string::npos);
+  EXPECT_NE(error_of("-telepathy").find("known: events, steering"), std::string::npos);
+  EXPECT_NE(error_of("friction").find("write +name"), std::string::npos);
+  EXPECT_NE(error_of("+friction,-friction").find("twice"), std::string::npos);
+  EXPECT_NE(error_of("+friction,,-gravity"), "");
+  EXPECT_NE(error_of("+"), "");
+}
+
+/// Every effect but joints can be left out of a model that calls for nearly all.
+TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
+  for (const Effect& effect : effect_registry()) {
+    if (effect.name == "joints") continue;
+    Model model = support::crash();
+    model.spaces = {"left", "right"};
+    model.geoms.front().space = 1;  // the last one is the ground
+    model.geoms.front().material.restitution = 0.5;
+    for (const EventKind kind : {EventKind::launch, EventKind::motor, EventKind::steer})
+      model.events.emplace_back().kind = kind;
+    ASSERT_TRUE(StepPlan(model).has(effect.name)) << effect.name;
+    model.effects[std::string(effect.name)] = false;
+    leave_out_effects(model);
+    EXPECT_FALSE(StepPlan(model).has(effect.name)) << effect.name;
+    // Collision and gyroscopic torque are left out of the plan, the others of the model itself.
+    model.effects.clear();
+    EXPECT_EQ(StepPlan(model).has(effect.name),
+              effect.name == "collision" || effect.name == "gyroscopic_torque")
+        << effect.name;
+  }
+}
+
+TEST(LeaveOutEffects, refuses_to_let_a_model_fall_apart) {
+  Model model = support::crash();
+  model.effects["joints"] = false;
+  EXPECT_THROW(leave_out_effects(model), core::InputError);
+  Model loose = support::pile(2);
+  loose.effects["joints"] = false;
+  EXPECT_NO_THROW(leave_out_effects(loose));
+}
+
+TEST(LeaveOutEffects, refuses_friction_without_collision) {
+  for (const char* part : {"friction", "restitution", "cross_space"}) {
+    Model model = support::pile(2);
+    model.effects = {{"collision", false}, {part, true}};
+    EXPECT_THROW(leave_out_effects(model), core::InputError) << part;
+  }
+}
+
+}  // namespace
+}  // namespace pbmpi::model
