@@ -65,7 +65,9 @@ class Spaces(ProgramTest):
         self.assertEqual(len(summary["idle_ranks"]), 1)
         report = subprocess.run([PBREPORT, self.path("run.h5")], capture_output=True, text=True, check=True,
                                 timeout=TIMEOUT_S).stdout
-        self.assertRegex(report, r"idle_ranks: [0-3] \(more ranks than spaces\)")
+        # Which rank it is follows measured times. Root has its section to do even without a space of its own.
+        idle = summary["idle_ranks"][0]
+        self.assertEqual(f"idle_ranks: {idle} (more ranks than spaces)" in report, idle != 0)
         self.assertEqual(self.summary(1, *args, "--no-output")["state_hash"], summary["state_hash"])
 
     def test_spaces_are_refused_where_they_cannot_be_had(self):
