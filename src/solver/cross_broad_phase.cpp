@@ -7,7 +7,7 @@ namespace pbmpi::solver {
 using model::Box;
 
 CrossBroadPhase::CrossBroadPhase(const model::Model& model, const model::SpaceMap& map)
-    : model_(&model), map_(&map) {}
+    : model_(&model), rule_(model), map_(&map) {}
 
 std::vector<std::vector<int>> CrossBroadPhase::neighbours(std::span<const int> owner,
                                                           std::span<const Box> boxes) {
@@ -39,13 +39,6 @@ void CrossBroadPhase::find_candidates(std::span<const int> owner, std::span<cons
   }
 }
 
-bool CrossBroadPhase::may_touch(const Candidate& a, const Candidate& b) const {
-  if (a.owner == b.owner || !a.box.overlaps(b.box)) return false;
-  const int actor = model_->geoms[static_cast<std::size_t>(a.geom)].actor;
-  return actor != model_->geoms[static_cast<std::size_t>(b.geom)].actor ||
-         model_->actors[static_cast<std::size_t>(actor)].self_collision;
-}
-
 void CrossBroadPhase::find_pairs(std::span<const int> owner, std::span<const Box> boxes,
                                  std::span<const model::BodyPose> poses,
                                  std::vector<model::GeomPair>& pairs) {
@@ -58,7 +51,8 @@ void CrossBroadPhase::find_pairs(std::span<const int> owner, std::span<const Box
     for (std::size_t j = i + 1; j < candidates_.size(); ++j) {
       const Candidate& b = candidates_[j];
       if (b.box.min[0] > a.box.max[0]) break;
-      if (may_touch(a, b)) pairs.push_back({std::min(a.geom, b.geom), std::max(a.geom, b.geom)});
+      if (a.owner == b.owner || !a.box.overlaps(b.box) || !rule_.may_touch(a.geom, b.geom)) continue;
+      pairs.push_back({std::min(a.geom, b.geom), std::max(a.geom, b.geom)});
     }
   }
   std::sort(pairs.begin(), pairs.end());

@@ -6,6 +6,7 @@
 
 #include "model/box.h"
 #include "model/space_map.h"
+#include "model/touch_rule.h"
 
 namespace pbmpi::solver {
 
@@ -16,7 +17,7 @@ class CrossBroadPhase {
   CrossBroadPhase(const model::Model& model, const model::SpaceMap& map);
 
   /// Pairs (first < second, by geom index) of bodies whose spaces have different owners and whose boxes
-  /// overlap, sorted; not two of one actor without self_collision. `owner`, `boxes`: [num_spaces]; `poses`:
+  /// overlap, of those that may touch (TouchRule), sorted. `owner`, `boxes`: [num_spaces]; `poses`:
   /// [num_bodies], of the spaces that overlap another.
   void find_pairs(std::span<const int> owner, std::span<const model::Box> boxes,
                   std::span<const model::BodyPose> poses, std::vector<model::GeomPair>& pairs);
@@ -33,9 +34,9 @@ class CrossBroadPhase {
   };
   void find_candidates(std::span<const int> owner, std::span<const model::Box> boxes,
                        std::span<const model::BodyPose> poses);
-  bool may_touch(const Candidate& a, const Candidate& b) const;
 
   const model::Model* model_;
+  model::TouchRule rule_;
   const model::SpaceMap* map_;
   std::vector<Candidate> candidates_;  ///< geoms in the box of a space of another owner
 };

@@ -49,8 +49,6 @@ class GeomLanes {
   /// Poses and boxes from those of the bodies.
   void update(const BodyLanes<T>& bodies);
 
-  int size() const { return num_geoms_; }
-
   Column position[3], rotation[9];  ///< world frame; rotation by rows
   Column box_min[3], box_max[3];    ///< a little larger than need be; a plane's is empty
   /// Half sides of a box, half length (z) of a capsule or cylinder; 0 for the other shapes.
@@ -69,13 +67,11 @@ class GeomLanes {
 
   void update_chunk(int i, const BodyLanes<T>& bodies);
 
-  int num_geoms_;
   std::vector<Chunk> chunks_;
 };
 
 template <class T>
-GeomLanes<T>::GeomLanes(int num_geoms)
-    : num_geoms_(num_geoms), chunks_(static_cast<std::size_t>(num_geoms / T::num_lanes + 1)) {
+GeomLanes<T>::GeomLanes(int num_geoms) : chunks_(static_cast<std::size_t>(num_geoms / T::num_lanes + 1)) {
   const int num_chunks = static_cast<int>(chunks_.size()) + 1;
   for (Column& column : position) column.resize(num_chunks);
   for (Column& column : rotation) column.resize(num_chunks);

@@ -21,7 +21,6 @@ struct RowCounts {
   int axis_controls = 0, line_controls = 0;  ///< limits and motors, in rows of their own
 
   constexpr int fixed_rows() const { return 3 * points + lines + axes; }
-  constexpr int controls() const { return axis_controls + line_controls; }
 };
 
 constexpr RowCounts row_counts(model::JointKind kind) {

@@ -134,18 +134,6 @@ struct LaneTraits {
       return result;
     }
   }
-  PBMPI_LANES static void scatter(Scalar* base, const std::int32_t* index, const V& v) {
-    if constexpr (num_lanes == 1) {
-      base[index[0]] = v;
-    } else if constexpr (is_512 && is_single) {
-      _mm512_i32scatter_ps(base, _mm512_loadu_si512(index), __m512(v), sizeof(Scalar));
-    } else if constexpr (is_512) {
-      _mm512_i32scatter_pd(base, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)), __m512d(v),
-                           sizeof(Scalar));
-    } else {
-      for (int lane = 0; lane < num_lanes; ++lane) base[index[lane]] = v[lane];
-    }
-  }
 
  private:
   static constexpr bool is_single = std::is_same_v<Scalar, float>;

@@ -63,7 +63,6 @@ class Pack {
                     const StepParameters& parameters, core::PhaseTimes& times) = 0;
   /// Rows that a joint had in the last step, limits and motors included.
   virtual int joint_rows(int world, int joint) const = 0;
-  virtual int num_lanes() const = 0;
 };
 
 }  // namespace pbmpi::solver

@@ -43,7 +43,6 @@ class PackLanes final : public Pack {
   void launch(int world, const model::Event& event) override { worlds_.launch(world, event); }
   void poses(int world, std::span<model::BodyPose> poses) const override { worlds_.poses(world, poses); }
   int joint_rows(int world, int joint) const override { return worlds_.joint_rows(world, joint); }
-  int num_lanes() const override { return T::num_lanes; }
 
   void collide(std::span<std::vector<model::Contact>> contacts) override {
     if (collider_) collider_->collide(worlds_, contacts);

@@ -5,10 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
-#include "core/random.h"
 #include "solver/articulation.h"
 #include "solver/sor_world.h"
+#include "solver/step_settings.h"
 
 namespace pbmpi::solver {
 namespace {
@@ -139,14 +138,7 @@ void SorStepper::step(Group& group, core::PhaseTimes& times) {
   timer.lap(Phase::collide);
   // Worlds of a pack may stand at different steps only if they came to this stepper at different times; the
   // order of the rows then follows each world's own step, so it is the key of the first that all must share.
-  StepParameters parameters;
-  parameters.dt_s = settings_.dt_s;
-  parameters.substeps = settings_.substeps;
-  parameters.iterations = settings_.iterations;
-  parameters.sor_factor = settings_.sor_factor;
-  parameters.order_key =
-      core::mix_key(settings_.seed, static_cast<std::uint64_t>(group.worlds.front()->step()), 0);
-  group.pack->step(group.contact_spans, parameters, times);
+  group.pack->step(group.contact_spans, step_parameters(settings_, group.worlds.front()->step()), times);
   for (SorWorld* world : group.worlds) world->finish_step();
 }
 
@@ -171,11 +163,7 @@ void SorStepper::share_cost(Group& group, double seconds) {
 
 std::unique_ptr<model::WorldStepper> make_sor_stepper(const model::StepperSettings& settings,
                                                       model::MakeNarrowPhase make_narrow_phase) {
-  core::require_input(settings.dt_s > 0, "a step must be longer than 0 s");
-  core::require_input(settings.iterations >= 1, "the solver needs at least 1 iteration");
-  core::require_input(settings.substeps >= 1, "a step has at least 1 substep");
-  core::require_input(has_simd(settings.simd),
-                      "this machine lacks the instruction set asked for with --simd; use auto");
+  require_valid(settings);
   return std::make_unique<SorStepper>(settings, std::move(make_narrow_phase));
 }
 

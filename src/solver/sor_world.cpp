@@ -4,11 +4,9 @@
 #include <cmath>
 
 #include "model/islands.h"
+#include "solver/step_settings.h"
 
 namespace pbmpi::solver {
-
-using model::Event;
-using model::EventKind;
 
 SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state,
                    std::int64_t step, const model::MakeNarrowPhase& make_narrow_phase)
@@ -18,25 +16,15 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
       step_(step),
       narrow_phase_(make_narrow_phase(*model_)) {}
 
-void SorWorld::apply_setting(const Event& event, Pack& pack, int index) const {
-  if (event.kind == EventKind::motor) pack.set_motor(index, event.joint, event.axis, event.motor);
-  if (event.kind == EventKind::steer) pack.set_limit(index, event.joint, 0, {event.angle, event.angle});
-}
-
 void SorWorld::enter(Pack& pack, int index) const {
   pack.load(index, state_);
-  for (const Event& event : model_->events) {
-    if (event.step < step_) apply_setting(event, pack, index);
-  }
+  apply_settings_before(*model_, step_, index, pack);
 }
 
 void SorWorld::fire_events(Pack& pack, int index) const {
-  const auto& events = model_->events;
-  auto event = std::lower_bound(events.begin(), events.end(), step_,
-                                [](const Event& e, std::int64_t step) { return e.step < step; });
-  for (; event != events.end() && event->step == step_; ++event) {
-    apply_setting(*event, pack, index);
-    if (event->kind == EventKind::launch) pack.launch(index, *event);
+  for (const model::Event& event : events_of(*model_, step_)) {
+    apply_setting(event, index, pack);
+    if (event.kind == model::EventKind::launch) pack.launch(index, event);
   }
 }
 

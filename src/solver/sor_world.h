@@ -43,7 +43,6 @@ class SorWorld {
   double cost_s = 0;  ///< of the last advance()
 
  private:
-  void apply_setting(const model::Event& event, Pack& pack, int index) const;
   void count_rows(const Pack& pack, int index, std::span<const model::Contact> contacts);
 
   int id_;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/error.h"
-#include "core/random.h"
 #include "model/geometry.h"
 #include "model/islands.h"
 #include "solver/articulation.h"
@@ -13,6 +11,7 @@
 #include "solver/pair_table.h"
 #include "solver/region.h"
 #include "solver/simd.h"
+#include "solver/step_settings.h"
 
 namespace pbmpi::solver {
 namespace {
@@ -46,8 +45,6 @@ class SpaceWorld final : public model::SpaceStepper {
  private:
   model::Simd simd() const { return settings_.simd == model::Simd::automatic ? best_simd() : settings_.simd; }
   std::vector<PackedWorld> packed_own_first() const;
-  std::span<const Event> events_of(std::int64_t step) const;
-  void apply_setting(const Event& event);
   void launch(const Event& event);
   void put_pose(int body, const double* row);
   void place(int body);
@@ -123,9 +120,7 @@ void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std
   active_units_.clear();
   active_bodies_.clear();
   pack_->set_active(0, active_bodies_);
-  for (const Event& event : model_->events) {
-    if (event.step < step) apply_setting(event);
-  }
+  apply_settings_before(*model_, step, 0, *pack_);
 }
 
 void SpaceWorld::place(int body) {
@@ -159,20 +154,6 @@ void SpaceWorld::put_states(std::span<const int> bodies, std::span<const double>
   }
 }
 
-std::span<const Event> SpaceWorld::events_of(std::int64_t step) const {
-  const auto& events = model_->events;
-  const auto first = std::partition_point(events.begin(), events.end(),
-                                          [&](const Event& event) { return event.step < step; });
-  const auto last =
-      std::partition_point(first, events.end(), [&](const Event& event) { return event.step == step; });
-  return {first, last};
-}
-
-void SpaceWorld::apply_setting(const Event& event) {
-  if (event.kind == EventKind::motor) pack_->set_motor(0, event.joint, event.axis, event.motor);
-  if (event.kind == EventKind::steer) pack_->set_limit(0, event.joint, 0, {event.angle, event.angle});
-}
-
 /// Through the pack and back, so that the numbers are rounded as the pack has them.
 void SpaceWorld::launch(const Event& event) {
   const std::span<const int> body(&event.body, 1);
@@ -184,14 +165,14 @@ void SpaceWorld::launch(const Event& event) {
 }
 
 void SpaceWorld::fire_events(std::int64_t step) {
-  for (const Event& event : events_of(step)) {
-    apply_setting(event);
+  for (const Event& event : events_of(*model_, step)) {
+    apply_setting(event, 0, *pack_);
     if (event.kind == EventKind::launch && is_own(event.body)) launch(event);
   }
 }
 
 void SpaceWorld::launch_others(std::int64_t step, std::span<model::Box> boxes) {
-  for (const Event& event : events_of(step)) {
+  for (const Event& event : events_of(*model_, step)) {
     if (event.kind != EventKind::launch || is_own(event.body)) continue;
     launch(event);
     const int space = map_.space_of_body(event.body);
@@ -268,13 +249,7 @@ void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> cont
   }
   pack_->load(0, loaded_, state_);
   timer.lap(core::Phase::rows);
-  StepParameters parameters;
-  parameters.dt_s = settings_.dt_s;
-  parameters.substeps = settings_.substeps;
-  parameters.iterations = settings_.iterations;
-  parameters.sor_factor = settings_.sor_factor;
-  parameters.order_key = core::mix_key(settings_.seed, static_cast<std::uint64_t>(step), 0);
-  pack_->step(std::span(&contacts, 1), parameters, times);
+  pack_->step(std::span(&contacts, 1), step_parameters(settings_, step), times);
   core::LapTimer after(times);
   pack_->store(0, active_bodies_, state_);
   for (const int body : lent_) stale_[body] = 1;  // may have moved along with its neighbours
@@ -314,11 +289,7 @@ model::IslandCounts SpaceWorld::count(std::span<const int> units, std::span<cons
 std::unique_ptr<model::SpaceStepper> make_space_world(const model::StepperSettings& settings,
                                                       const model::MakeNarrowPhase& make_narrow_phase,
                                                       std::shared_ptr<const model::Model> model) {
-  core::require_input(settings.dt_s > 0, "a step must be longer than 0 s");
-  core::require_input(settings.iterations >= 1, "the solver needs at least 1 iteration");
-  core::require_input(settings.substeps >= 1, "a step has at least 1 substep");
-  core::require_input(has_simd(settings.simd),
-                      "this machine lacks the instruction set asked for with --simd; use auto");
+  require_valid(settings);
   return std::make_unique<SpaceWorld>(settings, make_narrow_phase, std::move(model));
 }
 

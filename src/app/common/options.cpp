@@ -71,6 +71,14 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
   return values;
 }
 
+std::optional<std::string> output_path(const po::variables_map& values, const char* option) {
+  if (values.count(option) == 0) return std::nullopt;
+  const std::string path = values[option].as<std::string>();
+  core::require_input(!path.empty(),
+                      std::string("--") + option + ": the file name is empty; name a file to write");
+  return path;
+}
+
 CommonOptions common_options(const po::variables_map& values) {
   CommonOptions common;
   common.quiet = values.count("quiet") != 0;

@@ -1,6 +1,7 @@
 /// What the three programs' command lines have in common.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ boost::program_options::options_description common_options_description();
 boost::program_options::variables_map parse_command_line(
     const std::vector<std::string>& args, const boost::program_options::options_description& description,
     const boost::program_options::positional_options_description& positional = {});
+
+/// The file to write that an option names, if it is given. Throws core::InputError for an empty name.
+std::optional<std::string> output_path(const boost::program_options::variables_map& values,
+                                       const char* option);
 
 /// Reads the common options out of a parsed command line. Throws core::InputError.
 CommonOptions common_options(const boost::program_options::variables_map& values);

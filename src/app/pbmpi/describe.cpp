@@ -151,7 +151,7 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
   out << "decomposition: " << (spaces ? "spaces" : "worlds") << " over " << num_ranks
       << (num_ranks == 1 ? " rank\n" : " ranks\n");
   if (spaces) {
-    print_spaces(out, *scene.build(0, spec.stepper.seed), num_ranks);
+    print_spaces(out, *scene.build(0, spec.scene_seed), num_ranks);
   } else {
     print_distribution(out, census, num_ranks, world_bytes);
   }

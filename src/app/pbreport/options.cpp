@@ -37,13 +37,6 @@ po::options_description visible_options() {
   return all;
 }
 
-std::optional<std::string> path_of(const po::variables_map& values, const char* name) {
-  if (values.count(name) == 0) return std::nullopt;
-  const std::string path = values[name].as<std::string>();
-  require_input(!path.empty(), std::string("--") + name + ": the file name is empty; name a file to write");
-  return path;
-}
-
 }  // namespace
 
 std::string report_help_text() {
@@ -71,8 +64,8 @@ ReportOptions parse_report_options(const std::vector<std::string>& args) {
   ReportOptions options;
   if (values.count("help") != 0) options.action = ReportAction::help;
   if (values.count("version") != 0) options.action = ReportAction::version;
-  options.html = path_of(values, "html");
-  options.xdmf = path_of(values, "xdmf");
+  options.html = output_path(values, "html");
+  options.xdmf = output_path(values, "xdmf");
   options.json = values.count("json") != 0;
   options.quiet = values.count("quiet") != 0;
   if (options.action != ReportAction::report) return options;

@@ -48,13 +48,6 @@ po::options_description visible_options() {
   return all;
 }
 
-std::optional<std::string> path_of(const po::variables_map& values, const char* name) {
-  if (values.count(name) == 0) return std::nullopt;
-  const std::string path = values[name].as<std::string>();
-  require_input(!path.empty(), std::string("--") + name + ": the file name is empty; name a file to write");
-  return path;
-}
-
 double with_unit(const std::string& text, const char* option, const Units& units) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -111,9 +104,9 @@ StudyOptions parse_study_options(const std::vector<std::string>& args) {
     options.tolerance_m = parse_length_m(values["tolerance"].as<std::string>(), "--tolerance");
   }
   if (values.count("scene") != 0) options.scenes = values["scene"].as<std::vector<std::string>>();
-  options.html = path_of(values, "html");
-  options.csv = path_of(values, "csv");
-  options.preset = path_of(values, "write-preset");
+  options.html = output_path(values, "html");
+  options.csv = output_path(values, "csv");
+  options.preset = output_path(values, "write-preset");
   options.json = values.count("json") != 0;
   options.quiet = values.count("quiet") != 0;
   require_input(values.count("file") != 0,
