@@ -18,12 +18,13 @@ constexpr std::size_t most_listed_solids = 96;
 
 }  // namespace
 
-BroadPhase::BroadPhase(const model::Model& model) : model_(&model), rule_(model), boxes_(model.geoms.size()) {
-  for (std::size_t i = 0; i < model.geoms.size(); ++i) {
-    const Geom& geom = model.geoms[i];
-    (geom.shape == Shape::plane ? planes_ : solids_).push_back(static_cast<int>(i));
+BroadPhase::BroadPhase(const model::Model& model, std::span<const int> geoms)
+    : model_(&model), rule_(model), boxes_(model.geoms.size()) {
+  for (const int index : geoms) {
+    const Geom& geom = model.geoms[static_cast<std::size_t>(index)];
+    (geom.shape == Shape::plane ? planes_ : solids_).push_back(index);
     if (geom.body == model::no_body && geom.shape != Shape::plane)
-      boxes_[i] = model::geom_box(geom, model::static_pose());
+      boxes_[static_cast<std::size_t>(index)] = model::geom_box(geom, model::static_pose());
   }
   order_ = solids_;
   listed_only_ = solids_.size() <= most_listed_solids;
@@ -39,7 +40,8 @@ void BroadPhase::update_boxes(std::span<const BodyPose> poses) {
   for (int index : solids_) {
     const Geom& geom = model_->geoms[static_cast<std::size_t>(index)];
     if (geom.body != model::no_body) {
-      boxes_[static_cast<std::size_t>(index)] = model::geom_box(geom, poses[static_cast<std::size_t>(geom.body)]);
+      boxes_[static_cast<std::size_t>(index)] =
+          model::geom_box(geom, poses[static_cast<std::size_t>(geom.body)]);
     }
   }
 }
@@ -66,7 +68,8 @@ void BroadPhase::test_planes(std::vector<GeomPair>& pairs) const {
 
 void BroadPhase::test_listed(std::vector<GeomPair>& pairs) const {
   for (const GeomPair& pair : listed_) {
-    if (boxes_[static_cast<std::size_t>(pair.first)].overlaps(boxes_[static_cast<std::size_t>(pair.second)])) {
+    if (boxes_[static_cast<std::size_t>(pair.first)].overlaps(
+            boxes_[static_cast<std::size_t>(pair.second)])) {
       pairs.push_back(pair);
     }
   }

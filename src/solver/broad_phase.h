@@ -11,11 +11,11 @@
 
 namespace pbmpi::solver {
 
-/// Bounding boxes against each other, planes against bounding boxes.
+/// Bounding boxes of some geoms against each other, planes against bounding boxes.
 class BroadPhase {
  public:
-  /// `model` is borrowed.
-  explicit BroadPhase(const model::Model& model);
+  /// `model` is borrowed; `geoms` ascending.
+  BroadPhase(const model::Model& model, std::span<const int> geoms);
 
   /// The pairs (first < second, by geom index) whose boxes overlap, sorted. `poses`: [num_bodies].
   void find_pairs(std::span<const model::BodyPose> poses, std::vector<model::GeomPair>& pairs);

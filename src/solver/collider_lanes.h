@@ -34,56 +34,58 @@ class ColliderLanes {
   struct World {
     const model::Model* model = nullptr;
     model::NarrowPhase* fallback = nullptr;
-    int first_geom = 0;
-    std::unique_ptr<MayTouchTable> may_touch;  ///< none in a world of many geoms, which sorts
+    std::span<const int> geoms;                ///< swept
+    int first_column = 0;                      ///< theirs
+    std::unique_ptr<MayTouchTable> may_touch;  ///< of the swept geoms; none if they are many and sorted
     std::unique_ptr<BroadPhase> sorting;
   };
 
-  static int count_geoms(std::span<const PackedWorld> worlds);
-
   void find_pairs(const WorldLanes<T>& lanes, int world);
-  void test_solid(const World& world, int geom);
-  void test_plane(const World& world, int geom);
-  void add_pairs(const World& world, int geom, int first, unsigned touching);
+  /// The i-th swept geom against the others.
+  void test_solid(const World& world, int i);
+  void test_plane(const World& world, int i);
+  void add_pairs(const World& world, int i, int first, unsigned touching);
   void run_kernels();
   void take_contacts(const WorldLanes<T>& lanes, int world, std::vector<model::Contact>& contacts);
 
+  GeomOrder order_;
   std::vector<World> worlds_;
   GeomLanes<T> geoms_;
+  std::vector<int> swept_chunks_;  ///< of geoms_
+  std::vector<int> pair_chunks_;   ///< those of given pairs
   PairTable table_;
   PoseCache poses_;
 };
 
 template <class T>
-int ColliderLanes<T>::count_geoms(std::span<const PackedWorld> worlds) {
-  std::size_t count = 0;
-  for (const PackedWorld& world : worlds) count += world.model->geoms.size();
-  return static_cast<int>(count);
-}
-
-template <class T>
 ColliderLanes<T>::ColliderLanes(std::span<const PackedWorld> worlds, const WorldLanes<T>& lanes)
-    : geoms_(count_geoms(worlds)), table_(worlds) {
-  int next = 0;
-  for (std::size_t w = 0; w < worlds.size(); ++w) {
-    const model::Model& model = *worlds[w].model;
+    : order_(worlds),
+      geoms_(order_.num_columns()),
+      swept_chunks_(order_.swept_chunks(T::num_lanes)),
+      table_(worlds, order_) {
+  for (int w = 0; w < static_cast<int>(worlds.size()); ++w) {
+    const PackedWorld& packed = worlds[static_cast<std::size_t>(w)];
+    const model::Model& model = *packed.model;
     World& world = worlds_.emplace_back();
     world.model = &model;
-    world.fallback = worlds[w].fallback;
-    world.first_geom = next;
-    for (const model::Geom& geom : model.geoms)
-      geoms_.set(next++, geom, lanes.body_place(static_cast<int>(w), geom.body));
-    if (model.geoms.size() <= most_tested_geoms) {
-      world.may_touch = std::make_unique<MayTouchTable>(model);
+    world.fallback = packed.fallback;
+    world.geoms = order_.swept(w);
+    world.first_column = order_.first(w);
+    for (std::size_t geom = 0; geom < model.geoms.size(); ++geom) {
+      geoms_.set(order_.column(w, static_cast<int>(geom)), model.geoms[geom],
+                 lanes.body_place(w, model.geoms[geom].body));
+    }
+    if (world.geoms.size() <= most_tested_geoms) {
+      world.may_touch = std::make_unique<MayTouchTable>(model, world.geoms);
     } else {
-      world.sorting = std::make_unique<BroadPhase>(model);
+      world.sorting = std::make_unique<BroadPhase>(model, world.geoms);
     }
   }
 }
 
 template <class T>
 void ColliderLanes<T>::collide(const WorldLanes<T>& lanes, std::span<std::vector<model::Contact>> contacts) {
-  geoms_.update(lanes.bodies);
+  geoms_.update(swept_chunks_, lanes.bodies);
   table_.clear();
   const int num_worlds = static_cast<int>(worlds_.size());
   for (int world = 0; world < num_worlds; ++world) find_pairs(lanes, world);
@@ -98,7 +100,8 @@ template <class T>
 void ColliderLanes<T>::collide_pairs(const WorldLanes<T>& lanes, int world,
                                      std::span<const model::GeomPair> pairs,
                                      std::vector<model::Contact>& contacts) {
-  geoms_.update(lanes.bodies);
+  order_.find_chunks(world, pairs, T::num_lanes, pair_chunks_);
+  geoms_.update(pair_chunks_, lanes.bodies);
   table_.clear();
   table_.start_world(world);
   for (const model::GeomPair& pair : pairs) table_.add(pair.first, pair.second);
@@ -115,12 +118,12 @@ void ColliderLanes<T>::find_pairs(const WorldLanes<T>& lanes, int index) {
     lanes.poses(index, poses_.all(world.model->num_bodies()));
     table_.add_all(*world.sorting, poses_.all(world.model->num_bodies()));
   } else {
-    const int count = static_cast<int>(world.model->geoms.size());
-    for (int geom = 0; geom < count; ++geom) {
+    for (int i = 0; i < static_cast<int>(world.geoms.size()); ++i) {
+      const int geom = world.geoms[static_cast<std::size_t>(i)];
       if (world.model->geoms[static_cast<std::size_t>(geom)].shape == model::Shape::plane) {
-        test_plane(world, geom);
+        test_plane(world, i);
       } else {
-        test_solid(world, geom);
+        test_solid(world, i);
       }
     }
   }
@@ -128,48 +131,50 @@ void ColliderLanes<T>::find_pairs(const WorldLanes<T>& lanes, int index) {
 }
 
 template <class T>
-void ColliderLanes<T>::add_pairs(const World& world, int geom, int first, unsigned touching) {
+void ColliderLanes<T>::add_pairs(const World& world, int i, int first, unsigned touching) {
   constexpr unsigned all = T::num_lanes == 32 ? ~0u : (1u << T::num_lanes) - 1;
-  for (unsigned bits = touching & world.may_touch->bits(geom, first) & all; bits != 0; bits &= bits - 1)
-    table_.add(geom, first + __builtin_ctz(bits));
+  for (unsigned bits = touching & world.may_touch->bits(i, first) & all; bits != 0; bits &= bits - 1) {
+    const int other = first + __builtin_ctz(bits);
+    table_.add(world.geoms[static_cast<std::size_t>(i)], world.geoms[static_cast<std::size_t>(other)]);
+  }
 }
 
 template <class T>
-void ColliderLanes<T>::test_solid(const World& world, int geom) {
+void ColliderLanes<T>::test_solid(const World& world, int i) {
   const V zero = T::broadcast(0), one = T::broadcast(1);
   V low[3], high[3];
   for (int k = 0; k < 3; ++k) {
-    low[k] = T::broadcast(geoms_.box_min[k].data()[world.first_geom + geom]);
-    high[k] = T::broadcast(geoms_.box_max[k].data()[world.first_geom + geom]);
+    low[k] = T::broadcast(geoms_.box_min[k].data()[world.first_column + i]);
+    high[k] = T::broadcast(geoms_.box_max[k].data()[world.first_column + i]);
   }
-  const int count = static_cast<int>(world.model->geoms.size());
-  for (int first = (geom + 1) / T::num_lanes * T::num_lanes; first < count; first += T::num_lanes) {
+  const int count = static_cast<int>(world.geoms.size());
+  for (int first = (i + 1) / T::num_lanes * T::num_lanes; first < count; first += T::num_lanes) {
     V overlap = one;
     for (int k = 0; k < 3; ++k) {
-      overlap = geoms_.box_min[k].from(world.first_geom + first) <= high[k] ? overlap : zero;
-      overlap = low[k] <= geoms_.box_max[k].from(world.first_geom + first) ? overlap : zero;
+      overlap = geoms_.box_min[k].from(world.first_column + first) <= high[k] ? overlap : zero;
+      overlap = low[k] <= geoms_.box_max[k].from(world.first_column + first) ? overlap : zero;
     }
-    add_pairs(world, geom, first, T::bits(overlap));
+    add_pairs(world, i, first, T::bits(overlap));
   }
 }
 
 template <class T>
-void ColliderLanes<T>::test_plane(const World& world, int geom) {
-  const int plane = world.first_geom + geom;
+void ColliderLanes<T>::test_plane(const World& world, int i) {
+  const int plane = world.first_column + i;
   Scalar normal[3], offset = 0;
   for (int k = 0; k < 3; ++k) {
     normal[k] = geoms_.rotation[3 * k + 2].data()[plane];
     offset += normal[k] * geoms_.position[k].data()[plane];
   }
   const V zero = T::broadcast(0), one = T::broadcast(1);
-  const int count = static_cast<int>(world.model->geoms.size());
+  const int count = static_cast<int>(world.geoms.size());
   for (int first = 0; first < count; first += T::num_lanes) {
     V height = zero;
     for (int k = 0; k < 3; ++k) {
       const auto& nearest = normal[k] > 0 ? geoms_.box_min[k] : geoms_.box_max[k];
-      height += nearest.from(world.first_geom + first) * T::broadcast(normal[k]);
+      height += nearest.from(world.first_column + first) * T::broadcast(normal[k]);
     }
-    add_pairs(world, geom, first, T::bits(height <= T::broadcast(offset) ? one : zero));
+    add_pairs(world, i, first, T::bits(height <= T::broadcast(offset) ? one : zero));
   }
 }
 

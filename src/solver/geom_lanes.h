@@ -46,8 +46,8 @@ class GeomLanes {
   explicit GeomLanes(int num_geoms);
   void set(int index, const model::Geom& geom, LanePlace body);
 
-  /// Poses and boxes from those of the bodies.
-  void update(const BodyLanes<T>& bodies);
+  /// Poses and boxes of the geoms in these chunks of num_lanes columns, from the poses of the bodies.
+  void update(std::span<const int> chunks, const BodyLanes<T>& bodies);
 
   Column position[3], rotation[9];  ///< world frame; rotation by rows
   Column box_min[3], box_max[3];    ///< a little larger than need be; a plane's is empty
@@ -113,8 +113,8 @@ void GeomLanes<T>::set(int index, const model::Geom& geom, LanePlace body) {
 }
 
 template <class T>
-void GeomLanes<T>::update(const BodyLanes<T>& bodies) {
-  for (int i = 0; i < static_cast<int>(chunks_.size()); ++i) update_chunk(i, bodies);
+void GeomLanes<T>::update(std::span<const int> chunks, const BodyLanes<T>& bodies) {
+  for (const int i : chunks) update_chunk(i, bodies);
 }
 
 template <class T>

@@ -1,7 +1,8 @@
-/// Bits that say which geoms of a world may touch, in rows that fit chunks of lanes.
+/// Bits that say which of some geoms of a world may touch, in rows that fit chunks of lanes.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "model/model.h"
@@ -10,7 +11,8 @@ namespace pbmpi::solver {
 
 class MayTouchTable {
  public:
-  explicit MayTouchTable(const model::Model& model);
+  /// Rows and bits count along `geoms`.
+  MayTouchTable(const model::Model& model, std::span<const int> geoms);
 
   /// Bit b: may geom `row` touch geom first + b? For a solid row only geoms after it and no planes, so that
   /// each pair stands once; for a plane all solids. `first` is a multiple of 16, or of a power of two below.

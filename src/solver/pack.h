@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct PackedWorld {
   std::vector<Articulation> articulations;
   model::NarrowPhase* fallback = nullptr;  ///< collides the pairs that the lanes do not
   bool lanes_collide = true;               ///< false: the fallback collides all pairs
+  /// Those that collide() looks at, ascending; none: all of the model.
+  std::optional<std::vector<int>> swept_geoms = std::nullopt;
 };
 
 /// One implementation for each number type, number of lanes and instruction set; all give the same bits for a
@@ -51,10 +54,10 @@ class Pack {
   virtual void launch(int world, const model::Event& event) = 0;
   /// Poses of a world's bodies: [num_bodies].
   virtual void poses(int world, std::span<model::BodyPose> poses) const = 0;
-  /// Collision detection at the poses of now: the contacts of each world, in canonical order. Nothing without
-  /// the pass "collision".
+  /// Collision detection among the swept geoms at the poses of now: the contacts of each world, in canonical
+  /// order. Nothing without the pass "collision".
   virtual void collide(std::span<std::vector<model::Contact>> contacts) = 0;
-  /// The contacts of given pairs (sorted) of one world; appended.
+  /// The contacts of given pairs (sorted) of one world, swept geoms or not; appended.
   virtual void collide_pairs(int world, std::span<const model::GeomPair> pairs,
                              std::vector<model::Contact>& contacts) = 0;
   /// One step with these contacts (of each world, in canonical order); spans hold during the call.

@@ -54,12 +54,9 @@ bool is_finite(const model::BodyPose& pose) {
   return std::isfinite(sum);
 }
 
-PairTable::PairTable(std::span<const PackedWorld> worlds) {
-  int next = 0;
+PairTable::PairTable(std::span<const PackedWorld> worlds, const GeomOrder& order) : order_(&order) {
   for (const PackedWorld& world : worlds) {
     models_.push_back(world.model);
-    first_geom_.push_back(next);
-    next += static_cast<int>(world.model->geoms.size());
     kernels_ = kernels_ && world.lanes_collide;
   }
 }
@@ -93,7 +90,6 @@ void PairTable::finish_world() {
   const auto begin = pairs_.begin() + world_begin_[static_cast<std::size_t>(world_)];
   if (!std::is_sorted(begin, pairs_.end())) std::sort(begin, pairs_.end());
   const model::Model& model = *models_[static_cast<std::size_t>(world_)];
-  const int offset = first_geom_[static_cast<std::size_t>(world_)];
   for (auto pair = begin; pair != pairs_.end(); ++pair) {
     int a = pair->first, b = pair->second;
     const Shape first = model.geoms[static_cast<std::size_t>(a)].shape;
@@ -103,8 +99,8 @@ void PairTable::finish_world() {
     const PairKind kind =
         !kernels_ ? PairKind::other : (swap ? kind_of(second, first) : kind_of(first, second));
     PairColumn& column = columns_[static_cast<std::size_t>(kind)];
-    column.a.push_back(offset + a);
-    column.b.push_back(offset + b);
+    column.a.push_back(order_->column(world_, a));
+    column.b.push_back(order_->column(world_, b));
     column.touch.push_back(static_cast<std::int32_t>(pair - pairs_.begin()));
   }
   world_begin_[static_cast<std::size_t>(world_) + 1] = static_cast<int>(pairs_.size());

@@ -9,6 +9,7 @@
 #include "model/contact.h"
 #include "model/model.h"
 #include "solver/broad_phase.h"
+#include "solver/geom_order.h"
 #include "solver/pack.h"
 
 namespace pbmpi::solver {
@@ -44,8 +45,8 @@ struct Touch {
   bool to_fallback = false;  ///< the kernel leaves this pair to the fallback
 };
 
-/// Pairs of one kind, in columns: indices over the geoms of the pack. Padded to whole lanes by repeating the
-/// last.
+/// Pairs of one kind, in columns: indices over the columns of the pack's geoms. Padded to whole lanes by
+/// repeating the last.
 struct PairColumn {
   std::vector<std::int32_t> a, b, touch;
   int count = 0;  ///< without the padding
@@ -69,8 +70,7 @@ bool is_finite(const model::BodyPose& pose);
 
 class PairTable {
  public:
-  /// The geoms of the pack are numbered world by world.
-  explicit PairTable(std::span<const PackedWorld> worlds);
+  PairTable(std::span<const PackedWorld> worlds, const GeomOrder& order);
 
   void clear();
   /// Pairs of this world follow; in any order.
@@ -110,8 +110,8 @@ class PairTable {
               std::vector<model::Contact>& contacts) const;
 
   std::vector<const model::Model*> models_;
-  std::vector<int> first_geom_;
-  bool kernels_ = true;  ///< false: all pairs are of kind `other`
+  const GeomOrder* order_;  ///< borrowed
+  bool kernels_ = true;     ///< false: all pairs are of kind `other`
   int world_ = 0;
   std::vector<int> world_begin_;  ///< [worlds + 1] into pairs
   std::vector<model::GeomPair> pairs_;

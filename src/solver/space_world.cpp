@@ -9,7 +9,6 @@
 #include "solver/articulation.h"
 #include "solver/cross_broad_phase.h"
 #include "solver/pair_table.h"
-#include "solver/region.h"
 #include "solver/simd.h"
 #include "solver/step_settings.h"
 
@@ -45,11 +44,13 @@ class SpaceWorld final : public model::SpaceStepper {
  private:
   model::Simd simd() const { return settings_.simd == model::Simd::automatic ? best_simd() : settings_.simd; }
   std::vector<PackedWorld> packed_own_first() const;
+  std::vector<int> own_and_static_geoms() const;
   void launch(const Event& event);
   void put_pose(int body, const double* row);
   void place(int body);
   bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
   void activate(std::span<const int> units);
+  void lend(int body);
   void collide_pairs(std::vector<Contact>& contacts);
 
   model::StepperSettings settings_;
@@ -58,7 +59,6 @@ class SpaceWorld final : public model::SpaceStepper {
   std::vector<Articulation> articulations_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
   CrossBroadPhase cross_;
-  std::unique_ptr<Region> region_;
   std::unique_ptr<Pack> pack_;
   model::State state_;
   std::vector<model::BodyPose> poses_;  ///< [num_bodies] of state_
@@ -99,8 +99,18 @@ std::vector<PackedWorld> SpaceWorld::packed_own_first() const {
   packed[0].model = model_.get();
   packed[0].fallback = narrow_phase_.get();
   packed[0].lanes_collide = settings_.colliders == model::Colliders::lanes;
+  packed[0].swept_geoms = own_and_static_geoms();
   for (const Articulation* articulation : order) packed[0].articulations.push_back(*articulation);
   return packed;
+}
+
+std::vector<int> SpaceWorld::own_and_static_geoms() const {
+  std::vector<int> geoms;
+  for (std::size_t i = 0; i < model_->geoms.size(); ++i) {
+    const int body = model_->geoms[i].body;
+    if (body == model::no_body || is_own(body)) geoms.push_back(static_cast<int>(i));
+  }
+  return geoms;
 }
 
 void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std::int64_t step) {
@@ -110,7 +120,6 @@ void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std
   for (int body = 0; body < model_->num_bodies(); ++body) {
     if (is_own(body)) own_bodies_.push_back(body);
   }
-  region_ = std::make_unique<Region>(*model_, map_, is_own_);
   pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
   pack_->load(0, state);
   state_ = state;
@@ -188,20 +197,25 @@ void SpaceWorld::collide(std::vector<Contact>& contacts) {
   const bool finite =
       std::all_of(own_bodies_.begin(), own_bodies_.end(), [&](int body) { return is_finite(poses_[body]); });
   if (!finite) return;
-  region_->find_pairs(poses_, pairs_);
-  collide_pairs(contacts);
+  loaded_.clear();
+  for (const int body : own_bodies_) lend(body);
+  pack_->load(0, loaded_, state_);
+  pack_->collide(std::span(&contacts, 1));
 }
 
-/// At the poses of state_: what came from others goes into the pack first.
+/// The pack collides at the poses of state_: what is newer there is to be loaded first.
+void SpaceWorld::lend(int body) {
+  if (!stale_[body]) return;
+  loaded_.push_back(body);
+  lent_.push_back(body);
+  stale_[body] = 0;
+}
+
 void SpaceWorld::collide_pairs(std::vector<Contact>& contacts) {
   loaded_.clear();
   for (const model::GeomPair& pair : pairs_) {
     for (const int geom : {pair.first, pair.second}) {
-      const int body = model_->geoms[geom].body;
-      if (body == model::no_body || !stale_[body]) continue;
-      loaded_.push_back(body);
-      lent_.push_back(body);
-      stale_[body] = 0;
+      if (const int body = model_->geoms[geom].body; body != model::no_body) lend(body);
     }
   }
   pack_->load(0, loaded_, state_);

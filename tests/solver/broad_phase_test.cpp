@@ -45,6 +45,10 @@ std::vector<model::BodyPose> poses_of(const model::Model& model) {
   return poses;
 }
 
+BroadPhase broad_phase_of_all(const model::Model& model) {
+  return BroadPhase(model, support::all_geoms(model));
+}
+
 /// Every pair of geoms, tested as the header says.
 std::vector<GeomPair> brute_force(const model::Model& model, const std::vector<model::BodyPose>& poses) {
   std::vector<GeomPair> pairs;
@@ -75,7 +79,7 @@ TEST(BroadPhase, finds_the_pairs_of_brute_force_in_order) {
   for (const int count : {20, 60, 150, 400}) {  // by list, and by sweeping
     const model::Model model = cloud(count, std::cbrt(count) * 0.5);
     const auto poses = poses_of(model);
-    BroadPhase broad_phase(model);
+    BroadPhase broad_phase = broad_phase_of_all(model);
     std::vector<GeomPair> pairs;
     broad_phase.find_pairs(poses, pairs);
     const auto expected = brute_force(model, poses);
@@ -84,15 +88,29 @@ TEST(BroadPhase, finds_the_pairs_of_brute_force_in_order) {
   }
 }
 
+TEST(BroadPhase, of_some_geoms_finds_the_pairs_among_them) {
+  const model::Model model = cloud(150, 3);
+  const auto poses = poses_of(model);
+  std::vector<int> some;
+  for (int geom = 0; geom < static_cast<int>(model.geoms.size()); geom += 2) some.push_back(geom);
+  std::vector<GeomPair> pairs, expected;
+  BroadPhase(model, some).find_pairs(poses, pairs);
+  for (const GeomPair& pair : brute_force(model, poses)) {
+    if (pair.first % 2 == 0 && pair.second % 2 == 0) expected.push_back(pair);
+  }
+  EXPECT_GT(expected.size(), 10u);
+  EXPECT_EQ(pairs, expected);
+}
+
 TEST(BroadPhase, the_history_of_a_sweep_does_not_matter) {
   const model::Model model = cloud(150, 3);
   auto poses = poses_of(model);
-  BroadPhase travelled(model);
+  BroadPhase travelled = broad_phase_of_all(model);
   std::vector<GeomPair> pairs, fresh_pairs;
   for (int step = 0; step < 10; ++step) {
     for (std::size_t i = 0; i < poses.size(); ++i) poses[i].position[0] += 0.1 * (i % 2 == 0 ? 1 : -1);
     travelled.find_pairs(poses, pairs);
-    BroadPhase fresh(model);
+    BroadPhase fresh = broad_phase_of_all(model);
     fresh.find_pairs(poses, fresh_pairs);
     ASSERT_EQ(pairs, fresh_pairs) << step;
   }
@@ -104,10 +122,10 @@ TEST(BroadPhase, bodies_that_share_a_joint_do_not_pair) {
   const int a = support::add_solid(model, first, "a", model::Shape::box, {1, 1, 1}, 1, {0, 0, 0});
   const int b = support::add_solid(model, second, "b", model::Shape::box, {1, 1, 1}, 1, {0.5, 0, 0});
   std::vector<GeomPair> pairs;
-  BroadPhase(model).find_pairs(poses_of(model), pairs);
+  broad_phase_of_all(model).find_pairs(poses_of(model), pairs);
   EXPECT_EQ(pairs, (std::vector<GeomPair>{{0, 1}}));
   support::add_joint(model, model::JointKind::ball, a, b, {0.25, 0, 0});
-  BroadPhase(model).find_pairs(poses_of(model), pairs);
+  broad_phase_of_all(model).find_pairs(poses_of(model), pairs);
   EXPECT_TRUE(pairs.empty());
 }
 

@@ -58,7 +58,7 @@ TEST(CrossBroadPhase, finds_the_pairs_of_the_whole_world_that_cross_owners) {
       boxes[space].include(model::geom_box(model.geoms[geom], poses[model.geoms[geom].body]));
   }
   std::vector<GeomPair> all, found;
-  BroadPhase(model).find_pairs(poses, all);
+  BroadPhase(model, support::all_geoms(model)).find_pairs(poses, all);
   CrossBroadPhase cross(model, map);
   for (const std::vector<int>& owner :
        {std::vector<int>{0, 1, 2, 3, 4}, {0, 0, 1, 1, 0}, {2, 2, 2, 2, 2}, {1, 0, 0, 0, 0}}) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace pbmpi::support {
 namespace {
@@ -51,6 +52,12 @@ int add_solid(Model& model, int actor, const std::string& name, Shape shape,
   geom.size = size;
   model.geoms.push_back(geom);
   return geom.body;
+}
+
+std::vector<int> all_geoms(const Model& model) {
+  std::vector<int> geoms(model.geoms.size());
+  std::iota(geoms.begin(), geoms.end(), 0);
+  return geoms;
 }
 
 int add_ground(Model& model) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/model.h"
 
@@ -22,6 +23,8 @@ int add_solid(Model& model, int actor, const std::string& name, model::Shape sha
               const std::array<double, 3>& size, double mass_kg, const Vec3& position, const Quat& turn = {});
 /// The plane z = 0, static.
 int add_ground(Model& model);
+/// The indices of a model's geoms.
+std::vector<int> all_geoms(const Model& model);
 /// Anchor and axes in the world frame, at the bodies' initial poses; body_b may be no_body.
 int add_joint(Model& model, model::JointKind kind, int body_a, int body_b, const Vec3& anchor,
               const Vec3& axis1 = Vec3::UnitZ(), const Vec3& axis2 = Vec3::UnitX());
