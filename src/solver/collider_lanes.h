@@ -1,11 +1,14 @@
 /// Collision detection of a pack: boxes, candidate pairs, kernels, contacts in canonical order.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "solver/broad_phase.h"
+#include "solver/group_boxes.h"
 #include "solver/may_touch_table.h"
 #include "solver/narrow_lanes.h"
 #include "solver/pack.h"
@@ -28,8 +31,9 @@ class ColliderLanes {
                      std::vector<model::Contact>& contacts);
 
  private:
-  /// Above so many geoms sorting beats testing all boxes against all.
-  static constexpr int most_tested_geoms = 1024;
+  /// Above so many geoms groups of them are tested before their geoms are, and far above sorting is better.
+  static constexpr int most_ungrouped_geoms = 96;
+  static constexpr int most_tested_geoms = GroupBoxes<T>::group_size * GroupBoxes<T>::most_groups;
 
   struct World {
     const model::Model* model = nullptr;
@@ -41,8 +45,14 @@ class ColliderLanes {
   };
 
   void find_pairs(const WorldLanes<T>& lanes, int world);
-  /// The i-th swept geom against the others.
+  bool is_plane(const World& world, int i) const {
+    return world.model->geoms[static_cast<std::size_t>(world.geoms[static_cast<std::size_t>(i)])].shape ==
+           model::Shape::plane;
+  }
+  /// The i-th swept geom against all that come after it.
   void test_solid(const World& world, int i);
+  /// Against those of [first, last) only; `box` is its own, in all lanes.
+  void test_range(const World& world, int i, const BoxLanes<T>& box, int first, int last);
   void test_plane(const World& world, int i);
   void add_pairs(const World& world, int i, int first, unsigned touching);
   void run_kernels();
@@ -51,6 +61,7 @@ class ColliderLanes {
   GeomOrder order_;
   std::vector<World> worlds_;
   GeomLanes<T> geoms_;
+  GroupBoxes<T> groups_;           ///< of the world at hand
   std::vector<int> swept_chunks_;  ///< of geoms_
   std::vector<int> pair_chunks_;   ///< those of given pairs
   PairTable table_;
@@ -118,14 +129,9 @@ void ColliderLanes<T>::find_pairs(const WorldLanes<T>& lanes, int index) {
     lanes.poses(index, poses_.all(world.model->num_bodies()));
     table_.add_all(*world.sorting, poses_.all(world.model->num_bodies()));
   } else {
-    for (int i = 0; i < static_cast<int>(world.geoms.size()); ++i) {
-      const int geom = world.geoms[static_cast<std::size_t>(i)];
-      if (world.model->geoms[static_cast<std::size_t>(geom)].shape == model::Shape::plane) {
-        test_plane(world, i);
-      } else {
-        test_solid(world, i);
-      }
-    }
+    const int count = static_cast<int>(world.geoms.size());
+    if (count > most_ungrouped_geoms) groups_.update(geoms_, world.first_column, count);
+    for (int i = 0; i < count; ++i) is_plane(world, i) ? test_plane(world, i) : test_solid(world, i);
   }
   table_.finish_world();
 }
@@ -141,21 +147,23 @@ void ColliderLanes<T>::add_pairs(const World& world, int i, int first, unsigned 
 
 template <class T>
 void ColliderLanes<T>::test_solid(const World& world, int i) {
-  const V zero = T::broadcast(0), one = T::broadcast(1);
-  V low[3], high[3];
-  for (int k = 0; k < 3; ++k) {
-    low[k] = T::broadcast(geoms_.box_min[k].data()[world.first_column + i]);
-    high[k] = T::broadcast(geoms_.box_max[k].data()[world.first_column + i]);
-  }
+  constexpr int group_size = GroupBoxes<T>::group_size;
+  const BoxLanes<T> box(geoms_.box_min, geoms_.box_max, world.first_column + i);
   const int count = static_cast<int>(world.geoms.size());
-  for (int first = (i + 1) / T::num_lanes * T::num_lanes; first < count; first += T::num_lanes) {
-    V overlap = one;
-    for (int k = 0; k < 3; ++k) {
-      overlap = geoms_.box_min[k].from(world.first_column + first) <= high[k] ? overlap : zero;
-      overlap = low[k] <= geoms_.box_max[k].from(world.first_column + first) ? overlap : zero;
-    }
-    add_pairs(world, i, first, T::bits(overlap));
+  if (count <= most_ungrouped_geoms) {
+    test_range(world, i, box, i + 1, count);
+    return;
   }
+  for (std::uint64_t near = groups_.overlapping(box, i / group_size); near != 0; near &= near - 1) {
+    const int first = std::countr_zero(near) * group_size;
+    test_range(world, i, box, std::max(first, i + 1), std::min(first + group_size, count));
+  }
+}
+
+template <class T>
+void ColliderLanes<T>::test_range(const World& world, int i, const BoxLanes<T>& box, int first, int last) {
+  for (int chunk = first / T::num_lanes * T::num_lanes; chunk < last; chunk += T::num_lanes)
+    add_pairs(world, i, chunk, box.overlapping(geoms_.box_min, geoms_.box_max, world.first_column + chunk));
 }
 
 template <class T>
