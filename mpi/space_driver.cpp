@@ -82,7 +82,24 @@ void SpaceDriver::advance(core::PhaseTimes& times) {
   if (!comm().is_root()) return;
   core::LapTimer observing(times);
   observe();
+  note_times();
   observing.lap(Phase::islands);
+}
+
+void SpaceDriver::note_times() {
+  if (last_times_.size() == frames_looked_at) last_times_.erase(last_times_.begin());
+  last_times_.push_back(step_.findings().times);
+}
+
+std::vector<core::PhaseTimes> SpaceDriver::quiet_times() const {
+  std::vector<core::PhaseTimes> least = last_times_.front();
+  for (const std::vector<core::PhaseTimes>& frame : last_times_) {
+    for (std::size_t rank = 0; rank < least.size(); ++rank) {
+      for (std::size_t phase = 0; phase < core::num_phases; ++phase)
+        least[rank].seconds[phase] = std::min(least[rank].seconds[phase], frame[rank].seconds[phase]);
+    }
+  }
+  return least;
 }
 
 void SpaceDriver::observe() {
@@ -118,6 +135,7 @@ static double solver_s(const core::PhaseTimes& times) {
 /// the same anywhere).
 SpaceLoads SpaceDriver::loads() const {
   const FrameFindings& found = step_.findings();
+  const std::vector<core::PhaseTimes> times = quiet_times();
   const model::SpaceMap& map = stepper_->map();
   const std::size_t num_spaces = ownership_.owner.size();
   const auto num_shapes = static_cast<std::size_t>(map.num_shapes());
@@ -151,20 +169,20 @@ SpaceLoads SpaceDriver::loads() const {
   }
   for (std::size_t space = 0; space < num_spaces; ++space) {
     const int owner = ownership_.owner[space];
-    const double rank_s = found.times[owner][Phase::collide] + found.times[owner][Phase::islands];
+    const double rank_s = times[owner][Phase::collide] + times[owner][Phase::islands];
     loads.collide_s.push_back(rank_weight[owner] > 0 ? rank_s * space_weight[space] / rank_weight[owner] : 0);
   }
-  scale_to_seconds(loads);
+  scale_to_seconds(loads, times);
   return loads;
 }
 
 /// From weights to the seconds that the frame took with the present owners.
-void SpaceDriver::scale_to_seconds(SpaceLoads& loads) const {
+void SpaceDriver::scale_to_seconds(SpaceLoads& loads, std::span<const core::PhaseTimes> times) const {
   const FrameFindings& found = step_.findings();
   double seconds = 0, ship_s = 0, weight = 0;
-  for (const core::PhaseTimes& times : found.times) {
-    seconds += solver_s(times);
-    ship_s += times[Phase::ship];
+  for (const core::PhaseTimes& rank : times) {
+    seconds += solver_s(rank);
+    ship_s += rank[Phase::ship];
   }
   for (const RankLoad& rank : predict_loads(loads, ownership_.owner, comm().size()).ranks)
     weight += rank.solve_s;
@@ -174,7 +192,7 @@ void SpaceDriver::scale_to_seconds(SpaceLoads& loads) const {
   for (std::vector<SpacePart>& island : loads.islands) {
     for (SpacePart& part : island) part.work.contacts_s *= scale;
   }
-  loads.root_extra_s = found.times.front()[Phase::cross_space];
+  loads.root_extra_s = times.front()[Phase::cross_space];
   if (found.bodies_shipped > 0) {
     loads.ship_s = settings().steps_per_frame * ship_s / (2.0 * static_cast<double>(found.bodies_shipped));
   }
@@ -203,6 +221,7 @@ std::string SpaceDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
   stepper_->put_states(bodies, rows);
   const model::State state = stepper_->state();
   step_.own(ownership_, state, step);
+  last_times_.clear();
   return describe(planned_);
 }
 

@@ -40,6 +40,7 @@ class SpaceDriver final : public FrameDriver {
  private:
   static constexpr int frames_between_decisions = 4;
   static constexpr int frames_before_decisions = 2;  ///< the first frame meets cold caches
+  static constexpr std::size_t frames_looked_at = 3;
 
   void advance(core::PhaseTimes& times) override;
   int lowest_nonfinite_world() const override;
@@ -54,8 +55,11 @@ class SpaceDriver final : public FrameDriver {
   model::Traffic take_traffic() override { return step_.take_traffic(); }
 
   void observe();
+  void note_times();
+  /// [num_ranks] Seconds a frame by phase, the least of each of the last frames.
+  std::vector<core::PhaseTimes> quiet_times() const;
   SpaceLoads loads() const;
-  void scale_to_seconds(SpaceLoads& loads) const;
+  void scale_to_seconds(SpaceLoads& loads, std::span<const core::PhaseTimes> times) const;
 
   model::SpaceStepper* stepper_;
   SpaceOwnership ownership_;
@@ -63,6 +67,9 @@ class SpaceDriver final : public FrameDriver {
   model::WorldTable table_;
   model::Observables observables_;  ///< on root
   std::int64_t steps_done_ = 0;
+  /// On root: [frames][num_ranks] with the present owners, the last ones. A rank that the machine keeps
+  /// waiting in one frame has not more to do.
+  std::vector<std::vector<core::PhaseTimes>> last_times_;
   int frames_until_decision_ = frames_before_decisions;
   Reassignment planned_;  ///< root: of the last verdict
   StepHook hook_;

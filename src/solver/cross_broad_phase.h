@@ -10,7 +10,8 @@
 
 namespace pbmpi::solver {
 
-/// Spaces whose boxes stay apart cost the test of their boxes and nothing else.
+/// Spaces whose boxes stay apart cost the test of their boxes and nothing else; of two that overlap, the
+/// geoms in each other's box are sorted.
 class CrossBroadPhase {
  public:
   /// Both are borrowed.
@@ -18,27 +19,29 @@ class CrossBroadPhase {
 
   /// Pairs (first < second, by geom index) of bodies whose spaces have different owners and whose boxes
   /// overlap, of those that may touch (TouchRule), sorted. `owner`, `boxes`: [num_spaces]; `poses`:
-  /// [num_bodies], of the spaces that overlap another.
+  /// [num_bodies], of the spaces that overlap another. A pose that is not finite has no pair.
   void find_pairs(std::span<const int> owner, std::span<const model::Box> boxes,
                   std::span<const model::BodyPose> poses, std::vector<model::GeomPair>& pairs);
 
-  /// For each space, the spaces of other owners that its box overlaps. [num_spaces]
-  static std::vector<std::vector<int>> neighbours(std::span<const int> owner,
-                                                  std::span<const model::Box> boxes);
-
  private:
-  struct Candidate {
-    model::Box box;
+  /// A geom of one of two spaces, where the sweep's axis meets it first.
+  struct Entry {
+    double low = 0;
     int geom = 0;
-    int owner = 0;
+    bool in_second = false;
   };
-  void find_candidates(std::span<const int> owner, std::span<const model::Box> boxes,
-                       std::span<const model::BodyPose> poses);
+
+  void update_boxes(int space, std::span<const model::BodyPose> poses);
+  /// The geoms of a space that reach into a box; their number.
+  std::size_t enter(int space, const model::Box& box, int axis, bool in_second);
+  void sweep(int axis, std::vector<model::GeomPair>& pairs);
 
   const model::Model* model_;
   model::TouchRule rule_;
   const model::SpaceMap* map_;
-  std::vector<Candidate> candidates_;  ///< geoms in the box of a space of another owner
+  std::vector<model::Box> geom_boxes_;  ///< [geoms]
+  std::vector<char> has_boxes_;         ///< [num_spaces] are those of its geoms of this call?
+  std::vector<Entry> entries_;          ///< of the two spaces at hand
 };
 
 }  // namespace pbmpi::solver

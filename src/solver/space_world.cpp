@@ -8,7 +8,6 @@
 #include "model/islands.h"
 #include "solver/articulation.h"
 #include "solver/cross_broad_phase.h"
-#include "solver/pair_table.h"
 #include "solver/simd.h"
 #include "solver/step_settings.h"
 
@@ -194,9 +193,6 @@ void SpaceWorld::launch_others(std::int64_t step, std::span<model::Box> boxes) {
 
 void SpaceWorld::collide(std::vector<Contact>& contacts) {
   contacts.clear();
-  const bool finite =
-      std::all_of(own_bodies_.begin(), own_bodies_.end(), [&](int body) { return is_finite(poses_[body]); });
-  if (!finite) return;
   loaded_.clear();
   for (const int body : own_bodies_) lend(body);
   pack_->load(0, loaded_, state_);
@@ -232,7 +228,6 @@ model::Box SpaceWorld::space_box(int space) const {
 void SpaceWorld::collide_across(std::span<const int> owner, std::span<const model::Box> boxes,
                                 std::vector<Contact>& contacts) {
   contacts.clear();
-  if (!std::all_of(poses_.begin(), poses_.end(), is_finite)) return;
   cross_.find_pairs(owner, boxes, poses_, pairs_);
   collide_pairs(contacts);
 }
