@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "model/effects.h"
 #include "model/islands.h"
 #include "mpi/message.h"
 
@@ -17,6 +18,7 @@ SpaceStep::SpaceStep(const Communicator& comm, model::SpaceStepper& stepper, Err
 
 void SpaceStep::own(const SpaceOwnership& ownership, const model::State& state, std::int64_t step) {
   ownership_ = ownership;
+  has_fast_bodies_ = model::StepPlan(stepper_->model()).has("fast_bodies");
   crosses_ = ownership.is_divided() && stepper_->model().spaces_meet;
   active_units_ = own_units();
   guard([&] { stepper_->own(ownership.spaces[comm_->rank()], state, step); });
@@ -120,6 +122,12 @@ void SpaceStep::post_poses() {
   MessageWriter message;
   message.put(pose_rows(stepper_->state(), ownership_->bodies[comm_->rank()]));
   message.put(own_boxes());
+  if (has_fast_bodies_) {
+    std::vector<int> fast;
+    guard([&] { fast = stepper_->fast_bodies(); });
+    message.put(fast);
+    message.put(state_rows(stepper_->state(), fast));
+  }
   mail_->post(message.take(), Communicator::root, poses_tag);
 }
 

@@ -102,8 +102,9 @@ class SpaceStep {
   model::SpaceStepper* stepper_;
   ErrorHold* errors_;
   std::optional<SpaceOwnership> ownership_;
-  std::unique_ptr<Mail> mail_;  ///< none where no message is sent
-  bool crosses_ = false;        ///< can anything cross?
+  std::unique_ptr<Mail> mail_;    ///< none where no message is sent
+  bool crosses_ = false;          ///< can anything cross?
+  bool has_fast_bodies_ = false;  ///< the pass of that name
   std::vector<model::Contact> contacts_;
   std::vector<int> active_units_;          ///< solved here in this step, ascending
   LocalIslands islands_;                   ///< of this rank

@@ -38,6 +38,10 @@ void SpaceStep::receive_poses(core::LapTimer& timer) {
     stepper_->put_poses(ownership_->bodies[rank], message.get<double>());
     const std::span<const model::Box> boxes = message.get<model::Box>();
     for (std::size_t i = 0; i < boxes.size(); ++i) boxes_[ownership_->spaces[rank][i]] = boxes[i];
+    if (has_fast_bodies_) {
+      const std::span<const int> fast = message.get<int>();
+      stepper_->put_states(fast, message.get<double>());
+    }
     timer.lap(Phase::gather);
   }
 }

@@ -104,6 +104,8 @@ class FileScene final : public Scene {
     empty_.erp = scene.number("erp", Sign::non_negative, empty_.erp);
     if (empty_.erp > 1) scene.fail("erp", "'erp' is a share of the error and must lie in [0, 1]");
     empty_.cfm = scene.number("cfm", Sign::non_negative, empty_.cfm);
+    empty_.linear_damping = scene.number("linear_damping", Sign::non_negative, empty_.linear_damping);
+    empty_.angular_damping = scene.number("angular_damping", Sign::non_negative, empty_.angular_damping);
     if (auto contact = scene.table("contact")) {
       model::ContactLaw& law = empty_.contact_law;
       law.soft_erp = contact->number("soft_erp", Sign::non_negative, law.soft_erp);

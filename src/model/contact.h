@@ -32,7 +32,7 @@ struct Contact {
   int body_b = no_body;  ///< no_body: a is in contact with the static environment
   Vec3 position;         ///< [m] world frame
   Vec3 normal;           ///< unit, world frame
-  double depth = 0;      ///< [m]
+  double depth = 0;      ///< [m]; below 0: a gap that may close in this step (model/fast_bodies.h)
   double mu = 0;
   double restitution = 0;
   GeomPair geoms;  ///< that touch: contacts are in canonical order if sorted by them

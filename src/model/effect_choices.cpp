@@ -19,7 +19,8 @@ std::string list_of(const std::vector<std::string>& names) {
 }
 
 /// Effects of contacts, which there are none of without collision.
-constexpr std::array<std::string_view, 3> needs_collision = {"friction", "restitution", "cross_space"};
+constexpr std::array<std::string_view, 4> needs_collision = {"friction", "restitution", "cross_space",
+                                                             "fast_bodies"};
 
 void require_collision_for_its_parts(const EffectChoices& choices) {
   const auto collision = choices.find("collision");

@@ -1,8 +1,10 @@
 #include "model/effects.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "core/error.h"
+#include "model/fast_bodies.h"
 
 namespace pbmpi::model {
 namespace {
@@ -62,6 +64,11 @@ std::optional<std::string> cross_space(const Model& model) {
   return counted(count > 1 ? count : 0, "collision spaces with bodies");
 }
 
+std::optional<std::string> fast_bodies(const Model& model) {
+  if (!collision(model)) return std::nullopt;
+  return counted(count_fast_starts(model), "bodies that start at more than half their extent in 0.01 s");
+}
+
 std::optional<std::string> joints(const Model& model) {
   return counted(static_cast<std::ptrdiff_t>(model.joints.size()), "joints");
 }
@@ -98,6 +105,13 @@ std::optional<std::string> gyroscopic_torque(const Model& model) {
   return counted_if(model.bodies, has_gyroscopic_torque, "bodies whose inertia differs by axis");
 }
 
+std::optional<std::string> damping(const Model& model) {
+  if (model.linear_damping == 0 && model.angular_damping == 0) return std::nullopt;
+  std::ostringstream text;
+  text << model.linear_damping << " 1/s linear, " << model.angular_damping << " 1/s angular";
+  return text.str();
+}
+
 template <EventKind kind>
 void drop_events(Model& model) {
   std::erase_if(model.events, [](const Event& e) { return e.kind == kind; });
@@ -125,6 +139,7 @@ void drop_motors(Model& model) {
 void drop_suspension(Model& model) {
   for (Joint& joint : model.joints) joint.suspension = {};
 }
+void drop_damping(Model& model) { model.linear_damping = model.angular_damping = 0; }
 void refuse_without_joints(Model& model) {
   core::require_input(model.joints.empty(),
                       "effect 'joints' cannot be left out: " + std::to_string(model.joints.size()) +
@@ -142,6 +157,8 @@ const std::vector<Effect>& effect_registry() {
       {"collision", "geoms that touch get contacts", Phase::collide, collision, keep},
       {"cross_space", "contacts between collision spaces are told apart", Phase::collide, cross_space,
        drop_spaces},
+      {"fast_bodies", "contacts ahead keep fast geoms from passing through others", Phase::collide,
+       fast_bodies, keep},
       {"friction", "contacts resist sliding (Coulomb, box friction)", Phase::rows, friction, drop_friction},
       {"restitution", "contacts bounce", Phase::rows, restitution, drop_restitution},
       {"joints", "bodies are held together", Phase::rows, joints, refuse_without_joints},
@@ -150,6 +167,7 @@ const std::vector<Effect>& effect_registry() {
       {"suspension", "wheels spring along the steering axis", Phase::rows, suspension, drop_suspension},
       {"gyroscopic_torque", "spinning bodies precess", Phase::integrate, gyroscopic_torque, keep},
       {"gravity", "bodies fall", Phase::integrate, gravity, drop_gravity},
+      {"damping", "velocities die away", Phase::integrate, damping, drop_damping},
   };
   return effects;
 }

@@ -155,6 +155,9 @@ struct Model {
   Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
   double erp = 0.2;           ///< of joints
   double cfm = 1e-10;         ///< of joints [s/kg]
+  /// Shares of the velocities that are lost in a second, for small ones [1/s]: both die away as exp(-d t).
+  double linear_damping = 0;
+  double angular_damping = 0;
   ContactLaw contact_law;
   EffectChoices effects;  ///< what is demanded or left out, whatever the rest calls for
 

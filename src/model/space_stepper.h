@@ -48,8 +48,13 @@ class SpaceStepper {
   /// Takes in rows of state() that were computed elsewhere: of each body position, orientation, velocity and
   /// angular velocity, 13 numbers.
   virtual void put_states(std::span<const int> bodies, std::span<const double> rows) = 0;
-  /// The same for position and orientation only, 7 numbers: enough to collide, not to solve.
+  /// The same for position and orientation only, 7 numbers: enough to collide, not to solve. The velocity
+  /// becomes 0 where collide_across() would look at it.
   virtual void put_poses(std::span<const int> bodies, std::span<const double> rows) = 0;
+
+  /// Own bodies that are fast at the state of now (model/fast_bodies.h), ascending: collide_across() must have
+  /// their whole states, and takes all others for slow. None without the pass.
+  virtual std::vector<int> fast_bodies() = 0;
 
   /// The events of this step: all settings of joints, and the launches of own bodies.
   virtual void fire_events(std::int64_t step) = 0;

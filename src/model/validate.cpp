@@ -118,6 +118,10 @@ void validate(const Model& model, const std::string& where) {
   require_input(std::isfinite(model.erp) && model.erp >= 0 && model.erp <= 1,
                 where + ": erp must lie in [0, 1]");
   require_input(std::isfinite(model.cfm) && model.cfm >= 0, where + ": cfm must be at least 0");
+  for (const double damping : {model.linear_damping, model.angular_damping}) {
+    require_input(std::isfinite(damping) && damping >= 0,
+                  where + ": damping of " + std::to_string(damping) + " 1/s; it must be finite, 0 or above");
+  }
   require_input(model.contact_law.max_per_pair >= 1, where + ": max_per_pair must be at least 1");
   std::set<std::string> names;
   for (const Body& body : model.bodies) {

@@ -28,6 +28,33 @@ void Contacts::make(dWorldID world, const std::vector<GeomPair>& pairs, const st
   }
 }
 
+/// ODE takes no negative depth; its motion along the normal is the slowest at which the bodies part.
+void Contacts::make_ahead(dWorldID world, const std::vector<model::Contact>& contacts, double dt_s) {
+  contact_.surface.mode = dContactSoftERP | dContactSoftCFM | dContactMotionN;
+  contact_.surface.mu = 0;
+  for (const model::Contact& contact : contacts) {
+    contact_.surface.motionN = contact.depth / dt_s;
+    std::copy_n(contact.position.data(), 3, contact_.geom.pos);
+    std::copy_n(contact.normal.data(), 3, contact_.geom.normal);
+    contact_.geom.depth = 0;
+    touches_.push_back({contact.geoms, contact.body_a, contact.body_b, 1, 1, is_cross_space(contact.geoms)});
+    dJointAttach(dJointCreateContact(world, joints_.get(), &contact_), body_id(contact.body_a),
+                 body_id(contact.body_b));
+  }
+}
+
+bool Contacts::touches(const GeomPair& pair) const {
+  const auto found = std::ranges::lower_bound(touches_, pair, {}, &Touch::geoms);
+  return found != touches_.end() && found->geoms == pair;
+}
+
+bool Contacts::is_cross_space(const GeomPair& pair) const {
+  const model::Geom& first = model_->geoms[pair.first];
+  const model::Geom& second = model_->geoms[pair.second];
+  return cross_space_ && first.body != model::no_body && second.body != model::no_body &&
+         first.space != second.space;
+}
+
 int Contacts::count() const {
   int sum = 0;
   for (const Touch& touch : touches_) sum += touch.num_contacts;
@@ -37,9 +64,7 @@ int Contacts::count() const {
 void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
   const int body_a = model_->geoms[pair.first].body;
   const int body_b = model_->geoms[pair.second].body;
-  const bool cross_space = cross_space_ && body_a != model::no_body && body_b != model::no_body &&
-                           model_->geoms[pair.first].space != model_->geoms[pair.second].space;
-  touches_.push_back({body_a, body_b, num_contacts, set_surface(pair), cross_space});
+  touches_.push_back({pair, body_a, body_b, num_contacts, set_surface(pair), is_cross_space(pair)});
   for (int i = 0; i < num_contacts; ++i) {
     contact_.geom = found_[i];
     deepest_m_ = std::max(deepest_m_, found_[i].depth);

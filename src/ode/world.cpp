@@ -1,5 +1,8 @@
 #include "ode/world.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/random.h"
 #include "ode/bodies.h"
 #include "ode/joints.h"
@@ -7,7 +10,15 @@
 namespace pbmpi::ode {
 namespace {
 
-/// ERP and CFM come before any joint: ODE's joints copy them when they are made.
+/// ODE scales velocities by 1 - scale after each step; the threshold is one below which it does not.
+void set_damping(dWorldID world, const model::Model& model, double dt_s) {
+  dWorldSetLinearDamping(world, -std::expm1(-model.linear_damping * dt_s));
+  dWorldSetAngularDamping(world, -std::expm1(-model.angular_damping * dt_s));
+  dWorldSetLinearDampingThreshold(world, 0);
+  dWorldSetAngularDampingThreshold(world, 0);
+}
+
+/// Before the bodies and joints: ODE's copy ERP, CFM and damping when they are made.
 WorldHandle make_world(const model::Model& model, const model::StepperSettings& settings,
                        const SolverResources& resources) {
   WorldHandle world = resources.make_world();
@@ -16,6 +27,7 @@ WorldHandle make_world(const model::Model& model, const model::StepperSettings& 
   dWorldSetCFM(world.get(), model.cfm);
   dWorldSetQuickStepNumIterations(world.get(), settings.iterations);
   dWorldSetAutoDisableFlag(world.get(), 0);
+  set_damping(world.get(), model, settings.dt_s);
   return world;
 }
 
@@ -36,6 +48,10 @@ World::World(int id, const model::Model& model, const model::State& state, std::
       row_counter_(model, joints_),
       step_(step) {
   if (plan_.has("collision")) broad_phase_.emplace(model, bodies_, best_space(model.geoms.size()));
+  if (plan_.has("fast_bodies")) {
+    fast_bodies_.emplace(model);
+    before_step_.resize(model.num_bodies());
+  }
   events_.skip_to(step);
   restore(bodies_, state);
 }
@@ -70,7 +86,19 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
   ++step_;
 }
 
-void World::collide() { contacts_.make(world_.get(), broad_phase_->find_pairs(), broad_phase_->geoms()); }
+void World::collide() {
+  contacts_.make(world_.get(), broad_phase_->find_pairs(), broad_phase_->geoms());
+  if (fast_bodies_) look_ahead();
+}
+
+void World::look_ahead() {
+  copy_out(bodies_, before_step_);
+  if (!fast_bodies_->look(before_step_, settings_.dt_s)) return;
+  ahead_.clear();
+  const auto is_apart = [&](int a, int b) { return !contacts_.touches({std::min(a, b), std::max(a, b)}); };
+  fast_bodies_->add(before_step_, is_apart, ahead_);
+  contacts_.make_ahead(world_.get(), ahead_, settings_.dt_s);
+}
 
 /// QuickStep shuffles its rows by one random seed of the whole process, so that it is set anew each time.
 void World::solve() {

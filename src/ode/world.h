@@ -7,6 +7,7 @@
 
 #include "core/clock.h"
 #include "model/effects.h"
+#include "model/fast_bodies.h"
 #include "model/step_profile.h"
 #include "model/stepper.h"
 #include "ode/broad_phase.h"
@@ -46,6 +47,7 @@ class World {
  private:
   void take_step(bool is_last, core::LapTimer& timer);
   void collide();
+  void look_ahead();
   void solve();
   void profile_collision(model::StepProfile& profile);
   void profile_islands(model::StepProfile& profile);
@@ -61,7 +63,10 @@ class World {
   HeldPoses held_poses_;
   Events events_;
   Contacts contacts_;
-  std::optional<BroadPhase> broad_phase_;  ///< none without the effect "collision"
+  std::optional<BroadPhase> broad_phase_;         ///< none without the effect "collision"
+  std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass
+  model::State before_step_;                      ///< with it: at the start of the step
+  std::vector<model::Contact> ahead_;             ///< contacts with a gap
   RowCounter row_counter_;
   model::Observables counts_;  ///< rows and islands of the last step
   model::State before_last_;   ///< with `profile`: before the last step's collision detection, events done

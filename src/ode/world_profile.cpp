@@ -85,6 +85,7 @@ void World::profile_collision(model::StepProfile& profile) {
   }
   contacts_.clear();
   contacts_.make(world_.get(), pairs, broad_phase_->geoms());
+  if (fast_bodies_) look_ahead();
   for (const Touch& touch : contacts_.touches()) {
     if (touch.cross_space) profile.cross_contacts += touch.num_contacts;
   }

@@ -145,7 +145,8 @@ void ContactBuilder<T, two_bodies, friction>::build_point(const ContactSlot<T>& 
     bounce = outgoing < T::broadcast(-parameters_.bounce_velocity) ? -given.restitution * outgoing : zero;
   }
   const V push = (parameters_.soft_erp / parameters_.h) * given.depth;
-  point.rhs = T::max(push, bounce);
+  // A gap (negative depth) lets the bodies approach until they touch.
+  point.rhs = given.depth < zero ? given.depth / parameters_.h : T::max(push, bounce);
   point.depth = given.depth;
   if constexpr (friction) {
     point.mu = given.mu;

@@ -62,6 +62,7 @@ class PackLanes final : public Pack {
   void apply_gyroscopic_torques(Scalar h);
   void apply_gravity(Scalar h);
   void integrate_bodies(Scalar h);
+  void damp(double h);
 
   SlotList jointed_, free_;  ///< slots in contact
   SlotSet seen_;
@@ -127,6 +128,19 @@ void PackLanes<T>::integrate_bodies(Scalar h) {
   });
 }
 
+/// As ODE after it has moved a body: v <- (1 - scale) v. The scale of a step of any length is that of an
+/// exponential decay.
+template <class T>
+void PackLanes<T>::damp(double h) {
+  const model::Model& laws = worlds_.model(0);  // the same in all worlds of a pack
+  const V linear = T::broadcast(static_cast<Scalar>(std::exp(-laws.linear_damping * h)));
+  const V angular = T::broadcast(static_cast<Scalar>(std::exp(-laws.angular_damping * h)));
+  worlds_.for_each_active_slot([&](int slot) {
+    Twist<V>& twist = worlds_.bodies.twists[slot];
+    twist = {twist.linear * linear, twist.angular * angular};
+  });
+}
+
 template <class T>
 void PackLanes<T>::step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
   constexpr int iterations_per_order = 8;  // as ODE's quickstep
@@ -170,6 +184,7 @@ void PackLanes<T>::step(Contacts contacts, const StepParameters& parameters, cor
     read_contact_twists(free_);
     timer.lap(core::Phase::solve);
     integrate_bodies(h);
+    if (passes_.damping) damp(parameters.dt_s / parameters.substeps);
     timer.lap(core::Phase::integrate);
   }
 }

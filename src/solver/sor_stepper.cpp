@@ -27,7 +27,8 @@ constexpr int bodies_times_bytes_a_pack = 7200;
 bool same_laws(const model::Model& a, const model::Model& b) {
   return a.erp == b.erp && a.cfm == b.cfm && a.contact_law.soft_erp == b.contact_law.soft_erp &&
          a.contact_law.soft_cfm == b.contact_law.soft_cfm &&
-         a.contact_law.bounce_velocity == b.contact_law.bounce_velocity;
+         a.contact_law.bounce_velocity == b.contact_law.bounce_velocity &&
+         a.linear_damping == b.linear_damping && a.angular_damping == b.angular_damping;
 }
 
 /// Worlds that are stepped together.
@@ -134,6 +135,8 @@ void SorStepper::step(Group& group, core::PhaseTimes& times) {
   for (std::size_t i = 0; i < group.worlds.size(); ++i)
     group.worlds[i]->fire_events(*group.pack, static_cast<int>(i));
   group.pack->collide(group.contacts);
+  for (std::size_t i = 0; i < group.worlds.size(); ++i)
+    group.worlds[i]->look_ahead(*group.pack, static_cast<int>(i), settings_.dt_s, group.contacts[i]);
   std::copy(group.contacts.begin(), group.contacts.end(), group.contact_spans.begin());
   timer.lap(Phase::collide);
   // Worlds of a pack may stand at different steps only if they came to this stepper at different times; the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/effects.h"
 #include "model/islands.h"
 #include "solver/step_settings.h"
 
@@ -14,7 +15,11 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
       model_(std::move(model)),
       state_(state),
       step_(step),
-      narrow_phase_(make_narrow_phase(*model_)) {}
+      narrow_phase_(make_narrow_phase(*model_)) {
+  if (!model::StepPlan(*model_).has("fast_bodies")) return;
+  fast_bodies_.emplace(*model_);
+  before_step_ = state_;
+}
 
 void SorWorld::enter(Pack& pack, int index) const {
   pack.load(index, state_);
@@ -26,6 +31,14 @@ void SorWorld::fire_events(Pack& pack, int index) const {
     apply_setting(event, index, pack);
     if (event.kind == model::EventKind::launch) pack.launch(index, event);
   }
+}
+
+void SorWorld::look_ahead(const Pack& pack, int index, double dt_s, std::vector<model::Contact>& contacts) {
+  if (!fast_bodies_) return;
+  pack.store(index, before_step_);
+  if (fast_bodies_->look(before_step_, dt_s))
+    fast_bodies_->add(
+        before_step_, [](int, int) { return true; }, contacts);
 }
 
 void SorWorld::count_rows(const Pack& pack, int index, std::span<const model::Contact> contacts) {

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "model/contact.h"
+#include "model/fast_bodies.h"
 #include "model/observables.h"
 #include "model/state.h"
 #include "solver/pack.h"
@@ -34,6 +36,8 @@ class SorWorld {
   void enter(Pack& pack, int index) const;
   /// The events of this step.
   void fire_events(Pack& pack, int index) const;
+  /// Adds the contacts of fast bodies to those of this step; nothing without the pass.
+  void look_ahead(const Pack& pack, int index, double dt_s, std::vector<model::Contact>& contacts);
   /// For the pairs of shapes that the lanes do not collide.
   model::NarrowPhase& narrow_phase() const { return *narrow_phase_; }
   void finish_step() { ++step_; }
@@ -50,6 +54,8 @@ class SorWorld {
   model::State state_;
   std::int64_t step_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
+  std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass
+  model::State before_step_;                      ///< with it: at the start of the step
   model::Observables observables_;
 };
 

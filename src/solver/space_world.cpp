@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
+#include "model/effects.h"
+#include "model/fast_bodies.h"
 #include "model/geometry.h"
 #include "model/islands.h"
 #include "solver/articulation.h"
@@ -30,6 +33,7 @@ class SpaceWorld final : public model::SpaceStepper {
   void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override;
   void put_states(std::span<const int> bodies, std::span<const double> rows) override;
   void put_poses(std::span<const int> bodies, std::span<const double> rows) override;
+  std::vector<int> fast_bodies() override;
   void fire_events(std::int64_t step) override;
   void launch_others(std::int64_t step, std::span<model::Box> boxes) override;
   void collide(std::vector<Contact>& contacts) override;
@@ -69,6 +73,7 @@ class SpaceWorld final : public model::SpaceStepper {
   std::vector<int> lent_;    ///< bodies that were loaded for their contacts alone, since the last solve()
   std::vector<int> loaded_;  ///< scratch: active bodies that are stale
   std::vector<model::GeomPair> pairs_;
+  std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass
 };
 
 SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
@@ -82,7 +87,9 @@ SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
       cross_(*model_, map_),
       state_(model::initial_state(*model_)),
       poses_(model_->bodies.size()),
-      stale_(model_->bodies.size(), 0) {}
+      stale_(model_->bodies.size(), 0) {
+  if (model::StepPlan(*model_).has("fast_bodies")) fast_bodies_.emplace(*model_);
+}
 
 /// The articulations of one space lie side by side, own spaces first, so that the batches of a rank hold few
 /// lanes that it does not move.
@@ -148,6 +155,10 @@ void SpaceWorld::put_poses(std::span<const int> bodies, std::span<const double> 
   const double* row = rows.data();
   for (const int body : bodies) {
     put_pose(body, row);
+    if (fast_bodies_) {
+      state_.velocity[body].setZero();
+      state_.angular_velocity[body].setZero();
+    }
     row += 7;
   }
 }
@@ -170,6 +181,13 @@ void SpaceWorld::launch(const Event& event) {
   pack_->store(0, body, state_);
   stale_[event.body] = 0;
   place(event.body);
+}
+
+std::vector<int> SpaceWorld::fast_bodies() {
+  if (!fast_bodies_ || !fast_bodies_->look(state_, settings_.dt_s)) return {};
+  std::vector<int> own = fast_bodies_->bodies();
+  std::erase_if(own, [&](int body) { return !is_own(body); });
+  return own;
 }
 
 void SpaceWorld::fire_events(std::int64_t step) {
@@ -197,6 +215,13 @@ void SpaceWorld::collide(std::vector<Contact>& contacts) {
   for (const int body : own_bodies_) lend(body);
   pack_->load(0, loaded_, state_);
   pack_->collide(std::span(&contacts, 1));
+  if (!fast_bodies_ || !fast_bodies_->look(state_, settings_.dt_s)) return;
+  const auto is_here = [&](int geom) {
+    const int body = model_->geoms[geom].body;
+    return body == model::no_body || is_own(body);
+  };
+  fast_bodies_->add(
+      state_, [&](int fast, int other) { return is_here(fast) && is_here(other); }, contacts);
 }
 
 /// The pack collides at the poses of state_: what is newer there is to be loaded first.
@@ -230,6 +255,15 @@ void SpaceWorld::collide_across(std::span<const int> owner, std::span<const mode
   contacts.clear();
   cross_.find_pairs(owner, boxes, poses_, pairs_);
   collide_pairs(contacts);
+  if (!fast_bodies_ || !fast_bodies_->look(state_, settings_.dt_s)) return;
+  const auto owner_of = [&](int geom) {
+    const int body = model_->geoms[geom].body;
+    return body == model::no_body ? -1 : owner[map_.space_of_body(body)];
+  };
+  const auto across = [&](int fast, int other) {
+    return owner_of(other) >= 0 && owner_of(fast) != owner_of(other);
+  };
+  fast_bodies_->add(state_, across, contacts);
 }
 
 void SpaceWorld::activate(std::span<const int> units) {

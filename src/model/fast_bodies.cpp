@@ -1,0 +1,234 @@
+#include "model/fast_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "model/geometry.h"
+#include "model/ray_cast.h"
+
+namespace pbmpi::model {
+namespace {
+
+double least_half_extent(const Geom& geom) {
+  switch (geom.shape) {
+    case Shape::sphere:
+    case Shape::capsule:
+      return geom.size[0];
+    case Shape::box:
+      return std::min({geom.size[0], geom.size[1], geom.size[2]}) / 2;
+    case Shape::cylinder:
+      return std::min(geom.size[0], geom.size[1] / 2);
+    case Shape::plane:
+      break;
+  }
+  return infinity;
+}
+
+/// Of the smallest ball about the geom's centre; infinite for a plane.
+double bounding_radius(const Geom& geom) {
+  const double half_length = geom.size[1] / 2;
+  switch (geom.shape) {
+    case Shape::sphere:
+      return geom.size[0];
+    case Shape::capsule:
+      return geom.size[0] + half_length;
+    case Shape::box:
+      return Vec3(geom.size[0], geom.size[1], geom.size[2]).norm() / 2;
+    case Shape::cylinder:
+      return std::hypot(geom.size[0], half_length);
+    case Shape::plane:
+      break;
+  }
+  return infinity;
+}
+
+BodyPose body_pose(const Vec3& position, const Quat& q) {
+  BodyPose pose;
+  std::memcpy(pose.position, position.data(), sizeof pose.position);
+  to_rotation(q.w, q.x, q.y, q.z, pose.rotation);
+  return pose;
+}
+
+BodyPose pose_of(const State& state, const Geom& geom) {
+  return geom.body == no_body
+             ? geom_pose(geom, static_pose())
+             : geom_pose(geom, body_pose(state.position[geom.body], state.orientation[geom.body]));
+}
+
+/// `body`, `pose`: the body's; `geom_at`: the geom's.
+Vec3 velocity_of_centre(const BodyPose& geom_at, const Vec3& body_position, const Vec3& velocity,
+                        const Vec3& angular_velocity) {
+  return velocity + angular_velocity.cross(Vec3(geom_at.position) - body_position);
+}
+
+bool moves_past_half(const Geom& geom, const BodyPose& geom_at, const Vec3& way) {
+  const double length = way.norm();
+  return std::isfinite(length) && length > least_half_extent(geom) &&
+         length > half_extent(geom, geom_at.rotation, way / length);
+}
+
+bool starts_fast(const Geom& geom, const Pose& pose, const Vec3& velocity, const Vec3& angular_velocity) {
+  const BodyPose at = geom_pose(geom, body_pose(pose.position, pose.orientation));
+  return moves_past_half(geom, at,
+                         nominal_step_s * velocity_of_centre(at, pose.position, velocity, angular_velocity));
+}
+
+bool by_geoms(const Contact& a, const Contact& b) { return a.geoms < b.geoms; }
+
+}  // namespace
+
+double half_extent(const Geom& geom, const double rotation[9], const Vec3& direction) {
+  double along[3];  // the direction in the geom's frame
+  for (int k = 0; k < 3; ++k) {
+    along[k] =
+        rotation[k] * direction.x() + rotation[3 + k] * direction.y() + rotation[6 + k] * direction.z();
+  }
+  switch (geom.shape) {
+    case Shape::sphere:
+      return geom.size[0];
+    case Shape::box:
+      return 0.5 * (std::abs(along[0]) * geom.size[0] + std::abs(along[1]) * geom.size[1] +
+                    std::abs(along[2]) * geom.size[2]);
+    case Shape::capsule:
+      return geom.size[0] + 0.5 * geom.size[1] * std::abs(along[2]);
+    case Shape::cylinder:
+      return 0.5 * geom.size[1] * std::abs(along[2]) + geom.size[0] * std::hypot(along[0], along[1]);
+    case Shape::plane:
+      break;
+  }
+  return infinity;
+}
+
+int count_fast_starts(const Model& model) {
+  std::vector<char> is_fast(model.bodies.size(), 0);
+  std::vector<std::vector<const Geom*>> geoms(model.bodies.size());
+  for (const Geom& geom : model.geoms) {
+    if (geom.body != no_body) geoms[geom.body].push_back(&geom);
+  }
+  const auto start = [&](int body, const Pose& pose, const Vec3& velocity, const Vec3& angular_velocity) {
+    is_fast[body] |= std::any_of(geoms[body].begin(), geoms[body].end(), [&](const Geom* geom) {
+      return starts_fast(*geom, pose, velocity, angular_velocity);
+    });
+  };
+  for (int i = 0; i < model.num_bodies(); ++i) {
+    const Body& body = model.bodies[i];
+    start(i, body.pose, body.velocity, body.angular_velocity);
+  }
+  for (const Event& event : model.events) {
+    if (event.kind != EventKind::launch) continue;
+    start(event.body, event.pose.value_or(model.bodies[event.body].pose), event.velocity,
+          event.angular_velocity);
+  }
+  return static_cast<int>(std::count(is_fast.begin(), is_fast.end(), 1));
+}
+
+FastBodies::FastBodies(const Model& model)
+    : model_(&model), rule_(model), fast_of_geom_(model.geoms.size(), -1) {
+  if (count_fast_starts(model) == 0) return;
+  for (std::size_t i = 0; i < model.geoms.size(); ++i) {
+    const Geom& geom = model.geoms[i];
+    const double arm = geom.local.position.norm();
+    if (geom.body == no_body) {
+      balls_.push_back({no_body, geom.local.position, bounding_radius(geom)});
+    } else {
+      balls_.push_back({geom.body, Vec3::Zero(), bounding_radius(geom) + arm});
+      watched_.push_back({static_cast<int>(i), geom.body, least_half_extent(geom), arm});
+    }
+  }
+  for (const Body& body : model.bodies) ease_of_turning_.push_back(3 / body.inertia.trace());
+}
+
+bool FastBodies::look(const State& state, double dt_s) {
+  for (const Fast& fast : fast_) fast_of_geom_[fast.geom] = -1;
+  fast_.clear();
+  bodies_.clear();
+  for (const Watched& watched : watched_) {
+    const Vec3& velocity = state.velocity[watched.body];
+    const Vec3& spin = state.angular_velocity[watched.body];
+    const double most = velocity.norm() + (watched.arm > 0 ? spin.norm() * watched.arm : 0);
+    if (!(most * dt_s > watched.least_half)) continue;
+    const Geom& geom = model_->geoms[watched.geom];
+    const BodyPose at = pose_of(state, geom);
+    const Vec3 way = dt_s * velocity_of_centre(at, state.position[watched.body], velocity, spin);
+    if (!moves_past_half(geom, at, way)) continue;
+    fast_of_geom_[watched.geom] = static_cast<int>(fast_.size());
+    fast_.push_back({watched.geom, at, way});
+    bodies_.push_back(watched.body);
+  }
+  std::sort(bodies_.begin(), bodies_.end());
+  bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
+  return !fast_.empty();
+}
+
+Box FastBodies::swept_box(const State& state, int geom) const {
+  const Geom& of = model_->geoms[geom];
+  Box box = geom_box(of, of.body == no_body ? static_pose()
+                                            : body_pose(state.position[of.body], state.orientation[of.body]));
+  if (fast_of_geom_[geom] < 0) return box;
+  const Vec3& way = fast_[fast_of_geom_[geom]].way;
+  Box end = box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    end.min[k] += way[static_cast<int>(k)];
+    end.max[k] += way[static_cast<int>(k)];
+  }
+  box.include(end);
+  return box;
+}
+
+bool FastBodies::is_near(const State& state, const Vec3& middle, double half_way, int other) const {
+  const Ball& ball = balls_[other];
+  const Vec3& centre = ball.body == no_body ? ball.centre : state.position[ball.body];
+  const double reach = half_way + ball.radius;
+  return (centre - middle).squaredNorm() <= reach * reach;
+}
+
+/// The contact acts where the way meets the surface, or below the fast geom's centre: a lever that comes from
+/// meeting at a slant would turn a body instead of stopping it, so that it is dealt out by how easily the two
+/// turn, the less to the one that turns easily.
+void FastBodies::meet(const State& state, const Fast& fast, const Vec3& way, int other) {
+  const Vec3 centre(fast.pose.position);
+  const auto entry = enter(model_->geoms[other], pose_of(state, model_->geoms[other]), centre, way);
+  if (!entry) return;
+  const Geom& geom = model_->geoms[fast.geom];
+  const Vec3 hit = centre + entry->share * way;
+  const double height = entry->normal.dot(centre - hit);
+  const int other_body = model_->geoms[other].body;
+  const double own_ease = ease_of_turning_[geom.body];
+  const double other_ease = other_body == no_body ? 0 : ease_of_turning_[other_body];
+  Contact contact;
+  contact.geoms = {std::min(fast.geom, other), std::max(fast.geom, other)};
+  const int first_body = model_->geoms[contact.geoms.first].body;
+  const bool fast_is_a = other_body == no_body || first_body == geom.body;
+  contact.body_a = fast_is_a ? geom.body : other_body;
+  contact.body_b = fast_is_a ? other_body : geom.body;
+  contact.normal = fast_is_a ? entry->normal : Vec3(-entry->normal);
+  contact.position =
+      (own_ease * (centre - height * entry->normal) + other_ease * hit) / (own_ease + other_ease);
+  contact.depth = std::min(0.0, half_extent(geom, fast.pose.rotation, entry->normal) - height);
+  found_.push_back(contact);
+}
+
+void FastBodies::add(const State& state, const Filter& filter, std::vector<Contact>& contacts) {
+  found_.clear();
+  for (const Fast& fast : fast_) {
+    const Vec3 centre(fast.pose.position);
+    for (int other = 0; other < static_cast<int>(balls_.size()); ++other) {
+      const int too = fast_of_geom_[other];
+      const Vec3 way = too < 0 ? fast.way : Vec3(fast.way - fast_[too].way);
+      if (!is_near(state, centre + 0.5 * way, 0.5 * way.norm(), other)) continue;
+      if (rule_.may_touch(fast.geom, other) && filter(fast.geom, other)) meet(state, fast, way, other);
+    }
+  }
+  std::stable_sort(found_.begin(), found_.end(), by_geoms);
+  const auto end = std::unique(found_.begin(), found_.end(),
+                               [](const Contact& a, const Contact& b) { return a.geoms == b.geoms; });
+  const auto num_touching = std::ssize(contacts);
+  for (auto found = found_.begin(); found != end; ++found) {
+    if (!std::binary_search(contacts.begin(), contacts.begin() + num_touching, *found, by_geoms))
+      contacts.push_back(*found);
+  }
+  std::inplace_merge(contacts.begin(), contacts.begin() + num_touching, contacts.end(), by_geoms);
+}
+
+}  // namespace pbmpi::model

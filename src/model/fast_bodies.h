@@ -1,0 +1,89 @@
+/// The effect fast_bodies: contacts ahead of geoms that could pass through others between two steps.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "model/box.h"
+#include "model/contact.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "model/touch_rule.h"
+
+namespace pbmpi::model {
+
+/// The step [s] by which a model is judged, whatever step a run takes: a plan follows from the model alone.
+inline constexpr double nominal_step_s = 0.01;
+
+/// Half of a geom's extent [m] along the unit `direction`; `rotation`: of the geom, by rows. Not for planes.
+double half_extent(const Geom& geom, const double rotation[9], const Vec3& direction);
+
+/// Bodies that start, or are launched, at more than half the extent along their way of one of their geoms in
+/// a nominal step.
+int count_fast_starts(const Model& model);
+
+/// Looks ahead of fast geoms. A geom is fast in a step if its centre moves further than half its extent along
+/// its way: from then on colliding at steps alone can find it behind the middle of what it hits, or miss it.
+///
+/// From its centre the way of the step is cast against each geom that it may touch, as seen from that geom if
+/// it is fast itself. Where the way comes in, a contact with a gap (negative depth) keeps the two from coming
+/// closer than to touch. It has neither friction nor bounce, which are of surfaces that touch: the next
+/// step's contact has them. A pair has one such contact at most, and none if it touches already. What a pair
+/// gets depends on nothing but the two, so that a world cut into spaces finds the same.
+///
+/// Without a body that starts fast the model does not call for it, and no geom is ever fast: a pass that is
+/// only demanded changes no bit.
+class FastBodies {
+ public:
+  /// False for a pair that is looked at elsewhere.
+  using Filter = std::function<bool(int fast_geom, int other_geom)>;
+
+  /// `model` is borrowed.
+  explicit FastBodies(const Model& model);
+
+  /// Finds the fast geoms at the start of a step of `dt_s`. Is there any?
+  bool look(const State& state, double dt_s);
+  /// Those of the last look(), ascending: bodies with a fast geom.
+  const std::vector<int>& bodies() const { return bodies_; }
+  /// What a fast geom of the last look() sweeps until the end of the step; the box of any other geom. Not for
+  /// planes.
+  Box swept_box(const State& state, int geom) const;
+  /// Adds to `contacts`, in canonical order (sorted by Contact::geoms), those of the fast geoms of the last
+  /// look() with the geoms that `filter` lets through.
+  void add(const State& state, const Filter& filter, std::vector<Contact>& contacts);
+
+ private:
+  /// A ball that holds a geom: about its body's centre of mass, so that it need not be turned.
+  struct Ball {
+    int body = no_body;
+    Vec3 centre = Vec3::Zero();  ///< of a static geom
+    double radius = 0;           ///< [m]
+  };
+  /// A geom that moves.
+  struct Watched {
+    int geom = 0, body = 0;
+    double least_half = 0;  ///< half the least extent [m]
+    double arm = 0;         ///< from its body's centre of mass [m]
+  };
+  /// A geom that is fast in this step.
+  struct Fast {
+    int geom = 0;
+    BodyPose pose;  ///< of the geom
+    Vec3 way;       ///< of its centre in this step [m], world frame
+  };
+
+  bool is_near(const State& state, const Vec3& middle, double half_way, int other) const;
+  void meet(const State& state, const Fast& fast, const Vec3& way, int other);
+
+  const Model* model_;
+  TouchRule rule_;
+  std::vector<Watched> watched_;         ///< ascending; none if the model does not call for the pass
+  std::vector<Ball> balls_;              ///< [geoms]
+  std::vector<double> ease_of_turning_;  ///< [bodies] one over the mean moment of inertia [1/(kg m^2)]
+  std::vector<Fast> fast_;               ///< ascending
+  std::vector<int> fast_of_geom_;        ///< [geoms] index into fast_, or -1
+  std::vector<int> bodies_;
+  std::vector<Contact> found_;
+};
+
+}  // namespace pbmpi::model
