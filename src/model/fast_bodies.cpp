@@ -68,6 +68,13 @@ bool moves_past_half(const Geom& geom, const BodyPose& geom_at, const Vec3& way)
          length > half_extent(geom, geom_at.rotation, way / length);
 }
 
+/// A way of the geom's centre, longer by what the geom reaches ahead of it.
+Vec3 with_front(const Geom& geom, const BodyPose& geom_at, const Vec3& way) {
+  const double length = way.norm();
+  if (length == 0) return way;
+  return way + half_extent(geom, geom_at.rotation, way / length) / length * way;
+}
+
 bool starts_fast(const Geom& geom, const Pose& pose, const Vec3& velocity, const Vec3& angular_velocity) {
   const BodyPose at = geom_pose(geom, body_pose(pose.position, pose.orientation));
   return moves_past_half(geom, at,
@@ -153,27 +160,12 @@ bool FastBodies::look(const State& state, double dt_s) {
     const Vec3 way = dt_s * velocity_of_centre(at, state.position[watched.body], velocity, spin);
     if (!moves_past_half(geom, at, way)) continue;
     fast_of_geom_[watched.geom] = static_cast<int>(fast_.size());
-    fast_.push_back({watched.geom, at, way});
+    fast_.push_back({watched.geom, at, way, with_front(geom, at, way)});
     bodies_.push_back(watched.body);
   }
   std::sort(bodies_.begin(), bodies_.end());
   bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
   return !fast_.empty();
-}
-
-Box FastBodies::swept_box(const State& state, int geom) const {
-  const Geom& of = model_->geoms[geom];
-  Box box = geom_box(of, of.body == no_body ? static_pose()
-                                            : body_pose(state.position[of.body], state.orientation[of.body]));
-  if (fast_of_geom_[geom] < 0) return box;
-  const Vec3& way = fast_[fast_of_geom_[geom]].way;
-  Box end = box;
-  for (std::size_t k = 0; k < 3; ++k) {
-    end.min[k] += way[static_cast<int>(k)];
-    end.max[k] += way[static_cast<int>(k)];
-  }
-  box.include(end);
-  return box;
 }
 
 bool FastBodies::is_near(const State& state, const Vec3& middle, double half_way, int other) const {
@@ -188,9 +180,9 @@ bool FastBodies::is_near(const State& state, const Vec3& middle, double half_way
 /// turn, the less to the one that turns easily.
 void FastBodies::meet(const State& state, const Fast& fast, const Vec3& way, int other) {
   const Vec3 centre(fast.pose.position);
+  const Geom& geom = model_->geoms[fast.geom];
   const auto entry = enter(model_->geoms[other], pose_of(state, model_->geoms[other]), centre, way);
   if (!entry) return;
-  const Geom& geom = model_->geoms[fast.geom];
   const Vec3 hit = centre + entry->share * way;
   const double height = entry->normal.dot(centre - hit);
   const int other_body = model_->geoms[other].body;
@@ -215,7 +207,8 @@ void FastBodies::add(const State& state, const Filter& filter, std::vector<Conta
     const Vec3 centre(fast.pose.position);
     for (int other = 0; other < static_cast<int>(balls_.size()); ++other) {
       const int too = fast_of_geom_[other];
-      const Vec3 way = too < 0 ? fast.way : Vec3(fast.way - fast_[too].way);
+      const Vec3 way =
+          too < 0 ? fast.reach : with_front(model_->geoms[fast.geom], fast.pose, fast.way - fast_[too].way);
       if (!is_near(state, centre + 0.5 * way, 0.5 * way.norm(), other)) continue;
       if (rule_.may_touch(fast.geom, other) && filter(fast.geom, other)) meet(state, fast, way, other);
     }
@@ -224,10 +217,7 @@ void FastBodies::add(const State& state, const Filter& filter, std::vector<Conta
   const auto end = std::unique(found_.begin(), found_.end(),
                                [](const Contact& a, const Contact& b) { return a.geoms == b.geoms; });
   const auto num_touching = std::ssize(contacts);
-  for (auto found = found_.begin(); found != end; ++found) {
-    if (!std::binary_search(contacts.begin(), contacts.begin() + num_touching, *found, by_geoms))
-      contacts.push_back(*found);
-  }
+  contacts.insert(contacts.end(), found_.begin(), end);
   std::inplace_merge(contacts.begin(), contacts.begin() + num_touching, contacts.end(), by_geoms);
 }
 

@@ -4,7 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "model/box.h"
 #include "model/contact.h"
 #include "model/model.h"
 #include "model/state.h"
@@ -25,11 +24,12 @@ int count_fast_starts(const Model& model);
 /// Looks ahead of fast geoms. A geom is fast in a step if its centre moves further than half its extent along
 /// its way: from then on colliding at steps alone can find it behind the middle of what it hits, or miss it.
 ///
-/// From its centre the way of the step is cast against each geom that it may touch, as seen from that geom if
-/// it is fast itself. Where the way comes in, a contact with a gap (negative depth) keeps the two from coming
-/// closer than to touch. It has neither friction nor bounce, which are of surfaces that touch: the next
-/// step's contact has them. A pair has one such contact at most, and none if it touches already. What a pair
-/// gets depends on nothing but the two, so that a world cut into spaces finds the same.
+/// From its centre its way in the step, longer by that half extent, is cast against each geom that it may
+/// touch, as seen from that geom if it is fast itself. Where the way comes in, a contact with a gap (negative
+/// depth) keeps the two from coming closer than to touch. It has neither friction nor bounce, which are of
+/// surfaces that touch: the next step's contact has them. A pair that touches already has it too, since a
+/// touch at the end of a rod turns the rod and lets its middle through. What a pair gets depends on nothing
+/// but the two, so that a world cut into spaces finds the same.
 ///
 /// Without a body that starts fast the model does not call for it, and no geom is ever fast: a pass that is
 /// only demanded changes no bit.
@@ -45,11 +45,8 @@ class FastBodies {
   bool look(const State& state, double dt_s);
   /// Those of the last look(), ascending: bodies with a fast geom.
   const std::vector<int>& bodies() const { return bodies_; }
-  /// What a fast geom of the last look() sweeps until the end of the step; the box of any other geom. Not for
-  /// planes.
-  Box swept_box(const State& state, int geom) const;
   /// Adds to `contacts`, in canonical order (sorted by Contact::geoms), those of the fast geoms of the last
-  /// look() with the geoms that `filter` lets through.
+  /// look() with the geoms that `filter` lets through: at most one a pair, after those of its touch.
   void add(const State& state, const Filter& filter, std::vector<Contact>& contacts);
 
  private:
@@ -70,6 +67,7 @@ class FastBodies {
     int geom = 0;
     BodyPose pose;  ///< of the geom
     Vec3 way;       ///< of its centre in this step [m], world frame
+    Vec3 reach;     ///< from its centre to where its front comes, past what does not move
   };
 
   bool is_near(const State& state, const Vec3& middle, double half_way, int other) const;

@@ -52,8 +52,8 @@ class SpaceStepper {
   /// becomes 0 where collide_across() would look at it.
   virtual void put_poses(std::span<const int> bodies, std::span<const double> rows) = 0;
 
-  /// Own bodies that are fast at the state of now (model/fast_bodies.h), ascending: collide_across() must have
-  /// their whole states, and takes all others for slow. None without the pass.
+  /// Own bodies that are fast at the state of now (model/fast_bodies.h), ascending: collide_across() must
+  /// have their whole states, and takes all others for slow. None without the pass.
   virtual std::vector<int> fast_bodies() = 0;
 
   /// The events of this step: all settings of joints, and the launches of own bodies.
@@ -68,7 +68,8 @@ class SpaceStepper {
   /// The box of an own space at the poses of state().
   virtual Box space_box(int space) const = 0;
   /// Contacts between bodies of spaces that different ranks own, in canonical order. `owner`, `boxes`:
-  /// [num_spaces]. Only geoms in the box of a space of another owner are looked at.
+  /// [num_spaces]. Only geoms in the box of a space of another owner are looked at, and what is ahead of
+  /// fast bodies.
   virtual void collide_across(std::span<const int> owner, std::span<const Box> boxes,
                               std::vector<Contact>& contacts) = 0;
 

@@ -37,15 +37,10 @@ void Contacts::make_ahead(dWorldID world, const std::vector<model::Contact>& con
     std::copy_n(contact.position.data(), 3, contact_.geom.pos);
     std::copy_n(contact.normal.data(), 3, contact_.geom.normal);
     contact_.geom.depth = 0;
-    touches_.push_back({contact.geoms, contact.body_a, contact.body_b, 1, 1, is_cross_space(contact.geoms)});
+    touches_.push_back({contact.body_a, contact.body_b, 1, 1, is_cross_space(contact.geoms)});
     dJointAttach(dJointCreateContact(world, joints_.get(), &contact_), body_id(contact.body_a),
                  body_id(contact.body_b));
   }
-}
-
-bool Contacts::touches(const GeomPair& pair) const {
-  const auto found = std::ranges::lower_bound(touches_, pair, {}, &Touch::geoms);
-  return found != touches_.end() && found->geoms == pair;
 }
 
 bool Contacts::is_cross_space(const GeomPair& pair) const {
@@ -64,7 +59,7 @@ int Contacts::count() const {
 void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
   const int body_a = model_->geoms[pair.first].body;
   const int body_b = model_->geoms[pair.second].body;
-  touches_.push_back({pair, body_a, body_b, num_contacts, set_surface(pair), is_cross_space(pair)});
+  touches_.push_back({body_a, body_b, num_contacts, set_surface(pair), is_cross_space(pair)});
   for (int i = 0; i < num_contacts; ++i) {
     contact_.geom = found_[i];
     deepest_m_ = std::max(deepest_m_, found_[i].depth);

@@ -11,7 +11,6 @@ namespace pbmpi::ode {
 
 /// A pair of geoms that touch.
 struct Touch {
-  GeomPair geoms;
   int body_a = model::no_body;
   int body_b = model::no_body;
   int num_contacts = 0;
@@ -28,11 +27,8 @@ class Contacts {
 
   /// Collides each pair (dCollide with the lower geom first) and joins what touches, in the order of `pairs`.
   void make(dWorldID world, const std::vector<GeomPair>& pairs, const std::vector<dGeomID>& geoms);
-  /// Joins what does not touch yet: contacts of model::FastBodies with a gap, in canonical order, of pairs
-  /// that have no touch. The gap may close in a step of `dt_s`.
+  /// Joins what is ahead of fast bodies (model::FastBodies): gaps that may close in a step of `dt_s`.
   void make_ahead(dWorldID world, const std::vector<model::Contact>& contacts, double dt_s);
-  /// Does this pair have a touch since the last make()?
-  bool touches(const GeomPair& pair) const;
   /// Removes the contact joints. touches() and deepest_m() stay until the next make().
   void clear() { dJointGroupEmpty(joints_.get()); }
 

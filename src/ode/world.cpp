@@ -1,6 +1,5 @@
 #include "ode/world.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
@@ -95,8 +94,8 @@ void World::look_ahead() {
   copy_out(bodies_, before_step_);
   if (!fast_bodies_->look(before_step_, settings_.dt_s)) return;
   ahead_.clear();
-  const auto is_apart = [&](int a, int b) { return !contacts_.touches({std::min(a, b), std::max(a, b)}); };
-  fast_bodies_->add(before_step_, is_apart, ahead_);
+  fast_bodies_->add(
+      before_step_, [](int, int) { return true; }, ahead_);
   contacts_.make_ahead(world_.get(), ahead_, settings_.dt_s);
 }
 

@@ -43,16 +43,18 @@ TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
     model.spaces = {"left", "right"};
     model.geoms.front().space = 1;  // the last one is the ground
     model.geoms.front().material.restitution = 0.5;
+    model.bodies.front().velocity = {0, 0, -200};
+    model.linear_damping = 0.1;
     for (const EventKind kind : {EventKind::launch, EventKind::motor, EventKind::steer})
       model.events.emplace_back().kind = kind;
     ASSERT_TRUE(StepPlan(model).has(effect.name)) << effect.name;
     model.effects[std::string(effect.name)] = false;
     leave_out_effects(model);
     EXPECT_FALSE(StepPlan(model).has(effect.name)) << effect.name;
-    // Collision and gyroscopic torque are left out of the plan, the others of the model itself.
+    // Collision, fast bodies and gyroscopic torque are left out of the plan, the others of the model itself.
     model.effects.clear();
-    EXPECT_EQ(StepPlan(model).has(effect.name),
-              effect.name == "collision" || effect.name == "gyroscopic_torque")
+    EXPECT_EQ(StepPlan(model).has(effect.name), effect.name == "collision" || effect.name == "fast_bodies" ||
+                                                    effect.name == "gyroscopic_torque")
         << effect.name;
   }
 }
@@ -67,7 +69,7 @@ TEST(LeaveOutEffects, refuses_to_let_a_model_fall_apart) {
 }
 
 TEST(LeaveOutEffects, refuses_friction_without_collision) {
-  for (const char* part : {"friction", "restitution", "cross_space"}) {
+  for (const char* part : {"friction", "restitution", "cross_space", "fast_bodies"}) {
     Model model = support::pile(2);
     model.effects = {{"collision", false}, {part, true}};
     EXPECT_THROW(leave_out_effects(model), core::InputError) << part;

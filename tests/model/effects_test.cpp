@@ -83,6 +83,22 @@ TEST(StepPlan, has_gyroscopic_torque_only_for_bodies_whose_inertia_differs_by_ax
   EXPECT_FALSE(StepPlan(support::pendulum(1, 0)).has("gyroscopic_torque"));      // a ball
 }
 
+TEST(StepPlan, sees_ahead_only_of_bodies_that_start_fast_and_can_collide) {
+  Model model = support::box_over_ground(1);
+  EXPECT_FALSE(StepPlan(model).has("fast_bodies"));
+  model.bodies[0].velocity = {0, 0, -51};  // 0.51 m in a step: its half extent is 0.5 m
+  EXPECT_TRUE(StepPlan(model).has("fast_bodies"));
+  model.effects = {{"collision", false}};
+  EXPECT_FALSE(StepPlan(model).has("fast_bodies"));
+}
+
+TEST(StepPlan, damps_only_by_damping) {
+  Model model = support::box_over_ground(1);
+  EXPECT_FALSE(StepPlan(model).has("damping"));
+  model.angular_damping = 0.1;
+  EXPECT_TRUE(StepPlan(model).has("damping"));
+}
+
 TEST(StepPlan, crosses_spaces_only_if_bodies_move_in_two) {
   Model model = support::pile(2);
   model.spaces = {"ground", "pile", "empty"};

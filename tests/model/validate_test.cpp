@@ -37,6 +37,8 @@ const std::vector<Case>& cases() {
       {"mass 0", [](Model& m) { m.bodies[1].mass_kg = 0; }, "body 'car.wheel0': the mass"},
       {"mass NaN", [](Model& m) { m.bodies[1].mass_kg = NAN; }, "the mass"},
       {"mass infinite", [](Model& m) { m.bodies[1].mass_kg = infinity; }, "the mass"},
+      {"damping below 0", [](Model& m) { m.linear_damping = -1; }, "damping of -1"},
+      {"damping NaN", [](Model& m) { m.angular_damping = NAN; }, "damping of nan"},
       {"inertia skew", [](Model& m) { m.bodies[0].inertia(0, 1) += 1; }, "symmetric"},
       {"inertia NaN", [](Model& m) { m.bodies[0].inertia(0, 0) = NAN; }, "inertia"},
       {"inertia negative", [](Model& m) { m.bodies[0].inertia(2, 2) = -1; }, "positive definite"},

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "model/box.h"
+#include "model/effects.h"
 #include "model/geometry.h"
 #include "ode/narrow_phase.h"
 #include "solver/simd.h"
@@ -22,7 +23,8 @@ bool equal_bits(const mpi::WireContact& a, const mpi::WireContact& b) {
 
 ContactOracle::ContactOracle(const mpi::Communicator& comm, std::shared_ptr<const model::Model> model,
                              const model::StepperSettings& settings)
-    : comm_(&comm), model_(std::move(model)), rule_(*model_) {
+    : comm_(&comm), model_(std::move(model)), dt_s_(settings.dt_s), rule_(*model_) {
+  if (model::StepPlan(*model_).has("fast_bodies")) fast_bodies_.emplace(*model_);
   whole_ = solver::make_sor_stepper(settings, ode::make_narrow_phase);
   whole_->add(0, model_, model::initial_state(*model_), 0);
   narrow_phase_ = ode::make_narrow_phase(*model_);
@@ -54,6 +56,16 @@ std::vector<model::Contact> ContactOracle::brute_force(std::int64_t step) {
   }
   std::vector<model::Contact> contacts;
   pack_->collide_pairs(0, pairs, contacts);
+  if (fast_bodies_) {
+    model::State state = whole_->state(0);
+    pack_->store(0, state);
+    if (fast_bodies_->look(state, dt_s_)) {
+      const std::size_t num_touching = contacts.size();
+      fast_bodies_->add(
+          state, [](int, int) { return true; }, contacts);
+      contacts_ahead_checked_ += std::ssize(contacts) - static_cast<std::ptrdiff_t>(num_touching);
+    }
+  }
   return contacts;
 }
 

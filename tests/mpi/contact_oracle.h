@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "model/contact.h"
+#include "model/fast_bodies.h"
 #include "model/stepper.h"
 #include "model/touch_rule.h"
 #include "mpi/communicator.h"
@@ -27,17 +29,23 @@ class ContactOracle {
   void check(std::int64_t step, std::span<const model::Contact> contacts);
 
   std::int64_t contacts_checked() const { return contacts_checked_; }  ///< on root
+  std::int64_t contacts_ahead_checked() const {
+    return contacts_ahead_checked_;
+  }  ///< those with a gap, on root
 
  private:
   std::vector<model::Contact> brute_force(std::int64_t step);
 
   const mpi::Communicator* comm_;
   std::shared_ptr<const model::Model> model_;
+  double dt_s_;
   model::TouchRule rule_;
+  std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass
   std::unique_ptr<model::WorldStepper> whole_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
   std::unique_ptr<solver::Pack> pack_;  ///< of the world, for its colliders
   std::int64_t contacts_checked_ = 0;
+  std::int64_t contacts_ahead_checked_ = 0;
 };
 
 }  // namespace pbmpi::testing_support

@@ -57,6 +57,17 @@ TEST(SpaceDriver, has_the_same_bits_for_every_ownership) {
   }
 }
 
+// Two balls that would pass through each other are of one space, those that are shot at the piles meet other
+// spaces' boxes: at 4 owners contacts ahead are found by each rank and by root.
+TEST(SpaceDriver, sees_ahead_of_fast_bodies_across_spaces) {
+  model::StepperSettings single;
+  single.precision = model::Precision::single;
+  for (const model::StepperSettings& stepper : {model::StepperSettings{}, single}) {
+    const SpaceRun run = expect_whole(share(testing_support::shoot_out()), space_settings(), stepper);
+    EXPECT_TRUE(run.contacts_ahead_checked >= 4 || !world().is_root()) << run.contacts_ahead_checked;
+  }
+}
+
 TEST(SpaceDriver, has_the_same_bits_with_one_lane_with_substeps_and_in_single_precision) {
   model::StepperSettings one_lane, substeps, single;
   one_lane.simd = model::Simd::off;
@@ -214,6 +225,7 @@ class FailingStepper final : public model::SpaceStepper {
   void put_poses(std::span<const int> bodies, std::span<const double> rows) override {
     inner_->put_poses(bodies, rows);
   }
+  std::vector<int> fast_bodies() override { return inner_->fast_bodies(); }
   void fire_events(std::int64_t step) override {
     step_ = step;
     inner_->fire_events(step);

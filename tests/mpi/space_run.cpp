@@ -41,6 +41,7 @@ SpaceRun run_spaces(const mpi::Communicator& comm, const SharedModel& model,
   run.idle_ranks = driver.idle_ranks();
   run.owners = driver.placement();
   run.contacts_checked = oracle.contacts_checked();
+  run.contacts_ahead_checked = oracle.contacts_ahead_checked();
   for (const mpi::FrameTimes& times : run.result.times) run.messages += times.traffic.messages;
   return run;
 }
@@ -115,6 +116,19 @@ model::Model neighbours() {
   add_chain(model, 1, 1);
   add_pile(model, "right", 2, 2);
   add_balls(model, 4, 3);
+  return model;
+}
+
+model::Model shoot_out() {
+  model::Model model = neighbours();
+  for (std::size_t i = 0; i < model.events.size(); ++i) {
+    model::Event& event = model.events[i];
+    const bool high = i < 2;  // above the piles
+    const double side = i % 2 == 0 ? 1 : -1;
+    event.step = high ? 12 : 30;
+    event.velocity = {side * (60 + 10 * static_cast<double>(i)), 0, 0};
+    event.pose = model::Pose{{1 - 2.5 * side, 0.1, high ? 5.0 : 1.4}, {}};
+  }
   return model;
 }
 

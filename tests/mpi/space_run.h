@@ -20,9 +20,10 @@ struct SpaceRun {
   mpi::WorldRunResult result;
   std::vector<model::RunEvent> events;
   std::vector<int> idle_ranks;
-  std::vector<int> owners;            ///< at the end
-  std::int64_t contacts_checked = 0;  ///< on root
-  std::int64_t messages = 0;          ///< of this rank
+  std::vector<int> owners;                  ///< at the end
+  std::int64_t contacts_checked = 0;        ///< on root
+  std::int64_t contacts_ahead_checked = 0;  ///< of them ahead of fast bodies
+  std::int64_t messages = 0;                ///< of this rank
 };
 
 enum class Oracle { each_step, none };
@@ -43,5 +44,9 @@ std::uint64_t whole_hash(const SharedModel& model, const mpi::WorldRunSettings& 
 /// Four spaces in a row, 1 m apart: a pile of boxes, a chain that falls on its neighbours, a pile, loose
 /// balls that roll from one end to the other and are launched into other spaces.
 model::Model neighbours();
+
+/// The same where two balls are shot at each other above the piles, and two through the piles, at 60 to 90
+/// m/s.
+model::Model shoot_out();
 
 }  // namespace pbmpi::testing_support

@@ -1,0 +1,22 @@
+/// A world in each of the steppers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/stepper.h"
+
+namespace pbmpi::scenes {
+
+struct SteppedBy {
+  std::string name;  ///< of a test
+  model::StepperSettings settings;
+};
+
+/// quick, direct, and sor in double, in single precision and with substeps.
+std::vector<SteppedBy> every_stepper();
+
+/// The state after `num_steps` steps of world 0 of the scene with this text.
+model::State state_after(const std::string& toml, const model::StepperSettings& settings, int num_steps);
+
+}  // namespace pbmpi::scenes
