@@ -32,6 +32,25 @@ class Effects(ProgramTest):
             self.assertEqual(report.returncode, 0, report.stderr)
             self.assertEqual(json.loads(report.stdout)["effects"], forced["effects"])
 
+    def test_demanding_every_unneeded_effect_changes_no_bit_of_a_world_cut_into_spaces(self):
+        for scene, unneeded in (("Fight", "+fast_bodies,+events,+steering,+suspension,+restitution,+damping"),
+                                ("CrashWa", "+steering,+restitution,+damping")):
+            run = ("--scene", scene, "--frames", 3, "--stepper", "sor", "--decompose", "spaces", "--no-output")
+            plain = self.summary(2, *run)
+            forced = self.summary(2, *run, "--effects", unneeded)
+            asked = [name[1:] for name in unneeded.split(",")]
+            self.assertEqual([name for name in asked if name in names(plain)], [], scene)
+            self.assertEqual([name for name in asked if name not in names(forced)], [], scene)
+            self.assertEqual(plain["state_hash"], forced["state_hash"], scene)
+
+    def test_leaving_fast_bodies_out_of_a_scene_that_calls_for_it_changes_the_result(self):
+        for stepper in ("quick", "sor"):
+            run = ("--scene", "CrashWa", "--stepper", stepper, "--no-output")
+            plain = self.summary(1, *run)
+            self.assertIn("fast_bodies", names(plain))
+            self.assertNotEqual(plain["state_hash"],
+                                self.summary(1, *run, "--effects", "-fast_bodies")["state_hash"])
+
     def test_leaving_gravity_out_leaves_it_out_of_the_plan_the_motion_and_the_text(self):
         plain = self.summary(1, *PLAN, "--no-output")
         floating = self.summary(1, *PLAN, "--no-output", "--effects", "-gravity")

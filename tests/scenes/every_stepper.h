@@ -1,6 +1,7 @@
 /// A world in each of the steppers.
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ struct SteppedBy {
   std::string name;  ///< of a test
   model::StepperSettings settings;
 };
+
+/// In a test's name.
+inline std::ostream& operator<<(std::ostream& out, const SteppedBy& by) { return out << by.name; }
 
 /// quick, direct, and sor in double, in single precision and with substeps.
 std::vector<SteppedBy> every_stepper();
