@@ -201,18 +201,27 @@ void FastBodies::meet(const State& state, const Fast& fast, const Vec3& way, int
   found_.push_back(contact);
 }
 
-void FastBodies::add(const State& state, const Filter& filter, std::vector<Contact>& contacts) {
-  found_.clear();
-  for (const Fast& fast : fast_) {
-    const Vec3 centre(fast.pose.position);
-    for (int other = 0; other < static_cast<int>(balls_.size()); ++other) {
-      const int too = fast_of_geom_[other];
-      const Vec3 way =
-          too < 0 ? fast.reach : with_front(model_->geoms[fast.geom], fast.pose, fast.way - fast_[too].way);
-      if (!is_near(state, centre + 0.5 * way, 0.5 * way.norm(), other)) continue;
-      if (rule_.may_touch(fast.geom, other) && filter(fast.geom, other)) meet(state, fast, way, other);
+void FastBodies::look_from(const State& state, const Fast& fast, const Filter& filter) {
+  const Vec3 centre(fast.pose.position);
+  const Geom& geom = model_->geoms[fast.geom];
+  const Vec3 middle = centre + 0.5 * fast.reach;
+  const double half = 0.5 * fast.reach.norm();
+  const auto look_at = [&](const Vec3& way, int other) {
+    if (rule_.may_touch(fast.geom, other) && filter(fast.geom, other)) meet(state, fast, way, other);
+  };
+  for (int other = 0; other < static_cast<int>(balls_.size()); ++other) {
+    if (const int too = fast_of_geom_[other]; too >= 0) {
+      const Vec3 way = with_front(geom, fast.pose, fast.way - fast_[too].way);
+      if (is_near(state, centre + 0.5 * way, 0.5 * way.norm(), other)) look_at(way, other);
+    } else if (is_near(state, middle, half, other)) {
+      look_at(fast.reach, other);
     }
   }
+}
+
+void FastBodies::add(const State& state, const Filter& filter, std::vector<Contact>& contacts) {
+  found_.clear();
+  for (const Fast& fast : fast_) look_from(state, fast, filter);
   std::stable_sort(found_.begin(), found_.end(), by_geoms);
   const auto end = std::unique(found_.begin(), found_.end(),
                                [](const Contact& a, const Contact& b) { return a.geoms == b.geoms; });

@@ -71,6 +71,7 @@ class FastBodies {
   };
 
   bool is_near(const State& state, const Vec3& middle, double half_way, int other) const;
+  void look_from(const State& state, const Fast& fast, const Filter& filter);
   void meet(const State& state, const Fast& fast, const Vec3& way, int other);
 
   const Model* model_;
