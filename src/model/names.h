@@ -21,6 +21,7 @@ inline constexpr std::array<std::string_view, 3> stepper_kind_names = {"quick", 
 inline constexpr std::array<std::string_view, 2> precision_names = {"double", "single"};
 inline constexpr std::array<std::string_view, 5> simd_names = {"auto", "sse2", "avx2", "avx512", "off"};
 inline constexpr std::array<std::string_view, 2> colliders_names = {"lanes", "ode"};
+inline constexpr std::array<std::string_view, 2> row_order_names = {"shuffled", "fixed"};
 
 constexpr std::string_view name_of(ActorKind kind) { return actor_kind_names[static_cast<int>(kind)]; }
 constexpr std::string_view name_of(Shape shape) { return shape_names[static_cast<int>(shape)]; }
@@ -33,6 +34,7 @@ constexpr std::string_view name_of(Simd simd) { return simd_names[static_cast<in
 constexpr std::string_view name_of(Colliders colliders) {
   return colliders_names[static_cast<int>(colliders)];
 }
+constexpr std::string_view name_of(RowOrder order) { return row_order_names[static_cast<int>(order)]; }
 
 /// The enumerator whose name stands in `names`, or nothing.
 template <class Enum, std::size_t N>

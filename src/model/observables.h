@@ -6,6 +6,19 @@
 
 namespace pbmpi::model {
 
+/// How far the impulses and velocities of a step are from the solution of its constraint system. Each is the
+/// largest over the rows of a world, a number that no order of summing can change. With w = J v + cfm p - rhs
+/// of a row with impulse p in [low, high], the natural map is the change of velocity that a projected step
+/// along w still asks for: |p - clamp(p - w / d, low, high)| d, d being the row's diagonal; |w| where
+/// nothing bounds p.
+struct Residuals {
+  double joint_speed = 0;        ///< [m/s] |w| of the joints' rows without bounds that act along a line
+  double joint_turn = 0;         ///< [rad/s] the same of those about an axis
+  double complementarity_j = 0;  ///< [J] |p w| of the contacts' normal rows
+  double natural_speed = 0;      ///< [m/s] natural map of all rows along lines: joints and contacts
+  double natural_turn = 0;       ///< [rad/s] of all rows about axes
+};
+
 /// Of the last step of a frame, except where it says otherwise.
 struct Observables {
   int contacts = 0;              ///< contact points
@@ -16,6 +29,7 @@ struct Observables {
   double max_penetration_m = 0;  ///< deepest contact
   double joint_gap_m = 0;        ///< largest distance between the two anchors of a joint, after the step
   int nonfinite = 0;             ///< bodies with a NaN or an infinity
+  Residuals residuals;           ///< all 0 unless they are asked for (StepperSettings::residuals)
 };
 
 /// Kinetic and potential energy [J]; bodies are summed in order.

@@ -26,6 +26,10 @@ enum class Simd { automatic, sse2, avx2, avx512, off };
 /// that they lack), or dCollide for all.
 enum class Colliders { lanes, ode };
 
+/// The order of the joints' rows in the sweeps of the sor stepper: anew every 8 iterations, by the step's
+/// key (as ODE's quickstep does), or that of the model in all.
+enum class RowOrder { shuffled, fixed };
+
 /// What a run chooses about the step; the rest is in the Model.
 struct StepperSettings {
   StepperKind kind = StepperKind::quick;
@@ -33,10 +37,13 @@ struct StepperSettings {
   int iterations = 20;      ///< sweeps of an iterative solver, in each substep
   int substeps = 1;         ///< sor: parts of a step without new collision detection
   double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
+  double warm_start = 0;    ///< sor: share of the impulses that a substep takes over from the one before
+  RowOrder row_order = RowOrder::shuffled;
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;
   Colliders colliders = Colliders::lanes;
   bool profile = false;    ///< ODE's: keep what profile_last_step() needs
+  bool residuals = false;  ///< sor: measure Observables::residuals
   std::uint64_t seed = 1;  ///< of the run; a step's random numbers come from (seed, world, step)
 };
 
@@ -72,6 +79,19 @@ class WorldStepper {
     static_cast<void>(world);
     return nullptr;
   }
+};
+
+/// A stepper that can stop in mid-solve, show its state as it would be if the step ended there, and go on as
+/// if nobody had looked.
+class AnytimeStepper : public WorldStepper {
+ public:
+  /// Does the next step of every world up to this many iterations of its last substep (0 or more, at most
+  /// all of them). The next advance() counts this step as its first, and finishes it: its result is the same,
+  /// bit for bit. Until then state() is that before the step; add(), remove() and set_state() drop what was
+  /// begun. Adds the seconds spent to `times`.
+  virtual void begin_step(int iterations, core::PhaseTimes& times) = 0;
+  /// The state of a world as it would be if the step ended where the last begin_step() stopped.
+  virtual const State& look(int world) const = 0;
 };
 
 }  // namespace pbmpi::model

@@ -87,9 +87,16 @@ void refresh(BodyLane<V>& body) {
   body.inv_inertia = rotated(body.rotation, body.inv_inertia_body);
 }
 
-/// ODE's dxStepBody without finite rotation: q += h/2 w q, normalised.
-template <class T>
-void integrate(BodyLane<typename T::V>& body, const Twist<typename T::V>& twist, typename T::Scalar h) {
+/// Where a body is, in lanes.
+template <class V>
+struct alignas(sizeof(V)) PoseLane {
+  Vec3L<V> position;
+  V qw, qx, qy, qz;
+};
+
+/// ODE's dxStepBody without finite rotation: q += h/2 w q, normalised. `body` is a BodyLane or a PoseLane.
+template <class T, class Body>
+void integrate(Body& body, const Twist<typename T::V>& twist, typename T::Scalar h) {
   using V = typename T::V;
   body.position = body.position + twist.linear * T::broadcast(h);
   const Vec3L<V>& w = twist.angular;

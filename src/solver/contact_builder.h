@@ -27,7 +27,8 @@ class ContactBuilder {
   void build(const Manifold* manifolds, ContactSlot<T>& slot, Point* points) const;
 
   /// Next substep, with the velocities as the last sweep left them: the depth that the normal speed has left,
-  /// the same directions and arms, impulses at 0.
+  /// the same directions and arms. Of the impulses the share to be taken over remains; it has not acted on
+  /// the velocities yet.
   void advance(const ContactSlot<T>& slot, Point* points) const;
 
  private:
@@ -182,14 +183,19 @@ void ContactBuilder<T, two_bodies, friction>::advance(const ContactSlot<T>& slot
   const Twist<V> a = bodies_->contact_twists.gather(slot.row_a);
   const Twist<V> b = two_bodies ? bodies_->contact_twists.gather(slot.row_b) : Twist<V>{};
   const V zero = T::broadcast(0);
+  const auto carried = [&](const V& impulse) {
+    return parameters_.warm_start > 0 ? impulse * T::broadcast(parameters_.warm_start) : zero;
+  };
   for (int i = 0; i < slot.num_points; ++i) {
     Point& point = points[i];
     point.depth = point.depth - Solver::speed(point.normal, a, b) * parameters_.h;
     // A gap (negative depth) lets the bodies approach until they touch.
     const V k = point.depth > zero ? T::broadcast(parameters_.soft_erp) : T::broadcast(1);
     point.rhs = k * point.depth / parameters_.h;
-    point.normal.impulse = zero;
-    if constexpr (friction) point.friction[0].impulse = point.friction[1].impulse = zero;
+    point.normal.impulse = carried(point.normal.impulse);
+    if constexpr (friction) {
+      for (Row& row : point.friction) row.impulse = carried(row.impulse);
+    }
   }
 }
 

@@ -34,6 +34,16 @@ class ContactList {
     const ContactBuilder<T, two_bodies, friction> builder(bodies, parameters);
     for (const ContactSlot<T>& slot : slots_) builder.advance(slot, points_of(slot));
   }
+  void push_carried(TwistRows<T>& twists) {
+    for (const ContactSlot<T>& slot : slots_)
+      ContactSolver<T, two_bodies, friction>::push_carried(twists, slot, points_of(slot));
+  }
+  /// visit(slot, its points, the manifold of each lane).
+  template <class Visit>
+  void visit_slots(Visit visit) const {
+    for (std::size_t i = 0; i < slots_.size(); ++i)
+      visit(slots_[i], points_.data() + slots_[i].first_point, order.dealt().data() + i * T::num_lanes);
+  }
   void sweep(TwistRows<T>& twists, const Parameters& parameters, bool backwards) {
     const ContactSolver<T, two_bodies, friction> solver(parameters);
     const std::size_t count = slots_.size();
@@ -95,6 +105,16 @@ class ContactLists {
   }
   void advance(const BodyLanes<T>& bodies, const Parameters& parameters) {
     for_each([&](auto& list) { list.advance(bodies, parameters); });
+  }
+  /// Lets the impulses that the contacts start with act on the bodies.
+  void push_carried(TwistRows<T>& twists) {
+    for_each([&](auto& list) { list.push_carried(twists); });
+  }
+  /// visit(slot, points, manifolds) of each slot of each kind, as last solved.
+  template <class Visit>
+  void visit_slots(Visit visit) const {
+    std::apply([&](const auto&... kind) { ((kind[0].visit_slots(visit), kind[1].visit_slots(visit)), ...); },
+               lists_);
   }
   void sweep(TwistRows<T>& twists, const Parameters& parameters, bool backwards) {
     for_each([&](auto& list) { list.sweep(twists, parameters, backwards); });

@@ -12,7 +12,8 @@ namespace pbmpi::solver {
 template <class Scalar>
 struct ContactParameters {
   Scalar h, soft_erp, soft_cfm, cfm, bounce_velocity, sor_factor;
-  bool restitution;  ///< may a contact bounce?
+  bool restitution;   ///< may a contact bounce?
+  Scalar warm_start;  ///< share of the impulses that a substep takes over from the one before
 };
 
 /// A row of a contact: its direction, the angular parts of J, and M^-1 J^T. Without the parts of b where b is
@@ -72,6 +73,21 @@ class ContactSolver {
     if constexpr (two_bodies) twists.scatter(slot.row_b, b);
   }
 
+  /// Lets the impulses that the points start with act on the bodies.
+  PBMPI_LANES static void push_carried(TwistRows<T>& twists, const ContactSlot<T>& slot,
+                                       const Point* points) {
+    Twist<V> a = twists.gather(slot.row_a), b{};
+    if constexpr (two_bodies) b = twists.gather(slot.row_b);
+    for (int i = 0; i < slot.num_points; ++i) {
+      push(slot, points[i].normal, points[i].normal.impulse, a, b);
+      if constexpr (friction) {
+        for (const Row& row : points[i].friction) push(slot, row, row.impulse, a, b);
+      }
+    }
+    twists.scatter(slot.row_a, a);
+    if constexpr (two_bodies) twists.scatter(slot.row_b, b);
+  }
+
   PBMPI_LANES static V speed(const Row& row, const Twist<V>& a, const Twist<V>& b) {
     if constexpr (two_bodies) {
       return dot(row.direction, a.linear - b.linear) + dot(row.moment_a, a.angular) +
@@ -97,6 +113,11 @@ class ContactSolver {
     const V impulse = T::min(T::max(row.impulse + change, low), high);
     const V applied = impulse - row.impulse;
     row.impulse = impulse;
+    push(slot, row, applied, a, b);
+  }
+
+  PBMPI_LANES static void push(const ContactSlot<T>& slot, const Row& row, const V& applied, Twist<V>& a,
+                               Twist<V>& b) {
     a.linear = a.linear + row.direction * (slot.inv_mass_a * applied);
     a.angular = a.angular + row.turn_a * applied;
     if constexpr (two_bodies) {

@@ -40,13 +40,22 @@ class JointBatches {
     }
   }
 
-  void build(const JointBuilder<T>& builder, BodyLanes<T>& bodies);
+  /// `carries`: the rows start with impulses, which act on the bodies.
+  void build(const JointBuilder<T>& builder, bool carries, BodyLanes<T>& bodies);
   /// Fisher-Yates with keyed numbers: the same order in every batch of a shape, so in every world.
   void shuffle(std::uint64_t key);
+  /// That of the model.
+  void order_as_given();
   void sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies);
 
   /// Rows of a lane of a joint as last built, limits and motors included.
   int num_rows(int shape, int joint, int lane) const;
+  /// visit(rows) of a joint as last solved.
+  template <class Visit>
+  void visit_rows(int shape, int joint, Visit visit) const {
+    const RowsAt at = shapes_[static_cast<std::size_t>(shape)].rows[static_cast<std::size_t>(joint)];
+    with_kind(at.kind, [&](auto kind) { visit(rows_of<kind.value>()[static_cast<std::size_t>(at.index)]); });
+  }
 
  private:
   using Kind = model::JointKind;
@@ -138,22 +147,29 @@ void JointBatches<T>::activate(int slot) {
 }
 
 template <class T>
-void JointBatches<T>::build(const JointBuilder<T>& builder, BodyLanes<T>& bodies) {
+void JointBatches<T>::build(const JointBuilder<T>& builder, bool carries, BodyLanes<T>& bodies) {
   for (Shape& shape : shapes_) {
     for (std::size_t i = 0; i < shape.joints.size(); ++i) {
       if (!shape.active[i / shape.num_joints]) continue;
       const RowsAt at = shape.rows[i];
       with_kind(at.kind, [&](auto kind) {
-        builder.build(shape.joints[i], bodies, rows_of<kind.value>()[static_cast<std::size_t>(at.index)]);
+        auto& rows = rows_of<kind.value>()[static_cast<std::size_t>(at.index)];
+        builder.build(shape.joints[i], bodies, rows);
+        if (carries) JointSolver<T>::push_carried(rows, bodies);
       });
     }
   }
 }
 
 template <class T>
+void JointBatches<T>::order_as_given() {
+  for (Shape& shape : shapes_) std::iota(shape.order.begin(), shape.order.end(), std::size_t{0});
+}
+
+template <class T>
 void JointBatches<T>::shuffle(std::uint64_t key) {
+  order_as_given();
   for (Shape& shape : shapes_) {
-    std::iota(shape.order.begin(), shape.order.end(), std::size_t{0});
     for (std::size_t i = shape.order.size(); i > 1; --i) {
       std::swap(shape.order[i - 1], shape.order[core::mix_key(key, i, 0) % i]);
     }

@@ -31,11 +31,12 @@ class JointBuilder {
   using Scalar = typename T::Scalar;
   using L3 = Vec3L<V>;
 
-  JointBuilder(Scalar h, Scalar erp, Scalar cfm, Scalar sor_factor)
-      : h_(h), k_(erp / h), cfm_(cfm / h), factor_(sor_factor) {}
+  /// carry: the share of a row's impulse with which its next impulse starts.
+  JointBuilder(Scalar h, Scalar erp, Scalar cfm, Scalar sor_factor, Scalar carry)
+      : h_(h), k_(erp / h), cfm_(cfm / h), factor_(sor_factor), carry_(carry) {}
 
-  /// Rows from the poses; impulses start at 0. May add to the twists: a motor that is at its limit pushes as
-  /// an external torque (ODE: dxJointLimitMotor::addLimot).
+  /// Rows from the poses. May add to the twists: a motor that is at its limit pushes as an external torque
+  /// (ODE: dxJointLimitMotor::addLimot). Carried impulses have not acted on the twists yet.
   template <model::JointKind kind>
   void build(const JointLane<V>& joint, BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
 
@@ -81,8 +82,17 @@ class JointBuilder {
   ControlState decide(const AxisControl<V>& control, const V& at_low, const V& at_high, const V& error,
                       const V& velocity) const;
   static RelativeRotation relative_rotation(const JointTermsLane<V>& terms, const Pair& pair);
+  PBMPI_LANES V carried(const V& impulse) const {
+    return carry_ > 0 ? impulse * T::broadcast(carry_) : T::broadcast(0);
+  }
+  template <class Row>
+  static void set_bounds(const ControlState& state, Bounded<Row, V>& row) {
+    row.low = state.low;
+    row.high = state.high;
+    row.row.impulse = T::min(T::max(row.row.impulse, state.low), state.high);
+  }
 
-  Scalar h_, k_, cfm_, factor_;
+  Scalar h_, k_, cfm_, factor_, carry_;
 };
 
 template <class T>
@@ -132,7 +142,7 @@ void JointBuilder<T>::set_point(const JointTermsLane<V>& terms, const Pair& pair
   }
   row.rhs = (b.position + row.arm_b - a.position - row.arm_a) * T::broadcast(k_);
   row.scale = {scale[0], scale[1], scale[2]};
-  row.impulse = {zero, zero, zero};
+  row.impulse = {carried(row.impulse.x), carried(row.impulse.y), carried(row.impulse.z)};
 }
 
 template <class T>
@@ -143,7 +153,7 @@ PBMPI_LANES void JointBuilder<T>::set_axis(const L3& axis, const V& rhs, const P
   row.turn_b = pair.b.inv_inertia * axis;
   row.rhs = rhs;
   row.scale = factor_ / (dot(axis, row.turn_a) + dot(axis, row.turn_b) + cfm_);
-  row.impulse = T::broadcast(0);
+  row.impulse = carried(row.impulse);
 }
 
 template <class T>
@@ -159,7 +169,7 @@ PBMPI_LANES void JointBuilder<T>::set_line(const L3& direction, const L3& moment
   row.cfm = cfm;
   row.scale = factor_ / (pair.a.inv_mass + pair.b.inv_mass + dot(moment_a, row.turn_a) +
                          dot(moment_b, row.turn_b) + cfm);
-  row.impulse = T::broadcast(0);
+  row.impulse = carried(row.impulse);
 }
 
 /// hinge2: the point held along axis 1 (softly, if sprung) and across it.
@@ -313,13 +323,15 @@ bool JointBuilder<T>::set_axis_control(const AxisControl<V>& control, const L3& 
     at_high = s * control.cos_high >= c * control.sin_high ? one : zero;
     at_high = at_low > zero ? zero : at_high;
     const bool at_limit = T::any(at_low + at_high);
-    if (!at_limit && !control.has_motor) return false;
+    if (!at_limit && !control.has_motor) {
+      row.row.impulse = zero;  // nothing for a later substep to carry
+      return false;
+    }
     if (at_limit) error = 2 * T::atan2(s, c) - (at_low > zero ? control.low : control.high);
   }
   const ControlState state = decide(control, at_low, at_high, error, velocity);
   set_axis(axis, state.rhs, pair, row.row);
-  row.low = state.low;
-  row.high = state.high;
+  set_bounds(state, row);
   pair.twist_a.angular = pair.twist_a.angular - row.row.turn_a * state.push;
   pair.twist_b.angular = pair.twist_b.angular + row.row.turn_b * state.push;
   return true;
@@ -335,16 +347,18 @@ void JointBuilder<T>::set_slider_control(const JointLane<V>& joint, const Pair& 
   const V place = -dot(axis, apart + pair.b.rotation * joint.terms.anchor_b);
   const V at_low = place <= control.low ? one : zero;
   const V at_high = at_low > zero ? zero : (place >= control.high ? one : zero);
+  auto& row = rows.line_controls[0];
   rows.control_on[0] = control.has_motor || T::any(at_low + at_high);
-  if (!rows.control_on[0]) return;
+  if (!rows.control_on[0]) {
+    row.row.impulse = zero;
+    return;
+  }
   const V velocity = control.has_hold ? aim(control, place) : control.velocity;
   const ControlState state =
       decide(control, at_low, at_high, place - (at_low > zero ? control.low : control.high), velocity);
   const L3 moment = cross(apart * T::broadcast(static_cast<Scalar>(0.5)), axis);
-  auto& row = rows.line_controls[0];
   set_line(axis, moment, moment, state.rhs, T::broadcast(cfm_), pair, row.row);
-  row.low = state.low;
-  row.high = state.high;
+  set_bounds(state, row);
   pair.twist_a.linear = pair.twist_a.linear - axis * (pair.a.inv_mass * state.push);
   pair.twist_a.angular = pair.twist_a.angular - row.row.turn_a * state.push;
   pair.twist_b.linear = pair.twist_b.linear + axis * (pair.b.inv_mass * state.push);

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <type_traits>
 
 #include "solver/body_lanes.h"
 
@@ -63,6 +65,19 @@ struct alignas(sizeof(typename T::V)) JointRows {
   std::array<Bounded<LineRow<V>, V>, counts.line_controls> line_controls;
 };
 
+/// Calls visit(row) for each row that stands alone: lines, axes, and limits and motors that are on.
+template <class Rows, class Visit>
+PBMPI_LANES void for_each_single_row(Rows& rows, Visit visit) {
+  for (auto& row : rows.lines) visit(row);
+  for (auto& row : rows.axes) visit(row);
+  for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+    if (rows.control_on[i]) visit(rows.axis_controls[i].row);
+  }
+  for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
+    if (rows.control_on[i]) visit(rows.line_controls[i].row);
+  }
+}
+
 /// Sweeps over the rows of a joint. `factor` is in the rows' scale already.
 template <class T>
 class JointSolver {
@@ -90,6 +105,30 @@ class JointSolver {
       auto& control = rows.line_controls[i];
       push(control.row, clamped(control, step_of(control.row, a, b)), inv_mass_a, inv_mass_b, a, b);
     }
+    bodies.twists[rows.slot_a] = a;
+    bodies.twists[rows.slot_b] = b;
+  }
+
+  /// Lets the impulses that the rows start with act on the bodies.
+  template <model::JointKind kind>
+  PBMPI_LANES static void push_carried(const JointRows<T, kind>& rows, BodyLanes<T>& bodies) {
+    Twist<V> a = bodies.twists[rows.slot_a], b = bodies.twists[rows.slot_b];
+    for (const PointRows<V>& row : rows.points) {
+      const Vec3L<V>& p = row.impulse;
+      a.linear = a.linear + p * rows.inv_mass_a;
+      b.linear = b.linear - p * rows.inv_mass_b;
+      a.angular = a.angular + row.turn_a[0] * p.x + row.turn_a[1] * p.y + row.turn_a[2] * p.z;
+      b.angular = b.angular - row.turn_b[0] * p.x - row.turn_b[1] * p.y - row.turn_b[2] * p.z;
+    }
+    for_each_single_row(rows, [&](const auto& row) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(row)>, AxisRow<V>>) {
+        a.angular = a.angular + row.turn_a * row.impulse;
+        b.angular = b.angular - row.turn_b * row.impulse;
+      } else {
+        apply(row, row.impulse, rows.inv_mass_a, a);
+        apply_to_b(row, row.impulse, rows.inv_mass_b, b);
+      }
+    });
     bodies.twists[rows.slot_a] = a;
     bodies.twists[rows.slot_b] = b;
   }

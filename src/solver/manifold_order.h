@@ -39,6 +39,8 @@ class ManifoldOrder {
   /// [slots][num_lanes]; lanes without a manifold idle on `static_slot`, which comes after all other slots of
   /// bodies.
   std::span<const Manifold> deal(int num_lanes, int static_slot);
+  /// What the last deal() returned, without the points' memory, which may be gone.
+  std::span<const Manifold> dealt() const { return dealt_; }
   int num_slots() const { return static_cast<int>(slots_.size()); }
   /// The most that a manifold of the slot has.
   int num_points(int slot) const { return slots_[static_cast<std::size_t>(slot)].num_points; }

@@ -10,6 +10,7 @@
 #include "core/clock.h"
 #include "model/contact.h"
 #include "model/model.h"
+#include "model/observables.h"
 #include "model/state.h"
 #include "solver/articulation.h"
 
@@ -21,6 +22,8 @@ struct StepParameters {
   int substeps = 1;
   int iterations = 20;
   double sor_factor = 1.3;
+  double warm_start = 0;        ///< share of the impulses that a substep takes over from the one before
+  bool shuffled = true;         ///< false: the joints of an articulation keep their order
   std::uint64_t order_key = 0;  ///< (seed, step): the order of joints within an articulation
 };
 
@@ -62,8 +65,22 @@ class Pack {
                              std::vector<model::Contact>& contacts) = 0;
   /// One step with these contacts (of each world, in canonical order); spans hold during the call.
   /// Adds the seconds spent on rows, solve and integrate to `times`.
-  virtual void step(std::span<const std::span<const model::Contact>> contacts,
-                    const StepParameters& parameters, core::PhaseTimes& times) = 0;
+  void step(std::span<const std::span<const model::Contact>> contacts, const StepParameters& parameters,
+            core::PhaseTimes& times) {
+    begin_step(contacts, parameters, times);
+    finish_step(times);
+  }
+  /// The same in parts: all before the iterations of the last substep, then of these as many as are left at
+  /// most, then the rest of the step.
+  virtual void begin_step(std::span<const std::span<const model::Contact>> contacts,
+                          const StepParameters& parameters, core::PhaseTimes& times) = 0;
+  virtual void iterate(int iterations, core::PhaseTimes& times) = 0;
+  virtual void finish_step(core::PhaseTimes& times) = 0;
+  /// Before finish_step(): the states [num_worlds] as they would be if the step ended now. Costs an
+  /// integration, and disturbs nothing.
+  virtual void look(std::span<model::State> states) = 0;
+  /// How far a world's last step, as finish_step() left it, is from the solution of its constraints.
+  virtual model::Residuals residuals(int world) const = 0;
   /// Rows that a joint had in the last step, limits and motors included.
   virtual int joint_rows(int world, int joint) const = 0;
 };

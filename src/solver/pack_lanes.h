@@ -8,6 +8,7 @@
 #include "solver/collider_lanes.h"
 #include "solver/contact_lists.h"
 #include "solver/passes.h"
+#include "solver/residual_meter.h"
 #include "solver/slot_list.h"
 #include "solver/world_lanes.h"
 
@@ -51,7 +52,11 @@ class PackLanes final : public Pack {
                      std::vector<model::Contact>& contacts) override {
     if (collider_) collider_->collide_pairs(worlds_, world, pairs, contacts);
   }
-  void step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) override;
+  void begin_step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) override;
+  void iterate(int iterations, core::PhaseTimes& times) override;
+  void finish_step(core::PhaseTimes& times) override;
+  void look(std::span<model::State> states) override;
+  model::Residuals residuals(int world) const override;
 
  private:
   void sort_contacts(Contacts contacts);
@@ -63,8 +68,15 @@ class PackLanes final : public Pack {
   void apply_gravity(Scalar h);
   void integrate_bodies(Scalar h);
   void damp(double h);
+  void start_substep();
+  void sweep();
+  ContactParameters<Scalar> contact_parameters() const;
 
-  SlotList jointed_, free_;  ///< slots in contact
+  StepParameters parameters_;  ///< of the step at hand, with how far it has come
+  int substep_ = 0, iteration_ = 0;
+  Scalar h_ = 0;                         ///< [s] a substep
+  std::vector<PoseLane<V>> look_poses_;  ///< [slots] scratch
+  SlotList jointed_, free_;              ///< slots in contact
   SlotSet seen_;
   Passes passes_;
   WorldLanes<T> worlds_;
@@ -142,51 +154,128 @@ void PackLanes<T>::damp(double h) {
 }
 
 template <class T>
-void PackLanes<T>::step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
-  constexpr int iterations_per_order = 8;  // as ODE's quickstep
+ContactParameters<typename T::Scalar> PackLanes<T>::contact_parameters() const {
   const auto scalar = [](double value) { return static_cast<Scalar>(value); };
-  const auto h = scalar(parameters.dt_s / parameters.substeps);
   const model::Model& laws = worlds_.model(0);  // the same in all worlds of a pack
-  const JointBuilder<T> joint_builder(h, scalar(laws.erp), scalar(laws.cfm), scalar(parameters.sor_factor));
-  const JointSolver<T> joint_solver(scalar(laws.cfm) / h);
-  const ContactParameters<Scalar> contact_parameters{h,
-                                                     scalar(laws.contact_law.soft_erp),
-                                                     scalar(laws.contact_law.soft_cfm),
-                                                     scalar(laws.cfm),
-                                                     scalar(laws.contact_law.bounce_velocity),
-                                                     scalar(parameters.sor_factor),
-                                                     passes_.restitution};
+  return {h_,
+          scalar(laws.contact_law.soft_erp),
+          scalar(laws.contact_law.soft_cfm),
+          scalar(laws.cfm),
+          scalar(laws.contact_law.bounce_velocity),
+          scalar(parameters_.sor_factor),
+          passes_.restitution,
+          scalar(parameters_.warm_start)};
+}
+
+/// Rows and forces, up to the first iteration.
+template <class T>
+void PackLanes<T>::start_substep() {
+  const auto scalar = [](double value) { return static_cast<Scalar>(value); };
+  const model::Model& laws = worlds_.model(0);
   BodyLanes<T>& bodies = worlds_.bodies;
+  const bool carries = substep_ > 0 && parameters_.warm_start > 0;
+  if (substep_ == 0) {
+    contacts_.build(bodies, contact_parameters());
+  } else {
+    contacts_.advance(bodies, contact_parameters());
+  }
+  if (passes_.gyroscopic_torque) apply_gyroscopic_torques(h_);
+  if (passes_.gravity) apply_gravity(h_);
+  const JointBuilder<T> builder(h_, scalar(laws.erp), scalar(laws.cfm), scalar(parameters_.sor_factor),
+                                scalar(carries ? parameters_.warm_start : 0));
+  worlds_.joints.build(builder, carries, bodies);
+  write_contact_twists(free_);
+  if (carries) {
+    write_contact_twists(jointed_);
+    contacts_.push_carried(bodies.contact_twists);
+    read_contact_twists(jointed_);
+  }
+  iteration_ = 0;
+}
+
+/// One iteration: all joints, then all contacts.
+template <class T>
+void PackLanes<T>::sweep() {
+  constexpr int iterations_per_order = 8;  // as ODE's quickstep
+  BodyLanes<T>& bodies = worlds_.bodies;
+  if (!parameters_.shuffled) {
+    if (iteration_ == 0) worlds_.joints.order_as_given();
+  } else if (iteration_ % iterations_per_order == 0) {
+    worlds_.joints.shuffle(core::mix_key(parameters_.order_key, static_cast<std::uint64_t>(substep_),
+                                         static_cast<std::uint64_t>(iteration_)));
+  }
+  worlds_.joints.sweep(JointSolver<T>(static_cast<Scalar>(worlds_.model(0).cfm) / h_), bodies);
+  write_contact_twists(jointed_);
+  contacts_.sweep(bodies.contact_twists, contact_parameters(), iteration_ % 2 == 1);
+  read_contact_twists(jointed_);
+  ++iteration_;
+}
+
+template <class T>
+void PackLanes<T>::begin_step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
+  parameters_ = parameters;
+  h_ = static_cast<Scalar>(parameters.dt_s / parameters.substeps);
   core::LapTimer timer(times);
   sort_contacts(contacts);
   find_contact_slots();
-  for (int substep = 0; substep < parameters.substeps; ++substep) {
-    if (substep == 0) {
-      contacts_.build(bodies, contact_parameters);
-    } else {
-      contacts_.advance(bodies, contact_parameters);
-    }
-    if (passes_.gyroscopic_torque) apply_gyroscopic_torques(h);
-    if (passes_.gravity) apply_gravity(h);
-    worlds_.joints.build(joint_builder, bodies);
+  substep_ = 0;
+  start_substep();
+  timer.lap(core::Phase::rows);
+  while (substep_ + 1 < parameters.substeps) {
+    finish_step(times);
+    timer = core::LapTimer(times);
+    ++substep_;
+    start_substep();
     timer.lap(core::Phase::rows);
-    write_contact_twists(free_);
-    for (int iteration = 0; iteration < parameters.iterations; ++iteration) {
-      if (iteration % iterations_per_order == 0) {
-        worlds_.joints.shuffle(core::mix_key(parameters.order_key, static_cast<std::uint64_t>(substep),
-                                             static_cast<std::uint64_t>(iteration)));
-      }
-      worlds_.joints.sweep(joint_solver, bodies);
-      write_contact_twists(jointed_);
-      contacts_.sweep(bodies.contact_twists, contact_parameters, iteration % 2 == 1);
-      read_contact_twists(jointed_);
-    }
-    read_contact_twists(free_);
-    timer.lap(core::Phase::solve);
-    integrate_bodies(h);
-    if (passes_.damping) damp(parameters.dt_s / parameters.substeps);
-    timer.lap(core::Phase::integrate);
   }
+}
+
+template <class T>
+void PackLanes<T>::iterate(int iterations, core::PhaseTimes& times) {
+  core::LapTimer timer(times);
+  for (int i = 0; i < iterations && iteration_ < parameters_.iterations; ++i) sweep();
+  timer.lap(core::Phase::solve);
+}
+
+/// Ends the substep at hand.
+template <class T>
+void PackLanes<T>::finish_step(core::PhaseTimes& times) {
+  core::LapTimer timer(times);
+  while (iteration_ < parameters_.iterations) sweep();
+  read_contact_twists(free_);
+  timer.lap(core::Phase::solve);
+  integrate_bodies(h_);
+  if (passes_.damping) damp(parameters_.dt_s / parameters_.substeps);
+  timer.lap(core::Phase::integrate);
+}
+
+/// Free bodies' twists lie with the contacts during the solve; what is copied of them here is overwritten
+/// when it ends.
+template <class T>
+void PackLanes<T>::look(std::span<model::State> states) {
+  read_contact_twists(free_);
+  look_poses_.resize(worlds_.gravity.size());
+  worlds_.for_each_active_slot([&](int slot) {
+    const BodyLane<V>& body = worlds_.bodies.bodies[slot];
+    PoseLane<V>& pose = look_poses_[static_cast<std::size_t>(slot)];
+    pose = {body.position, body.qw, body.qx, body.qy, body.qz};
+    integrate<T>(pose, worlds_.bodies.twists[slot], h_);
+  });
+  for (std::size_t world = 0; world < states.size(); ++world)
+    worlds_.store_with(look_poses_.data(), static_cast<int>(world), states[world]);
+}
+
+template <class T>
+model::Residuals PackLanes<T>::residuals(int world) const {
+  ResidualMeter<T> meter(h_, worlds_.model(0).cfm, contact_parameters());
+  worlds_.visit_joint_rows(world,
+                           [&](const auto& rows, int lane) { meter.add_joint(rows, worlds_.bodies, lane); });
+  contacts_.visit_slots([&](const auto& slot, const auto* points, const Manifold* manifolds) {
+    meter.add_contacts(slot, points, worlds_.bodies.contact_twists, [&](int lane, int point) {
+      return point < manifolds[lane].num_points && worlds_.world_at(manifolds[lane].a) == world;
+    });
+  });
+  return meter.result();
 }
 
 }  // namespace pbmpi::solver

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "solver/articulation.h"
 #include "solver/sor_world.h"
 #include "solver/step_settings.h"
@@ -37,9 +38,11 @@ struct Group {
   std::unique_ptr<Pack> pack;
   std::vector<std::vector<model::Contact>> contacts;  ///< [worlds] of this step
   std::vector<std::span<const model::Contact>> contact_spans;
+  std::vector<model::State> looks;  ///< [worlds] of the step that was begun
+  double begun_s = 0;               ///< seconds spent on it
 };
 
-class SorStepper final : public model::WorldStepper {
+class SorStepper final : public model::AnytimeStepper {
  public:
   SorStepper(const model::StepperSettings& settings, model::MakeNarrowPhase make_narrow_phase)
       : settings_(settings), make_narrow_phase_(std::move(make_narrow_phase)) {}
@@ -48,11 +51,11 @@ class SorStepper final : public model::WorldStepper {
            std::int64_t step) override {
     worlds_.emplace(world,
                     std::make_unique<SorWorld>(world, std::move(model), state, step, make_narrow_phase_));
-    groups_.clear();
+    drop_groups();
   }
   void remove(int world) override {
     worlds_.erase(world);
-    groups_.clear();
+    drop_groups();
   }
   void set_state(int world, const model::State& state, std::int64_t step) override;
   const model::State& state(int world) const override { return worlds_.at(world)->state(); }
@@ -63,17 +66,34 @@ class SorStepper final : public model::WorldStepper {
   void advance(int num_steps, core::PhaseTimes& times) override {
     if (groups_.empty()) make_groups();
     for (Group& group : groups_) {
-      const double start_s = core::now_s();
-      for (int i = 0; i < num_steps; ++i) step(group, times);
+      const double start_s = core::now_s() - group.begun_s;
+      for (int i = 0; i < num_steps; ++i) {
+        if (i > 0 || !begun_) begin(group, times);
+        finish(group, times);
+      }
       observe(group, times);
       share_cost(group, core::now_s() - start_s);
+      group.begun_s = 0;
     }
+    begun_ = begun_ && num_steps == 0;
+  }
+
+  void begin_step(int iterations, core::PhaseTimes& times) override;
+  const model::State& look(int world) const override {
+    const auto [group, index] = places_.at(world);
+    return groups_[group].looks[static_cast<std::size_t>(index)];
   }
 
  private:
+  /// They are made anew from the states before the next step.
+  void drop_groups() {
+    groups_.clear();
+    begun_ = false;
+  }
   void make_groups();
-  void step(Group& group, core::PhaseTimes& times);
-  static void observe(Group& group, core::PhaseTimes& times);
+  void begin(Group& group, core::PhaseTimes& times);
+  static void finish(Group& group, core::PhaseTimes& times);
+  void observe(Group& group, core::PhaseTimes& times) const;
   static void share_cost(Group& group, double seconds);
 
   model::StepperSettings settings_;
@@ -81,6 +101,7 @@ class SorStepper final : public model::WorldStepper {
   std::map<int, std::unique_ptr<SorWorld>> worlds_;
   std::vector<Group> groups_;                          ///< empty: to be made anew
   std::map<int, std::pair<std::size_t, int>> places_;  ///< world -> its group, and its index there
+  bool begun_ = false;                                 ///< is every group in mid-step?
 };
 
 void SorStepper::set_state(int world, const model::State& state, std::int64_t step) {
@@ -88,11 +109,11 @@ void SorStepper::set_state(int world, const model::State& state, std::int64_t st
   const bool same_step = changed.step() == step;
   changed.set_state(state, step);
   if (groups_.empty()) return;
-  if (same_step) {
+  if (same_step && !begun_) {
     const auto [group, index] = places_.at(world);
     groups_[group].pack->load(index, state);
   } else {
-    groups_.clear();  // the joints' settings of another step
+    drop_groups();  // the joints' settings of another step
   }
 }
 
@@ -130,7 +151,27 @@ void SorStepper::make_groups() {
   }
 }
 
-void SorStepper::step(Group& group, core::PhaseTimes& times) {
+/// All groups stop before any goes on, so that the estimates of all worlds are there at once.
+void SorStepper::begin_step(int iterations, core::PhaseTimes& times) {
+  core::require_invariant(!begun_, "begin_step: the step before is finished");
+  core::require_invariant(iterations >= 0 && iterations <= settings_.iterations,
+                          "begin_step: no more iterations than a step has");
+  if (groups_.empty()) make_groups();
+  for (Group& group : groups_) {
+    const double start_s = core::now_s();
+    begin(group, times);
+    group.pack->iterate(iterations, times);
+    LapTimer timer(times);
+    group.looks.clear();
+    for (const SorWorld* world : group.worlds) group.looks.push_back(world->state());
+    group.pack->look(group.looks);
+    timer.lap(Phase::integrate);
+    group.begun_s = core::now_s() - start_s;
+  }
+  begun_ = true;
+}
+
+void SorStepper::begin(Group& group, core::PhaseTimes& times) {
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i)
     group.worlds[i]->fire_events(*group.pack, static_cast<int>(i));
@@ -141,14 +182,21 @@ void SorStepper::step(Group& group, core::PhaseTimes& times) {
   timer.lap(Phase::collide);
   // Worlds of a pack may stand at different steps only if they came to this stepper at different times; the
   // order of the rows then follows each world's own step, so it is the key of the first that all must share.
-  group.pack->step(group.contact_spans, step_parameters(settings_, group.worlds.front()->step()), times);
+  group.pack->begin_step(group.contact_spans, step_parameters(settings_, group.worlds.front()->step()),
+                         times);
+}
+
+void SorStepper::finish(Group& group, core::PhaseTimes& times) {
+  group.pack->finish_step(times);
   for (SorWorld* world : group.worlds) world->finish_step();
 }
 
-void SorStepper::observe(Group& group, core::PhaseTimes& times) {
+void SorStepper::observe(Group& group, core::PhaseTimes& times) const {
   LapTimer timer(times);
-  for (std::size_t i = 0; i < group.worlds.size(); ++i)
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
     group.worlds[i]->observe(*group.pack, static_cast<int>(i), group.contacts[i]);
+    if (settings_.residuals) group.worlds[i]->observe_residuals(*group.pack, static_cast<int>(i));
+  }
   timer.lap(Phase::islands);
 }
 
@@ -164,8 +212,8 @@ void SorStepper::share_cost(Group& group, double seconds) {
 
 }  // namespace
 
-std::unique_ptr<model::WorldStepper> make_sor_stepper(const model::StepperSettings& settings,
-                                                      model::MakeNarrowPhase make_narrow_phase) {
+std::unique_ptr<model::AnytimeStepper> make_sor_stepper(const model::StepperSettings& settings,
+                                                        model::MakeNarrowPhase make_narrow_phase) {
   require_valid(settings);
   return std::make_unique<SorStepper>(settings, std::move(make_narrow_phase));
 }

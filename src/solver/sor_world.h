@@ -44,6 +44,9 @@ class SorWorld {
   /// Reads the state back and measures it; rows and contacts are those of the last step.
   void observe(const Pack& pack, int index, std::span<const model::Contact> contacts);
 
+  /// Of the last step; the state must have come from it.
+  void observe_residuals(const Pack& pack, int index) { observables_.residuals = pack.residuals(index); }
+
   double cost_s = 0;  ///< of the last advance()
 
  private:

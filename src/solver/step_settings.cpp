@@ -15,6 +15,8 @@ void require_valid(const model::StepperSettings& settings) {
   core::require_input(settings.dt_s > 0, "a step must be longer than 0 s");
   core::require_input(settings.iterations >= 1, "the solver needs at least 1 iteration");
   core::require_input(settings.substeps >= 1, "a step has at least 1 substep");
+  core::require_input(settings.warm_start >= 0 && settings.warm_start <= 1,
+                      "warm start: the share of the impulses to take over is 0 to 1");
   core::require_input(has_simd(settings.simd),
                       "this machine lacks the instruction set asked for with --simd; use auto");
 }
@@ -25,6 +27,8 @@ StepParameters step_parameters(const model::StepperSettings& settings, std::int6
   parameters.substeps = settings.substeps;
   parameters.iterations = settings.iterations;
   parameters.sor_factor = settings.sor_factor;
+  parameters.warm_start = settings.warm_start;
+  parameters.shuffled = settings.row_order == model::RowOrder::shuffled;
   parameters.order_key = core::mix_key(settings.seed, static_cast<std::uint64_t>(step), 0);
   return parameters;
 }

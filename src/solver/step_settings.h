@@ -9,8 +9,8 @@
 
 namespace pbmpi::solver {
 
-/// Throws core::InputError for dt <= 0, iterations or substeps < 1, or an instruction set that this machine
-/// lacks.
+/// Throws core::InputError for dt <= 0, iterations or substeps < 1, a warm start outside 0 to 1, or an
+/// instruction set that this machine lacks.
 void require_valid(const model::StepperSettings& settings);
 
 /// Of this step of a run.

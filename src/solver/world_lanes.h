@@ -38,7 +38,14 @@ class WorldLanes {
       store_body(world, static_cast<int>(body), state);
   }
   void load_body(int world, int body, const model::State& state);
-  void store_body(int world, int body, model::State& state) const;
+  void store_body(int world, int body, model::State& state) const {
+    store_body(world, body, bodies.bodies.data(), state);
+  }
+  /// A world as it would be with these poses [slots] and the twists of now.
+  void store_with(const PoseLane<V>* poses, int world, model::State& state) const {
+    for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body)
+      store_body(world, static_cast<int>(body), poses, state);
+  }
   /// See Pack::set_active().
   void set_active(int world, std::span<const int> bodies);
   bool is_active(int slot) const { return active_.empty() || active_[slot] != 0; }
@@ -56,6 +63,16 @@ class WorldLanes {
   }
   model::BodyPose pose(int world, int body) const;
   int joint_rows(int world, int joint) const;
+  /// visit(rows, lane) of each joint of a world, as last solved.
+  template <class Visit>
+  void visit_joint_rows(int world, Visit visit) const {
+    for (const JointPlace& at : worlds_[world].joints)
+      joints.visit_rows(at.shape, at.joint, [&](const auto& rows) { visit(rows, at.lane); });
+  }
+  /// The world whose body lies there; -1 for the static slot and idle lanes.
+  int world_at(LanePlace place) const {
+    return place.slot == bodies.static_slot ? -1 : world_at_.data()[place.slot * T::num_lanes + place.lane];
+  }
 
   int num_worlds() const { return static_cast<int>(worlds_.size()); }
   const model::Model& model(int world) const { return *worlds_[static_cast<std::size_t>(world)].model; }
@@ -83,6 +100,9 @@ class WorldLanes {
   /// Copies of one shape, with their worlds.
   using Copies = std::vector<std::pair<int, const Articulation*>>;
 
+  /// `poses`: BodyLane or PoseLane, [slots].
+  template <class Poses>
+  void store_body(int world, int body, const Poses* poses, model::State& state) const;
   void place(std::span<const PackedWorld> worlds);
   void place_copies(const ArticulationShape& shape, const Copies& copies, int first_slot, int shape_index);
   void set_masses(const World& world, int body);
@@ -97,6 +117,7 @@ class WorldLanes {
   }
 
   std::vector<World> worlds_;
+  std::vector<int> world_at_;     ///< [slots x num_lanes]
   std::vector<char> active_;      ///< [slots]; empty: all are
   std::vector<int> joint_count_;  ///< [slots] of the articulation that a slot belongs to
 };
@@ -146,6 +167,7 @@ void WorldLanes<T>::place(std::span<const PackedWorld> worlds) {
   bodies = BodyLanes<T>(num_slots);
   gravity.assign(static_cast<std::size_t>(num_slots), {T::broadcast(0), T::broadcast(0), T::broadcast(0)});
   int first_slot = 0;
+  world_at_.assign(static_cast<std::size_t>(num_slots * T::num_lanes), -1);
   joint_count_.assign(static_cast<std::size_t>(num_slots), 0);
   for (const auto& [shape, members] : copies) {
     std::fill_n(joint_count_.begin() + first_slot, num_batches(members) * shape.num_bodies,
@@ -162,8 +184,11 @@ void WorldLanes<T>::place_copies(const ArticulationShape& shape, const Copies& c
   for (std::size_t m = 0; m < copies.size(); ++m) {
     const auto [w, articulation] = copies[m];
     const int batch = static_cast<int>(m) / T::num_lanes, lane = static_cast<int>(m) % T::num_lanes;
-    for (int i = 0; i < shape.num_bodies; ++i)
-      worlds_[w].bodies[articulation->bodies[i]] = {first_slot + batch * shape.num_bodies + i, lane};
+    for (int i = 0; i < shape.num_bodies; ++i) {
+      const int slot = first_slot + batch * shape.num_bodies + i;
+      worlds_[w].bodies[articulation->bodies[i]] = {slot, lane};
+      world_at_[slot * T::num_lanes + lane] = w;
+    }
     for (std::size_t j = 0; j < shape.joints.size(); ++j) {
       const int joint = batch * static_cast<int>(shape.joints.size()) + static_cast<int>(j);
       worlds_[w].joints[articulation->joints[j]] = {shape_index, joint, lane};
@@ -305,12 +330,13 @@ void WorldLanes<T>::load_body(int world, int body, const model::State& state) {
 }
 
 template <class T>
-void WorldLanes<T>::store_body(int world, int body, model::State& state) const {
+template <class Poses>
+void WorldLanes<T>::store_body(int world, int body, const Poses* poses, model::State& state) const {
   const auto vector_of = [](const Vec3L<V>& v, int lane) {
     return model::Vec3(T::get(v.x, lane), T::get(v.y, lane), T::get(v.z, lane));
   };
   const LanePlace& at = worlds_[world].bodies[body];
-  const BodyLane<V>& lanes = bodies.bodies[at.slot];
+  const Poses& lanes = poses[at.slot];
   state.position[body] = vector_of(lanes.position, at.lane);
   state.orientation[body] = {T::get(lanes.qw, at.lane), T::get(lanes.qx, at.lane), T::get(lanes.qy, at.lane),
                              T::get(lanes.qz, at.lane)};
