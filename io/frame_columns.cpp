@@ -36,6 +36,15 @@ const std::vector<ColumnSpec>& world_columns() {
   return columns;
 }
 
+const std::vector<ColumnSpec>& residual_columns() {
+  static const std::vector<ColumnSpec> columns = {{"joint_speed", H5T_NATIVE_DOUBLE, 1, "m s-1"},
+                                                  {"joint_turn", H5T_NATIVE_DOUBLE, 1, "rad s-1"},
+                                                  {"complementarity", H5T_NATIVE_DOUBLE, 1, "J"},
+                                                  {"natural_speed", H5T_NATIVE_DOUBLE, 1, "m s-1"},
+                                                  {"natural_turn", H5T_NATIVE_DOUBLE, 1, "rad s-1"}};
+  return columns;
+}
+
 const std::vector<ColumnSpec>& frame_columns() {
   static const std::vector<ColumnSpec> columns = {{"step", H5T_NATIVE_INT64},
                                                   {"time", H5T_NATIVE_DOUBLE, 1, "s"},
@@ -143,6 +152,7 @@ FrameBytes frame_bytes(const RunShape& shape) {
                          GrowingTable::row_bytes(estimate_compute_columns(), ranks);
     bytes.recorded += GrowingTable::row_bytes(estimated_body_columns(), bodies);
   }
+  if (shape.optional.residuals) bytes.every_frame += GrowingTable::row_bytes(residual_columns(), worlds);
   if (shape.optional.profile) {
     bytes.every_frame +=
         GrowingTable::row_bytes(island_columns(), bodies) + GrowingTable::row_bytes(space_columns(), worlds);
@@ -169,6 +179,10 @@ FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const model::Worl
               table_shape(shape.num_frames, shape.num_ranks, frames_to_hold(shape))),
       events_(file, ranks, "/events", event_columns(), table_shape(max_events, 0, max_events)) {
   link_step_and_time(file);
+  if (shape.optional.residuals) {
+    residuals_.emplace(file, ranks, "/observables/residual", residual_columns(),
+                       table_shape(shape.num_frames, shape.num_worlds, frames_to_hold(shape)));
+  }
   if (shape.optional.profile) {
     islands_.emplace(file, ranks, "/timings/island", island_columns(),
                      table_shape(shape.num_frames, shape.num_bodies, frames_to_hold(shape)));
@@ -189,6 +203,7 @@ void FrameColumns::add(const model::FrameRecord& frame) {
   core::require_invariant(frame.frame == next_frame_, "frames come in order");
   ++next_frame_;
   add_observables(frame);
+  if (residuals_) add_residuals(frame);
   if (islands_) add_profiles(frame);
   add_times(frame);
   if ((frame.frame + 1) % record_every_ == 0) add_bodies(frame);
@@ -253,6 +268,21 @@ void FrameColumns::add_observables(const model::FrameRecord& frame) {
   }
 }
 
+void FrameColumns::add_residuals(const model::FrameRecord& frame) {
+  std::vector<Range> ranges;
+  for (const model::LocalWorld& world : frame.worlds) append_range(ranges, static_cast<hsize_t>(world.id), 1);
+  residuals_->begin_row(ranges);
+  for (const model::LocalWorld& world : frame.worlds) {
+    const model::Residuals& seen = world.observables->residuals;
+    const auto item = static_cast<hsize_t>(world.id);
+    residuals_->put(0, item, seen.joint_speed);
+    residuals_->put(1, item, seen.joint_turn);
+    residuals_->put(2, item, seen.complementarity_j);
+    residuals_->put(3, item, seen.natural_speed);
+    residuals_->put(4, item, seen.natural_turn);
+  }
+}
+
 void FrameColumns::add_profiles(const model::FrameRecord& frame) {
   std::vector<Range> bodies, worlds;
   for (const model::LocalWorld& world : frame.worlds) {
@@ -311,6 +341,7 @@ void FrameColumns::add(const model::RunEvent& event) {
 
 std::vector<GrowingTable*> FrameColumns::tables() {
   std::vector<GrowingTable*> all = {&bodies_, &recorded_, &worlds_, &frames_, &phases_, &events_};
+  if (residuals_) all.push_back(&*residuals_);
   if (islands_) all.insert(all.end(), {&*islands_, &*spaces_});
   for (auto* table : {&estimated_bodies_, &estimate_times_, &estimate_compute_}) {
     if (*table) all.push_back(&**table);

@@ -64,6 +64,7 @@ class FrameColumns {
   std::vector<GrowingTable*> tables();
   void add_bodies(const model::FrameRecord& frame);
   void add_observables(const model::FrameRecord& frame);
+  void add_residuals(const model::FrameRecord& frame);
   void add_profiles(const model::FrameRecord& frame);
   void add_times(const model::FrameRecord& frame);
   void add_estimate(const model::FrameRecord& frame);
@@ -74,12 +75,13 @@ class FrameColumns {
   std::int64_t next_frame_ = 0;
   std::int64_t events_dropped_ = 0;
   bool wrote_collectively_ = false;
-  GrowingTable bodies_;    ///< [P][N][width]
-  GrowingTable recorded_;  ///< [P] step and time of the above
-  GrowingTable worlds_;    ///< [T][W]
-  GrowingTable frames_;    ///< [T]
-  GrowingTable phases_;    ///< [T][R]
-  GrowingTable events_;    ///< [E]
+  GrowingTable bodies_;                    ///< [P][N][width]
+  GrowingTable recorded_;                  ///< [P] step and time of the above
+  GrowingTable worlds_;                    ///< [T][W]
+  GrowingTable frames_;                    ///< [T]
+  GrowingTable phases_;                    ///< [T][R]
+  GrowingTable events_;                    ///< [E]
+  std::optional<GrowingTable> residuals_;  ///< [T][W] if they are measured
   // With step profiles:
   std::optional<GrowingTable> islands_;  ///< [T][N] at the island's lowest body
   std::optional<GrowingTable> spaces_;   ///< [T][W]

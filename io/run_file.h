@@ -38,8 +38,9 @@ struct FileGroup {
 
 /// What a file holds only if the run makes it.
 struct OptionalColumns {
-  bool profile = false;   ///< every frame has step profiles: /timings/island and /timings/space
-  bool estimate = false;  ///< every frame has an EstimateRecord: /estimate
+  bool profile = false;    ///< every frame has step profiles: /timings/island and /timings/space
+  bool estimate = false;   ///< every frame has an EstimateRecord: /estimate
+  bool residuals = false;  ///< every frame has Observables::residuals: /observables/residual
 };
 
 /// Everything that is known before the first frame. Equal on every rank, except `worlds`.

@@ -12,8 +12,7 @@ namespace pbmpi::estimate {
 /// Estimates with `stepper`, e.g. of the same kind as the precise one with fewer iterations (the paper's
 /// choice). Follows the worlds that come to and leave this rank; keeps a copy of their models.
 ///
-/// Steppers that can show their state in mid-solve need no second assembly: an Estimator of such a kind goes
-/// beside this one.
+/// A stepper that can show its state in mid-solve needs no second assembly: SameSolve.
 class ShortRun final : public model::Estimator {
  public:
   explicit ShortRun(std::unique_ptr<model::WorldStepper> stepper) : stepper_(std::move(stepper)) {}

@@ -40,6 +40,8 @@ class JointBatches {
     }
   }
 
+  /// See JointBuilder.
+  void advance(typename T::Scalar h, const BodyLanes<T>& bodies);
   /// `carries`: the rows start with impulses, which act on the bodies.
   void build(const JointBuilder<T>& builder, bool carries, BodyLanes<T>& bodies);
   /// Fisher-Yates with keyed numbers: the same order in every batch of a shape, so in every world.
@@ -156,6 +158,22 @@ void JointBatches<T>::build(const JointBuilder<T>& builder, bool carries, BodyLa
         auto& rows = rows_of<kind.value>()[static_cast<std::size_t>(at.index)];
         builder.build(shape.joints[i], bodies, rows);
         if (carries) JointSolver<T>::push_carried(rows, bodies);
+      });
+    }
+  }
+}
+
+template <class T>
+void JointBatches<T>::advance(typename T::Scalar h, const BodyLanes<T>& bodies) {
+  for (Shape& shape : shapes_) {
+    for (std::size_t i = 0; i < shape.joints.size(); ++i) {
+      const JointLane<V>& joint = shape.joints[i];
+      if (!shape.active[i / shape.num_joints]) continue;
+      if (!joint.controls[0].has_hold && !joint.controls[1].has_hold) continue;
+      const RowsAt at = shape.rows[i];
+      with_kind(at.kind, [&](auto kind) {
+        auto& rows = rows_of<kind.value>()[static_cast<std::size_t>(at.index)];
+        JointBuilder<T>::advance(joint, bodies, h, rows);
       });
     }
   }

@@ -31,9 +31,27 @@ class JointBuilder {
   using Scalar = typename T::Scalar;
   using L3 = Vec3L<V>;
 
-  /// carry: the share of a row's impulse with which its next impulse starts.
-  JointBuilder(Scalar h, Scalar erp, Scalar cfm, Scalar sor_factor, Scalar carry)
-      : h_(h), k_(erp / h), cfm_(cfm / h), factor_(sor_factor), carry_(carry) {}
+  /// later: a substep after the first, for which advance() has been called; carry: the share of a row's
+  /// impulse with which its next impulse then starts.
+  JointBuilder(Scalar h, Scalar erp, Scalar cfm, Scalar sor_factor, bool later, Scalar carry)
+      : h_(h),
+        k_(erp / h),
+        cfm_(cfm / h),
+        factor_(sor_factor),
+        later_(later),
+        carry_(later ? carry : Scalar(0)) {}
+
+  /// The next substep, before forces act: turns the angles that motors look at as the bodies have turned.
+  /// Taken anew from the poses they would cost an arc tangent each, a tenth of the step.
+  template <model::JointKind kind>
+  PBMPI_LANES static void advance(const JointLane<V>& joint, const BodyLanes<T>& bodies, Scalar h,
+                                  JointRows<T, kind>& rows) {
+    for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+      if (!joint.controls[i].has_hold) continue;
+      const L3 relative = bodies.twists[rows.slot_a].angular - bodies.twists[rows.slot_b].angular;
+      rows.angles[i] += h * dot(rows.axis_controls[i].row.axis, relative);
+    }
+  }
 
   /// Rows from the poses. May add to the twists: a motor that is at its limit pushes as an external torque
   /// (ODE: dxJointLimitMotor::addLimot). Carried impulses have not acted on the twists yet.
@@ -71,10 +89,10 @@ class JointBuilder {
                          JointRows<T, model::JointKind::hinge>& rows) const;
   void set_slider_control(const JointLane<V>& joint, const Pair& pair,
                           JointRows<T, model::JointKind::slider>& rows) const;
-  /// A limit or motor on `axis` whose coordinate is 2 atan2(s, c), c >= 0. Returns whether any lane has a
-  /// row.
+  /// A limit or motor on `axis` whose coordinate is 2 atan2(s, c), c >= 0. `angle`: that of a motor that
+  /// holds a pose; set in the first substep, used in the later ones. Returns whether any lane has a row.
   bool set_axis_control(const AxisControl<V>& control, const L3& axis, const V& s, const V& c,
-                        const Pair& pair, Bounded<AxisRow<V>, V>& row) const;
+                        const Pair& pair, V& angle, Bounded<AxisRow<V>, V>& row) const;
   /// The velocity at which a motor aims in this step, from the coordinate (0 where no lane holds a pose).
   V aim(const AxisControl<V>& control, const V& coordinate) const;
   /// at_low, at_high: 1 where the coordinate is at or past the limit, else 0; error: its distance from it;
@@ -92,7 +110,9 @@ class JointBuilder {
     row.row.impulse = T::min(T::max(row.row.impulse, state.low), state.high);
   }
 
-  Scalar h_, k_, cfm_, factor_, carry_;
+  Scalar h_, k_, cfm_, factor_;
+  bool later_;
+  Scalar carry_;
 };
 
 template <class T>
@@ -264,7 +284,8 @@ void JointBuilder<T>::set_crossed_axes(const JointLane<V>& joint, const Pair& pa
     const V x = dot(seen, normal);
     const V y = dot(seen, cross(axis, normal));
     const V c = T::sqrt(x * x + y * y) + x;
-    rows.control_on[i] = set_axis_control(control, axis, i == 0 ? -y : y, c, pair, rows.axis_controls[i]);
+    rows.control_on[i] =
+        set_axis_control(control, axis, i == 0 ? -y : y, c, pair, rows.angles[i], rows.axis_controls[i]);
   }
 }
 
@@ -280,8 +301,9 @@ void JointBuilder<T>::set_hinge_control(const JointLane<V>& joint, const Pair& p
   const V length = T::sqrt(dot(turn.vector, turn.vector));
   const V along = dot(turn.vector, joint.terms.axis1_a);
   const V s = along >= zero ? -length : length;  // the angle of a relative to b
-  rows.control_on[0] = set_axis_control(control, pair.a.rotation * joint.terms.axis1_a,
-                                        turn.w < zero ? -s : s, T::abs(turn.w), pair, rows.axis_controls[0]);
+  rows.control_on[0] =
+      set_axis_control(control, pair.a.rotation * joint.terms.axis1_a, turn.w < zero ? -s : s, T::abs(turn.w),
+                       pair, rows.angles[0], rows.axis_controls[0]);
 }
 
 template <class T>
@@ -314,10 +336,13 @@ typename JointBuilder<T>::ControlState JointBuilder<T>::decide(const AxisControl
 
 template <class T>
 bool JointBuilder<T>::set_axis_control(const AxisControl<V>& control, const L3& axis, const V& s, const V& c,
-                                       const Pair& pair, Bounded<AxisRow<V>, V>& row) const {
+                                       const Pair& pair, V& angle, Bounded<AxisRow<V>, V>& row) const {
   const V zero = T::broadcast(0), one = T::broadcast(1);
   V at_low = zero, at_high = zero, error = zero, velocity = control.velocity;
-  if (control.has_hold) velocity = aim(control, 2 * T::atan2(s, c));
+  if (control.has_hold) {
+    if (!later_) angle = 2 * T::atan2(s, c);
+    velocity = aim(control, angle);
+  }
   if (control.has_limit) {
     at_low = s * control.cos_low <= c * control.sin_low ? one : zero;
     at_high = s * control.cos_high >= c * control.sin_high ? one : zero;
@@ -327,7 +352,13 @@ bool JointBuilder<T>::set_axis_control(const AxisControl<V>& control, const L3& 
       row.row.impulse = zero;  // nothing for a later substep to carry
       return false;
     }
-    if (at_limit) error = 2 * T::atan2(s, c) - (at_low > zero ? control.low : control.high);
+    if (at_limit) {
+      // Which lanes know their angle must not depend on what their neighbours have.
+      const V holds = control.max_force > zero ? control.hold_rate : zero;
+      const V unknown = holds > zero ? zero : at_low + at_high;
+      const V now = T::any(unknown) ? 2 * T::atan2(s, c) : angle;
+      error = (holds > zero ? angle : now) - (at_low > zero ? control.low : control.high);
+    }
   }
   const ControlState state = decide(control, at_low, at_high, error, velocity);
   set_axis(axis, state.rhs, pair, row.row);

@@ -178,11 +178,12 @@ void PackLanes<T>::start_substep() {
     contacts_.build(bodies, contact_parameters());
   } else {
     contacts_.advance(bodies, contact_parameters());
+    worlds_.joints.advance(h_, bodies);
   }
   if (passes_.gyroscopic_torque) apply_gyroscopic_torques(h_);
   if (passes_.gravity) apply_gravity(h_);
   const JointBuilder<T> builder(h_, scalar(laws.erp), scalar(laws.cfm), scalar(parameters_.sor_factor),
-                                scalar(carries ? parameters_.warm_start : 0));
+                                substep_ > 0, scalar(parameters_.warm_start));
   worlds_.joints.build(builder, carries, bodies);
   write_contact_twists(free_);
   if (carries) {

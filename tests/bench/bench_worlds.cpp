@@ -1,6 +1,8 @@
 /// bench_worlds [SUBJECT] [WORLDS] [FRAMES] [ROUNDS]: pbmpi's steppers against the bare ODE loop over the
 /// same worlds. bench_worlds --spaces: ODE's spaces against each other. bench_worlds --effects: what
-/// effects cost.
+/// effects cost. bench_worlds --substeps [SUBJECT] [WORLDS] [FRAMES]: substeps and warm start against
+/// iterations.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -10,6 +12,7 @@
 #include "effects.h"
 #include "mpi/session.h"
 #include "spaces.h"
+#include "substeps.h"
 
 namespace {
 
@@ -30,6 +33,12 @@ void run(int argc, char** argv) {
   }
   if (name == "--effects") {
     pbmpi::bench::compare_effects();
+    return;
+  }
+  if (name == "--substeps") {
+    const std::string scene = argc > 2 ? argv[2] : "100CrSk";
+    const auto subject = pbmpi::bench::load_subject(scene, number(argc, argv, 3, 0));
+    pbmpi::bench::compare_substeps(subject, std::max(1, number(argc, argv, 4, 100)));
     return;
   }
   const auto subject = pbmpi::bench::load_subject(name, number(argc, argv, 2, 0));

@@ -143,7 +143,9 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
   if (spec.estimate) {
     out << "estimate: " << name_of(spec.estimate->kind) << ", " << spec.estimate->iterations << " iteration"
         << (spec.estimate->iterations == 1 ? "" : "s") << ", " << name_of(spec.estimate->precision)
-        << " precision, before each frame\n";
+        << " precision, "
+        << (spec.estimate_source == EstimateSource::same_solve ? "from the same solve\n"
+                                                               : "before each frame\n");
   }
   if (!spec.effects.empty()) out << "effects chosen: " << model::to_text(spec.effects) << '\n';
   print_plans(out, census);
@@ -157,9 +159,9 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
   }
   out << "memory: about " << in_units(world_bytes) << " a world (measured on world 0)\n";
   if (spec.output) {
-    const auto bytes =
-        io::estimate_file_bytes(census.table.num_bodies(), spec.num_worlds, num_ranks, spec.total_frames(),
-                                spec.record_every, {spec.record_islands, spec.estimate.has_value()});
+    const auto bytes = io::estimate_file_bytes(
+        census.table.num_bodies(), spec.num_worlds, num_ranks, spec.total_frames(), spec.record_every,
+        {spec.record_islands, spec.estimate.has_value(), spec.stepper.residuals});
     out << "output: " << *spec.output << ", about " << in_units(static_cast<double>(bytes)) << '\n';
   } else {
     out << "output: none\n";

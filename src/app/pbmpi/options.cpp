@@ -59,6 +59,11 @@ po::options_description options_description() {
        "sor: parts of a step that share its collision detection")  //
       ("sor-factor", po::value<double>()->value_name("X"),
        "sor: over-relaxation, above 0 and below 2; default: 1.3, as in ODE")  //
+      ("warm-start", po::value<double>()->value_name("X"),
+       "sor: share of their impulses with which joints and contacts start a substep after the first, 0 to 1; "
+       "default: 0, none; needs --substeps")  //
+      ("row-order", po::value<std::string>()->default_value("shuffled")->value_name("shuffled|fixed"),
+       "sor: the joints' order in the sweeps: another every 8 iterations, or always the model's")  //
       ("precision", po::value<std::string>()->default_value("double")->value_name("double|single"),
        "sor: number type of the solver")  //
       ("simd", po::value<std::string>()->default_value("auto")->value_name("auto|sse2|avx2|avx512|off"),
@@ -74,8 +79,9 @@ po::options_description options_description() {
   feec.add_options()  //
       ("feec",
        "estimate every frame from the precise state before it is computed: the estimate goes to root at "
-       "once, "
-       "and is dropped when the precise result is there")                                               //
+       "once, and is dropped when the precise result is there. It is a short run of its own; with sor and "
+       "one "
+       "step of one substep a frame it is the state after the first iterations of the precise solve")   //
       ("estimate-iterations", po::value<int>()->value_name("N"), "sweeps of the estimate; default: 1")  //
       ("estimate-stepper", po::value<std::string>()->value_name("quick|direct|sor"),
        "what estimates; default: that of --stepper")  //
@@ -101,6 +107,8 @@ po::options_description options_description() {
       ("record-islands",
        "quick, direct: after each frame measure its last step again, island by island (slow; outside of the "
        "frame's time, and the states stay the same)")  //
+      ("record-residuals",
+       "sor: store how far the last step of each frame is from the solution of its constraints")  //
       ("report", po::value<std::string>()->default_value("text")->value_name("text|json"),
        "the summary; json: exactly one JSON document on stdout");
 
@@ -195,6 +203,11 @@ Options parse_options(const std::vector<std::string>& args) {
   require_input(!options.sor_factor || (*options.sor_factor > 0 && *options.sor_factor < 2),
                 "--sor-factor " + std::to_string(options.sor_factor.value_or(0)) +
                     ": the iteration converges above 0 and below 2 only");
+  options.warm_start = given<double>(values, "warm-start");
+  require_input(!options.warm_start || (*options.warm_start >= 0 && *options.warm_start <= 1),
+                "--warm-start " + std::to_string(options.warm_start.value_or(0)) +
+                    ": the share of the impulses to take over is 0 to 1");
+  options.row_order = choice<model::RowOrder>(values, "row-order", model::row_order_names);
   options.precision = choice<model::Precision>(values, "precision", model::precision_names);
   options.simd = choice<model::Simd>(values, "simd", model::simd_names);
   options.colliders = choice<model::Colliders>(values, "colliders", model::colliders_names);
@@ -211,6 +224,7 @@ Options parse_options(const std::vector<std::string>& args) {
   options.no_output = values.count("no-output") != 0;
   options.record_every = values["record-every"].as<int>();
   options.record_islands = values.count("record-islands") != 0;
+  options.record_residuals = values.count("record-residuals") != 0;
   if (values.count("spaces") != 0)
     options.spaces = choice<scenes::SpacesForm>(values, "spaces", spaces_names);
   options.effects = effect_choices(given<std::string>(values, "effects").value_or(""));
@@ -237,11 +251,23 @@ std::optional<model::StepperSettings> resolve_estimate(const Options& options,
   estimate.iterations = options.estimate_iterations.value_or(1);
   estimate.precision = options.estimate_precision.value_or(precise.precision);
   estimate.substeps = 1;
+  estimate.warm_start = 0;
+  estimate.residuals = false;
   require_at_least(estimate.iterations, 1, "--estimate-iterations");
   require_input(estimate.kind == model::StepperKind::sor || !options.estimate_precision,
                 "--estimate-precision is an option of an estimate by sor; give --estimate-stepper sor");
   if (estimate.kind != model::StepperKind::sor) estimate.precision = model::Precision::double_;
   return estimate;
+}
+
+/// The precise solve can be looked at where it is the frame's only one, and passes the wanted iteration.
+EstimateSource estimate_source(const RunSpec& spec) {
+  const bool one_solve =
+      spec.stepper.kind == model::StepperKind::sor && spec.steps_per_frame == 1 && spec.stepper.substeps == 1;
+  const bool passes = spec.estimate && spec.estimate->kind == spec.stepper.kind &&
+                      spec.estimate->precision == spec.stepper.precision &&
+                      spec.estimate->iterations <= spec.stepper.iterations;
+  return one_solve && passes ? EstimateSource::same_solve : EstimateSource::short_run;
 }
 
 RunSpec resolve(const Options& options, const scenes::Scene& scene) {
@@ -258,6 +284,8 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   spec.stepper.seed = options.solver_seed.value_or(options.seed);
   spec.stepper.substeps = options.substeps;
   spec.stepper.sor_factor = options.sor_factor.value_or(spec.stepper.sor_factor);
+  spec.stepper.warm_start = options.warm_start.value_or(0);
+  spec.stepper.row_order = options.row_order;
   spec.stepper.precision = options.precision;
   spec.stepper.simd = options.simd;
   spec.stepper.colliders = options.colliders;
@@ -271,11 +299,17 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   require_at_least(spec.stepper.iterations, 1, "--iterations");
   require_at_least(spec.stepper.substeps, 1, "--substeps");
   const bool own_options =
-      spec.stepper.substeps != 1 || options.sor_factor || options.precision != model::Precision::double_ ||
+      spec.stepper.substeps != 1 || options.sor_factor || options.warm_start ||
+      options.row_order != model::RowOrder::shuffled || options.precision != model::Precision::double_ ||
       options.simd != model::Simd::automatic || options.colliders != model::Colliders::lanes;
-  require_input(options.stepper == model::StepperKind::sor || !own_options,
-                "--substeps, --sor-factor, --precision, --simd and --colliders are options of --stepper sor; "
-                "ODE's steppers have none of them");
+  require_input(
+      options.stepper == model::StepperKind::sor || !own_options,
+      "--substeps, --sor-factor, --warm-start, --row-order, --precision, --simd and --colliders are "
+      "options of --stepper sor; ODE's steppers have none of them");
+  require_input(
+      spec.stepper.warm_start == 0 || spec.stepper.substeps > 1,
+      "--warm-start carries impulses from one substep to the next, and there is one; give --substeps "
+      "2 or more");
   require_at_least(spec.record_every, 1, "--record-every");
   spec.spaces = scene.defaults().spaces;
   spec.effects = scene.defaults().effects;
@@ -286,15 +320,21 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
                 "use quick or direct");
   require_input(!options.record_islands || !options.no_output,
                 "--record-islands writes into the run's file; drop --no-output");
+  spec.stepper.residuals = options.record_residuals;
+  require_input(!options.record_residuals || options.stepper == model::StepperKind::sor,
+                "--record-residuals: ODE's steppers do not show their rows; use --stepper sor");
+  require_input(!options.record_residuals || !options.no_output,
+                "--record-residuals writes into the run's file; drop --no-output");
   spec.estimate = resolve_estimate(options, spec.stepper);
+  spec.estimate_source = estimate_source(spec);
   return spec;
 }
 
 Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks) {
   const bool is_sor = spec.stepper.kind == model::StepperKind::sor;
   if (spec.decomposition == Decomposition::automatic) {
-    return spec.num_worlds == 1 && num_spaces > 1 && num_ranks > 1 && is_sor ? Decomposition::spaces
-                                                                             : Decomposition::worlds;
+    const bool can_cut = spec.num_worlds == 1 && num_spaces > 1 && is_sor && !spec.stepper.residuals;
+    return can_cut && num_ranks > 1 ? Decomposition::spaces : Decomposition::worlds;
   }
   if (spec.decomposition == Decomposition::spaces) {
     require_input(
@@ -305,6 +345,9 @@ Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks) {
     require_input(spec.num_worlds == 1, "--decompose spaces cuts one world, and there are " +
                                             std::to_string(spec.num_worlds) +
                                             "; use --replicas 1 or --decompose worlds");
+    require_input(
+        !spec.stepper.residuals,
+        "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds");
   }
   return spec.decomposition;
 }

@@ -1,9 +1,11 @@
 /// The command line of pbmpi, and the run that it and the scene ask for together.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/common/options.h"
@@ -23,7 +25,8 @@ struct Options {
   std::optional<int> replicas, frames, warmup, steps_per_frame, iterations;
   std::optional<double> dt_s;
   int substeps = 1;
-  std::optional<double> sor_factor;
+  std::optional<double> sor_factor, warm_start;
+  model::RowOrder row_order = model::RowOrder::shuffled;
   model::Precision precision = model::Precision::double_;
   model::Simd simd = model::Simd::automatic;
   model::Colliders colliders = model::Colliders::lanes;
@@ -38,6 +41,7 @@ struct Options {
   std::optional<std::string> output;
   bool no_output = false;
   bool record_islands = false;
+  bool record_residuals = false;
   std::optional<scenes::SpacesForm> spaces;
   model::EffectChoices effects;
   int record_every = 1;
@@ -52,6 +56,13 @@ Options parse_options(const std::vector<std::string>& args);
 /// The text of --help.
 std::string help_text();
 
+/// How FEEC's estimate comes about.
+enum class EstimateSource {
+  short_run,   ///< a run of its own, before the precise one
+  same_solve,  ///< a look at the precise solve
+};
+inline constexpr std::array<std::string_view, 2> estimate_source_names = {"short_run", "same_solve"};
+
 /// Everything that a run needs to know: options over the scene's defaults.
 struct RunSpec {
   int num_worlds = 1;
@@ -61,12 +72,13 @@ struct RunSpec {
   std::uint64_t scene_seed = 1;  ///< of the scene's variation; the stepper has its own
   model::StepperSettings stepper;
   std::optional<model::StepperSettings> estimate;  ///< FEEC: what estimates each frame first
-  std::optional<std::string> output;               ///< path of the HDF5 file, or nothing with --no-output
+  EstimateSource estimate_source = EstimateSource::short_run;
+  std::optional<std::string> output;  ///< path of the HDF5 file, or nothing with --no-output
   int record_every = 1;
   bool record_islands = false;
   scenes::SpacesForm spaces = scenes::SpacesForm::many;
   Decomposition decomposition = Decomposition::automatic;  ///< of resolve(): as asked; decided by decompose()
-  model::EffectChoices effects;  ///< of the scene file and the command line
+  model::EffectChoices effects;                            ///< of the scene file and the command line
 
   int total_frames() const { return warmup + frames; }
 };

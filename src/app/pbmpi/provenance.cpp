@@ -91,6 +91,8 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("iterations", std::int64_t{spec.stepper.iterations}),
       Parameter::of("substeps", std::int64_t{spec.stepper.substeps}),
       Parameter::of("sor_factor", spec.stepper.sor_factor),
+      Parameter::of("warm_start", spec.stepper.warm_start),
+      Parameter::of("row_order", std::string(name_of(spec.stepper.row_order))),
       Parameter::of("precision", std::string(name_of(spec.stepper.precision))),
       Parameter::of("simd", simd_text(spec.stepper)),
       Parameter::of("colliders", std::string(name_of(spec.stepper.colliders))),
@@ -113,6 +115,8 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
     parameters.push_back(Parameter::of("estimate_stepper", std::string(name_of(spec.estimate->kind))));
     parameters.push_back(Parameter::of("estimate_iterations", std::int64_t{spec.estimate->iterations}));
     parameters.push_back(Parameter::of("estimate_precision", std::string(name_of(spec.estimate->precision))));
+    const auto source = static_cast<std::size_t>(spec.estimate_source);
+    parameters.push_back(Parameter::of("estimate_source", std::string(estimate_source_names[source])));
   }
   for (const std::string& line : provenance.environment) {
     const std::size_t equals = line.find('=');

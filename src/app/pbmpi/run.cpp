@@ -15,6 +15,7 @@
 #include "app/pbmpi/signals.h"
 #include "app/pbmpi/stepper_factory.h"
 #include "core/hash.h"
+#include "estimate/same_solve.h"
 #include "estimate/short_run.h"
 #include "io/run_file.h"
 #include "io/xdmf.h"
@@ -78,10 +79,12 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   return summary;
 }
 
-EstimateSummary estimate_summary(const model::StepperSettings& settings, const mpi::WorldRunResult& result,
+EstimateSummary estimate_summary(const RunSpec& spec, const mpi::WorldRunResult& result,
                                  const EstimateMonitor& monitor, double budget_s) {
   EstimateSummary summary;
+  const model::StepperSettings& settings = *spec.estimate;
   summary.stepper = name_of(settings.kind);
+  summary.source = estimate_source_names[static_cast<std::size_t>(spec.estimate_source)];
   summary.iterations = settings.iterations;
   summary.precision = name_of(settings.precision);
   std::vector<double> delivered_s, precise_s;
@@ -109,7 +112,7 @@ std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const 
   setup.hosts = provenance.hosts;
   setup.num_frames = spec.total_frames();
   setup.record_every = spec.record_every;
-  setup.optional = {spec.record_islands, spec.estimate.has_value()};
+  setup.optional = {spec.record_islands, spec.estimate.has_value(), spec.stepper.residuals};
   return std::make_unique<io::RunFile>(io::FileGroup{comm.fortran_handle(), comm.rank(), comm.size()},
                                        std::move(setup));
 }
@@ -162,12 +165,18 @@ Simulation make_simulation(const mpi::Communicator& comm, const scenes::Scene& s
         mpi::agree_on_errors(comm, [&] { return make_space_stepper(spec.stepper, build(0)); });
     simulation.driver = std::make_unique<mpi::SpaceDriver>(comm, *simulation.spaces, driver_settings(spec));
   } else {
-    simulation.worlds = make_stepper(spec.stepper);
-    auto driver = std::make_unique<mpi::WorldDriver>(comm, *simulation.worlds, build, driver_settings(spec));
-    if (spec.estimate) {
-      simulation.estimator = std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
-      driver->set_estimator(*simulation.estimator);
+    if (spec.estimate && spec.estimate_source == EstimateSource::same_solve) {
+      auto stepper = make_anytime_stepper(spec.stepper);
+      simulation.estimator = std::make_unique<estimate::SameSolve>(*stepper, spec.estimate->iterations);
+      simulation.worlds = std::move(stepper);
+    } else {
+      simulation.worlds = make_stepper(spec.stepper);
+      if (spec.estimate)
+        simulation.estimator =
+            std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
     }
+    auto driver = std::make_unique<mpi::WorldDriver>(comm, *simulation.worlds, build, driver_settings(spec));
+    if (simulation.estimator) driver->set_estimator(*simulation.estimator);
     simulation.driver = std::move(driver);
   }
   return simulation;
@@ -200,7 +209,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, const s
       settings_summary(scene, spec, provenance, driver.table().num_bodies(), driver_settings(spec).budget_s);
   summary.idle_ranks = driver.idle_ranks();
   live.finish(comm, result, summary);
-  if (spec.estimate) summary.estimate = estimate_summary(*spec.estimate, result, monitor, summary.budget_s);
+  if (spec.estimate) summary.estimate = estimate_summary(spec, result, monitor, summary.budget_s);
   if (file) {
     file->close(summary.complete, summary.state_hash);
     write_sidecar(comm, *spec.output);

@@ -13,10 +13,13 @@ namespace pbmpi::app {
 
 std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings,
                                                   const std::string& warning_prefix) {
-  if (settings.kind == model::StepperKind::sor)
-    return solver::make_sor_stepper(settings, ode::make_narrow_phase);
+  if (settings.kind == model::StepperKind::sor) return make_anytime_stepper(settings);
   return ode::make_ode_stepper(
       settings, [warning_prefix](const std::string& line) { ode::warn_on_stderr(warning_prefix + line); });
+}
+
+std::unique_ptr<model::AnytimeStepper> make_anytime_stepper(const model::StepperSettings& settings) {
+  return solver::make_sor_stepper(settings, ode::make_narrow_phase);
 }
 
 std::unique_ptr<model::SpaceStepper> make_space_stepper(const model::StepperSettings& settings,

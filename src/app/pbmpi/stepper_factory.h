@@ -14,6 +14,9 @@ namespace pbmpi::app {
 std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings,
                                                   const std::string& warning_prefix = "");
 
+/// sor alone, which can be looked at in mid-solve.
+std::unique_ptr<model::AnytimeStepper> make_anytime_stepper(const model::StepperSettings& settings);
+
 /// The same for one world that is cut into spaces; sor only.
 std::unique_ptr<model::SpaceStepper> make_space_stepper(const model::StepperSettings& settings,
                                                         std::shared_ptr<const model::Model> model);

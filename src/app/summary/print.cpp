@@ -89,8 +89,9 @@ std::string bands_text(const analysis::ErrorSummary& errors, const Names& names)
 std::string estimate_lines(const EstimateSummary& e, double budget_s) {
   std::string text;
   text +=
-      format("estimate: %s, %d iterations, %s precision; delivered p50 %.3f ms, p99 %.3f ms, max %.3f ms\n",
-             e.stepper.c_str(), e.iterations, e.precision.c_str(), 1e3 * e.delivered_p50_s,
+      format("estimate: %s, %d iterations, %s precision%s; delivered p50 %.3f ms, p99 %.3f ms, max %.3f ms\n",
+             e.stepper.c_str(), e.iterations, e.precision.c_str(),
+             e.source == "same_solve" ? ", from the same solve" : "", 1e3 * e.delivered_p50_s,
              1e3 * e.delivered_p99_s, 1e3 * e.delivered_max_s);
   text += format(
       "estimate_rate: %.1f Hz harmonic mean, %.0f %% of the estimates within %.2f ms, precise %.2f times "
@@ -114,6 +115,7 @@ nlohmann::ordered_json estimate_json(const EstimateSummary& e) {
       {"stepper", e.stepper},
       {"iterations", e.iterations},
       {"precision", e.precision},
+      {"source", e.source},
       {"delivered_s", {{"p50", e.delivered_p50_s}, {"p99", e.delivered_p99_s}, {"max", e.delivered_max_s}}},
       {"harmonic_mean_hz", e.harmonic_mean_hz},
       {"satisfied_fraction", e.satisfied_fraction},

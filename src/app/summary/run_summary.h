@@ -30,7 +30,7 @@ struct EffectSummary {
 /// FEEC, over the measured frames. Defects are of all bodies: estimate against precise pose of the same
 /// frame.
 struct EstimateSummary {
-  std::string stepper, precision = "double";
+  std::string stepper, precision = "double", source = "short_run";
   int iterations = 1;
   double delivered_p50_s = 0, delivered_p99_s = 0, delivered_max_s = 0;  ///< start of the frame to delivery
   double harmonic_mean_hz = 0, satisfied_fraction = 0;                   ///< of the deliveries
