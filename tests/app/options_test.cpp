@@ -82,6 +82,50 @@ TEST(Options, those_of_sor_are_refused_with_another_stepper) {
   EXPECT_EQ(refusal({"--scene", "Fake", "--stepper", "sor", "--sor-factor", "1.9"}), "");
   EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", "0"}).find("at least 1"),
             std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--warm-start", "0.5"}).find("--stepper sor"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--row-order", "fixed"}).find("--stepper sor"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--record-residuals"}).find("--stepper sor"), std::string::npos);
+}
+
+TEST(Options, a_warm_start_is_a_share_and_needs_substeps) {
+  const auto with = [](const char* substeps, const char* share) {
+    return refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", substeps, "--warm-start", share});
+  };
+  EXPECT_EQ(with("2", "0.9"), "");
+  EXPECT_EQ(with("1", "0"), "");
+  EXPECT_NE(with("1", "0.9").find("--substeps 2 or more"), std::string::npos);
+  EXPECT_NE(with("2", "1.01").find("0 to 1"), std::string::npos);
+  EXPECT_NE(with("2", "nan").find("0 to 1"), std::string::npos);
+}
+
+TEST(Options, residuals_are_of_whole_worlds_and_go_into_the_file) {
+  const auto spec = [](std::vector<std::string> more) {
+    std::vector<std::string> args = {"--scene", "Fake", "--stepper", "sor", "--record-residuals"};
+    args.insert(args.end(), more.begin(), more.end());
+    return resolve(parse_options(args), FakeScene({}));
+  };
+  EXPECT_TRUE(spec({}).stepper.residuals);
+  EXPECT_EQ(decompose(spec({"--replicas", "1"}), 3, 2), Decomposition::worlds);
+  EXPECT_THROW(decompose(spec({"--replicas", "1", "--decompose", "spaces"}), 3, 2), core::InputError);
+  EXPECT_THROW(spec({"--no-output"}), core::InputError);
+}
+
+TEST(Options, feec_looks_at_the_precise_solve_where_it_is_the_only_one_of_a_frame) {
+  const auto source = [](std::vector<std::string> more) {
+    std::vector<std::string> args = {"--scene", "Fake", "--stepper", "sor", "--feec", "--iterations", "20"};
+    args.insert(args.end(), more.begin(), more.end());
+    return resolve(parse_options(args), FakeScene({})).estimate_source;
+  };
+  EXPECT_EQ(source({"--steps-per-frame", "1"}), EstimateSource::same_solve);
+  EXPECT_EQ(source({"--steps-per-frame", "1", "--estimate-iterations", "20"}), EstimateSource::same_solve);
+  for (const std::vector<std::string>& other :
+       {std::vector<std::string>{"--steps-per-frame", "3"},
+        {"--steps-per-frame", "1", "--substeps", "2"},
+        {"--steps-per-frame", "1", "--estimate-iterations", "21"},
+        {"--steps-per-frame", "1", "--estimate-stepper", "quick"},
+        {"--steps-per-frame", "1", "--estimate-precision", "single"}}) {
+    EXPECT_EQ(source(other), EstimateSource::short_run) << other.back();
+  }
 }
 
 TEST(Options, feec_estimates_as_the_precise_stepper_does_but_with_one_iteration) {

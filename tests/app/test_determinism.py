@@ -47,6 +47,23 @@ class Determinism(ProgramTest):
                 hashes.add(json.loads(result.stdout)["state_hash"])
             self.assertEqual(len(hashes), 1, precision)
 
+    def test_substeps_with_warm_start_and_residuals_have_one_hash_and_one_file_for_1_to_4_ranks(self):
+        args = ["--scene", "CrashSk", "--replicas", 7, "--stepper", "sor", "--substeps", 5, "--iterations", 3]
+        warm = [*args, "--warm-start", 0.9]
+        alone = self.summary(1, *warm, "--no-output")["state_hash"]
+        residuals = set()
+        for ranks in (1, 2, 3, 4):
+            summary = self.summary(ranks, *warm, "--record-residuals", "--output", f"run{ranks}.h5")
+            self.assertEqual(summary["state_hash"], alone, ranks)
+            with h5py.File(self.path(f"run{ranks}.h5")) as file:
+                group = file["observables/residual"]
+                self.assertEqual(group["natural_speed"].shape, (8, 7))
+                residuals.add(tuple(group[name][:].tobytes() for name in sorted(group)))
+                for name in ("joint_speed", "joint_turn", "complementarity", "natural_speed", "natural_turn"):
+                    self.assertTrue((group[name][:] > 0).all(), name)
+        self.assertEqual(len(residuals), 1)
+        self.assertNotEqual(self.summary(1, *args, "--no-output")["state_hash"], alone)
+
     def test_another_seed_gives_another_hash(self):
         first, second = (self.summary(2, "--scene", "CrashSk", "--seed", seed, "--no-output") for seed in (1, 2))
         self.assertNotEqual(first["state_hash"], second["state_hash"])

@@ -46,11 +46,33 @@ class Feec(ProgramTest):
         summary = self.summary(3, "--scene", "CrashSk", "--feec", "--estimate-iterations", 20, "--no-output")
         self.assertEqual(summary["estimate"]["position_defect_m"]["max"], 0)
 
+    def test_with_one_step_a_frame_sor_estimates_from_the_same_solve(self):
+        args = ["--scene", "CrashSk", "--replicas", 7, "--stepper", "sor", "--steps-per-frame", 1, "--frames", 16]
+        alone = self.summary(1, *args, "--no-output")["state_hash"]
+        for ranks in (1, 2, 3, 4):
+            summary = self.summary(ranks, *args, "--feec", "--estimate-iterations", 3, "--output", f"run{ranks}.h5")
+            self.assertEqual(summary["state_hash"], alone)
+            self.assertEqual(summary["estimate"]["source"], "same_solve")
+        own = self.summary(2, *args, "--feec", "--estimate-iterations", 3, "--estimate-precision", "single", "--no-output")
+        self.assertEqual((own["state_hash"], own["estimate"]["source"]), (alone, "short_run"))
+        exact = self.summary(2, *args, "--feec", "--estimate-iterations", 20, "--no-output")["estimate"]
+        self.assertEqual((exact["source"], exact["position_defect_m"]["max"]), ("same_solve", 0))
+        with h5py.File(self.path("run1.h5")) as one, h5py.File(self.path("run4.h5")) as four:
+            for column in ("position/value", "orientation/value"):
+                self.assertEqual(one["estimate"][column][:].tobytes(), four["estimate"][column][:].tobytes())
+            # The first frame starts where a run of three iterations does, and so is its first frame.
+            self.summary(1, *args, "--iterations", 3, "--output", "short.h5")
+            with h5py.File(self.path("short.h5")) as short:
+                self.assertEqual(one["estimate/position/value"][0].tobytes(),
+                                 short["particles/bodies/position/value"][0].tobytes())
+            self.assertEqual(one["parameters/estimate_source"][()], b"same_solve")
+
     def test_pbreport_shows_the_same_estimate_as_pbmpi(self):
-        live = self.summary(2, "--scene", "CrashSk", "--feec", "--output", "run.h5")
-        result = self.report("run.h5", "--json")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(self.json(result)["estimate"], live["estimate"])
+        for solve in ([], ["--stepper", "sor", "--steps-per-frame", 1]):
+            live = self.summary(2, "--scene", "CrashSk", *solve, "--feec", "--output", "run.h5")
+            result = self.report("run.h5", "--json")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(self.json(result)["estimate"], live["estimate"])
 
     def test_estimates_stay_out_of_a_run_without_feec(self):
         summary = self.summary(1, "--scene", "CrashSk", "--output", "run.h5")

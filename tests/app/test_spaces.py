@@ -29,6 +29,14 @@ class Spaces(ProgramTest):
                           "observables/world/energy", "observables/world/rows", "observables/world/max_island_rows"):
                 self.assertEqual(one[group][:].tobytes(), three[group][:].tobytes(), group)
 
+    def test_substeps_with_warm_start_have_the_hash_of_the_whole_too(self):
+        args = ["--scene", "Fight", *SOR, "--frames", 20, "--substeps", 4, "--iterations", 4, "--warm-start", 0.9,
+                "--row-order", "fixed", "--no-output"]
+        whole = self.summary(1, *args, "--decompose", "worlds")
+        for ranks in (2, 3, 4):
+            cut = self.summary(ranks, *args, "--decompose", "spaces")
+            self.assertEqual((cut["state_hash"], cut["decomposition"]), (whole["state_hash"], "spaces"), ranks)
+
     def test_auto_cuts_one_world_of_several_spaces_and_nothing_else(self):
         args = ["--frames", 2, "--no-output"]
         self.assertEqual(self.summary(2, "--scene", "Fight", *SOR, *args)["decomposition"], "spaces")

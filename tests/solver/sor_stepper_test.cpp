@@ -121,7 +121,9 @@ TEST(SorStepper, substeps_hold_joints_better_than_iterations) {
 TEST(SorStepper, settings_that_make_no_sense_are_refused) {
   for (const auto& spoil : std::vector<void (*)(model::StepperSettings&)>{
            [](model::StepperSettings& s) { s.dt_s = 0; }, [](model::StepperSettings& s) { s.iterations = 0; },
-           [](model::StepperSettings& s) { s.substeps = 0; }}) {
+           [](model::StepperSettings& s) { s.substeps = 0; },
+           [](model::StepperSettings& s) { s.warm_start = 1.1; },
+           [](model::StepperSettings& s) { s.warm_start = -0.1; }}) {
     model::StepperSettings settings = sor_settings();
     spoil(settings);
     EXPECT_THROW(make_stepper(settings), core::InputError);

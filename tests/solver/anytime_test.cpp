@@ -1,0 +1,150 @@
+/// A step that is looked at before it has ended.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "model/names.h"
+#include "ode/narrow_phase.h"
+#include "solver/sor_run.h"
+#include "solver/sor_stepper.h"
+#include "support/models.h"
+
+namespace pbmpi::solver {
+namespace {
+
+constexpr int num_worlds = 5;  // so that some lanes idle, whatever the width
+
+model::StepperSettings settings_of(model::Simd simd, model::Precision precision) {
+  model::StepperSettings settings;
+  settings.kind = model::StepperKind::sor;
+  settings.simd = simd;
+  settings.precision = precision;
+  return settings;
+}
+
+std::shared_ptr<const model::Model> crash(int variant) {
+  return std::make_shared<const model::Model>(support::crash(variant));
+}
+
+/// Crashes of five variants, a few steps after the impact began.
+struct Crashes {
+  std::vector<model::State> states;
+  static constexpr std::int64_t step = 14;
+
+  explicit Crashes(const model::StepperSettings& settings) {
+    const auto path = make_sor_stepper(settings, ode::make_narrow_phase);
+    for (int world = 0; world < num_worlds; ++world)
+      path->add(world, crash(world), model::initial_state(*crash(world)), 0);
+    advance(*path, step);
+    for (int world = 0; world < num_worlds; ++world) states.push_back(path->state(world));
+  }
+  std::unique_ptr<model::AnytimeStepper> start(const model::StepperSettings& settings) const {
+    auto stepper = make_sor_stepper(settings, ode::make_narrow_phase);
+    for (int world = 0; world < num_worlds; ++world)
+      stepper->add(world, crash(world), states[static_cast<std::size_t>(world)], step);
+    return stepper;
+  }
+};
+
+std::vector<std::uint64_t> hashes(const model::WorldStepper& stepper) {
+  std::vector<std::uint64_t> all;
+  for (int world = 0; world < num_worlds; ++world) all.push_back(model::hash(stepper.state(world)));
+  return all;
+}
+
+std::vector<std::uint64_t> looks(const model::AnytimeStepper& stepper) {
+  std::vector<std::uint64_t> all;
+  for (int world = 0; world < num_worlds; ++world) all.push_back(model::hash(stepper.look(world)));
+  return all;
+}
+
+class Anytime : public testing::TestWithParam<std::tuple<model::Simd, model::Precision>> {
+ protected:
+  model::StepperSettings settings() const {
+    return settings_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  }
+};
+
+TEST_P(Anytime, a_look_is_the_state_of_a_run_of_so_many_iterations) {
+  const Crashes crashes(settings());
+  core::PhaseTimes times;
+  for (const int iterations : {1, 2, 9, 20}) {
+    const auto stepper = crashes.start(settings());
+    stepper->begin_step(iterations, times);
+    model::StepperSettings few = settings();
+    few.iterations = iterations;
+    const auto short_run = crashes.start(few);
+    advance(*short_run, 1);
+    EXPECT_EQ(looks(*stepper), hashes(*short_run)) << iterations << " iterations";
+  }
+}
+
+TEST_P(Anytime, a_look_changes_no_bit_of_the_step) {
+  const Crashes crashes(settings());
+  core::PhaseTimes times;
+  const auto alone = crashes.start(settings());
+  advance(*alone, 3);
+  for (const int iterations : {0, 1, 8, 20}) {
+    const auto looked_at = crashes.start(settings());
+    for (int step = 0; step < 3; ++step) {
+      looked_at->begin_step(iterations, times);
+      advance(*looked_at, 1);
+    }
+    EXPECT_EQ(hashes(*looked_at), hashes(*alone)) << iterations << " iterations";
+  }
+}
+
+TEST_P(Anytime, of_several_steps_and_substeps_the_first_step_was_begun) {
+  model::StepperSettings substeps = settings();
+  substeps.substeps = 3;
+  substeps.iterations = 4;
+  substeps.warm_start = 0.5;
+  const Crashes crashes(substeps);
+  core::PhaseTimes times;
+  const auto alone = crashes.start(substeps), one = crashes.start(substeps), begun = crashes.start(substeps);
+  advance(*alone, 3);
+  advance(*one, 1);
+  begun->begin_step(4, times);
+  EXPECT_EQ(looks(*begun), hashes(*one)) << "after all iterations of the last substep";
+  advance(*begun, 3);
+  EXPECT_EQ(hashes(*begun), hashes(*alone));
+}
+
+std::vector<model::Simd> simds() { return machine_simds(); }
+INSTANTIATE_TEST_SUITE_P(every_width, Anytime,
+                         testing::Combine(testing::ValuesIn(simds()),
+                                          testing::Values(model::Precision::double_,
+                                                          model::Precision::single)),
+                         [](const auto& test) {
+                           return std::string(model::name_of(std::get<0>(test.param))) + "_" +
+                                  std::string(model::name_of(std::get<1>(test.param)));
+                         });
+
+TEST(AnytimeStepper, what_was_begun_is_dropped_when_worlds_come_go_or_change) {
+  const model::StepperSettings settings = settings_of(model::Simd::automatic, model::Precision::double_);
+  const Crashes crashes(settings);
+  core::PhaseTimes times;
+  const auto expected = crashes.start(settings);
+  advance(*expected, 1);
+  const auto stepper = crashes.start(settings);
+  stepper->begin_step(5, times);
+  stepper->set_state(1, crashes.states[1], Crashes::step);
+  stepper->begin_step(5, times);
+  stepper->remove(2);
+  stepper->begin_step(5, times);
+  stepper->add(2, crash(2), crashes.states[2], Crashes::step);
+  advance(*stepper, 1);
+  EXPECT_EQ(hashes(*stepper), hashes(*expected));
+}
+
+TEST(AnytimeStepper, a_step_cannot_be_begun_twice_or_beyond_its_iterations) {
+  const model::StepperSettings settings = settings_of(model::Simd::automatic, model::Precision::double_);
+  core::PhaseTimes times;
+  const auto stepper = Crashes(settings).start(settings);
+  EXPECT_ANY_THROW(stepper->begin_step(21, times));
+  stepper->begin_step(20, times);
+  EXPECT_ANY_THROW(stepper->begin_step(1, times));
+}
+
+}  // namespace
+}  // namespace pbmpi::solver
