@@ -13,7 +13,7 @@ namespace pbmpi::io {
 namespace {
 
 /// Version of the layout of table files.
-constexpr std::array<std::int64_t, 2> version = {1, 0};
+constexpr std::array<std::int64_t, 2> version = {1, 1};
 
 struct Length {
   std::size_t operator()(const auto& values) const { return values.size(); }
@@ -138,6 +138,12 @@ TableFile read_all(hid_t file) {
 }  // namespace
 
 std::size_t TableColumn::num_rows() const { return std::visit(Length{}, values) / width; }
+
+bool TableFile::has_column(const std::string& table, const std::string& name) const {
+  const auto group = tables.find(table);
+  return group != tables.end() && std::any_of(group->second.begin(), group->second.end(),
+                                              [&](const TableColumn& column) { return column.name == name; });
+}
 
 const TableColumn& TableFile::find(const std::string& table, const std::string& name) const {
   const auto group = tables.find(table);

@@ -28,6 +28,7 @@ struct TableFile {
   std::vector<Parameter> parameters;                       ///< of /parameters
   std::map<std::string, std::vector<TableColumn>> tables;  ///< by group name
 
+  bool has_column(const std::string& table, const std::string& name) const;
   /// A column of a table. Throws core::InputError if there is none, or of another type.
   template <class Value>
   const std::vector<Value>& column(const std::string& table, const std::string& name) const {

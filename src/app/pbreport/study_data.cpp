@@ -14,6 +14,7 @@ namespace {
 class Row {
  public:
   Row(const io::TableFile& file, std::size_t index) : file_(&file), index_(index) {}
+  bool has(const std::string& name) const { return file_->has_column("cases", name); }
   double real(const std::string& name) const { return file_->column<double>("cases", name)[index_]; }
   int integer(const std::string& name) const {
     return static_cast<int>(file_->column<std::int64_t>("cases", name)[index_]);
@@ -60,6 +61,11 @@ StudyCase read_case(const Row& row) {
   one.warmup = row.integer("warmup");
   one.frames = row.integer("frames");
   one.sor_factor = row.real("sor_factor");
+  if (row.has("warm_start")) {  // since version 1.1 of the file
+    one.warm_start = row.real("warm_start");
+    one.row_order = row.text("row_order");
+    one.estimate_iterations = row.integer("estimate_iterations");
+  }
   one.dt_s = row.real("dt");
   one.time_s = row.real("frame_time_worst");
   one.median_time_s = row.real("frame_time_median");
@@ -75,6 +81,8 @@ StudyCase read_case(const Row& row) {
 void add_case(StudyCase one, SceneCases& scene) {
   if (one.kind == "setting")
     scene.settings.push_back(std::move(one));
+  else if (one.kind == "estimate")
+    scene.estimates.push_back(std::move(one));
   else if (one.kind == "floor")
     scene.floor.push_back(std::move(one));
   else if (one.kind == "halved_iterations")
@@ -113,6 +121,9 @@ std::string setting_text(const StudyCase& one) {
   if (one.stepper == "sor") text += " " + one.precision;
   text += format(", %d x %d", one.substeps, one.iterations);
   if (one.stepper == "sor" && one.sor_factor != 1.3) text += format(", factor %g", one.sor_factor);
+  if (one.warm_start > 0) text += format(", warm %g", one.warm_start);
+  if (one.row_order != "shuffled") text += ", " + one.row_order + " order";
+  if (one.estimate_iterations > 0) text += format(", look at %d", one.estimate_iterations);
   return text + format(", dt %g s", one.dt_s);
 }
 
@@ -131,6 +142,8 @@ std::vector<std::pair<std::string, std::string>> setting_options(const StudyCase
     options.emplace_back("substeps", std::to_string(one.substeps));
     options.emplace_back("precision", one.precision);
     options.emplace_back("sor-factor", format("%.17g", one.sor_factor));
+    options.emplace_back("warm-start", format("%.17g", one.warm_start));
+    options.emplace_back("row-order", one.row_order);
   }
   return options;
 }
@@ -185,7 +198,8 @@ std::vector<SceneCases> study_scenes(const io::TableFile& file, const std::vecto
     StudyCase one = read_case(Row(file, i));
     auto scene =
         std::find_if(scenes.begin(), scenes.end(), [&](const SceneCases& s) { return s.name == one.scene; });
-    if (scene == scenes.end()) scene = scenes.insert(scenes.end(), SceneCases{one.scene, {}, {}, {}, {}, {}});
+    if (scene == scenes.end())
+      scene = scenes.insert(scenes.end(), SceneCases{one.scene, {}, {}, {}, {}, {}, {}});
     add_case(std::move(one), *scene);
   }
   if (names.empty()) return scenes;

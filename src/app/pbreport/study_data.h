@@ -14,9 +14,10 @@ namespace pbmpi::app {
 
 /// A row of /cases.
 struct StudyCase {
-  std::string scene, kind, stepper, precision;
+  std::string scene, kind, stepper, precision, row_order = "shuffled";
   int iterations = 0, substeps = 1, steps_per_frame = 0, worlds = 1, warmup = 0, frames = 0;
-  double sor_factor = 0, dt_s = 0;
+  int estimate_iterations = 0;  ///< of a look into the frame's last solve; 0: the frame's end
+  double sor_factor = 0, warm_start = 0, dt_s = 0;
   double time_s = 0;         ///< of the worst measured frame: what a budget must hold
   double median_time_s = 0;  ///< of the measured frames
   double row_visits = 0;
@@ -38,6 +39,7 @@ std::vector<std::pair<std::string, std::string>> setting_options(const StudyCase
 struct SceneCases {
   std::string name;
   std::vector<StudyCase> settings;
+  std::vector<StudyCase> estimates;  ///< of the scene's own setting; never chosen, since more work follows
   std::vector<StudyCase> floor;
   std::optional<StudyCase> halved_iterations, halved_substeps, halved_dt;
 

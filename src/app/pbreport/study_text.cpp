@@ -100,6 +100,12 @@ std::string scene_text(const SceneCases& scene, const StudyOptions& options) {
   for (const std::size_t i : scene.pareto_front(options.measure)) {
     text += row_text(scene.settings[i], scene.settings[i].error_m(options.measure) <= floor);
   }
+  if (!scene.estimates.empty()) {
+    text +=
+        "  estimates (FEEC): times are those until a look into the frame's last solve, after so many of its "
+        "iterations\n";
+  }
+  for (const StudyCase& one : scene.estimates) text += row_text(one, one.error_m(options.measure) <= floor);
   return text + choice_text(scene, options);
 }
 
@@ -148,6 +154,10 @@ std::string study_to_json(const std::vector<SceneCases>& scenes, const StudyOpti
     one["front"] = Json::array();
     for (const std::size_t i : scene.pareto_front(options.measure)) {
       one["front"].push_back(case_json(scene.settings[i], floor_m, options));
+    }
+    for (const StudyCase& estimate : scene.estimates) {
+      one["estimates"].push_back(case_json(estimate, floor_m, options));
+      one["estimates"].back()["look_after_iterations"] = estimate.estimate_iterations;
     }
     const auto chosen = chosen_setting(scene, options);
     if (chosen) one["chosen"] = case_json(scene.settings[*chosen], floor_m, options);

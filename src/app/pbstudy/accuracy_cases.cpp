@@ -20,6 +20,34 @@ int steps_in_frame(const StudyScene& scene, double dt_s) {
   return static_cast<int>(std::round(steps));
 }
 
+/// One substep has nothing to take over from another.
+void add_solver_settings(AccuracyCase base, const AccuracyOptions& options,
+                         std::vector<AccuracyCase>& cases) {
+  const bool several = base.stepper.substeps > 1;
+  for (const double share : several ? options.warm_starts : std::vector<double>{0}) {
+    base.stepper.warm_start = share;
+    for (const model::RowOrder order : options.row_orders) {
+      base.stepper.row_order = order;
+      cases.push_back(base);
+    }
+  }
+}
+
+/// Looks at the solve of the scene's own iterations.
+void add_estimates(AccuracyCase base, const StudyScene& scene, const AccuracyOptions& options,
+                   std::vector<AccuracyCase>& cases) {
+  base.kind = CaseKind::estimate;
+  base.stepper.kind = StepperKind::sor;
+  base.stepper.iterations = scene.iterations;
+  for (const model::Precision precision : options.precisions) {
+    base.stepper.precision = precision;
+    for (const int iterations : options.estimates) {
+      base.estimate_iterations = iterations;
+      if (iterations > 0 && iterations <= scene.iterations) cases.push_back(base);
+    }
+  }
+}
+
 /// ODE's steppers have neither substeps nor a precision nor a factor to choose.
 void add_settings(AccuracyCase base, const AccuracyOptions& options, std::vector<AccuracyCase>& cases) {
   if (base.stepper.kind != StepperKind::sor) {
@@ -33,7 +61,7 @@ void add_settings(AccuracyCase base, const AccuracyOptions& options, std::vector
       base.stepper.precision = precision;
       for (const double factor : options.sor_factors) {
         base.stepper.sor_factor = factor;
-        cases.push_back(base);
+        add_solver_settings(base, options, cases);
       }
     }
   }
@@ -53,6 +81,7 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
         add_settings(base, options, cases);
         if (kind == StepperKind::direct) break;  // it has no iterations
       }
+      if (kind == StepperKind::sor) add_estimates(base, scene, options, cases);
     }
   }
 }
@@ -89,6 +118,7 @@ StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions&
   study.warmup = options.warmup.value_or(defaults.warmup);
   study.frames = options.frames.value_or(defaults.frames);
   study.dt_s = defaults.dt_s;
+  study.iterations = defaults.iterations;
   study.frame_s = defaults.steps_per_frame * defaults.dt_s;
   return study;
 }

@@ -16,9 +16,10 @@ enum class CaseKind {
   halved_iterations,  ///< the reference with half its iterations: is it converged?
   halved_substeps,    ///< the same for its substeps, if it has several
   halved_dt,  ///< the reference with half the step: what the step's length does, which no solver mends
+  estimate,   ///< FEEC: what a frame of the setting shows before its last solve has ended
 };
-inline constexpr std::array<std::string_view, 5> case_kind_names = {"setting", "floor", "halved_iterations",
-                                                                    "halved_substeps", "halved_dt"};
+inline constexpr std::array<std::string_view, 6> case_kind_names = {
+    "setting", "floor", "halved_iterations", "halved_substeps", "halved_dt", "estimate"};
 
 /// What of a scene does not depend on the setting.
 struct StudyScene {
@@ -27,6 +28,7 @@ struct StudyScene {
   int warmup = 3, frames = 5;  ///< frames
   double frame_s = 0.03;       ///< length of a frame, simulated
   double dt_s = 0.01;          ///< the scene's step: that of the reference
+  int iterations = 20;         ///< the scene's
 
   int total_frames() const { return warmup + frames; }
 };
@@ -36,6 +38,7 @@ struct AccuracyCase {
   CaseKind kind = CaseKind::setting;
   model::StepperSettings stepper;
   int steps_per_frame = 3;
+  int estimate_iterations = 0;  ///< estimate: those of the frame's last solve that it waits for
 
   int sweeps() const { return stepper.iterations * stepper.substeps; }  ///< in a step
 };

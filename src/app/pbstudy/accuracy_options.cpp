@@ -22,12 +22,19 @@ po::options_description options_description() {
   po::options_description what("What to vary (lists, separated by blanks; all are crossed)");
   what.add_options()  //
       ("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE.toml..."),
-       "scenes; default: all nine")                                                                       //
-      ("stepper", list_of<std::string>(), "quick, direct, sor; default: quick sor")                       //
-      ("iterations", list_of<int>(), "default: 1 2 3 5 10 15 19 20 40 80")                                //
-      ("substeps", list_of<int>(), "sor; default: 1 2 4 8 16")                                            //
-      ("precision", list_of<std::string>(), "sor: double, single; default: both")                         //
-      ("sor-factor", list_of<double>(), "sor: over-relaxation; default: 1.3")                             //
+       "scenes; default: all nine")                                                  //
+      ("stepper", list_of<std::string>(), "quick, direct, sor; default: quick sor")  //
+      ("iterations", list_of<int>(), "default: 1 2 3 5 10 15 19 20 40 80")           //
+      ("substeps", list_of<int>(), "sor; default: 1 2 4 8 16")                       //
+      ("precision", list_of<std::string>(), "sor: double, single; default: both")    //
+      ("sor-factor", list_of<double>(), "sor: over-relaxation; default: 1.3")        //
+      ("warm-start", list_of<double>(),
+       "sor, with several substeps: share of the impulses that a substep takes over; default: 0 0.9")  //
+      ("row-order", list_of<std::string>(),
+       "sor: shuffled (anew every 8 iterations), fixed; default: shuffled")  //
+      ("estimates", list_of<int>(),
+       "sor: FEEC cases, not crossed with the others: the state after so many iterations of a frame's last "
+       "solve, which has the scene's iterations; 0: none; default: 1 5")                                  //
       ("dt", list_of<double>(), "step [s], a whole number of which fills a frame; default: the scene's")  //
       ("max-sweeps", po::value<int>()->default_value(320)->value_name("N"),
        "leave out cases with more iterations x substeps");
@@ -108,6 +115,11 @@ void require_possible(const AccuracyOptions& options) {
     require_input(factor > 0 && factor < 2, "--sor-factor " + std::to_string(factor) +
                                                 ": the iteration converges above 0 and below 2 only");
   }
+  for (const double share : options.warm_starts) {
+    require_input(share >= 0 && share <= 1, "--warm-start " + std::to_string(share) +
+                                                ": the share of the impulses to take over is 0 to 1");
+  }
+  require_at_least(options.estimates, 0, "--estimates");
   for (const double dt_s : options.dts_s) {
     require_input(std::isfinite(dt_s) && dt_s > 0,
                   "--dt " + std::to_string(dt_s) + " s: a step must be finite and above 0");
@@ -146,6 +158,9 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   options.precisions =
       choices<model::Precision>(values, "precision", model::precision_names, {"double", "single"});
   options.sor_factors = list<double>(values, "sor-factor", {1.3});
+  options.warm_starts = list<double>(values, "warm-start", {0, 0.9});
+  options.row_orders = choices<model::RowOrder>(values, "row-order", model::row_order_names, {"shuffled"});
+  options.estimates = list<int>(values, "estimates", {1, 5});
   options.dts_s = list<double>(values, "dt", {});
   options.replicas = given(values, "replicas", 1);
   options.frames = given(values, "frames", 1);

@@ -20,7 +20,10 @@ struct AccuracyOptions {
   std::vector<int> substeps;                 ///< sor
   std::vector<model::Precision> precisions;  ///< sor
   std::vector<double> sor_factors;           ///< sor
-  std::vector<double> dts_s;                 ///< empty: the scene's
+  std::vector<double> warm_starts;           ///< sor, where there are several substeps
+  std::vector<model::RowOrder> row_orders;   ///< sor
+  std::vector<int> estimates;  ///< sor: iterations after which the precise solve is looked at (FEEC)
+  std::vector<double> dts_s;   ///< empty: the scene's
   std::optional<int> replicas, frames, warmup;
   int max_sweeps = 320;  ///< iterations x substeps of a case, at most
   int repeats = 5;       ///< times that each frame is timed

@@ -31,7 +31,7 @@ struct CaseResult {
   double frame_time_worst_s = 0;   ///< the largest of those medians: what a frame budget must hold
   double frame_time_p10_s = 0, frame_time_p90_s = 0;  ///< over all timings: the spread
   double rows = 0;                                    ///< mean over the measured frames, of the last step
-  double row_visits = 0;                              ///< rows x iterations x substeps x steps of a frame
+  double row_visits = 0;                              ///< rows x sweeps of a frame, until it is shown
   double max_joint_gap_m = 0, max_penetration_m = 0;  ///< after one frame from the reference's states
   double energy_change_j = 0;     ///< largest distance from the reference's energy after one frame
   double momentum_change_ns = 0;  ///< the same of the linear momentum

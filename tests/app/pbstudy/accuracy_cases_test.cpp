@@ -38,8 +38,30 @@ TEST(AccuracyCases, all_settings_are_crossed_and_odes_steppers_have_fewer) {
   const auto cases =
       cases_of(options_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20", "--substeps",
                            "1", "2", "--sor-factor", "1", "1.3", "--precision", "single"}));
-  // quick: 2 iterations; direct: one; sor: 2 iterations x 2 substeps x 2 factors
-  EXPECT_EQ(count(cases, CaseKind::setting), 2 + 1 + 8);
+  // quick: 2 iterations; direct: one; sor: 2 iterations x (1 substep + 2 substeps x 2 warm starts) x 2
+  // factors
+  EXPECT_EQ(count(cases, CaseKind::setting), 2 + 1 + 12);
+}
+
+TEST(AccuracyCases, warm_start_and_row_order_are_crossed_where_they_mean_something) {
+  const auto cases =
+      cases_of(options_of({"--iterations", "3", "--substeps", "1", "5", "--precision", "double",
+                           "--warm-start", "0", "0.5", "0.9", "--row-order", "shuffled", "fixed"}));
+  EXPECT_EQ(count(cases, CaseKind::setting), 1 + 2 + 3 * 2) << "quick; one substep; five of them";
+  for (const AccuracyCase& one : cases) EXPECT_TRUE(one.stepper.warm_start == 0 || one.stepper.substeps == 5);
+  EXPECT_NE(refusal({"--warm-start", "2"}).find("0 to 1"), std::string::npos);
+}
+
+TEST(AccuracyCases, estimates_look_into_the_scenes_own_solve) {
+  const auto cases = cases_of(options_of({"--estimates", "0", "2", "20", "21", "--precision", "double"}));
+  EXPECT_EQ(count(cases, CaseKind::estimate), 2) << "0: none; 21: more than the 20 of the scene";
+  for (const AccuracyCase& one : cases) {
+    EXPECT_EQ(one.estimate_iterations > 0, one.kind == CaseKind::estimate);
+    if (one.kind == CaseKind::estimate) {
+      EXPECT_EQ(one.sweeps(), 20);
+    }
+  }
+  EXPECT_EQ(count(cases_of(options_of({"--stepper", "quick"})), CaseKind::estimate), 0);
 }
 
 TEST(AccuracyCases, the_yardsticks_are_other_seeds_and_halves_of_the_reference) {

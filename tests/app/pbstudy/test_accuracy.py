@@ -36,7 +36,8 @@ class Accuracy(ProgramTest):
     def test_errors_are_the_same_for_any_number_of_ranks(self):
         args = ["--scene", "CrashSk", "--iterations", 1, 5, 20, "--substeps", 1, 2, *FAST]
         one, three = self.made(1, "one.h5", *args), self.made(3, "three.h5", *args)
-        self.assertEqual(len(one["scene"]), 3 + 3 * 2 * 2 + 2 + 2, "quick, sor, seeds, halves")
+        self.assertEqual(len(one["scene"]), 3 + 3 * 3 * 2 + 4 + 2 + 2,
+                         "quick; sor with one substep, two, two and warm; estimates; seeds; halves")
         for name, column in one.items():
             if not name.startswith("frame_time"):
                 self.assertEqual(column.tobytes(), three[name].tobytes(), name)
@@ -44,7 +45,10 @@ class Accuracy(ProgramTest):
         self.assertTrue((one["frame_time_median"] > 0).all())
         setting = one["kind"] == b"setting"
         visits = one["rows"] * one["iterations"] * one["substeps"] * one["steps_per_frame"]
-        self.assertTrue(np.array_equal(one["row_visits"], visits))
+        looks = one["kind"] == b"estimate"
+        self.assertTrue(np.array_equal(one["row_visits"][~looks], visits[~looks]))
+        before = one["rows"] * (20 * 2 + one["estimate_iterations"])
+        self.assertTrue(np.array_equal(one["row_visits"][looks], before[looks]))
         bands = one["defect_body_position_bands"]
         self.assertTrue((bands.sum(axis=1) == 3 * 37).all(), "the same number of entries for every method")
         self.assertGreater(one["defect_body_position_rms"][setting].min(), 0)
@@ -68,6 +72,38 @@ class Accuracy(ProgramTest):
         found = again["defect_body_position_rms"][again["kind"] == b"setting"]
         self.assertEqual(list(found), [chosen["error_m"]], "the same bits, so also within the floor")
 
+    def test_an_estimate_of_a_frame_of_one_step_is_the_run_of_so_many_iterations(self):
+        args = ["--scene", "CrashSk", "--stepper", "sor", "--dt", 0.03, "--iterations", 3, 20, "--substeps", 1,
+                "--estimates", 3, 20, *FAST]
+        study = self.made(2, "study.h5", *args)
+        rows = {(kind, precision, look or iterations): index for index, (kind, precision, look, iterations) in
+                enumerate(zip(study["kind"], study["precision"], study["estimate_iterations"], study["iterations"]))}
+        for precision in (b"double", b"single"):
+            for iterations in (3, 20):
+                look, run = (rows[kind, precision, iterations] for kind in (b"estimate", b"setting"))
+                for name, column in study.items():
+                    if name.startswith("defect") or name in ("joint_gap", "energy_change", "row_visits"):
+                        self.assertEqual(column[look].tobytes(), column[run].tobytes(), name)
+            early, late = (rows[b"estimate", precision, iterations] for iterations in (3, 20))
+            self.assertEqual(study["drift_body_position_rms"][early], study["drift_body_position_rms"][late],
+                             "an estimate ends with its frame")
+            self.assertLess(study["defect_body_position_rms"][late], study["defect_body_position_rms"][early])
+        [scene] = self.front("study.h5")
+        self.assertEqual([row["look_after_iterations"] for row in scene["estimates"]], [3, 20, 3, 20])
+        self.assertIn("estimates (FEEC)", self.report("study.h5").stdout)
+
+    def test_a_preset_carries_warm_start_and_row_order(self):
+        self.made(2, "study.h5", "--scene", "CrashSk", "--stepper", "sor", "--iterations", 3, "--substeps", 2,
+                  "--warm-start", 0.9, "--row-order", "fixed", "--precision", "double", "--estimates", 0, *FAST)
+        result = self.report("study.h5", "--tolerance", "1m", "--write-preset", "warm.preset")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("sor double, 2 x 3, warm 0.9, fixed order", result.stdout)
+        with_preset = self.pbmpi(1, "--preset", "warm.preset", "--output", "run.h5")
+        self.assertEqual(with_preset.returncode, 0, with_preset.stderr)
+        with h5py.File(self.path("run.h5")) as file:
+            self.assertEqual(file["parameters/warm_start"][()], 0.9)
+            self.assertEqual(file["parameters/row_order"][()], b"fixed")
+
     def test_the_preset_of_a_tolerance_runs(self):
         self.made(2, "study.h5", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, "--stepper", "sor", *FAST)
         result = self.report("study.h5", "--tolerance", "1m", "--write-preset", "crash.preset", "--html", "page.html",
@@ -82,7 +118,7 @@ class Accuracy(ProgramTest):
         self.assertEqual(json.loads(wins.stdout)["iterations"], 7, "the command line wins")
         with open(self.path("table.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual(len(rows), 4 + 2 + 2)
+        self.assertEqual(len(rows), 4 + 4 + 2 + 2)
         with open(self.path("page.html"), encoding="utf-8") as file:
             page = file.read()
         self.assertIn("Pareto front", page)
