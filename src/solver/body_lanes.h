@@ -82,7 +82,7 @@ PBMPI_LANES Sym3L<V> rotated(const Mat3L<V>& r, const Sym3L<V>& s) {
 }
 
 template <class V>
-void refresh(BodyLane<V>& body) {
+PBMPI_LANES void refresh(BodyLane<V>& body) {
   body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
   body.inv_inertia = rotated(body.rotation, body.inv_inertia_body);
 }

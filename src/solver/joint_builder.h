@@ -89,10 +89,21 @@ class JointBuilder {
                          JointRows<T, model::JointKind::hinge>& rows) const;
   void set_slider_control(const JointLane<V>& joint, const Pair& pair,
                           JointRows<T, model::JointKind::slider>& rows) const;
-  /// A limit or motor on `axis` whose coordinate is 2 atan2(s, c), c >= 0. `angle`: that of a motor that
-  /// holds a pose; set in the first substep, used in the later ones. Returns whether any lane has a row.
-  bool set_axis_control(const AxisControl<V>& control, const L3& axis, const V& s, const V& c,
-                        const Pair& pair, V& angle, Bounded<AxisRow<V>, V>& row) const;
+  /// Sine and cosine of half an angle, but for a factor; c >= 0.
+  struct HalfAngle {
+    V s, c;
+  };
+  /// 1 in the lanes whose axis is at a limit or past it; the angle where anybody looks at it.
+  struct AxisPlace {
+    V at_low, at_high, angle;
+  };
+  /// half_angle(): of the axis now. `held`: the angle of a motor that holds a pose; set in the first substep,
+  /// trusted in the later ones.
+  template <class GetHalfAngle>
+  AxisPlace locate(const AxisControl<V>& control, GetHalfAngle half_angle, V& held) const;
+  /// A limit or motor on `axis`. Returns whether any lane has a row.
+  bool set_axis_control(const AxisControl<V>& control, const L3& axis, const AxisPlace& place,
+                        const Pair& pair, Bounded<AxisRow<V>, V>& row) const;
   /// The velocity at which a motor aims in this step, from the coordinate (0 where no lane holds a pose).
   V aim(const AxisControl<V>& control, const V& coordinate) const;
   /// at_low, at_high: 1 where the coordinate is at or past the limit, else 0; error: its distance from it;
@@ -279,13 +290,16 @@ void JointBuilder<T>::set_crossed_axes(const JointLane<V>& joint, const Pair& pa
     // Angle 1: where a sees axis 2 turned about its axis 1. Angle 2: where b sees axis 1 turned about its
     // axis 2.
     const L3& axis = i == 0 ? axis1 : axis2;
-    const L3 normal = i == 0 ? pair.a.rotation * terms.normal1_a : pair.b.rotation * terms.normal2_b;
-    const L3& seen = i == 0 ? axis2 : axis1;
-    const V x = dot(seen, normal);
-    const V y = dot(seen, cross(axis, normal));
-    const V c = T::sqrt(x * x + y * y) + x;
-    rows.control_on[i] =
-        set_axis_control(control, axis, i == 0 ? -y : y, c, pair, rows.angles[i], rows.axis_controls[i]);
+    const auto half_angle = [&]() -> HalfAngle {
+      const L3 normal = i == 0 ? pair.a.rotation * terms.normal1_a : pair.b.rotation * terms.normal2_b;
+      const L3& seen = i == 0 ? axis2 : axis1;
+      const V x = dot(seen, normal);
+      const V y = dot(seen, cross(axis, normal));
+      const V c = T::sqrt(x * x + y * y) + x;
+      return {i == 0 ? -y : y, c};
+    };
+    rows.control_on[i] = set_axis_control(control, axis, locate(control, half_angle, rows.angles[i]), pair,
+                                          rows.axis_controls[i]);
   }
 }
 
@@ -296,14 +310,17 @@ void JointBuilder<T>::set_hinge_control(const JointLane<V>& joint, const Pair& p
   const AxisControl<V>& control = joint.controls[0];
   rows.control_on[0] = control.any();
   if (!control.any()) return;
-  const RelativeRotation turn = relative_rotation(joint.terms, pair);
-  const V zero = T::broadcast(0);
-  const V length = T::sqrt(dot(turn.vector, turn.vector));
-  const V along = dot(turn.vector, joint.terms.axis1_a);
-  const V s = along >= zero ? -length : length;  // the angle of a relative to b
+  const auto half_angle = [&]() -> HalfAngle {
+    const RelativeRotation turn = relative_rotation(joint.terms, pair);
+    const V zero = T::broadcast(0);
+    const V length = T::sqrt(dot(turn.vector, turn.vector));
+    const V along = dot(turn.vector, joint.terms.axis1_a);
+    const V s = along >= zero ? -length : length;  // the angle of a relative to b
+    return {turn.w < zero ? -s : s, T::abs(turn.w)};
+  };
   rows.control_on[0] =
-      set_axis_control(control, pair.a.rotation * joint.terms.axis1_a, turn.w < zero ? -s : s, T::abs(turn.w),
-                       pair, rows.angles[0], rows.axis_controls[0]);
+      set_axis_control(control, pair.a.rotation * joint.terms.axis1_a,
+                       locate(control, half_angle, rows.angles[0]), pair, rows.axis_controls[0]);
 }
 
 template <class T>
@@ -335,31 +352,51 @@ typename JointBuilder<T>::ControlState JointBuilder<T>::decide(const AxisControl
 }
 
 template <class T>
-bool JointBuilder<T>::set_axis_control(const AxisControl<V>& control, const L3& axis, const V& s, const V& c,
-                                       const Pair& pair, V& angle, Bounded<AxisRow<V>, V>& row) const {
+template <class GetHalfAngle>
+typename JointBuilder<T>::AxisPlace JointBuilder<T>::locate(const AxisControl<V>& control,
+                                                            GetHalfAngle half_angle, V& held) const {
   const V zero = T::broadcast(0), one = T::broadcast(1);
-  V at_low = zero, at_high = zero, error = zero, velocity = control.velocity;
-  if (control.has_hold) {
-    if (!later_) angle = 2 * T::atan2(s, c);
-    velocity = aim(control, angle);
-  }
+  AxisPlace place{zero, zero, held};
+  if (!control.has_limit && !control.has_hold) return place;
+  // Which lanes go by the angle that they keep must not depend on what their neighbours have.
+  const V rate = control.max_force > zero ? control.hold_rate : zero;
+  V kept = rate > zero ? one : zero;
+  if (!later_) kept = zero;
   if (control.has_limit) {
-    at_low = s * control.cos_low <= c * control.sin_low ? one : zero;
-    at_high = s * control.cos_high >= c * control.sin_high ? one : zero;
-    at_high = at_low > zero ? zero : at_high;
-    const bool at_limit = T::any(at_low + at_high);
-    if (!at_limit && !control.has_motor) {
-      row.row.impulse = zero;  // nothing for a later substep to carry
-      return false;
+    place.at_low = held <= control.low ? kept : zero;
+    place.at_high = held >= control.high ? kept : zero;
+  }
+  if (T::any(one - kept)) {
+    const HalfAngle now = half_angle();
+    const auto is_kept = kept > zero;
+    if (control.has_limit) {
+      const V at_low = now.s * control.cos_low <= now.c * control.sin_low ? one : zero;
+      const V at_high = now.s * control.cos_high >= now.c * control.sin_high ? one : zero;
+      place.at_low = is_kept ? place.at_low : at_low;
+      place.at_high = is_kept ? place.at_high : at_high;
     }
-    if (at_limit) {
-      // Which lanes know their angle must not depend on what their neighbours have.
-      const V holds = control.max_force > zero ? control.hold_rate : zero;
-      const V unknown = holds > zero ? zero : at_low + at_high;
-      const V now = T::any(unknown) ? 2 * T::atan2(s, c) : angle;
-      error = (holds > zero ? angle : now) - (at_low > zero ? control.low : control.high);
+    const bool first = control.has_hold && !later_;
+    if (first || T::any(is_kept ? zero : place.at_low + place.at_high)) {
+      const V angle = 2 * T::atan2(now.s, now.c);
+      place.angle = is_kept ? held : angle;
+      if (first) held = angle;
     }
   }
+  place.at_high = place.at_low > zero ? zero : place.at_high;
+  return place;
+}
+
+template <class T>
+bool JointBuilder<T>::set_axis_control(const AxisControl<V>& control, const L3& axis, const AxisPlace& place,
+                                       const Pair& pair, Bounded<AxisRow<V>, V>& row) const {
+  const V zero = T::broadcast(0);
+  const auto& [at_low, at_high, angle] = place;
+  if (!control.has_motor && !T::any(at_low + at_high)) {
+    row.row.impulse = zero;  // nothing for a later substep to carry
+    return false;
+  }
+  const V velocity = control.has_hold ? aim(control, angle) : control.velocity;
+  const V error = angle - (at_low > zero ? control.low : control.high);
   const ControlState state = decide(control, at_low, at_high, error, velocity);
   set_axis(axis, state.rhs, pair, row.row);
   set_bounds(state, row);

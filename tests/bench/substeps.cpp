@@ -1,11 +1,12 @@
 #include "substeps.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "core/clock.h"
 #include "core/hash.h"
-#include "core/statistics.h"
 #include "model/observables.h"
 #include "ode/engine.h"
 #include "ode/narrow_phase.h"
@@ -18,6 +19,7 @@ struct Setting {
   int substeps, iterations;
   double warm_start;
 };
+constexpr int num_rounds = 5;
 constexpr Setting settings[] = {{1, 20, 0}, {2, 10, 0}, {4, 5, 0}, {5, 3, 0}, {5, 3, 0.3}, {5, 3, 0.9}};
 
 class Side {
@@ -38,31 +40,28 @@ class Side {
     }
   }
 
-  void time_frame() {
+  /// Seconds of CPU time.
+  double advance_frame() {
+    core::PhaseTimes times;
     const double start_s = core::thread_cpu_s();
-    stepper_->advance(subject_->steps_per_frame, times_);
-    frame_s.push_back(core::thread_cpu_s() - start_s);
+    stepper_->advance(subject_->steps_per_frame, times);
+    const double seconds = core::thread_cpu_s() - start_s;
     for (int world = 0; world < num_worlds(); ++world) measure(world);
+    ++num_frames_;
+    return seconds;
   }
 
-  void print(const Side& other) const {
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < frame_s.size(); ++i) ratios.push_back(frame_s[i] / other.frame_s[i]);
+  void print(double frame_s, double first_frame_s) const {
     core::Hash64 hash;
     for (int world = 0; world < num_worlds(); ++world) hash.add(model::hash(stepper_->state(world)));
-    const double num_frames = static_cast<double>(frame_s.size());
     std::printf(
-        "  %d x %-2d warm %.1f  frame %6.3f ms  time x %5.3f (collide %.3f rows %.3f solve %.3f ms)  joint "
-        "gap rms "
-        "%6.2f mm  mean of worst %6.2f mm  deepest %4.0f mm  hash %s\n",
-        setting_.substeps, setting_.iterations, setting_.warm_start, 1e3 * core::quantile(frame_s, 0.5),
-        core::quantile(ratios, 0.5), 1e3 * times_[core::Phase::collide] / num_frames,
-        1e3 * times_[core::Phase::rows] / num_frames, 1e3 * times_[core::Phase::solve] / num_frames,
-        1e3 * std::sqrt(square_sum_ / num_gaps_), 1e3 * worst_sum_ / (num_frames * num_worlds()),
+        "  %d x %-2d warm %.1f  frame %6.3f ms  time x %5.3f  joint gap rms %6.2f mm  mean of worst %6.2f mm "
+        " "
+        "deepest %4.0f mm  hash %s\n",
+        setting_.substeps, setting_.iterations, setting_.warm_start, 1e3 * frame_s, frame_s / first_frame_s,
+        1e3 * std::sqrt(square_sum_ / num_gaps_), 1e3 * worst_sum_ / (num_frames_ * num_worlds()),
         1e3 * deepest_m_, core::to_hex(hash.value()).c_str());
   }
-
-  std::vector<double> frame_s;  ///< [frames] of CPU time
 
  private:
   int num_worlds() const { return static_cast<int>(subject_->models.size()); }
@@ -81,21 +80,31 @@ class Side {
   const Subject* subject_;
   Setting setting_;
   std::unique_ptr<model::WorldStepper> stepper_;
-  core::PhaseTimes times_;
-  double square_sum_ = 0, num_gaps_ = 0, worst_sum_ = 0, deepest_m_ = 0;
+  double square_sum_ = 0, num_gaps_ = 0, worst_sum_ = 0, deepest_m_ = 0, num_frames_ = 0;
 };
 
 void compare(const Subject& subject, int frames, model::Precision precision) {
+  const auto num_frames = static_cast<std::size_t>(frames);
   std::vector<Side> sides;
-  for (const Setting& setting : settings) sides.emplace_back(subject, setting, precision);
-  for (int frame = 0; frame < frames; ++frame) {
-    for (std::size_t i = 0; i < sides.size(); ++i)
-      sides[(i + static_cast<std::size_t>(frame)) % sides.size()].time_frame();
+  std::vector<std::vector<double>> least_s(std::size(settings), std::vector<double>(num_frames, INFINITY));
+  for (int round = 0; round < num_rounds; ++round) {
+    sides.clear();
+    for (const Setting& setting : settings) sides.emplace_back(subject, setting, precision);
+    for (std::size_t frame = 0; frame < num_frames; ++frame) {
+      for (std::size_t turn = 0; turn < sides.size(); ++turn) {
+        const std::size_t i = (turn + frame) % sides.size();
+        least_s[i][frame] = std::min(least_s[i][frame], sides[i].advance_frame());
+      }
+    }
   }
-  std::printf("%s, sor %s: %zu worlds, substeps x iterations, medians over %d alternated frames\n",
-              subject.name.c_str(), precision == model::Precision::single ? "single" : "double",
-              subject.models.size(), frames);
-  for (const Side& side : sides) side.print(sides.front());
+  std::printf(
+      "%s, sor %s: %zu worlds, substeps x iterations; mean of %d frames, each the least of %d rounds\n",
+      subject.name.c_str(), precision == model::Precision::single ? "single" : "double",
+      subject.models.size(), frames, num_rounds);
+  const auto mean = [&](const std::vector<double>& times_s) {
+    return std::accumulate(times_s.begin(), times_s.end(), 0.0) / frames;
+  };
+  for (std::size_t i = 0; i < sides.size(); ++i) sides[i].print(mean(least_s[i]), mean(least_s[0]));
 }
 
 }  // namespace

@@ -95,6 +95,56 @@ TEST(WarmStart, a_box_rests_without_being_pulled_or_thrown) {
   EXPECT_NEAR(stepper->state(0).position[0].z(), 0.5, 1e-3);
 }
 
+/// Crashes in which the joints of some ragdolls hold their pose, between limits, and those of others do not.
+std::vector<model::Model> holders() {
+  std::vector<model::Model> models;
+  for (int variant = 0; variant < 6; ++variant) {
+    models.push_back(support::crash(variant));
+    if (variant % 3 == 0) continue;
+    for (model::Joint& joint : models.back().joints) {
+      if (joint.kind != model::JointKind::hinge && joint.kind != model::JointKind::universal) continue;
+      joint.motors[0] = {0, 30, 20};
+      joint.limits[0] = {-0.05 * variant, 0.02};
+    }
+  }
+  return models;
+}
+
+TEST(Substeps, go_by_a_held_angle_in_its_own_lane_only) {
+  for (const model::Precision precision : {model::Precision::double_, model::Precision::single}) {
+    model::StepperSettings settings = settings_of(4, 4, 0.5);
+    settings.precision = precision;
+    settings.simd = model::Simd::off;
+    const std::vector<std::uint64_t> expected = hashes_after(settings, holders(), 20);
+    for (const model::Simd simd : machine_simds()) {
+      settings.simd = simd;
+      EXPECT_EQ(hashes_after(settings, holders(), 20), expected) << static_cast<int>(simd);
+      for (const std::size_t alone : {2, 3})
+        EXPECT_EQ(hashes_after(settings, {holders()[alone]}, 20).front(), expected[alone]);
+    }
+  }
+}
+
+TEST(Substeps, hold_a_pose_as_small_steps_do) {
+  model::Model swings = support::pendulum(1, 0.5);
+  swings.joints[0].motors[0] = {0, 15, 3};  // back towards its first angle
+  swings.joints[0].limits[0] = {-0.4, 0.3};
+  swings.bodies[0].velocity = {4, 0, 0};
+  model::StepperSettings small = settings_of(1, 40, 0), substeps = settings_of(5, 40, 0);
+  small.dt_s = substeps.dt_s / 5;
+  const auto fine = make_stepper(small, {swings}), coarse = make_stepper(substeps, {swings});
+  double farthest_m = 0;
+  for (int step = 0; step < 60; ++step) {
+    advance(*fine, 5);
+    advance(*coarse, 1);
+    const model::Vec3 moved = fine->state(0).position[0] - swings.bodies[0].pose.position;
+    farthest_m = std::max(farthest_m, moved.norm());
+    // Angles are advanced over four substeps of 2 ms: an error of second order in them.
+    EXPECT_LT((coarse->state(0).position[0] - fine->state(0).position[0]).norm(), 2e-4) << step;
+  }
+  EXPECT_GT(farthest_m, 0.01);
+}
+
 TEST(RowOrder, fixed_and_shuffled_orders_agree_once_converged) {
   model::StepperSettings settings = settings_of(1, 4000, 0);
   const auto shuffled = make_stepper(settings, {support::chain(6)});

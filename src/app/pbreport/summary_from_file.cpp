@@ -157,7 +157,7 @@ EstimateSummary estimate_of(const io::RunData& run, const std::string& path, dou
   summary.stepper = text_of(run.parameters, "estimate_stepper");
   summary.iterations = number_of<int>(run, "estimate_iterations", path);
   summary.precision = text_of(run.parameters, "estimate_precision");
-  const std::string source = text_of(run.parameters, "estimate_source");  // none in files of pbmpi 0.4
+  const std::string source = text_of(run.parameters, "estimate_source");  // older files have none
   if (!source.empty()) summary.source = source;
   compute_delivery(only_measured(run.estimate.delivered_s, run.frame_measured),
                    only_measured(run.estimate.precise_s, run.frame_measured), budget_s, summary);
