@@ -162,8 +162,9 @@ void SorStepper::begin_step(int iterations, core::PhaseTimes& times) {
     begin(group, times);
     group.pack->iterate(iterations, times);
     LapTimer timer(times);
-    group.looks.clear();
-    for (const SorWorld* world : group.worlds) group.looks.push_back(world->state());
+    if (group.looks.empty()) {  // room for them, kept from step to step
+      for (const SorWorld* world : group.worlds) group.looks.push_back(world->state());
+    }
     group.pack->look(group.looks);
     timer.lap(Phase::integrate);
     group.begun_s = core::now_s() - start_s;
