@@ -41,8 +41,8 @@ class JointBuilder {
         later_(later),
         carry_(later ? carry : Scalar(0)) {}
 
-  /// The next substep, before forces act: turns the angles that motors look at as the bodies have turned.
-  /// Taken anew from the poses they would cost an arc tangent each, a tenth of the step.
+  /// For the next substep, with the twists that moved the bodies: turns the angles that motors look at as the
+  /// bodies have turned. Taken anew from the poses they would cost an arc tangent each, a tenth of the step.
   template <model::JointKind kind>
   PBMPI_LANES static void advance(const JointLane<V>& joint, const BodyLanes<T>& bodies, Scalar h,
                                   JointRows<T, kind>& rows) {

@@ -24,6 +24,7 @@ struct StepParameters {
   double sor_factor = 1.3;
   double warm_start = 0;        ///< share of the impulses that a substep takes over from the one before
   bool shuffled = true;         ///< false: the joints of an articulation keep their order
+  bool residuals = false;       ///< measure them at the end of the solve
   std::uint64_t order_key = 0;  ///< (seed, step): the order of joints within an articulation
 };
 
@@ -79,7 +80,7 @@ class Pack {
   /// Before finish_step(): the states [num_worlds] as they would be if the step ended now. Costs an
   /// integration, and disturbs nothing.
   virtual void look(std::span<model::State> states) = 0;
-  /// How far a world's last step, as finish_step() left it, is from the solution of its constraints.
+  /// How far a world's last step was from the solution of its constraints; StepParameters::residuals only.
   virtual model::Residuals residuals(int world) const = 0;
   /// Rows that a joint had in the last step, limits and motors included.
   virtual int joint_rows(int world, int joint) const = 0;

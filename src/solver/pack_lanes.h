@@ -56,7 +56,7 @@ class PackLanes final : public Pack {
   void iterate(int iterations, core::PhaseTimes& times) override;
   void finish_step(core::PhaseTimes& times) override;
   void look(std::span<model::State> states) override;
-  model::Residuals residuals(int world) const override;
+  model::Residuals residuals(int world) const override { return residuals_[static_cast<std::size_t>(world)]; }
 
  private:
   void sort_contacts(Contacts contacts);
@@ -71,12 +71,15 @@ class PackLanes final : public Pack {
   void start_substep();
   void sweep();
   ContactParameters<Scalar> contact_parameters() const;
+  model::Residuals measure_residuals(int world) const;
 
   StepParameters parameters_;  ///< of the step at hand, with how far it has come
   int substep_ = 0, iteration_ = 0;
-  Scalar h_ = 0;                         ///< [s] a substep
-  std::vector<PoseLane<V>> look_poses_;  ///< [slots] scratch
-  SlotList jointed_, free_;              ///< slots in contact
+  Scalar h_ = 0;                             ///< [s] a substep
+  std::vector<PoseLane<V>> look_poses_;      ///< [slots] scratch
+  std::vector<Twist<V>> kept_twists_;        ///< [slots] scratch
+  std::vector<model::Residuals> residuals_;  ///< [num_worlds] of the last step, if they are measured
+  SlotList jointed_, free_;                  ///< slots in contact
   SlotSet seen_;
   Passes passes_;
   WorldLanes<T> worlds_;
@@ -178,7 +181,6 @@ void PackLanes<T>::start_substep() {
     contacts_.build(bodies, contact_parameters());
   } else {
     contacts_.advance(bodies, contact_parameters());
-    worlds_.joints.advance(h_, bodies);
   }
   if (passes_.gyroscopic_torque) apply_gyroscopic_torques(h_);
   if (passes_.gravity) apply_gravity(h_);
@@ -244,8 +246,14 @@ void PackLanes<T>::finish_step(core::PhaseTimes& times) {
   core::LapTimer timer(times);
   while (iteration_ < parameters_.iterations) sweep();
   read_contact_twists(free_);
+  const bool last = substep_ + 1 == parameters_.substeps;
+  if (parameters_.residuals && last) {
+    residuals_.clear();
+    for (int world = 0; world < worlds_.num_worlds(); ++world) residuals_.push_back(measure_residuals(world));
+  }
   timer.lap(core::Phase::solve);
   integrate_bodies(h_);
+  if (!last) worlds_.joints.advance(h_, worlds_.bodies);
   if (passes_.damping) damp(parameters_.dt_s / parameters_.substeps);
   timer.lap(core::Phase::integrate);
 }
@@ -262,12 +270,18 @@ void PackLanes<T>::look(std::span<model::State> states) {
     pose = {body.position, body.qw, body.qx, body.qy, body.qz};
     integrate<T>(pose, worlds_.bodies.twists[slot], h_);
   });
+  std::vector<Twist<V>>& twists = worlds_.bodies.twists;
+  if (passes_.damping) {
+    kept_twists_ = twists;
+    damp(parameters_.dt_s / parameters_.substeps);
+  }
   for (std::size_t world = 0; world < states.size(); ++world)
     worlds_.store_with(look_poses_.data(), static_cast<int>(world), states[world]);
+  if (passes_.damping) twists = kept_twists_;
 }
 
 template <class T>
-model::Residuals PackLanes<T>::residuals(int world) const {
+model::Residuals PackLanes<T>::measure_residuals(int world) const {
   ResidualMeter<T> meter(h_, worlds_.model(0).cfm, contact_parameters());
   worlds_.visit_joint_rows(world,
                            [&](const auto& rows, int lane) { meter.add_joint(rows, worlds_.bodies, lane); });

@@ -28,6 +28,7 @@ StepParameters step_parameters(const model::StepperSettings& settings, std::int6
   parameters.iterations = settings.iterations;
   parameters.sor_factor = settings.sor_factor;
   parameters.warm_start = settings.warm_start;
+  parameters.residuals = settings.residuals;
   parameters.shuffled = settings.row_order == model::RowOrder::shuffled;
   parameters.order_key = core::mix_key(settings.seed, static_cast<std::uint64_t>(step), 0);
   return parameters;

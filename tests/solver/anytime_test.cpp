@@ -22,8 +22,12 @@ model::StepperSettings settings_of(model::Simd simd, model::Precision precision)
   return settings;
 }
 
+/// With damping, which follows a step.
 std::shared_ptr<const model::Model> crash(int variant) {
-  return std::make_shared<const model::Model>(support::crash(variant));
+  model::Model model = support::crash(variant);
+  model.linear_damping = 0.3;
+  model.angular_damping = 0.5;
+  return std::make_shared<const model::Model>(std::move(model));
 }
 
 /// Crashes of five variants, a few steps after the impact began.

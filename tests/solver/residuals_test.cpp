@@ -143,6 +143,18 @@ TEST(Residuals, are_those_of_a_dense_recomputation) {
   }
 }
 
+TEST(Residuals, are_those_of_the_solve_before_damping) {
+  model::Model model = dragged_ball();
+  const auto free = make_stepper(settings_of(3), {model});
+  model.linear_damping = model.angular_damping = 5;
+  const auto damped = make_stepper(settings_of(3), {model});
+  advance(*free, 1);
+  advance(*damped, 1);
+  EXPECT_LT(damped->state(0).velocity[0].norm(), free->state(0).velocity[0].norm());
+  EXPECT_EQ(damped->observables(0).residuals.joint_speed, free->observables(0).residuals.joint_speed);
+  EXPECT_EQ(damped->observables(0).residuals.natural_speed, free->observables(0).residuals.natural_speed);
+}
+
 TEST(Residuals, vanish_with_many_iterations_for_every_kind_of_row) {
   const auto stepper = make_stepper(settings_of(4000), {support::crash()});
   advance(*stepper, 1);
