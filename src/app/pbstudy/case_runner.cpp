@@ -4,10 +4,7 @@
 #include <cmath>
 
 #include "analysis/invariants.h"
-#include "app/pbmpi/stepper_factory.h"
-#include "core/clock.h"
 #include "core/statistics.h"
-#include "scenes/scene.h"
 
 namespace pbmpi::app {
 namespace {
@@ -16,55 +13,6 @@ using analysis::PoseErrors;
 using model::State;
 
 analysis::PoseView view(const State& state) { return {state.position, state.orientation}; }
-
-/// A stepper with all worlds of a case, and the frames that it has done.
-class CaseStepper {
- public:
-  CaseStepper(const Worlds& worlds, const model::StepperSettings& settings, int steps_per_frame)
-      : stepper_(make_stepper(settings, "case: ")),
-        num_worlds_(static_cast<int>(worlds.size())),
-        steps_per_frame_(steps_per_frame) {
-    for (int world = 0; world < num_worlds_; ++world) {
-      const auto& model = worlds[static_cast<std::size_t>(world)];
-      stepper_->add(world, model, model::initial_state(*model), 0);
-    }
-  }
-
-  void start_from(const std::vector<State>& states, int frame) {
-    for (int world = 0; world < num_worlds_; ++world) {
-      stepper_->set_state(world, states[static_cast<std::size_t>(world)],
-                          static_cast<std::int64_t>(frame) * steps_per_frame_);
-    }
-  }
-  /// Seconds of processor time that one frame takes.
-  double advance_frame() {
-    core::PhaseTimes times;
-    const double start_s = core::thread_cpu_s();
-    stepper_->advance(steps_per_frame_, times);
-    return core::thread_cpu_s() - start_s;
-  }
-  const model::WorldStepper& worlds() const { return *stepper_; }
-  std::vector<State> states() const {
-    std::vector<State> states;
-    states.reserve(static_cast<std::size_t>(num_worlds_));
-    for (int world = 0; world < num_worlds_; ++world) states.push_back(stepper_->state(world));
-    return states;
-  }
-
- private:
-  std::unique_ptr<model::WorldStepper> stepper_;
-  int num_worlds_;
-  int steps_per_frame_;
-};
-
-PoseErrors errors_of(const CaseStepper& stepper, const Worlds& worlds, const std::vector<State>& reference) {
-  PoseErrors errors;
-  for (std::size_t world = 0; world < worlds.size(); ++world) {
-    errors.append(analysis::compare(*worlds[world], view(stepper.worlds().state(static_cast<int>(world))),
-                                    view(reference[world])));
-  }
-  return errors;
-}
 
 /// Raises `most` to `value`; a NaN counts as infinite.
 void raise(double& most, double value) { most = std::isnan(value) ? INFINITY : std::max(most, value); }
@@ -145,24 +93,6 @@ void summarize_times(const std::vector<std::vector<double>>& times_s, CaseResult
 }
 
 }  // namespace
-
-Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed) {
-  const auto parsed = scenes::parse_scene(scene.source, dt_s);
-  Worlds worlds;
-  for (int world = 0; world < scene.num_worlds; ++world) worlds.push_back(parsed->build(world, seed));
-  return worlds;
-}
-
-Reference make_reference(const StudyScene& scene, const model::StepperSettings& settings) {
-  Reference reference{build_worlds(scene, scene.dt_s, settings.seed), {}};
-  CaseStepper stepper(reference.worlds, settings, static_cast<int>(std::round(scene.frame_s / scene.dt_s)));
-  reference.states.push_back(stepper.states());
-  for (int frame = 0; frame < scene.total_frames(); ++frame) {
-    stepper.advance_frame();
-    reference.states.push_back(stepper.states());
-  }
-  return reference;
-}
 
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
                     int repeats) {
