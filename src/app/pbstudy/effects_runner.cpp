@@ -1,5 +1,6 @@
 #include "app/pbstudy/effects_runner.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/statistics.h"
@@ -24,13 +25,18 @@ std::uint64_t hash_of(const std::vector<State>& states) {
 /// Frames of one of the two that are compared.
 struct Side {
   CaseStepper stepper;
-  std::vector<double> frame_s;  ///< processor time
-  double instructions = 0;      ///< of the counted frames
+  std::vector<double> frame_s;  ///< processor time, round by round
+  /// [frames] The fewest of all rounds: in the first ones memory grows and functions are bound.
+  std::vector<double> instructions;
 
-  void advance_frame(core::InstructionCounter* counter) {
-    if (counter != nullptr) counter->start();
+  void advance_frame(std::size_t frame, core::InstructionCounter& counter) {
+    counter.start();
     frame_s.push_back(stepper.advance_frame());
-    if (counter != nullptr) instructions += static_cast<double>(counter->stop());
+    if (counter.available())
+      instructions[frame] = std::min(instructions[frame], static_cast<double>(counter.stop()));
+  }
+  double instructions_of_a_step(int steps_per_frame) const {
+    return core::summarize(instructions).mean / steps_per_frame;
   }
 };
 
@@ -38,7 +44,7 @@ struct Side {
 /// Before them a frame that is not kept: what a jump back to another step costs must not be timed.
 template <class AfterFrame>
 void run_round(std::array<Side, 2>& sides, const StudyScene& scene, const Reference& baseline,
-               std::size_t first, core::InstructionCounter* counter, AfterFrame&& after_frame) {
+               std::size_t first, core::InstructionCounter& counter, AfterFrame&& after_frame) {
   for (Side& side : sides) {
     if (scene.warmup == 0) continue;
     side.stepper.start_from(baseline.states[static_cast<std::size_t>(scene.warmup - 1)], scene.warmup - 1);
@@ -48,7 +54,7 @@ void run_round(std::array<Side, 2>& sides, const StudyScene& scene, const Refere
     for (std::size_t i = 0; i < 2; ++i) {
       Side& side = sides[(first + i) % 2];
       side.stepper.start_from(baseline.states[static_cast<std::size_t>(frame)], frame);
-      side.advance_frame(counter);
+      side.advance_frame(static_cast<std::size_t>(frame - scene.warmup), counter);
     }
     after_frame(frame);
   }
@@ -89,25 +95,24 @@ EffectResult run_effect_case(const EffectCase& one, const StudyScene& scene, con
                              ? baseline.worlds
                              : build_worlds(scene, scene.dt_s, baseline_stepper.seed, one.choices());
   const int steps = scene.steps_per_frame();
-  std::array<Side, 2> sides = {Side{{baseline.worlds, baseline_stepper, steps}, {}, 0},
-                               Side{{variant, one.stepper, steps}, {}, 0}};
+  const std::vector<double> uncounted(static_cast<std::size_t>(scene.frames), INFINITY);
+  std::array<Side, 2> sides = {Side{{baseline.worlds, baseline_stepper, steps}, {}, uncounted},
+                               Side{{variant, one.stepper, steps}, {}, uncounted}};
   analysis::PoseErrors defect;
   for (int round = 0; round < repeats; ++round) {
-    const bool first_round = round == 0;  // the others give the same bits
-    run_round(sides, scene, baseline, static_cast<std::size_t>(round),
-              first_round && counter.available() ? &counter : nullptr, [&](int frame) {
-                if (!first_round) return;
-                defect.append(errors_of(sides[1].stepper, baseline.worlds,
-                                        baseline.states[static_cast<std::size_t>(frame) + 1]));
-              });
+    run_round(sides, scene, baseline, static_cast<std::size_t>(round), counter, [&](int frame) {
+      if (round > 0) return;  // the others give the same bits
+      defect.append(
+          errors_of(sides[1].stepper, baseline.worlds, baseline.states[static_cast<std::size_t>(frame) + 1]));
+    });
   }
   result.defect = analysis::summarize(defect);
   const bool adds = one.kind == EffectCaseKind::demanded;
   const Side &with = sides[adds ? 1 : 0], &without = sides[adds ? 0 : 1];
   summarize_times(with, without, steps, result);
   if (counter.available()) {
-    result.instructions_with = with.instructions / (scene.frames * steps);
-    result.instructions_without = without.instructions / (scene.frames * steps);
+    result.instructions_with = with.instructions_of_a_step(steps);
+    result.instructions_without = without.instructions_of_a_step(steps);
   }
   measure_drift(one, scene, baseline, variant, result);
   return result;
