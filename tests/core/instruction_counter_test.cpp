@@ -5,16 +5,20 @@
 namespace pbmpi::core {
 namespace {
 
-/// At least two instructions a round.
-void spin(int rounds) {
-  for (volatile int i = 0; i < rounds; i = i + 1) {
-  }
+/// At least two instructions a round; the compiler must not know what the sum is for.
+std::uint64_t spin(int rounds) {
+  volatile std::uint64_t seed = 1;
+  std::uint64_t sum = seed;
+  for (int i = 0; i < rounds; ++i) sum = sum * 6364136223846793005u + seed;
+  return sum;
 }
 
 std::int64_t count(InstructionCounter& counter, int rounds) {
   counter.start();
-  spin(rounds);
-  return counter.stop();
+  const std::uint64_t sum = spin(rounds);
+  const std::int64_t instructions = counter.stop();
+  EXPECT_NE(sum, 0u);
+  return instructions;
 }
 
 TEST(InstructionCounter, counts_in_proportion_or_says_that_it_cannot) {

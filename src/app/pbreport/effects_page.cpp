@@ -46,23 +46,40 @@ std::vector<std::string> steppers_of(const std::vector<EffectScene>& scenes) {
   return names;
 }
 
-/// Effects of which some scene has a value, in their order.
+/// Effects of which some scene has a value, in their order, which is that of each scene.
 std::vector<std::string> effects_with(const std::vector<EffectScene>& scenes, Value value) {
   std::vector<std::string> names;
-  for (const EffectScene& scene : scenes) {
-    for (const EffectRow& row : scene.effects) {
-      if (value(row) && std::find(names.begin(), names.end(), row.effect) == names.end())
-        names.push_back(row.effect);
-    }
+  for (std::size_t i = 0; i < scenes.front().effects.size(); ++i) {
+    if (std::any_of(scenes.begin(), scenes.end(),
+                    [&](const EffectScene& scene) { return value(scene.effects[i]).has_value(); }))
+      names.push_back(scenes.front().effects[i].effect);
   }
   return names;
 }
 
+/// What lies in it may be the clock's noise.
+json time_noise(const std::vector<EffectScene>& scenes) {
+  double share = 0;
+  for (const EffectScene& scene : scenes) share = std::max(share, 100 * scene.floor_share());
+  return {{{"from", -share},
+           {"to", share},
+           {"label", "noise floor"},
+           {"align", "right"},
+           {"colour", "rgba(120, 130, 142, .30)"}}};
+}
+
+/// What is drawn behind the bars.
+enum class Floor {
+  none,
+  time,   ///< a band: what another solver seed seems to cost
+  error,  ///< bars of their own: what another solver seed changes
+};
+
 /// Bars: a group an effect, a bar a scene.
 io::html::Chart bars(const char* title, const char* text, const char* axis, const char* scale,
-                     const std::vector<EffectScene>& scenes, Value value, bool with_floor) {
+                     const std::vector<EffectScene>& scenes, Value value, Floor floor) {
   std::vector<std::string> labels = effects_with(scenes, value);
-  if (with_floor) labels.emplace_back("noise floor");
+  if (floor == Floor::error) labels.emplace_back("noise floor");
   json datasets = json::array();
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const EffectScene& scene = scenes[i];
@@ -73,14 +90,14 @@ io::html::Chart bars(const char* title, const char* text, const char* axis, cons
     for (const EffectRow& row : scene.effects) {
       if (const auto y = value(row)) add(row.effect, *y);
     }
-    if (with_floor) add("noise floor", 1e3 * scene.floor_defect_m());
+    if (floor == Floor::error) add("noise floor", 1e3 * scene.floor_defect_m());
     datasets.push_back(
         {{"label", scene.name}, {"data", points}, {"backgroundColor", colours[i % colours.size()]}});
   }
+  json options = {{"scales", {{"y", {{"type", scale}, {"title", {{"display", true}, {"text", axis}}}}}}}};
+  if (floor == Floor::time) options["plugins"]["pbmpi"]["bands"] = time_noise(scenes);
   const json config = {
-      {"type", "bar"},
-      {"data", {{"labels", labels}, {"datasets", datasets}}},
-      {"options", {{"scales", {{"y", {{"type", scale}, {"title", {{"display", true}, {"text", axis}}}}}}}}}};
+      {"type", "bar"}, {"data", {{"labels", labels}, {"datasets", datasets}}}, {"options", options}};
   return {title, text, config.dump()};
 }
 
@@ -127,16 +144,16 @@ io::html::PageSection overview(const std::string& stepper, const std::vector<Eff
       "is shorter with it.";
   section.charts = {
       bars("Share of the step time", "Effects that the scene calls for.", "share of the step [%]", "linear",
-           scenes, share_of_called_for, false),
+           scenes, share_of_called_for, Floor::time),
       bars("Error if left out", "Defect of all bodies after one frame, against the scene as it is.",
-           "defect, rms [mm]", "logarithmic", scenes, defect_mm, true),
+           "defect, rms [mm]", "logarithmic", scenes, defect_mm, Floor::error),
       bars("Demanded though nothing calls for it", "No bit of the result changes; this is what it costs.",
-           "share of the step [%]", "linear", scenes, share_of_unneeded, false),
+           "share of the step [%]", "linear", scenes, share_of_unneeded, Floor::time),
   };
   if (counted) {
     section.charts.push_back(
         bars("Share of the instructions", "Fewest of all repeats; no clock disturbs them.",
-             "share of the step's instructions [%]", "linear", scenes, counted_share, false));
+             "share of the step's instructions [%]", "linear", scenes, counted_share, Floor::none));
   }
   section.tables = {matrix(scenes)};
   return section;
