@@ -26,11 +26,13 @@ std::optional<model::Pass> pass_of(const model::Model& model, const std::string&
   return std::nullopt;
 }
 
-EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const std::string& effect) {
+/// `baseline` is world 0 of the scene as it is.
+EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const model::Model& baseline,
+                   const std::string& effect) {
   EffectCase one;
   one.scene = index;
   one.effect = effect;
-  const auto pass = pass_of(*first_world(scene, seed, {}), effect);
+  const auto pass = pass_of(baseline, effect);
   one.kind = pass ? EffectCaseKind::left_out : EffectCaseKind::demanded;
   try {
     const auto variant = first_world(scene, seed, one.choices());
@@ -91,9 +93,10 @@ std::vector<EffectCase> make_effect_cases(const std::vector<StudyScene>& scenes,
   std::vector<EffectCase> cases;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const int index = static_cast<int>(i);
+    const auto baseline = first_world(scenes[i], options.seed, {});
     std::vector<EffectCase> of_scene;
     for (const std::string& effect : options.effects)
-      of_scene.push_back(case_of(index, scenes[i], options.seed, effect));
+      of_scene.push_back(case_of(index, scenes[i], options.seed, *baseline, effect));
     for (const StepperSettings& stepper : steppers_of(scenes[i], options)) {
       for (EffectCase& one : of_scene) {
         one.stepper = stepper;
