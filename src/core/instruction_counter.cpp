@@ -67,7 +67,10 @@ InstructionCounter::InstructionCounter() {
     return;
   }
   perf_file_ = open_perf_event();
-  if (perf_file_ >= 0) source_ = InstructionSource::perf_event;
+  if (perf_file_ < 0) return;
+  source_ = InstructionSource::perf_event;
+  start();
+  if (stop() == 0) source_ = InstructionSource::none;  // some virtual machines open a counter that stands still
 }
 
 InstructionCounter::~InstructionCounter() {
