@@ -57,8 +57,21 @@ class Figures(unittest.TestCase):
             self.assertTrue(0 < numbers["collision_share"] < 0.5)
         self.assertIn("left out", self.read("out/figure3.html"), "CrashSk has no direct in the short form")
 
+    @unittest.skipUnless(shutil.which("valgrind"), "no valgrind")
+    def test_effects_have_times_of_one_run_and_counts_of_another(self):
+        result = self.run_script("effects.sh", "--quick-look", "--instructions", "out", "--stepper", "sor", "--effect", "friction",
+                                 "restitution", "--frames", "1", "--floor-seeds", "1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, self.read("out/effects.txt"))
+        self.assertIn("instructions: counted by callgrind", result.stdout)
+        for scene in ("2-Cars", "CrashSk"):
+            self.assertIn(f"scene: {scene}, sor double", result.stdout)
+        self.assertIn("What effects cost", self.read("out/effects.html"))
+        self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "out"))),
+                         ["counted.h5", "effects.h5", "effects.html", "effects.txt"])
+
     def test_unknown_options_are_refused(self):
-        for script in ("figure3.sh", "figure6.sh"):
+        for script in ("effects.sh", "figure3.sh", "figure6.sh"):
             result = self.run_script(script, "--fast")
             self.assertEqual(result.returncode, 2)
             self.assertIn("--fast", result.stderr)

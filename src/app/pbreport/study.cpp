@@ -4,19 +4,12 @@
 #include <fstream>
 #include <ostream>
 
+#include "app/pbreport/effects_data.h"
 #include "app/pbreport/study_page.h"
 #include "app/pbreport/study_text.h"
 
 namespace pbmpi::app {
 namespace {
-
-constexpr const char* study_filetype = "pbmpi-study";
-
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text << std::flush;
-  core::require_input(file.good(), path + ": it cannot be written; choose another place");
-}
 
 void write_preset(const std::vector<SceneCases>& scenes, const StudyOptions& options) {
   core::require_input(scenes.size() == 1, "--write-preset holds one scene, the study has " +
@@ -28,6 +21,12 @@ void write_preset(const std::vector<SceneCases>& scenes, const StudyOptions& opt
 }
 
 }  // namespace
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text << std::flush;
+  core::require_input(file.good(), path + ": it cannot be written; choose another place");
+}
 
 bool names_a_study(const std::vector<std::string>& args) {
   return std::any_of(args.begin(), args.end(), [](const std::string& arg) {
@@ -42,6 +41,8 @@ core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out
     return core::ExitCode::done;
   }
   const io::TableFile file = io::read_table_file(options.file, study_filetype);
+  core::require_input(!is_effect_study(options.file),
+                      options.file + ": a study of effects, not of accuracy; try pbreport effects");
   const std::vector<SceneCases> scenes = study_scenes(file, options.scenes);
   if (options.preset) write_preset(scenes, options);
   if (options.csv) write_text(*options.csv, study_to_csv(file));

@@ -5,50 +5,13 @@
 #include <numeric>
 
 #include "app/common/format.h"
+#include "app/pbreport/case_row.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
 namespace {
 
-/// Row i of a table's columns.
-class Row {
- public:
-  Row(const io::TableFile& file, std::size_t index) : file_(&file), index_(index) {}
-  bool has(const std::string& name) const { return file_->has_column("cases", name); }
-  double real(const std::string& name) const { return file_->column<double>("cases", name)[index_]; }
-  int integer(const std::string& name) const {
-    return static_cast<int>(file_->column<std::int64_t>("cases", name)[index_]);
-  }
-  std::string text(const std::string& name) const {
-    return file_->column<std::string>("cases", name)[index_];
-  }
-  analysis::BandCounts bands(const std::string& name) const {
-    analysis::BandCounts counts{};
-    const auto& all = file_->column<std::int64_t>("cases", name);
-    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(index_ * counts.size()), counts.size(),
-                counts.begin());
-    return counts;
-  }
-  analysis::ErrorTable errors(const std::string& prefix) const {
-    analysis::ErrorTable table;
-    for (const analysis::NamedSummary& named : analysis::error_columns) {
-      const std::string name = prefix + "_" + named.name + "_";
-      analysis::ErrorSummary& summary = table.*named.summary;
-      summary.rms = real(name + "rms");
-      summary.p99 = real(name + "p99");
-      summary.max = real(name + "max");
-      summary.bands = bands(name + "bands");
-      summary.count = std::accumulate(summary.bands.begin(), summary.bands.end(), std::int64_t{0});
-    }
-    return table;
-  }
-
- private:
-  const io::TableFile* file_;
-  std::size_t index_;
-};
-
-StudyCase read_case(const Row& row) {
+StudyCase read_case(const CaseRow& row) {
   StudyCase one;
   one.scene = row.text("scene");
   one.kind = row.text("kind");
@@ -195,24 +158,14 @@ std::vector<SceneCases> study_scenes(const io::TableFile& file, const std::vecto
   std::vector<SceneCases> scenes;
   const std::size_t num_cases = file.column<std::string>("cases", "scene").size();
   for (std::size_t i = 0; i < num_cases; ++i) {
-    StudyCase one = read_case(Row(file, i));
+    StudyCase one = read_case(CaseRow(file, i));
     auto scene =
         std::find_if(scenes.begin(), scenes.end(), [&](const SceneCases& s) { return s.name == one.scene; });
     if (scene == scenes.end())
       scene = scenes.insert(scenes.end(), SceneCases{one.scene, {}, {}, {}, {}, {}, {}});
     add_case(std::move(one), *scene);
   }
-  if (names.empty()) return scenes;
-  std::vector<SceneCases> chosen;
-  for (const std::string& name : names) {
-    const auto scene =
-        std::find_if(scenes.begin(), scenes.end(), [&](const SceneCases& s) { return s.name == name; });
-    std::string refusal = "--scene " + name + ": the study has";
-    for (const SceneCases& s : scenes) refusal += " " + s.name;
-    core::require_input(scene != scenes.end(), refusal);
-    chosen.push_back(*scene);
-  }
-  return chosen;
+  return chosen_scenes(scenes, names);
 }
 
 }  // namespace pbmpi::app

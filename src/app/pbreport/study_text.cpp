@@ -110,13 +110,25 @@ std::string scene_text(const SceneCases& scene, const StudyOptions& options) {
 }
 
 /// One value of a column as text.
-struct CellText {
-  std::size_t index;
-  std::string operator()(const std::vector<double>& values) const { return format("%.17g", values[index]); }
+class CellText {
+ public:
+  explicit CellText(std::size_t index) : index_(index) {}
+  std::string operator()(const std::vector<double>& values) const { return format("%.17g", values[index_]); }
   std::string operator()(const std::vector<std::int64_t>& values) const {
-    return std::to_string(values[index]);
+    return std::to_string(values[index_]);
   }
-  std::string operator()(const std::vector<std::string>& values) const { return values[index]; }
+  std::string operator()(const std::vector<std::string>& values) const { return quoted(values[index_]); }
+
+ private:
+  /// RFC 4180: a text with a comma or a quote stands in quotes.
+  static std::string quoted(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string result = "\"";
+    for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+    return result + "\"";
+  }
+
+  std::size_t index_;
 };
 
 }  // namespace
@@ -180,7 +192,7 @@ std::string study_to_csv(const io::TableFile& file) {
     std::string line;
     for (const io::TableColumn& column : columns) {
       for (std::size_t k = 0; k < column.width; ++k) {
-        line += (line.empty() ? "" : ",") + std::visit(CellText{row * column.width + k}, column.values);
+        line += (line.empty() ? "" : ",") + std::visit(CellText(row * column.width + k), column.values);
       }
     }
     text += line + "\n";

@@ -111,16 +111,7 @@ void add_yardsticks(int index, const StudyScene& scene, const AccuracyOptions& o
 }  // namespace
 
 StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions& options) {
-  const auto scene = scenes::parse_scene(source);
-  const scenes::RunDefaults& defaults = scene->defaults();
-  StudyScene study{source};
-  study.num_worlds = options.replicas.value_or(defaults.replicas);
-  study.warmup = options.warmup.value_or(defaults.warmup);
-  study.frames = options.frames.value_or(defaults.frames);
-  study.dt_s = defaults.dt_s;
-  study.iterations = defaults.iterations;
-  study.frame_s = defaults.steps_per_frame * defaults.dt_s;
-  return study;
+  return study_scene(source, SceneOverrides{options.replicas, options.frames, options.warmup});
 }
 
 StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/pbstudy/accuracy_options.h"
-#include "scenes/scene.h"
+#include "app/pbstudy/study_scene.h"
 
 namespace pbmpi::app {
 
@@ -20,18 +20,6 @@ enum class CaseKind {
 };
 inline constexpr std::array<std::string_view, 6> case_kind_names = {
     "setting", "floor", "halved_iterations", "halved_substeps", "halved_dt", "estimate"};
-
-/// What of a scene does not depend on the setting.
-struct StudyScene {
-  scenes::SceneSource source;
-  int num_worlds = 1;
-  int warmup = 3, frames = 5;  ///< frames
-  double frame_s = 0.03;       ///< length of a frame, simulated
-  double dt_s = 0.01;          ///< the scene's step: that of the reference
-  int iterations = 20;         ///< the scene's
-
-  int total_frames() const { return warmup + frames; }
-};
 
 struct AccuracyCase {
   int scene = 0;  ///< index into the study's scenes

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "app/pbstudy/option_lists.h"
+#include "app/pbstudy/study_scene.h"
 #include "core/error.h"
-#include "model/names.h"
-#include "scenes/scene.h"
 
 namespace pbmpi::app {
 namespace {
@@ -13,16 +13,11 @@ namespace {
 namespace po = boost::program_options;
 using core::require_input;
 
-template <class T>
-auto list_of() {
-  return po::value<std::vector<T>>()->multitoken()->value_name("LIST");
-}
-
 po::options_description options_description() {
   po::options_description what("What to vary (lists, separated by blanks; all are crossed)");
   what.add_options()  //
       ("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE.toml..."),
-       "scenes; default: all nine")                                                  //
+       "scenes, or all; default: all nine")                                          //
       ("stepper", list_of<std::string>(), "quick, direct, sor; default: quick sor")  //
       ("iterations", list_of<int>(), "default: 1 2 3 5 10 15 19 20 40 80")           //
       ("substeps", list_of<int>(), "sor; default: 1 2 4 8 16")                       //
@@ -61,46 +56,6 @@ po::options_description options_description() {
   po::options_description all;
   all.add(what).add(how).add(write).add(common_options_description());
   return all;
-}
-
-template <class T>
-std::vector<T> list(const po::variables_map& values, const char* name, std::vector<T> fallback) {
-  return values.count(name) != 0 ? values[name].as<std::vector<T>>() : fallback;
-}
-
-template <class Enum, std::size_t N>
-std::vector<Enum> choices(const po::variables_map& values, const std::string& name,
-                          const std::array<std::string_view, N>& names,
-                          const std::vector<std::string>& fallback) {
-  std::vector<Enum> chosen;
-  std::string known;
-  for (const std::string_view text : names) known.append(known.empty() ? "" : ", ").append(text);
-  for (const std::string& word : list<std::string>(values, name.c_str(), fallback)) {
-    const auto value = model::enum_from_name<Enum>(word, names);
-    if (!value) throw core::InputError("--" + name + " " + word + ": it must be one of " + known);
-    chosen.push_back(*value);
-  }
-  return chosen;
-}
-
-void require_at_least(const std::vector<int>& given, int least, const char* option) {
-  for (const int value : given) {
-    require_input(value >= least, std::string(option) + " " + std::to_string(value) +
-                                      ": it must be at least " + std::to_string(least));
-  }
-}
-
-std::optional<int> given(const po::variables_map& values, const char* name, int least) {
-  if (values.count(name) == 0) return std::nullopt;
-  const int value = values[name].as<int>();
-  require_at_least({value}, least, ("--" + std::string(name)).c_str());
-  return value;
-}
-
-std::vector<std::string> all_scenes() {
-  std::vector<std::string> names;
-  for (const scenes::SceneInfo& scene : scenes::list_scenes()) names.push_back(scene.name);
-  return names;
 }
 
 void require_possible(const AccuracyOptions& options) {
@@ -150,7 +105,7 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   options.common = common_options(values);
   options.command_line = "pbstudy accuracy";
   for (const std::string& arg : args) options.command_line += " " + arg;
-  options.scenes = list<std::string>(values, "scene", all_scenes());
+  options.scenes = study_scene_names(list<std::string>(values, "scene", {}));
   options.steppers =
       choices<model::StepperKind>(values, "stepper", model::stepper_kind_names, {"quick", "sor"});
   options.iterations = list<int>(values, "iterations", {1, 2, 3, 5, 10, 15, 19, 20, 40, 80});

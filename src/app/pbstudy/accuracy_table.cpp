@@ -1,40 +1,9 @@
 #include "app/pbstudy/accuracy_table.h"
 
+#include "app/pbstudy/table_columns.h"
 #include "model/names.h"
 
 namespace pbmpi::app {
-namespace {
-
-template <class Value, class Rows, class Get>
-io::TableColumn column(const std::string& name, const std::string& unit, const Rows& rows, Get&& get) {
-  std::vector<Value> values;
-  for (const auto& row : rows) values.push_back(static_cast<Value>(get(row)));
-  return {name, unit, std::move(values)};
-}
-
-void add_errors(const std::string& prefix, analysis::ErrorTable CaseResult::*table,
-                const std::vector<CaseResult>& results, std::vector<io::TableColumn>& columns) {
-  for (const analysis::NamedSummary& named : analysis::error_columns) {
-    const std::string name = prefix + "_" + named.name + "_";
-    const auto add = [&](const char* what, double analysis::ErrorSummary::*number) {
-      columns.push_back(column<double>(name + what, named.unit, results, [&](const CaseResult& result) {
-        return result.*table.*named.summary.*number;
-      }));
-    };
-    add("rms", &analysis::ErrorSummary::rms);
-    add("p99", &analysis::ErrorSummary::p99);
-    add("max", &analysis::ErrorSummary::max);
-    std::vector<std::int64_t> bands;
-    for (const CaseResult& result : results) {
-      const analysis::BandCounts& counts = (result.*table.*named.summary).bands;
-      bands.insert(bands.end(), counts.begin(), counts.end());
-    }
-    columns.push_back({name + "bands", "", std::move(bands), analysis::num_bands});
-  }
-}
-
-}  // namespace
-
 std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
                                           const std::vector<AccuracyCase>& cases,
                                           const std::vector<CaseResult>& results) {

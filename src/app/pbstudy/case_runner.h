@@ -1,27 +1,13 @@
 /// Runs one case of "pbstudy accuracy" on this rank.
 #pragma once
 
-#include <memory>
 #include <type_traits>
-#include <vector>
 
 #include "analysis/error_table.h"
 #include "app/pbstudy/accuracy_cases.h"
-#include "model/state.h"
+#include "app/pbstudy/case_stepper.h"
 
 namespace pbmpi::app {
-
-/// The worlds of a scene at one step length.
-using Worlds = std::vector<std::shared_ptr<const model::Model>>;
-Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed);
-
-/// The converged run that every case is held against.
-struct Reference {
-  Worlds worlds;
-  std::vector<std::vector<model::State>>
-      states;  ///< [total_frames + 1][num_worlds] at the start of each frame
-};
-Reference make_reference(const StudyScene& scene, const model::StepperSettings& settings);
 
 /// What is measured of a case. Sent between ranks as its bytes.
 struct CaseResult {

@@ -5,6 +5,7 @@
 
 #include "app/common/options.h"
 #include "app/pbstudy/accuracy.h"
+#include "app/pbstudy/effects.h"
 #include "core/text.h"
 
 namespace pbmpi::app {
@@ -39,6 +40,7 @@ std::string unknown_study(const std::string& word) {
 const std::vector<StudyCommand>& study_commands() {
   static const std::vector<StudyCommand> commands = {
       {"accuracy", "what accuracy costs in time: errors and times of many settings", run_accuracy},
+      {"effects", "what each effect costs, and what leaving it out does to the result", run_effects},
   };
   return commands;
 }

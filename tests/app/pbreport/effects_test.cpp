@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/pbreport/effects_data.h"
+#include "app/pbreport/effects_options.h"
+#include "app/pbreport/effects_text.h"
+#include "core/error.h"
+
+namespace pbmpi::app {
+namespace {
+
+EffectRow row(const std::string& effect, bool called_for, bool same_bits, double share) {
+  EffectRow one;
+  one.effect = effect;
+  one.kind = called_for ? "left_out" : "demanded";
+  one.called_for = called_for;
+  one.reason = called_for ? "3 things" : "nothing calls for it";
+  one.same_bits = same_bits;
+  one.share = {share, share, share};
+  return one;
+}
+
+TEST(EffectsReport, the_noise_floor_is_the_largest_of_the_seeds_in_either_direction) {
+  EffectScene scene{"Fake", "quick", {}, {row("", false, false, 0.01), row("", false, false, -0.03)}};
+  scene.floor[0].defect.body_position.rms = 2e-3;
+  scene.floor[1].drift.body_position.rms = 5e-3;
+  EXPECT_EQ(scene.floor_share(), 0.03);
+  EXPECT_EQ(scene.floor_defect_m(), 2e-3);
+  EXPECT_EQ(scene.floor_drift_m(), 5e-3);
+}
+
+TEST(EffectsReport, says_when_an_unneeded_effect_changed_the_result) {
+  EXPECT_EQ(note_of(row("friction", false, true, 0)), "demanded: nothing calls for it; no bit changes");
+  EXPECT_NE(note_of(row("friction", false, false, 0)).find("AND YET THE RESULT CHANGES"), std::string::npos);
+  EXPECT_EQ(note_of(row("friction", true, false, 0)), "left out: 3 things");
+}
+
+TEST(EffectsReport, instructions_give_a_share_only_where_both_were_counted) {
+  EffectRow one = row("friction", true, false, 0.5);
+  EXPECT_EQ(one.instruction_share(), std::nullopt);
+  one.instructions_with = 400;
+  one.instructions_without = 300;
+  EXPECT_EQ(one.instruction_share(), 0.25);
+}
+
+TEST(EffectsReport, shares_are_percent_and_nothing_is_a_dash) {
+  EXPECT_EQ(percent_text(0.572), "57.2 %");
+  EXPECT_EQ(percent_text(-0.0001), "0.0 %");
+  EXPECT_EQ(percent_text(NAN), "-");
+}
+
+std::string refusal(const std::vector<std::string>& args) {
+  try {
+    parse_effects_report_options(args);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(EffectsReportOptions, contradictions_are_refused) {
+  EXPECT_NE(refusal({}).find("no file"), std::string::npos);
+  EXPECT_NE(refusal({"a.h5", "b.h5"}).find("one study"), std::string::npos);
+  EXPECT_NE(refusal({"a.h5", "--csv", "a.h5"}).find("to be read"), std::string::npos);
+  EXPECT_EQ(refusal({"a.h5", "--html", "a.html"}), "");
+}
+
+}  // namespace
+}  // namespace pbmpi::app

@@ -1,0 +1,156 @@
+"""pbstudy effects and the report of its file, end to end."""
+import csv
+import os
+import shutil
+import sys
+import unittest
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import BIN, ProgramTest  # noqa: E402
+
+FAST = ["--frames", 2, "--repeats", 2, "--floor-seeds", 2]
+NOT_MEASURED = b"refused"
+
+
+def valgrind_runs_it():
+    """Valgrind is there, and the program has no sanitizer in it."""
+    with open(os.path.join(BIN, "pbstudy"), "rb") as program:
+        return shutil.which("valgrind") is not None and b"__asan_init" not in program.read()
+
+
+class Effects(ProgramTest):
+    def study(self, ranks, *args, **options):
+        command = ["mpirun", "-n", str(ranks), os.path.join(BIN, "pbstudy"), "effects", *map(str, args)]
+        return self.run_command(command, **options)
+
+    def made(self, ranks, name, *args):
+        result = self.study(ranks, *args, "--output", name, "--quiet")
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        with h5py.File(self.path(name)) as file:
+            self.assertEqual((file.attrs["filetype"], file.attrs["study"]), (b"pbmpi-study", b"effects"))
+            return {key: column[:] for key, column in file["cases"].items()}
+
+    def test_the_table_is_the_same_for_one_and_two_ranks_but_for_times(self):
+        args = ["--scene", "2-Cars", "CrashSk", *FAST]
+        one, two = self.made(1, "one.h5", *args), self.made(2, "two.h5", *args)
+        self.assertEqual(set(one), set(two))
+        for name, column in one.items():
+            if not name.startswith(("time_", "instructions_")):
+                self.assertEqual(column.tobytes(), two[name].tobytes(), name)
+        measured = one["kind"] != NOT_MEASURED
+        self.assertTrue((one["time_with"][measured] > 0).all())
+        self.assertTrue(np.isnan(one["time_with"][~measured]).all())
+        self.assertTrue((one["drift_body_position_bands"].sum(axis=1)[measured & (one["scene"] == b"CrashSk")] == 37).all())
+
+    def test_unneeded_effects_change_no_bit_and_what_is_left_out_is_what_pbmpi_leaves_out(self):
+        table = self.made(2, "study.h5", "--scene", "CrashSk", *FAST)
+        rows = range(len(table["scene"]))
+        unneeded = [i for i in rows if table["kind"][i] == b"demanded"]
+        self.assertGreaterEqual(len(unneeded), 4, "events, steering, cross_space, restitution")
+        for i in unneeded:
+            self.assertEqual(table["same_bits"][i], 1, table["effect"][i])
+            self.assertEqual(table["defect_body_position_max"][i], 0)
+        for stepper in ("quick", "sor"):
+            for effect, sign in ((b"friction", "-"), (b"restitution", "+")):
+                [i] = [i for i in rows if table["effect"][i] == effect and table["stepper"][i].decode() == stepper]
+                run = self.summary(1, "--scene", "CrashSk", "--stepper", stepper, "--frames", 2, "--no-output",
+                                   "--effects", sign + effect.decode())
+                self.assertEqual(table["hash_variant"][i].decode(), run["state_hash"], (stepper, effect))
+        [joints] = [i for i in rows if table["effect"][i] == b"joints" and table["stepper"][i] == b"quick"]
+        self.assertEqual((table["kind"][joints], table["same_bits"][joints]), (NOT_MEASURED, -1))
+        self.assertIn(b"34 joints hold the bodies", table["reason"][joints])
+        floor = table["kind"] == b"floor"
+        self.assertTrue((table["drift_body_position_rms"][floor] > 0).all(), "another seed is seen in a crash")
+
+    def test_the_report_shows_shares_and_errors_of_the_file(self):
+        table = self.made(1, "study.h5", "--scene", "CrashSk", "--stepper", "sor", *FAST)
+        result = self.report("study.h5", "--html", "page.html", "--csv", "table.csv")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for words in ("scene: CrashSk, sor double, 20 iterations, 1 world", "noise floor",
+                      "left out: 39 geoms with mu > 0", "demanded: nothing calls for it; no bit changes",
+                      "34 joints hold the bodies"):
+            self.assertIn(words, result.stdout)
+        self.assertNotIn("AND YET", result.stdout)
+        [scene] = self.json(self.report("effects", "study.h5", "--json"))["scenes"]
+        friction = next(row for row in scene["effects"] if row["effect"] == "friction")
+        i = list(table["effect"]).index(b"friction")
+        self.assertEqual(friction["share"]["median"], table["time_share"][i])
+        self.assertEqual(friction["defect"]["body_position_m"]["rms"], table["defect_body_position_rms"][i])
+        with open(self.path("table.csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["effect"].encode() for row in rows], list(table["effect"]))
+        self.assertEqual([row["reason"].encode() for row in rows], list(table["reason"]))
+
+    @unittest.skipUnless(shutil.which("chromium"), "the page is looked at in Chromium, which is not installed")
+    def test_the_page_draws_its_charts_in_a_browser(self):
+        self.made(1, "study.h5", "--scene", "CrashSk", "2-Cars", "--stepper", "sor", *FAST)
+        result = self.report("study.h5", "--quiet", "--html", "page.html")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        page = self.run_command(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic",
+                                 "--no-first-run", "--disable-background-networking", "--disable-component-update",
+                                 "--disable-sync", f"--user-data-dir={self.path('profile')}", "--dump-dom",
+                                 f"file://{self.path('page.html')}"]).stdout
+        self.assertIn('data-ready="yes"', page, "the last line of the page's script was reached")
+        with h5py.File(self.path("study.h5")) as file:
+            counted = "instructions_with" in file["cases"]
+        self.assertEqual(page.count("<canvas"), 4 if counted else 3, "share, error, demanded, and counts if there are")
+        self.assertIn("<th>CrashSk</th><th>2-Cars</th>", page)
+        self.assertIn("<td>friction</td>", page)
+        self.assertNotIn("src=\"http", page)
+
+    @unittest.skipUnless(valgrind_runs_it(), "no valgrind, or a program that it cannot run")
+    def test_callgrind_counts_what_no_clock_resolves_and_another_study_takes_it(self):
+        args = ["--scene", "2-Cars", "--stepper", "sor", "--effect", "friction", "restitution", *FAST]
+        prefix = self.path("callgrind.%p")
+        command = ["valgrind", "--quiet", "--tool=callgrind", "--dump-line=no", f"--callgrind-out-file={prefix}",
+                   os.path.join(BIN, "pbstudy"), "effects", *map(str, args), "--output", "counted.h5"]
+        result = self.run_command(command, env={**os.environ, "PBMPI_CALLGRIND_OUT": prefix})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("instructions: counted by callgrind", result.stdout)
+        table = self.made(1, "study.h5", *args, "--instructions-from", "counted.h5")
+        with h5py.File(self.path("study.h5")) as file:
+            self.assertEqual(file["parameters/instructions_by"][()], b"callgrind")
+        share = {effect.decode(): 1 - without / counted for effect, counted, without in
+                 zip(table["effect"], table["instructions_with"], table["instructions_without"])}
+        self.assertGreater(share["friction"], 0.02, "three rows a contact instead of one")
+        self.assertLess(abs(share["restitution"]), 0.01, "demanded: one more test of each contact's approach at most")
+        self.refused(self.study(1, *args[:4], "--effect", "friction", *FAST, "--instructions-from", "counted.h5"),
+                     "counted.h5", "same options")
+
+    def refused(self, result, *words):
+        self.assertEqual(result.returncode, 2, result.stderr)
+        lines = [line for line in result.stderr.splitlines() if line.startswith(("pbstudy: ", "pbreport: "))]
+        self.assertEqual((result.stdout, len(lines)), ("", 1), result.stderr)
+        for word in words:
+            self.assertIn(word, lines[0])
+
+    def test_bad_input_is_refused_by_one_rank_before_any_work(self):
+        before = set(os.listdir(self.folder))
+        self.refused(self.study(2, "--scene", "CrashSq"), "CrashSq", "CrashSk")
+        self.refused(self.study(2, "--effect", "fricton"), "fricton", "did you mean 'friction'?")
+        self.refused(self.study(2, "--scene", "CrashSk", "--repeats", "0"), "--repeats")
+        self.refused(self.study(2, "--scene", "CrashSk", "--instructions-from", "absent.h5"), "absent.h5")
+        self.refused(self.study(2, "--scene", "CrashSk", "--output", "no/folder/x.h5"), "no/folder/x.h5")
+        self.assertEqual(set(os.listdir(self.folder)), before)
+
+    def test_reports_refuse_what_they_cannot_show(self):
+        self.made(1, "study.h5", "--scene", "2-Cars", "--stepper", "sor", "--effect", "friction", *FAST)
+        self.refused(self.report("study.h5", "--scene", "Fight"), "Fight", "2-Cars")
+        self.refused(self.report("study", "study.h5"), "study of effects", "pbreport effects")
+        self.refused(self.report("effects", "absent.h5"), "absent.h5")
+        result = self.study(1, "--scene", "2-Cars", "--stepper", "sor", *FAST, "--instructions-from", "study.h5")
+        if "instructions_with" not in h5py.File(self.path("study.h5"))["cases"]:
+            self.refused(result, "instructions_with")
+
+    def test_help_names_every_option(self):
+        result = self.study(1, "--help")
+        self.assertEqual(result.returncode, 0)
+        for option in ("--scene", "--effect", "--stepper", "--repeats", "--floor-seeds", "--instructions-from"):
+            self.assertIn(option, result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
