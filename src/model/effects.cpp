@@ -1,6 +1,7 @@
 #include "model/effects.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "core/error.h"
 
@@ -98,6 +99,16 @@ std::optional<std::string> gyroscopic_torque(const Model& model) {
   return counted_if(model.bodies, has_gyroscopic_torque, "bodies whose inertia differs by axis");
 }
 
+/// An approximation, so that a model calls for it in so many words only.
+std::optional<std::string> sleeping(const Model& model) {
+  const auto choice = model.effects.find("sleeping");
+  if (choice == model.effects.end() || !choice->second) return std::nullopt;
+  char text[96];
+  std::snprintf(text, sizeof text, "demanded, after %g s below %g m/s and %g rad/s", model.sleep.after_s,
+                model.sleep.speed, model.sleep.angular_speed);
+  return text;
+}
+
 template <EventKind kind>
 void drop_events(Model& model) {
   std::erase_if(model.events, [](const Event& e) { return e.kind == kind; });
@@ -150,6 +161,8 @@ const std::vector<Effect>& effect_registry() {
       {"suspension", "wheels spring along the steering axis", Phase::rows, suspension, drop_suspension},
       {"gyroscopic_torque", "spinning bodies precess", Phase::integrate, gyroscopic_torque, keep},
       {"gravity", "bodies fall", Phase::integrate, gravity, drop_gravity},
+      {"sleeping", "islands at rest are not stepped until something touches them", Phase::islands, sleeping,
+       keep},
   };
   return effects;
 }

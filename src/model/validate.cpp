@@ -118,6 +118,11 @@ void validate(const Model& model, const std::string& where) {
   require_input(std::isfinite(model.erp) && model.erp >= 0 && model.erp <= 1,
                 where + ": erp must lie in [0, 1]");
   require_input(std::isfinite(model.cfm) && model.cfm >= 0, where + ": cfm must be at least 0");
+  require_input(std::isfinite(model.sleep.speed) && model.sleep.speed >= 0 &&
+                    std::isfinite(model.sleep.angular_speed) && model.sleep.angular_speed >= 0,
+                where + ": the speeds below which islands fall asleep must be at least 0");
+  require_input(std::isfinite(model.sleep.after_s) && model.sleep.after_s > 0,
+                where + ": islands fall asleep after a time above 0 s");
   require_input(model.contact_law.max_per_pair >= 1, where + ": max_per_pair must be at least 1");
   std::set<std::string> names;
   for (const Body& body : model.bodies) {

@@ -1,5 +1,8 @@
 #include "ode/world.h"
 
+#include <utility>
+
+#include "core/error.h"
 #include "core/random.h"
 #include "ode/bodies.h"
 #include "ode/joints.h"
@@ -36,11 +39,21 @@ World::World(int id, const model::Model& model, const model::State& state, std::
       row_counter_(model, joints_),
       step_(step) {
   if (plan_.has("collision")) broad_phase_.emplace(model, bodies_, best_space(model.geoms.size()));
+  if (plan_.has("sleeping")) {
+    core::require_input(!settings.profile,
+                        "the islands of a step are timed one by one, and with the effect 'sleeping' some are "
+                        "not stepped; leave one of the two out");
+    sleeping_.emplace(model, settings.dt_s, bodies_);
+  }
   events_.skip_to(step);
-  restore(bodies_, state);
+  set_state(state);
 }
 
-void World::set_state(const model::State& state) { restore(bodies_, state); }
+void World::set_state(const model::State& state) {
+  moved_ = true;
+  restore(bodies_, state);
+  if (sleeping_) sleeping_->start(state);
+}
 
 void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
   for (int i = 0; i < num_steps; ++i) {
@@ -49,7 +62,21 @@ void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
   }
 }
 
+/// A step of a world in which all bodies sleep, and that no event wakes, changes nothing.
+bool World::sleeps_on() {
+  if (!sleeping_) return false;
+  sleeping_->wake_called(step_);
+  return sleeping_->all_asleep();
+}
+
 void World::take_step(bool is_last, core::LapTimer& timer) {
+  if (sleeps_on()) {
+    contacts_.forget();
+    if (is_last && moved_) row_counter_.count(contacts_.touches(), sleeping_->rest(), counts_);
+    ++step_;
+    return;
+  }
+  moved_ = true;
   events_.fire(step_);
   held_poses_.aim(settings_.dt_s);
   if (is_last && settings_.profile) {
@@ -61,16 +88,34 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
     timer.lap(core::Phase::collide);
   }
   if (is_last) {
-    row_counter_.count(contacts_.touches(), counts_);
+    row_counter_.count(contacts_.touches(), rest(), counts_);
     timer.lap(core::Phase::islands);
   }
   solve();
   contacts_.clear();
   timer.lap(core::Phase::solve);
+  if (sleeping_) {
+    sleeping_->settle(contacts_.touches());
+    timer.lap(core::Phase::islands);
+  }
   ++step_;
 }
 
-void World::collide() { contacts_.make(world_.get(), broad_phase_->find_pairs(), broad_phase_->geoms()); }
+std::span<const model::Rest> World::rest() const {
+  return sleeping_ ? std::span<const model::Rest>(sleeping_->rest()) : std::span<const model::Rest>();
+}
+
+void World::collide() {
+  const std::vector<GeomPair>& pairs = broad_phase_->find_pairs();
+  if (!sleeping_) {
+    contacts_.make(world_.get(), pairs, broad_phase_->geoms());
+    return;
+  }
+  do {
+    contacts_.clear();
+    contacts_.make(world_.get(), sleeping_->awake_pairs(pairs), broad_phase_->geoms());
+  } while (sleeping_->wake_touched(contacts_.touches()));
+}
 
 /// QuickStep shuffles its rows by one random seed of the whole process, so that it is set anew each time.
 void World::solve() {
@@ -83,8 +128,14 @@ void World::solve() {
   }
 }
 
-void World::read(model::State& state, model::Observables& observables) const {
+void World::read(model::State& state, model::Observables& observables) {
+  if (!std::exchange(moved_, false)) {  // only poses and what follows from them are as before
+    observables.contacts = observables.rows = observables.max_island_rows = 0;
+    observables.max_penetration_m = 0;
+    return;
+  }
   copy_out(bodies_, state);
+  if (sleeping_) state.rest = sleeping_->rest();
   observables = counts_;
   observables.contacts = contacts_.count();
   observables.max_penetration_m = contacts_.deepest_m();

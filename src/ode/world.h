@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/clock.h"
@@ -14,6 +15,7 @@
 #include "ode/engine.h"
 #include "ode/events.h"
 #include "ode/rows.h"
+#include "ode/sleeping.h"
 #include "ode/solver_resources.h"
 
 namespace pbmpi::ode {
@@ -36,7 +38,8 @@ class World {
   /// Puts the bodies into the state at the start of step(), where the world stands.
   void set_state(const model::State& state);
   /// Reads out the state after the last step, and what was observed in it.
-  void read(model::State& state, model::Observables& observables) const;
+  /// Both as they were after the last call if all bodies have slept since then.
+  void read(model::State& state, model::Observables& observables);
   /// Measures the last step again (model::StepProfile); the world is then as it was, bit for bit. Needs the
   /// setting `profile` and a step taken before.
   model::StepProfile profile_last_step();
@@ -45,6 +48,8 @@ class World {
 
  private:
   void take_step(bool is_last, core::LapTimer& timer);
+  bool sleeps_on();
+  std::span<const model::Rest> rest() const;  ///< none without the effect "sleeping"
   void collide();
   void solve();
   void profile_collision(model::StepProfile& profile);
@@ -62,10 +67,12 @@ class World {
   Events events_;
   Contacts contacts_;
   std::optional<BroadPhase> broad_phase_;  ///< none without the effect "collision"
+  std::optional<Sleeping> sleeping_;       ///< none without the effect "sleeping"
   RowCounter row_counter_;
   model::Observables counts_;  ///< rows and islands of the last step
   model::State before_last_;   ///< with `profile`: before the last step's collision detection, events done
   std::int64_t step_;
+  bool moved_ = true;  ///< since the last read()
 };
 
 }  // namespace pbmpi::ode

@@ -22,13 +22,17 @@ class PackLanes final : public Pack {
 
   explicit PackLanes(std::span<const PackedWorld> worlds)
       : passes_(shared_passes(worlds)), worlds_(worlds, passes_), contacts_(passes_.idle_friction) {
-    if (passes_.collision) collider_.emplace(worlds, worlds_);
+    if (passes_.collision) collider_.emplace(worlds, worlds_, passes_.sleeping);
   }
 
-  void load(int world, const model::State& state) override { worlds_.load(world, state); }
+  void load(int world, const model::State& state) override {
+    worlds_.load(world, state);
+    if (collider_) collider_->forget_boxes();
+  }
   void store(int world, model::State& state) const override { worlds_.store(world, state); }
   void load(int world, std::span<const int> bodies, const model::State& state) override {
     for (const int body : bodies) worlds_.load_body(world, body, state);
+    if (collider_) collider_->forget_boxes();
   }
   void store(int world, std::span<const int> bodies, model::State& state) const override {
     for (const int body : bodies) worlds_.store_body(world, body, state);
@@ -144,6 +148,8 @@ void PackLanes<T>::step(Contacts contacts, const StepParameters& parameters, cor
                                                      passes_.restitution};
   BodyLanes<T>& bodies = worlds_.bodies;
   core::LapTimer timer(times);
+  worlds_.update_active();
+  if (passes_.sleeping) worlds_.save_sleepers();
   sort_contacts(contacts);
   find_contact_slots();
   for (int substep = 0; substep < parameters.substeps; ++substep) {
@@ -172,6 +178,7 @@ void PackLanes<T>::step(Contacts contacts, const StepParameters& parameters, cor
     integrate_bodies(h);
     timer.lap(core::Phase::integrate);
   }
+  if (passes_.sleeping) worlds_.restore_sleepers();
 }
 
 }  // namespace pbmpi::solver

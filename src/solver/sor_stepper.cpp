@@ -45,8 +45,8 @@ class SorStepper final : public model::WorldStepper {
 
   void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
            std::int64_t step) override {
-    worlds_.emplace(world,
-                    std::make_unique<SorWorld>(world, std::move(model), state, step, make_narrow_phase_));
+    worlds_.emplace(world, std::make_unique<SorWorld>(world, std::move(model), state, step, settings_.dt_s,
+                                                      make_narrow_phase_));
     groups_.clear();
   }
   void remove(int world) override {
@@ -72,6 +72,7 @@ class SorStepper final : public model::WorldStepper {
  private:
   void make_groups();
   void step(Group& group, core::PhaseTimes& times);
+  static bool wake_touched(Group& group);
   static void observe(Group& group, core::PhaseTimes& times);
   static void share_cost(Group& group, double seconds);
 
@@ -89,7 +90,7 @@ void SorStepper::set_state(int world, const model::State& state, std::int64_t st
   if (groups_.empty()) return;
   if (same_step) {
     const auto [group, index] = places_.at(world);
-    groups_[group].pack->load(index, state);
+    changed.load(*groups_[group].pack, index);
   } else {
     groups_.clear();  // the joints' settings of another step
   }
@@ -133,13 +134,33 @@ void SorStepper::step(Group& group, core::PhaseTimes& times) {
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i)
     group.worlds[i]->fire_events(*group.pack, static_cast<int>(i));
-  group.pack->collide(group.contacts);
+  if (std::none_of(group.worlds.begin(), group.worlds.end(), [](const auto* w) { return w->moves(); })) {
+    for (std::vector<model::Contact>& contacts : group.contacts) contacts.clear();
+    for (SorWorld* world : group.worlds) world->finish_step();
+    return;
+  }
+  do {
+    group.pack->collide(group.contacts);
+  } while (wake_touched(group));
   std::copy(group.contacts.begin(), group.contacts.end(), group.contact_spans.begin());
   timer.lap(Phase::collide);
   // Worlds of a pack may stand at different steps only if they came to this stepper at different times; the
   // order of the rows then follows each world's own step, so it is the key of the first that all must share.
   group.pack->step(group.contact_spans, step_parameters(settings_, group.worlds.front()->step()), times);
-  for (SorWorld* world : group.worlds) world->finish_step();
+  core::LapTimer after(times);
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+    group.worlds[i]->finish_step();
+    group.worlds[i]->settle(*group.pack, static_cast<int>(i), group.contacts[i]);
+  }
+  after.lap(Phase::islands);
+}
+
+/// Wakes what is touched in any world of the group.
+bool SorStepper::wake_touched(Group& group) {
+  bool any = false;
+  for (std::size_t i = 0; i < group.worlds.size(); ++i)
+    any |= group.worlds[i]->wake_touched(*group.pack, static_cast<int>(i), group.contacts[i]);
+  return any;
 }
 
 void SorStepper::observe(Group& group, core::PhaseTimes& times) {
@@ -153,7 +174,7 @@ void SorStepper::observe(Group& group, core::PhaseTimes& times) {
 void SorStepper::share_cost(Group& group, double seconds) {
   double weights = 0;
   const auto weight = [](const SorWorld& world) {
-    return world.observables().rows + world.model().num_bodies();
+    return world.observables().rows + std::max(1, world.num_awake());
   };
   for (const SorWorld* world : group.worlds) weights += weight(*world);
   for (SorWorld* world : group.worlds) world->cost_s = seconds * weight(*world) / weights;

@@ -2,30 +2,83 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "model/effects.h"
 #include "model/islands.h"
 #include "solver/step_settings.h"
 
 namespace pbmpi::solver {
 
+namespace {
+
+std::vector<model::BodyPair> bodies_in(std::span<const model::Contact> contacts) {
+  std::vector<model::BodyPair> pairs;
+  pairs.reserve(contacts.size());
+  for (const model::Contact& contact : contacts) pairs.emplace_back(contact.body_a, contact.body_b);
+  return pairs;
+}
+
+}  // namespace
+
 SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state,
-                   std::int64_t step, const model::MakeNarrowPhase& make_narrow_phase)
-    : id_(id),
-      model_(std::move(model)),
-      state_(state),
-      step_(step),
-      narrow_phase_(make_narrow_phase(*model_)) {}
+                   std::int64_t step, double dt_s, const model::MakeNarrowPhase& make_narrow_phase)
+    : id_(id), model_(std::move(model)), narrow_phase_(make_narrow_phase(*model_)) {
+  if (model::StepPlan(*model_).has("sleeping")) sleepers_.emplace(*model_, dt_s);
+  set_state(state, step);
+}
+
+void SorWorld::set_state(const model::State& state, std::int64_t step) {
+  state_ = state;
+  step_ = step;
+  if (sleepers_) sleepers_->start(state_);
+  moved_ = true;
+}
+
+void SorWorld::load(Pack& pack, int index) const {
+  pack.load(index, state_);
+  if (sleepers_) pack.set_active(index, sleepers_->awake());
+}
 
 void SorWorld::enter(Pack& pack, int index) const {
-  pack.load(index, state_);
+  load(pack, index);
   apply_settings_before(*model_, step_, index, pack);
 }
 
-void SorWorld::fire_events(Pack& pack, int index) const {
+void SorWorld::fire_events(Pack& pack, int index) {
+  if (sleepers_ && sleepers_->wake(sleepers_->islands_called(step_, state_), state_))
+    pack.set_active(index, sleepers_->awake());
   for (const model::Event& event : events_of(*model_, step_)) {
     apply_setting(event, index, pack);
     if (event.kind == model::EventKind::launch) pack.launch(index, event);
   }
+}
+
+bool SorWorld::wake_touched(Pack& pack, int index, std::span<const model::Contact> contacts) {
+  if (!sleepers_ || num_awake() == model_->num_bodies()) return false;
+  if (!sleepers_->wake(model::Sleepers::islands_touched(bodies_in(contacts), state_), state_)) return false;
+  pack.set_active(index, sleepers_->awake());
+  return true;
+}
+
+void SorWorld::settle(Pack& pack, int index, std::span<const model::Contact> contacts) {
+  if (!sleepers_) return;
+  pack.store(index, sleepers_->awake(), state_);
+  sleepers_->count(sleepers_->awake(), state_);
+  const std::vector<model::Resting> resting =
+      sleepers_->find_resting(sleepers_->awake(), bodies_in(contacts), state_);
+  if (resting.empty()) return;
+  sleepers_->put_to_sleep(resting, state_);
+  std::vector<int> bodies;
+  for (const model::Resting& one : resting) bodies.push_back(one.body);
+  pack.load(index, bodies, state_);
+  pack.set_active(index, sleepers_->awake());
+}
+
+/// Of a world that slept since it was last looked at: what its poses say is known.
+void SorWorld::observe_sleep() {
+  observables_.contacts = observables_.rows = observables_.max_island_rows = 0;
+  observables_.max_penetration_m = 0;
 }
 
 void SorWorld::count_rows(const Pack& pack, int index, std::span<const model::Contact> contacts) {
@@ -33,7 +86,13 @@ void SorWorld::count_rows(const Pack& pack, int index, std::span<const model::Co
   std::vector<int> rows;
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     links.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
-    rows.push_back(pack.joint_rows(index, static_cast<int>(j)));
+    const bool asleep = sleepers_ && state_.rest[model_->joints[j].body_a].asleep();
+    rows.push_back(asleep ? 0 : pack.joint_rows(index, static_cast<int>(j)));
+  }
+  for (int body = 0; sleepers_ && body < model_->num_bodies(); ++body) {
+    if (!state_.rest[body].asleep()) continue;
+    links.emplace_back(body, state_.rest[body].island());
+    rows.push_back(0);
   }
   for (const model::Contact& contact : contacts) {
     links.emplace_back(contact.body_a, contact.body_b);
@@ -52,6 +111,10 @@ void SorWorld::count_rows(const Pack& pack, int index, std::span<const model::Co
 }
 
 void SorWorld::observe(const Pack& pack, int index, std::span<const model::Contact> contacts) {
+  if (!std::exchange(moved_, false)) {
+    observe_sleep();
+    return;
+  }
   pack.store(index, state_);
   count_rows(pack, index, contacts);
   observables_.contacts = static_cast<int>(contacts.size());
