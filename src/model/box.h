@@ -27,9 +27,8 @@ struct Box {
   }
 };
 
-/// A box about the geom's centre that holds it, from its body's pose. Not for planes. It is larger than need
-/// be by some 1e-6 of the coordinates: what a collider in single precision finds touching, boxes must not
-/// part.
+/// A box about the geom's centre that holds it, from its body's pose. Not for planes. It is larger than need be
+/// by some 1e-6 of the coordinates: what a collider in single precision finds touching, boxes must not part.
 Box geom_box(const Geom& geom, const BodyPose& body);
 
 }  // namespace pbmpi::model

@@ -17,6 +17,13 @@ void begin_rest(int body, State& state) {
 
 }  // namespace
 
+std::vector<BodyPair> touching_bodies(std::span<const Contact> contacts) {
+  std::vector<BodyPair> pairs;
+  pairs.reserve(contacts.size());
+  for (const Contact& contact : contacts) pairs.emplace_back(contact.body_a, contact.body_b);
+  return pairs;
+}
+
 Sleepers::Sleepers(const Model& model, double dt_s)
     : model_(&model),
       steps_(std::max(1, static_cast<int>(std::ceil(model.sleep.after_s / dt_s - 1e-9)))),

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/contact.h"
 #include "model/islands.h"
 #include "model/state.h"
 
@@ -19,6 +20,7 @@ struct Resting {
 
 /// Two bodies in contact, either of which may be no_body.
 using BodyPair = std::pair<int, int>;
+std::vector<BodyPair> touching_bodies(std::span<const Contact> contacts);
 
 /// The rule by which islands fall asleep and wake, over State::rest alone: what a world does next follows
 /// from its state, whoever steps it.

@@ -43,13 +43,14 @@ class World {
   /// Measures the last step again (model::StepProfile); the world is then as it was, bit for bit. Needs the
   /// setting `profile` and a step taken before.
   model::StepProfile profile_last_step();
+  /// As in model::State.
+  std::span<const model::Rest> rest() const;
   /// The next step.
   std::int64_t step() const { return step_; }
 
  private:
   void take_step(bool is_last, core::LapTimer& timer);
   bool sleeps_on();
-  std::span<const model::Rest> rest() const;  ///< none without the effect "sleeping"
   void collide();
   void solve();
   void profile_collision(model::StepProfile& profile);

@@ -1,4 +1,4 @@
-/// Which bodies of a pack's worlds a step moves.
+/// Which bodies of a pack's worlds take part in something.
 #pragma once
 
 #include <span>

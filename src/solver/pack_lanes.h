@@ -38,6 +38,7 @@ class PackLanes final : public Pack {
     for (const int body : bodies) worlds_.store_body(world, body, state);
   }
   void set_active(int world, std::span<const int> bodies) override { worlds_.set_active(world, bodies); }
+  void set_awake(int world, std::span<const int> bodies) override { worlds_.set_awake(world, bodies); }
   void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) override {
     worlds_.set_motor(world, joint, axis, motor);
   }

@@ -10,17 +10,6 @@
 
 namespace pbmpi::solver {
 
-namespace {
-
-std::vector<model::BodyPair> bodies_in(std::span<const model::Contact> contacts) {
-  std::vector<model::BodyPair> pairs;
-  pairs.reserve(contacts.size());
-  for (const model::Contact& contact : contacts) pairs.emplace_back(contact.body_a, contact.body_b);
-  return pairs;
-}
-
-}  // namespace
-
 SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state,
                    std::int64_t step, double dt_s, const model::MakeNarrowPhase& make_narrow_phase)
     : id_(id), model_(std::move(model)), narrow_phase_(make_narrow_phase(*model_)) {
@@ -35,9 +24,14 @@ void SorWorld::set_state(const model::State& state, std::int64_t step) {
   moved_ = true;
 }
 
+void SorWorld::show_awake(Pack& pack, int index) const {
+  pack.set_awake(index, sleepers_->awake());
+  pack.set_active(index, sleepers_->awake());
+}
+
 void SorWorld::load(Pack& pack, int index) const {
   pack.load(index, state_);
-  if (sleepers_) pack.set_active(index, sleepers_->awake());
+  if (sleepers_) show_awake(pack, index);
 }
 
 void SorWorld::enter(Pack& pack, int index) const {
@@ -46,8 +40,7 @@ void SorWorld::enter(Pack& pack, int index) const {
 }
 
 void SorWorld::fire_events(Pack& pack, int index) {
-  if (sleepers_ && sleepers_->wake(sleepers_->islands_called(step_, state_), state_))
-    pack.set_active(index, sleepers_->awake());
+  if (sleepers_ && sleepers_->wake(sleepers_->islands_called(step_, state_), state_)) show_awake(pack, index);
   for (const model::Event& event : events_of(*model_, step_)) {
     apply_setting(event, index, pack);
     if (event.kind == model::EventKind::launch) pack.launch(index, event);
@@ -56,8 +49,9 @@ void SorWorld::fire_events(Pack& pack, int index) {
 
 bool SorWorld::wake_touched(Pack& pack, int index, std::span<const model::Contact> contacts) {
   if (!sleepers_ || num_awake() == model_->num_bodies()) return false;
-  if (!sleepers_->wake(model::Sleepers::islands_touched(bodies_in(contacts), state_), state_)) return false;
-  pack.set_active(index, sleepers_->awake());
+  if (!sleepers_->wake(model::Sleepers::islands_touched(touching_bodies(contacts), state_), state_))
+    return false;
+  show_awake(pack, index);
   return true;
 }
 
@@ -66,13 +60,13 @@ void SorWorld::settle(Pack& pack, int index, std::span<const model::Contact> con
   pack.store(index, sleepers_->awake(), state_);
   sleepers_->count(sleepers_->awake(), state_);
   const std::vector<model::Resting> resting =
-      sleepers_->find_resting(sleepers_->awake(), bodies_in(contacts), state_);
+      sleepers_->find_resting(sleepers_->awake(), touching_bodies(contacts), state_);
   if (resting.empty()) return;
   sleepers_->put_to_sleep(resting, state_);
   std::vector<int> bodies;
   for (const model::Resting& one : resting) bodies.push_back(one.body);
   pack.load(index, bodies, state_);
-  pack.set_active(index, sleepers_->awake());
+  show_awake(pack, index);
 }
 
 /// Of a world that slept since it was last looked at: what its poses say is known.

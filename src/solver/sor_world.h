@@ -59,6 +59,7 @@ class SorWorld {
   double cost_s = 0;  ///< of the last advance()
 
  private:
+  void show_awake(Pack& pack, int index) const;
   void observe_sleep();
   void count_rows(const Pack& pack, int index, std::span<const model::Contact> contacts);
 
