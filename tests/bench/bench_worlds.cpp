@@ -1,6 +1,6 @@
 /// bench_worlds [SUBJECT] [WORLDS] [FRAMES] [ROUNDS]: pbmpi's steppers against the bare ODE loop over the
 /// same worlds. bench_worlds --spaces: ODE's spaces against each other. bench_worlds --effects: what
-/// effects cost.
+/// effects cost. bench_worlds --sleeping: what sleeping saves.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "effects.h"
 #include "mpi/session.h"
+#include "sleeping.h"
 #include "spaces.h"
 
 namespace {
@@ -30,6 +31,10 @@ void run(int argc, char** argv) {
   }
   if (name == "--effects") {
     pbmpi::bench::compare_effects();
+    return;
+  }
+  if (name == "--sleeping") {
+    pbmpi::bench::compare_sleeping();
     return;
   }
   const auto subject = pbmpi::bench::load_subject(name, number(argc, argv, 2, 0));

@@ -6,5 +6,6 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 . jobs/mpi_environment.sh
 build/release/tests/bench/bench_worlds 100CrSk 0 20 5
 build/release/tests/bench/bench_worlds --effects
+build/release/tests/bench/bench_worlds --sleeping
 python3 tests/bench/ranks.py 100CrSk 7
 python3 tests/bench/decompose.py 7

@@ -1,6 +1,9 @@
 // The effect "sleeping" in all steppers: quick, direct and sor.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <ostream>
+
 #include "model/sleepers.h"
 #include "ode/ode_stepper.h"
 #include "solver/sor_run.h"
@@ -65,6 +68,8 @@ struct Case {
   int height;  ///< of a stack; ODE's dWorldStep makes boxes on boxes creep
 };
 
+void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
+
 class Sleeping : public testing::TestWithParam<Case> {
  protected:
   StepperSettings settings() const {
@@ -106,6 +111,15 @@ TEST_P(Sleeping, world_keeps_its_bits_and_solves_nothing) {
   for (const model::Vec3& velocity : stepper->state(0).velocity) EXPECT_EQ(velocity, model::Vec3(0, 0, 0));
 }
 
+/// Of the velocities [m/s] of the bodies that are awake in `look`.
+double largest_difference(const State& a, const State& b, const State& look) {
+  double largest = 0;
+  for (std::size_t body = 0; body < look.rest.size(); ++body) {
+    if (!look.rest[body].asleep()) largest = std::max(largest, (a.velocity[body] - b.velocity[body]).norm());
+  }
+  return largest;
+}
+
 /// Steps one by one until fewer bodies sleep; the state before that step.
 State until_touched(model::WorldStepper& stepper, int most_asleep, std::int64_t& step) {
   for (;; ++step) {
@@ -130,22 +144,27 @@ TEST_P(Sleeping, stack_wakes_in_the_step_in_which_a_projectile_touches_it) {
     EXPECT_EQ(after.position[body], before.position[body]) << body;
 
   // The same step in a world that knows no sleep. sor solves an island by itself, so that the bits are the
-  // same; QuickStep's random numbers go through the islands one after the other, so that its rows are
-  // shuffled otherwise: that moved the boxes by 0.1 m/s at most when it was tried with twenty seeds. direct
-  // takes all islands' rows in turn, which only rounds differently.
+  // same. QuickStep shuffles the rows of all islands with one sequence of random numbers: what another seed
+  // changes is what may differ (four seeds sample it; three times their largest leaves room for the tail).
+  // direct factors one matrix an island, which for a cube and a ball only rounds.
   Model restless = model;
   restless.effects.clear();
   State same = before;
   same.rest.clear();
-  const auto other = start(settings(), restless, same, step);
-  advance(*other, 1);
-  const double tolerance = settings().kind == StepperKind::sor     ? 0
-                           : settings().kind == StepperKind::quick ? 0.1
-                                                                   : 1e-9;
-  for (int body = 0; body < num_bodies(); ++body) {
-    if (after.rest[body].asleep()) continue;
-    EXPECT_LE((after.velocity[body] - other->state(0).velocity[body]).norm(), tolerance) << body;
+  const auto kept_awake = [&](std::uint64_t seed) {
+    StepperSettings seeded = settings();
+    seeded.seed = seed;
+    const auto other = start(seeded, restless, same, step);
+    advance(*other, 1);
+    return other->state(0);
+  };
+  const State expected = kept_awake(settings().seed);
+  double tolerance = settings().kind == StepperKind::direct ? 1e-9 : 0;
+  for (const std::uint64_t seed : {2, 3, 4, 5}) {
+    if (settings().kind == StepperKind::quick)
+      tolerance = std::max(tolerance, 3 * largest_difference(kept_awake(seed), expected, after));
   }
+  EXPECT_LE(largest_difference(after, expected, after), tolerance);
 }
 
 TEST_P(Sleeping, world_has_the_same_bits_across_a_restart_at_any_step) {
