@@ -11,6 +11,9 @@ void sort_unique(std::vector<int>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
+std::int64_t step_of(const Event& event) { return event.step; }
+std::int64_t step_of(std::int64_t step) { return step; }
+
 void begin_rest(int body, State& state) {
   state.rest[body] = {state.position[body], state.orientation[body], 0};
 }
@@ -51,12 +54,14 @@ std::vector<int> Sleepers::islands_called(std::int64_t step, const State& state)
   const auto call = [&](int body) {
     if (body != no_body && state.rest[body].asleep()) islands.push_back(state.rest[body].island());
   };
-  for (const Event& event : std::ranges::equal_range(model_->events, step, {}, &Event::step)) {
-    if (event.kind == EventKind::launch) {
-      call(event.body);
+  const auto by_step = [](const auto& a, const auto& b) { return step_of(a) < step_of(b); };
+  const auto [first, last] = std::equal_range(model_->events.begin(), model_->events.end(), step, by_step);
+  for (auto event = first; event != last; ++event) {
+    if (event->kind == EventKind::launch) {
+      call(event->body);
     } else {
-      call(model_->joints[event.joint].body_a);
-      call(model_->joints[event.joint].body_b);
+      call(model_->joints[event->joint].body_a);
+      call(model_->joints[event->joint].body_b);
     }
   }
   sort_unique(islands);

@@ -41,8 +41,8 @@ class Sleepers {
   void start(State& state);
   std::span<const int> awake() const { return awake_; }  ///< bodies, ascending
 
-  /// Islands are named by their lowest body, each once, ascending.
-  /// Those that sleep and that the events of this step concern.
+  /// The islands that sleep and that the events of this step concern. They are named by their lowest body,
+  /// each once, ascending.
   std::vector<int> islands_called(std::int64_t step, const State& state) const;
   /// Those that sleep and that an awake body touches.
   static std::vector<int> islands_touched(std::span<const BodyPair> touching, const State& state);
