@@ -12,21 +12,32 @@ namespace {
 
 constexpr int state_tag = 1;
 constexpr std::size_t doubles_per_body = 13;
+constexpr std::size_t doubles_per_rest = 8;  ///< with the effect "sleeping"
+
+std::size_t num_doubles(const model::State& state) {
+  return doubles_per_body * state.position.size() + doubles_per_rest * state.rest.size();
+}
 
 /// Bit for bit: what a NaN carries survives, too.
 std::vector<double> pack(const model::State& state) {
   const std::size_t n = state.position.size();
-  std::vector<double> packed(doubles_per_body * n);
+  std::vector<double> packed(num_doubles(state));
   if (n == 0) return packed;
   std::memcpy(packed.data(), state.position.data(), 3 * n * sizeof(double));
   std::memcpy(packed.data() + 3 * n, state.orientation.data(), 4 * n * sizeof(double));
   std::memcpy(packed.data() + 7 * n, state.velocity.data(), 3 * n * sizeof(double));
   std::memcpy(packed.data() + 10 * n, state.angular_velocity.data(), 3 * n * sizeof(double));
+  double* row = packed.data() + doubles_per_body * n;
+  for (const model::Rest& rest : state.rest) {
+    std::memcpy(row, rest.position.data(), 3 * sizeof(double));
+    std::memcpy(row + 3, &rest.orientation.w, 4 * sizeof(double));
+    row[7] = rest.idle_steps;
+    row += doubles_per_rest;
+  }
   return packed;
 }
 
-model::State unpack(const std::vector<double>& packed) {
-  const std::size_t n = packed.size() / doubles_per_body;
+model::State unpack(const std::vector<double>& packed, std::size_t n) {
   model::State state;
   state.resize(static_cast<int>(n));
   if (n == 0) return state;
@@ -34,6 +45,14 @@ model::State unpack(const std::vector<double>& packed) {
   std::memcpy(&state.orientation.front().w, packed.data() + 3 * n, 4 * n * sizeof(double));
   std::memcpy(state.velocity.front().data(), packed.data() + 7 * n, 3 * n * sizeof(double));
   std::memcpy(state.angular_velocity.front().data(), packed.data() + 10 * n, 3 * n * sizeof(double));
+  if (packed.size() > doubles_per_body * n) state.rest.resize(n);
+  const double* row = packed.data() + doubles_per_body * n;
+  for (model::Rest& rest : state.rest) {
+    std::memcpy(rest.position.data(), row, 3 * sizeof(double));
+    std::memcpy(&rest.orientation.w, row + 3, 4 * sizeof(double));
+    rest.idle_steps = static_cast<std::int32_t>(row[7]);
+    row += doubles_per_rest;
+  }
   return state;
 }
 
@@ -49,7 +68,7 @@ OwnedWorlds::OwnedWorlds(const Communicator& comm, model::WorldStepper& stepper,
       stepper.add(world, model, model::initial_state(*model), 0);
     }
   });
-  exchange_body_counts();
+  exchange_sizes();
 }
 
 void OwnedWorlds::find_own() {
@@ -59,10 +78,15 @@ void OwnedWorlds::find_own() {
   }
 }
 
-void OwnedWorlds::exchange_body_counts() {
+void OwnedWorlds::exchange_sizes() {
   std::vector<std::int64_t> num_bodies(placement_.size(), 0);
-  for (const int world : ids_) num_bodies[world] = stepper_->model(world).num_bodies();
+  state_doubles_.assign(placement_.size(), 0);
+  for (const int world : ids_) {
+    num_bodies[world] = stepper_->model(world).num_bodies();
+    state_doubles_[world] = static_cast<std::int64_t>(num_doubles(stepper_->state(world)));
+  }
   comm_->allreduce(num_bodies, Reduce::max);
+  comm_->allreduce(state_doubles_, Reduce::max);
   for (const std::int64_t count : num_bodies) table_.body_offset.push_back(table_.body_offset.back() + count);
 }
 
@@ -84,9 +108,9 @@ void OwnedWorlds::move(std::span<const Move> moves, std::int64_t step) {
       comm_->send(std::span<const double>(pack(stepper_->state(move.world))), move.to, state_tag);
     } else if (move.to == comm_->rank()) {
       const std::int64_t num_bodies = table_.body_offset[move.world + 1] - table_.body_offset[move.world];
-      std::vector<double> packed(doubles_per_body * num_bodies);
+      std::vector<double> packed(state_doubles_[move.world]);
       comm_->recv(std::span(packed), placement_[move.world], state_tag);
-      arrivals.emplace_back(move.world, unpack(packed));
+      arrivals.emplace_back(move.world, unpack(packed, num_bodies));
     }
   }
   agree_on_errors(*comm_, [&] {

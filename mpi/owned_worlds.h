@@ -35,7 +35,7 @@ class OwnedWorlds {
   void move(std::span<const Move> moves, std::int64_t step);
 
  private:
-  void exchange_body_counts();
+  void exchange_sizes();
   void find_own();
 
   const Communicator* comm_;
@@ -43,6 +43,7 @@ class OwnedWorlds {
   BuildWorld build_;
   Placement placement_;
   model::WorldTable table_;
+  std::vector<std::int64_t> state_doubles_;  ///< [worlds] numbers of a state that moves
   std::vector<int> ids_;
 };
 

@@ -219,6 +219,11 @@ std::string SpaceDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
   for (const Move& move : planned_.moves) owner[move.world] = move.to;
   ownership_ = SpaceOwnership(stepper_->map(), std::move(owner), comm().size());
   stepper_->put_states(bodies, rows);
+  if (model::SpaceSleepers* sleepers = stepper_->sleepers()) {
+    std::vector<double> rest = sleepers->rest_rows(bodies);
+    comm().bcast(std::span(rest));
+    sleepers->put(bodies, rest);
+  }
   const model::State state = stepper_->state();
   step_.own(ownership_, state, step);
   last_times_.clear();

@@ -12,7 +12,7 @@ using core::Phase;
 using model::Contact;
 
 SpaceStep::SpaceStep(const Communicator& comm, model::SpaceStepper& stepper, ErrorHold& errors)
-    : comm_(&comm), stepper_(&stepper), errors_(&errors) {
+    : comm_(&comm), stepper_(&stepper), errors_(&errors), sleepers_(stepper.sleepers()) {
   if (comm.size() > 1) mail_ = std::make_unique<Mail>(comm);
 }
 
@@ -33,15 +33,16 @@ void SpaceStep::own(const SpaceOwnership& ownership, const model::State& state, 
 
 void SpaceStep::run(std::int64_t step, bool last, core::PhaseTimes& times) {
   core::LapTimer timer(times);
-  guard([&] {
-    stepper_->fire_events(step);
-    stepper_->collide(contacts_);
-  });
+  guard([&] { stepper_->fire_events(step); });
+  if (sleeps_on(step)) return sleep_on(last, times);
+  guard([&] { stepper_->collide(contacts_); });
   timer.lap(Phase::collide);
+  if (sleepers_) wake_touched(step, timer);
   if (crosses_) exchange(step, timer);
   guard([&] { stepper_->solve(active_units_, contacts_, step, times); });
   core::LapTimer after(times);
   if (crosses_) ship_back(after);
+  if (sleepers_) settle(after);
   if (last) {
     finish_frame(times);
   } else if (crosses_ && !is_root()) {

@@ -38,6 +38,9 @@ struct FrameFindings {
 /// and which contacts across spaces are its own; islands are shipped, solved, and shipped back; poses and
 /// boxes go to root, which looks at them while the ranks already collide.
 ///
+/// With the effect "sleeping" the ranks agree, after collision, on the islands that wake and, at the end, on
+/// those that fall asleep (space_step_sleep.cpp); while all sleep a step sends nothing.
+///
 /// Errors of the stepper are held in `errors`; the messages of the step are exchanged all the same.
 class SpaceStep {
  public:
@@ -77,7 +80,13 @@ class SpaceStep {
   const std::vector<int>& own_units() const { return ownership_->units[comm_->rank()]; }
 
   void exchange(std::int64_t step, core::LapTimer& timer);
+  bool sleeps_on(std::int64_t step);
+  void sleep_on(bool last, core::PhaseTimes& times);
+  void wake_touched(std::int64_t step, core::LapTimer& timer);
+  void settle(core::LapTimer& timer);
+  std::vector<model::Resting> join_resting(std::span<const model::Resting> resting);
   void find_local_islands();
+  void look_across(std::int64_t step, core::LapTimer& timer);
   Orders direct(std::int64_t step, core::LapTimer& timer);
   void receive_poses(core::LapTimer& timer);
   void receive_reports(core::LapTimer& timer);
@@ -101,6 +110,7 @@ class SpaceStep {
   const Communicator* comm_;
   model::SpaceStepper* stepper_;
   ErrorHold* errors_;
+  model::SpaceSleepers* sleepers_;  ///< null without the effect "sleeping"
   std::optional<SpaceOwnership> ownership_;
   std::unique_ptr<Mail> mail_;    ///< none where no message is sent
   bool crosses_ = false;          ///< can anything cross?
@@ -110,6 +120,8 @@ class SpaceStep {
   LocalIslands islands_;                   ///< of this rank
   std::vector<std::int32_t> unit_weight_;  ///< [own units] rows of joints and own contacts, and bodies
   std::int64_t bodies_shipped_ = 0;        ///< by this rank in this frame
+  std::vector<model::BodyPair>
+      touching_;  ///< with sleepers: own contacts of the step, before islands are shipped
   std::vector<Shipment> guests_, guests_elsewhere_;
 
   // On root only.

@@ -30,6 +30,7 @@ void SpaceStep::post_frame(const model::IslandCounts& counts, const core::PhaseT
   if (!crosses_) mail_->finish();  // root has the message of the frame before
   MessageWriter message;
   message.put(state_rows(stepper_->state(), ownership_->bodies[comm_->rank()]));
+  if (sleepers_) message.put(sleepers_->rest_rows(ownership_->bodies[comm_->rank()]));
   message.put(own_boxes());
   message.put_value(counts);
   message.put_value(times);
@@ -81,6 +82,7 @@ void SpaceStep::require_apart() {
 
 void SpaceStep::take_frame(int rank, MessageReader& message) {
   stepper_->put_states(ownership_->bodies[rank], message.get<double>());
+  if (sleepers_) sleepers_->put(ownership_->bodies[rank], message.get<double>());
   const auto boxes = message.get<model::Box>();
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes_[ownership_->spaces[rank][i]] = boxes[i];
   const auto counts = message.get_value<model::IslandCounts>();

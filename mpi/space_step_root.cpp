@@ -8,16 +8,22 @@ namespace pbmpi::mpi {
 using core::Phase;
 using model::Contact;
 
-/// Root's section of the step.
-SpaceStep::Orders SpaceStep::direct(std::int64_t step, core::LapTimer& timer) {
+/// Finds the contacts across spaces; again, once more bodies are awake.
+void SpaceStep::look_across(std::int64_t step, core::LapTimer& timer) {
   if (!has_poses_) receive_poses(timer);
-  has_poses_ = false;
+  has_poses_ = true;
   guard([&] {
     stepper_->launch_others(step, boxes_);
     for (const int space : ownership_->spaces[comm_->rank()]) boxes_[space] = stepper_->space_box(space);
     stepper_->collide_across(ownership_->owner, boxes_, crossing_);
   });
   timer.lap(Phase::cross_space);
+}
+
+/// Root's section of the step.
+SpaceStep::Orders SpaceStep::direct(std::int64_t step, core::LapTimer& timer) {
+  if (sleepers_ == nullptr) look_across(step, timer);
+  has_poses_ = false;
   receive_reports(timer);
   std::vector<Orders> orders = join_islands();
   for (int rank = 1; rank < comm_->size(); ++rank) {

@@ -115,6 +115,13 @@ class FileScene final : public Scene {
       law.max_per_pair = contact->integer("max_per_pair", 1, law.max_per_pair);
       contact->finish();
     }
+    if (auto sleep = scene.table("sleep")) {
+      model::SleepRule& rule = empty_.sleep;
+      rule.speed = sleep->number("speed", Sign::non_negative, rule.speed);
+      rule.angular_speed = sleep->number("angular_speed", Sign::non_negative, rule.angular_speed);
+      rule.after_s = sleep->number("after", Sign::positive, rule.after_s);
+      sleep->finish();
+    }
     if (scene.has("spaces")) read_spaces(scene);
     const std::string meet = scene.text("inter_space", "any");
     if (meet != "any" && meet != "none")

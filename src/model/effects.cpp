@@ -1,6 +1,7 @@
 #include "model/effects.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
 
 #include "core/error.h"
@@ -112,6 +113,16 @@ std::optional<std::string> damping(const Model& model) {
   return text.str();
 }
 
+/// An approximation, so that a model calls for it in so many words only.
+std::optional<std::string> sleeping(const Model& model) {
+  const auto choice = model.effects.find("sleeping");
+  if (choice == model.effects.end() || !choice->second) return std::nullopt;
+  char text[96];
+  std::snprintf(text, sizeof text, "demanded, after %g s below %g m/s and %g rad/s", model.sleep.after_s,
+                model.sleep.speed, model.sleep.angular_speed);
+  return text;
+}
+
 template <EventKind kind>
 void drop_events(Model& model) {
   std::erase_if(model.events, [](const Event& e) { return e.kind == kind; });
@@ -168,6 +179,8 @@ const std::vector<Effect>& effect_registry() {
       {"gyroscopic_torque", "spinning bodies precess", Phase::integrate, gyroscopic_torque, keep},
       {"gravity", "bodies fall", Phase::integrate, gravity, drop_gravity},
       {"damping", "velocities die away", Phase::integrate, damping, drop_damping},
+      {"sleeping", "islands at rest are not stepped until something touches them", Phase::islands, sleeping,
+       keep},
   };
   return effects;
 }

@@ -144,6 +144,13 @@ struct ContactLaw {
   int max_per_pair = 4;          ///< contacts kept of a pair of geoms
 };
 
+/// When a resting island falls asleep (model/sleepers.h). Box2D's speed, and its and Jolt's time.
+struct SleepRule {
+  double speed = 0.05;         ///< [m/s] that counts as rest, as a mean over after_s
+  double angular_speed = 0.1;  ///< [rad/s] likewise
+  double after_s = 0.5;        ///< of rest [s]
+};
+
 struct Model {
   std::vector<Actor> actors;
   std::vector<Body> bodies;
@@ -159,6 +166,7 @@ struct Model {
   double linear_damping = 0;
   double angular_damping = 0;
   ContactLaw contact_law;
+  SleepRule sleep;
   EffectChoices effects;  ///< what is demanded or left out, whatever the rest calls for
 
   int num_bodies() const { return static_cast<int>(bodies.size()); }

@@ -19,7 +19,8 @@ struct Residuals {
   double natural_turn = 0;       ///< [rad/s] of all rows about axes
 };
 
-/// Of the last step of a frame, except where it says otherwise.
+/// Of the last step of a frame, except where it says otherwise. With the effect "sleeping" contacts, rows and
+/// penetration are those of what is awake; islands are all.
 struct Observables {
   int contacts = 0;              ///< contact points
   int rows = 0;                  ///< scalar constraint rows of joints and contacts

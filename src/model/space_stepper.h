@@ -13,6 +13,7 @@
 #include "model/contact.h"
 #include "model/model.h"
 #include "model/space_map.h"
+#include "model/space_sleepers.h"
 #include "model/state.h"
 
 namespace pbmpi::model {
@@ -38,6 +39,9 @@ class SpaceStepper {
   virtual const Model& model() const = 0;
   virtual const SpaceMap& map() const = 0;
   virtual const State& state() const = 0;
+  /// Null without the effect "sleeping". With it collide() and collide_across() find the contacts of which a
+  /// body is awake, and solve() moves the units that are.
+  virtual SpaceSleepers* sleepers() { return nullptr; }
   /// Units of one shape that are solved at the cost of one.
   virtual int num_lanes() const = 0;
 

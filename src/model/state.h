@@ -8,12 +8,26 @@
 
 namespace pbmpi::model {
 
+/// How long a body has rested (model/sleepers.h).
+struct Rest {
+  Vec3 position = Vec3::Zero();  ///< the pose near which it has stayed [m], world frame
+  Quat orientation;
+  /// Steps since then, up to what the rule asks for. Of a body that sleeps: -1 - the lowest body of its
+  /// island.
+  std::int32_t idle_steps = 0;
+
+  bool asleep() const { return idle_steps < 0; }
+  int island() const { return -1 - idle_steps; }  ///< of one that sleeps: its lowest body
+  void sleep_in(int island) { idle_steps = -1 - island; }
+};
+
 /// One row a body, contiguous, world frame.
 struct State {
   std::vector<Vec3> position;          ///< [num_bodies][3] m, centres of mass
   std::vector<Quat> orientation;       ///< [num_bodies][4] (w, x, y, z)
   std::vector<Vec3> velocity;          ///< [num_bodies][3] m/s
   std::vector<Vec3> angular_velocity;  ///< [num_bodies][3] rad/s
+  std::vector<Rest> rest;              ///< [num_bodies] with the effect "sleeping", else none
 
   int num_bodies() const { return static_cast<int>(position.size()); }
   void resize(int num_bodies);
@@ -22,7 +36,7 @@ struct State {
 /// The state in which `model` starts.
 State initial_state(const Model& model);
 
-/// Hash of all bits of the state, body by body. Equal states have equal hashes on every machine.
+/// Hash of all bits of poses and velocities, body by body. Equal states have equal hashes on every machine.
 std::uint64_t hash(const State& state);
 
 /// Bodies of which any number is NaN or infinite.

@@ -122,6 +122,11 @@ void validate(const Model& model, const std::string& where) {
     require_input(std::isfinite(damping) && damping >= 0,
                   where + ": damping of " + std::to_string(damping) + " 1/s; it must be finite, 0 or above");
   }
+  require_input(std::isfinite(model.sleep.speed) && model.sleep.speed >= 0 &&
+                    std::isfinite(model.sleep.angular_speed) && model.sleep.angular_speed >= 0,
+                where + ": the speeds below which islands fall asleep must be at least 0");
+  require_input(std::isfinite(model.sleep.after_s) && model.sleep.after_s > 0,
+                where + ": islands fall asleep after a time above 0 s");
   require_input(model.contact_law.max_per_pair >= 1, where + ": max_per_pair must be at least 1");
   std::set<std::string> names;
   for (const Body& body : model.bodies) {

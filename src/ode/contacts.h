@@ -32,6 +32,12 @@ class Contacts {
   /// Removes the contact joints. touches() and deepest_m() stay until the next make().
   void clear() { dJointGroupEmpty(joints_.get()); }
 
+  /// Forgets touches(), too: the step has no contacts.
+  void forget() {
+    touches_.clear();
+    deepest_m_ = 0;
+  }
+
   const std::vector<Touch>& touches() const { return touches_; }
   double deepest_m() const { return deepest_m_; }  ///< 0 without contacts
   int count() const;

@@ -9,8 +9,9 @@ namespace pbmpi::ode {
 RowCounter::RowCounter(const model::Model& model, const std::vector<dJointID>& joints)
     : model_(&model), joints_(joints), sets_(model.num_bodies()) {}
 
-void RowCounter::count(const std::vector<Touch>& touches, model::Observables& observables) {
-  collect(touches);
+void RowCounter::count(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
+                       model::Observables& observables) {
+  collect(touches, rest);
   const int num_bodies = model_->num_bodies();
   sets_.reset(num_bodies);
   for (const Link& link : links_) {
@@ -44,11 +45,15 @@ std::vector<model::IslandCost> RowCounter::islands(const std::vector<Touch>& tou
   return islands;
 }
 
-void RowCounter::collect(const std::vector<Touch>& touches) {
+void RowCounter::collect(const std::vector<Touch>& touches, std::span<const model::Rest> rest) {
   links_.clear();
+  for (std::size_t body = 0; body < rest.size(); ++body) {
+    if (rest[body].asleep()) links_.push_back({static_cast<int>(body), rest[body].island(), 0});
+  }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const model::Joint& joint = model_->joints[i];
-    links_.push_back({joint.body_a, joint.body_b, count_rows(joints_[i], joint.kind)});
+    const bool asleep = !rest.empty() && rest[joint.body_a].asleep();
+    links_.push_back({joint.body_a, joint.body_b, asleep ? 0 : count_rows(joints_[i], joint.kind)});
   }
   for (const Touch& touch : touches) {
     links_.push_back({touch.body_a, touch.body_b, touch.num_contacts * touch.rows_per_contact});

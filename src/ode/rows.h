@@ -1,10 +1,12 @@
 /// Counts what a step has to solve: rows and islands.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "model/islands.h"
 #include "model/observables.h"
+#include "model/state.h"
 #include "model/step_profile.h"
 #include "ode/contacts.h"
 
@@ -17,8 +19,9 @@ class RowCounter {
   /// `model` is borrowed.
   RowCounter(const model::Model& model, const std::vector<dJointID>& joints);
 
-  /// Sets rows, islands and max_island_rows.
-  void count(const std::vector<Touch>& touches, model::Observables& observables);
+  /// Sets rows, islands and max_island_rows. `rest`: as in model::State; what sleeps has no rows.
+  void count(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
+             model::Observables& observables);
   /// The islands of the last count(), in order of their lowest body, without times.
   std::vector<model::IslandCost> islands(const std::vector<Touch>& touches);
   /// The lowest body of the island that `body` was in.
@@ -29,7 +32,7 @@ class RowCounter {
   struct Link {
     int body_a, body_b, rows;
   };
-  void collect(const std::vector<Touch>& touches);
+  void collect(const std::vector<Touch>& touches, std::span<const model::Rest> rest);
 
   const model::Model* model_;
   std::vector<dJointID> joints_;

@@ -40,6 +40,9 @@ class OdeStepper final : public model::WorldStepper {
     double cost_s = 0;
     std::optional<model::StepProfile> profile;
     std::unique_ptr<World> world;  ///< none once the state is not finite: ODE would stop at an assertion
+
+    /// A state from elsewhere may lack what the effect "sleeping" adds.
+    void take_rest() { state.rest.assign(world->rest().begin(), world->rest().end()); }
   };
   const Slot& get(int world) const;
   void advance_slot(Slot& slot, int num_steps, core::LapTimer& timer);

@@ -1,7 +1,9 @@
 #include "ode/world.h"
 
 #include <cmath>
+#include <utility>
 
+#include "core/error.h"
 #include "core/random.h"
 #include "ode/bodies.h"
 #include "ode/joints.h"
@@ -51,11 +53,21 @@ World::World(int id, const model::Model& model, const model::State& state, std::
     fast_bodies_.emplace(model);
     before_step_.resize(model.num_bodies());
   }
+  if (plan_.has("sleeping")) {
+    core::require_input(!settings.profile,
+                        "the islands of a step are timed one by one, and with the effect 'sleeping' some are "
+                        "not stepped; leave one of the two out");
+    sleeping_.emplace(model, settings.dt_s, bodies_);
+  }
   events_.skip_to(step);
-  restore(bodies_, state);
+  set_state(state);
 }
 
-void World::set_state(const model::State& state) { restore(bodies_, state); }
+void World::set_state(const model::State& state) {
+  moved_ = true;
+  restore(bodies_, state);
+  if (sleeping_) sleeping_->start(state);
+}
 
 void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
   for (int i = 0; i < num_steps; ++i) {
@@ -64,7 +76,21 @@ void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
   }
 }
 
+/// A step of a world in which all bodies sleep, and that no event wakes, changes nothing.
+bool World::sleeps_on() {
+  if (!sleeping_) return false;
+  sleeping_->wake_called(step_);
+  return sleeping_->all_asleep();
+}
+
 void World::take_step(bool is_last, core::LapTimer& timer) {
+  if (sleeps_on()) {
+    contacts_.forget();
+    if (is_last && moved_) row_counter_.count(contacts_.touches(), sleeping_->rest(), counts_);
+    ++step_;
+    return;
+  }
+  moved_ = true;
   events_.fire(step_);
   held_poses_.aim(settings_.dt_s);
   if (is_last && settings_.profile) {
@@ -76,18 +102,31 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
     timer.lap(core::Phase::collide);
   }
   if (is_last) {
-    row_counter_.count(contacts_.touches(), counts_);
+    row_counter_.count(contacts_.touches(), rest(), counts_);
     timer.lap(core::Phase::islands);
   }
   solve();
   contacts_.clear();
   timer.lap(core::Phase::solve);
+  if (sleeping_) {
+    sleeping_->settle(contacts_.touches());
+    timer.lap(core::Phase::islands);
+  }
   ++step_;
 }
 
+std::span<const model::Rest> World::rest() const {
+  return sleeping_ ? std::span<const model::Rest>(sleeping_->rest()) : std::span<const model::Rest>();
+}
+
+/// Again while contacts wake what slept, since its own contacts are then to be found, too.
 void World::collide() {
-  contacts_.make(world_.get(), broad_phase_->find_pairs(), broad_phase_->geoms());
-  if (fast_bodies_) look_ahead();
+  const std::vector<GeomPair>& pairs = broad_phase_->find_pairs();
+  do {
+    contacts_.clear();
+    contacts_.make(world_.get(), sleeping_ ? sleeping_->awake_pairs(pairs) : pairs, broad_phase_->geoms());
+    if (fast_bodies_) look_ahead();
+  } while (sleeping_ && sleeping_->wake_touched(contacts_.touches()));
 }
 
 void World::look_ahead() {
@@ -110,8 +149,14 @@ void World::solve() {
   }
 }
 
-void World::read(model::State& state, model::Observables& observables) const {
+void World::read(model::State& state, model::Observables& observables) {
+  if (!std::exchange(moved_, false)) {  // only poses and what follows from them are as before
+    observables.contacts = observables.rows = observables.max_island_rows = 0;
+    observables.max_penetration_m = 0;
+    return;
+  }
   copy_out(bodies_, state);
+  if (sleeping_) state.rest = sleeping_->rest();
   observables = counts_;
   observables.contacts = contacts_.count();
   observables.max_penetration_m = contacts_.deepest_m();

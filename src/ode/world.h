@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/clock.h"
@@ -15,6 +16,7 @@
 #include "ode/engine.h"
 #include "ode/events.h"
 #include "ode/rows.h"
+#include "ode/sleeping.h"
 #include "ode/solver_resources.h"
 
 namespace pbmpi::ode {
@@ -37,15 +39,19 @@ class World {
   /// Puts the bodies into the state at the start of step(), where the world stands.
   void set_state(const model::State& state);
   /// Reads out the state after the last step, and what was observed in it.
-  void read(model::State& state, model::Observables& observables) const;
+  /// Both as they were after the last call if all bodies have slept since then.
+  void read(model::State& state, model::Observables& observables);
   /// Measures the last step again (model::StepProfile); the world is then as it was, bit for bit. Needs the
   /// setting `profile` and a step taken before.
   model::StepProfile profile_last_step();
+  /// As in model::State.
+  std::span<const model::Rest> rest() const;
   /// The next step.
   std::int64_t step() const { return step_; }
 
  private:
   void take_step(bool is_last, core::LapTimer& timer);
+  bool sleeps_on();
   void collide();
   void look_ahead();
   void solve();
@@ -67,10 +73,12 @@ class World {
   std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass
   model::State before_step_;                      ///< with it: at the start of the step
   std::vector<model::Contact> ahead_;             ///< contacts with a gap
+  std::optional<Sleeping> sleeping_;              ///< none without the pass
   RowCounter row_counter_;
   model::Observables counts_;  ///< rows and islands of the last step
   model::State before_last_;   ///< with `profile`: before the last step's collision detection, events done
   std::int64_t step_;
+  bool moved_ = true;  ///< since the last read()
 };
 
 }  // namespace pbmpi::ode

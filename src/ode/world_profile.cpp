@@ -54,7 +54,7 @@ model::StepProfile World::profile_last_step() {
   model::StepProfile profile;
   restore(bodies_, before_last_);
   if (broad_phase_) profile_collision(profile);
-  row_counter_.count(contacts_.touches(), counts_);
+  row_counter_.count(contacts_.touches(), rest(), counts_);
   profile_islands(profile);
   contacts_.clear();
   ++step_;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "solver/awake_geoms.h"
 #include "solver/broad_phase.h"
 #include "solver/group_boxes.h"
 #include "solver/may_touch_table.h"
@@ -22,7 +24,11 @@ class ColliderLanes {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  ColliderLanes(std::span<const PackedWorld> worlds, const WorldLanes<T>& lanes);
+  /// `sleeping`: contacts are looked for of which a body is awake.
+  ColliderLanes(std::span<const PackedWorld> worlds, const WorldLanes<T>& lanes, bool sleeping);
+
+  /// Bodies that sleep have moved.
+  void forget_boxes() { boxes_known_ = false; }
 
   /// The contacts of each world, in canonical order: contacts[num_worlds].
   void collide(const WorldLanes<T>& lanes, std::span<std::vector<model::Contact>> contacts);
@@ -42,8 +48,11 @@ class ColliderLanes {
     int first_column = 0;                      ///< theirs
     std::unique_ptr<MayTouchTable> may_touch;  ///< of the swept geoms; none if they are many and sorted
     std::unique_ptr<BroadPhase> sorting;
+    std::optional<AwakeGeoms> awake;  ///< none without the pass "sleeping"
   };
 
+  void update_boxes(const WorldLanes<T>& lanes);
+  void find_awake(const WorldLanes<T>& lanes);
   void find_pairs(const WorldLanes<T>& lanes, int world);
   bool is_plane(const World& world, int i) const {
     return world.model->geoms[static_cast<std::size_t>(world.geoms[static_cast<std::size_t>(i)])].shape ==
@@ -54,6 +63,8 @@ class ColliderLanes {
   /// Against those of [first, last) only; `box` is its own, in all lanes.
   void test_range(const World& world, int i, const BoxLanes<T>& box, int first, int last);
   void test_plane(const World& world, int i);
+  /// The i-th, which sleeps or is static, against those after it that are awake.
+  void test_sleeper(const World& world, int i);
   void add_pairs(const World& world, int i, int first, unsigned touching);
   void run_kernels();
   void take_contacts(const WorldLanes<T>& lanes, int world, std::vector<model::Contact>& contacts);
@@ -66,14 +77,20 @@ class ColliderLanes {
   std::vector<int> pair_chunks_;   ///< those of given pairs
   PairTable table_;
   PoseCache poses_;
+  bool sleeping_;
+  bool boxes_known_ = false;       ///< are those of all that sleeps as they are?
+  long awake_revision_ = -1;       ///< of the bodies that World::awake is of
+  std::vector<int> awake_chunks_;  ///< of geoms_
 };
 
 template <class T>
-ColliderLanes<T>::ColliderLanes(std::span<const PackedWorld> worlds, const WorldLanes<T>& lanes)
+ColliderLanes<T>::ColliderLanes(std::span<const PackedWorld> worlds, const WorldLanes<T>& lanes,
+                                bool sleeping)
     : order_(worlds),
       geoms_(order_.num_columns()),
       swept_chunks_(order_.swept_chunks(T::num_lanes)),
-      table_(worlds, order_) {
+      table_(worlds, order_),
+      sleeping_(sleeping) {
   for (int w = 0; w < static_cast<int>(worlds.size()); ++w) {
     const PackedWorld& packed = worlds[static_cast<std::size_t>(w)];
     const model::Model& model = *packed.model;
@@ -82,6 +99,7 @@ ColliderLanes<T>::ColliderLanes(std::span<const PackedWorld> worlds, const World
     world.fallback = packed.fallback;
     world.geoms = order_.swept(w);
     world.first_column = order_.first(w);
+    if (sleeping) world.awake.emplace(model, world.geoms, T::num_lanes);
     for (std::size_t geom = 0; geom < model.geoms.size(); ++geom) {
       geoms_.set(order_.column(w, static_cast<int>(geom)), model.geoms[geom],
                  lanes.body_place(w, model.geoms[geom].body));
@@ -96,7 +114,7 @@ ColliderLanes<T>::ColliderLanes(std::span<const PackedWorld> worlds, const World
 
 template <class T>
 void ColliderLanes<T>::collide(const WorldLanes<T>& lanes, std::span<std::vector<model::Contact>> contacts) {
-  geoms_.update(swept_chunks_, lanes.bodies);
+  update_boxes(lanes);
   table_.clear();
   const int num_worlds = static_cast<int>(worlds_.size());
   for (int world = 0; world < num_worlds; ++world) find_pairs(lanes, world);
@@ -121,17 +139,47 @@ void ColliderLanes<T>::collide_pairs(const WorldLanes<T>& lanes, int world,
   take_contacts(lanes, world, contacts);
 }
 
+/// What sleeps has the boxes that it had.
+template <class T>
+void ColliderLanes<T>::update_boxes(const WorldLanes<T>& lanes) {
+  if (sleeping_) find_awake(lanes);
+  geoms_.update(sleeping_ && boxes_known_ ? awake_chunks_ : swept_chunks_, lanes.bodies);
+  boxes_known_ = true;
+}
+
+template <class T>
+void ColliderLanes<T>::find_awake(const WorldLanes<T>& lanes) {
+  if (awake_revision_ == lanes.awake().revision()) return;
+  awake_revision_ = lanes.awake().revision();
+  awake_chunks_.clear();
+  for (std::size_t w = 0; w < worlds_.size(); ++w) {
+    worlds_[w].awake->find(lanes.awake(), static_cast<int>(w));
+    worlds_[w].awake->add_chunks(worlds_[w].first_column, awake_chunks_);
+  }
+}
+
 template <class T>
 void ColliderLanes<T>::find_pairs(const WorldLanes<T>& lanes, int index) {
   const World& world = worlds_[static_cast<std::size_t>(index)];
   table_.start_world(index);
-  if (world.sorting) {
+  if (world.awake && world.awake->chunks().empty()) {
+    // nothing can begin to touch
+  } else if (world.sorting) {
     lanes.poses(index, poses_.all(world.model->num_bodies()));
-    table_.add_all(*world.sorting, poses_.all(world.model->num_bodies()));
+    table_.add_all(*world.sorting, poses_.all(world.model->num_bodies()),
+                   world.awake ? &*world.awake : nullptr);
   } else {
     const int count = static_cast<int>(world.geoms.size());
     if (count > most_ungrouped_geoms) groups_.update(geoms_, world.first_column, count);
-    for (int i = 0; i < count; ++i) is_plane(world, i) ? test_plane(world, i) : test_solid(world, i);
+    for (int i = 0; i < count; ++i) {
+      if (is_plane(world, i)) {
+        test_plane(world, i);
+      } else if (world.awake && !world.awake->contains(i)) {
+        test_sleeper(world, i);
+      } else {
+        test_solid(world, i);
+      }
+    }
   }
   table_.finish_world();
 }
@@ -167,6 +215,16 @@ void ColliderLanes<T>::test_range(const World& world, int i, const BoxLanes<T>& 
 }
 
 template <class T>
+void ColliderLanes<T>::test_sleeper(const World& world, int i) {
+  const BoxLanes<T> box(geoms_.box_min, geoms_.box_max, world.first_column + i);
+  for (const int first : world.awake->chunks()) {
+    if (first + T::num_lanes <= i) continue;
+    const unsigned near = box.overlapping(geoms_.box_min, geoms_.box_max, world.first_column + first);
+    add_pairs(world, i, first, near & world.awake->bits(first));
+  }
+}
+
+template <class T>
 void ColliderLanes<T>::test_plane(const World& world, int i) {
   const int plane = world.first_column + i;
   Scalar normal[3], offset = 0;
@@ -182,7 +240,8 @@ void ColliderLanes<T>::test_plane(const World& world, int i) {
       const auto& nearest = normal[k] > 0 ? geoms_.box_min[k] : geoms_.box_max[k];
       height += nearest.from(world.first_column + first) * T::broadcast(normal[k]);
     }
-    add_pairs(world, i, first, T::bits(height <= T::broadcast(offset) ? one : zero));
+    const unsigned awake = world.awake ? world.awake->bits(first) : ~0u;
+    add_pairs(world, i, first, T::bits(height <= T::broadcast(offset) ? one : zero) & awake);
   }
 }
 

@@ -23,18 +23,23 @@ class PackLanes final : public Pack {
 
   explicit PackLanes(std::span<const PackedWorld> worlds)
       : passes_(shared_passes(worlds)), worlds_(worlds, passes_), contacts_(passes_.idle_friction) {
-    if (passes_.collision) collider_.emplace(worlds, worlds_);
+    if (passes_.collision) collider_.emplace(worlds, worlds_, passes_.sleeping);
   }
 
-  void load(int world, const model::State& state) override { worlds_.load(world, state); }
+  void load(int world, const model::State& state) override {
+    worlds_.load(world, state);
+    if (collider_) collider_->forget_boxes();
+  }
   void store(int world, model::State& state) const override { worlds_.store(world, state); }
   void load(int world, std::span<const int> bodies, const model::State& state) override {
     for (const int body : bodies) worlds_.load_body(world, body, state);
+    if (collider_) collider_->forget_boxes();
   }
   void store(int world, std::span<const int> bodies, model::State& state) const override {
     for (const int body : bodies) worlds_.store_body(world, body, state);
   }
   void set_active(int world, std::span<const int> bodies) override { worlds_.set_active(world, bodies); }
+  void set_awake(int world, std::span<const int> bodies) override { worlds_.set_awake(world, bodies); }
   void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) override {
     worlds_.set_motor(world, joint, axis, motor);
   }
@@ -219,6 +224,8 @@ void PackLanes<T>::begin_step(Contacts contacts, const StepParameters& parameter
   parameters_ = parameters;
   h_ = static_cast<Scalar>(parameters.dt_s / parameters.substeps);
   core::LapTimer timer(times);
+  worlds_.update_active();
+  if (passes_.sleeping) worlds_.save_sleepers();
   sort_contacts(contacts);
   find_contact_slots();
   substep_ = 0;
@@ -255,6 +262,7 @@ void PackLanes<T>::finish_step(core::PhaseTimes& times) {
   integrate_bodies(h_);
   if (!last) worlds_.joints.advance(h_, worlds_.bodies);
   if (passes_.damping) damp(parameters_.dt_s / parameters_.substeps);
+  if (last && passes_.sleeping) worlds_.restore_sleepers();
   timer.lap(core::Phase::integrate);
 }
 

@@ -80,9 +80,11 @@ void PairTable::add(int first, int second) {
   pairs_.push_back({std::min(first, second), std::max(first, second)});
 }
 
-void PairTable::add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses) {
+void PairTable::add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses,
+                        const AwakeGeoms* awake) {
   std::vector<model::GeomPair> pairs;
   broad_phase.find_pairs(poses, pairs);
+  if (awake != nullptr) awake->drop_asleep(pairs);
   pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
 }
 

@@ -8,6 +8,7 @@
 
 #include "model/contact.h"
 #include "model/model.h"
+#include "solver/awake_geoms.h"
 #include "solver/broad_phase.h"
 #include "solver/geom_order.h"
 #include "solver/pack.h"
@@ -77,8 +78,9 @@ class PairTable {
   void start_world(int world);
   /// Geoms of the world at hand, by their index in its model.
   void add(int first, int second);
-  /// All pairs that this broad phase finds in the world at hand.
-  void add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses);
+  /// All pairs that this broad phase finds in the world at hand; of these only those with an awake geom, if
+  /// `awake` is given.
+  void add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses, const AwakeGeoms* awake);
   /// After the last pair of a world: puts them in canonical order.
   void finish_world();
   /// After the last world: fills the columns up to multiples of num_lanes.

@@ -17,6 +17,7 @@ struct Passes {
   bool gyroscopic_torque = false;
   bool gravity = false;
   bool damping = false;
+  bool sleeping = false;
   /// Demanded though nothing calls for them: friction rows at mu = 0, rows at all joint axes that could have
   /// a limit or a motor, gyroscopic torque of spheres and cubes. Where they are called for, they follow from
   /// the contacts and joints one by one.

@@ -38,6 +38,7 @@ struct Group {
   std::unique_ptr<Pack> pack;
   std::vector<std::vector<model::Contact>> contacts;  ///< [worlds] of this step
   std::vector<std::span<const model::Contact>> contact_spans;
+  bool sleeps = false;              ///< in the step at hand nothing moves
   std::vector<model::State> looks;  ///< [worlds] of the step that was begun
   double begun_s = 0;               ///< seconds spent on it
 };
@@ -49,8 +50,8 @@ class SorStepper final : public model::AnytimeStepper {
 
   void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
            std::int64_t step) override {
-    worlds_.emplace(world,
-                    std::make_unique<SorWorld>(world, std::move(model), state, step, make_narrow_phase_));
+    worlds_.emplace(world, std::make_unique<SorWorld>(world, std::move(model), state, step, settings_.dt_s,
+                                                      make_narrow_phase_));
     drop_groups();
   }
   void remove(int world) override {
@@ -91,7 +92,9 @@ class SorStepper final : public model::AnytimeStepper {
     begun_ = false;
   }
   void make_groups();
+  static void look(Group& group, core::PhaseTimes& times);
   void begin(Group& group, core::PhaseTimes& times);
+  void collide(Group& group) const;
   static void finish(Group& group, core::PhaseTimes& times);
   void observe(Group& group, core::PhaseTimes& times) const;
   static void share_cost(Group& group, double seconds);
@@ -111,7 +114,7 @@ void SorStepper::set_state(int world, const model::State& state, std::int64_t st
   if (groups_.empty()) return;
   if (same_step && !begun_) {
     const auto [group, index] = places_.at(world);
-    groups_[group].pack->load(index, state);
+    changed.load(*groups_[group].pack, index);
   } else {
     drop_groups();  // the joints' settings of another step
   }
@@ -160,25 +163,34 @@ void SorStepper::begin_step(int iterations, core::PhaseTimes& times) {
   for (Group& group : groups_) {
     const double start_s = core::now_s();
     begin(group, times);
-    group.pack->iterate(iterations, times);
-    LapTimer timer(times);
-    if (group.looks.empty()) {  // room for them, kept from step to step
-      for (const SorWorld* world : group.worlds) group.looks.push_back(world->state());
-    }
-    group.pack->look(group.looks);
-    timer.lap(Phase::integrate);
+    if (!group.sleeps) group.pack->iterate(iterations, times);
+    look(group, times);
     group.begun_s = core::now_s() - start_s;
   }
   begun_ = true;
+}
+
+void SorStepper::look(Group& group, core::PhaseTimes& times) {
+  LapTimer timer(times);
+  if (group.looks.empty()) {  // room for them, kept from step to step
+    for (const SorWorld* world : group.worlds) group.looks.push_back(world->state());
+  }
+  if (!group.sleeps) group.pack->look(group.looks);
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) group.worlds[i]->keep_sleepers(group.looks[i]);
+  timer.lap(Phase::integrate);
 }
 
 void SorStepper::begin(Group& group, core::PhaseTimes& times) {
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i)
     group.worlds[i]->fire_events(*group.pack, static_cast<int>(i));
-  group.pack->collide(group.contacts);
-  for (std::size_t i = 0; i < group.worlds.size(); ++i)
-    group.worlds[i]->look_ahead(*group.pack, static_cast<int>(i), settings_.dt_s, group.contacts[i]);
+  group.sleeps = std::none_of(group.worlds.begin(), group.worlds.end(),
+                              [](const SorWorld* world) { return world->moves(); });
+  if (group.sleeps) {
+    for (std::vector<model::Contact>& contacts : group.contacts) contacts.clear();
+    return;
+  }
+  collide(group);
   std::copy(group.contacts.begin(), group.contacts.end(), group.contact_spans.begin());
   timer.lap(Phase::collide);
   // Worlds of a pack may stand at different steps only if they came to this stepper at different times; the
@@ -187,9 +199,28 @@ void SorStepper::begin(Group& group, core::PhaseTimes& times) {
                          times);
 }
 
+/// Again while contacts wake what slept in any world of the group, since its own contacts are then to be
+/// found, too.
+void SorStepper::collide(Group& group) const {
+  bool woke = true;
+  while (woke) {
+    woke = false;
+    group.pack->collide(group.contacts);
+    for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+      group.worlds[i]->look_ahead(*group.pack, static_cast<int>(i), settings_.dt_s, group.contacts[i]);
+      woke |= group.worlds[i]->wake_touched(*group.pack, static_cast<int>(i), group.contacts[i]);
+    }
+  }
+}
+
 void SorStepper::finish(Group& group, core::PhaseTimes& times) {
-  group.pack->finish_step(times);
-  for (SorWorld* world : group.worlds) world->finish_step();
+  if (!group.sleeps) group.pack->finish_step(times);
+  LapTimer timer(times);
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+    group.worlds[i]->finish_step();
+    if (!group.sleeps) group.worlds[i]->settle(*group.pack, static_cast<int>(i), group.contacts[i]);
+  }
+  timer.lap(Phase::islands);
 }
 
 void SorStepper::observe(Group& group, core::PhaseTimes& times) const {
@@ -205,7 +236,7 @@ void SorStepper::observe(Group& group, core::PhaseTimes& times) const {
 void SorStepper::share_cost(Group& group, double seconds) {
   double weights = 0;
   const auto weight = [](const SorWorld& world) {
-    return world.observables().rows + world.model().num_bodies();
+    return world.observables().rows + std::max(1, world.num_awake());
   };
   for (const SorWorld* world : group.worlds) weights += weight(*world);
   for (SorWorld* world : group.worlds) world->cost_s = seconds * weight(*world) / weights;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/effects.h"
 #include "model/islands.h"
@@ -10,23 +11,41 @@
 namespace pbmpi::solver {
 
 SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state,
-                   std::int64_t step, const model::MakeNarrowPhase& make_narrow_phase)
-    : id_(id),
-      model_(std::move(model)),
-      state_(state),
-      step_(step),
-      narrow_phase_(make_narrow_phase(*model_)) {
-  if (!model::StepPlan(*model_).has("fast_bodies")) return;
-  fast_bodies_.emplace(*model_);
-  before_step_ = state_;
+                   std::int64_t step, double dt_s, const model::MakeNarrowPhase& make_narrow_phase)
+    : id_(id), model_(std::move(model)), narrow_phase_(make_narrow_phase(*model_)) {
+  const model::StepPlan plan(*model_);
+  if (plan.has("fast_bodies")) {
+    fast_bodies_.emplace(*model_);
+    before_step_ = state;
+  }
+  if (plan.has("sleeping")) sleepers_.emplace(*model_, dt_s);
+  set_state(state, step);
+}
+
+void SorWorld::set_state(const model::State& state, std::int64_t step) {
+  state_ = state;
+  step_ = step;
+  if (sleepers_) sleepers_->start(state_);
+  moved_ = true;
+}
+
+void SorWorld::show_awake(Pack& pack, int index) const {
+  pack.set_awake(index, sleepers_->awake());
+  pack.set_active(index, sleepers_->awake());
+}
+
+void SorWorld::load(Pack& pack, int index) const {
+  pack.load(index, state_);
+  if (sleepers_) show_awake(pack, index);
 }
 
 void SorWorld::enter(Pack& pack, int index) const {
-  pack.load(index, state_);
+  load(pack, index);
   apply_settings_before(*model_, step_, index, pack);
 }
 
-void SorWorld::fire_events(Pack& pack, int index) const {
+void SorWorld::fire_events(Pack& pack, int index) {
+  if (sleepers_ && sleepers_->wake(sleepers_->islands_called(step_, state_), state_)) show_awake(pack, index);
   for (const model::Event& event : events_of(*model_, step_)) {
     apply_setting(event, index, pack);
     if (event.kind == model::EventKind::launch) pack.launch(index, event);
@@ -41,12 +60,56 @@ void SorWorld::look_ahead(const Pack& pack, int index, double dt_s, std::vector<
         before_step_, [](int, int) { return true; }, contacts);
 }
 
+bool SorWorld::wake_touched(Pack& pack, int index, std::span<const model::Contact> contacts) {
+  if (!sleepers_ || num_awake() == model_->num_bodies()) return false;
+  if (!sleepers_->wake(model::Sleepers::islands_touched(touching_bodies(contacts), state_), state_))
+    return false;
+  show_awake(pack, index);
+  return true;
+}
+
+void SorWorld::settle(Pack& pack, int index, std::span<const model::Contact> contacts) {
+  if (!sleepers_) return;
+  pack.store(index, sleepers_->awake(), state_);
+  sleepers_->count(sleepers_->awake(), state_);
+  const std::vector<model::Resting> resting =
+      sleepers_->find_resting(sleepers_->awake(), touching_bodies(contacts), state_);
+  if (resting.empty()) return;
+  sleepers_->put_to_sleep(resting, state_);
+  std::vector<int> bodies;
+  for (const model::Resting& one : resting) bodies.push_back(one.body);
+  pack.load(index, bodies, state_);
+  show_awake(pack, index);
+}
+
+void SorWorld::keep_sleepers(model::State& state) const {
+  for (int body = 0; sleepers_ && body < model_->num_bodies(); ++body) {
+    if (!state_.rest[body].asleep()) continue;
+    state.position[body] = state_.position[body];
+    state.orientation[body] = state_.orientation[body];
+    state.velocity[body] = state_.velocity[body];
+    state.angular_velocity[body] = state_.angular_velocity[body];
+  }
+}
+
+/// Of a world that slept since it was last looked at: what its poses say is known.
+void SorWorld::observe_sleep() {
+  observables_.contacts = observables_.rows = observables_.max_island_rows = 0;
+  observables_.max_penetration_m = 0;
+}
+
 void SorWorld::count_rows(const Pack& pack, int index, std::span<const model::Contact> contacts) {
   std::vector<std::pair<int, int>> links;
   std::vector<int> rows;
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     links.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
-    rows.push_back(pack.joint_rows(index, static_cast<int>(j)));
+    const bool asleep = sleepers_ && state_.rest[model_->joints[j].body_a].asleep();
+    rows.push_back(asleep ? 0 : pack.joint_rows(index, static_cast<int>(j)));
+  }
+  for (int body = 0; sleepers_ && body < model_->num_bodies(); ++body) {
+    if (!state_.rest[body].asleep()) continue;
+    links.emplace_back(body, state_.rest[body].island());
+    rows.push_back(0);
   }
   for (const model::Contact& contact : contacts) {
     links.emplace_back(contact.body_a, contact.body_b);
@@ -65,6 +128,10 @@ void SorWorld::count_rows(const Pack& pack, int index, std::span<const model::Co
 }
 
 void SorWorld::observe(const Pack& pack, int index, std::span<const model::Contact> contacts) {
+  if (!std::exchange(moved_, false)) {
+    observe_sleep();
+    return;
+  }
   pack.store(index, state_);
   count_rows(pack, index, contacts);
   observables_.contacts = static_cast<int>(contacts.size());

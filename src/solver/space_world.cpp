@@ -29,6 +29,7 @@ class SpaceWorld final : public model::SpaceStepper {
   const model::Model& model() const override { return *model_; }
   const model::SpaceMap& map() const override { return map_; }
   const model::State& state() const override { return state_; }
+  model::SpaceSleepers* sleepers() override { return sleepers_ ? &*sleepers_ : nullptr; }
   int num_lanes() const override { return solver::num_lanes(simd(), settings_.precision); }
   void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override;
   void put_states(std::span<const int> bodies, std::span<const double> rows) override;
@@ -54,6 +55,9 @@ class SpaceWorld final : public model::SpaceStepper {
   bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
   void activate(std::span<const int> units);
   void lend(int body);
+  void load_lent();
+  bool is_awake(int body) const { return !sleepers_ || !sleepers_->asleep(body); }
+  void show_sleepers();
   void collide_pairs(std::vector<Contact>& contacts);
 
   model::StepperSettings settings_;
@@ -64,11 +68,13 @@ class SpaceWorld final : public model::SpaceStepper {
   CrossBroadPhase cross_;
   std::unique_ptr<Pack> pack_;
   model::State state_;
-  std::vector<model::BodyPose> poses_;  ///< [num_bodies] of state_
-  std::vector<char> stale_;             ///< [num_bodies] state_ is newer than the pack
-  std::vector<char> is_own_;            ///< [num_spaces]
-  std::vector<int> own_bodies_;         ///< ascending
-  std::vector<int> active_units_;       ///< of the last solve()
+  std::optional<model::SpaceSleepers> sleepers_;  ///< none without the effect "sleeping"
+  long shown_revision_ = -1;                      ///< of them, that the pack knows
+  std::vector<model::BodyPose> poses_;            ///< [num_bodies] of state_
+  std::vector<char> stale_;                       ///< [num_bodies] state_ is newer than the pack
+  std::vector<char> is_own_;                      ///< [num_spaces]
+  std::vector<int> own_bodies_;                   ///< ascending
+  std::vector<int> active_units_;                 ///< of the last solve(), those that sleep left out
   std::vector<int> active_bodies_;
   std::vector<int> lent_;    ///< bodies that were loaded for their contacts alone, since the last solve()
   std::vector<int> loaded_;  ///< scratch: active bodies that are stale
@@ -88,7 +94,11 @@ SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
       state_(model::initial_state(*model_)),
       poses_(model_->bodies.size()),
       stale_(model_->bodies.size(), 0) {
-  if (model::StepPlan(*model_).has("fast_bodies")) fast_bodies_.emplace(*model_);
+  const model::StepPlan plan(*model_);
+  if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_);
+  if (!plan.has("sleeping")) return;
+  sleepers_.emplace(*model_, settings.dt_s, state_);
+  sleepers_->start();
 }
 
 /// The articulations of one space lie side by side, own spaces first, so that the batches of a rank hold few
@@ -130,6 +140,8 @@ void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std
   pack_->load(0, state);
   state_ = state;
   pack_->store(0, state_);  // as the pack's number type has it
+  if (sleepers_) sleepers_->start();
+  shown_revision_ = -1;
   for (int body = 0; body < model_->num_bodies(); ++body) place(body);
   std::fill(stale_.begin(), stale_.end(), 0);
   active_units_.clear();
@@ -190,7 +202,19 @@ std::vector<int> SpaceWorld::fast_bodies() {
   return own;
 }
 
+/// What sleeps has other velocities than the pack knows.
+void SpaceWorld::show_sleepers() {
+  if (!sleepers_ || shown_revision_ == sleepers_->revision()) return;
+  shown_revision_ = sleepers_->revision();
+  pack_->set_awake(0, sleepers_->awake());
+  for (int body = 0; body < model_->num_bodies(); ++body) {
+    if (sleepers_->asleep(body)) stale_[body] = 1;
+  }
+}
+
 void SpaceWorld::fire_events(std::int64_t step) {
+  show_sleepers();
+  if (sleepers_) sleepers_->wake_called(step);
   for (const Event& event : events_of(*model_, step)) {
     apply_setting(event, 0, *pack_);
     if (event.kind == EventKind::launch && is_own(event.body)) launch(event);
@@ -211,9 +235,11 @@ void SpaceWorld::launch_others(std::int64_t step, std::span<model::Box> boxes) {
 
 void SpaceWorld::collide(std::vector<Contact>& contacts) {
   contacts.clear();
+  if (std::none_of(own_bodies_.begin(), own_bodies_.end(), [&](int body) { return is_awake(body); })) return;
+  show_sleepers();
   loaded_.clear();
   for (const int body : own_bodies_) lend(body);
-  pack_->load(0, loaded_, state_);
+  load_lent();
   pack_->collide(std::span(&contacts, 1));
   if (!fast_bodies_ || !fast_bodies_->look(state_, settings_.dt_s)) return;
   const auto is_here = [&](int geom) {
@@ -222,6 +248,10 @@ void SpaceWorld::collide(std::vector<Contact>& contacts) {
   };
   fast_bodies_->add(
       state_, [&](int fast, int other) { return is_here(fast) && is_here(other); }, contacts);
+}
+
+void SpaceWorld::load_lent() {
+  if (!loaded_.empty()) pack_->load(0, loaded_, state_);
 }
 
 /// The pack collides at the poses of state_: what is newer there is to be loaded first.
@@ -239,7 +269,7 @@ void SpaceWorld::collide_pairs(std::vector<Contact>& contacts) {
       if (const int body = model_->geoms[geom].body; body != model::no_body) lend(body);
     }
   }
-  pack_->load(0, loaded_, state_);
+  load_lent();
   pack_->collide_pairs(0, pairs_, contacts);
 }
 
@@ -253,7 +283,11 @@ model::Box SpaceWorld::space_box(int space) const {
 void SpaceWorld::collide_across(std::span<const int> owner, std::span<const model::Box> boxes,
                                 std::vector<Contact>& contacts) {
   contacts.clear();
+  if (sleepers_ && sleepers_->all_asleep()) return;
   cross_.find_pairs(owner, boxes, poses_, pairs_);
+  std::erase_if(pairs_, [&](const model::GeomPair& pair) {
+    return !is_awake(model_->geoms[pair.first].body) && !is_awake(model_->geoms[pair.second].body);
+  });
   collide_pairs(contacts);
   if (!fast_bodies_ || !fast_bodies_->look(state_, settings_.dt_s)) return;
   const auto owner_of = [&](int geom) {
@@ -266,7 +300,11 @@ void SpaceWorld::collide_across(std::span<const int> owner, std::span<const mode
   fast_bodies_->add(state_, across, contacts);
 }
 
-void SpaceWorld::activate(std::span<const int> units) {
+void SpaceWorld::activate(std::span<const int> all_units) {
+  std::vector<int> units;
+  for (const int unit : all_units) {
+    if (is_awake(map_.bodies_of_unit[unit].front())) units.push_back(unit);
+  }
   if (std::equal(units.begin(), units.end(), active_units_.begin(), active_units_.end())) return;
   active_units_.assign(units.begin(), units.end());
   active_bodies_.clear();
@@ -284,18 +322,22 @@ void SpaceWorld::activate(std::span<const int> units) {
 void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
                        core::PhaseTimes& times) {
   core::LapTimer timer(times);
+  show_sleepers();
   activate(units);
+  if (sleepers_ && active_bodies_.empty()) return;
   loaded_.clear();
   for (const int body : active_bodies_) {
     if (stale_[body]) loaded_.push_back(body);
     stale_[body] = 0;
   }
-  pack_->load(0, loaded_, state_);
+  load_lent();
   timer.lap(core::Phase::rows);
   pack_->step(std::span(&contacts, 1), step_parameters(settings_, step), times);
   core::LapTimer after(times);
   pack_->store(0, active_bodies_, state_);
-  for (const int body : lent_) stale_[body] = 1;  // may have moved along with its neighbours
+  if (!sleepers_) {  // a pack in which bodies sleep puts back what moved along with its neighbours
+    for (const int body : lent_) stale_[body] = 1;
+  }
   for (const int body : active_bodies_) stale_[body] = 0;
   lent_.clear();
   for (const int body : active_bodies_) place(body);
@@ -313,6 +355,10 @@ model::IslandCounts SpaceWorld::count(std::span<const int> units, std::span<cons
     counts.max_penetration_m = std::max(counts.max_penetration_m, contact.depth);
   }
   for (const int unit : units) {
+    if (const int body = map_.bodies_of_unit[unit].front(); !is_awake(body)) {
+      sets.unite(unit, map_.unit_of_body[sleepers_->island(body)]);
+      continue;
+    }
     for (const int joint : articulations_[unit].joints) rows[unit] += pack_->joint_rows(0, joint);
   }
   std::vector<int> island_rows(rows.size(), 0);

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "model/geometry.h"
+#include "solver/active_bodies.h"
+#include "solver/held_lanes.h"
 #include "solver/joint_batches.h"
 #include "solver/manifold_order.h"
 #include "solver/pack.h"
@@ -46,9 +48,15 @@ class WorldLanes {
     for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body)
       store_body(world, static_cast<int>(body), poses, state);
   }
-  /// See Pack::set_active().
-  void set_active(int world, std::span<const int> bodies);
-  bool is_active(int slot) const { return active_.empty() || active_[slot] != 0; }
+  /// See Pack. Batches know of it after the next update_active().
+  void set_active(int world, std::span<const int> moving) { active_.set(world, moving); }
+  void set_awake(int world, std::span<const int> awake_bodies) { awake_.set(world, awake_bodies); }
+  const ActiveBodies& awake() const { return awake_; }
+  void update_active();
+  bool is_active(int slot) const { return slot_active_.empty() || slot_active_[slot] != 0; }
+  /// With the pass "sleeping": round a step, for the bodies that are not active in batches that are.
+  void save_sleepers() { sleepers_.save(bodies); }
+  void restore_sleepers() { sleepers_.restore(bodies); }
   template <class Visit>
   void for_each_active_slot(Visit visit) const {
     joints.for_each_active_batch([&](int first_slot, int num_bodies) {
@@ -66,8 +74,12 @@ class WorldLanes {
   /// visit(rows, lane) of each joint of a world, as last solved.
   template <class Visit>
   void visit_joint_rows(int world, Visit visit) const {
-    for (const JointPlace& at : worlds_[world].joints)
+    const World& one = worlds_[world];
+    for (std::size_t joint = 0; joint < one.joints.size(); ++joint) {
+      if (!active_.contains(world, one.model->joints[joint].body_a)) continue;
+      const JointPlace& at = one.joints[joint];
       joints.visit_rows(at.shape, at.joint, [&](const auto& rows) { visit(rows, at.lane); });
+    }
   }
   /// The world whose body lies there; -1 for the static slot and idle lanes.
   int world_at(LanePlace place) const {
@@ -117,14 +129,23 @@ class WorldLanes {
   }
 
   std::vector<World> worlds_;
-  std::vector<int> world_at_;     ///< [slots x num_lanes]
-  std::vector<char> active_;      ///< [slots]; empty: all are
+  std::vector<int> world_at_;  ///< [slots x num_lanes]
+  bool hold_sleepers_;
+  ActiveBodies active_, awake_;
+  long active_revision_ = 0;       ///< that slot_active_ and the batches are of
+  std::vector<char> slot_active_;  ///< [slots]; empty: all are
+  HeldLanes<T> sleepers_;
   std::vector<int> joint_count_;  ///< [slots] of the articulation that a slot belongs to
 };
 
 template <class T>
-WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes) {
+WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes)
+    : hold_sleepers_(passes.sleeping) {
   place(worlds);
+  for (const PackedWorld& world : worlds) {
+    active_.add_world(world.model->num_bodies());
+    awake_.add_world(world.model->num_bodies());
+  }
   for (std::size_t w = 0; w < worlds.size(); ++w) {
     const World& world = worlds_[w];
     for (std::size_t body = 0; body < world.bodies.size(); ++body) set_masses(world, static_cast<int>(body));
@@ -345,11 +366,24 @@ void WorldLanes<T>::store_body(int world, int body, const Poses* poses, model::S
 }
 
 template <class T>
-void WorldLanes<T>::set_active(int world, std::span<const int> active) {
+void WorldLanes<T>::update_active() {
+  if (active_revision_ == active_.revision()) return;
+  active_revision_ = active_.revision();
   joints.deactivate_all();
-  for (const int body : active) joints.activate(worlds_[world].bodies[body].slot);
-  active_.assign(gravity.size(), 0);
-  for_each_active_slot([&](int slot) { active_[slot] = 1; });
+  for (int world = 0; world < num_worlds(); ++world) {
+    for (const int body : active_.of(world)) joints.activate(worlds_[world].bodies[body].slot);
+  }
+  slot_active_.assign(gravity.size(), 0);
+  for_each_active_slot([&](int slot) { slot_active_[slot] = 1; });
+  if (!hold_sleepers_) return;
+  std::vector<LanePlace> held;
+  for (int world = 0; world < num_worlds(); ++world) {
+    for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body) {
+      const LanePlace at = worlds_[world].bodies[body];
+      if (slot_active_[at.slot] && !active_.contains(world, static_cast<int>(body))) held.push_back(at);
+    }
+  }
+  sleepers_.hold(bodies.static_slot, held);
 }
 
 template <class T>

@@ -1,7 +1,7 @@
 /// bench_worlds [SUBJECT] [WORLDS] [FRAMES] [ROUNDS]: pbmpi's steppers against the bare ODE loop over the
 /// same worlds. bench_worlds --spaces: ODE's spaces against each other. bench_worlds --effects: what
-/// effects cost. bench_worlds --substeps [SUBJECT] [WORLDS] [FRAMES]: substeps and warm start against
-/// iterations.
+/// effects cost. bench_worlds --sleeping: what sleeping saves. bench_worlds --substeps [SUBJECT] [WORLDS]
+/// [FRAMES]: substeps and warm start against iterations.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "effects.h"
 #include "mpi/session.h"
+#include "sleeping.h"
 #include "spaces.h"
 #include "substeps.h"
 
@@ -33,6 +34,10 @@ void run(int argc, char** argv) {
   }
   if (name == "--effects") {
     pbmpi::bench::compare_effects();
+    return;
+  }
+  if (name == "--sleeping") {
+    pbmpi::bench::compare_sleeping();
     return;
   }
   if (name == "--substeps") {

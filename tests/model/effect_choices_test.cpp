@@ -47,6 +47,7 @@ TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
     model.linear_damping = 0.1;
     for (const EventKind kind : {EventKind::launch, EventKind::motor, EventKind::steer})
       model.events.emplace_back().kind = kind;
+    model.effects["sleeping"] = true;  // called for in so many words only
     ASSERT_TRUE(StepPlan(model).has(effect.name)) << effect.name;
     model.effects[std::string(effect.name)] = false;
     leave_out_effects(model);

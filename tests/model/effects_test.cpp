@@ -118,6 +118,18 @@ TEST(StepPlan, has_what_is_demanded_and_lacks_what_is_left_out) {
   EXPECT_FALSE(plan.is_idle("gravity"));
 }
 
+TEST(StepPlan, lets_islands_sleep_only_where_a_model_says_so) {
+  Model model = support::pile(3);
+  EXPECT_FALSE(StepPlan(model).has("sleeping"));
+  model.effects["sleeping"] = false;
+  EXPECT_FALSE(StepPlan(model).has("sleeping"));
+  model.effects["sleeping"] = true;
+  model.sleep.after_s = 2;
+  const StepPlan plan(model);
+  EXPECT_FALSE(plan.is_idle("sleeping"));
+  EXPECT_EQ(plan.passes().back().reason, "demanded, after 2 s below 0.05 m/s and 0.1 rad/s");
+}
+
 TEST(StepPlan, has_nothing_of_contacts_without_collision) {
   Model model = support::pile(3);
   model.effects = {{"collision", false}};

@@ -92,6 +92,9 @@ const std::vector<Case>& cases() {
       {"gravity NaN", [](Model& m) { m.gravity.x() = NAN; }, "gravity"},
       {"erp 2", [](Model& m) { m.erp = 2; }, "erp"},
       {"cfm negative", [](Model& m) { m.cfm = -1; }, "cfm"},
+      {"sleep at a speed below none", [](Model& m) { m.sleep.speed = -1; }, "speeds"},
+      {"sleep spins NaN", [](Model& m) { m.sleep.angular_speed = NAN; }, "speeds"},
+      {"sleep at once", [](Model& m) { m.sleep.after_s = 0; }, "after a time"},
       {"no contacts", [](Model& m) { m.contact_law.max_per_pair = 0; }, "max_per_pair"},
   };
   return all;

@@ -48,11 +48,25 @@ TEST(OwnedWorlds, builds_only_its_own_and_knows_the_bodies_of_all) {
   }
 }
 
-TEST(OwnedWorlds, passes_a_ring_of_worlds_on_bit_for_bit) {
+void expect_same_rest(const model::State& a, const model::State& b) {
+  ASSERT_EQ(a.rest.size(), b.rest.size());
+  for (std::size_t i = 0; i < a.rest.size(); ++i) {
+    EXPECT_EQ(a.rest[i].position, b.rest[i].position);
+    EXPECT_EQ(a.rest[i].orientation, b.rest[i].orientation);
+    EXPECT_EQ(a.rest[i].idle_steps, b.rest[i].idle_steps);
+  }
+}
+
+class Ring : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutRest, Ring, testing::Bool());
+
+TEST_P(Ring, of_worlds_is_passed_on_bit_for_bit) {
   const Communicator comm = Communicator::world();
   constexpr int num_worlds = 9;
-  SyntheticStepper moving;
-  SyntheticStepper staying;
+  SyntheticStepper::Behaviour behaviour;
+  behaviour.rests = GetParam();
+  SyntheticStepper moving(behaviour);
+  SyntheticStepper staying(behaviour);
   OwnedWorlds worlds(comm, moving, synthetic_model, round_robin(num_worlds, comm.size()));
   const OwnedWorlds all(Communicator(), staying, synthetic_model, Placement(num_worlds, 0));
   core::PhaseTimes times;
@@ -66,6 +80,7 @@ TEST(OwnedWorlds, passes_a_ring_of_worlds_on_bit_for_bit) {
     for (const int world : worlds.ids()) {
       EXPECT_EQ(next[world], comm.rank());
       EXPECT_EQ(model::hash(moving.state(world)), model::hash(staying.state(world))) << "world " << world;
+      expect_same_rest(moving.state(world), staying.state(world));
     }
   }
 }

@@ -36,6 +36,7 @@ class SyntheticStepper final : public model::WorldStepper {
   struct Behaviour {
     std::function<double(int world)> cost_s = [](int) { return 1e-3; };
     std::function<void(int world, std::int64_t step)> before_step = [](int, std::int64_t) {};  ///< may throw
+    bool rests = false;  ///< does the state say how long bodies have rested?
     std::function<bool(int world, std::int64_t step)> turns_nan = [](int, std::int64_t) { return false; };
   };
 
@@ -44,7 +45,8 @@ class SyntheticStepper final : public model::WorldStepper {
 
   void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
            std::int64_t step) override {
-    const bool is_new = worlds_.emplace(world, World{std::move(model), state, {}, step}).second;
+    const auto [added, is_new] = worlds_.emplace(world, World{std::move(model), state, {}, step});
+    if (behaviour_.rests) added->second.state.rest.resize(state.position.size());
     if (!is_new) throw std::logic_error("world " + std::to_string(world) + " was added twice");
   }
   void remove(int world) override {
@@ -90,6 +92,12 @@ class SyntheticStepper final : public model::WorldStepper {
       world.state.position[i] += 0.01 * velocity;
       world.state.angular_velocity[i] += 0.5 * velocity;
       world.state.orientation[i].x = 0.5 * world.state.orientation[i].x + world.state.angular_velocity[i].x();
+    }
+    for (std::size_t i = 0; i < world.state.rest.size(); ++i) {
+      model::Rest& rest = world.state.rest[i];
+      rest.position += 0.3 * world.state.position[i];
+      rest.orientation.y += world.state.position[i].z();
+      rest.idle_steps = static_cast<std::int32_t>(world.step % 2 == 0 ? world.step : -1 - world.step);
     }
     if (behaviour_.turns_nan(id, world.step)) {
       world.state.position[0].x() = std::numeric_limits<double>::quiet_NaN();

@@ -1,0 +1,31 @@
+/// Which bodies of a pack's worlds take part in something.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace pbmpi::solver {
+
+/// At the start all. Revisions tell those who derive something from it when to do so anew.
+class ActiveBodies {
+ public:
+  void add_world(int num_bodies);
+  /// These of this world from now on, and no others of it.
+  void set(int world, std::span<const int> bodies);
+
+  std::span<const int> of(int world) const { return worlds_[static_cast<std::size_t>(world)].bodies; }
+  bool contains(int world, int body) const {
+    return worlds_[static_cast<std::size_t>(world)].is_active.data()[body] != 0;
+  }
+  long revision() const { return revision_; }  ///< of any world; 0 at the start
+
+ private:
+  struct World {
+    std::vector<int> bodies;
+    std::vector<char> is_active;  ///< [num_bodies]
+  };
+  std::vector<World> worlds_;
+  long revision_ = 0;
+};
+
+}  // namespace pbmpi::solver
