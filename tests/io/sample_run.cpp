@@ -53,7 +53,8 @@ model::Observables sample_observables(int world, std::int64_t frame) {
           .energy_j = 0.5 * world + k,
           .max_penetration_m = 1e-3 * (world + 1),
           .joint_gap_m = 1e-4 * (k + 1),
-          .nonfinite = 0};
+          .nonfinite = 0,
+          .residuals = {1e-3 * (k + 1), 2e-3 * k, 1e-4 * world, 3e-3 * (k + 1), 4e-3 * k}};
 }
 
 model::StepProfile sample_profile(const Sample& sample, int world, std::int64_t frame) {
