@@ -55,6 +55,12 @@ def check(path):
         frames = np.arange(committed)
         contacts = f["observables/world/contacts"][:committed]
         assert np.array_equal(contacts, 100 * np.arange(NUM_WORLDS)[None] + frames[:, None])
+        residual = f["observables/residual"]
+        assert np.array_equal(residual["joint_speed"][:committed, 0], 1e-3 * (frames + 1))
+        assert np.array_equal(residual["joint_turn"][:committed, 0], 2e-3 * frames)
+        assert np.array_equal(residual["complementarity"][0], 1e-4 * np.arange(NUM_WORLDS))
+        assert np.array_equal(residual["natural_speed"][:committed, 0], 3e-3 * (frames + 1))
+        assert np.array_equal(residual["natural_turn"][:committed, 0], 4e-3 * frames)
         assert np.array_equal(f["timings/frame/wall"][:committed], 1e-3 * (frames + 1))
         ranks = np.arange(f["timings/rank/useful"].shape[1])
         collide = 1e-4 * (ranks[None] + 1) + 1e-5 * 1 + 1e-6 * frames[:, None]

@@ -103,6 +103,7 @@ RunSetup sample_setup(const Sample& sample, const RankWorlds& at_start, const st
   setup.optional.profile = sample.profile;
   setup.flush_interval_s = 1e9;
   setup.optional.estimate = true;
+  setup.optional.residuals = true;
   return setup;
 }
 
