@@ -40,10 +40,11 @@ class JointBatches {
     }
   }
 
-  /// See JointBuilder.
+  /// See advance_angles().
   void advance(typename T::Scalar h, const BodyLanes<T>& bodies);
   /// `carries`: the rows start with impulses, which act on the bodies.
-  void build(const JointBuilder<T>& builder, bool carries, BodyLanes<T>& bodies);
+  template <bool later>
+  void build(const JointBuilder<T, later>& builder, bool carries, BodyLanes<T>& bodies);
   /// Fisher-Yates with keyed numbers: the same order in every batch of a shape, so in every world.
   void shuffle(std::uint64_t key);
   /// That of the model.
@@ -149,7 +150,8 @@ void JointBatches<T>::activate(int slot) {
 }
 
 template <class T>
-void JointBatches<T>::build(const JointBuilder<T>& builder, bool carries, BodyLanes<T>& bodies) {
+template <bool later>
+void JointBatches<T>::build(const JointBuilder<T, later>& builder, bool carries, BodyLanes<T>& bodies) {
   for (Shape& shape : shapes_) {
     for (std::size_t i = 0; i < shape.joints.size(); ++i) {
       if (!shape.active[i / shape.num_joints]) continue;
@@ -167,13 +169,12 @@ template <class T>
 void JointBatches<T>::advance(typename T::Scalar h, const BodyLanes<T>& bodies) {
   for (Shape& shape : shapes_) {
     for (std::size_t i = 0; i < shape.joints.size(); ++i) {
-      const JointLane<V>& joint = shape.joints[i];
+      JointLane<V>& joint = shape.joints[i];
       if (!shape.active[i / shape.num_joints]) continue;
       if (!joint.controls[0].has_hold && !joint.controls[1].has_hold) continue;
       const RowsAt at = shape.rows[i];
       with_kind(at.kind, [&](auto kind) {
-        auto& rows = rows_of<kind.value>()[static_cast<std::size_t>(at.index)];
-        JointBuilder<T>::advance(joint, bodies, h, rows);
+        advance_angles(joint, bodies, h, rows_of<kind.value>()[static_cast<std::size_t>(at.index)]);
       });
     }
   }

@@ -23,40 +23,23 @@ PBMPI_LANES void plane_space(const Vec3L<typename T::V>& n, Vec3L<typename T::V>
   q.z = steep ? n.x * p.y : a * k;
 }
 
-/// Uniform numbers of the substep, and what is built with them.
-template <class T>
+/// Uniform numbers of the substep, and what is built with them. later: of a substep after the first.
+template <class T, bool later>
 class JointBuilder {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
   using L3 = Vec3L<V>;
 
-  /// later: a substep after the first, for which advance() has been called; carry: the share of a row's
-  /// impulse with which its next impulse then starts.
-  JointBuilder(Scalar h, Scalar erp, Scalar cfm, Scalar sor_factor, bool later, Scalar carry)
-      : h_(h),
-        k_(erp / h),
-        cfm_(cfm / h),
-        factor_(sor_factor),
-        later_(later),
-        carry_(later ? carry : Scalar(0)) {}
-
-  /// For the next substep, with the twists that moved the bodies: turns the angles that motors look at as the
-  /// bodies have turned. Taken anew from the poses they would cost an arc tangent each, a tenth of the step.
-  template <model::JointKind kind>
-  PBMPI_LANES static void advance(const JointLane<V>& joint, const BodyLanes<T>& bodies, Scalar h,
-                                  JointRows<T, kind>& rows) {
-    for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
-      if (!joint.controls[i].has_hold) continue;
-      const L3 relative = bodies.twists[rows.slot_a].angular - bodies.twists[rows.slot_b].angular;
-      rows.angles[i] += h * dot(rows.axis_controls[i].row.axis, relative);
-    }
-  }
+  /// carry: the share of a row's impulse with which its next impulse starts in a later substep.
+  JointBuilder(Scalar h, Scalar erp, Scalar cfm, Scalar sor_factor, Scalar carry)
+      : h_(h), k_(erp / h), cfm_(cfm / h), factor_(sor_factor), carry_(carry) {}
 
   /// Rows from the poses. May add to the twists: a motor that is at its limit pushes as an external torque
-  /// (ODE: dxJointLimitMotor::addLimot). Carried impulses have not acted on the twists yet.
+  /// (ODE: dxJointLimitMotor::addLimot). Carried impulses have not acted on the twists yet. A later substep
+  /// trusts the angles that advance_angles() has turned.
   template <model::JointKind kind>
-  void build(const JointLane<V>& joint, BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
+  void build(JointLane<V>& joint, BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
 
  private:
   /// Both bodies of the joint at hand.
@@ -84,8 +67,8 @@ class JointBuilder {
   void set_parallel_axes(const JointTermsLane<V>& terms, const Pair& pair, AxisRow<V>* rows) const;
   void set_orientation(const JointTermsLane<V>& terms, const Pair& pair, AxisRow<V>* rows) const;
   template <model::JointKind kind>
-  void set_crossed_axes(const JointLane<V>& joint, const Pair& pair, JointRows<T, kind>& rows) const;
-  void set_hinge_control(const JointLane<V>& joint, const Pair& pair,
+  void set_crossed_axes(JointLane<V>& joint, const Pair& pair, JointRows<T, kind>& rows) const;
+  void set_hinge_control(JointLane<V>& joint, const Pair& pair,
                          JointRows<T, model::JointKind::hinge>& rows) const;
   void set_slider_control(const JointLane<V>& joint, const Pair& pair,
                           JointRows<T, model::JointKind::slider>& rows) const;
@@ -97,10 +80,11 @@ class JointBuilder {
   struct AxisPlace {
     V at_low, at_high, angle;
   };
-  /// half_angle(): of the axis now. `held`: the angle of a motor that holds a pose; set in the first substep,
-  /// trusted in the later ones.
+  /// half_angle(): of the axis now.
   template <class GetHalfAngle>
-  AxisPlace locate(const AxisControl<V>& control, GetHalfAngle half_angle, V& held) const;
+  static AxisPlace locate(AxisControl<V>& control, GetHalfAngle half_angle);
+  template <class GetHalfAngle>
+  static AxisPlace locate_again(const AxisControl<V>& control, GetHalfAngle half_angle);
   /// A limit or motor on `axis`. Returns whether any lane has a row.
   bool set_axis_control(const AxisControl<V>& control, const L3& axis, const AxisPlace& place,
                         const Pair& pair, Bounded<AxisRow<V>, V>& row) const;
@@ -112,23 +96,23 @@ class JointBuilder {
                       const V& velocity) const;
   static RelativeRotation relative_rotation(const JointTermsLane<V>& terms, const Pair& pair);
   PBMPI_LANES V carried(const V& impulse) const {
+    if constexpr (!later) return T::broadcast(0);
     return carry_ > 0 ? impulse * T::broadcast(carry_) : T::broadcast(0);
   }
   template <class Row>
   static void set_bounds(const ControlState& state, Bounded<Row, V>& row) {
     row.low = state.low;
     row.high = state.high;
-    row.row.impulse = T::min(T::max(row.row.impulse, state.low), state.high);
+    if constexpr (later) row.row.impulse = T::min(T::max(row.row.impulse, state.low), state.high);
   }
 
-  Scalar h_, k_, cfm_, factor_;
-  bool later_;
-  Scalar carry_;
+  Scalar h_, k_, cfm_, factor_, carry_;
 };
 
-template <class T>
+template <class T, bool later>
 template <model::JointKind kind>
-void JointBuilder<T>::build(const JointLane<V>& joint, BodyLanes<T>& bodies, JointRows<T, kind>& rows) const {
+void JointBuilder<T, later>::build(JointLane<V>& joint, BodyLanes<T>& bodies,
+                                   JointRows<T, kind>& rows) const {
   using model::JointKind;
   const Pair pair{bodies.bodies[joint.slot_a], bodies.bodies[joint.slot_b], bodies.twists[joint.slot_a],
                   bodies.twists[joint.slot_b]};
@@ -154,8 +138,9 @@ void JointBuilder<T>::build(const JointLane<V>& joint, BodyLanes<T>& bodies, Joi
   }
 }
 
-template <class T>
-void JointBuilder<T>::set_point(const JointTermsLane<V>& terms, const Pair& pair, PointRows<V>& row) const {
+template <class T, bool later>
+void JointBuilder<T, later>::set_point(const JointTermsLane<V>& terms, const Pair& pair,
+                                       PointRows<V>& row) const {
   const auto& [a, b, twist_a, twist_b] = pair;
   row.arm_a = a.rotation * terms.anchor_a;
   row.arm_b = b.rotation * terms.anchor_b;
@@ -176,9 +161,9 @@ void JointBuilder<T>::set_point(const JointTermsLane<V>& terms, const Pair& pair
   row.impulse = {carried(row.impulse.x), carried(row.impulse.y), carried(row.impulse.z)};
 }
 
-template <class T>
-PBMPI_LANES void JointBuilder<T>::set_axis(const L3& axis, const V& rhs, const Pair& pair,
-                                           AxisRow<V>& row) const {
+template <class T, bool later>
+PBMPI_LANES void JointBuilder<T, later>::set_axis(const L3& axis, const V& rhs, const Pair& pair,
+                                                  AxisRow<V>& row) const {
   row.axis = axis;
   row.turn_a = pair.a.inv_inertia * axis;
   row.turn_b = pair.b.inv_inertia * axis;
@@ -187,10 +172,10 @@ PBMPI_LANES void JointBuilder<T>::set_axis(const L3& axis, const V& rhs, const P
   row.impulse = carried(row.impulse);
 }
 
-template <class T>
-PBMPI_LANES void JointBuilder<T>::set_line(const L3& direction, const L3& moment_a, const L3& moment_b,
-                                           const V& rhs, const V& cfm, const Pair& pair,
-                                           LineRow<V>& row) const {
+template <class T, bool later>
+PBMPI_LANES void JointBuilder<T, later>::set_line(const L3& direction, const L3& moment_a, const L3& moment_b,
+                                                  const V& rhs, const V& cfm, const Pair& pair,
+                                                  LineRow<V>& row) const {
   row.direction = direction;
   row.moment_a = moment_a;
   row.moment_b = moment_b;
@@ -204,9 +189,9 @@ PBMPI_LANES void JointBuilder<T>::set_line(const L3& direction, const L3& moment
 }
 
 /// hinge2: the point held along axis 1 (softly, if sprung) and across it.
-template <class T>
-void JointBuilder<T>::set_suspended_point(const JointLane<V>& joint, const Pair& pair,
-                                          LineRow<V>* rows) const {
+template <class T, bool later>
+void JointBuilder<T, later>::set_suspended_point(const JointLane<V>& joint, const Pair& pair,
+                                                 LineRow<V>* rows) const {
   const JointTermsLane<V>& terms = joint.terms;
   const L3 arm_a = pair.a.rotation * terms.anchor_a, arm_b = pair.b.rotation * terms.anchor_b;
   const L3 error = pair.b.position + arm_b - pair.a.position - arm_a;
@@ -225,9 +210,9 @@ void JointBuilder<T>::set_suspended_point(const JointLane<V>& joint, const Pair&
   }
 }
 
-template <class T>
-void JointBuilder<T>::set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair,
-                                       LineRow<V>* rows) const {
+template <class T, bool later>
+void JointBuilder<T, later>::set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair,
+                                              LineRow<V>* rows) const {
   const L3 axis = pair.a.rotation * terms.axis1_a;
   const L3 apart = pair.b.position - pair.a.position;
   const L3 error = apart + pair.b.rotation * terms.anchor_b;
@@ -242,9 +227,9 @@ void JointBuilder<T>::set_slider_lines(const JointTermsLane<V>& terms, const Pai
 }
 
 /// hinge: the two axes 1 stay parallel.
-template <class T>
-void JointBuilder<T>::set_parallel_axes(const JointTermsLane<V>& terms, const Pair& pair,
-                                        AxisRow<V>* rows) const {
+template <class T, bool later>
+void JointBuilder<T, later>::set_parallel_axes(const JointTermsLane<V>& terms, const Pair& pair,
+                                               AxisRow<V>* rows) const {
   const L3 axis_a = pair.a.rotation * terms.axis1_a;
   const L3 error = cross(axis_a, pair.b.rotation * terms.axis1_b);
   L3 p, q;
@@ -255,9 +240,9 @@ void JointBuilder<T>::set_parallel_axes(const JointTermsLane<V>& terms, const Pa
 
 /// fixed, slider: the whole relative orientation stays. The vector part of the relative rotation is half the
 /// error, in a's frame (ODE: setFixedOrientation).
-template <class T>
-void JointBuilder<T>::set_orientation(const JointTermsLane<V>& terms, const Pair& pair,
-                                      AxisRow<V>* rows) const {
+template <class T, bool later>
+void JointBuilder<T, later>::set_orientation(const JointTermsLane<V>& terms, const Pair& pair,
+                                             AxisRow<V>* rows) const {
   const RelativeRotation turn = relative_rotation(terms, pair);
   const V zero = T::broadcast(0), one = T::broadcast(1);
   const V sign = turn.w < zero ? -one : one;
@@ -269,10 +254,10 @@ void JointBuilder<T>::set_orientation(const JointTermsLane<V>& terms, const Pair
 }
 
 /// universal, hinge2: an axis fixed in each body.
-template <class T>
+template <class T, bool later>
 template <model::JointKind kind>
-void JointBuilder<T>::set_crossed_axes(const JointLane<V>& joint, const Pair& pair,
-                                       JointRows<T, kind>& rows) const {
+void JointBuilder<T, later>::set_crossed_axes(JointLane<V>& joint, const Pair& pair,
+                                              JointRows<T, kind>& rows) const {
   const JointTermsLane<V>& terms = joint.terms;
   const L3 axis1 = pair.a.rotation * terms.axis1_a, axis2 = pair.b.rotation * terms.axis2_b;
   const L3 crossed = cross(axis1, axis2);
@@ -284,7 +269,7 @@ void JointBuilder<T>::set_crossed_axes(const JointLane<V>& joint, const Pair& pa
       kind == model::JointKind::universal ? -k_ * cosine : k_ * (terms.cos0 * sine - terms.sin0 * cosine);
   set_axis(crossed * (1 / sine), rhs, pair, rows.axes[0]);
   for (int i = 0; i < 2; ++i) {
-    const AxisControl<V>& control = joint.controls[i];
+    AxisControl<V>& control = joint.controls[i];
     rows.control_on[i] = control.any();
     if (!control.any()) continue;
     // Angle 1: where a sees axis 2 turned about its axis 1. Angle 2: where b sees axis 1 turned about its
@@ -298,16 +283,16 @@ void JointBuilder<T>::set_crossed_axes(const JointLane<V>& joint, const Pair& pa
       const V c = T::sqrt(x * x + y * y) + x;
       return {i == 0 ? -y : y, c};
     };
-    rows.control_on[i] = set_axis_control(control, axis, locate(control, half_angle, rows.angles[i]), pair,
-                                          rows.axis_controls[i]);
+    rows.control_on[i] =
+        set_axis_control(control, axis, locate(control, half_angle), pair, rows.axis_controls[i]);
   }
 }
 
 /// The angle as ODE's getHingeAngle has it: from the quaternion of b relative to a relative to the start.
-template <class T>
-void JointBuilder<T>::set_hinge_control(const JointLane<V>& joint, const Pair& pair,
-                                        JointRows<T, model::JointKind::hinge>& rows) const {
-  const AxisControl<V>& control = joint.controls[0];
+template <class T, bool later>
+void JointBuilder<T, later>::set_hinge_control(JointLane<V>& joint, const Pair& pair,
+                                               JointRows<T, model::JointKind::hinge>& rows) const {
+  AxisControl<V>& control = joint.controls[0];
   rows.control_on[0] = control.any();
   if (!control.any()) return;
   const auto half_angle = [&]() -> HalfAngle {
@@ -318,21 +303,22 @@ void JointBuilder<T>::set_hinge_control(const JointLane<V>& joint, const Pair& p
     const V s = along >= zero ? -length : length;  // the angle of a relative to b
     return {turn.w < zero ? -s : s, T::abs(turn.w)};
   };
-  rows.control_on[0] =
-      set_axis_control(control, pair.a.rotation * joint.terms.axis1_a,
-                       locate(control, half_angle, rows.angles[0]), pair, rows.axis_controls[0]);
+  rows.control_on[0] = set_axis_control(control, pair.a.rotation * joint.terms.axis1_a,
+                                        locate(control, half_angle), pair, rows.axis_controls[0]);
 }
 
-template <class T>
-typename T::V JointBuilder<T>::aim(const AxisControl<V>& control, const V& coordinate) const {
+template <class T, bool later>
+typename T::V JointBuilder<T, later>::aim(const AxisControl<V>& control, const V& coordinate) const {
   const V fastest = T::broadcast(1 / h_);
   return control.velocity - (control.hold_rate > fastest ? fastest : control.hold_rate) * coordinate;
 }
 
-template <class T>
-typename JointBuilder<T>::ControlState JointBuilder<T>::decide(const AxisControl<V>& control,
-                                                               const V& at_low_flag, const V& at_high_flag,
-                                                               const V& error, const V& velocity) const {
+template <class T, bool later>
+typename JointBuilder<T, later>::ControlState JointBuilder<T, later>::decide(const AxisControl<V>& control,
+                                                                             const V& at_low_flag,
+                                                                             const V& at_high_flag,
+                                                                             const V& error,
+                                                                             const V& velocity) const {
   const V zero = T::broadcast(0);
   const V bound = T::broadcast(static_cast<Scalar>(huge_bound));
   const auto at_low = at_low_flag != zero;
@@ -351,44 +337,63 @@ typename JointBuilder<T>::ControlState JointBuilder<T>::decide(const AxisControl
   return state;
 }
 
-template <class T>
+template <class T, bool later>
 template <class GetHalfAngle>
-typename JointBuilder<T>::AxisPlace JointBuilder<T>::locate(const AxisControl<V>& control,
-                                                            GetHalfAngle half_angle, V& held) const {
+typename JointBuilder<T, later>::AxisPlace JointBuilder<T, later>::locate(AxisControl<V>& control,
+                                                                          GetHalfAngle half_angle) {
+  if constexpr (later) return locate_again(control, half_angle);
   const V zero = T::broadcast(0), one = T::broadcast(1);
+  AxisPlace place{zero, zero, zero};
+  if (!control.has_limit && !control.has_hold) return place;
+  const HalfAngle now = half_angle();
+  if (control.has_limit) {
+    place.at_low = now.s * control.cos_low <= now.c * control.sin_low ? one : zero;
+    place.at_high = now.s * control.cos_high >= now.c * control.sin_high ? one : zero;
+    place.at_high = place.at_low > zero ? zero : place.at_high;
+  }
+  if (control.has_hold || T::any(place.at_low + place.at_high)) {
+    place.angle = 2 * T::atan2(now.s, now.c);
+    if (control.has_hold) control.held_angle = place.angle;
+  }
+  return place;
+}
+
+/// Lanes with a motor that holds a pose go by the angle that they keep; the others must not depend on what
+/// their neighbours have.
+template <class T, bool later>
+template <class GetHalfAngle>
+typename JointBuilder<T, later>::AxisPlace JointBuilder<T, later>::locate_again(const AxisControl<V>& control,
+                                                                                GetHalfAngle half_angle) {
+  const V zero = T::broadcast(0), one = T::broadcast(1);
+  const V& held = control.held_angle;
   AxisPlace place{zero, zero, held};
   if (!control.has_limit && !control.has_hold) return place;
-  // Which lanes go by the angle that they keep must not depend on what their neighbours have.
   const V rate = control.max_force > zero ? control.hold_rate : zero;
-  V kept = rate > zero ? one : zero;
-  if (!later_) kept = zero;
+  const auto is_kept = rate > zero;
+  const V kept = is_kept ? one : zero;
   if (control.has_limit) {
     place.at_low = held <= control.low ? kept : zero;
     place.at_high = held >= control.high ? kept : zero;
   }
   if (T::any(one - kept)) {
     const HalfAngle now = half_angle();
-    const auto is_kept = kept > zero;
     if (control.has_limit) {
       const V at_low = now.s * control.cos_low <= now.c * control.sin_low ? one : zero;
       const V at_high = now.s * control.cos_high >= now.c * control.sin_high ? one : zero;
       place.at_low = is_kept ? place.at_low : at_low;
       place.at_high = is_kept ? place.at_high : at_high;
     }
-    const bool first = control.has_hold && !later_;
-    if (first || T::any(is_kept ? zero : place.at_low + place.at_high)) {
-      const V angle = 2 * T::atan2(now.s, now.c);
-      place.angle = is_kept ? held : angle;
-      if (first) held = angle;
-    }
+    if (T::any(is_kept ? zero : place.at_low + place.at_high))
+      place.angle = is_kept ? held : 2 * T::atan2(now.s, now.c);
   }
   place.at_high = place.at_low > zero ? zero : place.at_high;
   return place;
 }
 
-template <class T>
-bool JointBuilder<T>::set_axis_control(const AxisControl<V>& control, const L3& axis, const AxisPlace& place,
-                                       const Pair& pair, Bounded<AxisRow<V>, V>& row) const {
+template <class T, bool later>
+bool JointBuilder<T, later>::set_axis_control(const AxisControl<V>& control, const L3& axis,
+                                              const AxisPlace& place, const Pair& pair,
+                                              Bounded<AxisRow<V>, V>& row) const {
   const V zero = T::broadcast(0);
   const auto& [at_low, at_high, angle] = place;
   if (!control.has_motor && !T::any(at_low + at_high)) {
@@ -405,9 +410,9 @@ bool JointBuilder<T>::set_axis_control(const AxisControl<V>& control, const L3& 
   return true;
 }
 
-template <class T>
-void JointBuilder<T>::set_slider_control(const JointLane<V>& joint, const Pair& pair,
-                                         JointRows<T, model::JointKind::slider>& rows) const {
+template <class T, bool later>
+void JointBuilder<T, later>::set_slider_control(const JointLane<V>& joint, const Pair& pair,
+                                                JointRows<T, model::JointKind::slider>& rows) const {
   const AxisControl<V>& control = joint.controls[0];
   const V zero = T::broadcast(0), one = T::broadcast(1);
   const L3 axis = pair.a.rotation * joint.terms.axis1_a;
@@ -433,9 +438,9 @@ void JointBuilder<T>::set_slider_control(const JointLane<V>& joint, const Pair& 
   pair.twist_b.angular = pair.twist_b.angular - row.row.turn_b * state.push;
 }
 
-template <class T>
-typename JointBuilder<T>::RelativeRotation JointBuilder<T>::relative_rotation(const JointTermsLane<V>& terms,
-                                                                              const Pair& pair) {
+template <class T, bool later>
+typename JointBuilder<T, later>::RelativeRotation JointBuilder<T, later>::relative_rotation(
+    const JointTermsLane<V>& terms, const Pair& pair) {
   const auto& [a, b, twist_a, twist_b] = pair;
   const V rw = a.qw * b.qw + a.qx * b.qx + a.qy * b.qy + a.qz * b.qz;
   const V rx = a.qw * b.qx - a.qx * b.qw - a.qy * b.qz + a.qz * b.qy;
@@ -445,6 +450,19 @@ typename JointBuilder<T>::RelativeRotation JointBuilder<T>::relative_rotation(co
   return {rw * sw + rx * sx + ry * sy + rz * sz,
           {rx * sw - rw * sx - ry * sz + rz * sy, ry * sw - rw * sy - rz * sx + rx * sz,
            rz * sw - rw * sz - rx * sy + ry * sx}};
+}
+
+/// Between two substeps, with the twists that have moved the bodies: turns the angles that motors look at as
+/// the bodies have turned. Taken anew from the poses they would cost an arc tangent each, a tenth of the
+/// step.
+template <class T, model::JointKind kind>
+PBMPI_LANES void advance_angles(JointLane<typename T::V>& joint, const BodyLanes<T>& bodies,
+                                typename T::Scalar h, const JointRows<T, kind>& rows) {
+  for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+    if (!joint.controls[i].has_hold) continue;
+    const auto relative = bodies.twists[rows.slot_a].angular - bodies.twists[rows.slot_b].angular;
+    joint.controls[i].held_angle += h * dot(rows.axis_controls[i].row.axis, relative);
+  }
 }
 
 }  // namespace pbmpi::solver

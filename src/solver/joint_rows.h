@@ -58,7 +58,6 @@ struct alignas(sizeof(typename T::V)) JointRows {
   int slot_a = 0, slot_b = 0;
   bool control_on[2] = {false, false};  ///< does a row stand for this axis now, in any lane?
   V inv_mass_a, inv_mass_b;
-  V angles[2];  ///< [rad] of the axes whose motors hold a pose, from substep to substep
   std::array<PointRows<V>, counts.points> points;
   std::array<LineRow<V>, counts.lines> lines;
   std::array<AxisRow<V>, counts.axes> axes;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <type_traits>
 
 #include "core/clock.h"
 #include "core/random.h"
@@ -189,9 +190,12 @@ void PackLanes<T>::start_substep() {
   }
   if (passes_.gyroscopic_torque) apply_gyroscopic_torques(h_);
   if (passes_.gravity) apply_gravity(h_);
-  const JointBuilder<T> builder(h_, scalar(laws.erp), scalar(laws.cfm), scalar(parameters_.sor_factor),
-                                substep_ > 0, scalar(parameters_.warm_start));
-  worlds_.joints.build(builder, carries, bodies);
+  const auto build_joints = [&](auto later) {
+    const JointBuilder<T, later> builder(h_, scalar(laws.erp), scalar(laws.cfm),
+                                         scalar(parameters_.sor_factor), scalar(parameters_.warm_start));
+    worlds_.joints.build(builder, carries, bodies);
+  };
+  substep_ == 0 ? build_joints(std::false_type()) : build_joints(std::true_type());
   write_contact_twists(free_);
   if (carries) {
     write_contact_twists(jointed_);
