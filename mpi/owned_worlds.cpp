@@ -23,10 +23,10 @@ std::vector<double> pack(const model::State& state) {
   const std::size_t n = state.position.size();
   std::vector<double> packed(num_doubles(state));
   if (n == 0) return packed;
-  std::memcpy(packed.data(), state.position.data(), 3 * n * sizeof(double));
-  std::memcpy(packed.data() + 3 * n, state.orientation.data(), 4 * n * sizeof(double));
-  std::memcpy(packed.data() + 7 * n, state.velocity.data(), 3 * n * sizeof(double));
-  std::memcpy(packed.data() + 10 * n, state.angular_velocity.data(), 3 * n * sizeof(double));
+  std::memcpy(packed.data(), state.position.front().data(), 3 * n * sizeof(double));
+  std::memcpy(packed.data() + 3 * n, &state.orientation.front().w, 4 * n * sizeof(double));
+  std::memcpy(packed.data() + 7 * n, state.velocity.front().data(), 3 * n * sizeof(double));
+  std::memcpy(packed.data() + 10 * n, state.angular_velocity.front().data(), 3 * n * sizeof(double));
   double* row = packed.data() + doubles_per_body * n;
   for (const model::Rest& rest : state.rest) {
     std::memcpy(row, rest.position.data(), 3 * sizeof(double));

@@ -10,7 +10,6 @@
 namespace pbmpi::io::html {
 namespace {
 
-using core::Pose;
 using nlohmann::json;
 
 /// The number of bodies in worlds 0 .. num_worlds - 1. Bodies are in (world, body) order.

@@ -19,10 +19,16 @@ struct Selection {
 
 /// Bytes that the poses of so many bodies take in the page: 7 single-precision numbers each, 3 bytes as 4
 /// characters.
-constexpr std::int64_t pose_bytes(std::int64_t count) { return (7 * 4 * 4 * count + 2) / 3; }
+constexpr std::int64_t pose_bytes(std::int64_t count) {
+  constexpr std::int64_t characters = 7 * 4 * 4;
+  return (characters * count + 2) / 3;
+}
 
 /// How many poses have room in so many bytes.
-constexpr std::int64_t poses_in(std::int64_t bytes) { return 3 * bytes / (7 * 4 * 4); }
+constexpr std::int64_t poses_in(std::int64_t bytes) {
+  constexpr std::int64_t characters = 7 * 4 * 4;
+  return 3 * bytes / characters;
+}
 
 /// Frames beyond this number are thinned before worlds are left out: 20 s of simulated time at 30 Hz.
 inline constexpr std::size_t preferred_records = 600;
