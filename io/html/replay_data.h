@@ -17,18 +17,14 @@ struct Selection {
   std::string note;                  ///< what was left out and why; empty if nothing was
 };
 
-/// Bytes that the poses of so many bodies take in the page: 7 single-precision numbers each, 3 bytes as 4
-/// characters.
-constexpr std::int64_t pose_bytes(std::int64_t count) {
-  constexpr std::int64_t characters = 7 * 4 * 4;
-  return (characters * count + 2) / 3;
-}
+/// Three bytes are 4 characters of the page; a pose is 7 single-precision numbers.
+inline constexpr std::int64_t three_poses_bytes = std::int64_t{7} * 4 * 4;
+
+/// Bytes that the poses of so many bodies take in the page.
+constexpr std::int64_t pose_bytes(std::int64_t count) { return (three_poses_bytes * count + 2) / 3; }
 
 /// How many poses have room in so many bytes.
-constexpr std::int64_t poses_in(std::int64_t bytes) {
-  constexpr std::int64_t characters = 7 * 4 * 4;
-  return 3 * bytes / characters;
-}
+constexpr std::int64_t poses_in(std::int64_t bytes) { return 3 * bytes / three_poses_bytes; }
 
 /// Frames beyond this number are thinned before worlds are left out: 20 s of simulated time at 30 Hz.
 inline constexpr std::size_t preferred_records = 600;
