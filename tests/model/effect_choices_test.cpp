@@ -45,8 +45,11 @@ TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
     model.geoms.front().material.restitution = 0.5;
     model.bodies.front().velocity = {0, 0, -200};
     model.linear_damping = 0.1;
-    for (const EventKind kind : {EventKind::launch, EventKind::motor, EventKind::steer})
-      model.events.emplace_back().kind = kind;
+    for (const EventKind kind : {EventKind::launch, EventKind::motor, EventKind::steer}) {
+      Event& event = model.events.emplace_back();
+      event.kind = kind;
+      event.body = event.joint = 0;
+    }
     model.effects["sleeping"] = true;  // called for in so many words only
     ASSERT_TRUE(StepPlan(model).has(effect.name)) << effect.name;
     model.effects[std::string(effect.name)] = false;
