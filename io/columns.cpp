@@ -87,6 +87,15 @@ void write_attribute(hid_t object, const Parameter& value) {
   check(H5Awrite(attribute.id(), bytes.type.id(), bytes.data), "H5Awrite(" + value.name + ")");
 }
 
+void write_version(hid_t object, const std::array<std::int64_t, 2>& version) {
+  const hsize_t length = version.size();
+  const auto space = owned<Dataspace>(H5Screate_simple(1, &length, nullptr), "H5Screate_simple");
+  const auto attribute =
+      owned<Attribute>(H5Acreate2(object, "version", H5T_NATIVE_INT64, space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                       "H5Acreate(version)");
+  check(H5Awrite(attribute.id(), H5T_NATIVE_INT64, version.data()), "H5Awrite(version)");
+}
+
 Dataset create_fixed(hid_t file, const std::string& path, const Datatype& type,
                      const std::vector<hsize_t>& dims, const std::string& unit) {
   const auto space = owned<Dataspace>(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),

@@ -1,6 +1,7 @@
 /// Makes the datasets and attributes of a run's file. Metadata: every rank makes the same calls.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -23,6 +24,9 @@ std::string cut_text(std::string_view text, std::size_t bytes);
 void write_attribute(hid_t object, const std::string& name, std::int64_t value);
 void write_attribute(hid_t object, const std::string& name, const std::string& value);
 void write_attribute(hid_t object, const Parameter& value);
+
+/// Makes and writes the attribute "version": major, minor.
+void write_version(hid_t object, const std::array<std::int64_t, 2>& version);
 
 /// A dataset whose space in the file is allocated now and never filled, with its unit if it has one. Missing
 /// groups on the way to `path` are made. A growing one is chunked, and its rows (first index) can be cut.

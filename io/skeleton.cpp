@@ -33,16 +33,6 @@ std::string now_utc() {
   return text.data();
 }
 
-void write_version(hid_t object, std::int64_t major, std::int64_t minor) {
-  const std::array<std::int64_t, 2> version{major, minor};
-  const hsize_t length = version.size();
-  const auto space = owned<Dataspace>(H5Screate_simple(1, &length, nullptr), "H5Screate_simple");
-  const auto attribute =
-      owned<Attribute>(H5Acreate2(object, "version", H5T_NATIVE_INT64, space.id(), H5P_DEFAULT, H5P_DEFAULT),
-                       "H5Acreate(version)");
-  check(H5Awrite(attribute.id(), H5T_NATIVE_INT64, version.data()), "H5Awrite(version)");
-}
-
 void write_boundary(hid_t box) {
   constexpr std::size_t bytes = 4;
   const Datatype type = text_type(bytes);
@@ -56,7 +46,7 @@ void write_boundary(hid_t box) {
 /// What H5MD 1.1 (nongnu.org/h5md) asks for beside the elements of a particle group.
 void write_h5md(hid_t file, const RunSetup& setup) {
   const Group h5md = create_group(file, "/h5md");
-  write_version(h5md.id(), 1, 1);
+  write_version(h5md.id(), {1, 1});
   const Group author = create_group(file, "/h5md/author");
   write_attribute(author.id(), "name", text_or(setup.attributes, "author", "unknown"));
   const Group creator = create_group(file, "/h5md/creator");
@@ -70,7 +60,7 @@ void write_h5md(hid_t file, const RunSetup& setup) {
 void write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   const auto root = owned<Group>(H5Gopen2(file, "/", H5P_DEFAULT), "H5Gopen(/)");
   write_attribute(root.id(), "filetype", std::string(filetype));
-  write_version(root.id(), layout_major, layout_minor);
+  write_version(root.id(), {layout_major, layout_minor});
   for (const Parameter& attribute : setup.attributes) write_attribute(root.id(), attribute);
   if (find(setup.attributes, "created") == nullptr) {
     write_attribute(root.id(), "created", ranks.broadcast(now_utc()));

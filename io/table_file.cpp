@@ -19,15 +19,6 @@ struct Length {
   std::size_t operator()(const auto& values) const { return values.size(); }
 };
 
-void write_version(hid_t root) {
-  const hsize_t length = version.size();
-  const auto space = owned<Dataspace>(H5Screate_simple(1, &length, nullptr), "H5Screate_simple");
-  const auto attribute =
-      owned<Attribute>(H5Acreate2(root, "version", H5T_NATIVE_INT64, space.id(), H5P_DEFAULT, H5P_DEFAULT),
-                       "H5Acreate(version)");
-  check(H5Awrite(attribute.id(), H5T_NATIVE_INT64, version.data()), "H5Awrite(version)");
-}
-
 void write_values(hid_t file, const std::string& path, const Datatype& type, const std::vector<hsize_t>& dims,
                   const std::string& unit, const void* values) {
   const Dataset dataset = create_fixed(file, path, type, dims, unit);
@@ -65,7 +56,7 @@ void write_all(const std::string& path, const std::string& filetype, const Table
   {
     const auto root = owned<Group>(H5Gopen2(file.id(), "/", H5P_DEFAULT), "H5Gopen(/)");
     write_attribute(root.id(), "filetype", filetype);
-    write_version(root.id());
+    write_version(root.id(), version);
     for (const auto& [name, value] : content.attributes) write_attribute(root.id(), name, value);
     const Group parameters = create_group(file.id(), "/parameters");
     for (const Parameter& parameter : content.parameters) {

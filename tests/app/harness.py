@@ -38,6 +38,15 @@ class ProgramTest(unittest.TestCase):
         return subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False,
                               **options)
 
+    def drawn(self, page):
+        """The page's elements after its script has run in Chromium."""
+        drawn = self.run_command(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic",
+                                  "--no-first-run", "--disable-background-networking", "--disable-component-update",
+                                  "--disable-sync", f"--user-data-dir={self.path('profile')}", "--dump-dom",
+                                  f"file://{self.path(page)}"]).stdout
+        self.assertIn('data-ready="yes"', drawn, "the last line of the page's script was reached")
+        return drawn
+
     def pbmpi(self, ranks, *args, **options):
         return self.run_command(mpirun(ranks, *args), **options)
 

@@ -129,11 +129,7 @@ class Accuracy(ProgramTest):
         self.made(1, "study.h5", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, "--stepper", "sor", *FAST)
         result = self.report("study.h5", "--quiet", "--html", "page.html")
         self.assertEqual(result.returncode, 0, result.stderr)
-        page = self.run_command(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic",
-                                 "--no-first-run", "--disable-background-networking", "--disable-component-update",
-                                 "--disable-sync", f"--user-data-dir={self.path('profile')}", "--dump-dom",
-                                 f"file://{self.path('page.html')}"]).stdout
-        self.assertIn('data-ready="yes"', page, "the last line of the page's script was reached")
+        page = self.drawn("page.html")
         self.assertEqual(page.count("<canvas"), 4, "rms, p99, max, joint gap")
         self.assertTrue(re.search(r"<td>sor (double|single), 1 x 20, dt 0.01 s</td>", page),
                         "which precision is on the front follows the times")

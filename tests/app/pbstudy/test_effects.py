@@ -89,11 +89,7 @@ class Effects(ProgramTest):
         self.made(1, "study.h5", "--scene", "CrashSk", "2-Cars", "--stepper", "sor", *FAST)
         result = self.report("study.h5", "--quiet", "--html", "page.html")
         self.assertEqual(result.returncode, 0, result.stderr)
-        page = self.run_command(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic",
-                                 "--no-first-run", "--disable-background-networking", "--disable-component-update",
-                                 "--disable-sync", f"--user-data-dir={self.path('profile')}", "--dump-dom",
-                                 f"file://{self.path('page.html')}"]).stdout
-        self.assertIn('data-ready="yes"', page, "the last line of the page's script was reached")
+        page = self.drawn("page.html")
         with h5py.File(self.path("study.h5")) as file:
             counted = "instructions_with" in file["cases"]
         self.assertEqual(page.count("<canvas"), 4 if counted else 3, "share, error, demanded, and counts if there are")
