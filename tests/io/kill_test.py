@@ -31,7 +31,7 @@ def kill_one(mpiexec, writer, folder, attempt, rng):
         while not os.path.exists(path) and launcher.poll() is None:
             time.sleep(0.001)
         pids = ranks_of(launcher)
-        time.sleep(rng.uniform(0, 0.35))
+        time.sleep(rng.uniform(0, 0.35) if attempt > 0 else 0)  # the first: before any frame
         for pid in rng.sample(pids, rng.choice([1, len(pids)]) if pids else 0):
             try:
                 os.kill(pid, signal.SIGKILL)
