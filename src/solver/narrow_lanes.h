@@ -1,8 +1,10 @@
 /// Collides pairs of geoms in lanes: one kernel for each kind of pair. What counts as touching, and which
-/// points a pair gets, is as in ODE 0.16 (ode/src/{sphere,capsule,box,plane}.cpp); the normal points into a.
+/// points a pair gets, is as in ODE 0.16 (ode/src/{sphere,capsule,box,plane}.cpp), but for capsules deep in a
+/// box (segment_box_lanes.h); the normal points into a.
 #pragma once
 
 #include "solver/box_lanes.h"
+#include "solver/segment_box_lanes.h"
 
 namespace pbmpi::solver {
 
@@ -18,7 +20,6 @@ struct alignas(sizeof(V)) FoundPoint {
 template <class V>
 struct alignas(sizeof(V)) Found {
   FoundPoint<V> points[Touch::most_points];
-  V to_fallback;       ///< flag
   int num_points = 0;  ///< that this kind of pair can have
 };
 
@@ -91,12 +92,9 @@ class NarrowLanes {
 template <class T>
 void NarrowLanes<T>::write(const Found<V>& found, const std::int32_t* touch_of, unsigned lanes,
                            Writer& writer) {
-  unsigned fallback = T::bits(found.to_fallback) & lanes;
   V any = found.points[0].touching;
   for (int i = 1; i < found.num_points; ++i) any += found.points[i].touching;
-  unsigned touching = T::bits(any) & lanes & ~fallback;
-  for (; fallback != 0; fallback &= fallback - 1)
-    writer.touches[touch_of[__builtin_ctz(fallback)]].to_fallback = true;
+  unsigned touching = T::bits(any) & lanes;
   for (; touching != 0; touching &= touching - 1) {
     const int lane = __builtin_ctz(touching);
     Touch& touch = writer.touches[touch_of[lane]];
@@ -317,65 +315,14 @@ void NarrowLanes<T>::capsule_capsule(const Side& a, const Side& b, Found<V>& fou
   found.num_points = 2;
 }
 
-/// The point of the capsule's segment nearest to the box: half the derivative of the squared distance along
-/// the segment rises, and is linear between the points where the segment passes the box's planes, so that the
-/// values at these points bracket its root. Where the segment passes along a face there are many roots: the
-/// middle one. A segment that enters the box goes to the fallback.
 template <class T>
 void NarrowLanes<T>::capsule_box(const Side& a, const Side& b, Found<V>& found) {
-  const V zero = T::broadcast(0), one = T::broadcast(1), half = T::broadcast(Scalar(0.5));
-  const L3 pa = a.centre(), da = a.axis(2), pb = b.centre(), apart = pa - pb;
-  const V length = a.half(2), radius = a.radius();
-  const L3 axes[3] = {b.axis(0), b.axis(1), b.axis(2)};
-  V x[3], d[3], e[3];  // box frame
-  for (int k = 0; k < 3; ++k) {
-    x[k] = dot(apart, axes[k]);
-    d[k] = dot(da, axes[k]);
-    e[k] = b.half(k);
-  }
-  const auto slope = [&](const V& t) {
-    V sum = zero;
-    for (int k = 0; k < 3; ++k) {
-      const V y = x[k] + t * d[k];
-      sum += d[k] * (y - clamp(y, e[k]));
-    }
-    return sum;
-  };
-  V falls = -length, falls_or_flat = -length;  // the last place that does so
-  V rises = length, rises_or_flat = length;    // the first
-  const auto look_at = [&](const V& t) {
-    const V g = slope(t);
-    falls = T::max(falls, g < zero ? t : -length);
-    falls_or_flat = T::max(falls_or_flat, g <= zero ? t : -length);
-    rises = T::min(rises, g > zero ? t : length);
-    rises_or_flat = T::min(rises_or_flat, g >= zero ? t : length);
-  };
-  look_at(-length);
-  look_at(length);
-  for (int k = 0; k < 3; ++k) {
-    const V inverse = one / (d[k] == zero ? one : d[k]);
-    look_at(clamp((e[k] - x[k]) * inverse, length));
-    look_at(clamp((-e[k] - x[k]) * inverse, length));
-  }
-  const auto root = [&](const V& t0, const V& t1) {
-    const V g0 = slope(t0), rise = slope(t1) - g0;
-    const V share = rise > zero ? -g0 / (rise > zero ? rise : one) : half;
-    return t0 + (t1 - t0) * T::min(T::max(share, zero), one);
-  };
-  const V t = half * (root(falls, rises_or_flat) + root(falls_or_flat, rises));
-  L3 gap{zero, zero, zero};
-  for (int k = 0; k < 3; ++k) {
-    const V y = x[k] + t * d[k];
-    gap = gap + axes[k] * (y - clamp(y, e[k]));
-  }
-  const V distance = T::sqrt(dot(gap, gap));
-  const V scale = radius + e[0] + e[1] + e[2];
-  const V nothing = scale * T::broadcast(sizeof(Scalar) == 4 ? Scalar(1e-6) : Scalar(1e-14));
-  const auto inside = distance <= nothing;
-  const L3 normal = gap * (one / (inside ? one : distance));
-  found.to_fallback = flag(inside);
-  const V depth = radius - distance;
-  found.points[0] = {flag(depth >= zero), pa + da * t - normal * (half * (radius + distance)), normal, depth};
+  const V radius = a.radius();
+  const SegmentPlace<V> place = SegmentAtBox<T>(a, b).nearest_place();
+  const V depth = radius - place.distance;
+  const V inwards = T::broadcast(Scalar(0.5)) * (radius + place.distance);
+  found.points[0] = {flag(depth >= T::broadcast(0)), place.point - place.normal * inwards, place.normal,
+                     depth};
   found.num_points = 1;
 }
 

@@ -43,7 +43,7 @@ struct Touch {
   static constexpr int most_points = 4;
   int first_point = 0;
   short num_points = 0;
-  bool to_fallback = false;  ///< the kernel leaves this pair to the fallback
+  bool to_fallback = false;  ///< no kernel collides this kind of pair
 };
 
 /// Pairs of one kind, in columns: indices over the columns of the pack's geoms. Padded to whole lanes by
