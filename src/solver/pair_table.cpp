@@ -1,7 +1,9 @@
 #include "solver/pair_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace pbmpi::solver {
@@ -9,41 +11,56 @@ namespace {
 
 using model::Shape;
 
-/// Kinds name their shapes in this order.
-int rank_of(Shape shape, Shape other) {
-  if (shape == Shape::plane) return 3;
-  if (shape == Shape::box) return 2;
-  if (shape == Shape::sphere) return other == Shape::capsule ? 1 : 0;
-  return 0;  // capsule, cylinder
+/// How a pair of shapes is collided.
+struct Pairing {
+  PairKind kind = PairKind::other;
+  bool swapped = false;  ///< the kernel's a is the second geom
+};
+
+constexpr std::array<std::array<Pairing, model::num_shapes>, model::num_shapes> all_pairings() {
+  struct Kernel {
+    Shape a, b;
+    PairKind kind;
+  };
+  constexpr Kernel kernels[] = {{Shape::sphere, Shape::plane, PairKind::sphere_plane},
+                                {Shape::capsule, Shape::plane, PairKind::capsule_plane},
+                                {Shape::box, Shape::plane, PairKind::box_plane},
+                                {Shape::cylinder, Shape::plane, PairKind::cylinder_plane},
+                                {Shape::sphere, Shape::sphere, PairKind::sphere_sphere},
+                                {Shape::capsule, Shape::sphere, PairKind::capsule_sphere},
+                                {Shape::sphere, Shape::box, PairKind::sphere_box},
+                                {Shape::capsule, Shape::capsule, PairKind::capsule_capsule},
+                                {Shape::capsule, Shape::box, PairKind::capsule_box},
+                                {Shape::box, Shape::box, PairKind::box_box}};
+  std::array<std::array<Pairing, model::num_shapes>, model::num_shapes> all{};
+  for (const Kernel& kernel : kernels) {
+    const auto a = static_cast<std::size_t>(kernel.a), b = static_cast<std::size_t>(kernel.b);
+    all[b][a] = {kernel.kind, true};
+    all[a][b] = {kernel.kind, false};
+  }
+  return all;
 }
 
-PairKind kind_of(Shape a, Shape b) {
-  switch (a) {
-    case Shape::sphere:
-      if (b == Shape::plane) return PairKind::sphere_plane;
-      if (b == Shape::sphere) return PairKind::sphere_sphere;
-      if (b == Shape::box) return PairKind::sphere_box;
-      break;
-    case Shape::capsule:
-      if (b == Shape::plane) return PairKind::capsule_plane;
-      if (b == Shape::sphere) return PairKind::capsule_sphere;
-      if (b == Shape::capsule) return PairKind::capsule_capsule;
-      if (b == Shape::box) return PairKind::capsule_box;
-      break;
-    case Shape::box:
-      if (b == Shape::plane) return PairKind::box_plane;
-      if (b == Shape::box) return PairKind::box_box;
-      break;
-    case Shape::cylinder:
-      if (b == Shape::plane) return PairKind::cylinder_plane;
-      break;
-    case Shape::plane:
-      break;
-  }
-  return PairKind::other;
+const Pairing& pairing_of(const model::Geom& first, const model::Geom& second) {
+  static constexpr auto all = all_pairings();
+  return all[static_cast<std::size_t>(first.shape)][static_cast<std::size_t>(second.shape)];
 }
+
+/// Canonical order, in one comparison. (An object, so that std::sort inlines it.)
+constexpr auto comes_before = [](const model::GeomPair& p, const model::GeomPair& q) {
+  const auto key = [](const model::GeomPair& pair) {
+    return static_cast<std::uint64_t>(pair.first) << 32 | static_cast<std::uint32_t>(pair.second);
+  };
+  return key(p) < key(q);
+};
 
 }  // namespace
+
+void PairColumn::make_room(std::ptrdiff_t pairs) {
+  const auto wanted = static_cast<std::size_t>(count + pairs);
+  if (a.size() >= wanted) return;
+  for (std::vector<std::int32_t>* indices : {&a, &b, &touch}) indices->resize(2 * wanted);
+}
 
 void PoseCache::grow(int num_bodies) { poses_.resize(static_cast<std::size_t>(num_bodies)); }
 
@@ -64,11 +81,7 @@ PairTable::PairTable(std::span<const PackedWorld> worlds, const GeomOrder& order
 void PairTable::clear() {
   world_begin_.assign(models_.size() + 1, 0);
   pairs_.clear();
-  for (PairColumn& column : columns_) {
-    column.a.clear();
-    column.b.clear();
-    column.touch.clear();
-  }
+  for (PairColumn& column : columns_) column.count = 0;
 }
 
 void PairTable::start_world(int world) {
@@ -90,20 +103,18 @@ void PairTable::add_all(BroadPhase& broad_phase, std::span<const model::BodyPose
 
 void PairTable::finish_world() {
   const auto begin = pairs_.begin() + world_begin_[static_cast<std::size_t>(world_)];
-  if (!std::is_sorted(begin, pairs_.end())) std::sort(begin, pairs_.end());
-  const model::Model& model = *models_[static_cast<std::size_t>(world_)];
+  if (!std::is_sorted(begin, pairs_.end(), comes_before)) std::sort(begin, pairs_.end(), comes_before);
+  for (PairColumn& column : columns_) column.make_room(pairs_.end() - begin);
+  const model::Geom* geoms = models_[static_cast<std::size_t>(world_)]->geoms.data();
   for (auto pair = begin; pair != pairs_.end(); ++pair) {
-    int a = pair->first, b = pair->second;
-    const Shape first = model.geoms[static_cast<std::size_t>(a)].shape;
-    const Shape second = model.geoms[static_cast<std::size_t>(b)].shape;
-    const bool swap = rank_of(first, second) > rank_of(second, first);
-    if (swap) std::swap(a, b);
-    const PairKind kind =
-        !kernels_ ? PairKind::other : (swap ? kind_of(second, first) : kind_of(first, second));
-    PairColumn& column = columns_[static_cast<std::size_t>(kind)];
-    column.a.push_back(order_->column(world_, a));
-    column.b.push_back(order_->column(world_, b));
-    column.touch.push_back(static_cast<std::int32_t>(pair - pairs_.begin()));
+    const Pairing& pairing = pairing_of(geoms[pair->first], geoms[pair->second]);
+    int a = order_->column(world_, pair->first), b = order_->column(world_, pair->second);
+    if (pairing.swapped) std::swap(a, b);
+    PairColumn& column = columns_[static_cast<std::size_t>(kernels_ ? pairing.kind : PairKind::other)];
+    const auto at = static_cast<std::size_t>(column.count++);
+    column.a[at] = a;
+    column.b[at] = b;
+    column.touch[at] = static_cast<std::int32_t>(pair - pairs_.begin());
   }
   world_begin_[static_cast<std::size_t>(world_) + 1] = static_cast<int>(pairs_.size());
 }
@@ -112,11 +123,11 @@ void PairTable::pad(int num_lanes) {
   touches_.assign(pairs_.size(), {});
   if (points_.size() < pairs_.size() * Touch::most_points) points_.resize(pairs_.size() * Touch::most_points);
   for (PairColumn& column : columns_) {
-    column.count = static_cast<int>(column.a.size());
-    while (column.a.size() % static_cast<std::size_t>(num_lanes) != 0) {
-      column.a.push_back(column.a.back());
-      column.b.push_back(column.b.back());
-      column.touch.push_back(column.touch.back());
+    if (column.count == 0) continue;
+    column.make_room(num_lanes);
+    for (int i = column.count; i % num_lanes != 0; ++i) {
+      for (std::vector<std::int32_t>* indices : {&column.a, &column.b, &column.touch})
+        (*indices)[static_cast<std::size_t>(i)] = (*indices)[static_cast<std::size_t>(column.count - 1)];
     }
   }
   const PairColumn& others = column(PairKind::other);
@@ -129,7 +140,6 @@ void PairTable::append(int world, const model::GeomPair& pair, const Touch& touc
   const model::Model& model = *models_[static_cast<std::size_t>(world)];
   const model::Geom& first = model.geoms[static_cast<std::size_t>(pair.first)];
   const model::Geom& second = model.geoms[static_cast<std::size_t>(pair.second)];
-  const bool kernel_swapped = rank_of(first.shape, second.shape) > rank_of(second.shape, first.shape);
   const bool first_is_a = first.body != model::no_body;  // a must be a real body
   const model::Material material = model::combined(first.material, second.material);
   model::Contact contact;
@@ -138,7 +148,7 @@ void PairTable::append(int world, const model::GeomPair& pair, const Touch& touc
   contact.mu = material.mu;
   contact.restitution = material.restitution;
   contact.geoms = pair;
-  const double sign = kernel_swapped == first_is_a ? -1 : 1;
+  const double sign = pairing_of(first, second).swapped == first_is_a ? -1 : 1;
   for (int i = 0; i < std::min<int>(touch.num_points, model.contact_law.max_per_pair); ++i) {
     const TouchPoint& point = points_[static_cast<std::size_t>(touch.first_point + i)];
     contact.position = model::Vec3(point.position);

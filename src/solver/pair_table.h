@@ -49,8 +49,9 @@ struct Touch {
 /// Pairs of one kind, in columns: indices over the columns of the pack's geoms. Padded to whole lanes by
 /// repeating the last.
 struct PairColumn {
-  std::vector<std::int32_t> a, b, touch;
-  int count = 0;  ///< without the padding
+  std::vector<std::int32_t> a, b, touch;  ///< [at least count, padded]
+  int count = 0;                          ///< without the padding
+  void make_room(std::ptrdiff_t pairs);   ///< for so many more
 };
 
 /// Room for the poses of a world's bodies, kept from step to step.
