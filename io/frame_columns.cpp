@@ -45,6 +45,11 @@ const std::vector<ColumnSpec>& residual_columns() {
   return columns;
 }
 
+const std::vector<ColumnSpec>& interest_columns() {
+  static const std::vector<ColumnSpec> columns = {{"bodies_inside", H5T_NATIVE_INT32}};
+  return columns;
+}
+
 const std::vector<ColumnSpec>& frame_columns() {
   static const std::vector<ColumnSpec> columns = {{"step", H5T_NATIVE_INT64},
                                                   {"time", H5T_NATIVE_DOUBLE, 1, "s"},
@@ -153,6 +158,7 @@ FrameBytes frame_bytes(const RunShape& shape) {
     bytes.recorded += GrowingTable::row_bytes(estimated_body_columns(), bodies);
   }
   if (shape.optional.residuals) bytes.every_frame += GrowingTable::row_bytes(residual_columns(), worlds);
+  if (shape.optional.interest) bytes.every_frame += GrowingTable::row_bytes(interest_columns(), worlds);
   if (shape.optional.profile) {
     bytes.every_frame +=
         GrowingTable::row_bytes(island_columns(), bodies) + GrowingTable::row_bytes(space_columns(), worlds);
@@ -183,6 +189,10 @@ FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const model::Worl
     residuals_.emplace(file, ranks, "/observables/residual", residual_columns(),
                        table_shape(shape.num_frames, shape.num_worlds, frames_to_hold(shape)));
   }
+  if (shape.optional.interest) {
+    interest_.emplace(file, ranks, "/observables/interest", interest_columns(),
+                      table_shape(shape.num_frames, shape.num_worlds, frames_to_hold(shape)));
+  }
   if (shape.optional.profile) {
     islands_.emplace(file, ranks, "/timings/island", island_columns(),
                      table_shape(shape.num_frames, shape.num_bodies, frames_to_hold(shape)));
@@ -204,6 +214,7 @@ void FrameColumns::add(const model::FrameRecord& frame) {
   ++next_frame_;
   add_observables(frame);
   if (residuals_) add_residuals(frame);
+  if (interest_) add_interest(frame);
   if (islands_) add_profiles(frame);
   add_times(frame);
   if ((frame.frame + 1) % record_every_ == 0) add_bodies(frame);
@@ -283,6 +294,14 @@ void FrameColumns::add_residuals(const model::FrameRecord& frame) {
   }
 }
 
+void FrameColumns::add_interest(const model::FrameRecord& frame) {
+  std::vector<Range> ranges;
+  for (const model::LocalWorld& world : frame.worlds) append_range(ranges, static_cast<hsize_t>(world.id), 1);
+  interest_->begin_row(ranges);
+  for (const model::LocalWorld& world : frame.worlds)
+    interest_->put(0, static_cast<hsize_t>(world.id), world.observables->bodies_inside);
+}
+
 void FrameColumns::add_profiles(const model::FrameRecord& frame) {
   std::vector<Range> bodies, worlds;
   for (const model::LocalWorld& world : frame.worlds) {
@@ -342,6 +361,7 @@ void FrameColumns::add(const model::RunEvent& event) {
 std::vector<GrowingTable*> FrameColumns::tables() {
   std::vector<GrowingTable*> all = {&bodies_, &recorded_, &worlds_, &frames_, &phases_, &events_};
   if (residuals_) all.push_back(&*residuals_);
+  if (interest_) all.push_back(&*interest_);
   if (islands_) all.insert(all.end(), {&*islands_, &*spaces_});
   for (auto* table : {&estimated_bodies_, &estimate_times_, &estimate_compute_}) {
     if (*table) all.push_back(&**table);

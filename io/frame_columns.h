@@ -65,6 +65,7 @@ class FrameColumns {
   void add_bodies(const model::FrameRecord& frame);
   void add_observables(const model::FrameRecord& frame);
   void add_residuals(const model::FrameRecord& frame);
+  void add_interest(const model::FrameRecord& frame);
   void add_profiles(const model::FrameRecord& frame);
   void add_times(const model::FrameRecord& frame);
   void add_estimate(const model::FrameRecord& frame);
@@ -82,6 +83,7 @@ class FrameColumns {
   GrowingTable phases_;                    ///< [T][R]
   GrowingTable events_;                    ///< [E]
   std::optional<GrowingTable> residuals_;  ///< [T][W] if they are measured
+  std::optional<GrowingTable> interest_;   ///< [T][W] with a field of interest
   // With step profiles:
   std::optional<GrowingTable> islands_;  ///< [T][N] at the island's lowest body
   std::optional<GrowingTable> spaces_;   ///< [T][W]

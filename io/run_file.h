@@ -41,6 +41,7 @@ struct OptionalColumns {
   bool profile = false;    ///< every frame has step profiles: /timings/island and /timings/space
   bool estimate = false;   ///< every frame has an EstimateRecord: /estimate
   bool residuals = false;  ///< every frame has Observables::residuals: /observables/residual
+  bool interest = false;   ///< every frame has Observables::bodies_inside: /observables/interest
 };
 
 /// Everything that is known before the first frame. Equal on every rank, except `worlds`.

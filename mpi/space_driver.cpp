@@ -109,6 +109,7 @@ void SpaceDriver::observe() {
   observables_.rows = counts.rows;
   observables_.islands = counts.islands;
   observables_.max_island_rows = counts.max_island_rows;
+  observables_.bodies_inside = counts.bodies_inside;
   observables_.max_penetration_m = counts.max_penetration_m;
   observables_.energy_j = model::mechanical_energy(stepper_->model(), state);
   observables_.joint_gap_m = model::max_joint_gap(stepper_->model(), state);
@@ -137,24 +138,30 @@ SpaceLoads SpaceDriver::loads() const {
   const FrameFindings& found = step_.findings();
   const std::vector<core::PhaseTimes> times = quiet_times();
   const model::SpaceMap& map = stepper_->map();
+  const model::FieldOfInterest* field = stepper_->field();
   const std::size_t num_spaces = ownership_.owner.size();
   const auto num_shapes = static_cast<std::size_t>(map.num_shapes());
   SpaceLoads loads;
   loads.num_lanes = stepper_->num_lanes();
-  loads.batch_s.assign(num_shapes, 0);
-  loads.inside.assign(num_spaces, {std::vector<int>(num_shapes, 0), 0, 0});
+  // Units of a shape that get few iterations are solved apart from the others: they count as other shapes.
+  const std::size_t num_sorts = field == nullptr ? 1 : 2;
+  loads.batch_s.assign(num_sorts * num_shapes, 0);
+  loads.inside.assign(num_spaces, {std::vector<int>(num_sorts * num_shapes, 0), 0, 0});
   std::vector<double> space_weight(num_spaces, 0), rank_weight(ownership_.spaces.size(), 0);
   std::map<int, std::map<int, SpacePart>> islands;  // by island and space; weights instead of seconds
   for (int unit = 0; unit < map.num_units(); ++unit) {
     const int space = map.space_of_unit[unit];
     const auto bodies = static_cast<int>(map.bodies_of_unit[unit].size());
     const double contact_rows = found.weight[unit] - map.rows_of_unit[unit] - bodies;
-    loads.batch_s[map.shape_of_unit[unit]] = loads.num_lanes * (map.rows_of_unit[unit] + bodies);
+    const bool inside = field == nullptr || found.near[unit];
+    const double share = inside ? 1 : field->outside_share();
+    const std::size_t shape = map.shape_of_unit[unit] + (inside ? 0 : num_shapes);
+    loads.batch_s[shape] = share * loads.num_lanes * (map.rows_of_unit[unit] + bodies);
     SpacePart& part = islands[found.island[unit]][space];
     part.space = space;
-    part.work.units.resize(num_shapes);
-    ++part.work.units[map.shape_of_unit[unit]];
-    part.work.contacts_s += contact_rows;
+    part.work.units.resize(loads.batch_s.size());
+    ++part.work.units[shape];
+    part.work.contacts_s += share * contact_rows;
     part.work.bodies += bodies;
     space_weight[space] += contact_rows + bodies;
     rank_weight[ownership_.owner[space]] += contact_rows + bodies;

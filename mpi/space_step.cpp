@@ -12,7 +12,11 @@ using core::Phase;
 using model::Contact;
 
 SpaceStep::SpaceStep(const Communicator& comm, model::SpaceStepper& stepper, ErrorHold& errors)
-    : comm_(&comm), stepper_(&stepper), errors_(&errors), sleepers_(stepper.sleepers()) {
+    : comm_(&comm),
+      stepper_(&stepper),
+      errors_(&errors),
+      sleepers_(stepper.sleepers()),
+      field_(stepper.field()) {
   if (comm.size() > 1) mail_ = std::make_unique<Mail>(comm);
 }
 
@@ -35,8 +39,10 @@ void SpaceStep::run(std::int64_t step, bool last, core::PhaseTimes& times) {
   core::LapTimer timer(times);
   guard([&] { stepper_->fire_events(step); });
   if (sleeps_on(step)) return sleep_on(last, times);
+  if (field_ != nullptr) post_center();
   guard([&] { stepper_->collide(contacts_); });
   timer.lap(Phase::collide);
+  if (field_ != nullptr) take_center(timer);
   if (sleepers_) wake_touched(step, timer);
   if (crosses_) exchange(step, timer);
   guard([&] { stepper_->solve(active_units_, contacts_, step, times); });
@@ -92,6 +98,7 @@ void SpaceStep::find_local_islands() {
                            static_cast<std::int32_t>(map.bodies_of_unit[unit].size()));
     islands_.weight[island[lowest]] += unit_weight_.back();
   }
+  if (field_ != nullptr) weigh_outside();
 }
 
 void SpaceStep::post_report() {

@@ -22,9 +22,10 @@ namespace pbmpi::mpi {
 
 /// What root learns of the last step of a frame.
 struct FrameFindings {
-  model::IslandCounts counts;           ///< over all ranks
-  std::vector<int> island;              ///< [num_units] lowest unit of its island
-  std::vector<double> weight;           ///< [num_units] rows of joints and contacts, and bodies
+  model::IslandCounts counts;  ///< over all ranks
+  std::vector<int> island;     ///< [num_units] lowest unit of its island
+  std::vector<double> weight;  ///< [num_units] rows of joints and contacts, and bodies
+  std::vector<char> near;      ///< [num_units] with a field of interest: has it a body of the island?
   std::vector<core::PhaseTimes> times;  ///< [num_ranks] of this frame so far
   std::int64_t bodies_shipped = 0;      ///< in this frame, from any rank to another, step by step
 };
@@ -40,6 +41,9 @@ struct FrameFindings {
 ///
 /// With the effect "sleeping" the ranks agree, after collision, on the islands that wake and, at the end, on
 /// those that fall asleep (space_step_sleep.cpp); while all sleep a step sends nothing.
+///
+/// With the effect "field_of_interest" that follows a body the owner of that body tells the others where it
+/// is (space_step_focus.cpp). Who solves an island finds out for itself whether it is inside.
 ///
 /// Errors of the stepper are held in `errors`; the messages of the step are exchanged all the same.
 class SpaceStep {
@@ -59,7 +63,7 @@ class SpaceStep {
   model::Traffic take_traffic() { return mail_ ? mail_->take_traffic() : model::Traffic{}; }
 
  private:
-  enum Tag { poses_tag = 1, report_tag, orders_tag, ship_tag, back_tag, frame_tag };
+  enum Tag { poses_tag = 1, report_tag, orders_tag, ship_tag, back_tag, frame_tag, center_tag };
   /// Units of one other rank that are solved here, or of this one that are solved there.
   struct Shipment {
     int rank = 0;
@@ -85,6 +89,9 @@ class SpaceStep {
   void wake_touched(std::int64_t step, core::LapTimer& timer);
   void settle(core::LapTimer& timer);
   std::vector<model::Resting> join_resting(std::span<const model::Resting> resting);
+  void post_center();
+  void take_center(core::LapTimer& timer);
+  void weigh_outside();
   void find_local_islands();
   void look_across(std::int64_t step, core::LapTimer& timer);
   Orders direct(std::int64_t step, core::LapTimer& timer);
@@ -104,6 +111,8 @@ class SpaceStep {
   void require_apart();
   void take_frame(int rank, MessageReader& message);
   void note_weights(int rank, std::span<const std::int32_t> weights);
+  void note_near(int rank, std::span<const char> near);
+  void join_near();
   void join_findings(std::span<const std::vector<std::int32_t>> islands);
   std::vector<model::Box> own_boxes() const;
 
@@ -111,6 +120,7 @@ class SpaceStep {
   model::SpaceStepper* stepper_;
   ErrorHold* errors_;
   model::SpaceSleepers* sleepers_;  ///< null without the effect "sleeping"
+  model::FieldOfInterest* field_;   ///< null without the effect "field_of_interest"
   std::optional<SpaceOwnership> ownership_;
   std::unique_ptr<Mail> mail_;    ///< none where no message is sent
   bool crosses_ = false;          ///< can anything cross?
@@ -119,7 +129,8 @@ class SpaceStep {
   std::vector<int> active_units_;          ///< solved here in this step, ascending
   LocalIslands islands_;                   ///< of this rank
   std::vector<std::int32_t> unit_weight_;  ///< [own units] rows of joints and own contacts, and bodies
-  std::int64_t bodies_shipped_ = 0;        ///< by this rank in this frame
+  std::vector<char> unit_near_;      ///< [own units] with a field of interest: has it a body of the unit?
+  std::int64_t bodies_shipped_ = 0;  ///< by this rank in this frame
   std::vector<model::BodyPair>
       touching_;  ///< with sleepers: own contacts of the step, before islands are shipped
   std::vector<Shipment> guests_, guests_elsewhere_;

@@ -37,6 +37,7 @@ void SpaceStep::post_frame(const model::IslandCounts& counts, const core::PhaseT
   message.put_value(bodies_shipped_);
   message.put(islands_.of_unit);
   message.put(unit_weight_);
+  if (field_ != nullptr) message.put(unit_near_);
   mail_->post(message.take(), Communicator::root, frame_tag);
 }
 
@@ -45,12 +46,14 @@ void SpaceStep::receive_frame(const model::IslandCounts& counts, const core::Pha
   findings_ = {};
   findings_.counts = counts;
   findings_.weight.resize(static_cast<std::size_t>(stepper_->map().num_units()));
+  if (field_ != nullptr) findings_.near.resize(findings_.weight.size());
   findings_.times.resize(static_cast<std::size_t>(comm_->size()));
   findings_.times.front() = times;
   findings_.bodies_shipped = bodies_shipped_;
   std::vector<std::vector<std::int32_t>> islands(static_cast<std::size_t>(comm_->size()));
   islands.front() = islands_.of_unit;
   note_weights(Communicator::root, unit_weight_);
+  if (field_ != nullptr) note_near(Communicator::root, unit_near_);
   for (int rank = 1; rank < comm_->size(); ++rank) {
     MessageReader message(mail_->take(rank, frame_tag));
     timer.lap(Phase::wait);
@@ -58,6 +61,7 @@ void SpaceStep::receive_frame(const model::IslandCounts& counts, const core::Pha
     const auto of_unit = message.get<std::int32_t>();
     islands[rank].assign(of_unit.begin(), of_unit.end());
     note_weights(rank, message.get<std::int32_t>());
+    if (field_ != nullptr) note_near(rank, message.get<char>());
     timer.lap(Phase::gather);
   }
   has_poses_ = true;
@@ -91,6 +95,7 @@ void SpaceStep::take_frame(int rank, MessageReader& message) {
   all.rows += counts.rows;
   all.islands += counts.islands;
   all.max_island_rows = std::max(all.max_island_rows, counts.max_island_rows);
+  all.bodies_inside += counts.bodies_inside;
   all.max_penetration_m = std::max(all.max_penetration_m, counts.max_penetration_m);
   findings_.times[rank] = message.get_value<core::PhaseTimes>();
   findings_.bodies_shipped += message.get_value<std::int64_t>();
@@ -120,6 +125,7 @@ void SpaceStep::join_findings(std::span<const std::vector<std::int32_t>> islands
     }
   }
   for (int unit = 0; unit < map.num_units(); ++unit) findings_.island.push_back(sets.find(unit));
+  if (field_ != nullptr) join_near();
 }
 
 }  // namespace pbmpi::mpi

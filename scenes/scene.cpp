@@ -10,6 +10,7 @@
 #include "model/effects.h"
 #include "model/validate.h"
 #include "scenes/actor.h"
+#include "scenes/interest.h"
 #include "scenes/joint_reader.h"
 #include "scenes/nearest.h"
 #include "scenes/overlap.h"
@@ -66,6 +67,7 @@ class FileScene final : public Scene {
     for (const JointPlan& joint : joints_) joint(*result);
     std::stable_sort(result->events.begin(), result->events.end(),
                      [](const model::Event& a, const model::Event& b) { return a.step < b.step; });
+    if (interest_) interest_->put_into(*result);
     leave_out_effects(*result);
     validate(*result, world);
     refuse_overlap(*result, world);
@@ -122,6 +124,7 @@ class FileScene final : public Scene {
       rule.after_s = sleep->number("after", Sign::positive, rule.after_s);
       sleep->finish();
     }
+    if (auto interest = scene.table("interest")) interest_.emplace(*interest);
     if (scene.has("spaces")) read_spaces(scene);
     const std::string meet = scene.text("inter_space", "any");
     if (meet != "any" && meet != "none")
@@ -249,6 +252,7 @@ class FileScene final : public Scene {
   std::vector<ActorEntry> actors_;
   std::vector<JointPlan> joints_;
   std::set<std::string> names_;
+  std::optional<InterestPlan> interest_;
 };
 
 }  // namespace

@@ -70,6 +70,21 @@ std::optional<std::string> fast_bodies(const Model& model) {
   return counted(count_fast_starts(model), "bodies that start at more than half their extent in 0.01 s");
 }
 
+std::optional<std::string> field_of_interest(const Model& model) {
+  if (!model.interest) return std::nullopt;
+  const Interest& interest = *model.interest;
+  std::ostringstream text;
+  text << "within " << interest.radius_m << " m of ";
+  if (interest.follows == no_body) {
+    text << '[' << interest.center.x() << ", " << interest.center.y() << ", " << interest.center.z() << ']';
+  } else {
+    text << '\'' << model.bodies[static_cast<std::size_t>(interest.follows)].name << '\'';
+  }
+  text << "; elsewhere at most " << interest.outside_iterations
+       << (interest.outside_iterations == 1 ? " iteration" : " iterations");
+  return text.str();
+}
+
 std::optional<std::string> joints(const Model& model) {
   return counted(static_cast<std::ptrdiff_t>(model.joints.size()), "joints");
 }
@@ -136,6 +151,7 @@ void drop_friction(Model& model) {
 void drop_restitution(Model& model) {
   for (Geom& geom : model.geoms) geom.material.restitution = 0;
 }
+void drop_interest(Model& model) { model.interest.reset(); }
 void drop_spaces(Model& model) {
   model.spaces.resize(1);
   for (Geom& geom : model.geoms) geom.space = 0;
@@ -170,6 +186,8 @@ const std::vector<Effect>& effect_registry() {
        drop_spaces},
       {"fast_bodies", "contacts ahead keep fast geoms from passing through others", Phase::collide,
        fast_bodies, keep},
+      {"field_of_interest", "islands get all iterations only near a point", Phase::islands, field_of_interest,
+       drop_interest},
       {"friction", "contacts resist sliding (Coulomb, box friction)", Phase::rows, friction, drop_friction},
       {"restitution", "contacts bounce", Phase::rows, restitution, drop_restitution},
       {"joints", "bodies are held together", Phase::rows, joints, refuse_without_joints},

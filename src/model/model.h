@@ -151,6 +151,14 @@ struct SleepRule {
   double after_s = 0.5;        ///< of rest [s]
 };
 
+/// Where a world gets all the work, and how little is enough elsewhere (model/field_of_interest.h).
+struct Interest {
+  Vec3 center = Vec3::Zero();  ///< [m], unless it follows a body
+  int follows = no_body;       ///< the body in whose centre of mass it lies
+  double radius_m = infinity;  ///< an island of which a body is so near is inside
+  int outside_iterations = 4;  ///< of all other islands, unless the run has fewer
+};
+
 struct Model {
   std::vector<Actor> actors;
   std::vector<Body> bodies;
@@ -167,7 +175,8 @@ struct Model {
   double angular_damping = 0;
   ContactLaw contact_law;
   SleepRule sleep;
-  EffectChoices effects;  ///< what is demanded or left out, whatever the rest calls for
+  std::optional<Interest> interest;  ///< none: all of the world matters
+  EffectChoices effects;             ///< what is demanded or left out, whatever the rest calls for
 
   int num_bodies() const { return static_cast<int>(bodies.size()); }
 };

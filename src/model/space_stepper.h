@@ -11,6 +11,7 @@
 #include "core/clock.h"
 #include "model/box.h"
 #include "model/contact.h"
+#include "model/field_of_interest.h"
 #include "model/model.h"
 #include "model/space_map.h"
 #include "model/space_sleepers.h"
@@ -24,6 +25,7 @@ struct IslandCounts {
   int rows = 0;
   int islands = 0;
   int max_island_rows = 0;
+  int bodies_inside = 0;  ///< with the effect "field_of_interest"
   double max_penetration_m = 0;
 };
 
@@ -42,6 +44,9 @@ class SpaceStepper {
   /// Null without the effect "sleeping". With it collide() and collide_across() find the contacts of which a
   /// body is awake, and solve() moves the units that are.
   virtual SpaceSleepers* sleepers() { return nullptr; }
+  /// Null without the effect "field_of_interest". With it solve() sorts the islands that it is given, once
+  /// the field has been told where the body is that it follows.
+  virtual FieldOfInterest* field() { return nullptr; }
   /// Units of one shape that are solved at the cost of one.
   virtual int num_lanes() const = 0;
 

@@ -110,6 +110,13 @@ void validate_event(const Model& model, const Event& event, const std::string& w
   }
 }
 
+void validate_interest(const Model& model, const Interest& interest, const std::string& who) {
+  require_input(interest.center.allFinite(), who + ": the center is not finite; give numbers");
+  if (interest.follows != no_body) require_index(interest.follows, model.bodies.size(), who, "body");
+  require_input(interest.radius_m > 0, who + ": the radius must be above 0 m");
+  require_input(interest.outside_iterations >= 1, who + ": the solver needs at least 1 iteration outside");
+}
+
 }  // namespace
 
 void validate(const Model& model, const std::string& where) {
@@ -127,6 +134,7 @@ void validate(const Model& model, const std::string& where) {
                 where + ": the speeds below which islands fall asleep must be at least 0");
   require_input(std::isfinite(model.sleep.after_s) && model.sleep.after_s > 0,
                 where + ": islands fall asleep after a time above 0 s");
+  if (model.interest) validate_interest(model, *model.interest, where + ": interest");
   require_input(model.contact_law.max_per_pair >= 1, where + ": max_per_pair must be at least 1");
   std::set<std::string> names;
   for (const Body& body : model.bodies) {

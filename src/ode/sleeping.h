@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "model/sleepers.h"
@@ -21,6 +22,7 @@ class Sleeping {
   /// The world stands in this state from now on.
   void start(const model::State& state);
   bool all_asleep() const { return sleepers_.awake().empty(); }
+  std::span<const int> awake() const { return sleepers_.awake(); }  ///< bodies, ascending
   const std::vector<model::Rest>& rest() const { return state_.rest; }
 
   /// Wakes what the events of this step concern.

@@ -26,7 +26,6 @@ WorldHandle make_world(const model::Model& model, const model::StepperSettings& 
   dWorldSetGravity(world.get(), model.gravity.x(), model.gravity.y(), model.gravity.z());
   dWorldSetERP(world.get(), model.erp);
   dWorldSetCFM(world.get(), model.cfm);
-  dWorldSetQuickStepNumIterations(world.get(), settings.iterations);
   dWorldSetAutoDisableFlag(world.get(), 0);
   set_damping(world.get(), model, settings.dt_s);
   return world;
@@ -49,10 +48,10 @@ World::World(int id, const model::Model& model, const model::State& state, std::
       row_counter_(model, joints_),
       step_(step) {
   if (plan_.has("collision")) broad_phase_.emplace(model, bodies_, best_space(model.geoms.size()));
-  if (plan_.has("fast_bodies")) {
-    fast_bodies_.emplace(model);
-    before_step_.resize(model.num_bodies());
-  }
+  if (plan_.has("fast_bodies")) fast_bodies_.emplace(model);
+  if (plan_.has("field_of_interest") && settings.kind == model::StepperKind::quick)
+    focus_.emplace(model, bodies_, settings.iterations);
+  if (fast_bodies_ || focus_) before_step_.resize(model.num_bodies());
   if (plan_.has("sleeping")) {
     core::require_input(!settings.profile,
                         "the islands of a step are timed one by one, and with the effect 'sleeping' some are "
@@ -86,6 +85,7 @@ bool World::sleeps_on() {
 void World::take_step(bool is_last, core::LapTimer& timer) {
   if (sleeps_on()) {
     contacts_.forget();
+    if (focus_) focus_->look({}, before_step_, contacts_.touches());
     if (is_last && moved_) row_counter_.count(contacts_.touches(), sleeping_->rest(), counts_);
     ++step_;
     return;
@@ -103,6 +103,11 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
   }
   if (is_last) {
     row_counter_.count(contacts_.touches(), rest(), counts_);
+    timer.lap(core::Phase::islands);
+  }
+  if (focus_) {
+    copy_out(bodies_, before_step_);
+    focus_->look(sleeping_ ? sleeping_->awake() : focus_->all_bodies(), before_step_, contacts_.touches());
     timer.lap(core::Phase::islands);
   }
   solve();
@@ -138,9 +143,21 @@ void World::look_ahead() {
   contacts_.make_ahead(world_.get(), ahead_, settings_.dt_s);
 }
 
-/// QuickStep shuffles its rows by one random seed of the whole process, so that it is set anew each time.
+/// Islands outside of a field of interest by themselves: ODE takes what is enabled.
 void World::solve() {
+  if (!focus_ || !focus_->is_cut())
+    return solve_enabled(focus_ ? focus_->iterations() : settings_.iterations);
+  focus_->enable_outside();
+  solve_enabled(focus_->field().outside_iterations());
+  focus_->enable_inside();
+  solve_enabled(settings_.iterations);
+  focus_->enable_both();
+}
+
+/// QuickStep shuffles its rows by one random seed of the whole process, so that it is set anew each time.
+void World::solve_enabled(int iterations) {
   if (settings_.kind == model::StepperKind::quick) {
+    dWorldSetQuickStepNumIterations(world_.get(), iterations);
     dRandSetSeed(
         core::mix_key(settings_.seed, static_cast<std::uint64_t>(id_), static_cast<std::uint64_t>(step_)));
     dWorldQuickStep(world_.get(), settings_.dt_s);
@@ -151,7 +168,7 @@ void World::solve() {
 
 void World::read(model::State& state, model::Observables& observables) {
   if (!std::exchange(moved_, false)) {  // only poses and what follows from them are as before
-    observables.contacts = observables.rows = observables.max_island_rows = 0;
+    observables.contacts = observables.rows = observables.max_island_rows = observables.bodies_inside = 0;
     observables.max_penetration_m = 0;
     return;
   }
@@ -159,6 +176,7 @@ void World::read(model::State& state, model::Observables& observables) {
   if (sleeping_) state.rest = sleeping_->rest();
   observables = counts_;
   observables.contacts = contacts_.count();
+  observables.bodies_inside = focus_ ? static_cast<int>(focus_->field().inside().size()) : 0;
   observables.max_penetration_m = contacts_.deepest_m();
   observables.energy_j = model::mechanical_energy(*model_, state);
   observables.joint_gap_m = model::max_joint_gap(*model_, state);

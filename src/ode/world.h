@@ -15,6 +15,7 @@
 #include "ode/contacts.h"
 #include "ode/engine.h"
 #include "ode/events.h"
+#include "ode/focus.h"
 #include "ode/rows.h"
 #include "ode/sleeping.h"
 #include "ode/solver_resources.h"
@@ -55,9 +56,10 @@ class World {
   void collide();
   void look_ahead();
   void solve();
+  void solve_enabled(int iterations);
   void profile_collision(model::StepProfile& profile);
   void profile_islands(model::StepProfile& profile);
-  double time_solve(const std::vector<dBodyID>& enabled, const model::State& before);
+  double time_solve(const std::vector<dBodyID>& enabled, int iterations, const model::State& before);
 
   int id_;
   const model::Model* model_;
@@ -71,7 +73,8 @@ class World {
   Contacts contacts_;
   std::optional<BroadPhase> broad_phase_;         ///< none without the effect "collision"
   std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass
-  model::State before_step_;                      ///< with it: at the start of the step
+  std::optional<Focus> focus_;                    ///< likewise; none for `direct`, which has no iterations
+  model::State before_step_;                      ///< with either: at the start of the step
   std::vector<model::Contact> ahead_;             ///< contacts with a gap
   std::optional<Sleeping> sleeping_;              ///< none without the pass
   RowCounter row_counter_;

@@ -95,7 +95,7 @@ void World::profile_collision(model::StepProfile& profile) {
 void World::profile_islands(model::StepProfile& profile) {
   profile.islands = row_counter_.islands(contacts_.touches());
   for (const dBodyID body : bodies_) dBodyDisable(body);
-  const double empty_s = time_solve({}, before_last_);
+  const double empty_s = time_solve({}, settings_.iterations, before_last_);
   std::vector<std::vector<int>> members(bodies_.size());
   for (int body = 0; body < model_->num_bodies(); ++body) {
     members[row_counter_.island_of(body)].push_back(body);
@@ -110,20 +110,21 @@ void World::profile_islands(model::StepProfile& profile) {
       state.velocity.push_back(before_last_.velocity[body]);
       state.angular_velocity.push_back(before_last_.angular_velocity[body]);
     }
-    island.solve_s = std::max(0.0, time_solve(bodies, state) - empty_s);
+    const int iterations = focus_ ? focus_->field().iterations_of(island.first_body) : settings_.iterations;
+    island.solve_s = std::max(0.0, time_solve(bodies, iterations, state) - empty_s);
   }
   for (const dBodyID body : bodies_) dBodyEnable(body);
 }
 
 /// Seconds of a step in which only `enabled` take part. `before`: their state, which they have again after
 /// it.
-double World::time_solve(const std::vector<dBodyID>& enabled, const model::State& before) {
+double World::time_solve(const std::vector<dBodyID>& enabled, int iterations, const model::State& before) {
   for (const dBodyID body : enabled) dBodyEnable(body);
   const double least_s = least_time(
       [&] {
         if (!enabled.empty()) restore(enabled, before);
       },
-      [&] { solve(); });
+      [&] { solve_enabled(iterations); });
   if (!enabled.empty()) restore(enabled, before);
   for (const dBodyID body : enabled) dBodyDisable(body);
   return least_s;

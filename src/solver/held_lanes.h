@@ -1,4 +1,5 @@
-/// Bodies that sleep in a batch that others keep awake: their lanes move along, and are put back after it.
+/// Bodies that a step does not move in a batch with others that it moves: their lanes move along, and are put
+/// back after it.
 #pragma once
 
 #include <vector>

@@ -50,8 +50,8 @@ class Pack {
   virtual void store(int world, std::span<const int> bodies, model::State& state) const = 0;
   /// From now on a step moves these bodies of this world and no others of it (at the start: all). Batches
   /// that hold none of them are passed over; a body that shares a batch with them may move, too, and is not
-  /// to be looked at before its next load(), unless the pass "sleeping" is there, which puts it back. The
-  /// bodies of an articulation, and the contacts given to step(), are active together.
+  /// to be looked at before its next load(), unless Passes::holds_bodies(): it is then put back. The bodies
+  /// of an articulation, and the contacts given to step(), are active together.
   virtual void set_active(int world, std::span<const int> bodies) = 0;
   /// With the pass "sleeping": from now on collide() looks for the contacts of which one of these bodies is
   /// one (at the start: all).

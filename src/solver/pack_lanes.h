@@ -229,7 +229,7 @@ void PackLanes<T>::begin_step(Contacts contacts, const StepParameters& parameter
   h_ = static_cast<Scalar>(parameters.dt_s / parameters.substeps);
   core::LapTimer timer(times);
   worlds_.update_active();
-  if (passes_.sleeping) worlds_.save_sleepers();
+  if (passes_.holds_bodies()) worlds_.save_held();
   sort_contacts(contacts);
   find_contact_slots();
   substep_ = 0;
@@ -266,7 +266,7 @@ void PackLanes<T>::finish_step(core::PhaseTimes& times) {
   integrate_bodies(h_);
   if (!last) worlds_.joints.advance(h_, worlds_.bodies);
   if (passes_.damping) damp(parameters_.dt_s / parameters_.substeps);
-  if (last && passes_.sleeping) worlds_.restore_sleepers();
+  if (last && passes_.holds_bodies()) worlds_.restore_held();
   timer.lap(core::Phase::integrate);
 }
 

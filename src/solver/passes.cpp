@@ -6,11 +6,17 @@ namespace pbmpi::solver {
 
 Passes passes_of(const model::Model& model) {
   const model::StepPlan plan(model);
-  return {plan.has("collision"),         plan.has("restitution"),
-          plan.has("gyroscopic_torque"), plan.has("gravity"),
-          plan.has("damping"),           plan.has("sleeping"),
-          plan.is_idle("friction"),      plan.is_idle("limits"),
-          plan.is_idle("motors"),        plan.is_idle("gyroscopic_torque")};
+  return {plan.has("collision"),
+          plan.has("restitution"),
+          plan.has("gyroscopic_torque"),
+          plan.has("gravity"),
+          plan.has("damping"),
+          plan.has("sleeping"),
+          plan.has("field_of_interest"),
+          plan.is_idle("friction"),
+          plan.is_idle("limits"),
+          plan.is_idle("motors"),
+          plan.is_idle("gyroscopic_torque")};
 }
 
 Passes shared_passes(std::span<const PackedWorld> worlds) {
@@ -23,6 +29,7 @@ Passes shared_passes(std::span<const PackedWorld> worlds) {
     all.gravity |= own.gravity;
     all.damping |= own.damping;
     all.sleeping |= own.sleeping;
+    all.field_of_interest |= own.field_of_interest;
     all.idle_friction |= own.idle_friction;
     all.idle_limits |= own.idle_limits;
     all.idle_motors |= own.idle_motors;

@@ -18,6 +18,7 @@ struct Passes {
   bool gravity = false;
   bool damping = false;
   bool sleeping = false;
+  bool field_of_interest = false;
   /// Demanded though nothing calls for them: friction rows at mu = 0, rows at all joint axes that could have
   /// a limit or a motor, gyroscopic torque of spheres and cubes. Where they are called for, they follow from
   /// the contacts and joints one by one.
@@ -25,6 +26,9 @@ struct Passes {
   bool idle_limits = false;
   bool idle_motors = false;
   bool idle_gyroscopic_torque = false;
+
+  /// Are there steps of some bodies only, after which the others must be as before?
+  bool holds_bodies() const { return sleeping || field_of_interest; }
 };
 
 Passes passes_of(const model::Model& model);

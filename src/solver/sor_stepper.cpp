@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,9 @@ bool same_laws(const model::Model& a, const model::Model& b) {
   return a.erp == b.erp && a.cfm == b.cfm && a.contact_law.soft_erp == b.contact_law.soft_erp &&
          a.contact_law.soft_cfm == b.contact_law.soft_cfm &&
          a.contact_law.bounce_velocity == b.contact_law.bounce_velocity &&
-         a.linear_damping == b.linear_damping && a.angular_damping == b.angular_damping;
+         a.linear_damping == b.linear_damping && a.angular_damping == b.angular_damping &&
+         a.interest.has_value() == b.interest.has_value() &&
+         (!a.interest || a.interest->outside_iterations == b.interest->outside_iterations);
 }
 
 /// Worlds that are stepped together.
@@ -37,7 +40,8 @@ struct Group {
   std::vector<SorWorld*> worlds;
   std::unique_ptr<Pack> pack;
   std::vector<std::vector<model::Contact>> contacts;  ///< [worlds] of this step
-  std::vector<std::span<const model::Contact>> contact_spans;
+  std::vector<FocusedWorld> focused_worlds;           ///< [worlds] for the step at hand
+  FocusedStep focused;
   bool sleeps = false;              ///< in the step at hand nothing moves
   std::vector<model::State> looks;  ///< [worlds] of the step that was begun
   double begun_s = 0;               ///< seconds spent on it
@@ -50,7 +54,7 @@ class SorStepper final : public model::AnytimeStepper {
 
   void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
            std::int64_t step) override {
-    worlds_.emplace(world, std::make_unique<SorWorld>(world, std::move(model), state, step, settings_.dt_s,
+    worlds_.emplace(world, std::make_unique<SorWorld>(world, std::move(model), state, step, settings_,
                                                       make_narrow_phase_));
     drop_groups();
   }
@@ -69,7 +73,7 @@ class SorStepper final : public model::AnytimeStepper {
     for (Group& group : groups_) {
       const double start_s = core::now_s() - group.begun_s;
       for (int i = 0; i < num_steps; ++i) {
-        if (i > 0 || !begun_) begin(group, times);
+        if (i > 0 || !begun_) begin(group, std::nullopt, times);
         finish(group, times);
       }
       observe(group, times);
@@ -93,8 +97,10 @@ class SorStepper final : public model::AnytimeStepper {
   }
   void make_groups();
   static void look(Group& group, core::PhaseTimes& times);
-  void begin(Group& group, core::PhaseTimes& times);
+  /// Up to the iterations of the last substep; `look_after`: they will be looked at after so many.
+  void begin(Group& group, std::optional<int> look_after, core::PhaseTimes& times);
   void collide(Group& group) const;
+  void focus(Group& group) const;
   static void finish(Group& group, core::PhaseTimes& times);
   void observe(Group& group, core::PhaseTimes& times) const;
   static void share_cost(Group& group, double seconds);
@@ -150,7 +156,6 @@ void SorStepper::make_groups() {
                                         static_cast<int>(i)};
     }
     group.contacts.resize(group.worlds.size());
-    group.contact_spans.resize(group.worlds.size());
   }
 }
 
@@ -162,7 +167,7 @@ void SorStepper::begin_step(int iterations, core::PhaseTimes& times) {
   if (groups_.empty()) make_groups();
   for (Group& group : groups_) {
     const double start_s = core::now_s();
-    begin(group, times);
+    begin(group, iterations, times);
     if (!group.sleeps) group.pack->iterate(iterations, times);
     look(group, times);
     group.begun_s = core::now_s() - start_s;
@@ -175,28 +180,47 @@ void SorStepper::look(Group& group, core::PhaseTimes& times) {
   if (group.looks.empty()) {  // room for them, kept from step to step
     for (const SorWorld* world : group.worlds) group.looks.push_back(world->state());
   }
-  if (!group.sleeps) group.pack->look(group.looks);
+  if (!group.sleeps) {
+    group.pack->look(group.looks);
+    group.focused.merge_looks(group.looks);
+  }
   for (std::size_t i = 0; i < group.worlds.size(); ++i) group.worlds[i]->keep_sleepers(group.looks[i]);
   timer.lap(Phase::integrate);
 }
 
-void SorStepper::begin(Group& group, core::PhaseTimes& times) {
+void SorStepper::begin(Group& group, std::optional<int> look_after, core::PhaseTimes& times) {
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i)
     group.worlds[i]->fire_events(*group.pack, static_cast<int>(i));
   group.sleeps = std::none_of(group.worlds.begin(), group.worlds.end(),
                               [](const SorWorld* world) { return world->moves(); });
   if (group.sleeps) {
-    for (std::vector<model::Contact>& contacts : group.contacts) contacts.clear();
+    for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+      group.contacts[i].clear();
+      group.worlds[i]->focus(*group.pack, static_cast<int>(i), {});
+    }
     return;
   }
   collide(group);
-  std::copy(group.contacts.begin(), group.contacts.end(), group.contact_spans.begin());
   timer.lap(Phase::collide);
+  focus(group);
+  timer.lap(Phase::islands);
   // Worlds of a pack may stand at different steps only if they came to this stepper at different times; the
   // order of the rows then follows each world's own step, so it is the key of the first that all must share.
-  group.pack->begin_step(group.contact_spans, step_parameters(settings_, group.worlds.front()->step()),
-                         times);
+  StepParameters parameters = step_parameters(settings_, group.worlds.front()->step());
+  if (group.focused.is_cut()) group.focused.step_outside(*group.pack, parameters, look_after, times);
+  parameters.iterations = group.focused.iterations();
+  group.pack->begin_step(group.focused.contacts(), parameters, times);
+}
+
+void SorStepper::focus(Group& group) const {
+  group.focused_worlds.clear();
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+    SorWorld& world = *group.worlds[i];
+    world.focus(*group.pack, static_cast<int>(i), group.contacts[i]);
+    group.focused_worlds.push_back({&world.model(), world.field(), group.contacts[i]});
+  }
+  group.focused.begin(group.focused_worlds, settings_.iterations);
 }
 
 /// Again while contacts wake what slept in any world of the group, since its own contacts are then to be
@@ -218,7 +242,9 @@ void SorStepper::finish(Group& group, core::PhaseTimes& times) {
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i) {
     group.worlds[i]->finish_step();
-    if (!group.sleeps) group.worlds[i]->settle(*group.pack, static_cast<int>(i), group.contacts[i]);
+    if (group.sleeps) continue;
+    if (group.focused.is_cut()) group.worlds[i]->activate(*group.pack, static_cast<int>(i));
+    group.worlds[i]->settle(*group.pack, static_cast<int>(i), group.contacts[i]);
   }
   timer.lap(Phase::islands);
 }
@@ -226,8 +252,9 @@ void SorStepper::finish(Group& group, core::PhaseTimes& times) {
 void SorStepper::observe(Group& group, core::PhaseTimes& times) const {
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i) {
-    group.worlds[i]->observe(*group.pack, static_cast<int>(i), group.contacts[i]);
-    if (settings_.residuals) group.worlds[i]->observe_residuals(*group.pack, static_cast<int>(i));
+    group.worlds[i]->observe(*group.pack, static_cast<int>(i), group.focused, group.contacts[i]);
+    if (settings_.residuals)
+      group.worlds[i]->observe_residuals(*group.pack, static_cast<int>(i), group.focused);
   }
   timer.lap(Phase::islands);
 }

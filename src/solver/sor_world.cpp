@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "model/effects.h"
@@ -11,14 +12,16 @@
 namespace pbmpi::solver {
 
 SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state,
-                   std::int64_t step, double dt_s, const model::MakeNarrowPhase& make_narrow_phase)
+                   std::int64_t step, const model::StepperSettings& settings,
+                   const model::MakeNarrowPhase& make_narrow_phase)
     : id_(id), model_(std::move(model)), narrow_phase_(make_narrow_phase(*model_)) {
   const model::StepPlan plan(*model_);
-  if (plan.has("fast_bodies")) {
-    fast_bodies_.emplace(*model_);
-    before_step_ = state;
-  }
-  if (plan.has("sleeping")) sleepers_.emplace(*model_, dt_s);
+  all_bodies_.resize(model_->bodies.size());
+  std::iota(all_bodies_.begin(), all_bodies_.end(), 0);
+  if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_);
+  if (plan.has("field_of_interest")) field_.emplace(*model_, settings.iterations);
+  if (fast_bodies_ || field_) before_step_ = state;
+  if (plan.has("sleeping")) sleepers_.emplace(*model_, settings.dt_s);
   set_state(state, step);
 }
 
@@ -30,8 +33,8 @@ void SorWorld::set_state(const model::State& state, std::int64_t step) {
 }
 
 void SorWorld::show_awake(Pack& pack, int index) const {
-  pack.set_awake(index, sleepers_->awake());
-  pack.set_active(index, sleepers_->awake());
+  pack.set_awake(index, awake());
+  activate(pack, index);
 }
 
 void SorWorld::load(Pack& pack, int index) const {
@@ -58,6 +61,13 @@ void SorWorld::look_ahead(const Pack& pack, int index, double dt_s, std::vector<
   if (fast_bodies_->look(before_step_, dt_s))
     fast_bodies_->add(
         before_step_, [](int, int) { return true; }, contacts);
+}
+
+void SorWorld::focus(const Pack& pack, int index, std::span<const model::Contact> contacts) {
+  if (!field_) return;
+  if (moves()) pack.store(index, before_step_);
+  field_->look(before_step_.position);
+  field_->sort(awake(), before_step_.position, contacts);
 }
 
 bool SorWorld::wake_touched(Pack& pack, int index, std::span<const model::Contact> contacts) {
@@ -94,17 +104,18 @@ void SorWorld::keep_sleepers(model::State& state) const {
 
 /// Of a world that slept since it was last looked at: what its poses say is known.
 void SorWorld::observe_sleep() {
-  observables_.contacts = observables_.rows = observables_.max_island_rows = 0;
+  observables_.contacts = observables_.rows = observables_.max_island_rows = observables_.bodies_inside = 0;
   observables_.max_penetration_m = 0;
 }
 
-void SorWorld::count_rows(const Pack& pack, int index, std::span<const model::Contact> contacts) {
+void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
+                          std::span<const model::Contact> contacts) {
   std::vector<std::pair<int, int>> links;
   std::vector<int> rows;
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     links.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
     const bool asleep = sleepers_ && state_.rest[model_->joints[j].body_a].asleep();
-    rows.push_back(asleep ? 0 : pack.joint_rows(index, static_cast<int>(j)));
+    rows.push_back(asleep ? 0 : step.joint_rows(pack, index, static_cast<int>(j)));
   }
   for (int body = 0; sleepers_ && body < model_->num_bodies(); ++body) {
     if (!state_.rest[body].asleep()) continue;
@@ -127,14 +138,16 @@ void SorWorld::count_rows(const Pack& pack, int index, std::span<const model::Co
   observables_.max_island_rows = *std::max_element(island_rows.begin(), island_rows.end());
 }
 
-void SorWorld::observe(const Pack& pack, int index, std::span<const model::Contact> contacts) {
+void SorWorld::observe(const Pack& pack, int index, const FocusedStep& step,
+                       std::span<const model::Contact> contacts) {
   if (!std::exchange(moved_, false)) {
     observe_sleep();
     return;
   }
   pack.store(index, state_);
-  count_rows(pack, index, contacts);
+  count_rows(pack, index, step, contacts);
   observables_.contacts = static_cast<int>(contacts.size());
+  observables_.bodies_inside = field_ ? static_cast<int>(field_->inside().size()) : 0;
   observables_.max_penetration_m = 0;
   for (const model::Contact& contact : contacts) {
     observables_.max_penetration_m = std::max(observables_.max_penetration_m, contact.depth);

@@ -9,18 +9,20 @@
 
 #include "model/contact.h"
 #include "model/fast_bodies.h"
+#include "model/field_of_interest.h"
 #include "model/observables.h"
 #include "model/sleepers.h"
 #include "model/state.h"
+#include "model/stepper.h"
+#include "solver/focused_step.h"
 #include "solver/pack.h"
 
 namespace pbmpi::solver {
 
 class SorWorld {
  public:
-  /// Steps take `dt_s`.
   SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state, std::int64_t step,
-           double dt_s, const model::MakeNarrowPhase& make_narrow_phase);
+           const model::StepperSettings& settings, const model::MakeNarrowPhase& make_narrow_phase);
 
   int id() const { return id_; }
   std::int64_t step() const { return step_; }
@@ -39,6 +41,12 @@ class SorWorld {
   void fire_events(Pack& pack, int index);
   /// Adds the contacts of fast bodies to those of this step; nothing without the pass.
   void look_ahead(const Pack& pack, int index, double dt_s, std::vector<model::Contact>& contacts);
+  /// Finds out which islands matter; nothing without the pass "field_of_interest".
+  void focus(const Pack& pack, int index, std::span<const model::Contact> contacts);
+  /// Null without that pass.
+  const model::FieldOfInterest* field() const { return field_ ? &*field_ : nullptr; }
+  /// Lets the steps to come move all that is awake.
+  void activate(Pack& pack, int index) const { pack.set_active(index, awake()); }
   /// False if all bodies sleep: a step changes nothing.
   bool moves() const { return !sleepers_ || !sleepers_->awake().empty(); }
   /// Wakes what these contacts touch; true if it lay asleep, so that its own contacts are still to be found.
@@ -54,29 +62,34 @@ class SorWorld {
     ++step_;
   }
   /// Reads the state back and measures it; rows and contacts are those of the last step.
-  void observe(const Pack& pack, int index, std::span<const model::Contact> contacts);
+  void observe(const Pack& pack, int index, const FocusedStep& step,
+               std::span<const model::Contact> contacts);
 
   /// Of the last step; the state must have come from it.
-  void observe_residuals(const Pack& pack, int index) { observables_.residuals = pack.residuals(index); }
-  /// Bodies that the last step moved.
-  int num_awake() const {
-    return sleepers_ ? static_cast<int>(sleepers_->awake().size()) : model_->num_bodies();
+  void observe_residuals(const Pack& pack, int index, const FocusedStep& step) {
+    observables_.residuals = step.residuals(pack, index);
   }
+  /// Bodies that the last step moved.
+  int num_awake() const { return static_cast<int>(awake().size()); }
 
   double cost_s = 0;  ///< of the last advance()
 
  private:
+  std::span<const int> awake() const { return sleepers_ ? sleepers_->awake() : all_bodies_; }
   void show_awake(Pack& pack, int index) const;
   void observe_sleep();
-  void count_rows(const Pack& pack, int index, std::span<const model::Contact> contacts);
+  void count_rows(const Pack& pack, int index, const FocusedStep& step,
+                  std::span<const model::Contact> contacts);
 
   int id_;
   std::shared_ptr<const model::Model> model_;
   model::State state_;
   std::int64_t step_;
+  std::vector<int> all_bodies_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
   std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass
-  model::State before_step_;                      ///< with it: at the start of the step
+  std::optional<model::FieldOfInterest> field_;   ///< likewise
+  model::State before_step_;                      ///< with either: at the start of the step
   model::Observables observables_;
   std::optional<model::Sleepers> sleepers_;  ///< none without the effect "sleeping"
   bool moved_ = true;                        ///< since the last observe()

@@ -11,6 +11,7 @@
 #include "model/islands.h"
 #include "solver/articulation.h"
 #include "solver/cross_broad_phase.h"
+#include "solver/focused_step.h"
 #include "solver/simd.h"
 #include "solver/step_settings.h"
 
@@ -30,6 +31,7 @@ class SpaceWorld final : public model::SpaceStepper {
   const model::SpaceMap& map() const override { return map_; }
   const model::State& state() const override { return state_; }
   model::SpaceSleepers* sleepers() override { return sleepers_ ? &*sleepers_ : nullptr; }
+  model::FieldOfInterest* field() override { return field_ ? &*field_ : nullptr; }
   int num_lanes() const override { return solver::num_lanes(simd(), settings_.precision); }
   void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override;
   void put_states(std::span<const int> bodies, std::span<const double> rows) override;
@@ -54,6 +56,7 @@ class SpaceWorld final : public model::SpaceStepper {
   void place(int body);
   bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
   void activate(std::span<const int> units);
+  void focus(std::span<const Contact> contacts);
   void lend(int body);
   void load_lent();
   bool is_awake(int body) const { return !sleepers_ || !sleepers_->asleep(body); }
@@ -80,6 +83,9 @@ class SpaceWorld final : public model::SpaceStepper {
   std::vector<int> loaded_;  ///< scratch: active bodies that are stale
   std::vector<model::GeomPair> pairs_;
   std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass
+  std::optional<model::FieldOfInterest> field_;   ///< likewise
+  FocusedStep focused_;                           ///< of the last solve()
+  int bodies_inside_ = 0;                         ///< likewise
 };
 
 SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
@@ -96,6 +102,7 @@ SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
       stale_(model_->bodies.size(), 0) {
   const model::StepPlan plan(*model_);
   if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_);
+  if (plan.has("field_of_interest")) field_.emplace(*model_, settings.iterations);
   if (!plan.has("sleeping")) return;
   sleepers_.emplace(*model_, settings.dt_s, state_);
   sleepers_->start();
@@ -213,6 +220,7 @@ void SpaceWorld::show_sleepers() {
 }
 
 void SpaceWorld::fire_events(std::int64_t step) {
+  bodies_inside_ = 0;  // while all sleep there is no solve()
   show_sleepers();
   if (sleepers_) sleepers_->wake_called(step);
   for (const Event& event : events_of(*model_, step)) {
@@ -319,11 +327,19 @@ void SpaceWorld::activate(std::span<const int> all_units) {
   stale_ = std::move(others);
 }
 
+void SpaceWorld::focus(std::span<const Contact> contacts) {
+  if (field_) field_->sort(active_bodies_, state_.position, contacts);
+  bodies_inside_ = field_ ? static_cast<int>(field_->inside().size()) : 0;
+  const FocusedWorld world = {model_.get(), field(), contacts};
+  focused_.begin(std::span(&world, 1), settings_.iterations);
+}
+
 void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
                        core::PhaseTimes& times) {
   core::LapTimer timer(times);
   show_sleepers();
   activate(units);
+  focus(contacts);
   if (sleepers_ && active_bodies_.empty()) return;
   loaded_.clear();
   for (const int body : active_bodies_) {
@@ -332,9 +348,13 @@ void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> cont
   }
   load_lent();
   timer.lap(core::Phase::rows);
-  pack_->step(std::span(&contacts, 1), step_parameters(settings_, step), times);
+  StepParameters parameters = step_parameters(settings_, step);
+  if (focused_.is_cut()) focused_.step_outside(*pack_, parameters, std::nullopt, times);
+  parameters.iterations = focused_.iterations();
+  pack_->step(focused_.contacts(), parameters, times);
   core::LapTimer after(times);
   pack_->store(0, active_bodies_, state_);
+  if (focused_.is_cut()) pack_->set_active(0, active_bodies_);
   if (!sleepers_) {  // a pack in which bodies sleep puts back what moved along with its neighbours
     for (const int body : lent_) stale_[body] = 1;
   }
@@ -359,7 +379,7 @@ model::IslandCounts SpaceWorld::count(std::span<const int> units, std::span<cons
       sets.unite(unit, map_.unit_of_body[sleepers_->island(body)]);
       continue;
     }
-    for (const int joint : articulations_[unit].joints) rows[unit] += pack_->joint_rows(0, joint);
+    for (const int joint : articulations_[unit].joints) rows[unit] += focused_.joint_rows(*pack_, 0, joint);
   }
   std::vector<int> island_rows(rows.size(), 0);
   for (const int unit : units) {
@@ -369,6 +389,7 @@ model::IslandCounts SpaceWorld::count(std::span<const int> units, std::span<cons
     counts.rows += rows[unit];
   }
   counts.contacts = static_cast<int>(contacts.size());
+  counts.bodies_inside = bodies_inside_;
   counts.max_island_rows = *std::max_element(island_rows.begin(), island_rows.end());
   return counts;
 }

@@ -54,9 +54,9 @@ class WorldLanes {
   const ActiveBodies& awake() const { return awake_; }
   void update_active();
   bool is_active(int slot) const { return slot_active_.empty() || slot_active_[slot] != 0; }
-  /// With the pass "sleeping": round a step, for the bodies that are not active in batches that are.
-  void save_sleepers() { sleepers_.save(bodies); }
-  void restore_sleepers() { sleepers_.restore(bodies); }
+  /// With Passes::holds_bodies(): round a step, for the bodies that are not active in batches that are.
+  void save_held() { held_.save(bodies); }
+  void restore_held() { held_.restore(bodies); }
   template <class Visit>
   void for_each_active_slot(Visit visit) const {
     joints.for_each_active_batch([&](int first_slot, int num_bodies) {
@@ -130,17 +130,17 @@ class WorldLanes {
 
   std::vector<World> worlds_;
   std::vector<int> world_at_;  ///< [slots x num_lanes]
-  bool hold_sleepers_;
+  bool holds_bodies_;
   ActiveBodies active_, awake_;
   long active_revision_ = 0;       ///< that slot_active_ and the batches are of
   std::vector<char> slot_active_;  ///< [slots]; empty: all are
-  HeldLanes<T> sleepers_;
+  HeldLanes<T> held_;
   std::vector<int> joint_count_;  ///< [slots] of the articulation that a slot belongs to
 };
 
 template <class T>
 WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes)
-    : hold_sleepers_(passes.sleeping) {
+    : holds_bodies_(passes.holds_bodies()) {
   place(worlds);
   for (const PackedWorld& world : worlds) {
     active_.add_world(world.model->num_bodies());
@@ -375,7 +375,7 @@ void WorldLanes<T>::update_active() {
   }
   slot_active_.assign(gravity.size(), 0);
   for_each_active_slot([&](int slot) { slot_active_[slot] = 1; });
-  if (!hold_sleepers_) return;
+  if (!holds_bodies_) return;
   std::vector<LanePlace> held;
   for (int world = 0; world < num_worlds(); ++world) {
     for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body) {
@@ -383,7 +383,7 @@ void WorldLanes<T>::update_active() {
       if (slot_active_[at.slot] && !active_.contains(world, static_cast<int>(body))) held.push_back(at);
     }
   }
-  sleepers_.hold(bodies.static_slot, held);
+  held_.hold(bodies.static_slot, held);
 }
 
 template <class T>

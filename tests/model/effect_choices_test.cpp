@@ -45,6 +45,7 @@ TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
     model.geoms.front().material.restitution = 0.5;
     model.bodies.front().velocity = {0, 0, -200};
     model.linear_damping = 0.1;
+    model.interest.emplace();
     for (const EventKind kind : {EventKind::launch, EventKind::motor, EventKind::steer}) {
       Event& event = model.events.emplace_back();
       event.kind = kind;

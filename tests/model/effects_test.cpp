@@ -118,6 +118,29 @@ TEST(StepPlan, has_what_is_demanded_and_lacks_what_is_left_out) {
   EXPECT_FALSE(plan.is_idle("gravity"));
 }
 
+TEST(StepPlan, has_a_field_of_interest_where_the_model_has) {
+  Model model = support::pile(3);
+  EXPECT_FALSE(StepPlan(model).has("field_of_interest"));
+  model.effects["field_of_interest"] = true;
+  EXPECT_TRUE(StepPlan(model).is_idle("field_of_interest"));
+  model.effects.clear();
+  model.interest = Interest{{1, 2, 0.5}, no_body, 7, 3};
+  const auto reason = [&] {
+    const StepPlan plan(model);
+    for (const Pass& pass : plan.passes()) {
+      if (pass.effect->name == "field_of_interest") return pass.reason;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(reason(), "within 7 m of [1, 2, 0.5]; elsewhere at most 3 iterations");
+  model.interest->follows = 1;
+  EXPECT_EQ(reason(), "within 7 m of 'box1'; elsewhere at most 3 iterations");
+  model.effects["field_of_interest"] = false;
+  leave_out_effects(model);
+  EXPECT_FALSE(model.interest.has_value());
+  EXPECT_EQ(reason(), "");
+}
+
 TEST(StepPlan, lets_islands_sleep_only_where_a_model_says_so) {
   Model model = support::pile(3);
   EXPECT_FALSE(StepPlan(model).has("sleeping"));

@@ -38,6 +38,26 @@ const std::vector<Case>& cases() {
       {"mass NaN", [](Model& m) { m.bodies[1].mass_kg = NAN; }, "the mass"},
       {"mass infinite", [](Model& m) { m.bodies[1].mass_kg = infinity; }, "the mass"},
       {"damping below 0", [](Model& m) { m.linear_damping = -1; }, "damping of -1"},
+      {"interest NaN",
+       [](Model& m) {
+         m.interest = Interest{{0, NAN, 0}};
+       },
+       "interest: the center"},
+      {"interest's body",
+       [](Model& m) {
+         m.interest = Interest{{0, 0, 0}, 99};
+       },
+       "body 99 does not exist"},
+      {"interest's radius",
+       [](Model& m) {
+         m.interest = Interest{{0, 0, 0}, 0, 0};
+       },
+       "radius"},
+      {"interest's iterations",
+       [](Model& m) {
+         m.interest = Interest{{0, 0, 0}, 0, 1, 0};
+       },
+       "at least 1"},
       {"damping NaN", [](Model& m) { m.angular_damping = NAN; }, "damping of nan"},
       {"inertia skew", [](Model& m) { m.bodies[0].inertia(0, 1) += 1; }, "symmetric"},
       {"inertia NaN", [](Model& m) { m.bodies[0].inertia(0, 0) = NAN; }, "inertia"},

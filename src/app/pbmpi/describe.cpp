@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "app/pbmpi/provenance.h"
 #include "app/pbmpi/stepper_factory.h"
 #include "io/run_file.h"
 #include "model/effects.h"
@@ -26,13 +27,19 @@ struct Census {
   std::map<std::string, std::vector<int>> plans;  ///< text of a plan -> the worlds that have it
 };
 
-std::string plan_text(const model::Model& model) {
+/// What of a pass the stepper leaves undone.
+std::string idle_note(const model::Pass& pass, model::StepperKind stepper) {
+  if (pass.effect->name != "field_of_interest" || stepper != model::StepperKind::direct) return "";
+  return "; idle, since direct solves without iterations";
+}
+
+std::string plan_text(const model::Model& model, model::StepperKind stepper) {
   std::ostringstream text;
   const model::StepPlan plan(model);
   for (const model::Pass& pass : plan.passes()) {
     text << "  " << std::left << std::setw(18) << pass.effect->name << std::setw(10)
          << core::phase_names[static_cast<std::size_t>(pass.effect->phase)] << pass.effect->meaning << ": "
-         << pass.reason << '\n';
+         << pass.reason << idle_note(pass, stepper) << '\n';
   }
   return text.str();
 }
@@ -48,7 +55,7 @@ Census take_census(const scenes::Scene& scene, const RunSpec& spec) {
     census.spaces = std::max(census.spaces, model->spaces.size());
     for (const model::Actor& actor : model->actors)
       ++census.actor_kinds[std::string(model::name_of(actor.kind))];
-    census.plans[plan_text(*model)].push_back(world);
+    census.plans[plan_text(*model, spec.stepper.kind)].push_back(world);
   }
   return census;
 }
@@ -159,9 +166,9 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
   }
   out << "memory: about " << in_units(world_bytes) << " a world (measured on world 0)\n";
   if (spec.output) {
-    const auto bytes = io::estimate_file_bytes(
-        census.table.num_bodies(), spec.num_worlds, num_ranks, spec.total_frames(), spec.record_every,
-        {spec.record_islands, spec.estimate.has_value(), spec.stepper.residuals});
+    const auto bytes =
+        io::estimate_file_bytes(census.table.num_bodies(), spec.num_worlds, num_ranks, spec.total_frames(),
+                                spec.record_every, optional_columns(scene, spec));
     out << "output: " << *spec.output << ", about " << in_units(static_cast<double>(bytes)) << '\n';
   } else {
     out << "output: none\n";

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <ctime>
+#include <optional>
 #include <sstream>
 
 #include "app/common/version.h"
 #include "app/pbmpi/stepper_factory.h"
+#include "model/effects.h"
 #include "model/names.h"
 #include "mpi/session.h"
 
@@ -45,6 +47,15 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// What the plan says of the effect "field_of_interest".
+std::optional<std::string> interest_of(const model::Model& model) {
+  const model::StepPlan plan(model);
+  for (const model::Pass& pass : plan.passes()) {
+    if (pass.effect->name == "field_of_interest") return pass.reason;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Provenance collect_provenance(const mpi::Communicator& comm, const std::string& command_line) {
@@ -65,6 +76,16 @@ std::vector<std::string> distinct(const std::vector<std::string>& values) {
     if (std::find(result.begin(), result.end(), value) == result.end()) result.push_back(value);
   }
   return result;
+}
+
+io::OptionalColumns optional_columns(const scenes::Scene& scene, const RunSpec& spec) {
+  io::OptionalColumns columns;
+  columns.profile = spec.record_islands;
+  columns.estimate = spec.estimate.has_value();
+  columns.residuals = spec.stepper.residuals;
+  columns.interest = spec.stepper.kind != model::StepperKind::direct &&
+                     interest_of(*scene.build(0, spec.scene_seed)).has_value();
+  return columns;
 }
 
 std::vector<Parameter> run_attributes(const scenes::Scene& scene, const RunSpec& spec,
@@ -111,6 +132,8 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("library_hdf5", hdf5_version),
       Parameter::of("library_ode", ode_version),
   };
+  if (const auto interest = interest_of(*scene.build(0, spec.scene_seed)))
+    parameters.push_back(Parameter::of("field_of_interest", *interest));
   if (spec.estimate) {
     parameters.push_back(Parameter::of("estimate_stepper", std::string(name_of(spec.estimate->kind))));
     parameters.push_back(Parameter::of("estimate_iterations", std::int64_t{spec.estimate->iterations}));

@@ -24,6 +24,9 @@ Provenance collect_provenance(const mpi::Communicator& comm, const std::string& 
 /// Each value once, in order of first appearance.
 std::vector<std::string> distinct(const std::vector<std::string>& values);
 
+/// What the run's file holds that not every file does.
+io::OptionalColumns optional_columns(const scenes::Scene& scene, const RunSpec& spec);
+
 /// Attributes of the file's root.
 std::vector<io::Parameter> run_attributes(const scenes::Scene& scene, const RunSpec& spec,
                                           const Provenance& provenance);

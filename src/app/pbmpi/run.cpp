@@ -112,7 +112,7 @@ std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const 
   setup.hosts = provenance.hosts;
   setup.num_frames = spec.total_frames();
   setup.record_every = spec.record_every;
-  setup.optional = {spec.record_islands, spec.estimate.has_value(), spec.stepper.residuals};
+  setup.optional = optional_columns(scene, spec);
   return std::make_unique<io::RunFile>(io::FileGroup{comm.fortran_handle(), comm.rank(), comm.size()},
                                        std::move(setup));
 }

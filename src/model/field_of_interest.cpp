@@ -1,0 +1,58 @@
+#include "model/field_of_interest.h"
+
+#include <utility>
+
+namespace pbmpi::model {
+
+FieldOfInterest::FieldOfInterest(const Model& model, int iterations)
+    : interest_(model.interest.value_or(Interest{})),
+      iterations_(iterations),
+      jointed_(model.num_bodies()),
+      islands_(model.num_bodies()),
+      near_(model.bodies.size(), 0),
+      inside_set_(model.bodies.size(), 0) {
+  for (const Joint& joint : model.joints) {
+    if (joint.body_b != no_body) jointed_.unite(joint.body_a, joint.body_b);
+  }
+}
+
+double FieldOfInterest::outside_share() const {
+  constexpr double rest = 4;  // iterations that take as long as rows and integration, in Environ with sor
+  return (outside_iterations() + rest) / (iterations() + rest);
+}
+
+void FieldOfInterest::sort(std::span<const int> bodies, std::span<const Vec3> position,
+                           std::span<const Contact> contacts) {
+  sort_linked(bodies, position, contacts,
+              [](const Contact& contact) { return BodyPair(contact.body_a, contact.body_b); });
+}
+
+void FieldOfInterest::sort(std::span<const int> bodies, std::span<const Vec3> position,
+                           std::span<const BodyPair> touching) {
+  sort_linked(bodies, position, touching, [](const BodyPair& pair) { return pair; });
+}
+
+template <class Links, class Pair>
+void FieldOfInterest::sort_linked(std::span<const int> bodies, std::span<const Vec3> position,
+                                  const Links& links, Pair pair_of) {
+  inside_.clear();
+  outside_.clear();
+  inside_set_.assign(inside_set_.size(), 0);
+  islands_ = jointed_;
+  for (const auto& link : links) {
+    const auto [a, b] = pair_of(link);
+    if (a != no_body && b != no_body) islands_.unite(a, b);
+  }
+  near_.assign(near_.size(), 0);
+  for (const int body : bodies) {
+    if (is_near(position[static_cast<std::size_t>(body)]))
+      near_[static_cast<std::size_t>(islands_.find(body))] = 1;
+  }
+  for (const int body : bodies) {
+    const char is_inside = near_[static_cast<std::size_t>(islands_.find(body))];
+    inside_set_[static_cast<std::size_t>(body)] = is_inside;
+    (is_inside != 0 ? inside_ : outside_).push_back(body);
+  }
+}
+
+}  // namespace pbmpi::model

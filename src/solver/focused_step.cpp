@@ -1,0 +1,123 @@
+#include "solver/focused_step.h"
+
+#include <algorithm>
+
+namespace pbmpi::solver {
+namespace {
+
+/// The larger of each.
+model::Residuals join(const model::Residuals& a, const model::Residuals& b) {
+  return {std::max(a.joint_speed, b.joint_speed), std::max(a.joint_turn, b.joint_turn),
+          std::max(a.complementarity_j, b.complementarity_j), std::max(a.natural_speed, b.natural_speed),
+          std::max(a.natural_turn, b.natural_turn)};
+}
+
+void copy_bodies(std::span<const int> bodies, const model::State& from, model::State& to) {
+  for (const int body : bodies) {
+    to.position[body] = from.position[body];
+    to.orientation[body] = from.orientation[body];
+    to.velocity[body] = from.velocity[body];
+    to.angular_velocity[body] = from.angular_velocity[body];
+  }
+}
+
+}  // namespace
+
+void FocusedStep::begin(std::span<const FocusedWorld> worlds, int iterations) {
+  worlds_.assign(worlds.begin(), worlds.end());
+  all_.clear();
+  bool any_inside = false, any_outside = false;
+  iterations_ = outside_iterations_ = iterations;
+  for (const FocusedWorld& world : worlds_) {
+    all_.push_back(world.contacts);
+    any_inside |= world.field == nullptr || !world.field->inside().empty();
+    if (world.field == nullptr || world.field->outside().empty()) continue;
+    any_outside = true;
+    outside_iterations_ = world.field->outside_iterations();
+  }
+  cut_ = any_inside && any_outside && outside_iterations_ < iterations;
+  if (cut_) {
+    cut_contacts();
+  } else if (any_outside) {
+    iterations_ = any_inside ? iterations : outside_iterations_;
+  }
+}
+
+void FocusedStep::cut_contacts() {
+  for (Part* part : {&inside_, &outside_}) {
+    part->contacts.resize(worlds_.size());
+    part->spans.clear();
+  }
+  for (std::size_t w = 0; w < worlds_.size(); ++w) {
+    const FocusedWorld& world = worlds_[w];
+    inside_.contacts[w].clear();
+    outside_.contacts[w].clear();
+    for (const model::Contact& contact : world.contacts) {
+      const bool inside = world.field == nullptr || world.field->contains(contact.body_a);
+      (inside ? inside_ : outside_).contacts[w].push_back(contact);
+    }
+    inside_.spans.emplace_back(inside_.contacts[w]);
+    outside_.spans.emplace_back(outside_.contacts[w]);
+  }
+}
+
+void FocusedStep::begin_outside(Pack& pack, StepParameters parameters, core::PhaseTimes& times) {
+  parameters.iterations = outside_iterations_;
+  for (std::size_t w = 0; w < worlds_.size(); ++w) {
+    const model::FieldOfInterest* field = worlds_[w].field;
+    pack.set_active(static_cast<int>(w), field != nullptr ? field->outside() : std::span<const int>());
+  }
+  pack.begin_step(outside_.spans, parameters, times);
+}
+
+void FocusedStep::finish_outside(Pack& pack, bool residuals, core::PhaseTimes& times) {
+  pack.finish_step(times);
+  seen_.resize(worlds_.size());
+  for (std::size_t w = 0; w < worlds_.size(); ++w) {
+    note(pack, static_cast<int>(w));
+    if (residuals) seen_[w].residuals = pack.residuals(static_cast<int>(w));
+    if (worlds_[w].field != nullptr) pack.set_active(static_cast<int>(w), worlds_[w].field->inside());
+  }
+}
+
+/// Batches with bodies of both sorts get their rows anew for what is inside.
+void FocusedStep::note(const Pack& pack, int world) {
+  const FocusedWorld& one = worlds_[static_cast<std::size_t>(world)];
+  std::vector<int>& rows = seen_[static_cast<std::size_t>(world)].joint_rows;
+  rows.assign(one.model->joints.size(), -1);
+  for (std::size_t joint = 0; one.field != nullptr && joint < rows.size(); ++joint) {
+    if (!one.field->contains(one.model->joints[joint].body_a))
+      rows[joint] = pack.joint_rows(world, static_cast<int>(joint));
+  }
+}
+
+void FocusedStep::step_outside(Pack& pack, const StepParameters& parameters, std::optional<int> look_after,
+                               core::PhaseTimes& times) {
+  begin_outside(pack, parameters, times);
+  if (look_after) {
+    pack.iterate(*look_after, times);
+    looks_.resize(worlds_.size());
+    for (std::size_t w = 0; w < worlds_.size(); ++w) looks_[w].resize(worlds_[w].model->num_bodies());
+    pack.look(looks_);
+  }
+  finish_outside(pack, parameters.residuals, times);
+}
+
+void FocusedStep::merge_looks(std::span<model::State> looks) const {
+  for (std::size_t w = 0; cut_ && w < worlds_.size(); ++w) {
+    if (worlds_[w].field != nullptr) copy_bodies(worlds_[w].field->outside(), looks_[w], looks[w]);
+  }
+}
+
+int FocusedStep::joint_rows(const Pack& pack, int world, int joint) const {
+  const int outside =
+      cut_ ? seen_[static_cast<std::size_t>(world)].joint_rows[static_cast<std::size_t>(joint)] : -1;
+  return outside < 0 ? pack.joint_rows(world, joint) : outside;
+}
+
+model::Residuals FocusedStep::residuals(const Pack& pack, int world) const {
+  const model::Residuals rest = pack.residuals(world);
+  return cut_ ? join(seen_[static_cast<std::size_t>(world)].residuals, rest) : rest;
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,152 @@
+#include "model/field_of_interest.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+#include "support/models.h"
+
+namespace pbmpi::model {
+namespace {
+
+constexpr int num_bodies = 40;
+using Indices = std::vector<int>;
+
+/// Bodies in a cube of 10 m, a quarter of them joined in pairs.
+Model cloud(std::uint64_t seed) {
+  Model model;
+  for (int body = 0; body < num_bodies; ++body) {
+    const auto number = [&](std::uint64_t k) {
+      return 10 * core::to_unit(core::mix_key(seed, static_cast<std::uint64_t>(body), k));
+    };
+    const std::string name = "b" + std::to_string(body);
+    support::add_solid(model, support::add_actor(model, name), name, Shape::sphere, {0.1, 0, 0}, 1,
+                       {number(0), number(1), number(2)});
+    if (body % 8 == 7) support::add_joint(model, JointKind::ball, body, body - 5, {0, 0, 0});
+  }
+  model.interest = Interest{{5, 5, 5}, no_body, 3, 4};
+  return model;
+}
+
+std::vector<BodyPair> random_pairs(int count, std::uint64_t seed) {
+  std::vector<BodyPair> pairs;
+  for (int i = 0; i < count; ++i) {
+    const auto pick = [&](std::uint64_t which, int least) {
+      const auto choices = static_cast<std::uint64_t>(num_bodies - least);
+      return static_cast<int>(core::mix_key(seed, static_cast<std::uint64_t>(i), which) % choices) + least;
+    };
+    pairs.emplace_back(pick(0, 0), pick(1, no_body));
+  }
+  return pairs;
+}
+
+std::vector<Vec3> positions(const Model& model) { return initial_state(model).position; }
+
+Indices all_bodies() {
+  Indices bodies;
+  for (int body = 0; body < num_bodies; ++body) bodies.push_back(body);
+  return bodies;
+}
+
+Indices to_vector(std::span<const int> bodies) { return {bodies.begin(), bodies.end()}; }
+
+TEST(FieldOfInterest, has_the_islands_inside_of_which_any_body_is_near) {
+  int cut = 0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const Model model = cloud(seed);
+    const std::vector<BodyPair> touching = random_pairs(static_cast<int>(seed), seed);
+    FieldOfInterest field(model, 20);
+    field.sort(all_bodies(), positions(model), touching);
+
+    std::vector<BodyPair> links = touching;
+    for (const Joint& joint : model.joints) links.emplace_back(joint.body_a, joint.body_b);
+    const Islands islands = find_islands(num_bodies, links);
+    std::vector<bool> near(static_cast<std::size_t>(islands.count), false);
+    for (int body = 0; body < num_bodies; ++body) {
+      if ((model.bodies[body].pose.position - Vec3(5, 5, 5)).norm() <= 3) near[islands.of_body[body]] = true;
+    }
+    Indices inside, outside;
+    for (int body = 0; body < num_bodies; ++body)
+      (near[islands.of_body[body]] ? inside : outside).push_back(body);
+    EXPECT_EQ(to_vector(field.inside()), inside);
+    EXPECT_EQ(to_vector(field.outside()), outside);
+    for (int body = 0; body < num_bodies; ++body) {
+      EXPECT_EQ(field.contains(body), near[islands.of_body[body]]);
+      EXPECT_EQ(field.iterations_of(body), near[islands.of_body[body]] ? 20 : 4);
+    }
+    cut += !inside.empty() && !outside.empty() ? 1 : 0;
+  }
+  EXPECT_GT(cut, 40) << "most clouds have both sorts";
+}
+
+TEST(FieldOfInterest, sorts_only_the_bodies_that_it_is_given) {
+  const Model model = cloud(1);
+  FieldOfInterest field(model, 20);
+  field.sort(all_bodies(), positions(model), std::span<const Contact>());
+  ASSERT_FALSE(field.inside().empty());
+  field.sort(Indices{}, positions(model), std::span<const Contact>());
+  EXPECT_TRUE(field.inside().empty());
+  EXPECT_TRUE(field.outside().empty());
+  for (int body = 0; body < num_bodies; ++body) EXPECT_FALSE(field.contains(body));
+}
+
+TEST(FieldOfInterest, joins_islands_by_contacts_as_by_pairs) {
+  const Model model = cloud(2);
+  FieldOfInterest by_pairs(model, 20), by_contacts(model, 20);
+  const std::vector<BodyPair> touching = random_pairs(20, 2);
+  std::vector<Contact> contacts;
+  for (const auto& [a, b] : touching) {
+    contacts.emplace_back();
+    contacts.back().body_a = a;
+    contacts.back().body_b = b;
+  }
+  by_pairs.sort(all_bodies(), positions(model), touching);
+  by_contacts.sort(all_bodies(), positions(model), contacts);
+  EXPECT_EQ(to_vector(by_pairs.inside()), to_vector(by_contacts.inside()));
+}
+
+TEST(FieldOfInterest, follows_the_body_that_it_is_told_of) {
+  Model model = cloud(3);
+  model.interest->follows = 7;
+  model.interest->radius_m = 1e-3;
+  FieldOfInterest field(model, 20);
+  EXPECT_EQ(field.follows(), 7);
+  field.look(positions(model));
+  field.sort(all_bodies(), positions(model), std::span<const Contact>());
+  EXPECT_EQ(to_vector(field.inside()), (Indices{2, 7})) << "a joint holds 2 to 7";
+  field.set_center(positions(model)[20]);
+  field.sort(all_bodies(), positions(model), std::span<const Contact>());
+  EXPECT_EQ(to_vector(field.inside()), (Indices{20}));
+}
+
+TEST(FieldOfInterest, stays_where_it_is_if_it_follows_nothing) {
+  const Model model = cloud(4);
+  FieldOfInterest field(model, 20);
+  field.look(positions(model));
+  EXPECT_TRUE(field.is_near({5, 5, 8}));
+  EXPECT_FALSE(field.is_near({5, 5, 8.001}));
+}
+
+TEST(FieldOfInterest, has_all_inside_where_no_model_asks_for_one) {
+  Model model = cloud(5);
+  model.interest.reset();
+  FieldOfInterest field(model, 20);
+  std::vector<Vec3> position = positions(model);
+  position[3].x() = NAN;
+  field.look(position);
+  field.sort(all_bodies(), position, std::span<const Contact>());
+  EXPECT_EQ(to_vector(field.inside()), all_bodies());
+}
+
+TEST(FieldOfInterest, gives_nobody_more_iterations_than_the_run_has) {
+  const Model model = cloud(6);
+  EXPECT_EQ(FieldOfInterest(model, 20).outside_iterations(), 4);
+  EXPECT_EQ(FieldOfInterest(model, 3).outside_iterations(), 3);
+  EXPECT_EQ(FieldOfInterest(model, 3).outside_share(), 1);
+  EXPECT_LT(FieldOfInterest(model, 20).outside_share(), 1);
+  EXPECT_GT(FieldOfInterest(model, 20).outside_share(), 4.0 / 20);
+}
+
+}  // namespace
+}  // namespace pbmpi::model
