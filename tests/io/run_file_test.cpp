@@ -261,9 +261,9 @@ TEST(RunFile, is_as_large_as_estimated) {
   if (!world().is_root()) return;
   const auto bytes = static_cast<double>(std::filesystem::file_size(path));
   // 10 %: what the estimate promises; names and parameters are guessed.
-  EXPECT_NEAR(static_cast<double>(
-                  estimate_file_bytes(3650, 100, sample.num_ranks, 8, 1,
-                                      {.profile = sample.profile, .estimate = true, .residuals = true})),
+  EXPECT_NEAR(static_cast<double>(estimate_file_bytes(
+                  3650, 100, sample.num_ranks, 8, 1,
+                  {.profile = sample.profile, .estimate = true, .residuals = true, .interest = true})),
               bytes, 0.1 * bytes);
 }
 

@@ -55,6 +55,8 @@ def check(path):
         frames = np.arange(committed)
         contacts = f["observables/world/contacts"][:committed]
         assert np.array_equal(contacts, 100 * np.arange(NUM_WORLDS)[None] + frames[:, None])
+        inside = f["observables/interest/bodies_inside"][:committed]
+        assert np.array_equal(inside, 10 * np.arange(NUM_WORLDS)[None] + frames[:, None])
         residual = f["observables/residual"]
         assert np.array_equal(residual["joint_speed"][:committed, 0], 1e-3 * (frames + 1))
         assert np.array_equal(residual["joint_turn"][:committed, 0], 2e-3 * frames)

@@ -50,6 +50,7 @@ model::Observables sample_observables(int world, std::int64_t frame) {
           .rows = 300 * world + k,
           .islands = world + 1,
           .max_island_rows = 7 + k,
+          .bodies_inside = 10 * world + k,
           .energy_j = 0.5 * world + k,
           .max_penetration_m = 1e-3 * (world + 1),
           .joint_gap_m = 1e-4 * (k + 1),
@@ -104,6 +105,7 @@ RunSetup sample_setup(const Sample& sample, const RankWorlds& at_start, const st
   setup.flush_interval_s = 1e9;
   setup.optional.estimate = true;
   setup.optional.residuals = true;
+  setup.optional.interest = true;
   return setup;
 }
 

@@ -95,6 +95,18 @@ TEST(StepProfile, a_large_island_costs_more_than_a_single_body) {
   EXPECT_GT(islands[0].solve_s, 2 * islands[1].solve_s);
 }
 
+TEST(StepProfile, leaves_islands_inside_and_outside_of_a_field_of_interest_as_they_were) {
+  model::Model model = support::crash();
+  model.interest = model::Interest{model.bodies.back().pose.position, model::no_body, 1, 3};
+  const model::StepperSettings settings = profiling(model::StepperKind::quick);
+  EXPECT_EQ(hash_of(model, settings, true), hash_of(model, settings, false));
+  const auto stepper = stepper_with(model, settings);
+  core::PhaseTimes times;
+  stepper->advance(1, times);
+  EXPECT_GT(stepper->observables(0).bodies_inside, 0);
+  EXPECT_LT(stepper->observables(0).bodies_inside, model.num_bodies());
+}
+
 TEST(StepProfile, counts_contacts_between_spaces_but_not_with_the_ground) {
   model::Model model = support::pile(2);
   core::PhaseTimes times;
