@@ -39,9 +39,12 @@ void FieldOfInterest::sort_linked(std::span<const int> bodies, std::span<const V
   outside_.clear();
   inside_set_.assign(inside_set_.size(), 0);
   islands_ = jointed_;
+  BodyPair before(no_body, no_body);
   for (const auto& link : links) {
-    const auto [a, b] = pair_of(link);
-    if (a != no_body && b != no_body) islands_.unite(a, b);
+    const BodyPair pair = pair_of(link);
+    if (pair == before) continue;  // two bodies often have several contacts
+    if (pair.first != no_body && pair.second != no_body) islands_.unite(pair.first, pair.second);
+    before = pair;
   }
   near_.assign(near_.size(), 0);
   for (const int body : bodies) {

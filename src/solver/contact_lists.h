@@ -65,7 +65,8 @@ class ContactList {
       slot.num_points = order.num_points(i);
       num_points += slot.num_points;
     }
-    points_.resize(static_cast<std::size_t>(num_points));
+    if (static_cast<std::size_t>(num_points) > points_.size())  // to make points anew costs more than room
+      points_.resize(static_cast<std::size_t>(num_points));
   }
   Point* points_of(const ContactSlot<T>& slot) { return points_.data() + slot.first_point; }
 
@@ -85,15 +86,16 @@ class ContactLists {
     for_each([](auto& list) { list.order.clear(); });
   }
 
-  /// The contacts of one world, in canonical order. `place_of(body)`: where a body, or the environment, lies.
-  /// Spans hold during the step.
-  template <class PlaceOf>
-  void add_world(int num_bodies, std::span<const model::Contact> contacts, PlaceOf place_of) {
+  /// The contacts of one world, in canonical order, of the bodies of which `moves(body)`. `place_of(body)`:
+  /// where a body, or the environment, lies. Spans hold during the step.
+  template <class Moves, class PlaceOf>
+  void add_world(int num_bodies, std::span<const model::Contact> contacts, Moves moves, PlaceOf place_of) {
     for_each([&](auto& list) { list.order.start_world(num_bodies); });
     for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
       const model::Contact& first = contacts[begin];
       const std::size_t last = std::min(contacts.size(), begin + ManifoldOrder::most_points);
       end = begin + 1;
+      if (!moves(first.body_a)) continue;
       while (end < last && belong_together(first, contacts[end])) ++end;
       order_of(first, end - begin)
           .add(contacts.subspan(begin, end - begin), place_of(first.body_a), place_of(first.body_b));

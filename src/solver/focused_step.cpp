@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+
 namespace pbmpi::solver {
 namespace {
 
@@ -25,49 +27,28 @@ void copy_bodies(std::span<const int> bodies, const model::State& from, model::S
 
 void FocusedStep::begin(std::span<const FocusedWorld> worlds, int iterations) {
   worlds_.assign(worlds.begin(), worlds.end());
-  all_.clear();
-  bool any_inside = false, any_outside = false;
+  contacts_.clear();
+  bool any_inside = false, any_outside = false, all_have_fields = true;
   iterations_ = outside_iterations_ = iterations;
   for (const FocusedWorld& world : worlds_) {
-    all_.push_back(world.contacts);
+    contacts_.push_back(world.contacts);
+    all_have_fields &= world.field != nullptr;
     any_inside |= world.field == nullptr || !world.field->inside().empty();
     if (world.field == nullptr || world.field->outside().empty()) continue;
     any_outside = true;
     outside_iterations_ = world.field->outside_iterations();
   }
+  core::require_invariant(all_have_fields || !any_outside,
+                          "the worlds of a pack all have a field of interest");
   cut_ = any_inside && any_outside && outside_iterations_ < iterations;
-  if (cut_) {
-    cut_contacts();
-  } else if (any_outside) {
-    iterations_ = any_inside ? iterations : outside_iterations_;
-  }
-}
-
-void FocusedStep::cut_contacts() {
-  for (Part* part : {&inside_, &outside_}) {
-    part->contacts.resize(worlds_.size());
-    part->spans.clear();
-  }
-  for (std::size_t w = 0; w < worlds_.size(); ++w) {
-    const FocusedWorld& world = worlds_[w];
-    inside_.contacts[w].clear();
-    outside_.contacts[w].clear();
-    for (const model::Contact& contact : world.contacts) {
-      const bool inside = world.field == nullptr || world.field->contains(contact.body_a);
-      (inside ? inside_ : outside_).contacts[w].push_back(contact);
-    }
-    inside_.spans.emplace_back(inside_.contacts[w]);
-    outside_.spans.emplace_back(outside_.contacts[w]);
-  }
+  if (!any_inside) iterations_ = outside_iterations_;
 }
 
 void FocusedStep::begin_outside(Pack& pack, StepParameters parameters, core::PhaseTimes& times) {
   parameters.iterations = outside_iterations_;
-  for (std::size_t w = 0; w < worlds_.size(); ++w) {
-    const model::FieldOfInterest* field = worlds_[w].field;
-    pack.set_active(static_cast<int>(w), field != nullptr ? field->outside() : std::span<const int>());
-  }
-  pack.begin_step(outside_.spans, parameters, times);
+  for (std::size_t w = 0; w < worlds_.size(); ++w)
+    pack.set_active(static_cast<int>(w), worlds_[w].field->outside());
+  pack.begin_step(contacts_, parameters, times);
 }
 
 void FocusedStep::finish_outside(Pack& pack, bool residuals, core::PhaseTimes& times) {
@@ -76,7 +57,7 @@ void FocusedStep::finish_outside(Pack& pack, bool residuals, core::PhaseTimes& t
   for (std::size_t w = 0; w < worlds_.size(); ++w) {
     note(pack, static_cast<int>(w));
     if (residuals) seen_[w].residuals = pack.residuals(static_cast<int>(w));
-    if (worlds_[w].field != nullptr) pack.set_active(static_cast<int>(w), worlds_[w].field->inside());
+    pack.set_active(static_cast<int>(w), worlds_[w].field->inside());
   }
 }
 
@@ -85,7 +66,7 @@ void FocusedStep::note(const Pack& pack, int world) {
   const FocusedWorld& one = worlds_[static_cast<std::size_t>(world)];
   std::vector<int>& rows = seen_[static_cast<std::size_t>(world)].joint_rows;
   rows.assign(one.model->joints.size(), -1);
-  for (std::size_t joint = 0; one.field != nullptr && joint < rows.size(); ++joint) {
+  for (std::size_t joint = 0; joint < rows.size(); ++joint) {
     if (!one.field->contains(one.model->joints[joint].body_a))
       rows[joint] = pack.joint_rows(world, static_cast<int>(joint));
   }
@@ -104,9 +85,8 @@ void FocusedStep::step_outside(Pack& pack, const StepParameters& parameters, std
 }
 
 void FocusedStep::merge_looks(std::span<model::State> looks) const {
-  for (std::size_t w = 0; cut_ && w < worlds_.size(); ++w) {
-    if (worlds_[w].field != nullptr) copy_bodies(worlds_[w].field->outside(), looks_[w], looks[w]);
-  }
+  for (std::size_t w = 0; cut_ && w < worlds_.size(); ++w)
+    copy_bodies(worlds_[w].field->outside(), looks_[w], looks[w]);
 }
 
 int FocusedStep::joint_rows(const Pack& pack, int world, int joint) const {

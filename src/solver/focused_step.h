@@ -14,12 +14,14 @@ namespace pbmpi::solver {
 /// What a world of the pack brings to a step.
 struct FocusedWorld {
   const model::Model* model = nullptr;
-  const model::FieldOfInterest* field = nullptr;  ///< which has sorted the bodies that are to move
-  std::span<const model::Contact> contacts;       ///< of these, in canonical order
+  /// Which has sorted the bodies that are to move; null without the effect, and then for all worlds of a
+  /// pack.
+  const model::FieldOfInterest* field = nullptr;
+  std::span<const model::Contact> contacts;  ///< of these, in canonical order
 };
 
-/// Where bodies of both sorts are to move, the step is taken twice, each time for those of one sort with
-/// their contacts: first for what is outside, from beginning to end; then the pack is left before the step of
+/// Where bodies of both sorts are to move, the step is taken twice, each time with those of one sort
+/// active: first what is outside, from beginning to end; then the pack is left before the step of
 /// what is inside. An island has the bits that a pack without the other islands would give it.
 class FocusedStep {
  public:
@@ -31,7 +33,7 @@ class FocusedStep {
   bool is_cut() const { return cut_; }
   /// For what step_outside() leaves; for all, if it is not cut.
   int iterations() const { return iterations_; }
-  Contacts contacts() const { return is_cut() ? Contacts(inside_.spans) : Contacts(all_); }
+  Contacts contacts() const { return contacts_; }
 
   /// If it is cut: moves what is outside, and makes what is inside active. With `look_after`: sees the former
   /// as it would be after so many iterations.
@@ -45,23 +47,17 @@ class FocusedStep {
   model::Residuals residuals(const Pack& pack, int world) const;
 
  private:
-  struct Part {
-    std::vector<std::vector<model::Contact>> contacts;  ///< [num_worlds]
-    std::vector<std::span<const model::Contact>> spans;
-  };
   struct Seen {
     std::vector<int> joint_rows;  ///< [joints] of what is outside, else -1
     model::Residuals residuals;
   };
-  void cut_contacts();
   void begin_outside(Pack& pack, StepParameters parameters, core::PhaseTimes& times);
   void finish_outside(Pack& pack, bool residuals, core::PhaseTimes& times);
   void note(const Pack& pack, int world);
 
   std::vector<FocusedWorld> worlds_;
-  std::vector<std::span<const model::Contact>> all_;
-  Part inside_, outside_;
-  std::vector<Seen> seen_;  ///< [num_worlds] of what is outside
+  std::vector<std::span<const model::Contact>> contacts_;  ///< [num_worlds]
+  std::vector<Seen> seen_;                                 ///< [num_worlds] of what is outside
   std::vector<model::State> looks_;
   bool cut_ = false;
   int iterations_ = 0, outside_iterations_ = 0;

@@ -51,7 +51,8 @@ class Pack {
   /// From now on a step moves these bodies of this world and no others of it (at the start: all). Batches
   /// that hold none of them are passed over; a body that shares a batch with them may move, too, and is not
   /// to be looked at before its next load(), unless Passes::holds_bodies(): it is then put back. The bodies
-  /// of an articulation, and the contacts given to step(), are active together.
+  /// of an articulation are active together, and the two of a contact; step() passes over the contacts of
+  /// others.
   virtual void set_active(int world, std::span<const int> bodies) = 0;
   /// With the pass "sleeping": from now on collide() looks for the contacts of which one of these bodies is
   /// one (at the start: all).

@@ -97,8 +97,10 @@ template <class T>
 void PackLanes<T>::sort_contacts(Contacts contacts) {
   contacts_.clear();
   for (int world = 0; world < worlds_.num_worlds(); ++world) {
-    contacts_.add_world(worlds_.model(world).num_bodies(), contacts[static_cast<std::size_t>(world)],
-                        [&](int body) { return worlds_.body_place(world, body); });
+    contacts_.add_world(
+        worlds_.model(world).num_bodies(), contacts[static_cast<std::size_t>(world)],
+        [&](int body) { return worlds_.moves(world, body); },
+        [&](int body) { return worlds_.body_place(world, body); });
   }
 }
 

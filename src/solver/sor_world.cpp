@@ -65,7 +65,7 @@ void SorWorld::look_ahead(const Pack& pack, int index, double dt_s, std::vector<
 
 void SorWorld::focus(const Pack& pack, int index, std::span<const model::Contact> contacts) {
   if (!field_) return;
-  if (moves()) pack.store(index, before_step_);
+  if (!fast_bodies_ && moves()) pack.store(index, before_step_);  // look_ahead() has it already
   field_->look(before_step_.position);
   field_->sort(awake(), before_step_.position, contacts);
 }

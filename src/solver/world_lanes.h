@@ -52,6 +52,7 @@ class WorldLanes {
   void set_active(int world, std::span<const int> moving) { active_.set(world, moving); }
   void set_awake(int world, std::span<const int> awake_bodies) { awake_.set(world, awake_bodies); }
   const ActiveBodies& awake() const { return awake_; }
+  bool moves(int world, int body) const { return active_.contains(world, body); }
   void update_active();
   bool is_active(int slot) const { return slot_active_.empty() || slot_active_[slot] != 0; }
   /// With Passes::holds_bodies(): round a step, for the bodies that are not active in batches that are.
@@ -370,10 +371,14 @@ void WorldLanes<T>::update_active() {
   if (active_revision_ == active_.revision()) return;
   active_revision_ = active_.revision();
   joints.deactivate_all();
-  for (int world = 0; world < num_worlds(); ++world) {
-    for (const int body : active_.of(world)) joints.activate(worlds_[world].bodies[body].slot);
-  }
   slot_active_.assign(gravity.size(), 0);
+  for (int world = 0; world < num_worlds(); ++world) {
+    for (const int body : active_.of(world)) {
+      const int slot = worlds_[world].bodies[body].slot;
+      if (slot_active_[slot] == 0) joints.activate(slot);
+      slot_active_[slot] = 1;
+    }
+  }
   for_each_active_slot([&](int slot) { slot_active_[slot] = 1; });
   if (!holds_bodies_) return;
   std::vector<LanePlace> held;
