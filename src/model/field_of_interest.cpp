@@ -17,7 +17,7 @@ FieldOfInterest::FieldOfInterest(const Model& model, int iterations)
 }
 
 double FieldOfInterest::outside_share() const {
-  constexpr double rest = 4;  // iterations that take as long as rows and integration, in Environ with sor
+  constexpr double rest = 5;  // iterations that take as long as rows and integration: Environ, sor double
   return (outside_iterations() + rest) / (iterations() + rest);
 }
 
