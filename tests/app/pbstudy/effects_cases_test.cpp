@@ -69,6 +69,14 @@ TEST(EffectCases, what_is_called_for_is_left_out_and_what_is_not_is_demanded) {
   EXPECT_EQ(friction.reason, "nothing calls for it");
 }
 
+TEST(EffectCases, a_field_of_interest_is_left_out_where_a_scene_has_one) {
+  const auto cases = cases_of(smooth_scene("[interest]\nfollows = \"ball\"\nradius = 1\n"), options_of({}));
+  const EffectCase& field = find(cases, "field_of_interest");
+  EXPECT_EQ(field.kind, EffectCaseKind::left_out);
+  EXPECT_TRUE(field.called_for);
+  EXPECT_EQ(field.reason, "within 1 m of 'ball'; elsewhere at most 4 iterations");
+}
+
 TEST(EffectCases, what_cannot_be_left_out_is_recorded_with_the_reason) {
   const EffectCase joints = find(cases_of(scenes::find_scene("CrashSk"), options_of({})), "joints");
   EXPECT_EQ(joints.kind, EffectCaseKind::refused);
