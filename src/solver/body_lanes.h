@@ -94,9 +94,24 @@ struct alignas(sizeof(V)) PoseLane {
   V qw, qx, qy, qz;
 };
 
+/// 1 / sqrt(square), of a number close to 1 by a few terms of its series: within 4e-6, and next to 1 exact.
+template <class T>
+PBMPI_LANES typename T::V near_inverse_root(const typename T::V& square) {
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+  const auto number = [](double value) { return static_cast<Scalar>(value); };
+  const V excess = square - number(1);
+  const V series = number(1) - excess * (number(0.5) - excess * (number(0.375) - excess * number(0.3125)));
+  const auto is_far = T::abs(excess) > T::broadcast(number(0.0625));
+  const V far = is_far ? T::broadcast(1) : T::broadcast(0);
+  if (!T::any(far)) return series;
+  return is_far ? 1 / T::sqrt(square) : series;
+}
+
 /// ODE's dxStepBody without finite rotation: q += h/2 w q, normalised. `body` is a BodyLane or a PoseLane.
-template <class T, class Body>
-void integrate(Body& body, const Twist<typename T::V>& twist, typename T::Scalar h) {
+/// last: the step ends here; before, the quaternion's length is brought back to 1 by near_inverse_root().
+template <class T, bool last, class Body>
+PBMPI_LANES void integrate(Body& body, const Twist<typename T::V>& twist, typename T::Scalar h) {
   using V = typename T::V;
   body.position = body.position + twist.linear * T::broadcast(h);
   const Vec3L<V>& w = twist.angular;
@@ -109,8 +124,8 @@ void integrate(Body& body, const Twist<typename T::V>& twist, typename T::Scalar
   body.qx += half * dx;
   body.qy += half * dy;
   body.qz += half * dz;
-  const V norm = T::sqrt(body.qw * body.qw + body.qx * body.qx + body.qy * body.qy + body.qz * body.qz);
-  const V inverse = 1 / norm;
+  const V square = body.qw * body.qw + body.qx * body.qx + body.qy * body.qy + body.qz * body.qz;
+  const V inverse = last ? 1 / T::sqrt(square) : near_inverse_root<T>(square);
   body.qw *= inverse;
   body.qx *= inverse;
   body.qy *= inverse;

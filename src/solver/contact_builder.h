@@ -27,8 +27,9 @@ class ContactBuilder {
   void build(const Manifold* manifolds, ContactSlot<T>& slot, Point* points) const;
 
   /// Next substep, with the velocities as the last sweep left them: the depth that the normal speed has left,
-  /// the same directions and arms. Of the impulses the share to be taken over remains; it has not acted on
-  /// the velocities yet.
+  /// the same directions and arms. What is deeper than the push has planned is taken back at once: that is no
+  /// more than the last sweep's residual. Of the impulses the share to be taken over remains; it has not
+  /// acted on the velocities yet.
   void advance(const ContactSlot<T>& slot, Point* points) const;
 
  private:
@@ -145,10 +146,10 @@ void ContactBuilder<T, two_bodies, friction>::build_point(const ContactSlot<T>& 
     const V outgoing = Solver::speed(point.normal, pair.twist_a, pair.twist_b);
     bounce = outgoing < T::broadcast(-parameters_.bounce_velocity) ? -given.restitution * outgoing : zero;
   }
-  const V push = (parameters_.soft_erp / parameters_.h) * given.depth;
+  const V push = parameters_.push_rate * given.depth;
   // A gap (negative depth) lets the bodies approach until they touch.
   point.rhs = given.depth < zero ? given.depth / parameters_.h : T::max(push, bounce);
-  point.depth = given.depth;
+  point.depth = point.planned = given.depth;
   if constexpr (friction) {
     point.mu = given.mu;
     L3 directions[2];
@@ -186,12 +187,15 @@ void ContactBuilder<T, two_bodies, friction>::advance(const ContactSlot<T>& slot
   const auto carried = [&](const V& impulse) {
     return parameters_.warm_start > 0 ? impulse * T::broadcast(parameters_.warm_start) : zero;
   };
+  const V per_h = T::broadcast(1 / parameters_.h), rate = T::broadcast(parameters_.push_rate);
+  const V rest = T::broadcast(1 - parameters_.push_rate * parameters_.h);
   for (int i = 0; i < slot.num_points; ++i) {
     Point& point = points[i];
     point.depth = point.depth - Solver::speed(point.normal, a, b) * parameters_.h;
+    point.planned = point.planned * rest;
+    const V excess = T::max(point.depth - T::max(point.planned, zero), zero);
     // A gap (negative depth) lets the bodies approach until they touch.
-    const V k = point.depth > zero ? T::broadcast(parameters_.soft_erp) : T::broadcast(1);
-    point.rhs = k * point.depth / parameters_.h;
+    point.rhs = (point.depth > zero ? rate : per_h) * point.depth + excess * per_h;
     point.normal.impulse = carried(point.normal.impulse);
     if constexpr (friction) {
       for (Row& row : point.friction) row.impulse = carried(row.impulse);

@@ -9,9 +9,13 @@
 namespace pbmpi::solver {
 
 /// Uniform numbers of contacts in a substep.
+///
+/// push_rate [1/s]: of its depth, what a contact is to push out in a second: ERP over the length of the whole
+/// step. Over that of a substep the push would be faster by their number, and what speed a push gives nothing
+/// takes back.
 template <class Scalar>
 struct ContactParameters {
-  Scalar h, soft_erp, soft_cfm, cfm, bounce_velocity, sor_factor;
+  Scalar h, push_rate, soft_cfm, cfm, bounce_velocity, sor_factor;
   bool restitution;   ///< may a contact bounce?
   Scalar warm_start;  ///< share of the impulses that a substep takes over from the one before
 };
@@ -35,6 +39,7 @@ struct alignas(sizeof(V)) ContactPoint {
   Row normal;
   V rhs;  ///< of the normal row; friction rows want 0 [m/s]
   V depth;
+  V planned;  ///< [m] the depth that the push was to leave by now
 };
 template <class V, bool two_bodies>
 struct alignas(sizeof(V)) ContactPoint<V, two_bodies, true> : ContactPoint<V, two_bodies, false> {

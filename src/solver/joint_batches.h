@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "solver/joint_advancer.h"
 #include "solver/joint_builder.h"
 
 namespace pbmpi::solver {
@@ -29,26 +30,45 @@ class JointBatches {
     for (Shape& shape : shapes_) std::fill(shape.active.begin(), shape.active.end(), 0);
   }
   void activate(int slot);
-  /// visit(first slot, number of bodies).
+  /// As many articulations of one shape as there are lanes. Their bodies are the slots first_slot to
+  /// end_slot - 1, and no other batch's joint is on any of them.
+  struct Batch {
+    std::size_t shape = 0, index = 0;
+    int first_slot = 0, end_slot = 0;
+  };
+  /// visit(batch), in the order of their slots.
   template <class Visit>
   void for_each_active_batch(Visit visit) const {
-    for (const Shape& shape : shapes_) {
-      for (std::size_t batch = 0; batch < shape.active.size(); ++batch) {
-        if (shape.active[batch])
-          visit(shape.first_slot + static_cast<int>(batch) * shape.num_bodies, shape.num_bodies);
+    for (std::size_t s = 0; s < shapes_.size(); ++s) {
+      const Shape& shape = shapes_[s];
+      for (std::size_t i = 0; i < shape.active.size(); ++i) {
+        const int first_slot = shape.first_slot + static_cast<int>(i) * shape.num_bodies;
+        if (shape.active[i]) visit(Batch{s, i, first_slot, first_slot + shape.num_bodies});
       }
     }
   }
 
-  /// See advance_angles().
-  void advance(typename T::Scalar h, const BodyLanes<T>& bodies);
-  /// `carries`: the rows start with impulses, which act on the bodies.
-  template <bool later>
-  void build(const JointBuilder<T, later>& builder, bool carries, BodyLanes<T>& bodies);
+  /// The rows of a step's first substep.
+  void build(const Batch& batch, const JointBuilder<T>& builder, BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) { builder.build(joint, bodies, rows); });
+  }
+  /// Before and after the bodies move on to the next substep; `carries`: the rows start with impulses, which
+  /// act on the bodies.
+  void advance(const Batch& batch, const JointAdvancer<T>& advancer, const BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) { advancer.advance(joint, bodies, rows); });
+  }
+  void rebuild(const Batch& batch, const JointAdvancer<T>& advancer, bool carries, BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) {
+      advancer.rebuild(joint, bodies, rows);
+      if (carries) JointSolver<T>::push_carried(rows, bodies);
+    });
+  }
   /// Fisher-Yates with keyed numbers: the same order in every batch of a shape, so in every world.
   void shuffle(std::uint64_t key);
   /// That of the model.
   void order_as_given();
+  /// places_last: see JointSolver::solve().
+  template <bool places_last>
   void sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies);
 
   /// Rows of a lane of a joint as last built, limits and motors included.
@@ -106,6 +126,10 @@ class JointBatches {
     return visit(std::integral_constant<Kind, Kind::hinge2>{});
   }
 
+  /// visit(joint, its rows) for each joint of a batch.
+  template <class Visit>
+  void for_each_rows(const Batch& batch, Visit visit);
+
   std::vector<Shape> shapes_;
   std::tuple<RowsOf<Kind::ball>, RowsOf<Kind::hinge>, RowsOf<Kind::slider>, RowsOf<Kind::universal>,
              RowsOf<Kind::fixed>, RowsOf<Kind::hinge2>>
@@ -150,33 +174,15 @@ void JointBatches<T>::activate(int slot) {
 }
 
 template <class T>
-template <bool later>
-void JointBatches<T>::build(const JointBuilder<T, later>& builder, bool carries, BodyLanes<T>& bodies) {
-  for (Shape& shape : shapes_) {
-    for (std::size_t i = 0; i < shape.joints.size(); ++i) {
-      if (!shape.active[i / shape.num_joints]) continue;
-      const RowsAt at = shape.rows[i];
-      with_kind(at.kind, [&](auto kind) {
-        auto& rows = rows_of<kind.value>()[static_cast<std::size_t>(at.index)];
-        builder.build(shape.joints[i], bodies, rows);
-        if (carries) JointSolver<T>::push_carried(rows, bodies);
-      });
-    }
-  }
-}
-
-template <class T>
-void JointBatches<T>::advance(typename T::Scalar h, const BodyLanes<T>& bodies) {
-  for (Shape& shape : shapes_) {
-    for (std::size_t i = 0; i < shape.joints.size(); ++i) {
-      JointLane<V>& joint = shape.joints[i];
-      if (!shape.active[i / shape.num_joints]) continue;
-      if (!joint.controls[0].has_hold && !joint.controls[1].has_hold) continue;
-      const RowsAt at = shape.rows[i];
-      with_kind(at.kind, [&](auto kind) {
-        advance_angles(joint, bodies, h, rows_of<kind.value>()[static_cast<std::size_t>(at.index)]);
-      });
-    }
+template <class Visit>
+void JointBatches<T>::for_each_rows(const Batch& batch, Visit visit) {
+  Shape& shape = shapes_[batch.shape];
+  const std::size_t first = batch.index * shape.num_joints;
+  for (std::size_t i = first; i < first + shape.num_joints; ++i) {
+    const RowsAt at = shape.rows[i];
+    with_kind(at.kind, [&](auto kind) {
+      visit(shape.joints[i], rows_of<kind.value>()[static_cast<std::size_t>(at.index)]);
+    });
   }
 }
 
@@ -197,6 +203,7 @@ void JointBatches<T>::shuffle(std::uint64_t key) {
 
 /// The same joint of all batches in turn: they share no body, so that the processor works on several at once.
 template <class T>
+template <bool places_last>
 void JointBatches<T>::sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies) {
   for (const Shape& shape : shapes_) {
     for (const std::size_t joint : shape.order) {
@@ -204,7 +211,8 @@ void JointBatches<T>::sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies) 
         if (!shape.active[i / shape.num_joints]) continue;
         const RowsAt at = shape.rows[i];
         with_kind(at.kind, [&](auto kind) {
-          solver.solve(rows_of<kind.value>()[static_cast<std::size_t>(at.index)], bodies);
+          solver.template solve<places_last>(rows_of<kind.value>()[static_cast<std::size_t>(at.index)],
+                                             bodies);
         });
       }
     }

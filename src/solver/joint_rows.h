@@ -88,22 +88,20 @@ class JointSolver {
   /// cfm [s/kg] of the joints, divided by the step.
   explicit JointSolver(Scalar cfm) : cfm_(cfm) {}
 
-  template <model::JointKind kind>
+  /// Rows in ODE's order, place before angles before limits and motors; places_last: the other way round.
+  template <bool places_last, model::JointKind kind>
   PBMPI_LANES void solve(JointRows<T, kind>& rows, BodyLanes<T>& bodies) const {
     Twist<V> a = bodies.twists[rows.slot_a], b = bodies.twists[rows.slot_b];
-    const V inv_mass_a = rows.inv_mass_a, inv_mass_b = rows.inv_mass_b;
-    for (PointRows<V>& row : rows.points) solve_point(row, inv_mass_a, inv_mass_b, a, b);
-    for (LineRow<V>& row : rows.lines) push(row, step_of(row, a, b), inv_mass_a, inv_mass_b, a, b);
-    for (AxisRow<V>& row : rows.axes) push(row, step_of(row, a, b), a, b);
-    for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
-      if (!rows.control_on[i]) continue;
-      auto& control = rows.axis_controls[i];
-      push(control.row, clamped(control, step_of(control.row, a, b)), a, b);
-    }
-    for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
-      if (!rows.control_on[i]) continue;
-      auto& control = rows.line_controls[i];
-      push(control.row, clamped(control, step_of(control.row, a, b)), inv_mass_a, inv_mass_b, a, b);
+    if constexpr (places_last) {
+      solve_controls(rows, a, b);
+      solve_axes(rows, a, b);
+      solve_lines(rows, a, b);
+      solve_points(rows, a, b);
+    } else {
+      solve_points(rows, a, b);
+      solve_lines(rows, a, b);
+      solve_axes(rows, a, b);
+      solve_controls(rows, a, b);
     }
     bodies.twists[rows.slot_a] = a;
     bodies.twists[rows.slot_b] = b;
@@ -134,6 +132,31 @@ class JointSolver {
   }
 
  private:
+  template <model::JointKind kind>
+  PBMPI_LANES void solve_points(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
+    for (PointRows<V>& row : rows.points) solve_point(row, rows.inv_mass_a, rows.inv_mass_b, a, b);
+  }
+  template <model::JointKind kind>
+  PBMPI_LANES void solve_lines(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
+    for (LineRow<V>& row : rows.lines) push(row, step_of(row, a, b), rows.inv_mass_a, rows.inv_mass_b, a, b);
+  }
+  template <model::JointKind kind>
+  PBMPI_LANES void solve_axes(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
+    for (AxisRow<V>& row : rows.axes) push(row, step_of(row, a, b), a, b);
+  }
+  template <model::JointKind kind>
+  PBMPI_LANES void solve_controls(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
+    for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+      if (!rows.control_on[i]) continue;
+      auto& control = rows.axis_controls[i];
+      push(control.row, clamped(control, step_of(control.row, a, b)), a, b);
+    }
+    for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
+      if (!rows.control_on[i]) continue;
+      auto& control = rows.line_controls[i];
+      push(control.row, clamped(control, step_of(control.row, a, b)), rows.inv_mass_a, rows.inv_mass_b, a, b);
+    }
+  }
   PBMPI_LANES void solve_point(PointRows<V>& row, const V& inv_mass_a, const V& inv_mass_b, Twist<V>& a,
                                Twist<V>& b) const {
     const Vec3L<V>&ra = row.arm_a, &rb = row.arm_b;

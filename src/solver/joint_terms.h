@@ -12,10 +12,12 @@ struct alignas(sizeof(V)) AxisControl {
   V low, high;                             ///< [rad] or [m]; +-huge = none
   V sin_low, cos_low, sin_high, cos_high;  ///< of half the angles
   V velocity, max_force, hold_rate;
-  V held_angle{};  ///< [rad] where a motor that holds a pose sees its axis, from substep to substep
+  V place{};  ///< [rad] or [m] where the joint is along this axis, from substep to substep
   bool has_motor = false, has_limit = false, has_hold = false;  ///< in any lane
 
   bool any() const { return has_motor || has_limit; }
+  /// Does anybody look at `place`?
+  bool is_placed() const { return has_limit || has_hold; }
 };
 
 template <class V>

@@ -8,9 +8,9 @@
 #include "core/random.h"
 #include "solver/collider_lanes.h"
 #include "solver/contact_lists.h"
+#include "solver/contact_twists.h"
 #include "solver/passes.h"
 #include "solver/residual_meter.h"
-#include "solver/slot_list.h"
 #include "solver/world_lanes.h"
 
 namespace pbmpi::solver {
@@ -66,16 +66,19 @@ class PackLanes final : public Pack {
 
  private:
   void sort_contacts(Contacts contacts);
-  /// Which slots of bodies are in contact, with and without joints.
-  void find_contact_slots();
-  void write_contact_twists(const SlotList& slots);
-  void read_contact_twists(const SlotList& slots);
-  void apply_gyroscopic_torques(Scalar h);
-  void apply_gravity(Scalar h);
-  void integrate_bodies(Scalar h);
-  void damp(double h);
+  using Batch = typename JointBatches<T>::Batch;
+  using GyroscopicSlot = typename WorldLanes<T>::GyroscopicSlot;
+
+  void move(const Batch& batch);
+  void move_on(const Batch& batch);
+  void damp(const Batch& batch);
+  void apply_gyroscopic_torques(const Batch& batch, const GyroscopicSlot*& next);
+  void apply_gravity(const Batch& batch);
+  void start_step();
   void start_substep();
   void sweep();
+  void sweep_joints();
+  void end_sweeps();
   ContactParameters<Scalar> contact_parameters() const;
   model::Residuals measure_residuals(int world) const;
 
@@ -85,8 +88,7 @@ class PackLanes final : public Pack {
   std::vector<PoseLane<V>> look_poses_;      ///< [slots] scratch
   std::vector<Twist<V>> kept_twists_;        ///< [slots] scratch
   std::vector<model::Residuals> residuals_;  ///< [num_worlds] of the last step, if they are measured
-  SlotList jointed_, free_;                  ///< slots in contact
-  SlotSet seen_;
+  ContactTwists<T> twists_;
   Passes passes_;
   WorldLanes<T> worlds_;
   std::optional<ColliderLanes<T>> collider_;  ///< none without the pass "collision"
@@ -104,64 +106,56 @@ void PackLanes<T>::sort_contacts(Contacts contacts) {
   }
 }
 
+/// `next`: the first slot with the torque that no batch before had; goes on to that of the next batch.
 template <class T>
-void PackLanes<T>::find_contact_slots() {
-  jointed_.clear();
-  free_.clear();
-  seen_.start(worlds_.bodies.static_slot + 1);
-  contacts_.for_each_body_slot([&](int slot) {
-    if (slot == worlds_.bodies.static_slot || !seen_.add(slot)) return;
-    (worlds_.has_joints(slot) ? jointed_ : free_).add(slot);
-  });
+void PackLanes<T>::apply_gyroscopic_torques(const Batch& batch, const GyroscopicSlot*& next) {
+  const GyroscopicSlot* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
+  const auto dt = static_cast<Scalar>(parameters_.dt_s);
+  while (next != end && next->slot < batch.first_slot) ++next;
+  for (; next != end && next->slot < batch.end_slot; ++next)
+    apply_gyroscopic_torque<T>(worlds_.bodies.bodies[next->slot], next->has_torque,
+                               worlds_.bodies.twists[next->slot], dt);
 }
 
 template <class T>
-void PackLanes<T>::write_contact_twists(const SlotList& slots) {
-  for (const int slot : slots.all())
-    worlds_.bodies.contact_twists.set_slot(slot, worlds_.bodies.twists[slot]);
-}
-
-template <class T>
-void PackLanes<T>::read_contact_twists(const SlotList& slots) {
-  for (const int slot : slots.all()) worlds_.bodies.twists[slot] = worlds_.bodies.contact_twists.slot(slot);
-}
-
-template <class T>
-void PackLanes<T>::apply_gyroscopic_torques(Scalar h) {
-  for (const auto& at : worlds_.gyroscopic) {
-    if (worlds_.is_active(at.slot))
-      apply_gyroscopic_torque<T>(worlds_.bodies.bodies[at.slot], at.has_torque,
-                                 worlds_.bodies.twists[at.slot], h);
+void PackLanes<T>::apply_gravity(const Batch& batch) {
+  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
+    Twist<V>& twist = worlds_.bodies.twists[slot];
+    twist.linear = twist.linear + worlds_.gravity[slot] * T::broadcast(h_);
   }
 }
 
 template <class T>
-void PackLanes<T>::apply_gravity(Scalar h) {
-  worlds_.for_each_active_slot([&](int slot) {
-    Twist<V>& twist = worlds_.bodies.twists[slot];
-    twist.linear = twist.linear + worlds_.gravity[slot] * T::broadcast(h);
-  });
+void PackLanes<T>::move(const Batch& batch) {
+  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
+    integrate<T, true>(worlds_.bodies.bodies[slot], worlds_.bodies.twists[slot], h_);
+    refresh(worlds_.bodies.bodies[slot]);
+  }
 }
 
+/// Between two substeps. Inertia in the world's frame, and with it the gyroscopic torque, stays that of the
+/// step's start, as in a step without substeps.
 template <class T>
-void PackLanes<T>::integrate_bodies(Scalar h) {
-  worlds_.for_each_active_slot([&](int slot) {
-    integrate<T>(worlds_.bodies.bodies[slot], worlds_.bodies.twists[slot], h);
-    refresh(worlds_.bodies.bodies[slot]);
-  });
+void PackLanes<T>::move_on(const Batch& batch) {
+  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
+    BodyLane<V>& body = worlds_.bodies.bodies[slot];
+    integrate<T, false>(body, worlds_.bodies.twists[slot], h_);
+    body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
+  }
 }
 
 /// As ODE after it has moved a body: v <- (1 - scale) v. The scale of a step of any length is that of an
 /// exponential decay.
 template <class T>
-void PackLanes<T>::damp(double h) {
+void PackLanes<T>::damp(const Batch& batch) {
   const model::Model& laws = worlds_.model(0);  // the same in all worlds of a pack
+  const double h = parameters_.dt_s / parameters_.substeps;
   const V linear = T::broadcast(static_cast<Scalar>(std::exp(-laws.linear_damping * h)));
   const V angular = T::broadcast(static_cast<Scalar>(std::exp(-laws.angular_damping * h)));
-  worlds_.for_each_active_slot([&](int slot) {
+  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
     Twist<V>& twist = worlds_.bodies.twists[slot];
     twist = {twist.linear * linear, twist.angular * angular};
-  });
+  }
 }
 
 template <class T>
@@ -169,7 +163,7 @@ ContactParameters<typename T::Scalar> PackLanes<T>::contact_parameters() const {
   const auto scalar = [](double value) { return static_cast<Scalar>(value); };
   const model::Model& laws = worlds_.model(0);  // the same in all worlds of a pack
   return {h_,
-          scalar(laws.contact_law.soft_erp),
+          scalar(laws.contact_law.soft_erp) / scalar(parameters_.dt_s),
           scalar(laws.contact_law.soft_cfm),
           scalar(laws.cfm),
           scalar(laws.contact_law.bounce_velocity),
@@ -178,51 +172,83 @@ ContactParameters<typename T::Scalar> PackLanes<T>::contact_parameters() const {
           scalar(parameters_.warm_start)};
 }
 
-/// Rows and forces, up to the first iteration.
+/// Rows and forces of a step, up to the first iteration.
+template <class T>
+void PackLanes<T>::start_step() {
+  const auto scalar = [](double value) { return static_cast<Scalar>(value); };
+  const model::Model& laws = worlds_.model(0);
+  contacts_.build(worlds_.bodies, contact_parameters());
+  const JointBuilder<T> builder(h_, scalar(laws.erp), scalar(laws.cfm), scalar(parameters_.sor_factor),
+                                parameters_.substeps > 1);
+  const GyroscopicSlot* next_turning = worlds_.gyroscopic.data();
+  worlds_.joints.for_each_active_batch([&](const Batch& batch) {
+    apply_gyroscopic_torques(batch, next_turning);
+    if (passes_.gravity) apply_gravity(batch);
+    worlds_.joints.build(batch, builder, worlds_.bodies);
+  });
+  twists_.start(worlds_.bodies);
+  iteration_ = 0;
+}
+
+/// From the last iteration of a substep to the first of the next. Batch by batch, so that its bodies and
+/// joints are in the cache from pass to pass.
 template <class T>
 void PackLanes<T>::start_substep() {
   const auto scalar = [](double value) { return static_cast<Scalar>(value); };
   const model::Model& laws = worlds_.model(0);
-  BodyLanes<T>& bodies = worlds_.bodies;
-  const bool carries = substep_ > 0 && parameters_.warm_start > 0;
-  if (substep_ == 0) {
-    contacts_.build(bodies, contact_parameters());
-  } else {
-    contacts_.advance(bodies, contact_parameters());
-  }
-  if (passes_.gyroscopic_torque) apply_gyroscopic_torques(h_);
-  if (passes_.gravity) apply_gravity(h_);
-  const auto build_joints = [&](auto later) {
-    const JointBuilder<T, later> builder(h_, scalar(laws.erp), scalar(laws.cfm),
-                                         scalar(parameters_.sor_factor), scalar(parameters_.warm_start));
-    worlds_.joints.build(builder, carries, bodies);
-  };
-  substep_ == 0 ? build_joints(std::false_type()) : build_joints(std::true_type());
-  write_contact_twists(free_);
+  const bool carries = parameters_.warm_start > 0;
+  contacts_.advance(worlds_.bodies, contact_parameters());
+  const JointAdvancer<T> advancer(h_, scalar(laws.erp), scalar(laws.cfm), scalar(parameters_.sor_factor),
+                                  scalar(parameters_.warm_start));
+  worlds_.joints.for_each_active_batch([&](const Batch& batch) {
+    worlds_.joints.advance(batch, advancer, worlds_.bodies);
+    move_on(batch);
+    if (passes_.damping) damp(batch);
+    if (passes_.gravity) apply_gravity(batch);
+    worlds_.joints.rebuild(batch, advancer, carries, worlds_.bodies);
+  });
+  twists_.start(worlds_.bodies);
   if (carries) {
-    write_contact_twists(jointed_);
-    contacts_.push_carried(bodies.contact_twists);
-    read_contact_twists(jointed_);
+    twists_.need_rows(worlds_.bodies);
+    contacts_.push_carried(worlds_.bodies.contact_twists);
+    twists_.changed_rows();
   }
   iteration_ = 0;
 }
 
-/// One iteration: all joints, then all contacts.
+/// One iteration: all joints, then all contacts. In the last one of a substep the joints come last: what is
+/// left of their error would open the gap at once and in every substep, whereas the next substep sees the
+/// depth that is left of a contact's.
 template <class T>
 void PackLanes<T>::sweep() {
   constexpr int iterations_per_order = 8;  // as ODE's quickstep
-  BodyLanes<T>& bodies = worlds_.bodies;
   if (!parameters_.shuffled) {
     if (iteration_ == 0) worlds_.joints.order_as_given();
   } else if (iteration_ % iterations_per_order == 0) {
     worlds_.joints.shuffle(core::mix_key(parameters_.order_key, static_cast<std::uint64_t>(substep_),
                                          static_cast<std::uint64_t>(iteration_)));
   }
-  worlds_.joints.sweep(JointSolver<T>(static_cast<Scalar>(worlds_.model(0).cfm) / h_), bodies);
-  write_contact_twists(jointed_);
-  contacts_.sweep(bodies.contact_twists, contact_parameters(), iteration_ % 2 == 1);
-  read_contact_twists(jointed_);
+  const bool joints_last = parameters_.substeps > 1 && iteration_ + 1 == parameters_.iterations;
+  if (!joints_last) sweep_joints();
+  twists_.need_rows(worlds_.bodies);
+  contacts_.sweep(worlds_.bodies.contact_twists, contact_parameters(), iteration_ % 2 == 1);
+  twists_.changed_rows();
+  if (joints_last) sweep_joints();
   ++iteration_;
+}
+
+/// With substeps the rows of a joint that hold its place come after those that hold its angles, which would
+/// open what is closed.
+template <class T>
+void PackLanes<T>::sweep_joints() {
+  twists_.need_slots(worlds_.bodies);
+  const JointSolver<T> solver(static_cast<Scalar>(worlds_.model(0).cfm) / h_);
+  if (parameters_.substeps > 1) {
+    worlds_.joints.template sweep<true>(solver, worlds_.bodies);
+  } else {
+    worlds_.joints.template sweep<false>(solver, worlds_.bodies);
+  }
+  twists_.changed_slots();
 }
 
 template <class T>
@@ -233,13 +259,13 @@ void PackLanes<T>::begin_step(Contacts contacts, const StepParameters& parameter
   worlds_.update_active();
   if (passes_.holds_bodies()) worlds_.save_held();
   sort_contacts(contacts);
-  find_contact_slots();
+  twists_.find(worlds_, [&](auto visit) { contacts_.for_each_body_slot(visit); });
   substep_ = 0;
-  start_substep();
+  start_step();
   timer.lap(core::Phase::rows);
   while (substep_ + 1 < parameters.substeps) {
-    finish_step(times);
-    timer = core::LapTimer(times);
+    end_sweeps();
+    timer.lap(core::Phase::solve);
     ++substep_;
     start_substep();
     timer.lap(core::Phase::rows);
@@ -253,22 +279,28 @@ void PackLanes<T>::iterate(int iterations, core::PhaseTimes& times) {
   timer.lap(core::Phase::solve);
 }
 
-/// Ends the substep at hand.
+template <class T>
+void PackLanes<T>::end_sweeps() {
+  while (iteration_ < parameters_.iterations) sweep();
+  twists_.end(worlds_.bodies);
+  twists_.need_rows(worlds_.bodies);
+}
+
+/// Ends the last substep.
 template <class T>
 void PackLanes<T>::finish_step(core::PhaseTimes& times) {
   core::LapTimer timer(times);
-  while (iteration_ < parameters_.iterations) sweep();
-  read_contact_twists(free_);
-  const bool last = substep_ + 1 == parameters_.substeps;
-  if (parameters_.residuals && last) {
+  end_sweeps();
+  if (parameters_.residuals) {
     residuals_.clear();
     for (int world = 0; world < worlds_.num_worlds(); ++world) residuals_.push_back(measure_residuals(world));
   }
   timer.lap(core::Phase::solve);
-  integrate_bodies(h_);
-  if (!last) worlds_.joints.advance(h_, worlds_.bodies);
-  if (passes_.damping) damp(parameters_.dt_s / parameters_.substeps);
-  if (last && passes_.holds_bodies()) worlds_.restore_held();
+  worlds_.joints.for_each_active_batch([&](const Batch& batch) {
+    move(batch);
+    if (passes_.damping) damp(batch);
+  });
+  if (passes_.holds_bodies()) worlds_.restore_held();
   timer.lap(core::Phase::integrate);
 }
 
@@ -276,18 +308,18 @@ void PackLanes<T>::finish_step(core::PhaseTimes& times) {
 /// when it ends.
 template <class T>
 void PackLanes<T>::look(std::span<model::State> states) {
-  read_contact_twists(free_);
+  twists_.end(worlds_.bodies);
   look_poses_.resize(worlds_.gravity.size());
   worlds_.for_each_active_slot([&](int slot) {
     const BodyLane<V>& body = worlds_.bodies.bodies[slot];
     PoseLane<V>& pose = look_poses_[static_cast<std::size_t>(slot)];
     pose = {body.position, body.qw, body.qx, body.qy, body.qz};
-    integrate<T>(pose, worlds_.bodies.twists[slot], h_);
+    integrate<T, true>(pose, worlds_.bodies.twists[slot], h_);
   });
   std::vector<Twist<V>>& twists = worlds_.bodies.twists;
   if (passes_.damping) {
     kept_twists_ = twists;
-    damp(parameters_.dt_s / parameters_.substeps);
+    worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
   }
   for (std::size_t world = 0; world < states.size(); ++world)
     worlds_.store_with(look_poses_.data(), static_cast<int>(world), states[world]);

@@ -54,14 +54,13 @@ class WorldLanes {
   const ActiveBodies& awake() const { return awake_; }
   bool moves(int world, int body) const { return active_.contains(world, body); }
   void update_active();
-  bool is_active(int slot) const { return slot_active_.empty() || slot_active_[slot] != 0; }
   /// With Passes::holds_bodies(): round a step, for the bodies that are not active in batches that are.
   void save_held() { held_.save(bodies); }
   void restore_held() { held_.restore(bodies); }
   template <class Visit>
   void for_each_active_slot(Visit visit) const {
-    joints.for_each_active_batch([&](int first_slot, int num_bodies) {
-      for (int slot = first_slot; slot < first_slot + num_bodies; ++slot) visit(slot);
+    joints.for_each_active_batch([&](const auto& batch) {
+      for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) visit(slot);
     });
   }
   void set_motor(int world, int joint, int axis, const model::AxisMotor& motor);
@@ -99,7 +98,7 @@ class WorldLanes {
   BodyLanes<T> bodies{0};
   JointBatches<T> joints;
   std::vector<Vec3L<V>> gravity;           ///< [slots] worlds may differ
-  std::vector<GyroscopicSlot> gyroscopic;  ///< none without the pass
+  std::vector<GyroscopicSlot> gyroscopic;  ///< in the order of slots; none without the pass
 
  private:
   struct JointPlace {

@@ -51,16 +51,19 @@ class Side {
     return seconds;
   }
 
-  void print(double frame_s, double first_frame_s) const {
+  double gap_rms_m() const { return std::sqrt(square_sum_ / num_gaps_); }
+
+  /// Ratios: to the first setting.
+  void print(double frame_s, double first_frame_s, double first_gap_m) const {
     core::Hash64 hash;
     for (int world = 0; world < num_worlds(); ++world) hash.add(model::hash(stepper_->state(world)));
     std::printf(
-        "  %d x %-2d warm %.1f  frame %6.3f ms  time x %5.3f  joint gap rms %6.2f mm  mean of worst %6.2f mm "
-        " "
-        "deepest %4.0f mm  hash %s\n",
+        "  %2d x %-2d warm %.1f  frame %6.3f ms  time x %5.3f  joint gap rms %6.2f mm  x %5.3f  "
+        "mean of worst %6.2f mm  deepest contact: mean %4.1f mm, most %4.0f mm  hash %s\n",
         setting_.substeps, setting_.iterations, setting_.warm_start, 1e3 * frame_s, frame_s / first_frame_s,
-        1e3 * std::sqrt(square_sum_ / num_gaps_), 1e3 * worst_sum_ / (num_frames_ * num_worlds()),
-        1e3 * deepest_m_, core::to_hex(hash.value()).c_str());
+        1e3 * gap_rms_m(), gap_rms_m() / first_gap_m, 1e3 * worst_sum_ / (num_frames_ * num_worlds()),
+        1e3 * depth_sum_ / (num_frames_ * num_worlds()), 1e3 * deepest_m_,
+        core::to_hex(hash.value()).c_str());
   }
 
  private:
@@ -74,13 +77,14 @@ class Side {
       ++num_gaps_;
     }
     worst_sum_ += stepper_->observables(world).joint_gap_m;
+    depth_sum_ += stepper_->observables(world).max_penetration_m;
     deepest_m_ = std::max(deepest_m_, stepper_->observables(world).max_penetration_m);
   }
 
   const Subject* subject_;
   Setting setting_;
   std::unique_ptr<model::WorldStepper> stepper_;
-  double square_sum_ = 0, num_gaps_ = 0, worst_sum_ = 0, deepest_m_ = 0, num_frames_ = 0;
+  double square_sum_ = 0, num_gaps_ = 0, worst_sum_ = 0, depth_sum_ = 0, deepest_m_ = 0, num_frames_ = 0;
 };
 
 void compare(const Subject& subject, int frames, model::Precision precision) {
@@ -104,7 +108,8 @@ void compare(const Subject& subject, int frames, model::Precision precision) {
   const auto mean = [&](const std::vector<double>& times_s) {
     return std::accumulate(times_s.begin(), times_s.end(), 0.0) / frames;
   };
-  for (std::size_t i = 0; i < sides.size(); ++i) sides[i].print(mean(least_s[i]), mean(least_s[0]));
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    sides[i].print(mean(least_s[i]), mean(least_s[0]), sides[0].gap_rms_m());
 }
 
 }  // namespace

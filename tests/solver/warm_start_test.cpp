@@ -130,7 +130,7 @@ TEST(Substeps, hold_a_pose_as_small_steps_do) {
   swings.joints[0].motors[0] = {0, 15, 3};  // back towards its first angle
   swings.joints[0].limits[0] = {-0.4, 0.3};
   swings.bodies[0].velocity = {4, 0, 0};
-  model::StepperSettings small = settings_of(1, 40, 0), substeps = settings_of(5, 40, 0);
+  model::StepperSettings small = settings_of(1, 400, 0), substeps = settings_of(5, 400, 0);
   small.dt_s = substeps.dt_s / 5;
   const auto fine = make_stepper(small, {swings}), coarse = make_stepper(substeps, {swings});
   double farthest_m = 0;
