@@ -25,24 +25,6 @@ double least_half_extent(const Geom& geom) {
   return infinity;
 }
 
-/// Of the smallest ball about the geom's centre; infinite for a plane.
-double bounding_radius(const Geom& geom) {
-  const double half_length = geom.size[1] / 2;
-  switch (geom.shape) {
-    case Shape::sphere:
-      return geom.size[0];
-    case Shape::capsule:
-      return geom.size[0] + half_length;
-    case Shape::box:
-      return Vec3(geom.size[0], geom.size[1], geom.size[2]).norm() / 2;
-    case Shape::cylinder:
-      return std::hypot(geom.size[0], half_length);
-    case Shape::plane:
-      break;
-  }
-  return infinity;
-}
-
 BodyPose body_pose(const Vec3& position, const Quat& q) {
   BodyPose pose;
   std::memcpy(pose.position, position.data(), sizeof pose.position);
@@ -130,20 +112,32 @@ int count_fast_starts(const Model& model) {
   return static_cast<int>(std::count(is_fast.begin(), is_fast.end(), 1));
 }
 
-FastBodies::FastBodies(const Model& model)
+FastBodies::FastBodies(const Model& model, std::span<const char> of_bodies)
     : model_(&model), rule_(model), fast_of_geom_(model.geoms.size(), -1) {
   if (count_fast_starts(model) == 0) return;
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
     const Geom& geom = model.geoms[i];
-    const double arm = geom.local.position.norm();
+    const int index = static_cast<int>(i);
+    const double arm = geom.local.position.norm(), radius = bounding_radius(geom) + arm;
     if (geom.body == no_body) {
-      balls_.push_back({no_body, geom.local.position, bounding_radius(geom)});
-    } else {
-      balls_.push_back({geom.body, Vec3::Zero(), bounding_radius(geom) + arm});
-      watched_.push_back({static_cast<int>(i), geom.body, least_half_extent(geom), arm});
+      balls_.push_back({index, no_body, geom.local.position, bounding_radius(geom)});
+    } else if (of_bodies.empty() || of_bodies[geom.body] != 0) {
+      balls_.push_back({index, geom.body, Vec3::Zero(), radius});
+      watched_.push_back({index, geom.body, least_half_extent(geom), arm, radius});
     }
   }
   for (const Body& body : model.bodies) ease_of_turning_.push_back(3 / body.inertia.trace());
+}
+
+/// Without a square root, of which there would be two a geom: the part of either is below half of what makes
+/// a geom fast. What is not finite is slow.
+bool FastBodies::is_slow(const Watched& watched, const Vec3& velocity, const Vec3& spin, double dt_s) {
+  const double half_s = 0.499 * watched.least_half / dt_s;
+  const bool clearly = velocity.squaredNorm() < half_s * half_s &&
+                       spin.squaredNorm() * watched.arm * watched.arm < half_s * half_s;
+  if (clearly) return true;
+  const double most = velocity.norm() + (watched.arm > 0 ? spin.norm() * watched.arm : 0);
+  return !(most * dt_s > watched.least_half);
 }
 
 bool FastBodies::look(const State& state, double dt_s) {
@@ -153,14 +147,13 @@ bool FastBodies::look(const State& state, double dt_s) {
   for (const Watched& watched : watched_) {
     const Vec3& velocity = state.velocity[watched.body];
     const Vec3& spin = state.angular_velocity[watched.body];
-    const double most = velocity.norm() + (watched.arm > 0 ? spin.norm() * watched.arm : 0);
-    if (!(most * dt_s > watched.least_half)) continue;
+    if (is_slow(watched, velocity, spin, dt_s)) continue;
     const Geom& geom = model_->geoms[watched.geom];
     const BodyPose at = pose_of(state, geom);
     const Vec3 way = dt_s * velocity_of_centre(at, state.position[watched.body], velocity, spin);
     if (!moves_past_half(geom, at, way)) continue;
     fast_of_geom_[watched.geom] = static_cast<int>(fast_.size());
-    fast_.push_back({watched.geom, at, way, with_front(geom, at, way)});
+    fast_.push_back({watched.geom, watched.radius, at, way, with_front(geom, at, way)});
     bodies_.push_back(watched.body);
   }
   std::sort(bodies_.begin(), bodies_.end());
@@ -168,8 +161,7 @@ bool FastBodies::look(const State& state, double dt_s) {
   return !fast_.empty();
 }
 
-bool FastBodies::is_near(const State& state, const Vec3& middle, double half_way, int other) const {
-  const Ball& ball = balls_[other];
+bool FastBodies::is_near(const State& state, const Vec3& middle, double half_way, const Ball& ball) {
   const Vec3& centre = ball.body == no_body ? ball.centre : state.position[ball.body];
   const double reach = half_way + ball.radius;
   return (centre - middle).squaredNorm() <= reach * reach;
@@ -201,33 +193,87 @@ void FastBodies::meet(const State& state, const Fast& fast, const Vec3& way, int
   found_.push_back(contact);
 }
 
-void FastBodies::look_from(const State& state, const Fast& fast, const Filter& filter) {
+/// `accepts`: the other geom.
+template <class Accepts>
+void FastBodies::look_from(const State& state, const Fast& fast, const BallSet& set, const Accepts& accepts) {
   const Vec3 centre(fast.pose.position);
   const Geom& geom = model_->geoms[fast.geom];
   const Vec3 middle = centre + 0.5 * fast.reach;
   const double half = 0.5 * fast.reach.norm();
   const auto look_at = [&](const Vec3& way, int other) {
-    if (rule_.may_touch(fast.geom, other) && filter(fast.geom, other)) meet(state, fast, way, other);
+    if (rule_.may_touch(fast.geom, other)) meet(state, fast, way, other);
   };
-  for (int other = 0; other < static_cast<int>(balls_.size()); ++other) {
+  const auto meet_if_near = [&](int index) {
+    const Ball& ball = balls_[set.balls[index]];
+    const int other = ball.geom;
+    if (!accepts(other)) return;
     if (const int too = fast_of_geom_[other]; too >= 0) {
       const Vec3 way = with_front(geom, fast.pose, fast.way - fast_[too].way);
-      if (is_near(state, centre + 0.5 * way, 0.5 * way.norm(), other)) look_at(way, other);
-    } else if (is_near(state, middle, half, other)) {
+      if (is_near(state, centre + 0.5 * way, 0.5 * way.norm(), ball)) look_at(way, other);
+    } else if (is_near(state, middle, half, ball)) {
       look_at(fast.reach, other);
     }
+  };
+  // The front is within the geom's ball; the way of what is fast, too, is in its swept ball.
+  set.swept.for_each_near(swept_box(centre, fast.radius, fast.way), meet_if_near);
+}
+
+/// Keeps their memory.
+void FastBodies::clear_sets(std::size_t count) {
+  sets_.resize(count);
+  for (BallSet& set : sets_) {
+    set.swept.clear();
+    set.balls.clear();
   }
 }
 
+void FastBodies::put_ball(const State& state, int index, BallSet& set) const {
+  const Ball& ball = balls_[index];
+  const Vec3& centre = ball.body == no_body ? ball.centre : state.position[ball.body];
+  const int fast = fast_of_geom_[ball.geom];
+  set.swept.add(centre, ball.radius, fast >= 0 ? fast_[fast].way : Vec3(Vec3::Zero()));
+  set.balls.push_back(index);
+}
+
 void FastBodies::add(const State& state, const Filter& filter, std::vector<Contact>& contacts) {
-  found_.clear();
-  for (const Fast& fast : fast_) look_from(state, fast, filter);
+  if (fast_.empty()) return;
+  clear_sets(1);
+  for (int i = 0; i < static_cast<int>(balls_.size()); ++i) put_ball(state, i, sets_.front());
+  for (const Fast& fast : fast_)
+    look_from(state, fast, sets_.front(), [&](int other) { return filter(fast.geom, other); });
+  join_found(contacts);
+}
+
+void FastBodies::add_across(const State& state, std::span<const int> group_of_body,
+                            std::vector<Contact>& contacts) {
+  if (fast_.empty()) return;
+  const auto group_of = [&](const Fast& fast) { return group_of_body[model_->geoms[fast.geom].body]; };
+  const int first = group_of(fast_.front());
+  const bool all_in_first =
+      std::all_of(fast_.begin(), fast_.end(), [&](const Fast& fast) { return group_of(fast) == first; });
+  clear_sets(static_cast<std::size_t>(*std::max_element(group_of_body.begin(), group_of_body.end()) + 1));
+  for (int i = 0; i < static_cast<int>(balls_.size()); ++i) {
+    if (balls_[i].body == no_body) continue;
+    const int group = group_of_body[balls_[i].body];
+    if (!all_in_first || group != first) put_ball(state, i, sets_[group]);
+  }
+  for (const Fast& fast : fast_) {
+    for (int group = 0; group < static_cast<int>(sets_.size()); ++group) {
+      if (group != group_of(fast)) look_from(state, fast, sets_[group], [](int) { return true; });
+    }
+  }
+  join_found(contacts);
+}
+
+/// In canonical order, after those of the same geoms that touch.
+void FastBodies::join_found(std::vector<Contact>& contacts) {
   std::stable_sort(found_.begin(), found_.end(), by_geoms);
   const auto end = std::unique(found_.begin(), found_.end(),
                                [](const Contact& a, const Contact& b) { return a.geoms == b.geoms; });
   const auto num_touching = std::ssize(contacts);
   contacts.insert(contacts.end(), found_.begin(), end);
   std::inplace_merge(contacts.begin(), contacts.begin() + num_touching, contacts.end(), by_geoms);
+  found_.clear();
 }
 
 }  // namespace pbmpi::model

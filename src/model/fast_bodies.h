@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "model/contact.h"
 #include "model/model.h"
 #include "model/state.h"
+#include "model/swept_balls.h"
 #include "model/touch_rule.h"
 
 namespace pbmpi::model {
@@ -38,8 +40,8 @@ class FastBodies {
   /// False for a pair that is looked at elsewhere.
   using Filter = std::function<bool(int fast_geom, int other_geom)>;
 
-  /// `model` is borrowed.
-  explicit FastBodies(const Model& model);
+  /// `model` is borrowed. `of_bodies` [num_bodies]: looks only at these, and at static geoms; empty: at all.
+  explicit FastBodies(const Model& model, std::span<const char> of_bodies = {});
 
   /// Finds the fast geoms at the start of a step of `dt_s`. Is there any?
   bool look(const State& state, double dt_s);
@@ -48,40 +50,56 @@ class FastBodies {
   /// Adds to `contacts`, in canonical order (sorted by Contact::geoms), those of the fast geoms of the last
   /// look() with the geoms that `filter` lets through: at most one a pair, after those of its touch.
   void add(const State& state, const Filter& filter, std::vector<Contact>& contacts);
+  /// The same with the geoms of bodies of other groups only; `group_of_body` [num_bodies], from 0 on.
+  void add_across(const State& state, std::span<const int> group_of_body, std::vector<Contact>& contacts);
 
  private:
   /// A ball that holds a geom: about its body's centre of mass, so that it need not be turned.
   struct Ball {
+    int geom = 0;
     int body = no_body;
     Vec3 centre = Vec3::Zero();  ///< of a static geom
     double radius = 0;           ///< [m]
+  };
+  /// Balls of now, on the ways of those that are fast.
+  struct BallSet {
+    SweptBalls swept;
+    std::vector<int> balls;  ///< index of each into balls_
   };
   /// A geom that moves.
   struct Watched {
     int geom = 0, body = 0;
     double least_half = 0;  ///< half the least extent [m]
     double arm = 0;         ///< from its body's centre of mass [m]
+    double radius = 0;      ///< of its ball [m]
   };
   /// A geom that is fast in this step.
   struct Fast {
     int geom = 0;
-    BodyPose pose;  ///< of the geom
-    Vec3 way;       ///< of its centre in this step [m], world frame
-    Vec3 reach;     ///< from its centre to where its front comes, past what does not move
+    double radius = 0;  ///< of its ball [m]
+    BodyPose pose;      ///< of the geom
+    Vec3 way;           ///< of its centre in this step [m], world frame
+    Vec3 reach;         ///< from its centre to where its front comes, past what does not move
   };
 
-  bool is_near(const State& state, const Vec3& middle, double half_way, int other) const;
-  void look_from(const State& state, const Fast& fast, const Filter& filter);
+  void clear_sets(std::size_t count);
+  void put_ball(const State& state, int index, BallSet& set) const;
+  void join_found(std::vector<Contact>& contacts);
+  static bool is_slow(const Watched& watched, const Vec3& velocity, const Vec3& spin, double dt_s);
+  static bool is_near(const State& state, const Vec3& middle, double half_way, const Ball& ball);
+  template <class Accepts>
+  void look_from(const State& state, const Fast& fast, const BallSet& set, const Accepts& accepts);
   void meet(const State& state, const Fast& fast, const Vec3& way, int other);
 
   const Model* model_;
   TouchRule rule_;
   std::vector<Watched> watched_;         ///< ascending; none if the model does not call for the pass
-  std::vector<Ball> balls_;              ///< [geoms]
+  std::vector<Ball> balls_;              ///< ascending, static ones too
   std::vector<double> ease_of_turning_;  ///< [bodies] one over the mean moment of inertia [1/(kg m^2)]
   std::vector<Fast> fast_;               ///< ascending
   std::vector<int> fast_of_geom_;        ///< [geoms] index into fast_, or -1
   std::vector<int> bodies_;
+  std::vector<BallSet> sets_;  ///< of add(), add_across(): one for each group
   std::vector<Contact> found_;
 };
 

@@ -63,4 +63,21 @@ std::array<double, 3> half_extents(const Geom& geom, const double r[9]) {
   return half;
 }
 
+double bounding_radius(const Geom& geom) {
+  const double half_length = geom.size[1] / 2;
+  switch (geom.shape) {
+    case Shape::sphere:
+      return geom.size[0];
+    case Shape::capsule:
+      return geom.size[0] + half_length;
+    case Shape::box:
+      return Vec3(geom.size[0], geom.size[1], geom.size[2]).norm() / 2;
+    case Shape::cylinder:
+      return std::hypot(geom.size[0], half_length);
+    case Shape::plane:
+      break;
+  }
+  return infinity;
+}
+
 }  // namespace pbmpi::model

@@ -20,4 +20,7 @@ BodyPose geom_pose(const Geom& geom, const BodyPose& body);
 /// Half sides [m] of the smallest world-aligned box about the geom's centre that holds it.
 std::array<double, 3> half_extents(const Geom& geom, const double rotation[9]);
 
+/// Radius [m] of the smallest ball about the geom's centre that holds it; infinite for a plane.
+double bounding_radius(const Geom& geom);
+
 }  // namespace pbmpi::model

@@ -11,15 +11,17 @@ Pose pose_of(const State& state, int body) {
 
 }  // namespace
 
+double body_energy(const Model& model, const State& state, int index) {
+  const Body& body = model.bodies[index];
+  const Vec3 omega_local = state.orientation[index].to_eigen().conjugate() * state.angular_velocity[index];
+  return 0.5 * body.mass_kg * state.velocity[index].squaredNorm() +
+         0.5 * omega_local.dot(body.inertia * omega_local) -
+         body.mass_kg * model.gravity.dot(state.position[index]);
+}
+
 double mechanical_energy(const Model& model, const State& state) {
   double energy = 0;
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const Body& body = model.bodies[i];
-    const Vec3 omega_local = state.orientation[i].to_eigen().conjugate() * state.angular_velocity[i];
-    energy += 0.5 * body.mass_kg * state.velocity[i].squaredNorm() +
-              0.5 * omega_local.dot(body.inertia * omega_local) -
-              body.mass_kg * model.gravity.dot(state.position[i]);
-  }
+  for (int body = 0; body < model.num_bodies(); ++body) energy += body_energy(model, state, body);
   return energy;
 }
 

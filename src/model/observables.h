@@ -34,6 +34,9 @@ struct Observables {
   Residuals residuals;           ///< all 0 unless they are asked for (StepperSettings::residuals)
 };
 
+/// Kinetic and potential energy of one body [J].
+double body_energy(const Model& model, const State& state, int body);
+
 /// Kinetic and potential energy [J]; bodies are summed in order.
 double mechanical_energy(const Model& model, const State& state);
 

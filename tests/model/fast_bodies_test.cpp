@@ -1,5 +1,6 @@
 #include "model/fast_bodies.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -155,8 +156,8 @@ TEST(FastBodies, pass_what_they_may_not_touch) {
   EXPECT_TRUE(contacts_of(model).empty()) << "one actor's geoms do not touch each other";
 }
 
-// What each pair gets depends on the two alone: any cut by a filter gives the same contacts as no cut.
-TEST(FastBodies, find_the_same_in_any_parts) {
+/// Twelve fast balls on their way to each other over static ground, a wall in the middle.
+Model converging_balls() {
   Model model;
   support::add_ground(model);
   for (int i = 0; i < 12; ++i) {
@@ -166,6 +167,21 @@ TEST(FastBodies, find_the_same_in_any_parts) {
              {-70 * std::cos(angle), -70 * std::sin(angle), -30});
   }
   add_wall(model, 0, 0.1);
+  return model;
+}
+
+void expect_same(const std::vector<Contact>& a, const std::vector<Contact>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].geoms, b[i].geoms);
+    EXPECT_EQ(a[i].position, b[i].position);
+    EXPECT_EQ(a[i].depth, b[i].depth);
+  }
+}
+
+// What each pair gets depends on the two alone: any cut by a filter gives the same contacts as no cut.
+TEST(FastBodies, find_the_same_in_any_parts) {
+  const Model model = converging_balls();
   const auto whole = contacts_of(model);
   ASSERT_GT(whole.size(), 12u);
   const auto of_part = [](int geom) { return geom * 7 % 3; };
@@ -173,13 +189,55 @@ TEST(FastBodies, find_the_same_in_any_parts) {
   const auto across = contacts_of(model, [&](int a, int b) { return of_part(a) != of_part(b); });
   parts.insert(parts.end(), across.begin(), across.end());
   std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.geoms < b.geoms; });
-  ASSERT_EQ(parts.size(), whole.size());
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    EXPECT_EQ(parts[i].geoms, whole[i].geoms);
-    EXPECT_EQ(parts[i].position, whole[i].position);
-    EXPECT_EQ(parts[i].depth, whole[i].depth);
-    EXPECT_TRUE(i == 0 || whole[i - 1].geoms < whole[i].geoms) << "canonical order, one contact a pair";
+  expect_same(parts, whole);
+  for (std::size_t i = 1; i < whole.size(); ++i)
+    EXPECT_LT(whole[i - 1].geoms, whole[i].geoms) << "canonical order, one contact a pair";
+}
+
+TEST(FastBodies, find_across_groups_what_a_filter_would_let_through) {
+  const Model model = converging_balls();
+  const State state = initial_state(model);
+  for (const int num_groups : {1, 2, 3}) {
+    std::vector<int> group;
+    for (int body = 0; body < model.num_bodies(); ++body) group.push_back(body % num_groups);
+    const auto across = [&](int a, int b) {
+      const int body_a = model.geoms[a].body, body_b = model.geoms[b].body;
+      return body_a >= 0 && body_b >= 0 && group[body_a] != group[body_b];
+    };
+    FastBodies fast(model);
+    std::vector<Contact> found;
+    ASSERT_TRUE(fast.look(state, dt_s));
+    fast.add_across(state, group, found);
+    expect_same(found, contacts_of(model, across));
+    EXPECT_EQ(found.empty(), num_groups == 1);
   }
+  // All that is fast is of one group: only the wall is of another.
+  std::vector<int> group(model.bodies.size(), 0);
+  group.back() = 1;
+  FastBodies fast(model);
+  std::vector<Contact> found;
+  ASSERT_TRUE(fast.look(state, dt_s));
+  fast.add_across(state, group, found);
+  const int wall = static_cast<int>(model.geoms.size()) - 1;
+  expect_same(found, contacts_of(model, [&](int, int other) { return other == wall; }));
+  EXPECT_FALSE(found.empty());
+}
+
+TEST(FastBodies, of_some_bodies_see_these_and_static_geoms_only) {
+  const Model model = converging_balls();
+  const State state = initial_state(model);
+  std::vector<char> some(model.bodies.size(), 0);
+  for (std::size_t body = 0; body < some.size(); body += 2) some[body] = 1;
+  const auto is_seen = [&](int geom) {
+    return model.geoms[geom].body == no_body || some[model.geoms[geom].body] != 0;
+  };
+  FastBodies fast(model, some);
+  std::vector<Contact> found;
+  ASSERT_TRUE(fast.look(state, dt_s));
+  for (const int body : fast.bodies()) EXPECT_EQ(some[body], 1);
+  fast.add(state, all, found);
+  expect_same(found, contacts_of(model, [&](int a, int b) { return is_seen(a) && is_seen(b); }));
+  EXPECT_FALSE(found.empty());
 }
 
 TEST(FastBodies, are_none_in_a_world_that_does_not_call_for_them) {
