@@ -1,54 +1,97 @@
 #include "solver/cross_broad_phase.h"
 
 #include <algorithm>
+#include <array>
 
 namespace pbmpi::solver {
 namespace {
 
 using model::Box;
 
-/// The axis along which the common part of two boxes is longest.
-int longest_common_axis(const Box& a, const Box& b) {
-  int longest = 0;
-  double most = -1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<std::size_t>(axis);
-    const double length = std::min(a.max[k], b.max[k]) - std::max(a.min[k], b.min[k]);
-    if (length > most) longest = axis;
-    most = std::max(most, length);
+/// Adds the sides of boxes, and all of them together.
+class Extents {
+ public:
+  void add(const Box& box) {
+    all_.include(box);
+    for (std::size_t axis = 0; axis < 3; ++axis) sum_[axis] += box.max[axis] - box.min[axis];
   }
-  return longest;
-}
+  /// The axis along which a box covers least of the whole, and so meets fewest of the others.
+  std::size_t best_axis() const {
+    std::size_t best = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis) {
+      // sum / length, without dividing by a length of 0
+      if (sum_[axis] * length(best) < sum_[best] * length(axis)) best = axis;
+    }
+    return best;
+  }
+
+ private:
+  double length(std::size_t axis) const { return all_.max[axis] - all_.min[axis]; }
+  Box all_;
+  std::array<double, 3> sum_{};
+};
 
 }  // namespace
 
-CrossBroadPhase::CrossBroadPhase(const model::Model& model, const model::SpaceMap& map)
-    : model_(&model), rule_(model), map_(&map), geom_boxes_(model.geoms.size()) {}
+CrossBroadPhase::CrossBroadPhase(const model::Model& model, const SpaceBodies& bodies)
+    : model_(&model), rule_(model), bodies_(&bodies) {}
 
-void CrossBroadPhase::update_boxes(int space, std::span<const model::BodyPose> poses) {
-  if (has_boxes_[space] != 0) return;
-  has_boxes_[space] = 1;
-  for (const int index : map_->geoms_of_space[space])
-    geom_boxes_[index] = model::geom_box(model_->geoms[index], poses[model_->geoms[index].body]);
-}
-
-std::size_t CrossBroadPhase::enter(int space, const Box& box, int axis, bool in_second) {
-  const std::size_t before = entries_.size();
-  for (const int index : map_->geoms_of_space[space]) {
-    if (geom_boxes_[index].overlaps(box))
-      entries_.push_back({geom_boxes_[index].min[static_cast<std::size_t>(axis)], index, in_second});
+bool CrossBroadPhase::find_neighbours(std::span<const int> owner, std::span<const Box> boxes) {
+  neighbours_.resize(boxes.size());
+  for (std::vector<int>& spaces : neighbours_) spaces.clear();
+  bool any = false;
+  for (std::size_t a = 0; a < boxes.size(); ++a) {
+    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+      if (owner[a] == owner[b] || !boxes[a].overlaps(boxes[b])) continue;
+      neighbours_[a].push_back(static_cast<int>(b));
+      neighbours_[b].push_back(static_cast<int>(a));
+      any = true;
+    }
   }
-  return entries_.size() - before;
+  return any;
 }
 
-void CrossBroadPhase::sweep(int axis, std::vector<model::GeomPair>& pairs) {
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.low < b.low; });
-  for (auto a = entries_.begin(); a != entries_.end(); ++a) {
-    const Box& box = geom_boxes_[a->geom];
-    for (auto b = a + 1; b != entries_.end() && b->low <= box.max[static_cast<std::size_t>(axis)]; ++b) {
-      if (a->in_second == b->in_second || !box.overlaps(geom_boxes_[b->geom])) continue;
-      if (rule_.may_touch(a->geom, b->geom))
-        pairs.push_back({std::min(a->geom, b->geom), std::max(a->geom, b->geom)});
+void CrossBroadPhase::enter(int space, int owner, std::span<const Box> boxes,
+                            std::span<const model::BodyPose> poses) {
+  const std::vector<int>& neighbours = neighbours_[space];
+  if (neighbours.empty()) return;
+  const auto reaches_in = [&](const Box& box) {
+    return std::any_of(neighbours.begin(), neighbours.end(),
+                       [&](int other) { return box.overlaps(boxes[other]); });
+  };
+  for (const int body : bodies_->bodies(space)) {
+    if (!reaches_in(bodies_->ball_box(body, poses[body]))) continue;
+    for (const int geom : bodies_->geoms(body)) {
+      const Box box = model::geom_box(model_->geoms[geom], poses[body]);
+      if (reaches_in(box)) entries_.push_back({box, geom, owner});
+    }
+  }
+}
+
+void CrossBroadPhase::sort_along(std::size_t axis) {
+  for (auto& order : order_) order.clear();
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const auto owner = static_cast<std::size_t>(entries_[i].owner);
+    if (owner >= order_.size()) order_.resize(owner + 1);
+    order_[owner].emplace_back(entries_[i].box.min[axis], static_cast<int>(i));
+  }
+  lists_.resize(order_.size());
+  for (std::size_t owner = 0; owner < order_.size(); ++owner) {
+    std::sort(order_[owner].begin(), order_[owner].end());
+    lists_[owner].clear();
+    for (const auto& [low, index] : order_[owner]) lists_[owner].push_back(entries_[index]);
+  }
+}
+
+void CrossBroadPhase::sweep(std::span<const Entry> a, std::span<const Entry> b, std::size_t axis, bool ties,
+                            std::vector<model::GeomPair>& pairs) const {
+  auto first = a.begin();
+  for (const Entry& other : b) {
+    const double low = other.box.min[axis], high = other.box.max[axis];
+    while (first != a.end() && (ties ? first->box.min[axis] < low : first->box.min[axis] <= low)) ++first;
+    for (auto entry = first; entry != a.end() && entry->box.min[axis] <= high; ++entry) {
+      if (!entry->box.overlaps(other.box) || !rule_.may_touch(entry->geom, other.geom)) continue;
+      pairs.push_back({std::min(entry->geom, other.geom), std::max(entry->geom, other.geom)});
     }
   }
 }
@@ -57,15 +100,18 @@ void CrossBroadPhase::find_pairs(std::span<const int> owner, std::span<const Box
                                  std::span<const model::BodyPose> poses,
                                  std::vector<model::GeomPair>& pairs) {
   pairs.clear();
-  has_boxes_.assign(boxes.size(), 0);
-  for (int a = 0; a < static_cast<int>(boxes.size()); ++a) {
-    for (int b = a + 1; b < static_cast<int>(boxes.size()); ++b) {
-      if (owner[a] == owner[b] || !boxes[a].overlaps(boxes[b])) continue;
-      update_boxes(a, poses);
-      update_boxes(b, poses);
-      const int axis = longest_common_axis(boxes[a], boxes[b]);
-      entries_.clear();
-      if (enter(a, boxes[b], axis, false) > 0 && enter(b, boxes[a], axis, true) > 0) sweep(axis, pairs);
+  if (!find_neighbours(owner, boxes)) return;
+  entries_.clear();
+  for (std::size_t space = 0; space < boxes.size(); ++space)
+    enter(static_cast<int>(space), owner[space], boxes, poses);
+  Extents extents;
+  for (const Entry& entry : entries_) extents.add(entry.box);
+  const std::size_t axis = extents.best_axis();
+  sort_along(axis);
+  for (std::size_t a = 0; a < lists_.size(); ++a) {
+    for (std::size_t b = a + 1; b < lists_.size(); ++b) {
+      sweep(lists_[a], lists_[b], axis, true, pairs);
+      sweep(lists_[b], lists_[a], axis, false, pairs);
     }
   }
   std::sort(pairs.begin(), pairs.end());

@@ -2,20 +2,21 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "model/box.h"
-#include "model/space_map.h"
 #include "model/touch_rule.h"
+#include "solver/space_bodies.h"
 
 namespace pbmpi::solver {
 
-/// Spaces whose boxes stay apart cost the test of their boxes and nothing else; of two that overlap, the
-/// geoms in each other's box are sorted.
+/// Spaces whose boxes stay apart cost the test of their boxes and nothing else; of those that overlap, the
+/// geoms in another's box are sorted.
 class CrossBroadPhase {
  public:
   /// Both are borrowed.
-  CrossBroadPhase(const model::Model& model, const model::SpaceMap& map);
+  CrossBroadPhase(const model::Model& model, const SpaceBodies& bodies);
 
   /// Pairs (first < second, by geom index) of bodies whose spaces have different owners and whose boxes
   /// overlap, of those that may touch (TouchRule), sorted. `owner`, `boxes`: [num_spaces]; `poses`:
@@ -24,24 +25,29 @@ class CrossBroadPhase {
                   std::span<const model::BodyPose> poses, std::vector<model::GeomPair>& pairs);
 
  private:
-  /// A geom of one of two spaces, where the sweep's axis meets it first.
+  /// A geom that reaches into the box of another owner's space.
   struct Entry {
-    double low = 0;
+    model::Box box;
     int geom = 0;
-    bool in_second = false;
+    int owner = 0;
   };
 
-  void update_boxes(int space, std::span<const model::BodyPose> poses);
-  /// The geoms of a space that reach into a box; their number.
-  std::size_t enter(int space, const model::Box& box, int axis, bool in_second);
-  void sweep(int axis, std::vector<model::GeomPair>& pairs);
+  /// Finds, for each space, those of other owners whose boxes overlap its own; is there any?
+  bool find_neighbours(std::span<const int> owner, std::span<const model::Box> boxes);
+  void enter(int space, int owner, std::span<const model::Box> boxes, std::span<const model::BodyPose> poses);
+  /// Sorts the entries by owner and, of one owner, by where the axis meets them.
+  void sort_along(std::size_t axis);
+  /// Those of `a` whose beginning lies in one of `b`, or at it if `ties`, against that one.
+  void sweep(std::span<const Entry> a, std::span<const Entry> b, std::size_t axis, bool ties,
+             std::vector<model::GeomPair>& pairs) const;
 
   const model::Model* model_;
   model::TouchRule rule_;
-  const model::SpaceMap* map_;
-  std::vector<model::Box> geom_boxes_;  ///< [geoms]
-  std::vector<char> has_boxes_;         ///< [num_spaces] are those of its geoms of this call?
-  std::vector<Entry> entries_;          ///< of the two spaces at hand
+  const SpaceBodies* bodies_;
+  std::vector<std::vector<int>> neighbours_;  ///< [num_spaces]
+  std::vector<Entry> entries_;
+  std::vector<std::vector<std::pair<double, int>>> order_;  ///< [owners] where the axis meets it, index
+  std::vector<std::vector<Entry>> lists_;                   ///< [owners] in this order
 };
 
 }  // namespace pbmpi::solver

@@ -6,13 +6,15 @@
 #include <optional>
 
 #include "model/effects.h"
-#include "model/fast_bodies.h"
 #include "model/geometry.h"
-#include "model/islands.h"
 #include "solver/articulation.h"
 #include "solver/cross_broad_phase.h"
 #include "solver/focused_step.h"
+#include "solver/island_counts.h"
+#include "solver/own_first.h"
 #include "solver/simd.h"
+#include "solver/space_bodies.h"
+#include "solver/space_fast_bodies.h"
 #include "solver/step_settings.h"
 
 namespace pbmpi::solver {
@@ -50,7 +52,7 @@ class SpaceWorld final : public model::SpaceStepper {
  private:
   model::Simd simd() const { return settings_.simd == model::Simd::automatic ? best_simd() : settings_.simd; }
   std::vector<PackedWorld> packed_own_first() const;
-  std::vector<int> own_and_static_geoms() const;
+  std::vector<char> own_mask() const;
   void launch(const Event& event);
   void put_pose(int body, const double* row);
   void place(int body);
@@ -68,6 +70,7 @@ class SpaceWorld final : public model::SpaceStepper {
   model::SpaceMap map_;
   std::vector<Articulation> articulations_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
+  SpaceBodies bodies_;
   CrossBroadPhase cross_;
   std::unique_ptr<Pack> pack_;
   model::State state_;
@@ -82,10 +85,10 @@ class SpaceWorld final : public model::SpaceStepper {
   std::vector<int> lent_;    ///< bodies that were loaded for their contacts alone, since the last solve()
   std::vector<int> loaded_;  ///< scratch: active bodies that are stale
   std::vector<model::GeomPair> pairs_;
-  std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass
-  std::optional<model::FieldOfInterest> field_;   ///< likewise
-  FocusedStep focused_;                           ///< of the last solve()
-  int bodies_inside_ = 0;                         ///< likewise
+  std::optional<SpaceFastBodies> fast_bodies_;   ///< none without the pass
+  std::optional<model::FieldOfInterest> field_;  ///< likewise
+  FocusedStep focused_;                          ///< of the last solve()
+  int bodies_inside_ = 0;                        ///< likewise
 };
 
 SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
@@ -96,44 +99,30 @@ SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
       map_(model::make_space_map(*model_)),
       articulations_(find_articulations(*model_)),
       narrow_phase_(make_narrow_phase(*model_)),
-      cross_(*model_, map_),
+      bodies_(*model_, map_),
+      cross_(*model_, bodies_),
       state_(model::initial_state(*model_)),
       poses_(model_->bodies.size()),
       stale_(model_->bodies.size(), 0) {
   const model::StepPlan plan(*model_);
-  if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_);
+  if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_, map_, settings.dt_s);
   if (plan.has("field_of_interest")) field_.emplace(*model_, settings.iterations);
   if (!plan.has("sleeping")) return;
   sleepers_.emplace(*model_, settings.dt_s, state_);
   sleepers_->start();
 }
 
-/// The articulations of one space lie side by side, own spaces first, so that the batches of a rank hold few
-/// lanes that it does not move.
 std::vector<PackedWorld> SpaceWorld::packed_own_first() const {
-  std::vector<const Articulation*> order;
-  for (const Articulation& articulation : articulations_) order.push_back(&articulation);
-  const auto key = [&](const Articulation* articulation) {
-    const int space = map_.space_of_body(articulation->bodies.front());
-    return std::pair(is_own_[space] == 0, space);
-  };
-  std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) { return key(a) < key(b); });
-  std::vector<PackedWorld> packed(1);
-  packed[0].model = model_.get();
+  std::vector<PackedWorld> packed = {pack_own_first(*model_, map_, articulations_, is_own_)};
   packed[0].fallback = narrow_phase_.get();
   packed[0].lanes_collide = settings_.colliders == model::Colliders::lanes;
-  packed[0].swept_geoms = own_and_static_geoms();
-  for (const Articulation* articulation : order) packed[0].articulations.push_back(*articulation);
   return packed;
 }
 
-std::vector<int> SpaceWorld::own_and_static_geoms() const {
-  std::vector<int> geoms;
-  for (std::size_t i = 0; i < model_->geoms.size(); ++i) {
-    const int body = model_->geoms[i].body;
-    if (body == model::no_body || is_own(body)) geoms.push_back(static_cast<int>(i));
-  }
-  return geoms;
+std::vector<char> SpaceWorld::own_mask() const {
+  std::vector<char> mask(model_->bodies.size(), 0);
+  for (const int body : own_bodies_) mask[body] = 1;
+  return mask;
 }
 
 void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std::int64_t step) {
@@ -143,6 +132,7 @@ void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std
   for (int body = 0; body < model_->num_bodies(); ++body) {
     if (is_own(body)) own_bodies_.push_back(body);
   }
+  if (fast_bodies_) fast_bodies_->own(own_mask());
   pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
   pack_->load(0, state);
   state_ = state;
@@ -203,10 +193,7 @@ void SpaceWorld::launch(const Event& event) {
 }
 
 std::vector<int> SpaceWorld::fast_bodies() {
-  if (!fast_bodies_ || !fast_bodies_->look(state_, settings_.dt_s)) return {};
-  std::vector<int> own = fast_bodies_->bodies();
-  std::erase_if(own, [&](int body) { return !is_own(body); });
-  return own;
+  return fast_bodies_ ? fast_bodies_->find_own(state_) : std::vector<int>();
 }
 
 /// What sleeps has other velocities than the pack knows.
@@ -233,11 +220,7 @@ void SpaceWorld::launch_others(std::int64_t step, std::span<model::Box> boxes) {
   for (const Event& event : events_of(*model_, step)) {
     if (event.kind != EventKind::launch || is_own(event.body)) continue;
     launch(event);
-    const int space = map_.space_of_body(event.body);
-    for (const int geom : map_.geoms_of_space[space]) {
-      if (model_->geoms[geom].body == event.body)
-        boxes[space].include(model::geom_box(model_->geoms[geom], poses_[event.body]));
-    }
+    boxes[map_.space_of_body(event.body)].include(bodies_.ball_box(event.body, poses_[event.body]));
   }
 }
 
@@ -249,13 +232,7 @@ void SpaceWorld::collide(std::vector<Contact>& contacts) {
   for (const int body : own_bodies_) lend(body);
   load_lent();
   pack_->collide(std::span(&contacts, 1));
-  if (!fast_bodies_ || !fast_bodies_->look(state_, settings_.dt_s)) return;
-  const auto is_here = [&](int geom) {
-    const int body = model_->geoms[geom].body;
-    return body == model::no_body || is_own(body);
-  };
-  fast_bodies_->add(
-      state_, [&](int fast, int other) { return is_here(fast) && is_here(other); }, contacts);
+  if (fast_bodies_) fast_bodies_->add_own(state_, contacts);
 }
 
 void SpaceWorld::load_lent() {
@@ -281,12 +258,7 @@ void SpaceWorld::collide_pairs(std::vector<Contact>& contacts) {
   pack_->collide_pairs(0, pairs_, contacts);
 }
 
-model::Box SpaceWorld::space_box(int space) const {
-  model::Box box;
-  for (const int geom : map_.geoms_of_space[space])
-    box.include(model::geom_box(model_->geoms[geom], poses_[model_->geoms[geom].body]));
-  return box;
-}
+model::Box SpaceWorld::space_box(int space) const { return bodies_.space_box(space, poses_); }
 
 void SpaceWorld::collide_across(std::span<const int> owner, std::span<const model::Box> boxes,
                                 std::vector<Contact>& contacts) {
@@ -297,15 +269,7 @@ void SpaceWorld::collide_across(std::span<const int> owner, std::span<const mode
     return !is_awake(model_->geoms[pair.first].body) && !is_awake(model_->geoms[pair.second].body);
   });
   collide_pairs(contacts);
-  if (!fast_bodies_ || !fast_bodies_->look(state_, settings_.dt_s)) return;
-  const auto owner_of = [&](int geom) {
-    const int body = model_->geoms[geom].body;
-    return body == model::no_body ? -1 : owner[map_.space_of_body(body)];
-  };
-  const auto across = [&](int fast, int other) {
-    return owner_of(other) >= 0 && owner_of(fast) != owner_of(other);
-  };
-  fast_bodies_->add(state_, across, contacts);
+  if (fast_bodies_) fast_bodies_->add_across(state_, owner, contacts);
 }
 
 void SpaceWorld::activate(std::span<const int> all_units) {
@@ -365,32 +329,14 @@ void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> cont
 }
 
 model::IslandCounts SpaceWorld::count(std::span<const int> units, std::span<const Contact> contacts) const {
-  model::IslandCounts counts;
-  model::DisjointSets sets(map_.num_units());
-  std::vector<int> rows(static_cast<std::size_t>(map_.num_units()), 0);
-  for (const Contact& contact : contacts) {
-    const int unit = map_.unit_of_body[contact.body_a];
-    if (contact.body_b != model::no_body) sets.unite(unit, map_.unit_of_body[contact.body_b]);
-    rows[unit] += contact.mu > 0 ? 3 : 1;
-    counts.max_penetration_m = std::max(counts.max_penetration_m, contact.depth);
-  }
-  for (const int unit : units) {
-    if (const int body = map_.bodies_of_unit[unit].front(); !is_awake(body)) {
-      sets.unite(unit, map_.unit_of_body[sleepers_->island(body)]);
-      continue;
-    }
-    for (const int joint : articulations_[unit].joints) rows[unit] += focused_.joint_rows(*pack_, 0, joint);
-  }
-  std::vector<int> island_rows(rows.size(), 0);
-  for (const int unit : units) {
-    const int island = sets.find(unit);
-    counts.islands += island == unit ? 1 : 0;
-    island_rows[island] += rows[unit];
-    counts.rows += rows[unit];
-  }
-  counts.contacts = static_cast<int>(contacts.size());
+  const auto joint_rows = [&](int unit) {
+    int rows = 0;
+    for (const int joint : articulations_[unit].joints) rows += focused_.joint_rows(*pack_, 0, joint);
+    return rows;
+  };
+  model::IslandCounts counts =
+      count_islands(map_, units, contacts, joint_rows, sleepers_ ? &*sleepers_ : nullptr);
   counts.bodies_inside = bodies_inside_;
-  counts.max_island_rows = *std::max_element(island_rows.begin(), island_rows.end());
   return counts;
 }
 

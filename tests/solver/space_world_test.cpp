@@ -10,6 +10,7 @@
 #include "solver/broad_phase.h"
 #include "solver/cross_broad_phase.h"
 #include "solver/sor_run.h"
+#include "solver/space_bodies.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -59,7 +60,8 @@ TEST(CrossBroadPhase, finds_the_pairs_of_the_whole_world_that_cross_owners) {
   }
   std::vector<GeomPair> all, found;
   BroadPhase(model, support::all_geoms(model)).find_pairs(poses, all);
-  CrossBroadPhase cross(model, map);
+  const SpaceBodies bodies(model, map);
+  CrossBroadPhase cross(model, bodies);
   for (const std::vector<int>& owner :
        {std::vector<int>{0, 1, 2, 3, 4}, {0, 0, 1, 1, 0}, {2, 2, 2, 2, 2}, {1, 0, 0, 0, 0}}) {
     std::vector<GeomPair> expected;
@@ -88,8 +90,33 @@ TEST(CrossBroadPhase, looks_at_no_geom_of_spaces_whose_boxes_stay_apart) {
   const std::vector<int> owner = {0, 1, 2, 3, 4};
   std::vector<GeomPair> found;
   // No pose is asked for: these are none.
-  CrossBroadPhase(model, map).find_pairs(owner, boxes, {}, found);
+  const SpaceBodies bodies(model, map);
+  CrossBroadPhase(model, bodies).find_pairs(owner, boxes, {}, found);
   EXPECT_TRUE(found.empty());
+}
+
+TEST(SpaceBodies, hold_all_geoms_of_a_space_in_its_box) {
+  model::Model model = cloud(120, 2.5);
+  model.geoms[7].local.position = {0.5, -0.3, 0.2};  // away from its body's centre
+  const model::SpaceMap map = model::make_space_map(model);
+  const SpaceBodies bodies(model, map);
+  const auto poses = poses_of(model);
+  std::size_t num_geoms = 0;
+  for (int space = 0; space < num_spaces; ++space) {
+    const model::Box box = bodies.space_box(space, poses);
+    for (const int body : bodies.bodies(space)) {
+      EXPECT_EQ(map.space_of_body(body), space);
+      for (const int index : bodies.geoms(body)) {
+        const model::Box geom = model::geom_box(model.geoms[index], poses[body]);
+        ++num_geoms;
+        for (std::size_t k = 0; k < 3; ++k) {
+          EXPECT_LE(box.min[k], geom.min[k]);
+          EXPECT_GE(box.max[k], geom.max[k]);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(num_geoms, model.geoms.size() - 1) << "all but the ground";
 }
 
 TEST(SpaceWorld, moves_a_subset_of_units_as_the_whole_world_does) {
