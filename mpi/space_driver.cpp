@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "core/error.h"
@@ -103,17 +104,18 @@ std::vector<core::PhaseTimes> SpaceDriver::quiet_times() const {
 }
 
 void SpaceDriver::observe() {
-  const model::IslandCounts& counts = step_.findings().counts;
-  const model::State& state = stepper_->state();
+  const FrameFindings& found = step_.findings();
+  const model::IslandCounts& counts = found.counts;
   observables_.contacts = counts.contacts;
   observables_.rows = counts.rows;
   observables_.islands = counts.islands;
   observables_.max_island_rows = counts.max_island_rows;
   observables_.bodies_inside = counts.bodies_inside;
   observables_.max_penetration_m = counts.max_penetration_m;
-  observables_.energy_j = model::mechanical_energy(stepper_->model(), state);
-  observables_.joint_gap_m = model::max_joint_gap(stepper_->model(), state);
-  observables_.nonfinite = model::count_nonfinite(state);
+  // In the order of the bodies, so that the sum is that of model::mechanical_energy(), bit for bit.
+  observables_.energy_j = std::accumulate(found.energy_j.begin(), found.energy_j.end(), 0.0);
+  observables_.joint_gap_m = found.joint_gap_m;
+  observables_.nonfinite = model::count_nonfinite(stepper_->state());
 }
 
 int SpaceDriver::lowest_nonfinite_world() const {
@@ -183,22 +185,31 @@ SpaceLoads SpaceDriver::loads() const {
   return loads;
 }
 
+namespace {
+
+/// Of each rank's solver: `loads` in weights.
+std::vector<RankSample> samples_of(const SpaceLoads& loads, const std::vector<int>& owner,
+                                   std::span<const core::PhaseTimes> times) {
+  const auto num_ranks = static_cast<int>(times.size());
+  SpaceLoads no_contacts = loads, no_batches = loads;
+  no_contacts.scale({1, 0});
+  no_batches.scale({0, 1});
+  const PredictedLoads batches = predict_loads(no_contacts, owner, num_ranks);
+  const PredictedLoads contacts = predict_loads(no_batches, owner, num_ranks);
+  std::vector<RankSample> samples;
+  for (std::size_t rank = 0; rank < times.size(); ++rank)
+    samples.push_back({batches.ranks[rank].solve_s, contacts.ranks[rank].solve_s, solver_s(times[rank])});
+  return samples;
+}
+
+}  // namespace
+
 /// From weights to the seconds that the frame took with the present owners.
 void SpaceDriver::scale_to_seconds(SpaceLoads& loads, std::span<const core::PhaseTimes> times) const {
   const FrameFindings& found = step_.findings();
-  double seconds = 0, ship_s = 0, weight = 0;
-  for (const core::PhaseTimes& rank : times) {
-    seconds += solver_s(rank);
-    ship_s += rank[Phase::ship];
-  }
-  for (const RankLoad& rank : predict_loads(loads, ownership_.owner, comm().size()).ranks)
-    weight += rank.solve_s;
-  const double scale = weight > 0 ? seconds / weight : 0;
-  for (double& batch : loads.batch_s) batch *= scale;
-  for (SolverWork& work : loads.inside) work.contacts_s *= scale;
-  for (std::vector<SpacePart>& island : loads.islands) {
-    for (SpacePart& part : island) part.work.contacts_s *= scale;
-  }
+  loads.scale(fit_costs(samples_of(loads, ownership_.owner, times)));
+  double ship_s = 0;
+  for (const core::PhaseTimes& rank : times) ship_s += rank[Phase::ship];
   loads.root_extra_s = times.front()[Phase::cross_space];
   if (found.bodies_shipped > 0) {
     loads.ship_s = settings().steps_per_frame * ship_s / (2.0 * static_cast<double>(found.bodies_shipped));

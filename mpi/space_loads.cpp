@@ -27,6 +27,7 @@ class Search {
     found_.clear();
     try_moves();
     try_swaps();
+    try_mirrors();
     try_islands();
     if (found_.empty()) return false;
     owner_ = found_;
@@ -59,6 +60,16 @@ class Search {
         if (owner_[a] == owner_[b]) continue;
         std::vector<int> changed = owner_;
         std::swap(changed[a], changed[b]);
+        consider(changed);
+      }
+    }
+  }
+  /// Two ranks change places: root may have taken the part that leaves least time for its section.
+  void try_mirrors() {
+    for (int a = 0; a < num_ranks_; ++a) {
+      for (int b = a + 1; b < num_ranks_; ++b) {
+        std::vector<int> changed = owner_;
+        for (int& rank : changed) rank = rank == a ? b : rank == b ? a : rank;
         consider(changed);
       }
     }
@@ -108,6 +119,14 @@ double SpaceLoads::seconds(const SolverWork& work) const {
   return sum;
 }
 
+void SpaceLoads::scale(const SolverCosts& costs) {
+  for (double& batch : batch_s) batch *= costs.batches;
+  for (SolverWork& work : inside) work.contacts_s *= costs.contacts;
+  for (std::vector<SpacePart>& island : islands) {
+    for (SpacePart& part : island) part.work.contacts_s *= costs.contacts;
+  }
+}
+
 namespace {
 
 /// The rank that has most bodies of the island, and what each other has of it is shipped there.
@@ -140,6 +159,30 @@ PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner
   for (std::size_t rank = 0; rank < work.size(); ++rank)
     load.ranks[rank].solve_s += loads.seconds(work[rank]);
   return load;
+}
+
+SolverCosts fit_costs(std::span<const RankSample> ranks) {
+  double bb = 0, bc = 0, cc = 0, bt = 0, ct = 0, weight = 0, seconds = 0;
+  for (const RankSample& rank : ranks) {
+    bb += rank.batches * rank.batches;
+    bc += rank.batches * rank.contacts;
+    cc += rank.contacts * rank.contacts;
+    bt += rank.batches * rank.seconds;
+    ct += rank.contacts * rank.seconds;
+    weight += rank.batches + rank.contacts;
+    seconds += rank.seconds;
+  }
+  if (weight <= 0) return {};
+  const double common = seconds / weight;
+  const double determinant = bb * cc - bc * bc;
+  constexpr double least_independence = 0.02;  // of the squared sine between the two columns
+  if (determinant <= least_independence * bb * cc) return {common, common};
+  // Lanes make the rows of joints cheaper than those of contacts, by their number at most; whatever a noisy
+  // frame says, neither is for nothing.
+  constexpr double most = 4;
+  const double batch = std::clamp((bt * cc - ct * bc) / determinant, common / most, common * most);
+  const double contact = std::clamp((ct * bb - bt * bc) / determinant, common / most, common * most);
+  return {batch, contact};
 }
 
 Reassignment reassign_spaces(const SpaceLoads& loads, std::span<const int> owner, int num_ranks,

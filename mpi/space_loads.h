@@ -23,6 +23,17 @@ struct SpacePart {
   SolverWork work;
 };
 
+/// What one rank's solver had to do, by weights, and how long it took.
+struct RankSample {
+  double batches = 0, contacts = 0;
+  double seconds = 0;
+};
+
+/// Seconds of a unit of weight.
+struct SolverCosts {
+  double batches = 0, contacts = 0;
+};
+
 /// What a frame has shown of the work, whoever did it.
 struct SpaceLoads {
   int num_lanes = 1;
@@ -34,6 +45,7 @@ struct SpaceLoads {
   double ship_s = 0;  ///< of passing a body to another rank and back, each of the two
 
   double seconds(const SolverWork& work) const;  ///< on one rank
+  void scale(const SolverCosts& costs);          ///< from weights to seconds
 };
 
 /// What one rank would do in such a frame.
@@ -55,6 +67,10 @@ struct PredictedLoads {
 /// its other parts are shipped there.
 PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner, int num_ranks);
 
+/// The least squares of the ranks' seconds; where the ranks do not differ enough to tell the two apart, both
+/// get the same cost.
+SolverCosts fit_costs(std::span<const RankSample> ranks);
+
 struct Reassignment {
   std::vector<Move> moves;  ///< Move::world is a space; by ascending space; empty = stay
   double makespan_before_s = 0;
@@ -62,8 +78,9 @@ struct Reassignment {
 };
 
 /// Looks for an ownership under which the busiest rank has less to do, from the present one by single moves,
-/// by swaps, and by bringing the spaces of an island together, as long as one helps. Stays if that promises
-/// less than half of `threshold` - 1. Deterministic: ties go to the lower space and rank.
+/// by swaps, of all spaces of two ranks, too, and by bringing the spaces of an island together, as long as
+/// one helps. Stays if that promises less than half of `threshold` - 1. Deterministic: ties go to the lower
+/// space and rank.
 Reassignment reassign_spaces(const SpaceLoads& loads, std::span<const int> owner, int num_ranks,
                              double threshold);
 

@@ -1,5 +1,6 @@
 #include "mpi/space_step.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "model/effects.h"
@@ -31,16 +32,22 @@ void SpaceStep::own(const SpaceOwnership& ownership, const model::State& state, 
   boxes_.resize(ownership.owner.size());
   for (std::size_t space = 0; space < boxes_.size(); ++space)
     boxes_[space] = stepper_->space_box(static_cast<int>(space));
+  schedule_ = RootSchedule(comm_->size());
   reports_.assign(static_cast<std::size_t>(comm_->size()), {});
   place_of_unit_.assign(stepper_->map().unit_of_body.size(), {});
 }
 
 void SpaceStep::run(std::int64_t step, bool last, core::PhaseTimes& times) {
   core::LapTimer timer(times);
+  has_islands_ = false;
+  has_told_ = false;
   guard([&] { stepper_->fire_events(step); });
   if (sleeps_on(step)) return sleep_on(last, times);
   if (field_ != nullptr) post_center();
+  if (crosses_ && is_root() && !sleepers_) look_early(step, timer);
+  const double began_s = core::now_s();
   guard([&] { stepper_->collide(contacts_); });
+  collided_s_ = core::now_s();
   timer.lap(Phase::collide);
   if (field_ != nullptr) take_center(timer);
   if (sleepers_) wake_touched(step, timer);
@@ -48,6 +55,7 @@ void SpaceStep::run(std::int64_t step, bool last, core::PhaseTimes& times) {
   guard([&] { stepper_->solve(active_units_, contacts_, step, times); });
   core::LapTimer after(times);
   if (crosses_) ship_back(after);
+  pace_ = {collided_s_ - began_s, core::now_s() - std::max(told_s_, collided_s_)};
   if (sleepers_) settle(after);
   if (last) {
     finish_frame(times);
@@ -58,23 +66,41 @@ void SpaceStep::run(std::int64_t step, bool last, core::PhaseTimes& times) {
 }
 
 void SpaceStep::exchange(std::int64_t step, core::LapTimer& timer) {
+  guests_.clear();
+  guests_elsewhere_.clear();
+  if (!learn_of_crossing(step, timer)) {
+    if (active_units_ != own_units()) active_units_ = own_units();
+    return;
+  }
   find_local_islands();
   timer.lap(Phase::islands);
   Orders orders;
   if (is_root()) {
-    orders = direct(step, timer);
+    orders = direct(timer);
   } else {
     post_report();
     timer.lap(Phase::gather);
     orders = receive_orders();
     timer.lap(Phase::wait);
   }
-  // By now root has received what this rank had posted, so that nothing is waited for here.
-  mail_->finish();
   ship(orders, timer);
 }
 
+/// Does anything touch across spaces?
+bool SpaceStep::learn_of_crossing(std::int64_t step, core::LapTimer& timer) {
+  if (is_root()) {
+    if (!has_told_) find_crossing(step, timer);
+    return !crossing_.empty();
+  }
+  MessageReader verdict(mail_->take(Communicator::root, verdict_tag));
+  timer.lap(Phase::wait);
+  told_s_ = core::now_s();
+  mail_->finish();  // root had received all of the step before, so that nothing is waited for
+  return verdict.get_value<std::int32_t>() != 0;
+}
+
 void SpaceStep::find_local_islands() {
+  has_islands_ = true;
   const model::SpaceMap& map = stepper_->map();
   model::DisjointSets sets(map.num_units());
   std::vector<std::int32_t> weight(static_cast<std::size_t>(map.num_units()), 0);
@@ -130,6 +156,7 @@ void SpaceStep::post_poses() {
   MessageWriter message;
   message.put(pose_rows(stepper_->state(), ownership_->bodies[comm_->rank()]));
   message.put(own_boxes());
+  message.put_value(pace_);
   if (has_fast_bodies_) {
     std::vector<int> fast;
     guard([&] { fast = stepper_->fast_bodies(); });

@@ -15,6 +15,7 @@
 #include "mpi/island_plan.h"
 #include "mpi/mail.h"
 #include "mpi/message.h"
+#include "mpi/root_schedule.h"
 #include "mpi/space_ownership.h"
 #include "mpi/wire.h"
 
@@ -22,10 +23,12 @@ namespace pbmpi::mpi {
 
 /// What root learns of the last step of a frame.
 struct FrameFindings {
-  model::IslandCounts counts;  ///< over all ranks
-  std::vector<int> island;     ///< [num_units] lowest unit of its island
-  std::vector<double> weight;  ///< [num_units] rows of joints and contacts, and bodies
-  std::vector<char> near;      ///< [num_units] with a field of interest: has it a body of the island?
+  model::IslandCounts counts;    ///< over all ranks
+  std::vector<int> island;       ///< [num_units] lowest unit of its island
+  std::vector<double> weight;    ///< [num_units] rows of joints and contacts, and bodies
+  std::vector<char> near;        ///< [num_units] with a field of interest: has it a body of the island?
+  std::vector<double> energy_j;  ///< [num_bodies]
+  double joint_gap_m = 0;        ///< the largest
   std::vector<core::PhaseTimes> times;  ///< [num_ranks] of this frame so far
   std::int64_t bodies_shipped = 0;      ///< in this frame, from any rank to another, step by step
 };
@@ -33,11 +36,12 @@ struct FrameFindings {
 /// Collective calls, one step a call. On a rank of its own, and where nothing can cross (all bodies on one
 /// rank, or spaces that by the scene's word never meet), a step sends no message and builds no island.
 ///
-/// Otherwise a step is, on every rank: events; collide in own spaces; islands from joints and own contacts;
-/// then root, which has the poses and boxes that the ranks sent at the end of the step before, finds the
-/// contacts across spaces, joins the islands and tells each rank which of them to pass on, which to expect,
-/// and which contacts across spaces are its own; islands are shipped, solved, and shipped back; poses and
-/// boxes go to root, which looks at them while the ranks already collide.
+/// Otherwise a step is, on every rank: events; collide in own spaces. Root, which has the poses and boxes
+/// that the ranks sent at the end of the step before, finds the contacts across spaces, before its own
+/// collision if all has arrived by then, and tells the ranks whether there are any. If so, each rank forms
+/// its islands from joints and own contacts and reports them; root joins them and tells each rank which to
+/// pass on, which to expect, and which contacts across spaces are its own; islands are shipped, and shipped
+/// back when they are solved. Where nothing crosses, a rank thus goes on without having to wait for root.
 ///
 /// With the effect "sleeping" the ranks agree, after collision, on the islands that wake and, at the end, on
 /// those that fall asleep (space_step_sleep.cpp); while all sleep a step sends nothing.
@@ -63,7 +67,7 @@ class SpaceStep {
   model::Traffic take_traffic() { return mail_ ? mail_->take_traffic() : model::Traffic{}; }
 
  private:
-  enum Tag { poses_tag = 1, report_tag, orders_tag, ship_tag, back_tag, frame_tag, center_tag };
+  enum Tag { poses_tag = 1, verdict_tag, report_tag, orders_tag, ship_tag, back_tag, frame_tag, center_tag };
   /// Units of one other rank that are solved here, or of this one that are solved there.
   struct Shipment {
     int rank = 0;
@@ -84,6 +88,7 @@ class SpaceStep {
   const std::vector<int>& own_units() const { return ownership_->units[comm_->rank()]; }
 
   void exchange(std::int64_t step, core::LapTimer& timer);
+  bool learn_of_crossing(std::int64_t step, core::LapTimer& timer);
   bool sleeps_on(std::int64_t step);
   void sleep_on(bool last, core::PhaseTimes& times);
   void wake_touched(std::int64_t step, core::LapTimer& timer);
@@ -94,7 +99,10 @@ class SpaceStep {
   void weigh_outside();
   void find_local_islands();
   void look_across(std::int64_t step, core::LapTimer& timer);
-  Orders direct(std::int64_t step, core::LapTimer& timer);
+  bool poses_are_here();
+  void look_early(std::int64_t step, core::LapTimer& timer);
+  void find_crossing(std::int64_t step, core::LapTimer& timer);
+  Orders direct(core::LapTimer& timer);
   void receive_poses(core::LapTimer& timer);
   void receive_reports(core::LapTimer& timer);
   std::vector<Orders> join_islands();
@@ -105,9 +113,17 @@ class SpaceStep {
   void ship_in(const Orders& orders, core::LapTimer& timer);
   void ship_back(core::LapTimer& timer);
   void post_poses();
+  /// What a rank measures of its own bodies at the end of a frame.
+  struct Measures {
+    model::IslandCounts counts;
+    std::vector<double> energy_j;  ///< [own bodies]
+    double joint_gap_m = 0;
+  };
+  Measures measure();
   void finish_frame(core::PhaseTimes& times);
-  void post_frame(const model::IslandCounts& counts, const core::PhaseTimes& times);
-  void receive_frame(const model::IslandCounts& counts, const core::PhaseTimes& times, core::LapTimer& timer);
+  void post_frame(const Measures& own, const core::PhaseTimes& times);
+  void receive_frame(const Measures& own, const core::PhaseTimes& times, core::LapTimer& timer);
+  void note_measures(int rank, std::span<const double> energy_j, double joint_gap_m);
   void require_apart();
   void take_frame(int rank, MessageReader& message);
   void note_weights(int rank, std::span<const std::int32_t> weights);
@@ -127,6 +143,7 @@ class SpaceStep {
   bool has_fast_bodies_ = false;  ///< the pass of that name
   std::vector<model::Contact> contacts_;
   std::vector<int> active_units_;          ///< solved here in this step, ascending
+  bool has_islands_ = false;               ///< are those of this step found?
   LocalIslands islands_;                   ///< of this rank
   std::vector<std::int32_t> unit_weight_;  ///< [own units] rows of joints and own contacts, and bodies
   std::vector<char> unit_near_;      ///< [own units] with a field of interest: has it a body of the unit?
@@ -134,8 +151,15 @@ class SpaceStep {
   std::vector<model::BodyPair>
       touching_;  ///< with sleepers: own contacts of the step, before islands are shipped
   std::vector<Shipment> guests_, guests_elsewhere_;
+  double collided_s_ = 0;  ///< when this rank's collision of the step was done
+  double told_s_ = 0;      ///< when it knew what crosses
+  StepPace pace_;          ///< of its last step
 
   // On root only.
+  RootSchedule schedule_{1};
+  double unseen_s_ = 0;            ///< when poses were last looked for and not there
+  double looked_s_ = 0;            ///< when the look across spaces began
+  bool has_told_ = false;          ///< the ranks what crosses, in this step
   bool has_poses_ = false;         ///< all rows of the state are those of now: after own() and a frame's end
   std::vector<model::Box> boxes_;  ///< [num_spaces]
   std::vector<LocalIslands> reports_;     ///< [num_ranks]

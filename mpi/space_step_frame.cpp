@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "model/islands.h"
+#include "model/observables.h"
 
 namespace pbmpi::mpi {
 
@@ -13,26 +14,41 @@ using model::Contact;
 
 void SpaceStep::finish_frame(core::PhaseTimes& times) {
   core::LapTimer timer(times);
-  if (!crosses_) find_local_islands();
-  model::IslandCounts counts;
-  guard([&] { counts = stepper_->count(active_units_, contacts_); });
+  if (!has_islands_) find_local_islands();
+  const Measures own = measure();
   timer.lap(Phase::islands);
   if (is_root()) {
-    receive_frame(counts, times, timer);
+    receive_frame(own, times, timer);
   } else {
-    post_frame(counts, times);
+    post_frame(own, times);
     timer.lap(Phase::gather);
   }
   bodies_shipped_ = 0;
 }
 
-void SpaceStep::post_frame(const model::IslandCounts& counts, const core::PhaseTimes& times) {
+SpaceStep::Measures SpaceStep::measure() {
+  Measures own;
+  guard([&] { own.counts = stepper_->count(active_units_, contacts_); });
+  const model::Model& model = stepper_->model();
+  const model::State& state = stepper_->state();
+  for (const int body : ownership_->bodies[comm_->rank()])
+    own.energy_j.push_back(model::body_energy(model, state, body));
+  for (const model::Joint& joint : model.joints) {
+    if (ownership_->owner[stepper_->map().space_of_body(joint.body_a)] == comm_->rank())
+      own.joint_gap_m = std::max(own.joint_gap_m, model::joint_gap(model, state, joint));
+  }
+  return own;
+}
+
+void SpaceStep::post_frame(const Measures& own, const core::PhaseTimes& times) {
   if (!crosses_) mail_->finish();  // root has the message of the frame before
   MessageWriter message;
   message.put(state_rows(stepper_->state(), ownership_->bodies[comm_->rank()]));
   if (sleepers_) message.put(sleepers_->rest_rows(ownership_->bodies[comm_->rank()]));
   message.put(own_boxes());
-  message.put_value(counts);
+  message.put_value(own.counts);
+  message.put(own.energy_j);
+  message.put_value(own.joint_gap_m);
   message.put_value(times);
   message.put_value(bodies_shipped_);
   message.put(islands_.of_unit);
@@ -41,10 +57,11 @@ void SpaceStep::post_frame(const model::IslandCounts& counts, const core::PhaseT
   mail_->post(message.take(), Communicator::root, frame_tag);
 }
 
-void SpaceStep::receive_frame(const model::IslandCounts& counts, const core::PhaseTimes& times,
-                              core::LapTimer& timer) {
+void SpaceStep::receive_frame(const Measures& own, const core::PhaseTimes& times, core::LapTimer& timer) {
   findings_ = {};
-  findings_.counts = counts;
+  findings_.counts = own.counts;
+  findings_.energy_j.resize(stepper_->model().bodies.size());
+  note_measures(Communicator::root, own.energy_j, own.joint_gap_m);
   findings_.weight.resize(static_cast<std::size_t>(stepper_->map().num_units()));
   if (field_ != nullptr) findings_.near.resize(findings_.weight.size());
   findings_.times.resize(static_cast<std::size_t>(comm_->size()));
@@ -97,8 +114,16 @@ void SpaceStep::take_frame(int rank, MessageReader& message) {
   all.max_island_rows = std::max(all.max_island_rows, counts.max_island_rows);
   all.bodies_inside += counts.bodies_inside;
   all.max_penetration_m = std::max(all.max_penetration_m, counts.max_penetration_m);
+  const auto energy_j = message.get<double>();
+  note_measures(rank, energy_j, message.get_value<double>());
   findings_.times[rank] = message.get_value<core::PhaseTimes>();
   findings_.bodies_shipped += message.get_value<std::int64_t>();
+}
+
+void SpaceStep::note_measures(int rank, std::span<const double> energy_j, double joint_gap_m) {
+  for (std::size_t i = 0; i < energy_j.size(); ++i)
+    findings_.energy_j[ownership_->bodies[rank][i]] = energy_j[i];
+  findings_.joint_gap_m = std::max(findings_.joint_gap_m, joint_gap_m);
 }
 
 void SpaceStep::note_weights(int rank, std::span<const std::int32_t> weights) {

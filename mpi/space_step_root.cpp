@@ -12,6 +12,7 @@ using model::Contact;
 void SpaceStep::look_across(std::int64_t step, core::LapTimer& timer) {
   if (!has_poses_) receive_poses(timer);
   has_poses_ = true;
+  looked_s_ = core::now_s();
   guard([&] {
     stepper_->launch_others(step, boxes_);
     for (const int space : ownership_->spaces[comm_->rank()]) boxes_[space] = stepper_->space_box(space);
@@ -20,10 +21,44 @@ void SpaceStep::look_across(std::int64_t step, core::LapTimer& timer) {
   timer.lap(Phase::cross_space);
 }
 
-/// Root's section of the step.
-SpaceStep::Orders SpaceStep::direct(std::int64_t step, core::LapTimer& timer) {
+bool SpaceStep::poses_are_here() {
+  if (has_poses_) return true;
+  for (int rank = 1; rank < comm_->size(); ++rank) {
+    if (mail_->has(rank, poses_tag)) continue;
+    unseen_s_ = core::now_s();
+    return false;
+  }
+  return true;
+}
+
+/// Before root's own collision, if the poses are there by then or due.
+void SpaceStep::look_early(std::int64_t step, core::LapTimer& timer) {
+  schedule_.note_own(pace_);
+  if (has_poses_) schedule_.start_all(core::now_s());
+  bool here = poses_are_here();
+  while (!here && schedule_.should_wait(unseen_s_)) here = poses_are_here();
+  timer.lap(Phase::wait);
+  if (here) find_crossing(step, timer);
+}
+
+/// Root's section of the step as far as it needs no report, and its verdict.
+void SpaceStep::find_crossing(std::int64_t step, core::LapTimer& timer) {
   if (sleepers_ == nullptr) look_across(step, timer);
   has_poses_ = false;
+  has_told_ = true;
+  mail_->finish();  // the ranks have received all of the step before, so that nothing is waited for
+  told_s_ = core::now_s();
+  schedule_.told(told_s_, told_s_ - looked_s_);
+  for (int rank = 1; rank < comm_->size(); ++rank) {
+    MessageWriter message;
+    message.put_value(static_cast<std::int32_t>(crossing_.empty() ? 0 : 1));
+    mail_->post(message.take(), rank, verdict_tag);
+  }
+  timer.lap(Phase::cross_space);
+}
+
+/// The rest of root's section, where something crosses.
+SpaceStep::Orders SpaceStep::direct(core::LapTimer& timer) {
   receive_reports(timer);
   std::vector<Orders> orders = join_islands();
   for (int rank = 1; rank < comm_->size(); ++rank) {
@@ -44,6 +79,7 @@ void SpaceStep::receive_poses(core::LapTimer& timer) {
     stepper_->put_poses(ownership_->bodies[rank], message.get<double>());
     const std::span<const model::Box> boxes = message.get<model::Box>();
     for (std::size_t i = 0; i < boxes.size(); ++i) boxes_[ownership_->spaces[rank][i]] = boxes[i];
+    schedule_.arrived(rank, unseen_s_, core::now_s(), message.get_value<StepPace>());
     if (has_fast_bodies_) {
       const std::span<const int> fast = message.get<int>();
       stepper_->put_states(fast, message.get<double>());

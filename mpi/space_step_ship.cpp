@@ -9,8 +9,6 @@ using core::Phase;
 using model::Contact;
 
 void SpaceStep::ship(const Orders& orders, core::LapTimer& timer) {
-  guests_.clear();
-  guests_elsewhere_.clear();
   if (orders.outgoing.empty() && orders.contacts.empty()) {
     if (active_units_ != own_units()) active_units_ = own_units();
     return;

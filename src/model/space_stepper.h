@@ -74,7 +74,7 @@ class SpaceStepper {
   /// Contacts between bodies of own spaces, and of these with static geoms, in canonical order (sorted by
   /// Contact::geoms). None if a pose is not finite: the world is lost, and colliders must not see it.
   virtual void collide(std::vector<Contact>& contacts) = 0;
-  /// The box of an own space at the poses of state().
+  /// A box that holds the geoms of an own space at the poses of state(); it need not be tight.
   virtual Box space_box(int space) const = 0;
   /// Contacts between bodies of spaces that different ranks own, in canonical order. `owner`, `boxes`:
   /// [num_spaces]. Only geoms in the box of a space of another owner are looked at, and what is ahead of

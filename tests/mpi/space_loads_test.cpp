@@ -71,6 +71,14 @@ TEST(SpaceLoads, gives_root_less_where_its_section_takes_time) {
   EXPECT_EQ(std::count(owner.begin(), owner.end(), 1), 3);
 }
 
+TEST(SpaceLoads, lets_root_and_another_rank_change_places) {
+  SpaceLoads loads = spaces_of({10, 3, 3, 3});
+  loads.root_extra_s = 2;
+  const std::vector<int> owner = owners_after(loads, {0, 1, 1, 1}, 2, 1);
+  EXPECT_EQ(owner, (std::vector<int>{1, 0, 0, 0})) << "no move or swap of single spaces helps";
+  EXPECT_EQ(makespan(loads, owner, 2), 11);
+}
+
 TEST(SpaceLoads, brings_the_spaces_of_an_island_together) {
   SpaceLoads loads = spaces_of({1, 1, 4, 4});
   loads.ship_s = 0.2;
@@ -78,6 +86,28 @@ TEST(SpaceLoads, brings_the_spaces_of_an_island_together) {
   const std::vector<int> owner = owners_after(loads, {0, 1, 0, 1}, 2);
   EXPECT_EQ(owner[0], owner[1]);
   EXPECT_EQ(makespan(loads, owner, 2), 8);
+}
+
+// Weights and costs are small whole numbers, so that the fit is exact but for the rounding of a division.
+TEST(SolverCosts, are_found_from_ranks_that_differ) {
+  const SolverCosts costs =
+      fit_costs(std::vector<RankSample>{{10, 2, 10 * 1 + 2 * 3}, {4, 8, 4 * 1 + 8 * 3}});
+  EXPECT_DOUBLE_EQ(costs.batches, 1);
+  EXPECT_DOUBLE_EQ(costs.contacts, 3);
+}
+
+TEST(SolverCosts, are_the_same_where_the_ranks_are_alike_or_have_nothing) {
+  const SolverCosts alike = fit_costs(std::vector<RankSample>{{10, 5, 30}, {20, 10, 60}});
+  EXPECT_DOUBLE_EQ(alike.batches, 2);
+  EXPECT_DOUBLE_EQ(alike.contacts, 2);
+  const SolverCosts one_kind = fit_costs(std::vector<RankSample>{{0, 5, 15}, {0, 10, 30}});
+  EXPECT_DOUBLE_EQ(one_kind.contacts, 3);
+  EXPECT_EQ(fit_costs(std::vector<RankSample>{{0, 0, 1}, {0, 0, 2}}).batches, 0);
+}
+
+TEST(SolverCosts, stay_within_four_times_the_mean_whatever_a_frame_says) {
+  const SolverCosts costs = fit_costs(std::vector<RankSample>{{10, 1, 100}, {1, 10, 1}});
+  EXPECT_DOUBLE_EQ(costs.contacts, 101.0 / 22 / 4) << "the fit alone gives less than 0";
 }
 
 TEST(SpaceLoads, stays_if_too_little_is_to_be_gained) {
