@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "mpi/breaks.h"
 
 namespace pbmpi::mpi {
 namespace {
@@ -65,6 +66,7 @@ void FrameDriver::set_stop_flag(const std::atomic<int>& flag) { stop_flag_ = &fl
 WorldRunResult FrameDriver::run() {
   core::require_invariant(frame_ == 0, "FrameDriver::run: once a driver");
   result_.times.reserve(num_frames());
+  joints_break_ = any_breakage(comm_, local_worlds());
   while (frame_ < num_frames() && !result_.stopped && result_.failure.empty()) run_frame();
   agree(comm_, errors_);  // what the observers of the last frame threw
   result_.frames_done = frame_;
@@ -103,6 +105,7 @@ void FrameDriver::run_frame() {
   result_.times.push_back(
       {record.wall_s, verdict.delivered_s, record.measured, record.phases, record.traffic});
 
+  if (joints_break_) announce_breaks(worlds);
   if (verdict.num_moves > 0) rebalance(verdict.num_moves, record.step);
   if (status.nonfinite_world >= 0) note_failure(status.nonfinite_world);
   if (status.stop != 0 && frame_ + 1 < num_frames()) {
@@ -179,6 +182,11 @@ void FrameDriver::note_failure(int world) {
   comm_.bcast_value(num_bodies, owner);
   result_.failure = "world " + std::to_string(world) + " has " + std::to_string(num_bodies) + " non-finite " +
                     (num_bodies == 1 ? "body" : "bodies") + " in frame " + std::to_string(frame_);
+}
+
+void FrameDriver::announce_breaks(std::span<const model::LocalWorld> worlds) {
+  for (const model::RunEvent& event : find_breaks(comm_, worlds, frame_, frame_ * settings_.steps_per_frame))
+    announce(event);
 }
 
 void FrameDriver::announce(const model::RunEvent& event) {

@@ -141,6 +141,7 @@ class FrameDriver {
   void rebalance(std::int64_t num_moves, std::int64_t step);
   void note_failure(int world);
   void announce(const model::RunEvent& event);
+  void announce_breaks(std::span<const model::LocalWorld> worlds);
   std::int64_t num_frames() const { return settings_.warmup + settings_.frames; }
 
   Communicator comm_;
@@ -149,8 +150,9 @@ class FrameDriver {
   std::vector<model::PoseConsumer*> consumers_;
   const std::atomic<int>* stop_flag_ = nullptr;
   ErrorHold errors_;
-  std::int64_t frame_ = 0;    ///< frames done
-  double last_output_s_ = 0;  ///< time that observers and consumers took in the frame before
+  std::int64_t frame_ = 0;     ///< frames done
+  bool joints_break_ = false;  ///< the effect "breakable_joints", in any world
+  double last_output_s_ = 0;   ///< time that observers and consumers took in the frame before
   WorldRunResult result_;
 };
 

@@ -1,5 +1,6 @@
 #include "mpi/owned_worlds.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -14,8 +15,10 @@ constexpr int state_tag = 1;
 constexpr std::size_t doubles_per_body = 13;
 constexpr std::size_t doubles_per_rest = 8;  ///< with the effect "sleeping"
 
+/// Of a state as it travels; State::broken_in, with the effect "breakable_joints", as a number a joint.
 std::size_t num_doubles(const model::State& state) {
-  return doubles_per_body * state.position.size() + doubles_per_rest * state.rest.size();
+  return doubles_per_body * state.position.size() + doubles_per_rest * state.rest.size() +
+         state.broken_in.size();
 }
 
 /// Bit for bit: what a NaN carries survives, too.
@@ -34,10 +37,12 @@ std::vector<double> pack(const model::State& state) {
     row[7] = rest.idle_steps;
     row += doubles_per_rest;
   }
+  std::copy(state.broken_in.begin(), state.broken_in.end(), row);
   return packed;
 }
 
-model::State unpack(const std::vector<double>& packed, std::size_t n) {
+/// `num_joints`: of State::broken_in.
+model::State unpack(const std::vector<double>& packed, std::size_t n, std::size_t num_joints) {
   model::State state;
   state.resize(static_cast<int>(n));
   if (n == 0) return state;
@@ -45,7 +50,7 @@ model::State unpack(const std::vector<double>& packed, std::size_t n) {
   std::memcpy(&state.orientation.front().w, packed.data() + 3 * n, 4 * n * sizeof(double));
   std::memcpy(state.velocity.front().data(), packed.data() + 7 * n, 3 * n * sizeof(double));
   std::memcpy(state.angular_velocity.front().data(), packed.data() + 10 * n, 3 * n * sizeof(double));
-  if (packed.size() > doubles_per_body * n) state.rest.resize(n);
+  if (packed.size() > doubles_per_body * n + num_joints) state.rest.resize(n);
   const double* row = packed.data() + doubles_per_body * n;
   for (model::Rest& rest : state.rest) {
     std::memcpy(rest.position.data(), row, 3 * sizeof(double));
@@ -53,6 +58,8 @@ model::State unpack(const std::vector<double>& packed, std::size_t n) {
     rest.idle_steps = static_cast<std::int32_t>(row[7]);
     row += doubles_per_rest;
   }
+  for (std::size_t joint = 0; joint < num_joints; ++joint)
+    state.broken_in.push_back(static_cast<std::int32_t>(row[joint]));
   return state;
 }
 
@@ -81,12 +88,15 @@ void OwnedWorlds::find_own() {
 void OwnedWorlds::exchange_sizes() {
   std::vector<std::int64_t> num_bodies(placement_.size(), 0);
   state_doubles_.assign(placement_.size(), 0);
+  state_joints_.assign(placement_.size(), 0);
   for (const int world : ids_) {
     num_bodies[world] = stepper_->model(world).num_bodies();
     state_doubles_[world] = static_cast<std::int64_t>(num_doubles(stepper_->state(world)));
+    state_joints_[world] = std::ssize(stepper_->state(world).broken_in);
   }
   comm_->allreduce(num_bodies, Reduce::max);
   comm_->allreduce(state_doubles_, Reduce::max);
+  comm_->allreduce(state_joints_, Reduce::max);
   for (const std::int64_t count : num_bodies) table_.body_offset.push_back(table_.body_offset.back() + count);
 }
 
@@ -110,7 +120,7 @@ void OwnedWorlds::move(std::span<const Move> moves, std::int64_t step) {
       const std::int64_t num_bodies = table_.body_offset[move.world + 1] - table_.body_offset[move.world];
       std::vector<double> packed(state_doubles_[move.world]);
       comm_->recv(std::span(packed), placement_[move.world], state_tag);
-      arrivals.emplace_back(move.world, unpack(packed, num_bodies));
+      arrivals.emplace_back(move.world, unpack(packed, num_bodies, state_joints_[move.world]));
     }
   }
   agree_on_errors(*comm_, [&] {

@@ -44,6 +44,7 @@ class OwnedWorlds {
   Placement placement_;
   model::WorldTable table_;
   std::vector<std::int64_t> state_doubles_;  ///< [worlds] numbers of a state that moves
+  std::vector<std::int64_t> state_joints_;   ///< [worlds] of them State::broken_in
   std::vector<int> ids_;
 };
 

@@ -23,10 +23,11 @@ std::string describe(const Reassignment& plan) {
   return text;
 }
 
-std::vector<int> all_bodies(int count) {
-  std::vector<int> bodies(static_cast<std::size_t>(count));
-  for (int body = 0; body < count; ++body) bodies[body] = body;
-  return bodies;
+/// 0, 1, ... count - 1: all bodies, or all units.
+std::vector<int> first_numbers(int count) {
+  std::vector<int> numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
 }
 
 }  // namespace
@@ -229,7 +230,7 @@ std::string SpaceDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
   planned_.moves.resize(num_moves);
   comm().bcast(std::span(planned_.moves));
   const int num_bodies = stepper_->model().num_bodies();
-  const std::vector<int> bodies = all_bodies(num_bodies);
+  const std::vector<int> bodies = first_numbers(num_bodies);
   std::vector<double> rows(numbers_of_state * static_cast<std::size_t>(num_bodies));
   if (comm().is_root()) rows = state_rows(stepper_->state(), bodies);
   comm().bcast(std::span(rows));
@@ -241,6 +242,12 @@ std::string SpaceDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
     std::vector<double> rest = sleepers->rest_rows(bodies);
     comm().bcast(std::span(rest));
     sleepers->put(bodies, rest);
+  }
+  const std::vector<int> units = first_numbers(stepper_->map().num_units());
+  std::vector<std::int32_t> broken = stepper_->broken_rows(units);
+  if (!broken.empty()) {
+    comm().bcast(std::span(broken));
+    stepper_->put_broken(units, broken);
   }
   const model::State state = stepper_->state();
   step_.own(ownership_, state, step);

@@ -23,7 +23,9 @@ SpaceStep::SpaceStep(const Communicator& comm, model::SpaceStepper& stepper, Err
 
 void SpaceStep::own(const SpaceOwnership& ownership, const model::State& state, std::int64_t step) {
   ownership_ = ownership;
-  has_fast_bodies_ = model::StepPlan(stepper_->model()).has("fast_bodies");
+  const model::StepPlan plan(stepper_->model());
+  has_fast_bodies_ = plan.has("fast_bodies");
+  joints_break_ = plan.has("breakable_joints");
   crosses_ = ownership.is_divided() && stepper_->model().spaces_meet;
   active_units_ = own_units();
   guard([&] { stepper_->own(ownership.spaces[comm_->rank()], state, step); });

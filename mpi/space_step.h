@@ -49,6 +49,8 @@ struct FrameFindings {
 /// With the effect "field_of_interest" that follows a body the owner of that body tells the others where it
 /// is (space_step_focus.cpp). Who solves an island finds out for itself whether it is inside.
 ///
+/// With the effect "breakable_joints" what is broken travels with the states of the bodies that it held.
+///
 /// Errors of the stepper are held in `errors`; the messages of the step are exchanged all the same.
 class SpaceStep {
  public:
@@ -141,6 +143,7 @@ class SpaceStep {
   std::unique_ptr<Mail> mail_;    ///< none where no message is sent
   bool crosses_ = false;          ///< can anything cross?
   bool has_fast_bodies_ = false;  ///< the pass of that name
+  bool joints_break_ = false;     ///< the pass "breakable_joints"
   std::vector<model::Contact> contacts_;
   std::vector<int> active_units_;          ///< solved here in this step, ascending
   bool has_islands_ = false;               ///< are those of this step found?

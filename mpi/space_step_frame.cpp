@@ -45,6 +45,7 @@ void SpaceStep::post_frame(const Measures& own, const core::PhaseTimes& times) {
   MessageWriter message;
   message.put(state_rows(stepper_->state(), ownership_->bodies[comm_->rank()]));
   if (sleepers_) message.put(sleepers_->rest_rows(ownership_->bodies[comm_->rank()]));
+  if (joints_break_) message.put(stepper_->broken_rows(own_units()));
   message.put(own_boxes());
   message.put_value(own.counts);
   message.put(own.energy_j);
@@ -104,6 +105,7 @@ void SpaceStep::require_apart() {
 void SpaceStep::take_frame(int rank, MessageReader& message) {
   stepper_->put_states(ownership_->bodies[rank], message.get<double>());
   if (sleepers_) sleepers_->put(ownership_->bodies[rank], message.get<double>());
+  if (joints_break_) stepper_->put_broken(ownership_->units[rank], message.get<std::int32_t>());
   const auto boxes = message.get<model::Box>();
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes_[ownership_->spaces[rank][i]] = boxes[i];
   const auto counts = message.get_value<model::IslandCounts>();

@@ -50,6 +50,7 @@ void SpaceStep::ship_out(const Orders& orders) {
     const std::vector<int> bodies = bodies_of(map, units[to]);
     bodies_shipped_ += std::ssize(bodies);
     message.put(state_rows(stepper_->state(), bodies));
+    if (joints_break_) message.put(stepper_->broken_rows(units[to]));
     message.put(contacts[to]);
     mail_->post(message.take(), to, ship_tag);
     guests_elsewhere_.push_back({to, std::move(units[to])});
@@ -63,6 +64,7 @@ void SpaceStep::ship_in(const Orders& orders, core::LapTimer& timer) {
     timer.lap(Phase::wait);
     const auto units = message.get<int>();
     const auto rows = message.get<double>();
+    if (joints_break_) stepper_->put_broken(units, message.get<std::int32_t>());
     merge_contacts(message.get<WireContact>(), contacts_);
     guests_.push_back({from, {units.begin(), units.end()}});
     stepper_->put_states(bodies_of(stepper_->map(), units), rows);
@@ -76,6 +78,7 @@ void SpaceStep::ship_back(core::LapTimer& timer) {
     MessageWriter message;
     const std::vector<int> bodies = bodies_of(map, guest.units);
     message.put(state_rows(stepper_->state(), bodies));
+    if (joints_break_) message.put(stepper_->broken_rows(guest.units));
     mail_->post(message.take(), guest.rank, back_tag);
     timer.lap(Phase::ship);
   }
@@ -83,6 +86,7 @@ void SpaceStep::ship_back(core::LapTimer& timer) {
     MessageReader message(mail_->take(shipped.rank, back_tag));
     timer.lap(Phase::wait);
     stepper_->put_states(bodies_of(map, shipped.units), message.get<double>());
+    if (joints_break_) stepper_->put_broken(shipped.units, message.get<std::int32_t>());
     timer.lap(Phase::ship);
   }
 }

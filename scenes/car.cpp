@@ -21,6 +21,7 @@ struct Car {
   // Passenger cars bounce at 1 to 1.5 Hz and are damped at 0.2 to 0.4 of critical (Gillespie, Fundamentals of
   // Vehicle Dynamics, ch. 5).
   double suspension_hz = 1.2, damping_ratio = 0.4;
+  double wheel_break_force_n = 0;  // that its joint bears; 0 = any
   double speed_m_s = 0;
   double drive_torque_nm = 0;             // largest, on each rear wheel, to keep the speed
   double tyre_mu = 0.9;                   // as the ground's: dry asphalt
@@ -49,6 +50,7 @@ Car read(TableReader& actor, const SceneContext& context) {
   positive("wheel_width", car.wheel_width_m);
   positive("suspension_frequency", car.suspension_hz);
   positive("damping_ratio", car.damping_ratio);
+  car.wheel_break_force_n = actor.number("wheel_break_force", Sign::non_negative, 0.0);
   car.speed_m_s = actor.number("speed", Sign::any, 0.0);
   car.drive_torque_nm = actor.number("drive_torque", Sign::non_negative, 0.0);
   car.tyre_mu = actor.number("tyre_mu", Sign::non_negative, car.tyre_mu);
@@ -69,6 +71,8 @@ class CarBuilder {
   CarBuilder(const Car& car, const Placement& place, model::Model& model)
       : car_(car), place_(place), model_(model) {
     actor_ = add_actor(model, place.name, model::ActorKind::car);
+    // A wheel that has come off can hit the chassis and the other wheels.
+    model.actors[actor_].self_collision = car.wheel_break_force_n > 0;
     forward_ = place.pose.direction_to_outer(Vec3::UnitX());
     left_ = place.pose.direction_to_outer(Vec3::UnitY());
     up_ = place.pose.direction_to_outer(Vec3::UnitZ());
@@ -143,6 +147,7 @@ class CarBuilder {
     const double weight_n = quarter_mass * std::max(0.0, -car_.context.gravity.dot(up_));
     joint.anchor_a -= weight_n / joint.suspension.stiffness * Vec3::UnitZ();
     joint.limits[0] = {0, 0};
+    joint.break_force = car_.wheel_break_force_n;
     if (driven && car_.drive_torque_nm > 0) {
       joint.motors[1] = {car_.speed_m_s / car_.wheel_radius_m, car_.drive_torque_nm};
     }

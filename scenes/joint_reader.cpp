@@ -25,6 +25,7 @@ struct JointSpec {
   std::array<model::AxisLimit, 2> limits;
   std::array<model::AxisMotor, 2> motors;
   model::Spring suspension;
+  double break_force = 0, break_torque = 0;
 };
 
 JointKind read_kind(TableReader& table) {
@@ -94,6 +95,14 @@ void read_axes(TableReader& table, JointSpec& joint) {
   }
 }
 
+/// A fixed joint needs its anchor for the torque alone.
+void read_strength(TableReader& table, JointSpec& joint) {
+  joint.break_force = table.number("break_force", Sign::non_negative, 0.0);
+  joint.break_torque = table.number("break_torque", Sign::non_negative, 0.0);
+  const bool is_weld = joint.kind == JointKind::fixed && joint.break_torque > 0;
+  if (has_anchor(joint.kind) || is_weld) joint.anchor = table.vector("anchor", Sign::any);
+}
+
 int resolve(const JointSpec& joint, const model::Model& model, const std::string& name) {
   if (name == world_name) return model::no_body;
   const int body = find_body(model, name);
@@ -111,6 +120,8 @@ void build(const JointSpec& spec, model::Model& model) {
   joint.limits = spec.limits;
   joint.motors = spec.motors;
   joint.suspension = spec.suspension;
+  joint.break_force = spec.break_force;
+  joint.break_torque = spec.break_torque;
   model.joints.push_back(joint);
 }
 
@@ -122,7 +133,7 @@ JointPlan read_joint(TableReader& table) {
   table.set_what("joint " + in_quotes(joint.name));
   joint.kind = read_kind(table);
   read_bodies(table, joint);
-  if (has_anchor(joint.kind)) joint.anchor = table.vector("anchor", Sign::any);
+  read_strength(table, joint);
   read_axes(table, joint);
   table.finish();
   return [joint](model::Model& model) { build(joint, model); };

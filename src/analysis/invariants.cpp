@@ -76,6 +76,9 @@ std::vector<double> segment_stretch(const Model& model, const std::vector<Segmen
   std::vector<double> stretch;
   stretch.reserve(segments.size());
   for (const Segment& segment : segments) {
+    if (!poses.holds(static_cast<std::size_t>(segment.joint_a)) ||
+        !poses.holds(static_cast<std::size_t>(segment.joint_b)))
+      continue;
     const Joint& a = model.joints[static_cast<std::size_t>(segment.joint_a)];
     const Joint& b = model.joints[static_cast<std::size_t>(segment.joint_b)];
     const Vec3 across =

@@ -27,7 +27,8 @@ struct Segment {
 std::vector<Segment> human_segments(const model::Model& model);
 
 /// |d / length - 1| of each segment: d is the distance of the two anchors where the neighbouring segments
-/// have them, so that joints pulled apart show as stretch. NaN if d is not finite.
+/// have them, so that joints pulled apart show as stretch. NaN if d is not finite. A segment with a joint
+/// that is broken is left out.
 std::vector<double> segment_stretch(const model::Model& model, const std::vector<Segment>& segments,
                                     PoseView poses);
 

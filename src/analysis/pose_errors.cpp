@@ -124,7 +124,9 @@ PoseErrors compare_bodies(PoseView poses, PoseView reference) {
 
 PoseErrors compare(const Model& model, PoseView poses, PoseView reference) {
   PoseErrors errors = compare_bodies(poses, reference);
-  for (const Joint& joint : model.joints) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (!poses.holds(i) || !reference.holds(i)) continue;
+    const Joint& joint = model.joints[i];
     errors.joint_position_m.push_back(
         distance(joint_gap_vector(model, joint, poses), joint_gap_vector(model, joint, reference)));
     errors.joint_orientation_rad.push_back(

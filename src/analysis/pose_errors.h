@@ -1,10 +1,11 @@
 /// How far two results for the same bodies are apart: body by body and joint by joint.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "model/model.h"
+#include "model/state.h"
 
 namespace pbmpi::analysis {
 
@@ -12,6 +13,10 @@ namespace pbmpi::analysis {
 struct PoseView {
   std::span<const model::Vec3> position;     ///< m, world frame
   std::span<const model::Quat> orientation;  ///< (w, x, y, z), of any length but zero
+  /// As in model::State: joints that are broken, which hold nothing; empty: all joints hold.
+  std::span<const std::int32_t> broken_in = {};
+
+  bool holds(std::size_t joint) const { return broken_in.empty() || broken_in[joint] == model::unbroken; }
 };
 
 /// Angle [rad, 0 to pi] of the shortest rotation between two orientations; q and -q are the same one. NaN if
@@ -28,13 +33,13 @@ model::Vec3 joint_gap_vector(const model::Model& model, const model::Joint& join
 /// fixed: rotation against the start.
 double joint_axis_angle(const model::Model& model, const model::Joint& joint, PoseView poses);
 
-/// Errors of every body and of every joint of a world, whatever the method: always as many entries. An entry
-/// that cannot be computed is NaN.
+/// Errors of every body and of every joint of a world, whatever the method: always as many entries, but that
+/// a joint which is broken in either result is left out. An entry that cannot be computed is NaN.
 struct PoseErrors {
   std::vector<double> body_position_m;        ///< [num_bodies] distance
   std::vector<double> body_orientation_rad;   ///< [num_bodies] angle
-  std::vector<double> joint_position_m;       ///< [num_joints] distance of the two gap vectors
-  std::vector<double> joint_orientation_rad;  ///< [num_joints] difference of the two axis angles
+  std::vector<double> joint_position_m;       ///< [joints that hold] distance of the two gap vectors
+  std::vector<double> joint_orientation_rad;  ///< [joints that hold] difference of the two axis angles
 
   void append(const PoseErrors& more);
 };

@@ -107,6 +107,11 @@ std::optional<std::string> suspension(const Model& model) {
       model.joints, [](const Joint& j) { return j.suspension.stiffness > 0; }, "joints with a spring");
 }
 
+std::optional<std::string> breakable_joints(const Model& model) {
+  return counted_if(
+      model.joints, [](const Joint& j) { return j.breakable(); }, "joints with a strength");
+}
+
 std::optional<std::string> steering(const Model& model) {
   return counted_events(
       model, [](const Event& e) { return e.kind == EventKind::steer; }, "steering events");
@@ -166,6 +171,9 @@ void drop_motors(Model& model) {
 void drop_suspension(Model& model) {
   for (Joint& joint : model.joints) joint.suspension = {};
 }
+void drop_strengths(Model& model) {
+  for (Joint& joint : model.joints) joint.break_force = joint.break_torque = 0;
+}
 void drop_damping(Model& model) { model.linear_damping = model.angular_damping = 0; }
 void refuse_without_joints(Model& model) {
   core::require_input(model.joints.empty(),
@@ -194,6 +202,7 @@ const std::vector<Effect>& effect_registry() {
       {"limits", "joint angles stay in their range", Phase::rows, limits, drop_limits},
       {"motors", "joint axes are driven or held", Phase::rows, motors, drop_motors},
       {"suspension", "wheels spring along the steering axis", Phase::rows, suspension, drop_suspension},
+      {"breakable_joints", "joints give way under load", Phase::solve, breakable_joints, drop_strengths},
       {"gyroscopic_torque", "spinning bodies precess", Phase::integrate, gyroscopic_torque, keep},
       {"gravity", "bodies fall", Phase::integrate, gravity, drop_gravity},
       {"damping", "velocities die away", Phase::integrate, damping, drop_damping},

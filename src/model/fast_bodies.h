@@ -43,6 +43,9 @@ class FastBodies {
   /// `model` is borrowed. `of_bodies` [num_bodies]: looks only at these, and at static geoms; empty: at all.
   explicit FastBodies(const Model& model, std::span<const char> of_bodies = {});
 
+  /// Joints are broken from now on: State::broken_in.
+  void set_broken(std::span<const std::int32_t> broken_in) { rule_ = TouchRule(*model_, broken_in); }
+
   /// Finds the fast geoms at the start of a step of `dt_s`. Is there any?
   bool look(const State& state, double dt_s);
   /// Those of the last look(), ascending: bodies with a fast geom.

@@ -58,10 +58,13 @@ struct FrameRecord {
   const EstimateRecord* estimate = nullptr;  ///< none without FEEC
 };
 
+/// RunEvent::kind of a joint that broke.
+inline constexpr const char* joint_broken = "joint_broken";
+
 /// Something that happened to the run, for the file's /events.
 struct RunEvent {
   std::int64_t frame = 0;
-  std::string kind;    ///< "rebalance", "signal", "checkpoint"
+  std::string kind;    ///< "rebalance", "signal", "checkpoint", joint_broken
   std::string detail;  ///< one line for people
 };
 

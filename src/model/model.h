@@ -106,13 +106,17 @@ struct Joint {
   JointKind kind = JointKind::ball;
   int body_a = 0;
   int body_b = no_body;
-  Vec3 anchor_a = Vec3::Zero();     ///< [m], frame of a (unused by slider and fixed)
+  Vec3 anchor_a = Vec3::Zero();     ///< [m], frame of a (unused by slider; of fixed for break_torque alone)
   Vec3 anchor_b = Vec3::Zero();     ///< [m], frame of b
   Vec3 axis1_a = Vec3::UnitZ();     ///< unit, frame of a: hinge, slider, universal, hinge2
   Vec3 axis2_b = Vec3::UnitX();     ///< unit, frame of b: universal, hinge2
   std::array<AxisLimit, 2> limits;  ///< of axis 1 and 2 (hinge2: axis 1 only)
   std::array<AxisMotor, 2> motors;  ///< of axis 1 and 2
   Spring suspension;                ///< hinge2 only
+  double break_force = 0;           ///< [N] above which it breaks (model/breakage.h); 0 = never
+  double break_torque = 0;  ///< [N m] likewise, about the anchor; of a slider the middle of its bodies
+
+  bool breakable() const { return break_force > 0 || break_torque > 0; }
 };
 
 enum class EventKind {

@@ -50,7 +50,9 @@ double joint_gap(const Model& model, const State& state, const Joint& joint) {
 
 double max_joint_gap(const Model& model, const State& state) {
   double gap = 0;
-  for (const Joint& joint : model.joints) gap = std::max(gap, joint_gap(model, state, joint));
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (!state.is_broken(i)) gap = std::max(gap, joint_gap(model, state, model.joints[i]));
+  }
   return gap;
 }
 

@@ -29,9 +29,9 @@ struct Observables {
   int bodies_inside = 0;         ///< awake ones in the field of interest; 0 without that effect
   double energy_j = 0;           ///< kinetic + potential (height above z = 0 against gravity)
   double max_penetration_m = 0;  ///< deepest contact
-  double joint_gap_m = 0;        ///< largest distance between the two anchors of a joint, after the step
-  int nonfinite = 0;             ///< bodies with a NaN or an infinity
-  Residuals residuals;           ///< all 0 unless they are asked for (StepperSettings::residuals)
+  double joint_gap_m = 0;  ///< largest distance between the two anchors of a joint that holds, after the step
+  int nonfinite = 0;       ///< bodies with a NaN or an infinity
+  Residuals residuals;     ///< all 0 unless they are asked for (StepperSettings::residuals)
 };
 
 /// Kinetic and potential energy of one body [J].
@@ -44,7 +44,7 @@ double mechanical_energy(const Model& model, const State& state);
 /// axis for hinge2 with suspension; 0 for a slider's sliding direction.
 double joint_gap(const Model& model, const State& state, const Joint& joint);
 
-/// The largest joint_gap of the world [m]; 0 without joints.
+/// The largest joint_gap of the world's joints that hold [m]; 0 without any.
 double max_joint_gap(const Model& model, const State& state);
 
 }  // namespace pbmpi::model

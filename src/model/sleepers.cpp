@@ -116,7 +116,9 @@ std::vector<Resting> Sleepers::find_resting(std::span<const int> bodies, std::sp
   const auto unite = [&](int a, int b) {
     if (a != no_body && b != no_body) sets_.unite(a, b);
   };
-  for (const Joint& joint : model_->joints) unite(joint.body_a, joint.body_b);
+  for (std::size_t joint = 0; joint < model_->joints.size(); ++joint) {
+    if (!state.is_broken(joint)) unite(model_->joints[joint].body_a, model_->joints[joint].body_b);
+  }
   for (const auto& [a, b] : touching) unite(a, b);
   restless_.assign(state.position.size(), 0);
   for (const int body : bodies) {

@@ -61,6 +61,17 @@ class SpaceStepper {
   /// becomes 0 where collide_across() would look at it.
   virtual void put_poses(std::span<const int> bodies, std::span<const double> rows) = 0;
 
+  /// State::broken_in of the joints of these units, unit by unit, and what takes it in from elsewhere; none
+  /// without the effect "breakable_joints". The joints of units that this rank owns or solves are current.
+  virtual std::vector<std::int32_t> broken_rows(std::span<const int> units) const {
+    static_cast<void>(units);
+    return {};
+  }
+  virtual void put_broken(std::span<const int> units, std::span<const std::int32_t> rows) {
+    static_cast<void>(units);
+    static_cast<void>(rows);
+  }
+
   /// Own bodies that are fast at the state of now (model/fast_bodies.h), ascending: collide_across() must
   /// have their whole states, and takes all others for slow. None without the pass.
   virtual std::vector<int> fast_bodies() = 0;

@@ -35,6 +35,11 @@ std::uint64_t hash(const State& state) {
     hash.add(state.velocity[i].data(), 3);
     hash.add(state.angular_velocity[i].data(), 3);
   }
+  for (std::size_t joint = 0; joint < state.broken_in.size(); ++joint) {
+    if (!state.is_broken(joint)) continue;
+    hash.add(static_cast<std::uint64_t>(joint));
+    hash.add(static_cast<std::uint64_t>(state.broken_in[joint]));
+  }
   return hash.value();
 }
 

@@ -21,6 +21,9 @@ struct Rest {
   void sleep_in(int island) { idle_steps = -1 - island; }
 };
 
+/// Stands for the step in which a joint broke where it has not.
+inline constexpr std::int32_t unbroken = -1;
+
 /// One row a body, contiguous, world frame.
 struct State {
   std::vector<Vec3> position;          ///< [num_bodies][3] m, centres of mass
@@ -28,15 +31,24 @@ struct State {
   std::vector<Vec3> velocity;          ///< [num_bodies][3] m/s
   std::vector<Vec3> angular_velocity;  ///< [num_bodies][3] rad/s
   std::vector<Rest> rest;              ///< [num_bodies] with the effect "sleeping", else none
+  /// [num_joints] the step in which each broke, or unbroken; with the effect "breakable_joints", else none.
+  /// What is broken stays so, also where the effect is left out.
+  std::vector<std::int32_t> broken_in;
 
   int num_bodies() const { return static_cast<int>(position.size()); }
   void resize(int num_bodies);
+  bool is_broken(std::size_t joint) const { return !broken_in.empty() && broken_in[joint] != unbroken; }
+  /// Did the joint act in this step, given that the state is that after it?
+  bool acted_in(std::int64_t step, std::size_t joint) const {
+    return !is_broken(joint) || broken_in[joint] >= step;
+  }
 };
 
 /// The state in which `model` starts.
 State initial_state(const Model& model);
 
-/// Hash of all bits of poses and velocities, body by body. Equal states have equal hashes on every machine.
+/// Hash of all bits of poses and velocities, body by body, and of the joints that are broken, with their
+/// steps. Equal states have equal hashes on every machine.
 std::uint64_t hash(const State& state);
 
 /// Bodies of which any number is NaN or infinite.

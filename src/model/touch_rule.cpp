@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include "model/state.h"
+
 namespace pbmpi::model {
 
-TouchRule::TouchRule(const Model& model) : model_(&model), joined_(model.bodies.size()) {
-  for (const Joint& joint : model.joints) {
-    if (joint.body_b == no_body) continue;
+TouchRule::TouchRule(const Model& model, std::span<const std::int32_t> broken_in)
+    : model_(&model), joined_(model.bodies.size()) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    if (joint.body_b == no_body || (!broken_in.empty() && broken_in[i] != unbroken)) continue;
     joined_[static_cast<std::size_t>(joint.body_a)].push_back(joint.body_b);
     joined_[static_cast<std::size_t>(joint.body_b)].push_back(joint.body_a);
   }

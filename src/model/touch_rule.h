@@ -1,6 +1,8 @@
 /// Which geoms of a world may touch at all.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "model/model.h"
@@ -8,18 +10,19 @@
 namespace pbmpi::model {
 
 /// Not two static geoms, not two of one body, not two of one actor without self_collision, not two of bodies
-/// that share a joint, not two planes.
+/// that share a joint, not two planes. As with ODE's dAreConnectedExcluding a joint that is broken connects
+/// nothing, and one of several that holds is enough; what the actor says of its own geoms stands.
 class TouchRule {
  public:
-  /// `model` is borrowed.
-  explicit TouchRule(const Model& model);
+  /// `model` is borrowed; `broken_in`: as in State.
+  explicit TouchRule(const Model& model, std::span<const std::int32_t> broken_in = {});
 
   /// Geoms by their index, in any order.
   bool may_touch(int first, int second) const;
 
  private:
   const Model* model_;
-  std::vector<std::vector<int>> joined_;  ///< [num_bodies] bodies with a joint to it, sorted
+  std::vector<std::vector<int>> joined_;  ///< [num_bodies] bodies with a joint to it that holds, sorted
 };
 
 }  // namespace pbmpi::model

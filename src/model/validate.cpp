@@ -90,6 +90,9 @@ void validate_joint(const Model& model, const Joint& joint, const std::string& w
   }
   require_input(joint.suspension.stiffness >= 0 && joint.suspension.damping >= 0,
                 who + ": a spring needs stiffness and damping >= 0");
+  require_input(joint.break_force >= 0 && joint.break_torque >= 0,
+                who + ": it breaks at " + std::to_string(joint.break_force) + " N or " +
+                    std::to_string(joint.break_torque) + " N m; give at least 0, which is never");
 }
 
 void validate_event(const Model& model, const Event& event, const std::string& who) {

@@ -25,6 +25,10 @@ class BroadPhase {
   /// The pairs whose bounding boxes overlap and which may touch, sorted: the space's own order, which depends
   /// on its history, is gone. Valid until the next call.
   const std::vector<GeomPair>& find_pairs();
+  /// Joints are broken from now on: State::broken_in.
+  void set_broken(const model::Model& model, std::span<const std::int32_t> broken_in) {
+    geoms_.set_broken(model, broken_in);
+  }
   const std::vector<dGeomID>& geoms() const { return geoms_.ids(); }
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "model/state.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -74,9 +75,11 @@ dGeomID make_shape(const model::Geom& geom, dSpaceID space) {
   throw std::logic_error("ode: a shape without a geom");
 }
 
-JoinedBodies::JoinedBodies(const model::Model& model) : neighbours_(model.bodies.size()) {
-  for (const model::Joint& joint : model.joints) {
-    if (joint.body_b == model::no_body) continue;
+JoinedBodies::JoinedBodies(const model::Model& model, std::span<const std::int32_t> broken_in)
+    : neighbours_(model.bodies.size()) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const model::Joint& joint = model.joints[i];
+    if (joint.body_b == model::no_body || (!broken_in.empty() && broken_in[i] != model::unbroken)) continue;
     const int actor_a = model.bodies[joint.body_a].actor;
     const int actor_b = model.bodies[joint.body_b].actor;
     if (actor_a == actor_b && !model.actors[actor_a].self_collision) continue;

@@ -1,6 +1,8 @@
 /// Geoms from the model, and which pairs of them may touch.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "model/model.h"
@@ -18,10 +20,11 @@ struct GeomTag {
   bool check_joined = false;  ///< its body has a joint to a body that it might touch otherwise
 };
 
-/// Bodies connected by a joint: their geoms do not touch.
+/// Bodies connected by a joint that holds: their geoms do not touch (model::TouchRule).
 class JoinedBodies {
  public:
-  explicit JoinedBodies(const model::Model& model);
+  /// `broken_in`: as in model::State.
+  explicit JoinedBodies(const model::Model& model, std::span<const std::int32_t> broken_in = {});
   bool contains(int body_a, int body_b) const;
   bool has_any(int body) const { return !neighbours_[body].empty(); }
 
@@ -35,7 +38,8 @@ dGeomID make_shape(const model::Geom& geom, dSpaceID space);
 
 /// The geoms of a model in one ODE space, and the rule which of them may touch:
 /// not two static ones, not two of one body, not two of one actor without self_collision, not two of bodies
-/// that share a joint. ODE's category bits already keep most of these pairs out of the bounding box tests.
+/// that share a joint that holds. ODE's category bits already keep most of these pairs out of the bounding
+/// box tests.
 class Geoms {
  public:
   /// `space` owns the ODE geoms, whose tags live here: nothing may collide in it once this object is gone.
@@ -43,6 +47,10 @@ class Geoms {
   Geoms(const Geoms&) = delete;
   Geoms& operator=(const Geoms&) = delete;
 
+  /// Joints are broken from now on: State::broken_in.
+  void set_broken(const model::Model& model, std::span<const std::int32_t> broken_in) {
+    joined_ = JoinedBodies(model, broken_in);
+  }
   bool may_touch(const GeomTag& a, const GeomTag& b) const;
   const std::vector<dGeomID>& ids() const { return ids_; }  ///< in the model's order
 

@@ -10,8 +10,8 @@ RowCounter::RowCounter(const model::Model& model, const std::vector<dJointID>& j
     : model_(&model), joints_(joints), sets_(model.num_bodies()) {}
 
 void RowCounter::count(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
-                       model::Observables& observables) {
-  collect(touches, rest);
+                       std::span<const std::int32_t> broken_in, model::Observables& observables) {
+  collect(touches, rest, broken_in);
   const int num_bodies = model_->num_bodies();
   sets_.reset(num_bodies);
   for (const Link& link : links_) {
@@ -45,12 +45,14 @@ std::vector<model::IslandCost> RowCounter::islands(const std::vector<Touch>& tou
   return islands;
 }
 
-void RowCounter::collect(const std::vector<Touch>& touches, std::span<const model::Rest> rest) {
+void RowCounter::collect(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
+                         std::span<const std::int32_t> broken_in) {
   links_.clear();
   for (std::size_t body = 0; body < rest.size(); ++body) {
     if (rest[body].asleep()) links_.push_back({static_cast<int>(body), rest[body].island(), 0});
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (!broken_in.empty() && broken_in[i] != model::unbroken) continue;
     const model::Joint& joint = model_->joints[i];
     const bool asleep = !rest.empty() && rest[joint.body_a].asleep();
     links_.push_back({joint.body_a, joint.body_b, asleep ? 0 : count_rows(joints_[i], joint.kind)});

@@ -1,6 +1,7 @@
 /// Counts what a step has to solve: rows and islands.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,9 +20,10 @@ class RowCounter {
   /// `model` is borrowed.
   RowCounter(const model::Model& model, const std::vector<dJointID>& joints);
 
-  /// Sets rows, islands and max_island_rows. `rest`: as in model::State; what sleeps has no rows.
+  /// Sets rows, islands and max_island_rows. `rest`, `broken_in`: as in model::State; what sleeps has no
+  /// rows.
   void count(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
-             model::Observables& observables);
+             std::span<const std::int32_t> broken_in, model::Observables& observables);
   /// The islands of the last count(), in order of their lowest body, without times.
   std::vector<model::IslandCost> islands(const std::vector<Touch>& touches);
   /// The lowest body of the island that `body` was in.
@@ -32,7 +34,8 @@ class RowCounter {
   struct Link {
     int body_a, body_b, rows;
   };
-  void collect(const std::vector<Touch>& touches, std::span<const model::Rest> rest);
+  void collect(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
+               std::span<const std::int32_t> broken_in);
 
   const model::Model* model_;
   std::vector<dJointID> joints_;

@@ -21,6 +21,8 @@ class Sleeping {
 
   /// The world stands in this state from now on.
   void start(const model::State& state);
+  /// Joints are broken from now on: as in model::State.
+  void set_broken(const std::vector<std::int32_t>& broken_in) { state_.broken_in = broken_in; }
   bool all_asleep() const { return sleepers_.awake().empty(); }
   std::span<const int> awake() const { return sleepers_.awake(); }  ///< bodies, ascending
   const std::vector<model::Rest>& rest() const { return state_.rest; }

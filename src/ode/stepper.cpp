@@ -26,7 +26,7 @@ void OdeStepper::add(int world, std::shared_ptr<const model::Model> model, const
   const MessageScope scope(log_);
   Slot slot{std::move(model), state, {}, 0, {}, nullptr};
   slot.world = std::make_unique<World>(world, *slot.model, state, step, settings_, *resources_);
-  slot.take_rest();
+  slot.complete_state();
   slots_.emplace(world, std::move(slot));
 }
 
@@ -47,7 +47,7 @@ void OdeStepper::set_state(int world, const model::State& state, std::int64_t st
   } else {  // another step has other joint settings; a world that was lost has no ODE world any more
     slot.world = std::make_unique<World>(world, *slot.model, state, step, settings_, *resources_);
   }
-  slot.take_rest();
+  slot.complete_state();
 }
 
 void OdeStepper::advance(int num_steps, core::PhaseTimes& times) {

@@ -41,8 +41,11 @@ class OdeStepper final : public model::WorldStepper {
     std::optional<model::StepProfile> profile;
     std::unique_ptr<World> world;  ///< none once the state is not finite: ODE would stop at an assertion
 
-    /// A state from elsewhere may lack what the effect "sleeping" adds.
-    void take_rest() { state.rest.assign(world->rest().begin(), world->rest().end()); }
+    /// A state from elsewhere may lack what the effects "sleeping" and "breakable_joints" add.
+    void complete_state() {
+      state.rest.assign(world->rest().begin(), world->rest().end());
+      state.broken_in = world->broken_in();
+    }
   };
   const Slot& get(int world) const;
   void advance_slot(Slot& slot, int num_steps, core::LapTimer& timer);

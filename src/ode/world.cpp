@@ -44,6 +44,7 @@ World::World(int id, const model::Model& model, const model::State& state, std::
       joints_(make_joints(world_.get(), bodies_, model, settings.dt_s)),
       held_poses_(model, joints_),
       events_(model, bodies_, joints_, held_poses_),
+      breaking_(model, joints_, plan_.has("breakable_joints")),
       contacts_(model, plan_, bodies_),
       row_counter_(model, joints_),
       step_(step) {
@@ -66,6 +67,13 @@ void World::set_state(const model::State& state) {
   moved_ = true;
   restore(bodies_, state);
   if (sleeping_) sleeping_->start(state);
+  if (breaking_.start(state.broken_in)) show_broken();
+}
+
+void World::show_broken() {
+  if (broad_phase_) broad_phase_->set_broken(*model_, broken_in());
+  if (fast_bodies_) fast_bodies_->set_broken(broken_in());
+  if (sleeping_) sleeping_->set_broken(broken_in());
 }
 
 void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
@@ -86,7 +94,7 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
   if (sleeps_on()) {
     contacts_.forget();
     if (focus_) focus_->look({}, before_step_, contacts_.touches());
-    if (is_last && moved_) row_counter_.count(contacts_.touches(), sleeping_->rest(), counts_);
+    if (is_last && moved_) row_counter_.count(contacts_.touches(), sleeping_->rest(), broken_in(), counts_);
     ++step_;
     return;
   }
@@ -96,13 +104,14 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
   if (is_last && settings_.profile) {
     before_last_.resize(model_->num_bodies());
     copy_out(bodies_, before_last_);
+    before_last_.broken_in = broken_in();
   }
   if (broad_phase_) {
     collide();
     timer.lap(core::Phase::collide);
   }
   if (is_last) {
-    row_counter_.count(contacts_.touches(), rest(), counts_);
+    row_counter_.count(contacts_.touches(), rest(), broken_in(), counts_);
     timer.lap(core::Phase::islands);
   }
   if (focus_) {
@@ -110,7 +119,9 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
     focus_->look(sleeping_ ? sleeping_->awake() : focus_->all_bodies(), before_step_, contacts_.touches());
     timer.lap(core::Phase::islands);
   }
+  breaking_.note_places();
   solve();
+  if (breaking_.strain(step_, rest())) show_broken();
   contacts_.clear();
   timer.lap(core::Phase::solve);
   if (sleeping_) {
@@ -174,6 +185,7 @@ void World::read(model::State& state, model::Observables& observables) {
   }
   copy_out(bodies_, state);
   if (sleeping_) state.rest = sleeping_->rest();
+  state.broken_in = broken_in();
   observables = counts_;
   observables.contacts = contacts_.count();
   observables.bodies_inside = focus_ ? static_cast<int>(focus_->field().inside().size()) : 0;

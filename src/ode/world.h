@@ -11,6 +11,7 @@
 #include "model/fast_bodies.h"
 #include "model/step_profile.h"
 #include "model/stepper.h"
+#include "ode/breaking.h"
 #include "ode/broad_phase.h"
 #include "ode/contacts.h"
 #include "ode/engine.h"
@@ -47,6 +48,7 @@ class World {
   model::StepProfile profile_last_step();
   /// As in model::State.
   std::span<const model::Rest> rest() const;
+  const std::vector<std::int32_t>& broken_in() const { return breaking_.broken_in(); }
   /// The next step.
   std::int64_t step() const { return step_; }
 
@@ -54,6 +56,7 @@ class World {
   void take_step(bool is_last, core::LapTimer& timer);
   bool sleeps_on();
   void collide();
+  void show_broken();
   void look_ahead();
   void solve();
   void solve_enabled(int iterations);
@@ -70,6 +73,7 @@ class World {
   std::vector<dJointID> joints_;
   HeldPoses held_poses_;
   Events events_;
+  Breaking breaking_;
   Contacts contacts_;
   std::optional<BroadPhase> broad_phase_;         ///< none without the effect "collision"
   std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass

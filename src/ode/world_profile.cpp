@@ -50,15 +50,18 @@ std::vector<double> shares_of_geoms(const model::Model& model) {
 model::StepProfile World::profile_last_step() {
   model::State after = before_last_;
   copy_out(bodies_, after);
+  after.broken_in = broken_in();
+  if (breaking_.start(before_last_.broken_in)) show_broken();
   --step_;
   model::StepProfile profile;
   restore(bodies_, before_last_);
   if (broad_phase_) profile_collision(profile);
-  row_counter_.count(contacts_.touches(), rest(), counts_);
+  row_counter_.count(contacts_.touches(), rest(), broken_in(), counts_);
   profile_islands(profile);
   contacts_.clear();
   ++step_;
   restore(bodies_, after);
+  if (breaking_.start(after.broken_in)) show_broken();
   return profile;
 }
 

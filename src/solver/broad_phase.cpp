@@ -18,8 +18,9 @@ constexpr std::size_t most_listed_solids = 96;
 
 }  // namespace
 
-BroadPhase::BroadPhase(const model::Model& model, std::span<const int> geoms)
-    : model_(&model), rule_(model), boxes_(model.geoms.size()) {
+BroadPhase::BroadPhase(const model::Model& model, std::span<const int> geoms,
+                       std::span<const std::int32_t> broken_in)
+    : model_(&model), rule_(model, broken_in), boxes_(model.geoms.size()) {
   for (const int index : geoms) {
     const Geom& geom = model.geoms[static_cast<std::size_t>(index)];
     (geom.shape == Shape::plane ? planes_ : solids_).push_back(index);

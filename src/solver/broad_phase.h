@@ -1,6 +1,7 @@
 /// Finds the pairs of geoms of one world that may touch.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace pbmpi::solver {
 /// Bounding boxes of some geoms against each other, planes against bounding boxes.
 class BroadPhase {
  public:
-  /// `model` is borrowed; `geoms` ascending.
-  BroadPhase(const model::Model& model, std::span<const int> geoms);
+  /// `model` is borrowed; `geoms` ascending; `broken_in`: as in model::State.
+  BroadPhase(const model::Model& model, std::span<const int> geoms,
+             std::span<const std::int32_t> broken_in = {});
 
   /// The pairs (first < second, by geom index) whose boxes overlap, sorted. `poses`: [num_bodies].
   void find_pairs(std::span<const model::BodyPose> poses, std::vector<model::GeomPair>& pairs);

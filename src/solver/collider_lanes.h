@@ -27,6 +27,10 @@ class ColliderLanes {
   /// `sleeping`: contacts are looked for of which a body is awake.
   ColliderLanes(std::span<const PackedWorld> worlds, const WorldLanes<T>& lanes, bool sleeping);
 
+  /// Joints of a world are broken from now on: State::broken_in.
+  void set_broken(int world, std::span<const std::int32_t> broken_in) {
+    find_touchable(worlds_[static_cast<std::size_t>(world)], broken_in);
+  }
   /// Bodies that sleep have moved.
   void forget_boxes() { boxes_known_ = false; }
 
@@ -51,6 +55,7 @@ class ColliderLanes {
     std::optional<AwakeGeoms> awake;  ///< none without the pass "sleeping"
   };
 
+  static void find_touchable(World& world, std::span<const std::int32_t> broken_in);
   void update_boxes(const WorldLanes<T>& lanes);
   void find_awake(const WorldLanes<T>& lanes);
   void find_pairs(const WorldLanes<T>& lanes, int world);
@@ -104,11 +109,16 @@ ColliderLanes<T>::ColliderLanes(std::span<const PackedWorld> worlds, const World
       geoms_.set(order_.column(w, static_cast<int>(geom)), model.geoms[geom],
                  lanes.body_place(w, model.geoms[geom].body));
     }
-    if (world.geoms.size() <= most_tested_geoms) {
-      world.may_touch = std::make_unique<MayTouchTable>(model, world.geoms);
-    } else {
-      world.sorting = std::make_unique<BroadPhase>(model, world.geoms);
-    }
+    find_touchable(world, {});
+  }
+}
+
+template <class T>
+void ColliderLanes<T>::find_touchable(World& world, std::span<const std::int32_t> broken_in) {
+  if (world.geoms.size() <= most_tested_geoms) {
+    world.may_touch = std::make_unique<MayTouchTable>(*world.model, world.geoms, broken_in);
+  } else {
+    world.sorting = std::make_unique<BroadPhase>(*world.model, world.geoms, broken_in);
   }
 }
 

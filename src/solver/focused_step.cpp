@@ -66,9 +66,13 @@ void FocusedStep::note(const Pack& pack, int world) {
   const FocusedWorld& one = worlds_[static_cast<std::size_t>(world)];
   std::vector<int>& rows = seen_[static_cast<std::size_t>(world)].joint_rows;
   rows.assign(one.model->joints.size(), -1);
+  std::vector<model::Reaction>& reactions = seen_[static_cast<std::size_t>(world)].reactions;
+  reactions.assign(rows.size(), {});
   for (std::size_t joint = 0; joint < rows.size(); ++joint) {
-    if (!one.field->contains(one.model->joints[joint].body_a))
-      rows[joint] = pack.joint_rows(world, static_cast<int>(joint));
+    if (one.field->contains(one.model->joints[joint].body_a)) continue;
+    rows[joint] = pack.joint_rows(world, static_cast<int>(joint));
+    if (one.model->joints[joint].breakable())
+      reactions[joint] = pack.reaction(world, static_cast<int>(joint));
   }
 }
 
@@ -93,6 +97,13 @@ int FocusedStep::joint_rows(const Pack& pack, int world, int joint) const {
   const int outside =
       cut_ ? seen_[static_cast<std::size_t>(world)].joint_rows[static_cast<std::size_t>(joint)] : -1;
   return outside < 0 ? pack.joint_rows(world, joint) : outside;
+}
+
+model::Reaction FocusedStep::reaction(const Pack& pack, int world, int joint) const {
+  if (!cut_) return pack.reaction(world, joint);
+  const Seen& seen = seen_[static_cast<std::size_t>(world)];
+  const auto index = static_cast<std::size_t>(joint);
+  return seen.joint_rows[index] >= 0 ? seen.reactions[index] : pack.reaction(world, joint);
 }
 
 model::Residuals FocusedStep::residuals(const Pack& pack, int world) const {

@@ -45,10 +45,12 @@ class FocusedStep {
   /// As Pack's, of the whole step; until the next begin().
   int joint_rows(const Pack& pack, int world, int joint) const;
   model::Residuals residuals(const Pack& pack, int world) const;
+  model::Reaction reaction(const Pack& pack, int world, int joint) const;
 
  private:
   struct Seen {
     std::vector<int> joint_rows;  ///< [joints] of what is outside, else -1
+    std::vector<model::Reaction> reactions;  ///< [joints] of those that can break and are outside
     model::Residuals residuals;
   };
   void begin_outside(Pack& pack, StepParameters parameters, core::PhaseTimes& times);

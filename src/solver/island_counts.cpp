@@ -7,33 +7,40 @@
 
 namespace pbmpi::solver {
 
-model::IslandCounts count_islands(const model::SpaceMap& map, std::span<const int> units,
+model::IslandCounts count_islands(const model::Model& model, const model::SpaceMap& map,
+                                  std::span<const Articulation> articulations, std::span<const int> units,
                                   std::span<const model::Contact> contacts,
-                                  const std::function<int(int unit)>& joint_rows,
+                                  const std::function<std::optional<int>(int joint)>& joint_rows,
                                   const model::SpaceSleepers* sleepers) {
+  const auto asleep = [&](int body) { return sleepers != nullptr && sleepers->asleep(body); };
   model::IslandCounts counts;
-  model::DisjointSets sets(map.num_units());
-  std::vector<int> rows(static_cast<std::size_t>(map.num_units()), 0);
+  model::DisjointSets sets(model.num_bodies());
+  std::vector<int> rows(model.bodies.size(), 0);
   for (const model::Contact& contact : contacts) {
-    const int unit = map.unit_of_body[contact.body_a];
-    if (contact.body_b != model::no_body) sets.unite(unit, map.unit_of_body[contact.body_b]);
-    rows[unit] += contact.mu > 0 ? 3 : 1;
+    if (contact.body_b != model::no_body) sets.unite(contact.body_a, contact.body_b);
+    rows[contact.body_a] += contact.mu > 0 ? 3 : 1;
     counts.max_penetration_m = std::max(counts.max_penetration_m, contact.depth);
   }
   for (const int unit : units) {
-    const int body = map.bodies_of_unit[unit].front();
-    if (sleepers != nullptr && sleepers->asleep(body)) {
-      sets.unite(unit, map.unit_of_body[sleepers->island(body)]);
-    } else {
-      rows[unit] += joint_rows(unit);
+    for (const int body : map.bodies_of_unit[unit]) {
+      if (asleep(body)) sets.unite(body, sleepers->island(body));
+    }
+    for (const int index : articulations[unit].joints) {
+      const std::optional<int> acting_rows = joint_rows(index);
+      if (!acting_rows) continue;
+      const model::Joint& joint = model.joints[index];
+      if (joint.body_b != model::no_body) sets.unite(joint.body_a, joint.body_b);
+      if (!asleep(joint.body_a)) rows[joint.body_a] += *acting_rows;
     }
   }
   std::vector<int> island_rows(rows.size(), 0);
   for (const int unit : units) {
-    const int island = sets.find(unit);
-    counts.islands += island == unit ? 1 : 0;
-    island_rows[island] += rows[unit];
-    counts.rows += rows[unit];
+    for (const int body : map.bodies_of_unit[unit]) {
+      const int island = sets.find(body);
+      counts.islands += island == body ? 1 : 0;
+      island_rows[island] += rows[body];
+      counts.rows += rows[body];
+    }
   }
   counts.contacts = static_cast<int>(contacts.size());
   counts.max_island_rows = *std::max_element(island_rows.begin(), island_rows.end());

@@ -2,20 +2,24 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "model/contact.h"
 #include "model/space_map.h"
 #include "model/space_sleepers.h"
 #include "model/space_stepper.h"
+#include "solver/articulation.h"
 
 namespace pbmpi::solver {
 
-/// Of these units (ascending) and all contacts that touch them. `joint_rows`: those of a unit's joints in the
-/// last step, asked for awake units only. `sleepers` may be null; the islands that sleep count as such.
-model::IslandCounts count_islands(const model::SpaceMap& map, std::span<const int> units,
+/// Of these units (ascending) and all contacts that touch them. A unit whose joints have broken falls into
+/// several islands. `articulations`: of each unit. `joint_rows`: those of a joint in the last step, or
+/// nothing if it has broken. `sleepers` may be null; the islands that sleep count as such.
+model::IslandCounts count_islands(const model::Model& model, const model::SpaceMap& map,
+                                  std::span<const Articulation> articulations, std::span<const int> units,
                                   std::span<const model::Contact> contacts,
-                                  const std::function<int(int unit)>& joint_rows,
+                                  const std::function<std::optional<int>(int joint)>& joint_rows,
                                   const model::SpaceSleepers* sleepers);
 
 }  // namespace pbmpi::solver

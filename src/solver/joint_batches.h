@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "solver/joint_advancer.h"
 #include "solver/joint_builder.h"
+#include "solver/loose_joints.h"
 
 namespace pbmpi::solver {
 
@@ -48,10 +49,14 @@ class JointBatches {
     }
   }
 
+  /// A joint that has broken in this lane.
+  void loosen(int shape, int joint, int lane) { loose_.add(shape, joint, lane); }
   /// The rows of a step's first substep.
   void build(const Batch& batch, const JointBuilder<T>& builder, BodyLanes<T>& bodies) {
     for_each_rows(batch, [&](auto& joint, auto& rows) { builder.build(joint, bodies, rows); });
   }
+  /// After it, in all active batches: broken joints push nothing, in no substep of the step.
+  void loosen_broken();
   /// Before and after the bodies move on to the next substep; `carries`: the rows start with impulses, which
   /// act on the bodies.
   void advance(const Batch& batch, const JointAdvancer<T>& advancer, const BodyLanes<T>& bodies) {
@@ -131,6 +136,7 @@ class JointBatches {
   void for_each_rows(const Batch& batch, Visit visit);
 
   std::vector<Shape> shapes_;
+  LooseJoints<T> loose_;
   std::tuple<RowsOf<Kind::ball>, RowsOf<Kind::hinge>, RowsOf<Kind::slider>, RowsOf<Kind::universal>,
              RowsOf<Kind::fixed>, RowsOf<Kind::hinge2>>
       rows_;
@@ -184,6 +190,18 @@ void JointBatches<T>::for_each_rows(const Batch& batch, Visit visit) {
       visit(shape.joints[i], rows_of<kind.value>()[static_cast<std::size_t>(at.index)]);
     });
   }
+}
+
+template <class T>
+void JointBatches<T>::loosen_broken() {
+  loose_.for_each([&](int shape, int joint, const V& holds) {
+    const Shape& batches = shapes_[static_cast<std::size_t>(shape)];
+    const RowsAt at = batches.rows[static_cast<std::size_t>(joint)];
+    if (!batches.active[static_cast<std::size_t>(joint) / batches.num_joints]) return;
+    with_kind(at.kind, [&](auto kind) {
+      solver::loosen(rows_of<kind.value>()[static_cast<std::size_t>(at.index)], holds);
+    });
+  });
 }
 
 template <class T>

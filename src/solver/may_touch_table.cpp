@@ -4,9 +4,10 @@
 
 namespace pbmpi::solver {
 
-MayTouchTable::MayTouchTable(const model::Model& model, std::span<const int> geoms)
+MayTouchTable::MayTouchTable(const model::Model& model, std::span<const int> geoms,
+                             std::span<const std::int32_t> broken_in)
     : words_a_row_(geoms.size() / 32 + 1), words_(geoms.size() * words_a_row_, 0) {
-  const model::TouchRule rule(model);
+  const model::TouchRule rule(model, broken_in);
   const int count = static_cast<int>(geoms.size());
   const auto geom = [&](int i) { return geoms[static_cast<std::size_t>(i)]; };
   const auto is_plane = [&](int i) {

@@ -11,8 +11,9 @@ namespace pbmpi::solver {
 
 class MayTouchTable {
  public:
-  /// Rows and bits count along `geoms`.
-  MayTouchTable(const model::Model& model, std::span<const int> geoms);
+  /// Rows and bits count along `geoms`; `broken_in`: as in model::State.
+  MayTouchTable(const model::Model& model, std::span<const int> geoms,
+                std::span<const std::int32_t> broken_in = {});
 
   /// Bit b: may geom `row` touch geom first + b? For a solid row only geoms after it and no planes, so that
   /// each pair stands once; for a plane all solids. `first` is a multiple of 16, or of a power of two below.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/clock.h"
+#include "model/breakage.h"
 #include "model/contact.h"
 #include "model/model.h"
 #include "model/observables.h"
@@ -50,8 +51,8 @@ class Pack {
   virtual void store(int world, std::span<const int> bodies, model::State& state) const = 0;
   /// From now on a step moves these bodies of this world and no others of it (at the start: all). Batches
   /// that hold none of them are passed over; a body that shares a batch with them may move, too, and is not
-  /// to be looked at before its next load(), unless Passes::holds_bodies(): it is then put back. The bodies
-  /// of an articulation are active together, and the two of a contact; step() passes over the contacts of
+  /// to be looked at before its next load(), unless Passes::holds_bodies(): it is then put back. Bodies
+  /// that joints connect are active together, and the two of a contact; step() passes over the contacts of
   /// others.
   virtual void set_active(int world, std::span<const int> bodies) = 0;
   /// With the pass "sleeping": from now on collide() looks for the contacts of which one of these bodies is
@@ -60,6 +61,9 @@ class Pack {
   virtual void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) = 0;
   virtual void set_limit(int world, int joint, int axis, const model::AxisLimit& limit) = 0;
   virtual void launch(int world, const model::Event& event) = 0;
+  /// Joints of a world are broken from now on (State::broken_in): they act no more, their settings change no
+  /// more, their bodies may touch, and need not be active together. What is broken stays so.
+  virtual void set_broken(int world, std::span<const std::int32_t> broken_in) = 0;
   /// Poses of a world's bodies: [num_bodies].
   virtual void poses(int world, std::span<model::BodyPose> poses) const = 0;
   /// Collision detection among the swept geoms at the poses of now: the contacts of each world, in canonical
@@ -86,7 +90,9 @@ class Pack {
   virtual void look(std::span<model::State> states) = 0;
   /// How far a world's last step was from the solution of its constraints; StepParameters::residuals only.
   virtual model::Residuals residuals(int world) const = 0;
-  /// Rows that a joint had in the last step, limits and motors included.
+  /// What a joint of an active body exerted in the last substep.
+  virtual model::Reaction reaction(int world, int joint) const = 0;
+  /// Rows that a joint had in the last step in which it acted, limits and motors included.
   virtual int joint_rows(int world, int joint) const = 0;
 };
 

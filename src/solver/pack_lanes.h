@@ -48,6 +48,12 @@ class PackLanes final : public Pack {
     worlds_.set_limit(world, joint, axis, limit);
   }
   void launch(int world, const model::Event& event) override { worlds_.launch(world, event); }
+  void set_broken(int world, std::span<const std::int32_t> broken_in) override {
+    if (worlds_.set_broken(world, broken_in) && collider_) collider_->set_broken(world, broken_in);
+  }
+  model::Reaction reaction(int world, int joint) const override {
+    return worlds_.reaction(world, joint, static_cast<double>(h_));
+  }
   void poses(int world, std::span<model::BodyPose> poses) const override { worlds_.poses(world, poses); }
   int joint_rows(int world, int joint) const override { return worlds_.joint_rows(world, joint); }
 
@@ -186,6 +192,7 @@ void PackLanes<T>::start_step() {
     if (passes_.gravity) apply_gravity(batch);
     worlds_.joints.build(batch, builder, worlds_.bodies);
   });
+  worlds_.joints.loosen_broken();
   twists_.start(worlds_.bodies);
   iteration_ = 0;
 }

@@ -115,14 +115,14 @@ class SorStepper final : public model::AnytimeStepper {
 
 void SorStepper::set_state(int world, const model::State& state, std::int64_t step) {
   SorWorld& changed = *worlds_.at(world);
-  const bool same_step = changed.step() == step;
+  const bool fits_pack = changed.step() == step && !changed.mends(state);
   changed.set_state(state, step);
   if (groups_.empty()) return;
-  if (same_step && !begun_) {
+  if (fits_pack && !begun_) {
     const auto [group, index] = places_.at(world);
     changed.load(*groups_[group].pack, index);
   } else {
-    drop_groups();  // the joints' settings of another step
+    drop_groups();  // the joints' settings of another step, or joints that hold again
   }
 }
 
@@ -184,7 +184,10 @@ void SorStepper::look(Group& group, core::PhaseTimes& times) {
     group.pack->look(group.looks);
     group.focused.merge_looks(group.looks);
   }
-  for (std::size_t i = 0; i < group.worlds.size(); ++i) group.worlds[i]->keep_sleepers(group.looks[i]);
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+    group.worlds[i]->keep_sleepers(group.looks[i]);
+    group.looks[i].broken_in = group.worlds[i]->state().broken_in;
+  }
   timer.lap(Phase::integrate);
 }
 
@@ -241,6 +244,7 @@ void SorStepper::finish(Group& group, core::PhaseTimes& times) {
   if (!group.sleeps) group.pack->finish_step(times);
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+    if (!group.sleeps) group.worlds[i]->strain(*group.pack, static_cast<int>(i), group.focused);
     group.worlds[i]->finish_step();
     if (group.sleeps) continue;
     if (group.focused.is_cut()) group.worlds[i]->activate(*group.pack, static_cast<int>(i));

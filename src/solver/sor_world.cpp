@@ -22,13 +22,17 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
   if (plan.has("field_of_interest")) field_.emplace(*model_, settings.iterations);
   if (fast_bodies_ || field_) before_step_ = state;
   if (plan.has("sleeping")) sleepers_.emplace(*model_, settings.dt_s);
+  if (plan.has("breakable_joints")) breakage_.emplace(*model_);
   set_state(state, step);
 }
 
 void SorWorld::set_state(const model::State& state, std::int64_t step) {
+  const bool other_joints_hold = state.broken_in != state_.broken_in;
   state_ = state;
   step_ = step;
   if (sleepers_) sleepers_->start(state_);
+  if (breakage_) breakage_->start(state_);
+  if (fast_bodies_ && other_joints_hold) fast_bodies_->set_broken(state_.broken_in);
   moved_ = true;
 }
 
@@ -39,12 +43,28 @@ void SorWorld::show_awake(Pack& pack, int index) const {
 
 void SorWorld::load(Pack& pack, int index) const {
   pack.load(index, state_);
+  pack.set_broken(index, state_.broken_in);
   if (sleepers_) show_awake(pack, index);
 }
 
 void SorWorld::enter(Pack& pack, int index) const {
   load(pack, index);
   apply_settings_before(*model_, step_, index, pack);
+}
+
+bool SorWorld::mends(const model::State& state) const {
+  for (std::size_t joint = 0; joint < state_.broken_in.size(); ++joint) {
+    if (state_.is_broken(joint) && !state.is_broken(joint)) return true;
+  }
+  return false;
+}
+
+void SorWorld::strain(Pack& pack, int index, const FocusedStep& step) {
+  if (!breakage_) return;
+  const auto reaction = [&](int joint) { return step.reaction(pack, index, joint); };
+  if (!breakage_->strain(step_, breakage_->joints(), reaction, state_)) return;
+  pack.set_broken(index, state_.broken_in);
+  if (fast_bodies_) fast_bodies_->set_broken(state_.broken_in);
 }
 
 void SorWorld::fire_events(Pack& pack, int index) {
@@ -113,6 +133,7 @@ void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
   std::vector<std::pair<int, int>> links;
   std::vector<int> rows;
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
+    if (!state_.acted_in(step_ - 1, j)) continue;
     links.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
     const bool asleep = sleepers_ && state_.rest[model_->joints[j].body_a].asleep();
     rows.push_back(asleep ? 0 : step.joint_rows(pack, index, static_cast<int>(j)));

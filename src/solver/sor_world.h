@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "model/breakage.h"
 #include "model/contact.h"
 #include "model/fast_bodies.h"
 #include "model/field_of_interest.h"
@@ -33,6 +34,8 @@ class SorWorld {
   /// Forgets where the world was; a pack that holds it must be loaded anew.
   void set_state(const model::State& state, std::int64_t step);
 
+  /// Would a joint that is broken now hold again in this state? A pack has no way back.
+  bool mends(const model::State& state) const;
   /// Puts the state into the pack.
   void load(Pack& pack, int index) const;
   /// The same, with the joint settings of this step, into a fresh pack.
@@ -51,6 +54,8 @@ class SorWorld {
   bool moves() const { return !sleepers_ || !sleepers_->awake().empty(); }
   /// Wakes what these contacts touch; true if it lay asleep, so that its own contacts are still to be found.
   bool wake_touched(Pack& pack, int index, std::span<const model::Contact> contacts);
+  /// Before finish_step(): breaks what the step's load was too much for.
+  void strain(Pack& pack, int index, const FocusedStep& step);
   /// After a step with these contacts: lets islands fall asleep.
   void settle(Pack& pack, int index, std::span<const model::Contact> contacts);
   /// Puts what sleeps into `state` as it is.
@@ -92,6 +97,7 @@ class SorWorld {
   model::State before_step_;                      ///< with either: at the start of the step
   model::Observables observables_;
   std::optional<model::Sleepers> sleepers_;  ///< none without the effect "sleeping"
+  std::optional<model::Breakage> breakage_;  ///< none without the effect "breakable_joints"
   bool moved_ = true;                        ///< since the last observe()
 };
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <optional>
 
+#include "model/breakage.h"
 #include "model/effects.h"
 #include "model/geometry.h"
 #include "solver/articulation.h"
@@ -38,6 +39,8 @@ class SpaceWorld final : public model::SpaceStepper {
   void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override;
   void put_states(std::span<const int> bodies, std::span<const double> rows) override;
   void put_poses(std::span<const int> bodies, std::span<const double> rows) override;
+  std::vector<std::int32_t> broken_rows(std::span<const int> units) const override;
+  void put_broken(std::span<const int> units, std::span<const std::int32_t> rows) override;
   std::vector<int> fast_bodies() override;
   void fire_events(std::int64_t step) override;
   void launch_others(std::int64_t step, std::span<model::Box> boxes) override;
@@ -63,6 +66,8 @@ class SpaceWorld final : public model::SpaceStepper {
   void load_lent();
   bool is_awake(int body) const { return !sleepers_ || !sleepers_->asleep(body); }
   void show_sleepers();
+  void show_broken();
+  void strain(std::int64_t step);
   void collide_pairs(std::vector<Contact>& contacts);
 
   model::StepperSettings settings_;
@@ -89,6 +94,8 @@ class SpaceWorld final : public model::SpaceStepper {
   std::optional<model::FieldOfInterest> field_;  ///< likewise
   FocusedStep focused_;                          ///< of the last solve()
   int bodies_inside_ = 0;                        ///< likewise
+  std::optional<model::Breakage> breakage_;      ///< none without the effect "breakable_joints"
+  std::int64_t last_step_ = 0;                   ///< solved
 };
 
 SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
@@ -107,6 +114,7 @@ SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
   const model::StepPlan plan(*model_);
   if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_, map_, settings.dt_s);
   if (plan.has("field_of_interest")) field_.emplace(*model_, settings.iterations);
+  if (plan.has("breakable_joints")) breakage_.emplace(*model_);
   if (!plan.has("sleeping")) return;
   sleepers_.emplace(*model_, settings.dt_s, state_);
   sleepers_->start();
@@ -136,6 +144,7 @@ void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std
   pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
   pack_->load(0, state);
   state_ = state;
+  if (breakage_) breakage_->start(state_);
   pack_->store(0, state_);  // as the pack's number type has it
   if (sleepers_) sleepers_->start();
   shown_revision_ = -1;
@@ -145,6 +154,7 @@ void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std
   active_bodies_.clear();
   pack_->set_active(0, active_bodies_);
   apply_settings_before(*model_, step, 0, *pack_);
+  show_broken();
 }
 
 void SpaceWorld::place(int body) {
@@ -204,6 +214,42 @@ void SpaceWorld::show_sleepers() {
   for (int body = 0; body < model_->num_bodies(); ++body) {
     if (sleepers_->asleep(body)) stale_[body] = 1;
   }
+}
+
+void SpaceWorld::show_broken() {
+  pack_->set_broken(0, state_.broken_in);
+  if (fast_bodies_) fast_bodies_->set_broken(state_.broken_in);
+}
+
+void SpaceWorld::strain(std::int64_t step) {
+  std::vector<int> joints;
+  for (const int joint : breakage_->joints()) {
+    const int unit = map_.unit_of_body[model_->joints[joint].body_a];
+    if (std::binary_search(active_units_.begin(), active_units_.end(), unit)) joints.push_back(joint);
+  }
+  const auto reaction = [&](int joint) { return focused_.reaction(*pack_, 0, joint); };
+  if (breakage_->strain(step, joints, reaction, state_)) show_broken();
+}
+
+std::vector<std::int32_t> SpaceWorld::broken_rows(std::span<const int> units) const {
+  std::vector<std::int32_t> rows;
+  if (!breakage_) return rows;
+  for (const int unit : units) {
+    for (const int joint : articulations_[unit].joints) rows.push_back(state_.broken_in[joint]);
+  }
+  return rows;
+}
+
+void SpaceWorld::put_broken(std::span<const int> units, std::span<const std::int32_t> rows) {
+  auto row = rows.begin();
+  bool changed = false;
+  for (const int unit : units) {
+    for (const int joint : articulations_[unit].joints) {
+      changed |= state_.broken_in[joint] != *row;
+      state_.broken_in[joint] = *row++;
+    }
+  }
+  if (changed) show_broken();
 }
 
 void SpaceWorld::fire_events(std::int64_t step) {
@@ -275,14 +321,20 @@ void SpaceWorld::collide_across(std::span<const int> owner, std::span<const mode
 void SpaceWorld::activate(std::span<const int> all_units) {
   std::vector<int> units;
   for (const int unit : all_units) {
-    if (is_awake(map_.bodies_of_unit[unit].front())) units.push_back(unit);
+    const std::vector<int>& bodies = map_.bodies_of_unit[unit];
+    if (std::any_of(bodies.begin(), bodies.end(), [&](int body) { return is_awake(body); }))
+      units.push_back(unit);
   }
-  if (std::equal(units.begin(), units.end(), active_units_.begin(), active_units_.end())) return;
+  const bool may_sleep_in_part = sleepers_ && breakage_;
+  if (!may_sleep_in_part &&
+      std::equal(units.begin(), units.end(), active_units_.begin(), active_units_.end()))
+    return;
   active_units_.assign(units.begin(), units.end());
   active_bodies_.clear();
   for (const int unit : units) {
-    const std::vector<int>& bodies = map_.bodies_of_unit[unit];
-    active_bodies_.insert(active_bodies_.end(), bodies.begin(), bodies.end());
+    for (const int body : map_.bodies_of_unit[unit]) {
+      if (is_awake(body)) active_bodies_.push_back(body);
+    }
   }
   pack_->set_active(0, active_bodies_);
   // The others' lanes may be moved along with their neighbours': state_ has what they are.
@@ -317,6 +369,8 @@ void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> cont
   parameters.iterations = focused_.iterations();
   pack_->step(focused_.contacts(), parameters, times);
   core::LapTimer after(times);
+  last_step_ = step;
+  if (breakage_) strain(step);
   pack_->store(0, active_bodies_, state_);
   if (focused_.is_cut()) pack_->set_active(0, active_bodies_);
   if (!sleepers_) {  // a pack in which bodies sleep puts back what moved along with its neighbours
@@ -329,13 +383,12 @@ void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> cont
 }
 
 model::IslandCounts SpaceWorld::count(std::span<const int> units, std::span<const Contact> contacts) const {
-  const auto joint_rows = [&](int unit) {
-    int rows = 0;
-    for (const int joint : articulations_[unit].joints) rows += focused_.joint_rows(*pack_, 0, joint);
-    return rows;
+  const auto joint_rows = [&](int joint) -> std::optional<int> {
+    if (!state_.acted_in(last_step_, static_cast<std::size_t>(joint))) return std::nullopt;
+    return focused_.joint_rows(*pack_, 0, joint);
   };
-  model::IslandCounts counts =
-      count_islands(map_, units, contacts, joint_rows, sleepers_ ? &*sleepers_ : nullptr);
+  model::IslandCounts counts = count_islands(*model_, map_, articulations_, units, contacts, joint_rows,
+                                             sleepers_ ? &*sleepers_ : nullptr);
   counts.bodies_inside = bodies_inside_;
   return counts;
 }

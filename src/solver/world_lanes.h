@@ -9,8 +9,10 @@
 
 #include "model/geometry.h"
 #include "solver/active_bodies.h"
+#include "solver/broken_joints.h"
 #include "solver/held_lanes.h"
 #include "solver/joint_batches.h"
+#include "solver/load_meter.h"
 #include "solver/manifold_order.h"
 #include "solver/pack.h"
 #include "solver/passes.h"
@@ -66,6 +68,10 @@ class WorldLanes {
   void set_motor(int world, int joint, int axis, const model::AxisMotor& motor);
   void set_limit(int world, int joint, int axis, const model::AxisLimit& limit);
   void launch(int world, const model::Event& event);
+  /// True if more joints are broken than before.
+  bool set_broken(int world, std::span<const std::int32_t> broken_in);
+  /// Of the last substep, of h seconds.
+  model::Reaction reaction(int world, int joint, double h) const;
   void poses(int world, std::span<model::BodyPose> poses) const {
     for (std::size_t body = 0; body < poses.size(); ++body) poses[body] = pose(world, static_cast<int>(body));
   }
@@ -77,6 +83,7 @@ class WorldLanes {
     const World& one = worlds_[world];
     for (std::size_t joint = 0; joint < one.joints.size(); ++joint) {
       if (!active_.contains(world, one.model->joints[joint].body_a)) continue;
+      if (broken_.contains(world, static_cast<int>(joint))) continue;
       const JointPlace& at = one.joints[joint];
       joints.visit_rows(at.shape, at.joint, [&](const auto& rows) { visit(rows, at.lane); });
     }
@@ -132,6 +139,7 @@ class WorldLanes {
   std::vector<int> world_at_;  ///< [slots x num_lanes]
   bool holds_bodies_;
   ActiveBodies active_, awake_;
+  BrokenJoints broken_;
   long active_revision_ = 0;       ///< that slot_active_ and the batches are of
   std::vector<char> slot_active_;  ///< [slots]; empty: all are
   HeldLanes<T> held_;
@@ -145,6 +153,7 @@ WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& pas
   for (const PackedWorld& world : worlds) {
     active_.add_world(world.model->num_bodies());
     awake_.add_world(world.model->num_bodies());
+    broken_.add_world();
   }
   for (std::size_t w = 0; w < worlds.size(); ++w) {
     const World& world = worlds_[w];
@@ -392,6 +401,7 @@ void WorldLanes<T>::update_active() {
 
 template <class T>
 void WorldLanes<T>::set_motor(int world, int joint, int axis, const model::AxisMotor& motor) {
+  if (broken_.contains(world, joint)) return;
   const int lane = worlds_[world].joints[joint].lane;
   AxisControl<V>& control = joint_at(worlds_[world], joint).controls[axis];
   T::set(control.velocity, lane, static_cast<Scalar>(motor.velocity));
@@ -403,6 +413,7 @@ void WorldLanes<T>::set_motor(int world, int joint, int axis, const model::AxisM
 
 template <class T>
 void WorldLanes<T>::set_limit(int world, int joint, int axis, const model::AxisLimit& limit) {
+  if (broken_.contains(world, joint)) return;
   const int lane = worlds_[world].joints[joint].lane;
   AxisControl<V>& control = joint_at(worlds_[world], joint).controls[axis];
   // No stop is a stop that no angle reaches: s cos <= c sin with sin = -1, cos = 0 holds for no c > 0.
@@ -422,6 +433,31 @@ void WorldLanes<T>::launch(int world, const model::Event& event) {
   set_lane<T>(bodies.twists[at.slot].linear, at.lane, event.velocity);
   set_lane<T>(bodies.twists[at.slot].angular, at.lane, event.angular_velocity);
   if (event.pose) set_pose(at, *event.pose);
+}
+
+template <class T>
+bool WorldLanes<T>::set_broken(int world, std::span<const std::int32_t> broken_in) {
+  const std::span<const int> fresh = broken_.find_fresh(world, broken_in);
+  if (fresh.empty()) return false;
+  for (const int joint : fresh) {
+    for (const int axis : {0, 1}) {
+      set_motor(world, joint, axis, {});
+      set_limit(world, joint, axis, {});
+    }
+    const JointPlace& at = worlds_[world].joints[joint];
+    joints.loosen(at.shape, at.joint, at.lane);
+  }
+  broken_.set(world, broken_in);
+  return true;
+}
+
+template <class T>
+model::Reaction WorldLanes<T>::reaction(int world, int joint, double h) const {
+  const JointPlace& at = worlds_[world].joints[joint];
+  const model::Model& model = *worlds_[world].model;
+  JointLoad load;
+  joints.visit_rows(at.shape, at.joint, [&](const auto& rows) { load = load_of(rows, at.lane); });
+  return reaction_of(load, model, model.joints[joint], pose(world, model.joints[joint].body_a), h);
 }
 
 template <class T>

@@ -38,6 +38,23 @@ TEST(PoseErrors, a_state_has_no_error_against_itself_and_an_entry_for_every_body
   for (const double angle : errors.body_orientation_rad) EXPECT_NEAR(angle, 0, rounding);
 }
 
+TEST(PoseErrors, a_joint_that_is_broken_in_either_result_is_left_out) {
+  const model::Model model = support::chain(3);
+  const State reference = model::initial_state(model);
+  State moved = reference;
+  moved.position[2].z() += 1;
+  EXPECT_EQ(compare(model, view(moved), view(reference)).joint_position_m.size(), 3u);
+  moved.broken_in = {model::unbroken, model::unbroken, 5};
+  const PoseView broken{moved.position, moved.orientation, moved.broken_in};
+  for (const PoseErrors& errors :
+       {compare(model, broken, view(reference)), compare(model, view(reference), broken)}) {
+    EXPECT_EQ(errors.body_position_m.size(), 3u);
+    EXPECT_EQ(errors.joint_orientation_rad.size(), 2u);
+    ASSERT_EQ(errors.joint_position_m.size(), 2u);
+    for (const double gap : errors.joint_position_m) EXPECT_NEAR(gap, 0, rounding);
+  }
+}
+
 TEST(PoseErrors, a_body_displaced_by_5_cm_is_5_cm_off) {
   const model::Model model = support::free_box();
   const State reference = model::initial_state(model);

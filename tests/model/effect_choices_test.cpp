@@ -46,6 +46,7 @@ TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
     model.bodies.front().velocity = {0, 0, -200};
     model.linear_damping = 0.1;
     model.interest.emplace();
+    model.joints.front().break_force = 100;
     for (const EventKind kind : {EventKind::launch, EventKind::motor, EventKind::steer}) {
       Event& event = model.events.emplace_back();
       event.kind = kind;

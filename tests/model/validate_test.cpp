@@ -109,6 +109,8 @@ const std::vector<Case>& cases() {
          m.events[0].axis = 2;
        },
        "axis 2"},
+      {"joint of a strength below none", [](Model& m) { m.joints[0].break_force = -1; }, "-1.0"},
+      {"joint of torque NaN", [](Model& m) { m.joints[0].break_torque = NAN; }, "N m"},
       {"gravity NaN", [](Model& m) { m.gravity.x() = NAN; }, "gravity"},
       {"erp 2", [](Model& m) { m.erp = 2; }, "erp"},
       {"cfm negative", [](Model& m) { m.cfm = -1; }, "cfm"},

@@ -57,14 +57,15 @@ void expect_same_rest(const model::State& a, const model::State& b) {
   }
 }
 
-class Ring : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(WithAndWithoutRest, Ring, testing::Bool());
+class Ring : public testing::TestWithParam<std::tuple<bool, int>> {};
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutRestAndJoints, Ring,
+                         testing::Combine(testing::Bool(), testing::Values(0, 7)));
 
 TEST_P(Ring, of_worlds_is_passed_on_bit_for_bit) {
   const Communicator comm = Communicator::world();
   constexpr int num_worlds = 9;
   SyntheticStepper::Behaviour behaviour;
-  behaviour.rests = GetParam();
+  std::tie(behaviour.rests, behaviour.num_joints) = GetParam();
   SyntheticStepper moving(behaviour);
   SyntheticStepper staying(behaviour);
   OwnedWorlds worlds(comm, moving, synthetic_model, round_robin(num_worlds, comm.size()));
@@ -81,6 +82,7 @@ TEST_P(Ring, of_worlds_is_passed_on_bit_for_bit) {
       EXPECT_EQ(next[world], comm.rank());
       EXPECT_EQ(model::hash(moving.state(world)), model::hash(staying.state(world))) << "world " << world;
       expect_same_rest(moving.state(world), staying.state(world));
+      EXPECT_EQ(moving.state(world).broken_in, staying.state(world).broken_in);
     }
   }
 }

@@ -37,6 +37,7 @@ class SyntheticStepper final : public model::WorldStepper {
     std::function<double(int world)> cost_s = [](int) { return 1e-3; };
     std::function<void(int world, std::int64_t step)> before_step = [](int, std::int64_t) {};  ///< may throw
     bool rests = false;  ///< does the state say how long bodies have rested?
+    int num_joints = 0;  ///< of which the state says in which step they broke
     std::function<bool(int world, std::int64_t step)> turns_nan = [](int, std::int64_t) { return false; };
   };
 
@@ -47,6 +48,7 @@ class SyntheticStepper final : public model::WorldStepper {
            std::int64_t step) override {
     const auto [added, is_new] = worlds_.emplace(world, World{std::move(model), state, {}, step});
     if (behaviour_.rests) added->second.state.rest.resize(state.position.size());
+    added->second.state.broken_in.resize(static_cast<std::size_t>(behaviour_.num_joints), model::unbroken);
     if (!is_new) throw std::logic_error("world " + std::to_string(world) + " was added twice");
   }
   void remove(int world) override {
@@ -98,6 +100,10 @@ class SyntheticStepper final : public model::WorldStepper {
       rest.position += 0.3 * world.state.position[i];
       rest.orientation.y += world.state.position[i].z();
       rest.idle_steps = static_cast<std::int32_t>(world.step % 2 == 0 ? world.step : -1 - world.step);
+    }
+    for (std::size_t i = 0; i < world.state.broken_in.size(); ++i) {
+      if (world.step == static_cast<std::int64_t>(3 * i + 1))
+        world.state.broken_in[i] = static_cast<std::int32_t>(world.step);
     }
     if (behaviour_.turns_nan(id, world.step)) {
       world.state.position[0].x() = std::numeric_limits<double>::quiet_NaN();

@@ -54,6 +54,25 @@ TEST(StepProfile, a_launch_in_the_last_step_is_not_fired_twice) {
   EXPECT_EQ(hash_of(model, settings, true), hash_of(model, settings, false));
 }
 
+TEST(StepProfile, a_joint_that_broke_in_the_last_step_acts_in_its_profile) {
+  model::Model model = support::pendulum(1, 1.5);
+  model.joints[0].break_force = 20;  // twice its weight, on its way down
+  const auto settings = profiling(model::StepperKind::quick);
+  EXPECT_EQ(hash_of(model, settings, true), hash_of(model, settings, false));
+  const auto stepper = stepper_with(model, settings);
+  core::PhaseTimes times;
+  do {
+    stepper->advance(1, times);
+    stepper->profile_last_step();
+    ASSERT_EQ(stepper->observables(0).rows, 5);
+    ASSERT_EQ(stepper->profile(0)->islands.front().rows, 5) << "the hinge's";
+  } while (!stepper->state(0).is_broken(0));
+  stepper->advance(1, times);
+  stepper->profile_last_step();
+  EXPECT_EQ(stepper->observables(0).rows, 0);
+  EXPECT_EQ(stepper->profile(0)->islands.front().rows, 0);
+}
+
 TEST(StepProfile, counts_what_the_observables_of_the_step_count) {
   const auto stepper = stepper_with(support::crash(), profiling(model::StepperKind::quick));
   core::PhaseTimes times;

@@ -24,6 +24,17 @@ TEST(Car, is_a_chassis_on_four_sprung_and_steered_wheels) {
   EXPECT_NEAR(mass, 1280, 1e-9);  // 1200 kg and four wheels of 20 kg
 }
 
+TEST(Car, has_wheels_that_come_off_and_can_hit_it_only_where_the_file_says_so) {
+  const auto whole = build(scene_with("car"));
+  const auto weak = build(scene_with("car", "wheel_break_force = 5000\n"));
+  for (const model::Joint& j : whole->joints) EXPECT_FALSE(j.breakable());
+  for (const model::Joint& j : weak->joints) EXPECT_EQ(j.break_force, 5000);
+  EXPECT_FALSE(whole->actors[whole->bodies[0].actor].self_collision);
+  EXPECT_TRUE(weak->actors[weak->bodies[0].actor].self_collision);
+  EXPECT_NE(error_of(scene_with("car", "wheel_break_force = -1\n")).find("wheel_break_force"),
+            std::string::npos);
+}
+
 TEST(Car, springs_carry_the_chassis_at_its_initial_height) {
   const auto model = build(scene_with("car", "heading = 25\nposition = [3, 4, 0]\n"));
   double carried_n = 0;

@@ -56,6 +56,25 @@ TEST(JointReader, reads_limits_in_degrees_and_motors) {
   EXPECT_EQ(j.motors[0].hold_rate, 8);
 }
 
+TEST(JointReader, reads_the_strength_of_every_kind) {
+  const auto ball =
+      build(with_joint("kind = \"ball\"\nbodies = [\"a\", \"b\"]\nanchor = [1, 0, 0]\nbreak_force = 500\n"));
+  EXPECT_EQ(joint(*ball, "j").break_force, 500);
+  EXPECT_EQ(joint(*ball, "j").break_torque, 0);
+  const auto weld = build(
+      with_joint("kind = \"fixed\"\nbodies = [\"a\", \"b\"]\nbreak_torque = 70\nanchor = [1, 0, 0.5]\n"));
+  EXPECT_EQ(joint(*weld, "j").break_torque, 70);
+  const Vec3 anchor = body(*weld, "a").pose.point_to_outer(joint(*weld, "j").anchor_a);
+  EXPECT_LT((anchor - Vec3(1, 0, 0.5)).norm(), 1e-15);  // rounding of a rotation and its inverse
+}
+
+TEST(JointReader, refuses_a_negative_strength_and_a_weld_without_the_place_of_its_torque) {
+  const std::string fixed = "kind = \"fixed\"\nbodies = [\"a\", \"b\"]\n";
+  EXPECT_NE(error_of(with_joint(fixed + "break_force = -1\n")).find("test.toml:18:"), std::string::npos);
+  EXPECT_NE(error_of(with_joint(fixed + "break_torque = -1\n")).find("break_torque"), std::string::npos);
+  EXPECT_NE(error_of(with_joint(fixed + "break_torque = 1\n")).find("anchor"), std::string::npos);
+}
+
 TEST(JointReader, reads_a_sliders_limits_in_metres) {
   const auto model =
       build(with_joint("kind = \"slider\"\nbodies = [\"a\", \"b\"]\naxis = [1, 0, 0]\nlimits = [-0.5, 2]\n"));

@@ -12,6 +12,9 @@ namespace pbmpi::app {
 class LiveSummary final : public model::FrameObserver {
  public:
   void frame_done(const model::FrameRecord& frame) override;
+  void event(const model::RunEvent& event) override {
+    joints_broken_ += event.kind == model::joint_broken ? 1 : 0;
+  }
 
   /// Collective. Fills what is measured into `summary`, whose settings (worlds, bodies, ranks,
   /// steps_per_frame, budget_s) are set.
@@ -23,6 +26,7 @@ class LiveSummary final : public model::FrameObserver {
   double max_joint_gap_m_ = 0, max_penetration_m_ = 0;
   double energy_j_ = 0;   ///< at the last frame
   double nonfinite_ = 0;  ///< at the last frame
+  std::int64_t joints_broken_ = 0;
 };
 
 }  // namespace pbmpi::app

@@ -7,6 +7,7 @@
 #include "analysis/pose_errors.h"
 #include "core/error.h"
 #include "model/effects.h"
+#include "model/frame.h"
 #include "scenes/scene.h"
 
 namespace pbmpi::app {
@@ -136,6 +137,10 @@ void count_rebalance(const std::string& event, RunSummary& summary) {
   if (detail >> moved) summary.worlds_moved += moved;
 }
 
+bool is_broken_joint(const std::string& event) {
+  return event.find(": " + std::string(model::joint_broken) + ": ") != std::string::npos;
+}
+
 void read_settings(const io::RunData& run, const std::string& path, RunSummary& summary) {
   summary.version = text_of(run.attributes, "pbmpi_version");
   summary.scene = text_of(run.attributes, "scene");
@@ -223,6 +228,7 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   summary.effects = effects_of(run, summary.seed);
   summary.effects_chosen = text_of(run.parameters, "effects");
   for (const std::string& event : run.events) count_rebalance(event, summary);
+  summary.joints_broken = std::count_if(run.events.begin(), run.events.end(), is_broken_joint);
   if (!run.estimate.delivered_s.empty()) summary.estimate = estimate_of(run, path, summary.budget_s);
   return summary;
 }

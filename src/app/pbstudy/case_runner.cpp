@@ -12,7 +12,7 @@ namespace {
 using analysis::PoseErrors;
 using model::State;
 
-analysis::PoseView view(const State& state) { return {state.position, state.orientation}; }
+analysis::PoseView view(const State& state) { return {state.position, state.orientation, state.broken_in}; }
 
 /// Raises `most` to `value`; a NaN counts as infinite.
 void raise(double& most, double value) { most = std::isnan(value) ? INFINITY : std::max(most, value); }

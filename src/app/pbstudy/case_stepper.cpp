@@ -8,7 +8,7 @@ namespace {
 
 using model::State;
 
-analysis::PoseView view(const State& state) { return {state.position, state.orientation}; }
+analysis::PoseView view(const State& state) { return {state.position, state.orientation, state.broken_in}; }
 
 }  // namespace
 

@@ -134,6 +134,7 @@ std::string state_lines(const RunSummary& s) {
       format("invariants: %lld non-finite bodies, joint gap %.2f mm, penetration %.2f mm, energy %.1f J\n",
              static_cast<long long>(s.nonfinite_bodies), 1e3 * s.max_joint_gap_m, 1e3 * s.max_penetration_m,
              s.energy_j);
+  if (s.joints_broken > 0) text += format("joints_broken: %lld\n", static_cast<long long>(s.joints_broken));
   text += "output: " + (s.output.empty() ? std::string("none") : s.output) + "\n";
   text += "state_hash: " + s.state_hash + "\n";
   return text;
@@ -206,6 +207,7 @@ std::string to_json(const RunSummary& s) {
                         {"max_joint_gap_m", s.max_joint_gap_m},
                         {"max_penetration_m", s.max_penetration_m},
                         {"energy_j", s.energy_j}};
+  json["joints_broken"] = s.joints_broken;
   json["effects"] = effects_json(s);
   json["effects_chosen"] = s.effects_chosen;
   json["decomposition"] = s.decomposition;

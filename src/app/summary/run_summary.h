@@ -71,6 +71,7 @@ struct RunSummary {
   double max_joint_gap_m = 0, max_penetration_m = 0, energy_j = 0;  ///< energy: at the end
   std::vector<EffectSummary> effects;
   std::string effects_chosen;  ///< "+friction,-gravity": demanded and left out; empty: as the scene calls for
+  std::int64_t joints_broken = 0;                 ///< in the whole run, as the file's events tell
   std::int64_t rebalances = 0, worlds_moved = 0;  ///< moved: worlds, or spaces
   std::string decomposition = "worlds";
   SpacesSummary spaces;                     ///< counts if decomposition is "spaces"

@@ -1,0 +1,22 @@
+/// Which joints broke, told to every rank.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/frame.h"
+#include "mpi/communicator.h"
+
+namespace pbmpi::mpi {
+
+/// Collective: does any world have the effect "breakable_joints"? `worlds`: those that this rank reports.
+bool any_breakage(const Communicator& comm, std::span<const model::LocalWorld> worlds);
+
+/// Collective. The joints that broke in step `first_step` or later, the same on every rank: one event each,
+/// by step, world and joint.
+std::vector<model::RunEvent> find_breaks(const Communicator& comm, std::span<const model::LocalWorld> worlds,
+                                         std::int64_t frame, std::int64_t first_step);
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,167 @@
+"""The effect "breakable_joints": the same bits everywhere, what the file and the summary say, what is refused."""
+import unittest
+
+import h5py
+
+from harness import ProgramTest
+
+SCENE = """title = "a sign on two chains, and a ball shot at it"
+spaces = ["sign", "far"]
+[[actor]]
+name = "ground"
+type = "ground"
+[[actor]]
+name = "board"
+type = "box"
+space = "sign"
+size = [0.1, 1.6, 0.8]
+mass = 30
+position = [0, 0, 1.6]
+variation = { position = [0.05, 0, 0] }
+[[actor]]
+name = "left"
+type = "box"
+space = "sign"
+size = [0.1, 0.1, 0.4]
+mass = 2
+position = [0, 0.7, 2.4]
+[[actor]]
+name = "right"
+type = "box"
+space = "sign"
+size = [0.1, 0.1, 0.4]
+mass = 2
+position = [0, -0.7, 2.4]
+[[actor]]
+name = "tank"
+type = "tank"
+space = "far"
+position = [-12, 0, 0]
+[[actor]]
+name = "ball"
+type = "projectile"
+space = "far"
+shape = "sphere"
+radius = 0.2
+density = 800
+position = [-12, 4, 0]
+fired_by = "tank"
+muzzle_speed = 20
+first_shot = 0.2
+"""
+JOINT = """[[joint]]
+name = "{0}"
+kind = "{1}"
+bodies = [{2}]
+anchor = {3}
+{4}
+"""
+SCENE += (JOINT.format("left hook", "ball", '"left", "world"', [0, 0.7, 2.6], "break_force = 800")
+          + JOINT.format("right hook", "ball", '"right", "world"', [0, -0.7, 2.6], "break_force = 5000")
+          + JOINT.format("left link", "hinge", '"board", "left"', [0, 0.7, 2.1], "axis = [0, 1, 0]\nbreak_force = 700")
+          + JOINT.format("right link", "hinge", '"board", "right"', [0, -0.7, 2.1], "axis = [0, 1, 0]"))
+RUN = ("--scene", "sign.toml", "--frames", 40)
+
+
+class Breakage(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("sign.toml", SCENE)
+
+    def hash_of(self, ranks, *args):
+        return self.summary(ranks, *RUN, "--no-output", *args)["state_hash"]
+
+    def events(self, name):
+        with h5py.File(self.path(name)) as file:
+            count = file["events"].attrs["num_events"]
+            return list(zip(file["events/frame"][:count].tolist(), file["events/kind"].asstr()[:count],
+                            file["events/detail"].asstr()[:count]))
+
+    def broken(self, name):
+        return [event for event in self.events(name) if event[1] == "joint_broken"]
+
+    def test_worlds_have_one_hash_and_the_same_events_for_1_to_4_ranks(self):
+        for stepper in ("quick", "sor"):
+            hashes, told = set(), set()
+            for ranks in (1, 2, 3, 4):
+                run = self.summary(ranks, *RUN, "--stepper", stepper, "--replicas", 5, "-o", "run.h5")
+                hashes.add(run["state_hash"])
+                told.add(str(self.broken("run.h5")))
+                self.assertEqual(run["joints_broken"], len(self.broken("run.h5")))
+            self.assertEqual((len(hashes), len(told)), (1, 1), stepper)
+            worlds = {event[2].split(":")[0] for event in self.broken("run.h5")}
+            self.assertEqual(len(worlds), 5, "the ball tears a sign down in every world")
+
+    def test_one_world_is_the_same_whole_and_cut(self):
+        for precision in ("double", "single"):
+            sor = (*RUN, "--stepper", "sor", "--precision", precision)
+            whole = self.summary(1, *sor, "--decompose", "worlds", "-o", "whole.h5")
+            self.assertGreater(whole["joints_broken"], 0)
+            for ranks in (1, 2, 3, 4):
+                cut = self.summary(ranks, *sor, "--decompose", "spaces", "-o", "cut.h5")
+                self.assertEqual(cut["state_hash"], whole["state_hash"], ranks)
+                self.assertEqual(self.broken("cut.h5"), self.broken("whole.h5"))
+                with h5py.File(self.path("cut.h5")) as a, h5py.File(self.path("whole.h5")) as b:
+                    for column in ("islands", "rows", "max_island_rows"):
+                        name = "observables/world/" + column
+                        self.assertEqual(a[name][:].tolist(), b[name][:].tolist(), column)
+
+    def test_an_estimate_leaks_nothing_and_every_instruction_set_has_the_bits(self):
+        for stepper in ("quick", "sor"):
+            plain = self.hash_of(1, "--stepper", stepper, "--replicas", 2)
+            self.assertEqual(self.hash_of(2, "--stepper", stepper, "--replicas", 2, "--feec"), plain, stepper)
+        same_solve = (*RUN[:2], "--stepper", "sor", "--steps-per-frame", 1, "--frames", 120, "--no-output")
+        plain = self.summary(1, *same_solve)
+        self.assertGreater(plain["joints_broken"], 0)
+        self.assertEqual(self.summary(1, *same_solve, "--feec")["state_hash"], plain["state_hash"])
+        hashes = set()
+        for simd in ("auto", "off", "sse2", "avx2", "avx512"):
+            result = self.pbmpi(1, *RUN, "--no-output", "--stepper", "sor", "--simd", simd, "--report", "json")
+            if result.returncode == 2 and "lacks the instruction set" in result.stderr:
+                continue  # not this machine's
+            hashes.add(self.json(result)["state_hash"])
+        self.assertEqual(len(hashes), 1)
+
+    def test_file_and_summary_tell_what_broke_and_when(self):
+        for stepper in ("quick", "direct", "sor"):
+            text = self.pbmpi(1, *RUN, "--stepper", stepper, "-o", "run.h5").stdout
+            broken = self.broken("run.h5")
+            self.assertGreater(len(broken), 0, stepper)
+            self.assertIn(f"joints_broken: {len(broken)}\n", text)
+            for frame, _, detail in broken:
+                step = int(detail.rsplit(" ", 1)[1])
+                self.assertEqual(step // 3, frame)
+                self.assertGreater(step, 20, "after the shot")
+            self.assertNotIn("right link", str(broken), "it bears any load")
+            reported = self.json(self.report("run.h5", "--json"))
+            self.assertEqual(reported["joints_broken"], len(broken))
+
+    def test_nothing_breaks_or_is_told_where_the_effect_is_left_out_or_not_called_for(self):
+        text = self.pbmpi(1, *RUN, "--effects", "-breakable_joints", "-o", "held.h5").stdout
+        self.assertNotIn("joints_broken", text)
+        self.assertEqual(self.broken("held.h5"), [])
+        self.assertNotEqual(self.hash_of(1), self.hash_of(1, "--effects", "-breakable_joints"))
+        run = ("--scene", "Fight", "--frames", 3, "--stepper", "sor", "--no-output", "--decompose")
+        self.assertEqual(self.summary(2, *run, "spaces", "--effects", "+breakable_joints")["state_hash"],
+                         self.summary(1, *run, "worlds")["state_hash"])
+
+    def test_describe_says_how_many_joints_can_break(self):
+        self.assertIn("3 joints with a strength", self.pbmpi(1, *RUN, "--describe").stdout)
+        self.assertIn("4 joints with a strength", self.pbmpi(1, "--scene", "CrashWa", "--describe").stdout)
+        self.assertNotIn("breakable", self.pbmpi(1, "--scene", "Environ", "--describe").stdout)
+
+    def test_a_negative_strength_is_refused_at_its_place(self):
+        for old, new, word in (("break_force = 800", "break_force = -800", "break_force"),
+                               ("break_force = 700", "break_torque = -1", "break_torque"),
+                               ("break_force = 700", "break_froce = 1", "break_force")):
+            text = SCENE.replace(old, new)
+            self.write("bad.toml", text)
+            line = text[:text.index(new)].count("\n") + 1
+            result = self.pbmpi(2, "--scene", "bad.toml")
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn(f"bad.toml:{line}:", result.stderr)
+            self.assertIn(word, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

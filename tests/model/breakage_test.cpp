@@ -1,0 +1,136 @@
+#include "model/breakage.h"
+
+#include <gtest/gtest.h>
+
+#include "model/effect_choices.h"
+#include "model/effects.h"
+#include "model/observables.h"
+#include "model/sleepers.h"
+#include "model/touch_rule.h"
+#include "support/models.h"
+
+namespace pbmpi::model {
+namespace {
+
+/// A chain of three links on the world; the second and the third joint can break.
+Model weak_chain() {
+  Model model = support::chain(3);
+  model.actors[0].self_collision = true;
+  model.joints[1].break_force = 100;
+  model.joints[2].break_torque = 20;
+  return model;
+}
+
+State whole(const Model& model) {
+  State state = initial_state(model);
+  Breakage(model).start(state);
+  return state;
+}
+
+TEST(Breakage, breaks_above_the_strength_and_not_at_it) {
+  const Model model = weak_chain();
+  EXPECT_FALSE(breaks(model.joints[1], {100, 1e9}));
+  EXPECT_TRUE(breaks(model.joints[1], {100.001, 0}));
+  EXPECT_FALSE(breaks(model.joints[2], {1e9, 20}));
+  EXPECT_TRUE(breaks(model.joints[2], {0, 20.001}));
+  EXPECT_FALSE(breaks(model.joints[0], {1e9, 1e9})) << "it has no strength, so that it never breaks";
+}
+
+TEST(Breakage, asks_for_the_joints_that_can_break_and_hold) {
+  const Model model = weak_chain();
+  const Breakage breakage(model);
+  State state = whole(model);
+  std::vector<int> asked;
+  const auto light = [&](int joint) {
+    asked.push_back(joint);
+    return Reaction{};
+  };
+  EXPECT_FALSE(breakage.strain(3, breakage.joints(), light, state));
+  EXPECT_EQ(asked, (std::vector<int>{1, 2}));
+  const auto heavy = [&](int joint) { return Reaction{joint == 1 ? 101.0 : 0.0, 0}; };
+  EXPECT_TRUE(breakage.strain(4, breakage.joints(), heavy, state));
+  EXPECT_EQ(state.broken_in, (std::vector<std::int32_t>{unbroken, 4, unbroken}));
+  asked.clear();
+  EXPECT_FALSE(breakage.strain(5, breakage.joints(), light, state));
+  EXPECT_EQ(asked, std::vector<int>{2});
+  EXPECT_TRUE(state.acted_in(4, 1));
+  EXPECT_FALSE(state.acted_in(5, 1));
+}
+
+TEST(Breakage, leaves_joints_of_bodies_that_sleep_alone) {
+  const Model model = weak_chain();
+  const Breakage breakage(model);
+  State state = whole(model);
+  state.rest.resize(3);
+  state.rest[1].sleep_in(0);
+  const auto heavy = [](int) { return Reaction{1e6, 1e6}; };
+  EXPECT_TRUE(breakage.strain(7, breakage.joints(), heavy, state));
+  EXPECT_FALSE(state.is_broken(1)) << "its first body, link 1, sleeps";
+  EXPECT_TRUE(state.is_broken(2));
+}
+
+TEST(Breakage, is_part_of_the_hash_once_something_has_broken) {
+  const Model model = weak_chain();
+  State state = whole(model);
+  const std::uint64_t before = hash(state);
+  EXPECT_EQ(before, hash(initial_state(model))) << "a pass in which nothing breaks changes no bit";
+  state.broken_in[1] = 4;
+  const std::uint64_t broken = hash(state);
+  EXPECT_NE(broken, before);
+  state.broken_in[1] = 5;
+  EXPECT_NE(hash(state), broken);
+}
+
+TEST(Breakage, lets_the_bodies_touch_unless_another_joint_holds_them) {
+  Model model = weak_chain();
+  std::vector<std::int32_t> broken_in = {unbroken, 2, unbroken};
+  EXPECT_FALSE(TouchRule(model).may_touch(0, 1));
+  EXPECT_TRUE(TouchRule(model, broken_in).may_touch(0, 1));
+  EXPECT_FALSE(TouchRule(model, broken_in).may_touch(1, 2));
+  support::add_joint(model, JointKind::ball, 1, 0, {0.5, 0, 5});
+  broken_in.push_back(unbroken);
+  EXPECT_FALSE(TouchRule(model, broken_in).may_touch(0, 1));
+  model.actors[0].self_collision = false;
+  broken_in[3] = 2;
+  EXPECT_FALSE(TouchRule(model, broken_in).may_touch(0, 1)) << "what the actor says stands";
+}
+
+TEST(Breakage, parts_what_falls_asleep) {
+  const Model model = weak_chain();
+  State state = whole(model);
+  Sleepers sleepers(model, 0.01);
+  sleepers.start(state);
+  state.broken_in[2] = 0;
+  for (int step = 0; step < 60; ++step) {
+    state.position[2].x() += 0.01;  // link 2 moves at 1 m/s
+    sleepers.count(sleepers.awake(), state);
+    sleepers.put_to_sleep(sleepers.find_resting(sleepers.awake(), {}, state), state);
+  }
+  EXPECT_TRUE(state.rest[0].asleep() && state.rest[1].asleep());
+  EXPECT_FALSE(state.rest[2].asleep());
+}
+
+TEST(Breakage, takes_the_gap_of_joints_that_hold_only) {
+  const Model model = weak_chain();
+  State state = whole(model);
+  state.position[2].z() += 3;
+  EXPECT_NEAR(max_joint_gap(model, state), 3, 1e-12);  // rounding at 5 m
+  state.broken_in[2] = 9;
+  EXPECT_NEAR(max_joint_gap(model, state), 0, 1e-12);
+}
+
+TEST(Breakage, is_called_for_by_strengths_and_can_be_left_out) {
+  Model model = weak_chain();
+  const StepPlan plan(model);
+  const auto pass = std::find_if(plan.passes().begin(), plan.passes().end(),
+                                 [](const Pass& one) { return one.effect->name == "breakable_joints"; });
+  ASSERT_NE(pass, plan.passes().end());
+  EXPECT_EQ(pass->reason, "2 joints with a strength");
+  model.effects["breakable_joints"] = false;
+  leave_out_effects(model);
+  EXPECT_FALSE(model.joints[1].breakable() || model.joints[2].breakable());
+  EXPECT_FALSE(StepPlan(support::chain(3)).has("breakable_joints"));
+}
+
+}  // namespace
+}  // namespace pbmpi::model
