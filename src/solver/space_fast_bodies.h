@@ -1,6 +1,7 @@
 /// Contacts ahead of fast bodies in a world that is cut into spaces, as one rank looks for them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,6 +19,11 @@ class SpaceFastBodies {
 
   /// From now on these bodies [num_bodies] are this rank's own.
   void own(std::span<const char> is_own) { own_.emplace(*model_, is_own); }
+  /// Of the joints, as State::broken_in; after own().
+  void set_broken(std::span<const std::int32_t> broken_in) {
+    own_->set_broken(broken_in);
+    all_.set_broken(broken_in);
+  }
   /// Own bodies that are fast, ascending.
   std::vector<int> find_own(const model::State& state);
   void add_own(const model::State& state, std::vector<model::Contact>& contacts);
