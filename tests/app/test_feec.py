@@ -42,6 +42,15 @@ class Feec(ProgramTest):
         ratio = summary["estimate"]["precise_over_delivered"]
         self.assertAlmostEqual(ratio / (completed.sum() / delivered.sum()), 1, delta=1e-12)
 
+    def test_a_world_of_many_spaces_stays_whole(self):
+        args = ["--scene", "Fight", "--stepper", "sor", "--frames", 2, "--no-output", "--feec"]
+        one, two = self.summary(1, *args), self.summary(2, *args)
+        self.assertEqual(two["decomposition"], "worlds")
+        self.assertEqual(two["state_hash"], one["state_hash"])
+        refused = self.pbmpi(2, *args, "--decompose", "spaces")
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertIn("--feec: ", refused.stderr)
+
     def test_as_many_iterations_as_the_precise_run_leave_no_defect(self):
         summary = self.summary(3, "--scene", "CrashSk", "--feec", "--estimate-iterations", 20, "--no-output")
         self.assertEqual(summary["estimate"]["position_defect_m"]["max"], 0)

@@ -92,7 +92,8 @@ po::options_description options_description() {
   cut.add_options()  //
       ("decompose", po::value<std::string>()->default_value("auto")->value_name("auto|worlds|spaces"),
        "worlds: each rank owns whole worlds; spaces: each rank owns collision spaces of the one world (sor "
-       "only); auto: spaces for one world of several spaces on several ranks with sor, else worlds")  //
+       "only); auto: spaces for one world of several spaces on several ranks with sor and without --feec, "
+       "else worlds")  //
       ("spaces", po::value<std::string>()->value_name("one|many"),
        "many: the scene's named collision spaces; one: all of them as one, with the same physics; default: "
        "the scene's");
@@ -330,25 +331,33 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene) {
   return spec;
 }
 
+namespace {
+
+/// Why this run's worlds stay whole, and what to do about it; nothing if one may be cut.
+std::optional<std::string> why_whole(const RunSpec& spec) {
+  if (spec.stepper.kind != model::StepperKind::sor) {
+    return "--decompose spaces needs --stepper sor (ODE's solvers give no access to single islands, and quick"
+           " draws from one random seed for the whole world); add --stepper sor, or use --decompose worlds";
+  }
+  if (spec.num_worlds != 1) {
+    return "--decompose spaces cuts one world, and there are " + std::to_string(spec.num_worlds) +
+           "; use --replicas 1 or --decompose worlds";
+  }
+  if (spec.stepper.residuals)
+    return "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds";
+  if (spec.estimate)
+    return "--feec: no rank of a world that is cut has all of it to estimate from; use --decompose worlds";
+  return std::nullopt;
+}
+
+}  // namespace
+
 Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks) {
-  const bool is_sor = spec.stepper.kind == model::StepperKind::sor;
+  const std::optional<std::string> reason = why_whole(spec);
   if (spec.decomposition == Decomposition::automatic) {
-    const bool can_cut = spec.num_worlds == 1 && num_spaces > 1 && is_sor && !spec.stepper.residuals;
-    return can_cut && num_ranks > 1 ? Decomposition::spaces : Decomposition::worlds;
+    return !reason && num_spaces > 1 && num_ranks > 1 ? Decomposition::spaces : Decomposition::worlds;
   }
-  if (spec.decomposition == Decomposition::spaces) {
-    require_input(
-        is_sor,
-        "--decompose spaces needs --stepper sor (ODE's solvers give no access to single islands, and "
-        "quick draws from one random seed for the whole world); add --stepper sor, or use "
-        "--decompose worlds");
-    require_input(spec.num_worlds == 1, "--decompose spaces cuts one world, and there are " +
-                                            std::to_string(spec.num_worlds) +
-                                            "; use --replicas 1 or --decompose worlds");
-    require_input(
-        !spec.stepper.residuals,
-        "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds");
-  }
+  require_input(spec.decomposition == Decomposition::worlds || !reason, reason.value_or(""));
   return spec.decomposition;
 }
 
