@@ -40,7 +40,7 @@ files=()
 for scene in "${scenes[@]}"; do
   echo "$scene"
   # One rank: the serial time is what Figure 6 starts from.
-  "$bin/pbmpi" --scene "$scene" --record-islands --quiet --output "$out/$scene.h5"
+  "$bin/pbmpi" --scene "$scene" --stepper quick --record-islands --quiet --output "$out/$scene.h5"
   "$bin/pbreport" "$out/$scene.h5" --quiet --html "$out/$scene.html"
   view=(--size 560x280)
   [[ -z ${camera[$scene]:-} ]] || view+=(--camera "${camera[$scene]}")

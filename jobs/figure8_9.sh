@@ -27,16 +27,17 @@ record() {
 for scene in "${scenes[@]}"; do
   echo "$scene" >&2
   name=$(basename "$scene" .toml)
+  setting=(--scene "$scene" --stepper quick)
   for ((repeat = 1; repeat <= ${REPEATS:-5}; ++repeat)); do
-    record "$name.iter20.$repeat" --scene "$scene"
-    record "$name.iter19.$repeat" --scene "$scene" --iterations 19
-    record "$name.iter1.$repeat" --scene "$scene" --iterations 1
-    record "$name.feec.$repeat" --scene "$scene" --feec
-    record "$name.feec_sor.$repeat" --scene "$scene" --feec --estimate-stepper sor --estimate-precision single \
+    record "$name.iter20.$repeat" "${setting[@]}"
+    record "$name.iter19.$repeat" "${setting[@]}" --iterations 19
+    record "$name.iter1.$repeat" "${setting[@]}" --iterations 1
+    record "$name.feec.$repeat" "${setting[@]}" --feec
+    record "$name.feec_sor.$repeat" "${setting[@]}" --feec --estimate-stepper sor --estimate-precision single \
       --estimate-iterations 5
   done
   for ((seed = 2; seed <= ${SEEDS:-8} + 1; ++seed)); do
-    record "$name.seed$seed" --scene "$scene" --solver-seed "$seed"
+    record "$name.seed$seed" "${setting[@]}" --solver-seed "$seed"
   done
 done
 pbreport figures "${files[@]}" --html "$out/figure8_9.html" | tee "$out/figure8_9.txt"

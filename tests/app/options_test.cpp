@@ -73,18 +73,24 @@ TEST(Options, impossible_values_are_named) {
 }
 
 TEST(Options, those_of_sor_are_refused_with_another_stepper) {
-  EXPECT_NE(refusal({"--scene", "Fake", "--substeps", "2"}).find("--stepper sor"), std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--precision", "single"}).find("--stepper sor"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--substeps", "2"}).find("--stepper sor"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--precision", "single"}).find("--stepper sor"),
+            std::string::npos);
   EXPECT_EQ(refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", "2", "--precision", "single"}), "");
-  EXPECT_NE(refusal({"--scene", "Fake", "--sor-factor", "1"}).find("--stepper sor"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--sor-factor", "1"}).find("--stepper sor"),
+            std::string::npos);
   EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "sor", "--sor-factor", "2"}).find("below 2"),
             std::string::npos);
   EXPECT_EQ(refusal({"--scene", "Fake", "--stepper", "sor", "--sor-factor", "1.9"}), "");
   EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", "0"}).find("at least 1"),
             std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--warm-start", "0.5"}).find("--stepper sor"), std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--row-order", "fixed"}).find("--stepper sor"), std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--record-residuals"}).find("--stepper sor"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--warm-start", "0.5"}).find("--stepper sor"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--row-order", "fixed"}).find("--stepper sor"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--record-residuals"}).find("--stepper sor"),
+            std::string::npos);
 }
 
 TEST(Options, a_warm_start_is_a_share_and_needs_substeps) {
@@ -132,7 +138,7 @@ TEST(Options, feec_estimates_as_the_precise_stepper_does_but_with_one_iteration)
   const RunSpec spec =
       resolve(parse_options({"--scene", "Fake", "--feec", "--solver-seed", "7"}), FakeScene({}));
   ASSERT_TRUE(spec.estimate.has_value());
-  EXPECT_EQ(spec.estimate->kind, model::StepperKind::quick);
+  EXPECT_EQ(spec.estimate->kind, model::StepperKind::sor);
   EXPECT_EQ(spec.estimate->iterations, 1);
   EXPECT_EQ(spec.estimate->seed, 7u);
   EXPECT_EQ(spec.stepper.seed, 7u);
@@ -142,7 +148,7 @@ TEST(Options, feec_estimates_as_the_precise_stepper_does_but_with_one_iteration)
 
 TEST(Options, feec_may_estimate_with_another_stepper) {
   const RunSpec spec =
-      resolve(parse_options({"--scene", "Fake", "--feec", "--estimate-stepper", "sor",
+      resolve(parse_options({"--scene", "Fake", "--stepper", "quick", "--feec", "--estimate-stepper", "sor",
                              "--estimate-iterations", "3", "--estimate-precision", "single"}),
               FakeScene({}));
   ASSERT_TRUE(spec.estimate.has_value());
@@ -159,9 +165,9 @@ TEST(Options, those_of_the_estimate_are_refused_where_they_make_no_sense) {
             std::string::npos);
   EXPECT_NE(refusal({"--scene", "Fake", "--feec", "--estimate-stepper", "fast"}).find("quick, direct, sor"),
             std::string::npos);
-  EXPECT_NE(
-      refusal({"--scene", "Fake", "--feec", "--estimate-precision", "single"}).find("--estimate-stepper sor"),
-      std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--feec", "--estimate-precision", "single"})
+                .find("--estimate-stepper sor"),
+            std::string::npos);
   EXPECT_NE(refusal({"--scene", "Fake", "--solver-seed", "-x"}).find("solver-seed"), std::string::npos);
 }
 
@@ -188,7 +194,9 @@ TEST(Options, cut_into_spaces_by_themselves_only_where_it_helps) {
   EXPECT_EQ(decided(sor, 3, 2), Decomposition::spaces);
   EXPECT_EQ(decided(sor, 1, 2), Decomposition::worlds);
   EXPECT_EQ(decided(sor, 3, 1), Decomposition::worlds);
-  EXPECT_EQ(decided({"--scene", "Fake"}, 3, 2), Decomposition::worlds) << "quick is the default stepper";
+  EXPECT_EQ(decided({"--scene", "Fake"}, 3, 2), Decomposition::spaces) << "sor is the default stepper";
+  EXPECT_EQ(decided({"--scene", "Fake", "--stepper", "quick"}, 3, 2), Decomposition::worlds);
+  EXPECT_EQ(decided({"--scene", "Fake", "--feec"}, 3, 2), Decomposition::worlds);
   EXPECT_EQ(decided({"--scene", "Fake", "--stepper", "sor", "--replicas", "2"}, 3, 2), Decomposition::worlds);
 }
 

@@ -41,7 +41,7 @@ class Spaces(ProgramTest):
         args = ["--frames", 2, "--no-output"]
         self.assertEqual(self.summary(2, "--scene", "Fight", *SOR, *args)["decomposition"], "spaces")
         self.assertEqual(self.summary(1, "--scene", "Fight", *SOR, *args)["decomposition"], "worlds")
-        self.assertEqual(self.summary(2, "--scene", "Fight", *args)["decomposition"], "worlds")
+        self.assertEqual(self.summary(2, "--scene", "Fight", "--stepper", "quick", *args)["decomposition"], "worlds")
         self.assertEqual(self.summary(2, "--scene", "CrashSk", *SOR, *args)["decomposition"], "worlds")
 
     def test_the_file_and_pbreport_show_the_phases_of_each_rank(self):

@@ -47,9 +47,9 @@ po::options_description options_description() {
 
   po::options_description how("How to step");
   how.add_options()  //
-      ("stepper", po::value<std::string>()->default_value("quick")->value_name("quick|direct|sor"),
-       "quick: ODE's iterative dWorldQuickStep; direct: ODE's big-matrix dWorldStep; sor: pbmpi's own "
-       "projected SOR, worlds side by side in vector lanes")  //
+      ("stepper", po::value<std::string>()->default_value("sor")->value_name("sor|quick|direct"),
+       "sor: pbmpi's own projected SOR, worlds side by side in vector lanes; quick: ODE's iterative "
+       "dWorldQuickStep; direct: ODE's big-matrix dWorldStep")  //
       ("dt", po::value<double>()->value_name("SECONDS"),
        "length of a step [s]; default: the scene's, 0.01")                                                 //
       ("steps-per-frame", po::value<int>()->value_name("N"), "steps in a frame; default: the scene's, 3")  //
