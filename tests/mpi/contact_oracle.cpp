@@ -34,7 +34,10 @@ ContactOracle::ContactOracle(const mpi::Communicator& comm, std::shared_ptr<cons
 
 /// Every pair that may touch, except solids whose boxes are apart: the colliders would find nothing, slowly.
 std::vector<model::Contact> ContactOracle::brute_force(std::int64_t step) {
-  pack_->load(0, whole_->state(0));
+  const model::State& before = whole_->state(0);
+  rule_ = model::TouchRule(*model_, before.broken_in);
+  if (fast_bodies_) fast_bodies_->set_broken(before.broken_in);
+  pack_->load(0, before);
   for (const model::Event& event : model_->events) {
     if (event.step == step && event.kind == model::EventKind::launch) pack_->launch(0, event);
   }
