@@ -41,9 +41,9 @@ constexpr std::array<std::array<Pairing, model::num_shapes>, model::num_shapes> 
   return all;
 }
 
-const Pairing& pairing_of(const model::Geom& first, const model::Geom& second) {
+const Pairing& pairing_of(Shape first, Shape second) {
   static constexpr auto all = all_pairings();
-  return all[static_cast<std::size_t>(first.shape)][static_cast<std::size_t>(second.shape)];
+  return all[static_cast<std::size_t>(first)][static_cast<std::size_t>(second)];
 }
 
 /// Canonical order, in one comparison. (An object, so that std::sort inlines it.)
@@ -53,6 +53,17 @@ constexpr auto comes_before = [](const model::GeomPair& p, const model::GeomPair
   };
   return key(p) < key(q);
 };
+
+/// Geoms that are swept in turn give sorted pairs, and a ground that comes after them another sorted row.
+void sort(std::vector<model::GeomPair>::iterator begin, std::vector<model::GeomPair>::iterator end) {
+  const auto first_row = std::is_sorted_until(begin, end, comes_before);
+  if (first_row == end) return;
+  if (std::is_sorted(first_row, end, comes_before)) {
+    std::inplace_merge(begin, first_row, end, comes_before);
+  } else {
+    std::sort(begin, end, comes_before);
+  }
+}
 
 }  // namespace
 
@@ -73,13 +84,16 @@ bool is_finite(const model::BodyPose& pose) {
 
 PairTable::PairTable(std::span<const PackedWorld> worlds, const GeomOrder& order) : order_(&order) {
   for (const PackedWorld& world : worlds) {
-    models_.push_back(world.model);
+    World& one = worlds_.emplace_back();
+    for (const model::Geom& geom : world.model->geoms)
+      one.geoms.push_back({geom.shape, geom.body, geom.material});
+    one.most_points = world.model->contact_law.max_per_pair;
     kernels_ = kernels_ && world.lanes_collide;
   }
 }
 
 void PairTable::clear() {
-  world_begin_.assign(models_.size() + 1, 0);
+  world_begin_.assign(worlds_.size() + 1, 0);
   pairs_.clear();
   for (PairColumn& column : columns_) column.count = 0;
 }
@@ -103,11 +117,11 @@ void PairTable::add_all(BroadPhase& broad_phase, std::span<const model::BodyPose
 
 void PairTable::finish_world() {
   const auto begin = pairs_.begin() + world_begin_[static_cast<std::size_t>(world_)];
-  if (!std::is_sorted(begin, pairs_.end(), comes_before)) std::sort(begin, pairs_.end(), comes_before);
+  sort(begin, pairs_.end());
   for (PairColumn& column : columns_) column.make_room(pairs_.end() - begin);
-  const model::Geom* geoms = models_[static_cast<std::size_t>(world_)]->geoms.data();
+  const GeomFacts* geoms = worlds_[static_cast<std::size_t>(world_)].geoms.data();
   for (auto pair = begin; pair != pairs_.end(); ++pair) {
-    const Pairing& pairing = pairing_of(geoms[pair->first], geoms[pair->second]);
+    const Pairing& pairing = pairing_of(geoms[pair->first].shape, geoms[pair->second].shape);
     int a = order_->column(world_, pair->first), b = order_->column(world_, pair->second);
     if (pairing.swapped) std::swap(a, b);
     PairColumn& column = columns_[static_cast<std::size_t>(kernels_ ? pairing.kind : PairKind::other)];
@@ -137,9 +151,9 @@ void PairTable::pad(int num_lanes) {
 
 void PairTable::append(int world, const model::GeomPair& pair, const Touch& touch,
                        std::vector<model::Contact>& contacts) const {
-  const model::Model& model = *models_[static_cast<std::size_t>(world)];
-  const model::Geom& first = model.geoms[static_cast<std::size_t>(pair.first)];
-  const model::Geom& second = model.geoms[static_cast<std::size_t>(pair.second)];
+  const World& one = worlds_[static_cast<std::size_t>(world)];
+  const GeomFacts& first = one.geoms[static_cast<std::size_t>(pair.first)];
+  const GeomFacts& second = one.geoms[static_cast<std::size_t>(pair.second)];
   const bool first_is_a = first.body != model::no_body;  // a must be a real body
   const model::Material material = model::combined(first.material, second.material);
   model::Contact contact;
@@ -148,8 +162,8 @@ void PairTable::append(int world, const model::GeomPair& pair, const Touch& touc
   contact.mu = material.mu;
   contact.restitution = material.restitution;
   contact.geoms = pair;
-  const double sign = pairing_of(first, second).swapped == first_is_a ? -1 : 1;
-  for (int i = 0; i < std::min<int>(touch.num_points, model.contact_law.max_per_pair); ++i) {
+  const double sign = pairing_of(first.shape, second.shape).swapped == first_is_a ? -1 : 1;
+  for (int i = 0; i < std::min<int>(touch.num_points, one.most_points); ++i) {
     const TouchPoint& point = points_[static_cast<std::size_t>(touch.first_point + i)];
     contact.position = model::Vec3(point.position);
     contact.normal = sign * model::Vec3(point.normal);

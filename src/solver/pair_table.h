@@ -109,10 +109,21 @@ class PairTable {
   }
 
  private:
+  /// What a pair needs to know of a geom, apart from the rest of it so that more of them are in the cache.
+  struct GeomFacts {
+    model::Shape shape;
+    int body;
+    model::Material material;
+  };
+  struct World {
+    std::vector<GeomFacts> geoms;
+    int most_points = 0;  ///< contacts a pair
+  };
+
   void append(int world, const model::GeomPair& pair, const Touch& touch,
               std::vector<model::Contact>& contacts) const;
 
-  std::vector<const model::Model*> models_;
+  std::vector<World> worlds_;
   const GeomOrder* order_;  ///< borrowed
   bool kernels_ = true;     ///< false: all pairs are of kind `other`
   int world_ = 0;
