@@ -12,33 +12,27 @@
 namespace pbmpi::mpi {
 namespace {
 
+using testing_support::add_to_space;
 using testing_support::Oracle;
 using testing_support::run_spaces;
+using testing_support::share;
 using testing_support::SharedModel;
 using testing_support::space_settings;
 using testing_support::whole_hash;
-
-const Communicator& world() {
-  static const Communicator communicator = Communicator::world();
-  return communicator;
-}
+using testing_support::world;
 
 /// A row of four cubes, joined at their edges, that falls flat on a cube of another space.
 void add_row(model::Model& model, int row, double break_force, double break_torque) {
   const std::string name = "row" + std::to_string(row);
   const int actor = support::add_actor(model, name, model::ActorKind::prop, true);
   const double y = 2.0 * row;
-  const auto put = [&](int body, int space) {
-    for (model::Geom& geom : model.geoms) {
-      if (geom.body == body) geom.space = space;
-    }
-    return body;
-  };
   int before = model::no_body;
   for (int i = 0; i < 4; ++i) {
-    const int cube = put(support::add_solid(model, actor, name + "_" + std::to_string(i), model::Shape::box,
-                                            {0.4, 0.4, 0.4}, 3, {0.41 * i, y, 1.2 + 0.1 * row}),
-                         row);
+    const int cube =
+        add_to_space(model,
+                     support::add_solid(model, actor, name + "_" + std::to_string(i), model::Shape::box,
+                                        {0.4, 0.4, 0.4}, 3, {0.41 * i, y, 1.2 + 0.1 * row}),
+                     row);
     if (before != model::no_body) {
       const int joint =
           support::add_joint(model, row % 2 == 0 ? model::JointKind::hinge : model::JointKind::fixed, before,
@@ -49,9 +43,10 @@ void add_row(model::Model& model, int row, double break_force, double break_torq
     before = cube;
   }
   const int block = support::add_actor(model, "block" + std::to_string(row));
-  put(support::add_solid(model, block, "block" + std::to_string(row), model::Shape::box, {0.5, 0.5, 0.5}, 20,
-                         {0.2 + 0.41 * row, y, 0.25}),
-      3);
+  add_to_space(model,
+               support::add_solid(model, block, "block" + std::to_string(row), model::Shape::box,
+                                  {0.5, 0.5, 0.5}, 20, {0.2 + 0.41 * row, y, 0.25}),
+               3);
 }
 
 /// Three rows in spaces of their own; what they fall on is in a fourth, so that the islands in which they
@@ -64,7 +59,7 @@ SharedModel falling_rows(bool sleeping) {
   add_row(model, 1, 400, 150);
   add_row(model, 2, 1200, 0);
   if (sleeping) model.effects["sleeping"] = true;
-  return std::make_shared<const model::Model>(std::move(model));
+  return share(std::move(model));
 }
 
 constexpr int num_frames = 70;  // of 3 steps, of 0.01 s

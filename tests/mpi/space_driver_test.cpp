@@ -15,17 +15,12 @@ namespace {
 using testing_support::neighbours;
 using testing_support::Oracle;
 using testing_support::run_spaces;
+using testing_support::share;
 using testing_support::SharedModel;
 using testing_support::space_settings;
 using testing_support::SpaceRun;
 using testing_support::whole_hash;
-
-const Communicator& world() {
-  static const Communicator communicator = Communicator::world();
-  return communicator;
-}
-
-SharedModel share(model::Model model) { return std::make_shared<const model::Model>(std::move(model)); }
+using testing_support::world;
 
 /// Runs with the oracle and expects the bits of the undecomposed world.
 SpaceRun expect_whole(const SharedModel& model, const WorldRunSettings& settings = space_settings(),

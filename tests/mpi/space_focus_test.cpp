@@ -16,17 +16,12 @@ using testing_support::make_space_stepper;
 using testing_support::neighbours;
 using testing_support::Oracle;
 using testing_support::run_spaces;
+using testing_support::share;
 using testing_support::SharedModel;
 using testing_support::space_settings;
 using testing_support::SpaceRun;
 using testing_support::whole_hash;
-
-const Communicator& world() {
-  static const Communicator communicator = Communicator::world();
-  return communicator;
-}
-
-SharedModel share(model::Model model) { return std::make_shared<const model::Model>(std::move(model)); }
+using testing_support::world;
 
 /// Round the last ball, which rolls, is launched into the middle, and falls on a pile.
 model::Model followed_ball() {

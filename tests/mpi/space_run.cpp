@@ -11,6 +11,20 @@ namespace pbmpi::testing_support {
 
 using model::Shape;
 
+SharedModel share(model::Model model) { return std::make_shared<const model::Model>(std::move(model)); }
+
+const mpi::Communicator& world() {
+  static const mpi::Communicator communicator = mpi::Communicator::world();
+  return communicator;
+}
+
+int add_to_space(model::Model& model, int body, int space) {
+  for (model::Geom& geom : model.geoms) {
+    if (geom.body == body) geom.space = space;
+  }
+  return body;
+}
+
 mpi::WorldRunSettings space_settings(int frames) {
   mpi::WorldRunSettings settings;
   settings.warmup = 2;
@@ -58,19 +72,13 @@ std::uint64_t whole_hash(const SharedModel& model, const mpi::WorldRunSettings& 
 
 namespace {
 
-void put_in_space(model::Model& model, int body, int space) {
-  for (model::Geom& geom : model.geoms) {
-    if (geom.body == body) geom.space = space;
-  }
-}
-
 void add_pile(model::Model& model, const std::string& name, double x, int space) {
   const int actor = support::add_actor(model, name, model::ActorKind::wall, true);
   for (int i = 0; i < 6; ++i) {
     const int body = support::add_solid(model, actor, name + std::to_string(i), Shape::box, {0.5, 0.5, 0.5},
                                         2, {x + 0.06 * (i % 3), 0.05 * (i % 2), 0.3 + 0.52 * i},
                                         support::rotation(model::Vec3(1, 1, 0).normalized(), 0.05 * i));
-    put_in_space(model, body, space);
+    add_to_space(model, body, space);
   }
 }
 
@@ -81,7 +89,7 @@ void add_chain(model::Model& model, double x, int space) {
     const int link = support::add_solid(model, actor, "link" + std::to_string(i), Shape::capsule,
                                         {0.05, 0.4, 0}, 1, {x - 1 + 0.5 * i, 0, 3.5},
                                         support::rotation(model::Vec3::UnitY(), 1.5707963267948966));
-    put_in_space(model, link, space);
+    add_to_space(model, link, space);
     if (previous != model::no_body)
       support::add_joint(model, model::JointKind::ball, link, previous, {x - 1.25 + 0.5 * i, 0, 3.5});
     previous = link;
@@ -94,7 +102,7 @@ void add_balls(model::Model& model, double x, int space) {
     const int actor = support::add_actor(model, name, model::ActorKind::projectile);
     const int body =
         support::add_solid(model, actor, name, Shape::sphere, {0.2, 0, 0}, 1, {x + 0.5 * i, 0.1 * i, 0.2});
-    put_in_space(model, body, space);
+    add_to_space(model, body, space);
     model.bodies[body].velocity = {i % 2 == 0 ? -6.0 : 0.0, 0, 0};
     model::Event event;
     event.step = 12 + 9 * i;

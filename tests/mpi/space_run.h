@@ -13,6 +13,14 @@ namespace pbmpi::testing_support {
 
 using SharedModel = std::shared_ptr<const model::Model>;
 
+SharedModel share(model::Model model);
+
+/// All ranks of the test.
+const mpi::Communicator& world();
+
+/// Puts the geoms of a body into a space; returns the body.
+int add_to_space(model::Model& model, int body, int space);
+
 /// 2 warm-up and `frames` measured frames of 3 steps.
 mpi::WorldRunSettings space_settings(int frames = 20);
 

@@ -11,23 +11,14 @@
 namespace pbmpi::mpi {
 namespace {
 
+using testing_support::add_to_space;
 using testing_support::Oracle;
 using testing_support::run_spaces;
+using testing_support::share;
 using testing_support::SharedModel;
 using testing_support::space_settings;
 using testing_support::whole_hash;
-
-const Communicator& world() {
-  static const Communicator communicator = Communicator::world();
-  return communicator;
-}
-
-int add_to_space(model::Model& model, int body, int space) {
-  for (model::Geom& geom : model.geoms) {
-    if (geom.body == body) geom.space = space;
-  }
-  return body;
-}
+using testing_support::world;
 
 void add_launch(model::Model& model, int step, int body, const model::Vec3& velocity) {
   model::Event event;
@@ -70,7 +61,7 @@ model::Model stacks_across_spaces() {
   return model;
 }
 
-SharedModel shared_stacks() { return std::make_shared<const model::Model>(stacks_across_spaces()); }
+SharedModel shared_stacks() { return share(stacks_across_spaces()); }
 
 TEST(SpaceSleep, has_the_bits_of_the_whole_world_for_every_ownership) {
   const SharedModel model = shared_stacks();
