@@ -59,18 +59,14 @@ class ColliderLanes {
   void update_boxes(const WorldLanes<T>& lanes);
   void find_awake(const WorldLanes<T>& lanes);
   void find_pairs(const WorldLanes<T>& lanes, int world);
-  bool is_plane(const World& world, int i) const {
-    return world.model->geoms[static_cast<std::size_t>(world.geoms[static_cast<std::size_t>(i)])].shape ==
-           model::Shape::plane;
-  }
   /// The i-th swept geom against all that come after it.
   void test_solid(const World& world, int i);
   /// Against those of [first, last) only; `box` is its own, in all lanes.
-  void test_range(const World& world, int i, const BoxLanes<T>& box, int first, int last);
+  PBMPI_LANES void test_range(const World& world, int i, const BoxLanes<T>& box, int first, int last);
   void test_plane(const World& world, int i);
   /// The i-th, which sleeps or is static, against those after it that are awake.
   void test_sleeper(const World& world, int i);
-  void add_pairs(const World& world, int i, int first, unsigned touching);
+  PBMPI_LANES void add_pairs(const World& world, int i, int first, unsigned touching);
   void run_kernels();
   void take_contacts(const WorldLanes<T>& lanes, int world, std::vector<model::Contact>& contacts);
 
@@ -182,7 +178,7 @@ void ColliderLanes<T>::find_pairs(const WorldLanes<T>& lanes, int index) {
     const int count = static_cast<int>(world.geoms.size());
     if (count > most_ungrouped_geoms) groups_.update(geoms_, world.first_column, count);
     for (int i = 0; i < count; ++i) {
-      if (is_plane(world, i)) {
+      if (world.may_touch->is_plane(i)) {
         test_plane(world, i);
       } else if (world.awake && !world.awake->contains(i)) {
         test_sleeper(world, i);
@@ -195,12 +191,9 @@ void ColliderLanes<T>::find_pairs(const WorldLanes<T>& lanes, int index) {
 }
 
 template <class T>
-void ColliderLanes<T>::add_pairs(const World& world, int i, int first, unsigned touching) {
-  constexpr unsigned all = T::num_lanes == 32 ? ~0u : (1u << T::num_lanes) - 1;
-  for (unsigned bits = touching & world.may_touch->bits(i, first) & all; bits != 0; bits &= bits - 1) {
-    const int other = first + __builtin_ctz(bits);
-    table_.add(world.geoms[static_cast<std::size_t>(i)], world.geoms[static_cast<std::size_t>(other)]);
-  }
+PBMPI_LANES void ColliderLanes<T>::add_pairs(const World& world, int i, int first, unsigned touching) {
+  const std::uint32_t pairs = touching & world.may_touch->bits(i, first) & ((2u << (T::num_lanes - 1)) - 1);
+  if (pairs != 0) table_.add(world.geoms[static_cast<std::size_t>(i)], world.geoms.data() + first, pairs);
 }
 
 template <class T>
@@ -219,8 +212,9 @@ void ColliderLanes<T>::test_solid(const World& world, int i) {
 }
 
 template <class T>
-void ColliderLanes<T>::test_range(const World& world, int i, const BoxLanes<T>& box, int first, int last) {
-  for (int chunk = first / T::num_lanes * T::num_lanes; chunk < last; chunk += T::num_lanes)
+PBMPI_LANES void ColliderLanes<T>::test_range(const World& world, int i, const BoxLanes<T>& box, int first,
+                                              int last) {
+  for (int chunk = first & -T::num_lanes; chunk < last; chunk += T::num_lanes)
     add_pairs(world, i, chunk, box.overlapping(geoms_.box_min, geoms_.box_max, world.first_column + chunk));
 }
 

@@ -9,15 +9,16 @@
 
 namespace pbmpi::solver {
 
-template <class T, bool two_bodies, bool friction>
+template <class T, bool two_bodies, ContactKind kind>
 class ContactBuilder {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
   using L3 = Vec3L<V>;
-  using Solver = ContactSolver<T, two_bodies, friction>;
+  using Solver = ContactSolver<T, two_bodies, kind>;
   using Row = typename Solver::Row;
   using Point = typename Solver::Point;
+  using Motion = typename Solver::Motion;
 
   ContactBuilder(const BodyLanes<T>& bodies, const ContactParameters<Scalar>& parameters)
       : bodies_(&bodies), parameters_(parameters) {}
@@ -37,9 +38,10 @@ class ContactBuilder {
   struct BodyPair {
     L3 centre_a, centre_b;
     Sym3L<V> inv_inertia_a, inv_inertia_b;
-    Twist<V> twist_a, twist_b;
+    Motion motion_a, motion_b;
   };
-  /// The point at hand of each lane's manifold; harmless numbers in idle lanes.
+  /// The point at hand of each lane's manifold; harmless numbers in idle lanes. What rows of this kind do not
+  /// ask for is not read.
   struct Given {
     L3 position, normal;
     V depth, mu, restitution, factor;
@@ -51,6 +53,14 @@ class ContactBuilder {
   void build_point(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, Point& point) const;
   PBMPI_LANES static void build_row(const ContactSlot<T>& slot, const BodyPair& pair, const L3& direction,
                                     const L3& arm_a, const L3& arm_b, Scalar cfm, const V& factor, Row& row);
+  PBMPI_LANES Motion gather_motion(const std::int32_t* index) const {
+    const Twist<V> twist = bodies_->gather_twist(index);
+    if constexpr (Solver::central) {
+      return twist.linear;
+    } else {
+      return twist;
+    }
+  }
 
   PBMPI_LANES L3 gather_vector(std::size_t member, const std::int32_t* index) const {
     return {bodies_->gather_member(member, index), bodies_->gather_member(member + sizeof(V), index),
@@ -66,9 +76,9 @@ class ContactBuilder {
   ContactParameters<Scalar> parameters_;
 };
 
-template <class T, bool two_bodies, bool friction>
-void ContactBuilder<T, two_bodies, friction>::build(const Manifold* manifolds, ContactSlot<T>& slot,
-                                                    Point* points) const {
+template <class T, bool two_bodies, ContactKind kind>
+void ContactBuilder<T, two_bodies, kind>::build(const Manifold* manifolds, ContactSlot<T>& slot,
+                                                Point* points) const {
   const BodyPair pair = gather(manifolds, slot);
   for (int i = 0; i < slot.num_points; ++i) {
     const Given given = read(manifolds, i);
@@ -80,8 +90,8 @@ void ContactBuilder<T, two_bodies, friction>::build(const Manifold* manifolds, C
   }
 }
 
-template <class T, bool two_bodies, bool friction>
-typename ContactBuilder<T, two_bodies, friction>::BodyPair ContactBuilder<T, two_bodies, friction>::gather(
+template <class T, bool two_bodies, ContactKind kind>
+typename ContactBuilder<T, two_bodies, kind>::BodyPair ContactBuilder<T, two_bodies, kind>::gather(
     const Manifold* manifolds, ContactSlot<T>& slot) const {
   std::int32_t body_a[T::num_lanes], body_b[T::num_lanes], twist_a[T::num_lanes], twist_b[T::num_lanes];
   for (int lane = 0; lane < T::num_lanes; ++lane) {
@@ -96,61 +106,69 @@ typename ContactBuilder<T, two_bodies, friction>::BodyPair ContactBuilder<T, two
   constexpr std::size_t inv_mass = offsetof(BodyLane<V>, inv_mass);
   constexpr std::size_t centre = offsetof(BodyLane<V>, position);
   BodyPair pair{};
-  pair.centre_a = gather_vector(centre, body_a);
-  pair.inv_inertia_a = gather_inertia(body_a);
-  pair.twist_a = bodies_->gather_twist(twist_a);
   slot.inv_mass_a = bodies_->gather_member(inv_mass, body_a);
-  slot.inv_mass_b = T::broadcast(0);
-  if constexpr (two_bodies) {
-    pair.centre_b = gather_vector(centre, body_b);
-    pair.inv_inertia_b = gather_inertia(body_b);
-    pair.twist_b = bodies_->gather_twist(twist_b);
-    slot.inv_mass_b = bodies_->gather_member(inv_mass, body_b);
+  slot.inv_mass_b = two_bodies ? bodies_->gather_member(inv_mass, body_b) : T::broadcast(0);
+  if (parameters_.restitution) {
+    pair.motion_a = gather_motion(twist_a);
+    if constexpr (two_bodies) pair.motion_b = gather_motion(twist_b);
+  }
+  if constexpr (!Solver::central) {
+    pair.centre_a = gather_vector(centre, body_a);
+    pair.inv_inertia_a = gather_inertia(body_a);
+    if constexpr (two_bodies) {
+      pair.centre_b = gather_vector(centre, body_b);
+      pair.inv_inertia_b = gather_inertia(body_b);
+    }
   }
   return pair;
 }
 
-template <class T, bool two_bodies, bool friction>
-typename ContactBuilder<T, two_bodies, friction>::Given ContactBuilder<T, two_bodies, friction>::read(
+template <class T, bool two_bodies, ContactKind kind>
+typename ContactBuilder<T, two_bodies, kind>::Given ContactBuilder<T, two_bodies, kind>::read(
     const Manifold* manifolds, int point) const {
   const V zero = T::broadcast(0);
   Given given{{zero, zero, zero}, {zero, zero, T::broadcast(1)}, zero, zero, zero, zero};
   for (int lane = 0; lane < T::num_lanes; ++lane) {
     if (point >= manifolds[lane].num_points) continue;
     const model::Contact& contact = manifolds[lane].points[point];
-    T::set(given.position.x, lane, static_cast<Scalar>(contact.position.x()));
-    T::set(given.position.y, lane, static_cast<Scalar>(contact.position.y()));
-    T::set(given.position.z, lane, static_cast<Scalar>(contact.position.z()));
+    if constexpr (!Solver::central) {
+      T::set(given.position.x, lane, static_cast<Scalar>(contact.position.x()));
+      T::set(given.position.y, lane, static_cast<Scalar>(contact.position.y()));
+      T::set(given.position.z, lane, static_cast<Scalar>(contact.position.z()));
+    }
     T::set(given.normal.x, lane, static_cast<Scalar>(contact.normal.x()));
     T::set(given.normal.y, lane, static_cast<Scalar>(contact.normal.y()));
     T::set(given.normal.z, lane, static_cast<Scalar>(contact.normal.z()));
     T::set(given.depth, lane, static_cast<Scalar>(contact.depth));
-    T::set(given.mu, lane, static_cast<Scalar>(contact.mu));
+    if constexpr (Solver::friction) T::set(given.mu, lane, static_cast<Scalar>(contact.mu));
     T::set(given.restitution, lane, static_cast<Scalar>(contact.restitution));
     T::set(given.factor, lane, parameters_.sor_factor);
   }
   return given;
 }
 
-template <class T, bool two_bodies, bool friction>
+template <class T, bool two_bodies, ContactKind kind>
 template <bool bounces>
-void ContactBuilder<T, two_bodies, friction>::build_point(const ContactSlot<T>& slot, const BodyPair& pair,
-                                                          const Given& given, Point& point) const {
+void ContactBuilder<T, two_bodies, kind>::build_point(const ContactSlot<T>& slot, const BodyPair& pair,
+                                                      const Given& given, Point& point) const {
   const V zero = T::broadcast(0);
-  const L3 arm_a = given.position - pair.centre_a;
-  const L3 arm_b = two_bodies ? given.position - pair.centre_b : L3{zero, zero, zero};
+  L3 arm_a{zero, zero, zero}, arm_b = arm_a;
+  if (parameters_.turning) {
+    arm_a = given.position - pair.centre_a;
+    if constexpr (two_bodies) arm_b = given.position - pair.centre_b;
+  }
   build_row(slot, pair, given.normal, arm_a, arm_b, parameters_.soft_cfm / parameters_.h, given.factor,
             point.normal);
   V bounce = zero;
   if constexpr (bounces) {
-    const V outgoing = Solver::speed(point.normal, pair.twist_a, pair.twist_b);
+    const V outgoing = Solver::speed(point.normal, pair.motion_a, pair.motion_b);
     bounce = outgoing < T::broadcast(-parameters_.bounce_velocity) ? -given.restitution * outgoing : zero;
   }
   const V push = parameters_.push_rate * given.depth;
   // A gap (negative depth) lets the bodies approach until they touch.
   point.rhs = given.depth < zero ? given.depth / parameters_.h : T::max(push, bounce);
   point.depth = point.planned = given.depth;
-  if constexpr (friction) {
+  if constexpr (Solver::friction) {
     point.mu = given.mu;
     L3 directions[2];
     plane_space<T>(given.normal, directions[0], directions[1]);
@@ -161,16 +179,21 @@ void ContactBuilder<T, two_bodies, friction>::build_point(const ContactSlot<T>& 
   }
 }
 
-template <class T, bool two_bodies, bool friction>
-PBMPI_LANES void ContactBuilder<T, two_bodies, friction>::build_row(const ContactSlot<T>& slot,
-                                                                    const BodyPair& pair, const L3& direction,
-                                                                    const L3& arm_a, const L3& arm_b,
-                                                                    Scalar cfm, const V& factor, Row& row) {
+template <class T, bool two_bodies, ContactKind kind>
+PBMPI_LANES void ContactBuilder<T, two_bodies, kind>::build_row(const ContactSlot<T>& slot,
+                                                                const BodyPair& pair, const L3& direction,
+                                                                const L3& arm_a, const L3& arm_b, Scalar cfm,
+                                                                const V& factor, Row& row) {
   row.direction = direction;
-  row.moment_a = cross(arm_a, direction);
-  row.turn_a = pair.inv_inertia_a * row.moment_a;
-  V diagonal = slot.inv_mass_a + dot(row.moment_a, row.turn_a);
-  if constexpr (two_bodies) {
+  V diagonal = slot.inv_mass_a;
+  if constexpr (!Solver::central) {
+    row.moment_a = cross(arm_a, direction);
+    row.turn_a = pair.inv_inertia_a * row.moment_a;
+    diagonal += dot(row.moment_a, row.turn_a);
+  }
+  if constexpr (two_bodies && Solver::central) {
+    diagonal += slot.inv_mass_b;
+  } else if constexpr (two_bodies) {
     row.moment_b = -cross(arm_b, direction);
     row.turn_b = pair.inv_inertia_b * row.moment_b;
     diagonal += slot.inv_mass_b + dot(row.moment_b, row.turn_b);
@@ -179,10 +202,10 @@ PBMPI_LANES void ContactBuilder<T, two_bodies, friction>::build_row(const Contac
   row.impulse = T::broadcast(0);
 }
 
-template <class T, bool two_bodies, bool friction>
-void ContactBuilder<T, two_bodies, friction>::advance(const ContactSlot<T>& slot, Point* points) const {
-  const Twist<V> a = bodies_->contact_twists.gather(slot.row_a);
-  const Twist<V> b = two_bodies ? bodies_->contact_twists.gather(slot.row_b) : Twist<V>{};
+template <class T, bool two_bodies, ContactKind kind>
+void ContactBuilder<T, two_bodies, kind>::advance(const ContactSlot<T>& slot, Point* points) const {
+  const Motion a = Solver::gather(bodies_->contact_twists, slot.row_a);
+  const Motion b = two_bodies ? Solver::gather(bodies_->contact_twists, slot.row_b) : Motion{};
   const V zero = T::broadcast(0);
   const auto carried = [&](const V& impulse) {
     return parameters_.warm_start > 0 ? impulse * T::broadcast(parameters_.warm_start) : zero;
@@ -197,7 +220,7 @@ void ContactBuilder<T, two_bodies, friction>::advance(const ContactSlot<T>& slot
     // A gap (negative depth) lets the bodies approach until they touch.
     point.rhs = (point.depth > zero ? rate : per_h) * point.depth + excess * per_h;
     point.normal.impulse = carried(point.normal.impulse);
-    if constexpr (friction) {
+    if constexpr (Solver::friction) {
       for (Row& row : point.friction) row.impulse = carried(row.impulse);
     }
   }

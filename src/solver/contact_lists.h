@@ -1,6 +1,6 @@
-/// The contacts of a pack in one step. They are of four kinds, swept one after the other: with or without a
-/// second body, with or without friction; and of each kind those of many points before those of few, since a
-/// slot takes as long as its longest manifold.
+/// The contacts of a pack in one step. They are of six kinds, swept one after the other: with or without a
+/// second body, and central, smooth or rough; and of each kind those of many points before those of few,
+/// since a slot takes as long as its longest manifold.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace pbmpi::solver {
 
 /// Contacts of one kind.
-template <class T, bool two_bodies, bool friction>
+template <class T, bool two_bodies, ContactKind kind>
 class ContactList {
  public:
   using Scalar = typename T::Scalar;
@@ -25,18 +25,18 @@ class ContactList {
   void build(const BodyLanes<T>& bodies, const Parameters& parameters) {
     const std::span<const Manifold> manifolds = order.deal(T::num_lanes, bodies.static_slot);
     cut();
-    const ContactBuilder<T, two_bodies, friction> builder(bodies, parameters);
+    const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
     for (std::size_t i = 0; i < slots_.size(); ++i)
       builder.build(&manifolds[i * T::num_lanes], slots_[i], points_of(slots_[i]));
   }
   /// For the next substep.
   void advance(const BodyLanes<T>& bodies, const Parameters& parameters) {
-    const ContactBuilder<T, two_bodies, friction> builder(bodies, parameters);
+    const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
     for (const ContactSlot<T>& slot : slots_) builder.advance(slot, points_of(slot));
   }
   void push_carried(TwistRows<T>& twists) {
     for (const ContactSlot<T>& slot : slots_)
-      ContactSolver<T, two_bodies, friction>::push_carried(twists, slot, points_of(slot));
+      ContactSolver<T, two_bodies, kind>::push_carried(twists, slot, points_of(slot));
   }
   /// visit(slot, its points, the manifold of each lane).
   template <class Visit>
@@ -45,7 +45,7 @@ class ContactList {
       visit(slots_[i], points_.data() + slots_[i].first_point, order.dealt().data() + i * T::num_lanes);
   }
   void sweep(TwistRows<T>& twists, const Parameters& parameters, bool backwards) {
-    const ContactSolver<T, two_bodies, friction> solver(parameters);
+    const ContactSolver<T, two_bodies, kind> solver(parameters);
     const std::size_t count = slots_.size();
     for (std::size_t i = 0; i < count; ++i) {
       const ContactSlot<T>& slot = slots_[backwards ? count - 1 - i : i];
@@ -54,7 +54,7 @@ class ContactList {
   }
 
  private:
-  using Point = ContactPoint<typename T::V, two_bodies, friction>;
+  using Point = ContactPoint<typename T::V, two_bodies, kind>;
 
   void cut() {
     slots_.resize(static_cast<std::size_t>(order.num_slots()));
@@ -79,8 +79,8 @@ class ContactLists {
  public:
   using Parameters = ContactParameters<typename T::Scalar>;
 
-  /// `always_rub`: friction rows for all contacts, also where mu is 0.
-  explicit ContactLists(bool always_rub) : always_rub_(always_rub) {}
+  /// Of the contacts without friction: rows of which kind?
+  explicit ContactLists(ContactKind frictionless) : frictionless_(frictionless) {}
 
   void clear() {
     for_each([](auto& list) { list.order.clear(); });
@@ -115,8 +115,7 @@ class ContactLists {
   /// visit(slot, points, manifolds) of each slot of each kind, as last solved.
   template <class Visit>
   void visit_slots(Visit visit) const {
-    std::apply([&](const auto&... kind) { ((kind[0].visit_slots(visit), kind[1].visit_slots(visit)), ...); },
-               lists_);
+    for_each([&](const auto& list) { list.visit_slots(visit); });
   }
   void sweep(TwistRows<T>& twists, const Parameters& parameters, bool backwards) {
     for_each([&](auto& list) { list.sweep(twists, parameters, backwards); });
@@ -124,11 +123,7 @@ class ContactLists {
   /// visit(slot of a body that is in contact), some of them more than once.
   template <class Visit>
   void for_each_body_slot(Visit visit) const {
-    std::apply(
-        [&](const auto&... kind) {
-          ((kind[0].order.for_each_place(visit), kind[1].order.for_each_place(visit)), ...);
-        },
-        lists_);
+    for_each([&](const auto& list) { list.order.for_each_place(visit); });
   }
 
  private:
@@ -136,23 +131,42 @@ class ContactLists {
     return a.body_a == b.body_a && a.body_b == b.body_b && (a.mu > 0) == (b.mu > 0);
   }
   /// The lists of one kind: manifolds of many points and of few.
-  template <bool two_bodies, bool friction>
-  using Kind = std::array<ContactList<T, two_bodies, friction>, 2>;
+  template <bool two_bodies, ContactKind kind>
+  using Kind = std::array<ContactList<T, two_bodies, kind>, 2>;
+  /// Swept by ascending kind.
+  template <bool two_bodies>
+  using Kinds = std::tuple<Kind<two_bodies, ContactKind::central>, Kind<two_bodies, ContactKind::smooth>,
+                           Kind<two_bodies, ContactKind::rough>>;
 
   ManifoldOrder& order_of(const model::Contact& contact, std::size_t num_points) {
     const std::size_t few = num_points > 2 ? 0 : 1;
-    const bool rubs = contact.mu > 0 || always_rub_;
-    if (contact.body_b == model::no_body)
-      return rubs ? std::get<1>(lists_)[few].order : std::get<0>(lists_)[few].order;
-    return rubs ? std::get<3>(lists_)[few].order : std::get<2>(lists_)[few].order;
+    const ContactKind kind = contact.mu > 0 ? ContactKind::rough : frictionless_;
+    return contact.body_b == model::no_body ? order_of(one_body_, kind, few)
+                                            : order_of(two_bodies_, kind, few);
+  }
+  template <class Lists>
+  static ManifoldOrder& order_of(Lists& lists, ContactKind kind, std::size_t few) {
+    if (kind == ContactKind::central) return std::get<0>(lists)[few].order;
+    return kind == ContactKind::smooth ? std::get<1>(lists)[few].order : std::get<2>(lists)[few].order;
   }
   template <class Visit>
   void for_each(Visit visit) {
-    std::apply([&](auto&... kind) { ((visit(kind[0]), visit(kind[1])), ...); }, lists_);
+    for_each(*this, visit);
+  }
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for_each(*this, visit);
+  }
+  template <class Self, class Visit>
+  static void for_each(Self& self, Visit visit) {
+    const auto both = [&](auto&... kind) { ((visit(kind[0]), visit(kind[1])), ...); };
+    std::apply(both, self.one_body_);
+    std::apply(both, self.two_bodies_);
   }
 
-  bool always_rub_;
-  std::tuple<Kind<false, false>, Kind<false, true>, Kind<true, false>, Kind<true, true>> lists_;
+  ContactKind frictionless_;
+  Kinds<false> one_body_;
+  Kinds<true> two_bodies_;
 };
 
 }  // namespace pbmpi::solver

@@ -49,8 +49,9 @@ class GeomLanes {
   /// Poses and boxes of the geoms in these chunks of num_lanes columns, from the poses of the bodies.
   void update(std::span<const int> chunks, const BodyLanes<T>& bodies);
 
-  Column position[3], rotation[9];  ///< world frame; rotation by rows
-  Column box_min[3], box_max[3];    ///< a little larger than need be; a plane's is empty
+  Column position[3];             ///< world frame
+  Column rotation[9];             ///< by rows; not of a sphere round its body's centre
+  Column box_min[3], box_max[3];  ///< a little larger than need be; a plane's is empty
   /// Half sides of a box, half length (z) of a capsule or cylinder; 0 for the other shapes.
   Column half[3];
   Column radius;  ///< of a sphere, capsule or cylinder
@@ -63,6 +64,7 @@ class GeomLanes {
     V ball;      ///< radius of a sphere or capsule
     V disc;      ///< radius of a cylinder
     V infinite;  ///< 1 for a plane
+    bool turns;  ///< is any geom other than a sphere round its body's centre?
   };
 
   void update_chunk(int i, const BodyLanes<T>& bodies);
@@ -91,6 +93,7 @@ void GeomLanes<T>::set(int index, const model::Geom& geom, LanePlace body) {
   Chunk& chunk = chunks_[static_cast<std::size_t>(index / T::num_lanes)];
   const int lane = index % T::num_lanes;
   chunk.body[lane] = BodyLanes<T>::body_index(body.slot, body.lane);
+  chunk.turns |= geom.shape != Shape::sphere || !geom.local.position.isZero(0);
   const auto scalar = [](double value) { return static_cast<Scalar>(value); };
   T::set(chunk.local_position.x, lane, scalar(geom.local.position.x()));
   T::set(chunk.local_position.y, lane, scalar(geom.local.position.y()));
@@ -124,23 +127,27 @@ void GeomLanes<T>::update_chunk(int i, const BodyLanes<T>& bodies) {
   constexpr std::size_t first_rotation = offsetof(BodyLane<V>, rotation);
   const Vec3L<V>& p = chunk.local_position;
   const Mat3L<V>& m = chunk.local_rotation;
+  const V zero = T::broadcast(0);
+  const auto at = [&](std::size_t first, int element) {
+    return bodies.gather_member(first + static_cast<std::size_t>(element) * sizeof(V), chunk.body);
+  };
   for (int k = 0; k < 3; ++k) {
-    const auto at = [&](std::size_t first, int element) {
-      return bodies.gather_member(first + static_cast<std::size_t>(element) * sizeof(V), chunk.body);
-    };
-    const Vec3L<V> r{at(first_rotation, 3 * k), at(first_rotation, 3 * k + 1), at(first_rotation, 3 * k + 2)};
-    const V centre = at(first_centre, k) + dot(r, p);
-    const V x = r.x * m.row0.x + r.y * m.row1.x + r.z * m.row2.x;
-    const V y = r.x * m.row0.y + r.y * m.row1.y + r.z * m.row2.y;
-    const V z = r.x * m.row0.z + r.y * m.row1.z + r.z * m.row2.z;
+    V centre = at(first_centre, k), reach = chunk.ball;
+    if (chunk.turns) {
+      const Vec3L<V> r{at(first_rotation, 3 * k), at(first_rotation, 3 * k + 1),
+                       at(first_rotation, 3 * k + 2)};
+      centre += dot(r, p);
+      const V x = r.x * m.row0.x + r.y * m.row1.x + r.z * m.row2.x;
+      const V y = r.x * m.row0.y + r.y * m.row1.y + r.z * m.row2.y;
+      const V z = r.x * m.row0.z + r.y * m.row1.z + r.z * m.row2.z;
+      rotation[3 * k].chunk(i) = x;
+      rotation[3 * k + 1].chunk(i) = y;
+      rotation[3 * k + 2].chunk(i) = z;
+      const V rim = chunk.disc * T::sqrt(T::max(T::broadcast(1) - z * z, zero));
+      reach = T::abs(x) * half[0].chunk(i) + T::abs(y) * half[1].chunk(i) + T::abs(z) * half[2].chunk(i) +
+              chunk.ball + rim;
+    }
     position[k].chunk(i) = centre;
-    rotation[3 * k].chunk(i) = x;
-    rotation[3 * k + 1].chunk(i) = y;
-    rotation[3 * k + 2].chunk(i) = z;
-    const V zero = T::broadcast(0);
-    const V rim = chunk.disc * T::sqrt(T::max(T::broadcast(1) - z * z, zero));
-    const V reach = T::abs(x) * half[0].chunk(i) + T::abs(y) * half[1].chunk(i) +
-                    T::abs(z) * half[2].chunk(i) + chunk.ball + rim;
     // Rounding must not part what the narrow phase finds touching.
     const V slack =
         (T::abs(centre) + reach) * T::broadcast(static_cast<Scalar>(sizeof(Scalar) == 4 ? 1e-6 : 1e-14));

@@ -5,6 +5,9 @@
 namespace pbmpi::solver {
 namespace {
 
+constexpr int no_geom = -1;
+constexpr int columns_a_line = 16;  ///< numbers in a line of the cache, and the most lanes
+
 void keep_one_of_each(std::vector<int>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -14,12 +17,14 @@ void keep_one_of_each(std::vector<int>& numbers) {
 
 GeomOrder::GeomOrder(std::span<const PackedWorld> worlds) {
   for (const PackedWorld& world : worlds) {
-    const int first = num_columns(), num_geoms = static_cast<int>(world.model->geoms.size());
+    const int num_geoms = static_cast<int>(world.model->geoms.size());
+    const int first = (num_columns() + columns_a_line - 1) / columns_a_line * columns_a_line;
+    geom_of_column_.resize(static_cast<std::size_t>(first), no_geom);
     std::vector<char> is_swept(world.model->geoms.size(), world.swept_geoms ? 0 : 1);
     if (world.swept_geoms) {
       for (const int geom : *world.swept_geoms) is_swept[static_cast<std::size_t>(geom)] = 1;
     }
-    column_of_geom_.resize(column_of_geom_.size() + is_swept.size());
+    column_of_geom_.resize(static_cast<std::size_t>(first + num_geoms));
     first_.push_back(first);
     num_swept_.push_back(0);
     for (const char swept : {1, 0}) {

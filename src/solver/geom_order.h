@@ -8,7 +8,8 @@
 
 namespace pbmpi::solver {
 
-/// World by world; in each the geoms that are swept stand in front, ascending, and the others after them.
+/// World by world, each at the beginning of a line of the cache; in each the geoms that are swept stand in
+/// front, ascending, and the others after them.
 class GeomOrder {
  public:
   explicit GeomOrder(std::span<const PackedWorld> worlds);

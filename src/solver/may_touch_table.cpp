@@ -10,9 +10,8 @@ MayTouchTable::MayTouchTable(const model::Model& model, std::span<const int> geo
   const model::TouchRule rule(model, broken_in);
   const int count = static_cast<int>(geoms.size());
   const auto geom = [&](int i) { return geoms[static_cast<std::size_t>(i)]; };
-  const auto is_plane = [&](int i) {
-    return model.geoms[static_cast<std::size_t>(geom(i))].shape == model::Shape::plane;
-  };
+  for (const int index : geoms)
+    planes_.push_back(model.geoms[static_cast<std::size_t>(index)].shape == model::Shape::plane ? 1 : 0);
   for (int row = 0; row < count; ++row) {
     for (int other = is_plane(row) ? 0 : row + 1; other < count; ++other) {
       if (is_plane(other) || !rule.may_touch(geom(row), geom(other))) continue;

@@ -18,12 +18,15 @@ class MayTouchTable {
   /// Bit b: may geom `row` touch geom first + b? For a solid row only geoms after it and no planes, so that
   /// each pair stands once; for a plane all solids. `first` is a multiple of 16, or of a power of two below.
   std::uint32_t bits(int row, int first) const {
-    return words_[static_cast<std::size_t>(row) * words_a_row_ + static_cast<std::size_t>(first / 32)] >>
-           (first % 32);
+    const auto at = static_cast<unsigned>(first);
+    return words_[static_cast<std::size_t>(row) * words_a_row_ + at / 32] >> (at % 32);
   }
+
+  bool is_plane(int row) const { return planes_[static_cast<std::size_t>(row)] != 0; }
 
  private:
   std::size_t words_a_row_;
+  std::vector<char> planes_;  ///< [rows]
   std::vector<std::uint32_t> words_;
 };
 

@@ -23,7 +23,7 @@ class PackLanes final : public Pack {
   using Contacts = std::span<const std::span<const model::Contact>>;
 
   explicit PackLanes(std::span<const PackedWorld> worlds)
-      : passes_(shared_passes(worlds)), worlds_(worlds, passes_), contacts_(passes_.idle_friction) {
+      : passes_(shared_passes(worlds)), worlds_(worlds, passes_), contacts_(frictionless_contacts(passes_)) {
     if (passes_.collision) collider_.emplace(worlds, worlds_, passes_.sleeping);
   }
 
@@ -85,6 +85,10 @@ class PackLanes final : public Pack {
   void sweep();
   void sweep_joints();
   void end_sweeps();
+  static ContactKind frictionless_contacts(const Passes& passes) {
+    if (passes.idle_friction) return ContactKind::rough;
+    return passes.turning_contacts ? ContactKind::smooth : ContactKind::central;
+  }
   ContactParameters<Scalar> contact_parameters() const;
   model::Residuals measure_residuals(int world) const;
 
@@ -175,6 +179,7 @@ ContactParameters<typename T::Scalar> PackLanes<T>::contact_parameters() const {
           scalar(laws.contact_law.bounce_velocity),
           scalar(parameters_.sor_factor),
           passes_.restitution,
+          passes_.turning_contacts,
           scalar(parameters_.warm_start)};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -105,6 +106,10 @@ void PairTable::start_world(int world) {
 
 void PairTable::add(int first, int second) {
   pairs_.push_back({std::min(first, second), std::max(first, second)});
+}
+
+void PairTable::add(int geom, const int* others, std::uint32_t bits) {
+  for (; bits != 0; bits &= bits - 1) add(geom, others[std::countr_zero(bits)]);
 }
 
 void PairTable::add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses,

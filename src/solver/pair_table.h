@@ -79,6 +79,8 @@ class PairTable {
   void start_world(int world);
   /// Geoms of the world at hand, by their index in its model.
   void add(int first, int second);
+  /// `geom` with each geom of `others` whose bit is set.
+  void add(int geom, const int* others, std::uint32_t bits);
   /// All pairs that this broad phase finds in the world at hand; of these only those with an awake geom, if
   /// `awake` is given.
   void add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses, const AwakeGeoms* awake);

@@ -1,22 +1,29 @@
 #include "solver/passes.h"
 
+#include <algorithm>
+
 #include "solver/pack.h"
 
 namespace pbmpi::solver {
+namespace {
+
+/// Are all of the moving geoms spheres round the centres of their bodies?
+bool are_balls(const model::Model& model) {
+  return std::all_of(model.geoms.begin(), model.geoms.end(), [](const model::Geom& geom) {
+    return geom.body == model::no_body ||
+           (geom.shape == model::Shape::sphere && geom.local.position.isZero(0));
+  });
+}
+
+}  // namespace
 
 Passes passes_of(const model::Model& model) {
   const model::StepPlan plan(model);
-  return {plan.has("collision"),
-          plan.has("restitution"),
-          plan.has("gyroscopic_torque"),
-          plan.has("gravity"),
-          plan.has("damping"),
-          plan.has("sleeping"),
-          plan.has("field_of_interest"),
-          plan.is_idle("friction"),
-          plan.is_idle("limits"),
-          plan.is_idle("motors"),
-          plan.is_idle("gyroscopic_torque")};
+  const bool rubs = plan.has("friction") && !plan.is_idle("friction");
+  return {plan.has("collision"),         rubs || !are_balls(model),     plan.has("restitution"),
+          plan.has("gyroscopic_torque"), plan.has("gravity"),           plan.has("damping"),
+          plan.has("sleeping"),          plan.has("field_of_interest"), plan.is_idle("friction"),
+          plan.is_idle("limits"),        plan.is_idle("motors"),        plan.is_idle("gyroscopic_torque")};
 }
 
 Passes shared_passes(std::span<const PackedWorld> worlds) {
@@ -24,6 +31,7 @@ Passes shared_passes(std::span<const PackedWorld> worlds) {
   for (const PackedWorld& world : worlds) {
     const Passes own = passes_of(*world.model);
     all.collision |= own.collision;
+    all.turning_contacts |= own.turning_contacts;
     all.restitution |= own.restitution;
     all.gyroscopic_torque |= own.gyroscopic_torque;
     all.gravity |= own.gravity;

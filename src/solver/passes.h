@@ -13,6 +13,9 @@ struct PackedWorld;
 /// that the worlds of a pack share the passes of all.
 struct Passes {
   bool collision = false;
+  /// May a contact turn a body? Not where nothing rubs and every body is a ball: all normals go through the
+  /// centres.
+  bool turning_contacts = false;
   bool restitution = false;
   bool gyroscopic_torque = false;
   bool gravity = false;

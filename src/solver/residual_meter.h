@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "model/observables.h"
 #include "solver/contact_rows.h"
@@ -46,11 +45,13 @@ class ResidualMeter {
   template <class Point, class IsWanted>
   void add_contacts(const ContactSlot<T>& slot, const Point* points, const TwistRows<T>& twists,
                     IsWanted is_wanted) {
-    constexpr bool two_bodies = std::is_same_v<typename Point::Row, ContactRow<V, true>>;
-    const Twist<V> a = twists.gather(slot.row_a), b = two_bodies ? twists.gather(slot.row_b) : Twist<V>{};
+    using Solver = ContactSolver<T, Point::two_bodies, Point::kind>;
+    using Motion = typename Solver::Motion;
+    const Motion a = Solver::gather(twists, slot.row_a);
+    const Motion b = Point::two_bodies ? Solver::gather(twists, slot.row_b) : Motion{};
     for (int i = 0; i < slot.num_points; ++i) {
       for (int lane = 0; lane < T::num_lanes; ++lane) {
-        if (is_wanted(lane, i)) add_contact<two_bodies>(points[i], a, b, lane);
+        if (is_wanted(lane, i)) add_contact<Solver>(points[i], a, b, lane);
       }
     }
   }
@@ -97,10 +98,9 @@ class ResidualMeter {
     raise(largest.natural,
           natural(error(row, a, b, lane), T::get(row.impulse, lane), low, high, T::get(row.scale, lane)));
   }
-  template <bool two_bodies, class Point>
-  void add_contact(const Point& point, const Twist<V>& a, const Twist<V>& b, int lane) {
-    constexpr bool friction = std::is_same_v<Point, ContactPoint<V, two_bodies, true>>;
-    using Solver = ContactSolver<T, two_bodies, friction>;
+  template <class Solver>
+  void add_contact(const typename Solver::Point& point, const typename Solver::Motion& a,
+                   const typename Solver::Motion& b, int lane) {
     const auto row_natural = [&](const auto& row, double error, double low, double high) {
       return natural(error, T::get(row.impulse, lane), low, high, T::get(row.scale, lane));
     };
@@ -109,7 +109,7 @@ class ResidualMeter {
                                 contacts_.soft_cfm / contacts_.h, point.normal.impulse, lane);
     raise(complementarity_, impulse * normal);
     raise(line_.natural, row_natural(point.normal, normal, 0, huge_bound));
-    if constexpr (friction) {
+    if constexpr (Solver::friction) {
       const double bound = T::get(point.mu, lane) * impulse;
       for (const auto& row : point.friction) {
         const double slip =

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "solver/articulation.h"
+#include "solver/passes.h"
 #include "solver/sor_world.h"
 #include "solver/step_settings.h"
 
@@ -27,7 +28,9 @@ constexpr int bodies_times_bytes_a_pack = 7200;
 
 /// What the worlds of a pack must have in common.
 bool same_laws(const model::Model& a, const model::Model& b) {
-  return a.erp == b.erp && a.cfm == b.cfm && a.contact_law.soft_erp == b.contact_law.soft_erp &&
+  if (&a == &b) return true;
+  return passes_of(a).turning_contacts == passes_of(b).turning_contacts && a.erp == b.erp && a.cfm == b.cfm &&
+         a.contact_law.soft_erp == b.contact_law.soft_erp &&
          a.contact_law.soft_cfm == b.contact_law.soft_cfm &&
          a.contact_law.bounce_velocity == b.contact_law.bounce_velocity &&
          a.linear_damping == b.linear_damping && a.angular_damping == b.angular_damping &&

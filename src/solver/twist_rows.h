@@ -10,8 +10,9 @@
 
 namespace pbmpi::solver {
 
-/// Numbers of a row: six components and two that are not used.
+/// Numbers of a row: three of the linear and three of the angular velocity, each with one that is not used.
 inline constexpr int twist_row_size = 8;
+inline constexpr int first_angular = 4;
 
 /// num_lanes rows of twists to and from lanes; `at[lane]`: where a row begins, in numbers.
 template <class T>
@@ -25,12 +26,7 @@ struct TwistTranspose {
     } else if constexpr (sizeof(V) == 64) {
       return load_512_double(rows, at);
     } else {
-      alignas(V) Scalar columns[6][T::num_lanes];
-      for (int lane = 0; lane < T::num_lanes; ++lane) {
-        for (int k = 0; k < 6; ++k) columns[k][lane] = rows[at[lane] + k];
-      }
-      return {{T::load(columns[0]), T::load(columns[1]), T::load(columns[2])},
-              {T::load(columns[3]), T::load(columns[4]), T::load(columns[5])}};
+      return {load_half(rows, at), load_half(rows + first_angular, at)};
     }
   }
 
@@ -40,19 +36,104 @@ struct TwistTranspose {
     } else if constexpr (sizeof(V) == 64) {
       store_512_double(rows, at, twist);
     } else {
+      store_half(rows, at, twist.linear);
+      store_half(rows + first_angular, at, twist.angular);
+    }
+  }
+
+  /// The first half of each row: the linear velocities.
+  PBMPI_LANES static Vec3L<V> load_half(const Scalar* rows, const std::int32_t* at) {
+    if constexpr (sizeof(V) == 64 && sizeof(Scalar) == 4) {
+      return load_half_512_single(rows, at);
+    } else if constexpr (sizeof(V) == 64) {
+      return load_half_512_double(rows, at);
+    } else {
+      alignas(V) Scalar columns[3][T::num_lanes];
+      for (int lane = 0; lane < T::num_lanes; ++lane) {
+        for (int k = 0; k < 3; ++k) columns[k][lane] = rows[at[lane] + k];
+      }
+      return {T::load(columns[0]), T::load(columns[1]), T::load(columns[2])};
+    }
+  }
+
+  PBMPI_LANES static void store_half(Scalar* rows, const std::int32_t* at, const Vec3L<V>& linear) {
+    if constexpr (sizeof(V) == 64 && sizeof(Scalar) == 4) {
+      store_half_512_single(rows, at, linear);
+    } else if constexpr (sizeof(V) == 64) {
+      store_half_512_double(rows, at, linear);
+    } else {
       for (int lane = 0; lane < T::num_lanes; ++lane) {
         Scalar* row = rows + at[lane];
-        row[0] = T::get(twist.linear.x, lane);
-        row[1] = T::get(twist.linear.y, lane);
-        row[2] = T::get(twist.linear.z, lane);
-        row[3] = T::get(twist.angular.x, lane);
-        row[4] = T::get(twist.angular.y, lane);
-        row[5] = T::get(twist.angular.z, lane);
+        row[0] = T::get(linear.x, lane);
+        row[1] = T::get(linear.y, lane);
+        row[2] = T::get(linear.z, lane);
       }
     }
   }
 
  private:
+  /// Four numbers of each row, four rows in a register, so that lane 4 b + i lies in block b of register i.
+  PBMPI_LANES static Vec3L<V> load_half_512_single(const Scalar* rows, const std::int32_t* at) {
+    __m512 r[4];
+    for (int i = 0; i < 4; ++i) {
+      r[i] = _mm512_castps128_ps512(_mm_load_ps(rows + at[i]));
+      r[i] = _mm512_insertf32x4(r[i], _mm_load_ps(rows + at[4 + i]), 1);
+      r[i] = _mm512_insertf32x4(r[i], _mm_load_ps(rows + at[8 + i]), 2);
+      r[i] = _mm512_insertf32x4(r[i], _mm_load_ps(rows + at[12 + i]), 3);
+    }
+    const __m512 low01 = _mm512_unpacklo_ps(r[0], r[1]), low23 = _mm512_unpacklo_ps(r[2], r[3]);
+    const __m512 high01 = _mm512_unpackhi_ps(r[0], r[1]), high23 = _mm512_unpackhi_ps(r[2], r[3]);
+    return {V(_mm512_shuffle_ps(low01, low23, 0x44)), V(_mm512_shuffle_ps(low01, low23, 0xee)),
+            V(_mm512_shuffle_ps(high01, high23, 0x44))};
+  }
+
+  PBMPI_LANES static void store_half_512_single(Scalar* rows, const std::int32_t* at,
+                                                const Vec3L<V>& linear) {
+    const __m512 zero = _mm512_setzero_ps();
+    const __m512 low01 = _mm512_unpacklo_ps(__m512(linear.x), __m512(linear.y));
+    const __m512 high01 = _mm512_unpackhi_ps(__m512(linear.x), __m512(linear.y));
+    const __m512 low23 = _mm512_unpacklo_ps(__m512(linear.z), zero);
+    const __m512 high23 = _mm512_unpackhi_ps(__m512(linear.z), zero);
+    const __m512 r[4] = {_mm512_shuffle_ps(low01, low23, 0x44), _mm512_shuffle_ps(low01, low23, 0xee),
+                         _mm512_shuffle_ps(high01, high23, 0x44), _mm512_shuffle_ps(high01, high23, 0xee)};
+    for (int i = 0; i < 4; ++i) {
+      _mm_store_ps(rows + at[i], _mm512_castps512_ps128(r[i]));
+      _mm_store_ps(rows + at[4 + i], _mm512_extractf32x4_ps(r[i], 1));
+      _mm_store_ps(rows + at[8 + i], _mm512_extractf32x4_ps(r[i], 2));
+      _mm_store_ps(rows + at[12 + i], _mm512_extractf32x4_ps(r[i], 3));
+    }
+  }
+
+  /// Two rows in a register, of lanes that come out in order: the halves of register i are these.
+  static constexpr int pair_lanes[4][2] = {{0, 2}, {1, 3}, {4, 6}, {5, 7}};
+
+  PBMPI_LANES static Vec3L<V> load_half_512_double(const Scalar* rows, const std::int32_t* at) {
+    __m512d r[4];
+    for (int i = 0; i < 4; ++i)
+      r[i] = _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(rows + at[pair_lanes[i][0]])),
+                                _mm256_load_pd(rows + at[pair_lanes[i][1]]), 1);
+    const __m512d even0 = _mm512_unpacklo_pd(r[0], r[1]), even4 = _mm512_unpacklo_pd(r[2], r[3]);
+    const __m512d odd0 = _mm512_unpackhi_pd(r[0], r[1]), odd4 = _mm512_unpackhi_pd(r[2], r[3]);
+    return {V(_mm512_shuffle_f64x2(even0, even4, 0x88)), V(_mm512_shuffle_f64x2(odd0, odd4, 0x88)),
+            V(_mm512_shuffle_f64x2(even0, even4, 0xdd))};
+  }
+
+  PBMPI_LANES static void store_half_512_double(Scalar* rows, const std::int32_t* at,
+                                                const Vec3L<V>& linear) {
+    const __m512d zero = _mm512_setzero_pd();
+    const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11);
+    const __m512i second = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+    const __m512d xy[2] = {_mm512_unpacklo_pd(__m512d(linear.x), __m512d(linear.y)),
+                           _mm512_unpackhi_pd(__m512d(linear.x), __m512d(linear.y))};
+    const __m512d z[2] = {_mm512_unpacklo_pd(__m512d(linear.z), zero),
+                          _mm512_unpackhi_pd(__m512d(linear.z), zero)};
+    for (int i = 0; i < 4; ++i) {
+      const __m512d r = _mm512_permutex2var_pd(xy[i % 2], i < 2 ? first : second, z[i % 2]);
+      _mm256_store_pd(rows + at[pair_lanes[i][0]], _mm512_castpd512_pd256(r));
+      _mm256_store_pd(rows + at[pair_lanes[i][1]], _mm512_extractf64x4_pd(r, 1));
+    }
+  }
+
   /// Two rows of eight floats in a register each, so that the blocks of four come out in the lanes' order.
   PBMPI_LANES static Twist<V> load_512_single(const Scalar* rows, const std::int32_t* at) {
     __m512 r[8];
@@ -61,8 +142,8 @@ struct TwistTranspose {
       r[i] = _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_load_ps(rows + at[first])),
                                 _mm256_load_ps(rows + at[first + 4]), 1);
     }
-    __m512 q[2]
-            [4];  // of the bodies 0 to 7 and 8 to 15: component c in the even blocks, c + 4 in the odd ones
+    // Of the bodies 0 to 7 and 8 to 15: linear component c in the even blocks, the angular one in the odd.
+    __m512 q[2][3];
     for (int half = 0; half < 2; ++half) {
       const __m512* s = r + 4 * half;
       const __m512 low01 = _mm512_unpacklo_ps(s[0], s[1]), low23 = _mm512_unpacklo_ps(s[2], s[3]);
@@ -70,24 +151,17 @@ struct TwistTranspose {
       q[half][0] = _mm512_shuffle_ps(low01, low23, 0x44);
       q[half][1] = _mm512_shuffle_ps(low01, low23, 0xee);
       q[half][2] = _mm512_shuffle_ps(high01, high23, 0x44);
-      q[half][3] = _mm512_shuffle_ps(high01, high23, 0xee);
     }
     return {{V(_mm512_shuffle_f32x4(q[0][0], q[1][0], 0x88)), V(_mm512_shuffle_f32x4(q[0][1], q[1][1], 0x88)),
              V(_mm512_shuffle_f32x4(q[0][2], q[1][2], 0x88))},
-            {V(_mm512_shuffle_f32x4(q[0][3], q[1][3], 0x88)), V(_mm512_shuffle_f32x4(q[0][0], q[1][0], 0xdd)),
-             V(_mm512_shuffle_f32x4(q[0][1], q[1][1], 0xdd))}};
+            {V(_mm512_shuffle_f32x4(q[0][0], q[1][0], 0xdd)), V(_mm512_shuffle_f32x4(q[0][1], q[1][1], 0xdd)),
+             V(_mm512_shuffle_f32x4(q[0][2], q[1][2], 0xdd))}};
   }
 
   PBMPI_LANES static void store_512_single(Scalar* rows, const std::int32_t* at, const Twist<V>& twist) {
     const __m512 zero = _mm512_setzero_ps();
-    const __m512 c[8] = {__m512(twist.linear.x),
-                         __m512(twist.linear.y),
-                         __m512(twist.linear.z),
-                         __m512(twist.angular.x),
-                         __m512(twist.angular.y),
-                         __m512(twist.angular.z),
-                         zero,
-                         zero};
+    const __m512 c[8] = {__m512(twist.linear.x),  __m512(twist.linear.y),  __m512(twist.linear.z),  zero,
+                         __m512(twist.angular.x), __m512(twist.angular.y), __m512(twist.angular.z), zero};
     const __m512i first = _mm512_setr_epi32(0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23);
     const __m512i second = _mm512_setr_epi32(8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31);
     for (int half = 0; half < 2; ++half) {
@@ -122,19 +196,13 @@ struct TwistTranspose {
     __m512d r[8], c[8];
     for (int i = 0; i < 8; ++i) r[i] = _mm512_load_pd(rows + at[i]);
     transpose(r, c);
-    return {{V(c[0]), V(c[1]), V(c[2])}, {V(c[3]), V(c[4]), V(c[5])}};
+    return {{V(c[0]), V(c[1]), V(c[2])}, {V(c[4]), V(c[5]), V(c[6])}};
   }
 
   PBMPI_LANES static void store_512_double(Scalar* rows, const std::int32_t* at, const Twist<V>& twist) {
     const __m512d zero = _mm512_setzero_pd();
-    const __m512d c[8] = {__m512d(twist.linear.x),
-                          __m512d(twist.linear.y),
-                          __m512d(twist.linear.z),
-                          __m512d(twist.angular.x),
-                          __m512d(twist.angular.y),
-                          __m512d(twist.angular.z),
-                          zero,
-                          zero};
+    const __m512d c[8] = {__m512d(twist.linear.x),  __m512d(twist.linear.y),  __m512d(twist.linear.z),  zero,
+                          __m512d(twist.angular.x), __m512d(twist.angular.y), __m512d(twist.angular.z), zero};
     __m512d r[8];
     transpose(c, r);
     for (int i = 0; i < 8; ++i) _mm512_store_pd(rows + at[i], r[i]);
@@ -157,6 +225,13 @@ class TwistRows {
   }
   PBMPI_LANES void scatter(const std::int32_t* at, const Twist<V>& twist) {
     TwistTranspose<T>::store(rows_.data()->numbers, at, twist);
+  }
+  /// The linear velocities only.
+  PBMPI_LANES Vec3L<V> gather_linear(const std::int32_t* at) const {
+    return TwistTranspose<T>::load_half(rows_.data()->numbers, at);
+  }
+  PBMPI_LANES void scatter_linear(const std::int32_t* at, const Vec3L<V>& linear) {
+    TwistTranspose<T>::store_half(rows_.data()->numbers, at, linear);
   }
   /// All lanes of a slot.
   PBMPI_LANES void set_slot(int slot, const Twist<V>& twist) { scatter(slot_index(slot).at, twist); }

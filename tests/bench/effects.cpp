@@ -15,26 +15,10 @@ namespace pbmpi::bench {
 namespace {
 
 constexpr int num_worlds = 64;
-constexpr int spheres_a_side = 4;  ///< in each of three directions
-constexpr int warmup_steps = 60;   ///< until they touch the ground and each other
-constexpr int num_frames = 60;
+constexpr int balls_a_side = 4;   ///< in each of three directions
+constexpr int warmup_steps = 60;  ///< until they touch the ground and each other
+constexpr int num_frames = 200;
 constexpr int steps_per_frame = 3;
-
-/// Spheres of 0.3 m over the ground, a little apart and out of line.
-model::Model falling_spheres(double mu, int variant) {
-  model::Model model;
-  const int actor = support::add_actor(model, "spheres", model::ActorKind::prop, true);
-  for (int i = 0; i < spheres_a_side * spheres_a_side * spheres_a_side; ++i) {
-    const int x = i % spheres_a_side, y = i / spheres_a_side % spheres_a_side,
-              z = i / (spheres_a_side * spheres_a_side);
-    const double shift = 0.02 * ((i * 7 + variant) % 5);
-    support::add_solid(model, actor, "s" + std::to_string(i), model::Shape::sphere, {0.3, 0, 0}, 1,
-                       {0.61 * x + shift, 0.61 * y - shift, 0.35 + 0.62 * z});
-  }
-  support::add_ground(model);
-  for (model::Geom& geom : model.geoms) geom.material.mu = mu;
-  return model;
-}
 
 class Side {
  public:
@@ -45,7 +29,7 @@ class Side {
     settings.precision = precision;
     stepper_ = solver::make_sor_stepper(settings, ode::make_narrow_phase);
     for (int world = 0; world < num_worlds; ++world) {
-      auto model = std::make_shared<model::Model>(falling_spheres(mu, world));
+      auto model = std::make_shared<model::Model>(support::falling_balls(balls_a_side, mu, world));
       model->effects = effects;
       stepper_->add(world, model, model::initial_state(*model), 0);
     }
@@ -107,7 +91,7 @@ void compare(model::Precision precision) {
   }
   std::printf("falling spheres, sor %s: %d worlds of %d, medians over %d alternated frames\n",
               precision == model::Precision::single ? "single" : "double", num_worlds,
-              spheres_a_side * spheres_a_side * spheres_a_side, num_frames);
+              balls_a_side * balls_a_side * balls_a_side, num_frames);
   for (const Side& side : sides) side.print(sides.front());
 }
 

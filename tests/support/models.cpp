@@ -144,4 +144,18 @@ Model pile(int num_boxes) {
   return model;
 }
 
+Model falling_balls(int a_side, double mu, int variant) {
+  Model model;
+  const int actor = add_actor(model, "balls", model::ActorKind::prop, true);
+  for (int i = 0; i < a_side * a_side * a_side; ++i) {
+    const int x = i % a_side, y = i / a_side % a_side, z = i / (a_side * a_side);
+    const double shift = 0.02 * ((i * 7 + variant) % 5);
+    add_solid(model, actor, "ball" + std::to_string(i), Shape::sphere, {0.3, 0, 0}, 1,
+              {0.61 * x + shift, 0.61 * y - shift, 0.35 + 0.62 * z});
+  }
+  add_ground(model);
+  for (model::Geom& geom : model.geoms) geom.material.mu = mu;
+  return model;
+}
+
 }  // namespace pbmpi::support

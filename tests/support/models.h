@@ -41,6 +41,9 @@ Model chain(int num_links);
 /// `num_boxes` cubes of 0.5 m, a little turned and shifted, one above the other over the ground: they fall
 /// into a pile.
 Model pile(int num_boxes);
+/// `a_side`^3 balls of 0.3 m and 1 kg over the ground, a little apart and out of line: they fall and meet.
+/// `mu`: of all of them and the ground; `variant` moves them a little.
+Model falling_balls(int a_side, double mu, int variant = 0);
 /// A car of 5 bodies that runs at 25 m/s into two 16-body ragdolls, 3 m ahead; 37 bodies, 34 joints of all
 /// kinds but slider, contacts from the first step. `variant` moves the ragdolls a little.
 Model crash(int variant = 0);
