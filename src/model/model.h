@@ -183,6 +183,7 @@ struct Model {
   EffectChoices effects;             ///< what is demanded or left out, whatever the rest calls for
 
   int num_bodies() const { return static_cast<int>(bodies.size()); }
+  int num_joints() const { return static_cast<int>(joints.size()); }
 };
 
 }  // namespace pbmpi::model

@@ -103,7 +103,7 @@ ColliderLanes<T>::ColliderLanes(std::span<const PackedWorld> worlds, const World
     if (sleeping) world.awake.emplace(model, world.geoms, T::num_lanes);
     for (std::size_t geom = 0; geom < model.geoms.size(); ++geom) {
       geoms_.set(order_.column(w, static_cast<int>(geom)), model.geoms[geom],
-                 lanes.body_place(w, model.geoms[geom].body));
+                 lanes.places.body(w, model.geoms[geom].body));
     }
     find_touchable(world, {});
   }

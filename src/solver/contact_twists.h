@@ -20,7 +20,7 @@ class ContactTwists {
     seen_.start(worlds.bodies.static_slot + 1);
     for_each_body_slot([&](int slot) {
       if (slot == worlds.bodies.static_slot || !seen_.add(slot)) return;
-      (worlds.has_joints(slot) ? jointed_ : free_).add(slot);
+      (worlds.places.has_joints(slot) ? jointed_ : free_).add(slot);
     });
   }
 

@@ -32,6 +32,7 @@
 #include "solver/broad_phase.h"
 #include "solver/broken_joints.h"
 #include "solver/joint_load.h"
+#include "solver/lane_places.h"
 #include "solver/manifold_order.h"
 #include "solver/may_touch_table.h"
 #include "solver/pack.h"

@@ -112,7 +112,7 @@ void PackLanes<T>::sort_contacts(Contacts contacts) {
     contacts_.add_world(
         worlds_.model(world).num_bodies(), contacts[static_cast<std::size_t>(world)],
         [&](int body) { return worlds_.moves(world, body); },
-        [&](int body) { return worlds_.body_place(world, body); });
+        [&](int body) { return worlds_.places.body(world, body); });
   }
 }
 
@@ -345,7 +345,7 @@ model::Residuals PackLanes<T>::measure_residuals(int world) const {
                            [&](const auto& rows, int lane) { meter.add_joint(rows, worlds_.bodies, lane); });
   contacts_.visit_slots([&](const auto& slot, const auto* points, const Manifold* manifolds) {
     meter.add_contacts(slot, points, worlds_.bodies.contact_twists, [&](int lane, int point) {
-      return point < manifolds[lane].num_points && worlds_.world_at(manifolds[lane].a) == world;
+      return point < manifolds[lane].num_points && worlds_.places.world_at(manifolds[lane].a) == world;
     });
   });
   return meter.result();

@@ -1,10 +1,7 @@
-/// The worlds of a pack in their lanes: which body and joint lies where, and all that goes in and out.
+/// The worlds of a pack in their lanes, and all that goes in and out.
 #pragma once
 
-#include <algorithm>
-#include <map>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "model/geometry.h"
@@ -12,10 +9,10 @@
 #include "solver/broken_joints.h"
 #include "solver/held_lanes.h"
 #include "solver/joint_batches.h"
+#include "solver/lane_places.h"
 #include "solver/load_meter.h"
-#include "solver/manifold_order.h"
-#include "solver/pack.h"
 #include "solver/passes.h"
+#include "solver/set_lanes.h"
 
 namespace pbmpi::solver {
 
@@ -34,12 +31,10 @@ class WorldLanes {
   WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes);
 
   void load(int world, const model::State& state) {
-    for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body)
-      load_body(world, static_cast<int>(body), state);
+    for (int body = 0; body < model(world).num_bodies(); ++body) load_body(world, body, state);
   }
   void store(int world, model::State& state) const {
-    for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body)
-      store_body(world, static_cast<int>(body), state);
+    for (int body = 0; body < model(world).num_bodies(); ++body) store_body(world, body, state);
   }
   void load_body(int world, int body, const model::State& state);
   void store_body(int world, int body, model::State& state) const {
@@ -47,8 +42,7 @@ class WorldLanes {
   }
   /// A world as it would be with these poses [slots] and the twists of now.
   void store_with(const PoseLane<V>* poses, int world, model::State& state) const {
-    for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body)
-      store_body(world, static_cast<int>(body), poses, state);
+    for (int body = 0; body < model(world).num_bodies(); ++body) store_body(world, body, poses, state);
   }
   /// See Pack. Batches know of it after the next update_active().
   void set_active(int world, std::span<const int> moving) { active_.set(world, moving); }
@@ -65,8 +59,12 @@ class WorldLanes {
       for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) visit(slot);
     });
   }
-  void set_motor(int world, int joint, int axis, const model::AxisMotor& motor);
-  void set_limit(int world, int joint, int axis, const model::AxisLimit& limit);
+  void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) {
+    set_control(world, joint, axis, motor);
+  }
+  void set_limit(int world, int joint, int axis, const model::AxisLimit& limit) {
+    set_control(world, joint, axis, limit);
+  }
   void launch(int world, const model::Event& event);
   /// True if more joints are broken than before.
   bool set_broken(int world, std::span<const std::int32_t> broken_in);
@@ -80,98 +78,71 @@ class WorldLanes {
   /// visit(rows, lane) of each joint of a world, as last solved.
   template <class Visit>
   void visit_joint_rows(int world, Visit visit) const {
-    const World& one = worlds_[world];
-    for (std::size_t joint = 0; joint < one.joints.size(); ++joint) {
-      if (!active_.contains(world, one.model->joints[joint].body_a)) continue;
-      if (broken_.contains(world, static_cast<int>(joint))) continue;
-      const JointPlace& at = one.joints[joint];
+    for (int joint = 0; joint < model(world).num_joints(); ++joint) {
+      if (!active_.contains(world, model(world).joints[joint].body_a)) continue;
+      if (broken_.contains(world, joint)) continue;
+      const JointPlace& at = places.joint(world, joint);
       joints.visit_rows(at.shape, at.joint, [&](const auto& rows) { visit(rows, at.lane); });
     }
   }
-  /// The world whose body lies there; -1 for the static slot and idle lanes.
-  int world_at(LanePlace place) const {
-    return place.slot == bodies.static_slot ? -1 : world_at_.data()[place.slot * T::num_lanes + place.lane];
-  }
+  int num_worlds() const { return static_cast<int>(models_.size()); }
+  const model::Model& model(int world) const { return *models_[static_cast<std::size_t>(world)]; }
 
-  int num_worlds() const { return static_cast<int>(worlds_.size()); }
-  const model::Model& model(int world) const { return *worlds_[static_cast<std::size_t>(world)].model; }
-  /// Where a body lies; the environment (no_body) in lane 0 of the static slot.
-  LanePlace body_place(int world, int body) const {
-    return body == model::no_body ? LanePlace{bodies.static_slot, 0} : worlds_[world].bodies[body];
-  }
-
-  bool has_joints(int slot) const { return joint_count_.data()[slot] > 0; }
-
-  BodyLanes<T> bodies{0};
+  LanePlaces places;  ///< which body and joint lies where
+  BodyLanes<T> bodies;
   JointBatches<T> joints;
   std::vector<Vec3L<V>> gravity;           ///< [slots] worlds may differ
   std::vector<GyroscopicSlot> gyroscopic;  ///< in the order of slots; none without the pass
 
  private:
-  struct JointPlace {
-    int shape = 0, joint = 0, lane = 0;  ///< joint: of joints.joints(shape)
-  };
-  struct World {
-    const model::Model* model = nullptr;
-    std::vector<LanePlace> bodies;
-    std::vector<JointPlace> joints;
-  };
-  /// Copies of one shape, with their worlds.
-  using Copies = std::vector<std::pair<int, const Articulation*>>;
+  using Set = SetLanes<T>;
 
   /// `poses`: BodyLane or PoseLane, [slots].
   template <class Poses>
   void store_body(int world, int body, const Poses* poses, model::State& state) const;
-  void place(std::span<const PackedWorld> worlds);
-  void place_copies(const ArticulationShape& shape, const Copies& copies, int first_slot, int shape_index);
-  void set_masses(const World& world, int body);
-  void set_pose(const LanePlace& at, const model::Pose& pose);
-  void set_terms(const World& world, int joint, const JointTerms& terms);
+  void set_masses(int world, int body);
+  void set_joint(int world, const Articulation& articulation, std::size_t index);
+  template <class Setting>
+  void set_control(int world, int joint, int axis, const Setting& setting);
+  void set_pose(LanePlace at, const model::Pose& pose);
+  void set_twist(LanePlace at, const model::Vec3& linear, const model::Vec3& angular);
   void fill_idle_lanes();
   void find_gyroscopic(bool all_slots);
   void allow_idle_controls(const Passes& passes);
-  JointLane<V>& joint_at(const World& world, int joint) {
-    const JointPlace& at = world.joints[joint];
+  JointLane<V>& joint_at(int world, int joint) {
+    const JointPlace& at = places.joint(world, joint);
     return joints.joints(at.shape)[at.joint];
   }
 
-  std::vector<World> worlds_;
-  std::vector<int> world_at_;  ///< [slots x num_lanes]
+  std::vector<const model::Model*> models_;
   bool holds_bodies_;
   ActiveBodies active_, awake_;
   BrokenJoints broken_;
   long active_revision_ = 0;       ///< that slot_active_ and the batches are of
   std::vector<char> slot_active_;  ///< [slots]; empty: all are
   HeldLanes<T> held_;
-  std::vector<int> joint_count_;  ///< [slots] of the articulation that a slot belongs to
 };
 
 template <class T>
 WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes)
-    : holds_bodies_(passes.holds_bodies()) {
-  place(worlds);
-  for (const PackedWorld& world : worlds) {
+    : places(worlds, T::num_lanes),
+      bodies(places.num_slots()),
+      gravity(static_cast<std::size_t>(places.num_slots()),
+              {T::broadcast(0), T::broadcast(0), T::broadcast(0)}),
+      holds_bodies_(passes.holds_bodies()) {
+  for (const LanePlaces::ShapePlace& at : places.shapes())
+    joints.add_shape(at.shape, at.first_slot, at.num_batches, bodies.static_slot);
+  for (int w = 0; w < static_cast<int>(worlds.size()); ++w) {
+    const PackedWorld& world = worlds[static_cast<std::size_t>(w)];
+    models_.push_back(world.model);
     active_.add_world(world.model->num_bodies());
     awake_.add_world(world.model->num_bodies());
     broken_.add_world();
-  }
-  for (std::size_t w = 0; w < worlds.size(); ++w) {
-    const World& world = worlds_[w];
-    for (std::size_t body = 0; body < world.bodies.size(); ++body) set_masses(world, static_cast<int>(body));
-    for (const Articulation& articulation : worlds[w].articulations) {
-      for (std::size_t j = 0; j < articulation.joints.size(); ++j)
-        set_terms(world, articulation.joints[j], articulation.terms[j]);
+    for (int body = 0; body < world.model->num_bodies(); ++body) set_masses(w, body);
+    for (const Articulation& articulation : world.articulations) {
+      for (std::size_t j = 0; j < articulation.joints.size(); ++j) set_joint(w, articulation, j);
     }
-    for (std::size_t j = 0; j < world.joints.size(); ++j) {
-      const model::Joint& joint = world.model->joints[j];
-      for (int axis = 0; axis < 2; ++axis) {
-        set_limit(static_cast<int>(w), static_cast<int>(j), axis,
-                  joint.limits[static_cast<std::size_t>(axis)]);
-        set_motor(static_cast<int>(w), static_cast<int>(j), axis,
-                  joint.motors[static_cast<std::size_t>(axis)]);
-      }
-    }
-    load(static_cast<int>(w), model::initial_state(*world.model));
+    load(w, model::initial_state(*world.model));
   }
   allow_idle_controls(passes);
   if (passes.gyroscopic_torque) find_gyroscopic(passes.idle_gyroscopic_torque);
@@ -179,98 +150,40 @@ WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& pas
   for (BodyLane<V>& body : bodies.bodies) refresh(body);
 }
 
-/// Gives each body a slot and a lane, shape by shape, world by world.
+/// What never changes of a joint, and its limits and motors as at the start.
 template <class T>
-void WorldLanes<T>::place(std::span<const PackedWorld> worlds) {
-  std::map<ArticulationShape, Copies> copies;
-  for (std::size_t w = 0; w < worlds.size(); ++w) {
-    worlds_.push_back({worlds[w].model, std::vector<LanePlace>(worlds[w].model->bodies.size()),
-                       std::vector<JointPlace>(worlds[w].model->joints.size())});
-    for (const Articulation& articulation : worlds[w].articulations)
-      copies[articulation.shape].emplace_back(static_cast<int>(w), &articulation);
-  }
-  const auto num_batches = [](const Copies& members) {
-    return (static_cast<int>(members.size()) + T::num_lanes - 1) / T::num_lanes;
-  };
-  int num_slots = 0;
-  for (const auto& [shape, members] : copies) num_slots += num_batches(members) * shape.num_bodies;
-  bodies = BodyLanes<T>(num_slots);
-  gravity.assign(static_cast<std::size_t>(num_slots), {T::broadcast(0), T::broadcast(0), T::broadcast(0)});
-  int first_slot = 0;
-  world_at_.assign(static_cast<std::size_t>(num_slots * T::num_lanes), -1);
-  joint_count_.assign(static_cast<std::size_t>(num_slots), 0);
-  for (const auto& [shape, members] : copies) {
-    std::fill_n(joint_count_.begin() + first_slot, num_batches(members) * shape.num_bodies,
-                static_cast<int>(shape.joints.size()));
-    const int index = joints.add_shape(shape, first_slot, num_batches(members), bodies.static_slot);
-    place_copies(shape, members, first_slot, index);
-    first_slot += num_batches(members) * shape.num_bodies;
+void WorldLanes<T>::set_joint(int world, const Articulation& articulation, std::size_t index) {
+  const int joint = articulation.joints[index];
+  Set::set(joint_at(world, joint).terms, places.joint(world, joint).lane, articulation.terms[index]);
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    set_limit(world, joint, axis, model(world).joints[joint].limits[a]);
+    set_motor(world, joint, axis, model(world).joints[joint].motors[a]);
   }
 }
 
 template <class T>
-void WorldLanes<T>::place_copies(const ArticulationShape& shape, const Copies& copies, int first_slot,
-                                 int shape_index) {
-  for (std::size_t m = 0; m < copies.size(); ++m) {
-    const auto [w, articulation] = copies[m];
-    const int batch = static_cast<int>(m) / T::num_lanes, lane = static_cast<int>(m) % T::num_lanes;
-    for (int i = 0; i < shape.num_bodies; ++i) {
-      const int slot = first_slot + batch * shape.num_bodies + i;
-      worlds_[w].bodies[articulation->bodies[i]] = {slot, lane};
-      world_at_[slot * T::num_lanes + lane] = w;
-    }
-    for (std::size_t j = 0; j < shape.joints.size(); ++j) {
-      const int joint = batch * static_cast<int>(shape.joints.size()) + static_cast<int>(j);
-      worlds_[w].joints[articulation->joints[j]] = {shape_index, joint, lane};
-    }
-  }
-}
-
-template <class V, class Scalar, class T>
-void set_lane(Vec3L<V>& v, int lane, const model::Vec3& value) {
-  T::set(v.x, lane, static_cast<Scalar>(value.x()));
-  T::set(v.y, lane, static_cast<Scalar>(value.y()));
-  T::set(v.z, lane, static_cast<Scalar>(value.z()));
-}
-
-template <class T>
-void set_lane(Vec3L<typename T::V>& v, int lane, const model::Vec3& value) {
-  set_lane<typename T::V, typename T::Scalar, T>(v, lane, value);
-}
-
-template <class T>
-void set_lane(Sym3L<typename T::V>& s, int lane, const model::Mat3& m) {
-  using Scalar = typename T::Scalar;
-  T::set(s.xx, lane, static_cast<Scalar>(m(0, 0)));
-  T::set(s.xy, lane, static_cast<Scalar>(m(0, 1)));
-  T::set(s.xz, lane, static_cast<Scalar>(m(0, 2)));
-  T::set(s.yy, lane, static_cast<Scalar>(m(1, 1)));
-  T::set(s.yz, lane, static_cast<Scalar>(m(1, 2)));
-  T::set(s.zz, lane, static_cast<Scalar>(m(2, 2)));
-}
-
-template <class T>
-void WorldLanes<T>::set_masses(const World& world, int body) {
-  const LanePlace& at = world.bodies[body];
-  const model::Body& source = world.model->bodies[body];
+void WorldLanes<T>::set_masses(int world, int body) {
+  const LanePlace at = places.body(world, body);
+  const model::Body& source = model(world).bodies[body];
   BodyLane<V>& lane = bodies.bodies[at.slot];
-  T::set(lane.inv_mass, at.lane, static_cast<Scalar>(1 / source.mass_kg));
-  set_lane<T>(lane.inertia_body, at.lane, source.inertia);
-  set_lane<T>(lane.inv_inertia_body, at.lane, source.inertia.inverse());
+  Set::set(lane.inv_mass, at.lane, 1 / source.mass_kg);
+  Set::set(lane.inertia_body, at.lane, source.inertia);
+  Set::set(lane.inv_inertia_body, at.lane, model::Mat3(source.inertia.inverse()));
   // Adding -0 changes no number, adding +0 changes -0.
-  const bool falls = !world.model->gravity.isZero(0);
-  set_lane<T>(gravity[at.slot], at.lane,
-              falls ? world.model->gravity : model::Vec3(model::Vec3::Constant(-0.0)));
+  const bool falls = !model(world).gravity.isZero(0);
+  Set::set(gravity[at.slot], at.lane,
+           falls ? model(world).gravity : model::Vec3(model::Vec3::Constant(-0.0)));
 }
 
 template <class T>
 void WorldLanes<T>::find_gyroscopic(bool all_slots) {
   std::vector<GyroscopicSlot> slots(static_cast<std::size_t>(bodies.static_slot), {T::broadcast(0), 0});
   std::vector<bool> used(slots.size(), all_slots);
-  for (const World& world : worlds_) {
-    for (std::size_t body = 0; body < world.bodies.size(); ++body) {
-      if (!model::has_gyroscopic_torque(world.model->bodies[body])) continue;
-      const LanePlace& at = world.bodies[body];
+  for (int world = 0; world < num_worlds(); ++world) {
+    for (int body = 0; body < model(world).num_bodies(); ++body) {
+      if (!model::has_gyroscopic_torque(model(world).bodies[body])) continue;
+      const LanePlace at = places.body(world, body);
       T::set(slots[static_cast<std::size_t>(at.slot)].has_torque, at.lane, 1);
       used[static_cast<std::size_t>(at.slot)] = true;
     }
@@ -285,12 +198,12 @@ void WorldLanes<T>::find_gyroscopic(bool all_slots) {
 template <class T>
 void WorldLanes<T>::allow_idle_controls(const Passes& passes) {
   using model::JointKind;
-  for (const World& world : worlds_) {
-    for (std::size_t j = 0; j < world.joints.size(); ++j) {
-      const JointKind kind = world.model->joints[j].kind;
+  for (int world = 0; world < num_worlds(); ++world) {
+    for (int joint = 0; joint < model(world).num_joints(); ++joint) {
+      const JointKind kind = model(world).joints[joint].kind;
       if (kind == JointKind::ball || kind == JointKind::fixed) continue;
       const bool two_motors = kind == JointKind::universal || kind == JointKind::hinge2;
-      AxisControl<V>* controls = joint_at(world, static_cast<int>(j)).controls;
+      AxisControl<V>* controls = joint_at(world, joint).controls;
       controls[0].has_limit |= passes.idle_limits;
       controls[1].has_limit |= passes.idle_limits && kind == JointKind::universal;
       controls[0].has_motor |= passes.idle_motors;
@@ -299,47 +212,22 @@ void WorldLanes<T>::allow_idle_controls(const Passes& passes) {
   }
 }
 
-template <class T>
-void WorldLanes<T>::set_terms(const World& world, int joint, const JointTerms& terms) {
-  const int lane = world.joints[joint].lane;
-  JointTermsLane<V>& to = joint_at(world, joint).terms;
-  set_lane<T>(to.anchor_a, lane, terms.anchor_a);
-  set_lane<T>(to.anchor_b, lane, terms.anchor_b);
-  set_lane<T>(to.axis1_a, lane, terms.axis1_a);
-  set_lane<T>(to.axis1_b, lane, terms.axis1_b);
-  set_lane<T>(to.axis2_b, lane, terms.axis2_b);
-  set_lane<T>(to.normal1_a, lane, terms.normal1_a);
-  set_lane<T>(to.normal2_b, lane, terms.normal2_b);
-  T::set(to.relative_w, lane, static_cast<Scalar>(terms.relative.w));
-  T::set(to.relative_x, lane, static_cast<Scalar>(terms.relative.x));
-  T::set(to.relative_y, lane, static_cast<Scalar>(terms.relative.y));
-  T::set(to.relative_z, lane, static_cast<Scalar>(terms.relative.z));
-  T::set(to.cos0, lane, static_cast<Scalar>(terms.cos0));
-  T::set(to.sin0, lane, static_cast<Scalar>(terms.sin0));
-  T::set(to.stiffness, lane, static_cast<Scalar>(terms.stiffness));
-  T::set(to.damping, lane, static_cast<Scalar>(terms.damping));
-}
-
 /// Idle lanes of the last batch of a shape repeat lane 0, so that they compute something harmless.
 template <class T>
 void WorldLanes<T>::fill_idle_lanes() {
-  std::vector<int> used(bodies.bodies.size(), 0);
-  for (const World& world : worlds_) {
-    for (const LanePlace& at : world.bodies) used[at.slot] = std::max(used[at.slot], at.lane + 1);
-  }
   const auto repeat = [](auto& lanes, int from) {
     auto* values = reinterpret_cast<V*>(&lanes);
     for (std::size_t i = 0; i < sizeof lanes / sizeof(V); ++i) {
       for (int lane = from; lane < T::num_lanes; ++lane) T::set(values[i], lane, T::get(values[i], 0));
     }
   };
-  for (std::size_t slot = 0; slot + 1 < bodies.bodies.size(); ++slot) {
-    repeat(bodies.bodies[slot], used[slot]);
-    repeat(bodies.twists[slot], used[slot]);
+  for (int slot = 0; slot < places.num_slots(); ++slot) {
+    repeat(bodies.bodies[slot], places.num_used(slot));
+    repeat(bodies.twists[slot], places.num_used(slot));
   }
   for (int shape = 0; shape < joints.num_shapes(); ++shape) {
     for (JointLane<V>& joint : joints.joints(shape)) {
-      const int from = used[joint.slot_a];
+      const int from = places.num_used(joint.slot_a);
       repeat(joint.terms, from);
       for (AxisControl<V>& control : joint.controls) {
         for (V* v : {&control.low, &control.high, &control.sin_low, &control.cos_low, &control.sin_high,
@@ -353,10 +241,9 @@ void WorldLanes<T>::fill_idle_lanes() {
 
 template <class T>
 void WorldLanes<T>::load_body(int world, int body, const model::State& state) {
-  const LanePlace& at = worlds_[world].bodies[body];
+  const LanePlace at = places.body(world, body);
   set_pose(at, {state.position[body], state.orientation[body]});
-  set_lane<T>(bodies.twists[at.slot].linear, at.lane, state.velocity[body]);
-  set_lane<T>(bodies.twists[at.slot].angular, at.lane, state.angular_velocity[body]);
+  set_twist(at, state.velocity[body], state.angular_velocity[body]);
 }
 
 template <class T>
@@ -365,7 +252,7 @@ void WorldLanes<T>::store_body(int world, int body, const Poses* poses, model::S
   const auto vector_of = [](const Vec3L<V>& v, int lane) {
     return model::Vec3(T::get(v.x, lane), T::get(v.y, lane), T::get(v.z, lane));
   };
-  const LanePlace& at = worlds_[world].bodies[body];
+  const LanePlace at = places.body(world, body);
   const Poses& lanes = poses[at.slot];
   state.position[body] = vector_of(lanes.position, at.lane);
   state.orientation[body] = {T::get(lanes.qw, at.lane), T::get(lanes.qx, at.lane), T::get(lanes.qy, at.lane),
@@ -382,7 +269,7 @@ void WorldLanes<T>::update_active() {
   slot_active_.assign(gravity.size(), 0);
   for (int world = 0; world < num_worlds(); ++world) {
     for (const int body : active_.of(world)) {
-      const int slot = worlds_[world].bodies[body].slot;
+      const int slot = places.body(world, body).slot;
       if (slot_active_[slot] == 0) joints.activate(slot);
       slot_active_[slot] = 1;
     }
@@ -391,47 +278,25 @@ void WorldLanes<T>::update_active() {
   if (!holds_bodies_) return;
   std::vector<LanePlace> held;
   for (int world = 0; world < num_worlds(); ++world) {
-    for (std::size_t body = 0; body < worlds_[world].bodies.size(); ++body) {
-      const LanePlace at = worlds_[world].bodies[body];
-      if (slot_active_[at.slot] && !active_.contains(world, static_cast<int>(body))) held.push_back(at);
+    for (int body = 0; body < model(world).num_bodies(); ++body) {
+      const LanePlace at = places.body(world, body);
+      if (slot_active_[at.slot] && !active_.contains(world, body)) held.push_back(at);
     }
   }
   held_.hold(bodies.static_slot, held);
 }
 
 template <class T>
-void WorldLanes<T>::set_motor(int world, int joint, int axis, const model::AxisMotor& motor) {
+template <class Setting>
+void WorldLanes<T>::set_control(int world, int joint, int axis, const Setting& setting) {
   if (broken_.contains(world, joint)) return;
-  const int lane = worlds_[world].joints[joint].lane;
-  AxisControl<V>& control = joint_at(worlds_[world], joint).controls[axis];
-  T::set(control.velocity, lane, static_cast<Scalar>(motor.velocity));
-  T::set(control.max_force, lane, static_cast<Scalar>(motor.max_force));
-  T::set(control.hold_rate, lane, static_cast<Scalar>(motor.hold_rate));
-  control.has_motor = control.has_motor || motor.active();
-  control.has_hold = control.has_hold || (motor.active() && motor.hold_rate > 0);
-}
-
-template <class T>
-void WorldLanes<T>::set_limit(int world, int joint, int axis, const model::AxisLimit& limit) {
-  if (broken_.contains(world, joint)) return;
-  const int lane = worlds_[world].joints[joint].lane;
-  AxisControl<V>& control = joint_at(worlds_[world], joint).controls[axis];
-  // No stop is a stop that no angle reaches: s cos <= c sin with sin = -1, cos = 0 holds for no c > 0.
-  const bool low = limit.low > -model::infinity, high = limit.high < model::infinity;
-  T::set(control.low, lane, static_cast<Scalar>(low ? limit.low : -huge_bound));
-  T::set(control.high, lane, static_cast<Scalar>(high ? limit.high : huge_bound));
-  T::set(control.sin_low, lane, static_cast<Scalar>(low ? std::sin(limit.low / 2) : -1));
-  T::set(control.cos_low, lane, static_cast<Scalar>(low ? std::cos(limit.low / 2) : 0));
-  T::set(control.sin_high, lane, static_cast<Scalar>(high ? std::sin(limit.high / 2) : 1));
-  T::set(control.cos_high, lane, static_cast<Scalar>(high ? std::cos(limit.high / 2) : 0));
-  control.has_limit = control.has_limit || low || high;
+  Set::set(joint_at(world, joint).controls[axis], places.joint(world, joint).lane, setting);
 }
 
 template <class T>
 void WorldLanes<T>::launch(int world, const model::Event& event) {
-  const LanePlace& at = worlds_[world].bodies[event.body];
-  set_lane<T>(bodies.twists[at.slot].linear, at.lane, event.velocity);
-  set_lane<T>(bodies.twists[at.slot].angular, at.lane, event.angular_velocity);
+  const LanePlace at = places.body(world, event.body);
+  set_twist(at, event.velocity, event.angular_velocity);
   if (event.pose) set_pose(at, *event.pose);
 }
 
@@ -444,7 +309,7 @@ bool WorldLanes<T>::set_broken(int world, std::span<const std::int32_t> broken_i
       set_motor(world, joint, axis, {});
       set_limit(world, joint, axis, {});
     }
-    const JointPlace& at = worlds_[world].joints[joint];
+    const JointPlace& at = places.joint(world, joint);
     joints.loosen(at.shape, at.joint, at.lane);
   }
   broken_.set(world, broken_in);
@@ -453,29 +318,30 @@ bool WorldLanes<T>::set_broken(int world, std::span<const std::int32_t> broken_i
 
 template <class T>
 model::Reaction WorldLanes<T>::reaction(int world, int joint, double h) const {
-  const JointPlace& at = worlds_[world].joints[joint];
-  const model::Model& model = *worlds_[world].model;
+  const JointPlace& at = places.joint(world, joint);
+  const model::Joint& held = model(world).joints[joint];
   JointLoad load;
   joints.visit_rows(at.shape, at.joint, [&](const auto& rows) { load = load_of(rows, at.lane); });
-  return reaction_of(load, model, model.joints[joint], pose(world, model.joints[joint].body_a), h);
+  return reaction_of(load, model(world), held, pose(world, held.body_a), h);
 }
 
 template <class T>
-void WorldLanes<T>::set_pose(const LanePlace& at, const model::Pose& pose) {
-  BodyLane<V>& body = bodies.bodies[at.slot];
-  set_lane<T>(body.position, at.lane, pose.position);
-  T::set(body.qw, at.lane, static_cast<Scalar>(pose.orientation.w));
-  T::set(body.qx, at.lane, static_cast<Scalar>(pose.orientation.x));
-  T::set(body.qy, at.lane, static_cast<Scalar>(pose.orientation.y));
-  T::set(body.qz, at.lane, static_cast<Scalar>(pose.orientation.z));
-  refresh(body);
+void WorldLanes<T>::set_pose(LanePlace at, const model::Pose& pose) {
+  Set::set(bodies.bodies[at.slot], at.lane, pose);
+  refresh(bodies.bodies[at.slot]);
+}
+
+template <class T>
+void WorldLanes<T>::set_twist(LanePlace at, const model::Vec3& linear, const model::Vec3& angular) {
+  Set::set(bodies.twists[at.slot].linear, at.lane, linear);
+  Set::set(bodies.twists[at.slot].angular, at.lane, angular);
 }
 
 /// In double from the quaternion: a rotation in float makes rounding noise a contact normal in ODE's
 /// colliders.
 template <class T>
 model::BodyPose WorldLanes<T>::pose(int world, int body) const {
-  const LanePlace at = body_place(world, body);
+  const LanePlace at = places.body(world, body);
   const BodyLane<V>& lanes = bodies.bodies[at.slot];
   model::BodyPose pose;
   pose.position[0] = T::get(lanes.position.x, at.lane);
@@ -488,7 +354,7 @@ model::BodyPose WorldLanes<T>::pose(int world, int body) const {
 
 template <class T>
 int WorldLanes<T>::joint_rows(int world, int joint) const {
-  const JointPlace& at = worlds_[world].joints[joint];
+  const JointPlace& at = places.joint(world, joint);
   return joints.num_rows(at.shape, at.joint, at.lane);
 }
 
