@@ -13,27 +13,29 @@ namespace {
 using core::Phase;
 
 /// "3 geoms with mu > 0", or nothing for none.
-std::optional<std::string> counted(std::ptrdiff_t count, std::string_view what) {
+std::optional<Reason> counted(std::ptrdiff_t count, std::string_view what) {
   if (count == 0) return std::nullopt;
-  return std::to_string(count) + " " + std::string(what);
+  return Reason{count, std::string(what)};
 }
 
 template <class Items, class Predicate>
-std::optional<std::string> counted_if(const Items& items, Predicate predicate, std::string_view what) {
+std::optional<Reason> counted_if(const Items& items, Predicate predicate, std::string_view what) {
   return counted(std::count_if(items.begin(), items.end(), predicate), what);
 }
 
 template <class Predicate>
-std::optional<std::string> counted_events(const Model& model, Predicate predicate, std::string_view what) {
+std::optional<Reason> counted_events(const Model& model, Predicate predicate, std::string_view what) {
   return counted_if(model.events, predicate, what);
 }
 
-std::optional<std::string> gravity(const Model& model) {
+std::optional<Reason> gravity(const Model& model) {
   if (model.gravity.isZero()) return std::nullopt;
-  return "gravity of " + std::to_string(model.gravity.norm()).substr(0, 5) + " m/s^2";
+  std::ostringstream what;
+  what << "bodies under " << model.gravity.norm() << " m/s^2";
+  return counted(model.num_bodies(), what.str());
 }
 
-std::optional<std::string> collision(const Model& model) {
+std::optional<Reason> collision(const Model& model) {
   if (const auto choice = model.effects.find("collision"); choice != model.effects.end() && !choice->second)
     return std::nullopt;
   const bool moving =
@@ -42,20 +44,20 @@ std::optional<std::string> collision(const Model& model) {
   return counted(static_cast<std::ptrdiff_t>(model.geoms.size()), "geoms");
 }
 
-std::optional<std::string> friction(const Model& model) {
+std::optional<Reason> friction(const Model& model) {
   if (!collision(model)) return std::nullopt;
   return counted_if(
       model.geoms, [](const Geom& g) { return g.material.mu > 0; }, "geoms with mu > 0");
 }
 
-std::optional<std::string> restitution(const Model& model) {
+std::optional<Reason> restitution(const Model& model) {
   if (!collision(model)) return std::nullopt;
   return counted_if(
       model.geoms, [](const Geom& g) { return g.material.restitution > 0; }, "geoms with restitution > 0");
 }
 
 /// Spaces in which a body moves.
-std::optional<std::string> cross_space(const Model& model) {
+std::optional<Reason> cross_space(const Model& model) {
   if (!collision(model)) return std::nullopt;
   std::vector<bool> in_use(model.spaces.size(), false);
   for (const Geom& geom : model.geoms) {
@@ -65,12 +67,12 @@ std::optional<std::string> cross_space(const Model& model) {
   return counted(count > 1 ? count : 0, "collision spaces with bodies");
 }
 
-std::optional<std::string> fast_bodies(const Model& model) {
+std::optional<Reason> fast_bodies(const Model& model) {
   if (!collision(model)) return std::nullopt;
   return counted(count_fast_starts(model), "bodies that start at more than half their extent in 0.01 s");
 }
 
-std::optional<std::string> field_of_interest(const Model& model) {
+std::optional<Reason> field_of_interest(const Model& model) {
   if (!model.interest) return std::nullopt;
   const Interest& interest = *model.interest;
   std::ostringstream text;
@@ -82,65 +84,65 @@ std::optional<std::string> field_of_interest(const Model& model) {
   }
   text << "; elsewhere at most " << interest.outside_iterations
        << (interest.outside_iterations == 1 ? " iteration" : " iterations");
-  return text.str();
+  return Reason{0, text.str()};
 }
 
-std::optional<std::string> joints(const Model& model) {
+std::optional<Reason> joints(const Model& model) {
   return counted(static_cast<std::ptrdiff_t>(model.joints.size()), "joints");
 }
 
-std::optional<std::string> limits(const Model& model) {
+std::optional<Reason> limits(const Model& model) {
   return counted_if(
       model.joints, [](const Joint& j) { return j.limits[0].active() || j.limits[1].active(); },
       "joints with a limit");
 }
 
-std::optional<std::string> motors(const Model& model) {
+std::optional<Reason> motors(const Model& model) {
   const auto has_motor = [](const Joint& j) { return j.motors[0].active() || j.motors[1].active(); };
   if (auto reason = counted_if(model.joints, has_motor, "joints with a motor")) return reason;
   return counted_events(
       model, [](const Event& e) { return e.kind == EventKind::motor; }, "motor events");
 }
 
-std::optional<std::string> suspension(const Model& model) {
+std::optional<Reason> suspension(const Model& model) {
   return counted_if(
       model.joints, [](const Joint& j) { return j.suspension.stiffness > 0; }, "joints with a spring");
 }
 
-std::optional<std::string> breakable_joints(const Model& model) {
+std::optional<Reason> breakable_joints(const Model& model) {
   return counted_if(
       model.joints, [](const Joint& j) { return j.breakable(); }, "joints with a strength");
 }
 
-std::optional<std::string> steering(const Model& model) {
+std::optional<Reason> steering(const Model& model) {
   return counted_events(
       model, [](const Event& e) { return e.kind == EventKind::steer; }, "steering events");
 }
 
-std::optional<std::string> launches(const Model& model) {
+std::optional<Reason> launches(const Model& model) {
   return counted_events(
       model, [](const Event& e) { return e.kind == EventKind::launch; }, "launches");
 }
 
-std::optional<std::string> gyroscopic_torque(const Model& model) {
+std::optional<Reason> gyroscopic_torque(const Model& model) {
   return counted_if(model.bodies, has_gyroscopic_torque, "bodies whose inertia differs by axis");
 }
 
-std::optional<std::string> damping(const Model& model) {
+std::optional<Reason> damping(const Model& model) {
   if (model.linear_damping == 0 && model.angular_damping == 0) return std::nullopt;
-  std::ostringstream text;
-  text << model.linear_damping << " 1/s linear, " << model.angular_damping << " 1/s angular";
-  return text.str();
+  std::ostringstream what;
+  what << "bodies at " << model.linear_damping << " 1/s linear, " << model.angular_damping << " 1/s angular";
+  return counted(model.num_bodies(), what.str());
 }
 
 /// An approximation, so that a model calls for it in so many words only.
-std::optional<std::string> sleeping(const Model& model) {
+std::optional<Reason> sleeping(const Model& model) {
   const auto choice = model.effects.find("sleeping");
   if (choice == model.effects.end() || !choice->second) return std::nullopt;
   char text[96];
   std::snprintf(text, sizeof text, "demanded, after %g s below %g m/s and %g rad/s", model.sleep.after_s,
                 model.sleep.speed, model.sleep.angular_speed);
-  return text;
+  return Reason{0, text};
 }
 
 template <EventKind kind>

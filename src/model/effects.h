@@ -1,6 +1,7 @@
 /// The effects that a world can have, and which of them a model calls for.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,13 +12,20 @@
 
 namespace pbmpi::model {
 
+/// Why a model calls for an effect.
+struct Reason {
+  std::int64_t count = 0;  ///< of what calls for it; 0 where nothing is counted
+  std::string what;        ///< what is counted ("geoms with mu > 0"), or all there is to say
+  std::string text() const { return count == 0 ? what : std::to_string(count) + " " + what; }
+};
+
 /// One effect of the registry.
 struct Effect {
   std::string_view name;     ///< as in --effects and in scene files
   std::string_view meaning;  ///< one line
   core::Phase phase;         ///< the phase of the step that its pass joins
   /// Why the model calls for it ("212 geoms with mu > 0"), or nothing if it does not.
-  std::optional<std::string> (*reason)(const Model& model);
+  std::optional<Reason> (*reason)(const Model& model);
   /// Takes out of the model what calls for it; does nothing where only its pass is left out. Throws
   /// core::InputError if the model falls apart without.
   void (*leave_out)(Model& model);
@@ -29,7 +37,7 @@ const std::vector<Effect>& effect_registry();
 /// A pass of the step: an effect that the model calls for.
 struct Pass {
   const Effect* effect = nullptr;
-  std::string reason;
+  Reason reason;
   bool idle = false;  ///< demanded, though nothing calls for it
 };
 

@@ -12,7 +12,7 @@ StepPlan::StepPlan(const Model& model) {
     if (auto reason = effect.reason(model)) {
       passes_.push_back({&effect, *reason, false});
     } else if (choice != model.effects.end()) {
-      passes_.push_back({&effect, "demanded; nothing calls for it", true});
+      passes_.push_back({&effect, {0, "demanded; nothing calls for it"}, true});
     }
   }
 }

@@ -125,7 +125,7 @@ TEST(Breakage, is_called_for_by_strengths_and_can_be_left_out) {
   const auto pass = std::find_if(plan.passes().begin(), plan.passes().end(),
                                  [](const Pass& one) { return one.effect->name == "breakable_joints"; });
   ASSERT_NE(pass, plan.passes().end());
-  EXPECT_EQ(pass->reason, "2 joints with a strength");
+  EXPECT_EQ(pass->reason.text(), "2 joints with a strength");
   model.effects["breakable_joints"] = false;
   leave_out_effects(model);
   EXPECT_FALSE(model.joints[1].breakable() || model.joints[2].breakable());

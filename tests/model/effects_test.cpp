@@ -128,7 +128,7 @@ TEST(StepPlan, has_a_field_of_interest_where_the_model_has) {
   const auto reason = [&] {
     const StepPlan plan(model);
     for (const Pass& pass : plan.passes()) {
-      if (pass.effect->name == "field_of_interest") return pass.reason;
+      if (pass.effect->name == "field_of_interest") return pass.reason.text();
     }
     return std::string();
   };
@@ -150,7 +150,7 @@ TEST(StepPlan, lets_islands_sleep_only_where_a_model_says_so) {
   model.sleep.after_s = 2;
   const StepPlan plan(model);
   EXPECT_FALSE(plan.is_idle("sleeping"));
-  EXPECT_EQ(plan.passes().back().reason, "demanded, after 2 s below 0.05 m/s and 0.1 rad/s");
+  EXPECT_EQ(plan.passes().back().reason.text(), "demanded, after 2 s below 0.05 m/s and 0.1 rad/s");
 }
 
 TEST(StepPlan, has_nothing_of_contacts_without_collision) {
@@ -161,11 +161,11 @@ TEST(StepPlan, has_nothing_of_contacts_without_collision) {
 
 TEST(StepPlan, says_why) {
   const StepPlan plan(support::crash());
-  for (const Pass& pass : plan.passes()) EXPECT_FALSE(pass.reason.empty()) << pass.effect->name;
+  for (const Pass& pass : plan.passes()) EXPECT_FALSE(pass.reason.text().empty()) << pass.effect->name;
   const auto joints = std::find_if(plan.passes().begin(), plan.passes().end(),
                                    [](const Pass& pass) { return pass.effect->name == "joints"; });
   ASSERT_NE(joints, plan.passes().end());
-  EXPECT_EQ(joints->reason, "34 joints");
+  EXPECT_EQ(joints->reason.text(), "34 joints");
 }
 
 TEST(StepPlan, refuses_the_name_of_no_effect) {

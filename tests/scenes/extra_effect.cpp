@@ -13,7 +13,7 @@ const std::vector<Effect>& effect_registry() {
     std::vector<Effect> all;
     all.reserve(others.size() + 1);  // no block is freed, into which others would then be put
     all.push_back({"magnetism", "nothing is magnetic", core::Phase::rows,
-                   [](const Model&) -> std::optional<std::string> { return std::nullopt; }, [](Model&) {}});
+                   [](const Model&) -> std::optional<Reason> { return std::nullopt; }, [](Model&) {}});
     all.insert(all.end(), others.begin(), others.end());
     return all;
   }();

@@ -10,9 +10,9 @@
 #include "app/pbmpi/provenance.h"
 #include "app/pbmpi/stepper_factory.h"
 #include "io/run_file.h"
-#include "model/effects.h"
 #include "model/frame.h"
 #include "model/names.h"
+#include "model/run_plan.h"
 #include "mpi/partition.h"
 #include "mpi/space_driver.h"
 
@@ -24,24 +24,13 @@ struct Census {
   model::WorldTable table;
   std::size_t geoms = 0, joints = 0, events = 0, spaces = 0;
   std::map<std::string, int> actor_kinds;
-  std::map<std::string, std::vector<int>> plans;  ///< text of a plan -> the worlds that have it
+  model::RunPlan plan;
 };
 
 /// What of a pass the stepper leaves undone.
-std::string idle_note(const model::Pass& pass, model::StepperKind stepper) {
+std::string idle_note(const model::RunPass& pass, model::StepperKind stepper) {
   if (pass.effect->name != "field_of_interest" || stepper != model::StepperKind::direct) return "";
   return "; idle, since direct solves without iterations";
-}
-
-std::string plan_text(const model::Model& model, model::StepperKind stepper) {
-  std::ostringstream text;
-  const model::StepPlan plan(model);
-  for (const model::Pass& pass : plan.passes()) {
-    text << "  " << std::left << std::setw(18) << pass.effect->name << std::setw(10)
-         << core::phase_names[static_cast<std::size_t>(pass.effect->phase)] << pass.effect->meaning << ": "
-         << pass.reason << idle_note(pass, stepper) << '\n';
-  }
-  return text.str();
 }
 
 Census take_census(const scenes::Scene& scene, const RunSpec& spec) {
@@ -55,7 +44,7 @@ Census take_census(const scenes::Scene& scene, const RunSpec& spec) {
     census.spaces = std::max(census.spaces, model->spaces.size());
     for (const model::Actor& actor : model->actors)
       ++census.actor_kinds[std::string(model::name_of(actor.kind))];
-    census.plans[plan_text(*model, spec.stepper.kind)].push_back(world);
+    census.plan.add(*model);
   }
   return census;
 }
@@ -122,11 +111,12 @@ void print_spaces(std::ostream& out, const model::Model& model, int num_ranks) {
   }
 }
 
-void print_plans(std::ostream& out, const Census& census) {
-  for (const auto& [plan, worlds] : census.plans) {
-    out << "step plan";
-    if (census.plans.size() > 1) out << " of " << worlds.size() << " worlds, e.g. world " << worlds.front();
-    out << ":\n" << plan;
+void print_plan(std::ostream& out, const model::RunPlan& plan, model::StepperKind stepper) {
+  out << "step plan:\n";
+  for (const model::RunPass& pass : plan.passes()) {
+    out << "  " << std::left << std::setw(18) << pass.effect->name << std::setw(10)
+        << core::phase_names[static_cast<std::size_t>(pass.effect->phase)] << pass.effect->meaning << ": "
+        << pass.reason << idle_note(pass, stepper) << '\n';
   }
 }
 
@@ -155,7 +145,7 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
                                                                : "before each frame\n");
   }
   if (!spec.effects.empty()) out << "effects chosen: " << model::to_text(spec.effects) << '\n';
-  print_plans(out, census);
+  print_plan(out, census.plan, spec.stepper.kind);
   const bool spaces = spec.decomposition == Decomposition::spaces;
   out << "decomposition: " << (spaces ? "spaces" : "worlds") << " over " << num_ranks
       << (num_ranks == 1 ? " rank\n" : " ranks\n");

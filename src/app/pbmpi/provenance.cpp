@@ -51,7 +51,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::optional<std::string> interest_of(const model::Model& model) {
   const model::StepPlan plan(model);
   for (const model::Pass& pass : plan.passes()) {
-    if (pass.effect->name == "field_of_interest") return pass.reason;
+    if (pass.effect->name == "field_of_interest") return pass.reason.text();
   }
   return std::nullopt;
 }

@@ -8,6 +8,7 @@
 #include "app/common/version.h"
 #include "app/pbmpi/describe.h"
 #include "app/pbmpi/estimate_monitor.h"
+#include "app/pbmpi/gather_plan.h"
 #include "app/pbmpi/live_summary.h"
 #include "app/pbmpi/options.h"
 #include "app/pbmpi/progress.h"
@@ -19,7 +20,7 @@
 #include "estimate/short_run.h"
 #include "io/run_file.h"
 #include "io/xdmf.h"
-#include "model/effects.h"
+#include "model/effect_choices.h"
 #include "model/names.h"
 #include "mpi/agreement.h"
 #include "mpi/space_driver.h"
@@ -72,10 +73,6 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.budget_s = budget_s;
   summary.warmup_frames = spec.warmup;
   summary.effects_chosen = model::to_text(spec.effects);
-  const model::StepPlan plan(*scene.build(0, spec.scene_seed));
-  for (const model::Pass& pass : plan.passes()) {
-    summary.effects.push_back({std::string(pass.effect->name), pass.reason});
-  }
   return summary;
 }
 
@@ -207,6 +204,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, const s
   progress.reset();
   RunSummary summary =
       settings_summary(scene, spec, provenance, driver.table().num_bodies(), driver_settings(spec).budget_s);
+  summary.effects = effect_summaries(gather_plan(comm, driver.local_worlds()));
   summary.idle_ranks = driver.idle_ranks();
   live.finish(comm, result, summary);
   if (spec.estimate) summary.estimate = estimate_summary(spec, result, monitor, summary.budget_s);

@@ -6,7 +6,7 @@
 
 #include "analysis/pose_errors.h"
 #include "core/error.h"
-#include "model/effects.h"
+#include "model/effect_choices.h"
 #include "model/frame.h"
 #include "scenes/scene.h"
 
@@ -109,7 +109,6 @@ std::vector<int> idle_ranks(const io::RunData& run) {
 /// The effects that the scene calls for, from the scene's text in the file. None if this pbmpi cannot read
 /// that text (a newer scene format): the rest of the summary stands without them.
 std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed) {
-  std::vector<EffectSummary> effects;
   try {
     const std::string name = text_of(run.attributes, "scene");
     const auto form =
@@ -117,13 +116,12 @@ std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed
     const auto scene =
         scenes::parse_scene({name, name + ".toml", text_of(run.parameters, "scene_text")}, {}, form,
                             model::parse_effect_choices(text_of(run.parameters, "effects")));
-    const model::StepPlan plan(*scene->build(0, seed));
-    for (const model::Pass& pass : plan.passes()) {
-      effects.push_back({std::string(pass.effect->name), pass.reason});
-    }
+    model::RunPlan plan;
+    for (int world = 0; world < run.num_worlds; ++world) plan.add(*scene->build(world, seed));
+    return effect_summaries(plan);
   } catch (const core::InputError&) {
+    return {};
   }
-  return effects;
 }
 
 /// An event reads "frame 6: rebalance: 8 worlds moved: ...".

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "model/run_plan.h"
 #include "mpi/partition.h"
 
 namespace pbmpi::app {
@@ -11,23 +12,24 @@ namespace {
 using model::StepperKind;
 using model::StepperSettings;
 
-/// World 0 of the scene with some effects chosen.
-std::shared_ptr<const model::Model> first_world(const StudyScene& scene, std::uint64_t seed,
-                                                const model::EffectChoices& effects) {
-  return scenes::parse_scene(scene.source, scene.dt_s, std::nullopt, effects)->build(0, seed);
+/// The plan of all worlds of the scene with some effects chosen.
+model::RunPlan plan_of(const StudyScene& scene, std::uint64_t seed, const model::EffectChoices& effects) {
+  const auto parsed = scenes::parse_scene(scene.source, scene.dt_s, std::nullopt, effects);
+  model::RunPlan plan;
+  for (int world = 0; world < scene.num_worlds; ++world) plan.add(*parsed->build(world, seed));
+  return plan;
 }
 
-/// Its pass in the plan of such a world, or nothing.
-std::optional<model::Pass> pass_of(const model::Model& model, const std::string& effect) {
-  const model::StepPlan plan(model);
-  for (const model::Pass& pass : plan.passes()) {
+/// The effect's pass, or nothing.
+std::optional<model::RunPass> pass_of(const model::RunPlan& plan, const std::string& effect) {
+  for (const model::RunPass& pass : plan.passes()) {
     if (pass.effect->name == effect) return pass;
   }
   return std::nullopt;
 }
 
-/// `baseline` is world 0 of the scene as it is.
-EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const model::Model& baseline,
+/// `baseline`: of the scene as it is.
+EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const model::RunPlan& baseline,
                    const std::string& effect) {
   EffectCase one;
   one.scene = index;
@@ -35,8 +37,8 @@ EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const
   const auto pass = pass_of(baseline, effect);
   one.kind = pass ? EffectCaseKind::left_out : EffectCaseKind::demanded;
   try {
-    const auto variant = first_world(scene, seed, one.choices());
-    const auto demanded = pass ? pass : pass_of(*variant, effect);
+    const model::RunPlan variant = plan_of(scene, seed, one.choices());
+    const auto demanded = pass ? pass : pass_of(variant, effect);
     one.called_for = demanded && !demanded->idle;
     one.reason = one.called_for ? demanded->reason : "nothing calls for it";
     if (pass && pass->idle) one.reason += "; the scene demands it";
@@ -93,10 +95,10 @@ std::vector<EffectCase> make_effect_cases(const std::vector<StudyScene>& scenes,
   std::vector<EffectCase> cases;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const int index = static_cast<int>(i);
-    const auto baseline = first_world(scenes[i], options.seed, {});
+    const model::RunPlan baseline = plan_of(scenes[i], options.seed, {});
     std::vector<EffectCase> of_scene;
     for (const std::string& effect : options.effects)
-      of_scene.push_back(case_of(index, scenes[i], options.seed, *baseline, effect));
+      of_scene.push_back(case_of(index, scenes[i], options.seed, baseline, effect));
     for (const StepperSettings& stepper : steppers_of(scenes[i], options)) {
       for (EffectCase& one : of_scene) {
         one.stepper = stepper;
@@ -111,8 +113,10 @@ std::vector<EffectCase> make_effect_cases(const std::vector<StudyScene>& scenes,
 std::vector<int> deal_out(const std::vector<EffectCase>& cases, const std::vector<StudyScene>& scenes,
                           int num_ranks) {
   std::vector<double> bodies;  // of a scene: its worlds differ little
-  for (const StudyScene& scene : scenes)
-    bodies.push_back(scene.num_worlds * first_world(scene, 1, {})->num_bodies());
+  for (const StudyScene& scene : scenes) {
+    const auto first = scenes::parse_scene(scene.source, scene.dt_s)->build(0, 1);
+    bodies.push_back(scene.num_worlds * first->num_bodies());
+  }
   std::vector<double> cost;
   for (const EffectCase& one : cases) {
     const double share = one.stepper.kind == StepperKind::sor ? 1 : 5;  // quick is about five times as dear

@@ -11,6 +11,7 @@
 #include "analysis/error_bands.h"
 #include "core/clock.h"
 #include "core/statistics.h"
+#include "model/run_plan.h"
 
 namespace pbmpi::app {
 
@@ -26,6 +27,8 @@ struct EffectSummary {
   std::string name;
   std::string reason;
 };
+
+std::vector<EffectSummary> effect_summaries(const model::RunPlan& plan);
 
 /// FEEC, over the measured frames. Defects are of all bodies: estimate against precise pose of the same
 /// frame.
