@@ -6,8 +6,9 @@ usage() {
   cat <<'TEXT'
 Usage: jobs/effects.sh [--quick-look] [--instructions] [OUTDIR [pbstudy options]]
 
-Writes OUTDIR/effects.h5, .html and .txt (default: ./effects). RANKS ranks (2); times want a core for each, and nothing
-else on the machine. Minutes.
+Writes OUTDIR/effects.h5, .html, .txt and .md (default: ./effects), and prints the last two: .md has the table of
+the README, one for each stepper. RANKS ranks (2); times want a core for each, and nothing else on the
+machine. Minutes.
 
   --quick-look     2-Cars and CrashSk only
   --instructions   count instructions, too: the same cases first under callgrind (valgrind), with --repeats 2;
@@ -47,3 +48,5 @@ if [[ $count == yes ]]; then
 fi
 mpirun -n "${RANKS:-2}" "$bin/pbstudy" effects "${study[@]}" "${counted[@]}" --output "$out/effects.h5"
 "$bin/pbreport" "$out/effects.h5" --html "$out/effects.html" | tee "$out/effects.txt"
+echo
+"$bin/pbreport" "$out/effects.h5" --markdown | tee "$out/effects.md"

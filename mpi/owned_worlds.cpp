@@ -12,12 +12,10 @@ namespace pbmpi::mpi {
 namespace {
 
 constexpr int state_tag = 1;
-constexpr std::size_t doubles_per_body = 13;
-constexpr std::size_t doubles_per_rest = 8;  ///< with the effect "sleeping"
 
 /// Of a state as it travels; State::broken_in, with the effect "breakable_joints", as a number a joint.
 std::size_t num_doubles(const model::State& state) {
-  return doubles_per_body * state.position.size() + doubles_per_rest * state.rest.size() +
+  return model::numbers_of_state * state.position.size() + model::numbers_of_rest * state.rest.size() +
          state.broken_in.size();
 }
 
@@ -30,12 +28,12 @@ std::vector<double> pack(const model::State& state) {
   std::memcpy(packed.data() + 3 * n, &state.orientation.front().w, 4 * n * sizeof(double));
   std::memcpy(packed.data() + 7 * n, state.velocity.front().data(), 3 * n * sizeof(double));
   std::memcpy(packed.data() + 10 * n, state.angular_velocity.front().data(), 3 * n * sizeof(double));
-  double* row = packed.data() + doubles_per_body * n;
+  double* row = packed.data() + model::numbers_of_state * n;
   for (const model::Rest& rest : state.rest) {
     std::memcpy(row, rest.position.data(), 3 * sizeof(double));
     std::memcpy(row + 3, &rest.orientation.w, 4 * sizeof(double));
     row[7] = rest.idle_steps;
-    row += doubles_per_rest;
+    row += model::numbers_of_rest;
   }
   std::copy(state.broken_in.begin(), state.broken_in.end(), row);
   return packed;
@@ -50,13 +48,13 @@ model::State unpack(const std::vector<double>& packed, std::size_t n, std::size_
   std::memcpy(&state.orientation.front().w, packed.data() + 3 * n, 4 * n * sizeof(double));
   std::memcpy(state.velocity.front().data(), packed.data() + 7 * n, 3 * n * sizeof(double));
   std::memcpy(state.angular_velocity.front().data(), packed.data() + 10 * n, 3 * n * sizeof(double));
-  if (packed.size() > doubles_per_body * n + num_joints) state.rest.resize(n);
-  const double* row = packed.data() + doubles_per_body * n;
+  if (packed.size() > model::numbers_of_state * n + num_joints) state.rest.resize(n);
+  const double* row = packed.data() + model::numbers_of_state * n;
   for (model::Rest& rest : state.rest) {
     std::memcpy(rest.position.data(), row, 3 * sizeof(double));
     std::memcpy(&rest.orientation.w, row + 3, 4 * sizeof(double));
     rest.idle_steps = static_cast<std::int32_t>(row[7]);
-    row += doubles_per_rest;
+    row += model::numbers_of_rest;
   }
   for (std::size_t joint = 0; joint < num_joints; ++joint)
     state.broken_in.push_back(static_cast<std::int32_t>(row[joint]));

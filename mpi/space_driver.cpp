@@ -231,7 +231,7 @@ std::string SpaceDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
   comm().bcast(std::span(planned_.moves));
   const int num_bodies = stepper_->model().num_bodies();
   const std::vector<int> bodies = first_numbers(num_bodies);
-  std::vector<double> rows(numbers_of_state * static_cast<std::size_t>(num_bodies));
+  std::vector<double> rows(model::numbers_of_state * static_cast<std::size_t>(num_bodies));
   if (comm().is_root()) rows = state_rows(stepper_->state(), bodies);
   comm().bcast(std::span(rows));
   std::vector<int> owner = ownership_.owner;

@@ -49,13 +49,13 @@ double* append_pose(const model::State& state, int body, double* row) {
   row[4] = q.x;
   row[5] = q.y;
   row[6] = q.z;
-  return row + numbers_of_pose;
+  return row + model::numbers_of_pose;
 }
 
 }  // namespace
 
 std::vector<double> state_rows(const model::State& state, std::span<const int> bodies) {
-  std::vector<double> rows(numbers_of_state * bodies.size());
+  std::vector<double> rows(model::numbers_of_state * bodies.size());
   double* row = rows.data();
   for (const int body : bodies) {
     row = append_pose(state, body, row);
@@ -67,7 +67,7 @@ std::vector<double> state_rows(const model::State& state, std::span<const int> b
 }
 
 std::vector<double> pose_rows(const model::State& state, std::span<const int> bodies) {
-  std::vector<double> rows(numbers_of_pose * bodies.size());
+  std::vector<double> rows(model::numbers_of_pose * bodies.size());
   double* row = rows.data();
   for (const int body : bodies) row = append_pose(state, body, row);
   return rows;

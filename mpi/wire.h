@@ -24,10 +24,6 @@ model::Contact from_wire(const WireContact& contact);
 /// Merges `from` into `to`, both in canonical order.
 void merge_contacts(std::span<const WireContact> from, std::vector<model::Contact>& to);
 
-inline constexpr int numbers_of_state =
-    13;                                    ///< position, orientation (w, x, y, z), velocity, angular velocity
-inline constexpr int numbers_of_pose = 7;  ///< position, orientation
-
 /// [bodies][13] and [bodies][7], as model::SpaceStepper takes them.
 std::vector<double> state_rows(const model::State& state, std::span<const int> bodies);
 std::vector<double> pose_rows(const model::State& state, std::span<const int> bodies);

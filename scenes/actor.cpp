@@ -1,6 +1,6 @@
 #include "scenes/actor.h"
 
-#include "scenes/nearest.h"
+#include "core/text.h"
 
 namespace pbmpi::scenes {
 
@@ -23,7 +23,7 @@ const ActorType& read_actor_type(TableReader& actor) {
     if (type.name == name) return type;
     names.emplace_back(type.name);
   }
-  actor.fail("type", "unknown type " + in_quotes(name) + suggestion(name, names));
+  actor.fail("type", "unknown type " + core::in_quotes(name) + core::suggestion(name, names));
 }
 
 model::Material read_material(TableReader& actor, const model::Material& fallback) {

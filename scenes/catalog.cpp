@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "scenes/embedded.h"
-#include "scenes/nearest.h"
 #include "scenes/scene.h"
 
 namespace pbmpi::scenes {
@@ -44,7 +44,8 @@ SceneSource find_scene(const std::string& name_or_path) {
     }
     names.emplace_back(scene.name);
   }
-  throw core::InputError("unknown scene " + in_quotes(name_or_path) + suggestion(name_or_path, names) +
+  throw core::InputError("unknown scene " + core::in_quotes(name_or_path) +
+                         core::suggestion(name_or_path, names) +
                          " (--list-scenes shows all; a scene file of your own ends in .toml)");
 }
 

@@ -1,8 +1,8 @@
 // One rigid body of one shape, or a static obstacle of that shape.
 #include "core/error.h"
+#include "core/text.h"
 #include "scenes/actor.h"
 #include "scenes/mass_properties.h"
-#include "scenes/nearest.h"
 
 #include "model/names.h"
 
@@ -25,7 +25,8 @@ model::ActorKind read_kind(TableReader& actor) {
   const auto kind = model::enum_from_name<model::ActorKind>(name, model::actor_kind_names);
   if (kind) return *kind;
   const auto& names = model::actor_kind_names;
-  actor.fail("kind", "unknown kind " + in_quotes(name) + suggestion(name, {names.begin(), names.end()}));
+  actor.fail("kind",
+             "unknown kind " + core::in_quotes(name) + core::suggestion(name, {names.begin(), names.end()}));
 }
 
 double read_mass(TableReader& actor, model::Shape shape, const std::array<double, 3>& size) {

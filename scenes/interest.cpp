@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "scenes/nearest.h"
+#include "core/text.h"
 
 namespace pbmpi::scenes {
 
@@ -31,12 +31,13 @@ int InterestPlan::followed_body(const model::Model& model) const {
       continue;
     }
     const auto first = std::ranges::find(model.bodies, static_cast<int>(actor), &model::Body::actor);
-    core::require_input(first != model.bodies.end(), where_ + ": interest: actor " + in_quotes(follows_) +
+    core::require_input(first != model.bodies.end(), where_ + ": interest: actor " +
+                                                         core::in_quotes(follows_) +
                                                          " has no body to follow; give a 'center'");
     return static_cast<int>(first - model.bodies.begin());
   }
-  throw core::InputError(where_ + ": interest: there is no actor " + in_quotes(follows_) +
-                         suggestion(follows_, names));
+  throw core::InputError(where_ + ": interest: there is no actor " + core::in_quotes(follows_) +
+                         core::suggestion(follows_, names));
 }
 
 void InterestPlan::put_into(model::Model& model) const {

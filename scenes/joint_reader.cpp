@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "model/names.h"
-#include "scenes/nearest.h"
 #include "scenes/parts.h"
 
 namespace pbmpi::scenes {
@@ -33,7 +33,8 @@ JointKind read_kind(TableReader& table) {
   const auto kind = model::enum_from_name<JointKind>(name, model::joint_kind_names);
   if (kind) return *kind;
   const auto& names = model::joint_kind_names;
-  table.fail("kind", "unknown kind " + in_quotes(name) + suggestion(name, {names.begin(), names.end()}));
+  table.fail("kind",
+             "unknown kind " + core::in_quotes(name) + core::suggestion(name, {names.begin(), names.end()}));
 }
 
 bool has_anchor(JointKind kind) { return kind != JointKind::slider && kind != JointKind::fixed; }
@@ -45,7 +46,8 @@ void read_bodies(TableReader& table, JointSpec& joint) {
   joint.bodies_where = table.where("bodies");
   if (joint.bodies.size() != 2) table.fail("bodies", "'bodies' must name two bodies (or one and \"world\")");
   if (joint.bodies[0] == joint.bodies[1]) {
-    table.fail("bodies", "it joins the body " + in_quotes(joint.bodies[0]) + " to itself; name two bodies");
+    table.fail("bodies",
+               "it joins the body " + core::in_quotes(joint.bodies[0]) + " to itself; name two bodies");
   }
   if (joint.bodies[0] == world_name) table.fail("bodies", "\"world\" must be the second of 'bodies'");
   if (joint.kind == JointKind::hinge2 && joint.bodies[1] == world_name) {
@@ -109,8 +111,8 @@ int resolve(const JointSpec& joint, const model::Model& model, const std::string
   if (body != model::no_body) return body;
   std::vector<std::string> names;
   for (const model::Body& candidate : model.bodies) names.push_back(candidate.name);
-  throw core::InputError(joint.bodies_where + ": joint " + in_quotes(joint.name) + ": unknown body " +
-                         in_quotes(name) + suggestion(name, names));
+  throw core::InputError(joint.bodies_where + ": joint " + core::in_quotes(joint.name) + ": unknown body " +
+                         core::in_quotes(name) + core::suggestion(name, names));
 }
 
 void build(const JointSpec& spec, model::Model& model) {
@@ -130,7 +132,7 @@ void build(const JointSpec& spec, model::Model& model) {
 JointPlan read_joint(TableReader& table) {
   JointSpec joint;
   joint.name = table.text("name");
-  table.set_what("joint " + in_quotes(joint.name));
+  table.set_what("joint " + core::in_quotes(joint.name));
   joint.kind = read_kind(table);
   read_bodies(table, joint);
   read_strength(table, joint);

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "model/names.h"
 #include "scenes/actor.h"
 #include "scenes/mass_properties.h"
-#include "scenes/nearest.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -46,7 +46,7 @@ double half_length(const Projectile& p) {
 Pose muzzle(const Projectile& projectile, const model::Model& model) {
   const Shot& shot = projectile.shot;
   const int barrel = find_body(model, shot.tank + ".barrel");
-  core::require_input(barrel != model::no_body, shot.where + ": no tank " + in_quotes(shot.tank) +
+  core::require_input(barrel != model::no_body, shot.where + ": no tank " + core::in_quotes(shot.tank) +
                                                     " stands above this actor in the file; place it there");
   for (const model::Geom& geom : model.geoms) {
     if (geom.body != barrel) continue;
@@ -104,7 +104,8 @@ void read_shape(TableReader& actor, Projectile& projectile) {
     const Vec3 size = actor.vector("size", Sign::positive);
     projectile.size = {size.x(), size.y(), size.z()};
   } else {
-    actor.fail("shape", "unknown shape " + in_quotes(name) + suggestion(name, {"sphere", "cylinder", "box"}));
+    actor.fail("shape", "unknown shape " + core::in_quotes(name) +
+                            core::suggestion(name, {"sphere", "cylinder", "box"}));
   }
 }
 

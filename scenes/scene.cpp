@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "model/effects.h"
 #include "model/validate.h"
 #include "scenes/actor.h"
 #include "scenes/interest.h"
 #include "scenes/joint_reader.h"
-#include "scenes/nearest.h"
 #include "scenes/overlap.h"
 #include "scenes/scene_toml.h"
 #include "scenes/variation.h"
@@ -144,7 +144,7 @@ class FileScene final : public Scene {
     ActorEntry actor;
     actor.name = table.text("name");
     actor.where = table.where();
-    table.set_what("actor " + in_quotes(actor.name));
+    table.set_what("actor " + core::in_quotes(actor.name));
     if (!names_.insert("actor " + actor.name).second) {
       table.fail("name", "a second actor of this name; rename one");
     }
@@ -170,7 +170,7 @@ class FileScene final : public Scene {
     const std::string name = table.text("space", empty_.spaces.front());
     const auto found = std::find(empty_.spaces.begin(), empty_.spaces.end(), name);
     if (found == empty_.spaces.end()) {
-      table.fail("space", "unknown space " + in_quotes(name) + suggestion(name, empty_.spaces));
+      table.fail("space", "unknown space " + core::in_quotes(name) + core::suggestion(name, empty_.spaces));
     }
     return static_cast<int>(found - empty_.spaces.begin());
   }
@@ -217,7 +217,7 @@ class FileScene final : public Scene {
       const std::string message = error.what();
       std::string where = source_.file;
       for (const ActorEntry& actor : actors_) {
-        if (message.find(in_quotes(actor.name)) != std::string::npos ||
+        if (message.find(core::in_quotes(actor.name)) != std::string::npos ||
             message.find('\'' + actor.name + '.') != std::string::npos) {
           where = actor.where;
         }
@@ -231,8 +231,8 @@ class FileScene final : public Scene {
     if (!overlap) return;
     const std::string& a = model.actors[overlap->actor_a].name;
     const std::string& b = model.actors[overlap->actor_b].name;
-    throw core::InputError(where_of(b) + ": actor " + in_quotes(b) + ": in world " + std::to_string(world) +
-                           " it overlaps " + in_quotes(a) + " by " +
+    throw core::InputError(where_of(b) + ": actor " + core::in_quotes(b) + ": in world " +
+                           std::to_string(world) + " it overlaps " + core::in_quotes(a) + " by " +
                            std::to_string(std::lround(overlap->depth_m * 100)) +
                            " cm at the start (it would be thrown out in one step); move one of them");
   }

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "scenes/nearest.h"
+#include "core/text.h"
 
 namespace pbmpi::scenes {
 
@@ -41,8 +41,8 @@ WorldCount WorldCount::read(TableReader& table, std::string_view key) {
     constexpr double most = 1e6;  // worlds or copies: beyond any memory
     if (world != std::floor(world) || count != std::floor(count) || count < 1 || world > most ||
         count > most) {
-      table.fail(key,
-                 in_quotes(key) + " needs pairs of whole numbers [first world, number >= 1] up to a million");
+      table.fail(key, core::in_quotes(key) +
+                          " needs pairs of whole numbers [first world, number >= 1] up to a million");
     }
     result.steps_.push_back({static_cast<int>(world), static_cast<int>(count)});
   }

@@ -11,8 +11,17 @@ namespace pbmpi::core {
 /// distance).
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The name nearest to `word` (ignoring case) if it is near enough to be a slip: at most a third of the
-/// longer one's characters differ, or one begins with the other. Empty if none is.
+/// Those of `names` that a slip may have turned into `word`, nearest first, at most three; upper and lower
+/// case are equal. A third of the letters may differ, but at least two, or one begins with the other.
+std::vector<std::string> nearest_names(std::string_view word, const std::vector<std::string>& names);
+
+/// The first of them; empty if none is near.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
+
+/// 'text', in single quotes.
+std::string in_quotes(std::string_view text);
+
+/// "; did you mean 'a' or 'b'?", or if nothing is near "; known: 'a', 'b', 'c'".
+std::string suggestion(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace pbmpi::core

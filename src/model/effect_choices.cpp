@@ -12,12 +12,6 @@
 namespace pbmpi::model {
 namespace {
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
 /// Effects of contacts, which there are none of without collision.
 constexpr std::array<std::string_view, 4> needs_collision = {"friction", "restitution", "cross_space",
                                                              "fast_bodies"};
@@ -40,9 +34,7 @@ void require_effect(const std::string& name) {
   std::vector<std::string> names;
   for (const Effect& effect : effect_registry()) names.emplace_back(effect.name);
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  const std::string near = core::nearest_name(name, names);
-  throw core::InputError("there is no effect '" + name + "'; " +
-                         (near.empty() ? "known: " + list_of(names) : "did you mean '" + near + "'?"));
+  throw core::InputError("there is no effect " + core::in_quotes(name) + core::suggestion(name, names));
 }
 
 EffectChoices parse_effect_choices(const std::string& text) {

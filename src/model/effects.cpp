@@ -140,7 +140,7 @@ std::optional<Reason> sleeping(const Model& model) {
   const auto choice = model.effects.find("sleeping");
   if (choice == model.effects.end() || !choice->second) return std::nullopt;
   char text[96];
-  std::snprintf(text, sizeof text, "demanded, after %g s below %g m/s and %g rad/s", model.sleep.after_s,
+  std::snprintf(text, sizeof text, "after %g s below %g m/s and %g rad/s", model.sleep.after_s,
                 model.sleep.speed, model.sleep.angular_speed);
   return Reason{0, text};
 }

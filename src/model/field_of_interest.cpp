@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "model/state.h"
+
 namespace pbmpi::model {
 
 FieldOfInterest::FieldOfInterest(const Model& model, int iterations)
@@ -11,8 +13,15 @@ FieldOfInterest::FieldOfInterest(const Model& model, int iterations)
       islands_(model.num_bodies()),
       near_(model.bodies.size(), 0),
       inside_set_(model.bodies.size(), 0) {
-  for (const Joint& joint : model.joints) {
-    if (joint.body_b != no_body) jointed_.unite(joint.body_a, joint.body_b);
+  set_broken(model, {});
+}
+
+void FieldOfInterest::set_broken(const Model& model, std::span<const std::int32_t> broken_in) {
+  jointed_.reset(model.num_bodies());
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    const bool is_broken = !broken_in.empty() && broken_in[i] != unbroken;
+    if (joint.body_b != no_body && !is_broken) jointed_.unite(joint.body_a, joint.body_b);
   }
 }
 

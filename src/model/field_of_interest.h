@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,9 @@ class FieldOfInterest {
  public:
   /// `iterations`: of the run. Without an Interest all is inside.
   FieldOfInterest(const Model& model, int iterations);
+
+  /// Joints are broken from now on, and connect no islands: State::broken_in. `model` is that of before.
+  void set_broken(const Model& model, std::span<const std::int32_t> broken_in);
 
   /// The body that it follows, whose position is to be told each step; or no_body.
   int follows() const { return interest_.follows; }
@@ -54,7 +58,7 @@ class FieldOfInterest {
 
   Interest interest_;
   int iterations_;
-  DisjointSets jointed_;          ///< bodies that joints connect
+  DisjointSets jointed_;          ///< bodies that whole joints connect
   DisjointSets islands_;          ///< of the last sort(), if it had to look
   std::vector<char> near_;        ///< [num_bodies] scratch: at the lowest body of an island
   std::vector<char> inside_set_;  ///< [num_bodies]

@@ -23,7 +23,6 @@ class SpaceSleepers {
   void put(std::span<const int> bodies, std::span<const double> rows);
   /// State::rest of these bodies, [bodies][8]: position, orientation (w, x, y, z), idle_steps.
   std::vector<double> rest_rows(std::span<const int> bodies) const;
-  static constexpr int numbers_of_rest = 8;
 
   bool asleep(int body) const { return state_->rest[body].asleep(); }
   int island(int body) const { return state_->rest[body].island(); }  ///< of one that sleeps

@@ -14,6 +14,14 @@ void State::resize(int num_bodies) {
   angular_velocity.resize(n);
 }
 
+void copy_body(int body, const State& from, State& to) {
+  const auto at = static_cast<std::size_t>(body);
+  to.position[at] = from.position[at];
+  to.orientation[at] = from.orientation[at];
+  to.velocity[at] = from.velocity[at];
+  to.angular_velocity[at] = from.angular_velocity[at];
+}
+
 State initial_state(const Model& model) {
   State state;
   state.resize(model.num_bodies());

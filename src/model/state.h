@@ -44,6 +44,13 @@ struct State {
   }
 };
 
+/// Numbers of a body as they travel: position and orientation (w, x, y, z); these, velocity and angular
+/// velocity; position, orientation and idle_steps of Rest.
+inline constexpr int numbers_of_pose = 7, numbers_of_state = 13, numbers_of_rest = 8;
+
+/// Poses and velocities of one body, between two states of one model.
+void copy_body(int body, const State& from, State& to);
+
 /// The state in which `model` starts.
 State initial_state(const Model& model);
 

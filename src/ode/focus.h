@@ -18,6 +18,11 @@ class Focus {
   /// `iterations`: of the run.
   Focus(const model::Model& model, const std::vector<dBodyID>& bodies, int iterations);
 
+  /// Joints are broken from now on: as in model::State.
+  void set_broken(const model::Model& model, std::span<const std::int32_t> broken_in) {
+    field_.set_broken(model, broken_in);
+  }
+
   /// Sorts these bodies, which are enabled, by the state at the start of the step and its contacts.
   void look(std::span<const int> bodies, const model::State& state, const std::vector<Touch>& touches);
   std::span<const int> all_bodies() const { return all_bodies_; }

@@ -74,6 +74,7 @@ void World::show_broken() {
   if (broad_phase_) broad_phase_->set_broken(*model_, broken_in());
   if (fast_bodies_) fast_bodies_->set_broken(broken_in());
   if (sleeping_) sleeping_->set_broken(broken_in());
+  if (focus_) focus_->set_broken(*model_, broken_in());
 }
 
 void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {

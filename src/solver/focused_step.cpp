@@ -14,15 +14,6 @@ model::Residuals join(const model::Residuals& a, const model::Residuals& b) {
           std::max(a.natural_turn, b.natural_turn)};
 }
 
-void copy_bodies(std::span<const int> bodies, const model::State& from, model::State& to) {
-  for (const int body : bodies) {
-    to.position[body] = from.position[body];
-    to.orientation[body] = from.orientation[body];
-    to.velocity[body] = from.velocity[body];
-    to.angular_velocity[body] = from.angular_velocity[body];
-  }
-}
-
 }  // namespace
 
 void FocusedStep::begin(std::span<const FocusedWorld> worlds, int iterations) {
@@ -89,8 +80,9 @@ void FocusedStep::step_outside(Pack& pack, const StepParameters& parameters, std
 }
 
 void FocusedStep::merge_looks(std::span<model::State> looks) const {
-  for (std::size_t w = 0; cut_ && w < worlds_.size(); ++w)
-    copy_bodies(worlds_[w].field->outside(), looks_[w], looks[w]);
+  for (std::size_t w = 0; cut_ && w < worlds_.size(); ++w) {
+    for (const int body : worlds_[w].field->outside()) model::copy_body(body, looks_[w], looks[w]);
+  }
 }
 
 int FocusedStep::joint_rows(const Pack& pack, int world, int joint) const {

@@ -32,7 +32,7 @@ void SorWorld::set_state(const model::State& state, std::int64_t step) {
   step_ = step;
   if (sleepers_) sleepers_->start(state_);
   if (breakage_) breakage_->start(state_);
-  if (fast_bodies_ && other_joints_hold) fast_bodies_->set_broken(state_.broken_in);
+  if (other_joints_hold) let_go();
   moved_ = true;
 }
 
@@ -64,7 +64,13 @@ void SorWorld::strain(Pack& pack, int index, const FocusedStep& step) {
   const auto reaction = [&](int joint) { return step.reaction(pack, index, joint); };
   if (!breakage_->strain(step_, breakage_->joints(), reaction, state_)) return;
   pack.set_broken(index, state_.broken_in);
+  let_go();
+}
+
+/// Other joints are broken than before.
+void SorWorld::let_go() {
   if (fast_bodies_) fast_bodies_->set_broken(state_.broken_in);
+  if (field_) field_->set_broken(*model_, state_.broken_in);
 }
 
 void SorWorld::fire_events(Pack& pack, int index) {
@@ -114,11 +120,7 @@ void SorWorld::settle(Pack& pack, int index, std::span<const model::Contact> con
 
 void SorWorld::keep_sleepers(model::State& state) const {
   for (int body = 0; sleepers_ && body < model_->num_bodies(); ++body) {
-    if (!state_.rest[body].asleep()) continue;
-    state.position[body] = state_.position[body];
-    state.orientation[body] = state_.orientation[body];
-    state.velocity[body] = state_.velocity[body];
-    state.angular_velocity[body] = state_.angular_velocity[body];
+    if (state_.rest[body].asleep()) model::copy_body(body, state_, state);
   }
 }
 

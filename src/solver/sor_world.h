@@ -80,6 +80,7 @@ class SorWorld {
   double cost_s = 0;  ///< of the last advance()
 
  private:
+  void let_go();
   std::span<const int> awake() const { return sleepers_ ? sleepers_->awake() : all_bodies_; }
   void show_awake(Pack& pack, int index) const;
   void observe_sleep();

@@ -1,18 +1,16 @@
 #include "solver/space_world.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <optional>
 
 #include "model/breakage.h"
 #include "model/effects.h"
-#include "model/geometry.h"
 #include "solver/articulation.h"
 #include "solver/cross_broad_phase.h"
 #include "solver/focused_step.h"
 #include "solver/island_counts.h"
 #include "solver/own_first.h"
+#include "solver/packed_state.h"
 #include "solver/simd.h"
 #include "solver/space_bodies.h"
 #include "solver/space_fast_bodies.h"
@@ -32,12 +30,14 @@ class SpaceWorld final : public model::SpaceStepper {
 
   const model::Model& model() const override { return *model_; }
   const model::SpaceMap& map() const override { return map_; }
-  const model::State& state() const override { return state_; }
+  const model::State& state() const override { return packed_.state(); }
   model::SpaceSleepers* sleepers() override { return sleepers_ ? &*sleepers_ : nullptr; }
   model::FieldOfInterest* field() override { return field_ ? &*field_ : nullptr; }
   int num_lanes() const override { return solver::num_lanes(simd(), settings_.precision); }
   void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override;
-  void put_states(std::span<const int> bodies, std::span<const double> rows) override;
+  void put_states(std::span<const int> bodies, std::span<const double> rows) override {
+    packed_.put_states(bodies, rows);
+  }
   void put_poses(std::span<const int> bodies, std::span<const double> rows) override;
   std::vector<std::int32_t> broken_rows(std::span<const int> units) const override;
   void put_broken(std::span<const int> units, std::span<const std::int32_t> rows) override;
@@ -56,14 +56,9 @@ class SpaceWorld final : public model::SpaceStepper {
   model::Simd simd() const { return settings_.simd == model::Simd::automatic ? best_simd() : settings_.simd; }
   std::vector<PackedWorld> packed_own_first() const;
   std::vector<char> own_mask() const;
-  void launch(const Event& event);
-  void put_pose(int body, const double* row);
-  void place(int body);
   bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
   void activate(std::span<const int> units);
   void focus(std::span<const Contact> contacts);
-  void lend(int body);
-  void load_lent();
   bool is_awake(int body) const { return !sleepers_ || !sleepers_->asleep(body); }
   void show_sleepers();
   void show_broken();
@@ -78,17 +73,13 @@ class SpaceWorld final : public model::SpaceStepper {
   SpaceBodies bodies_;
   CrossBroadPhase cross_;
   std::unique_ptr<Pack> pack_;
-  model::State state_;
+  PackedState packed_;
   std::optional<model::SpaceSleepers> sleepers_;  ///< none without the effect "sleeping"
   long shown_revision_ = -1;                      ///< of them, that the pack knows
-  std::vector<model::BodyPose> poses_;            ///< [num_bodies] of state_
-  std::vector<char> stale_;                       ///< [num_bodies] state_ is newer than the pack
   std::vector<char> is_own_;                      ///< [num_spaces]
   std::vector<int> own_bodies_;                   ///< ascending
   std::vector<int> active_units_;                 ///< of the last solve(), those that sleep left out
   std::vector<int> active_bodies_;
-  std::vector<int> lent_;    ///< bodies that were loaded for their contacts alone, since the last solve()
-  std::vector<int> loaded_;  ///< scratch: active bodies that are stale
   std::vector<model::GeomPair> pairs_;
   std::optional<SpaceFastBodies> fast_bodies_;   ///< none without the pass
   std::optional<model::FieldOfInterest> field_;  ///< likewise
@@ -108,15 +99,13 @@ SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
       narrow_phase_(make_narrow_phase(*model_)),
       bodies_(*model_, map_),
       cross_(*model_, bodies_),
-      state_(model::initial_state(*model_)),
-      poses_(model_->bodies.size()),
-      stale_(model_->bodies.size(), 0) {
+      packed_(*model_) {
   const model::StepPlan plan(*model_);
   if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_, map_, settings.dt_s);
   if (plan.has("field_of_interest")) field_.emplace(*model_, settings.iterations);
   if (plan.has("breakable_joints")) breakage_.emplace(*model_);
   if (!plan.has("sleeping")) return;
-  sleepers_.emplace(*model_, settings.dt_s, state_);
+  sleepers_.emplace(*model_, settings.dt_s, packed_.state());
   sleepers_->start();
 }
 
@@ -142,14 +131,10 @@ void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std
   }
   if (fast_bodies_) fast_bodies_->own(own_mask());
   pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
-  pack_->load(0, state);
-  state_ = state;
-  if (breakage_) breakage_->start(state_);
-  pack_->store(0, state_);  // as the pack's number type has it
+  packed_.start(state, *pack_);
+  if (breakage_) breakage_->start(packed_.state());
   if (sleepers_) sleepers_->start();
   shown_revision_ = -1;
-  for (int body = 0; body < model_->num_bodies(); ++body) place(body);
-  std::fill(stale_.begin(), stale_.end(), 0);
   active_units_.clear();
   active_bodies_.clear();
   pack_->set_active(0, active_bodies_);
@@ -157,53 +142,13 @@ void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std
   show_broken();
 }
 
-void SpaceWorld::place(int body) {
-  const model::Quat& q = state_.orientation[body];
-  std::memcpy(poses_[body].position, state_.position[body].data(), sizeof poses_[body].position);
-  model::to_rotation(q.w, q.x, q.y, q.z, poses_[body].rotation);
-}
-
-void SpaceWorld::put_pose(int body, const double* row) {
-  std::memcpy(state_.position[body].data(), row, 3 * sizeof(double));
-  state_.orientation[body] = {row[3], row[4], row[5], row[6]};
-  stale_[body] = 1;
-  place(body);
-}
-
 void SpaceWorld::put_poses(std::span<const int> bodies, std::span<const double> rows) {
-  const double* row = rows.data();
-  for (const int body : bodies) {
-    put_pose(body, row);
-    if (fast_bodies_) {
-      state_.velocity[body].setZero();
-      state_.angular_velocity[body].setZero();
-    }
-    row += 7;
-  }
-}
-
-void SpaceWorld::put_states(std::span<const int> bodies, std::span<const double> rows) {
-  const double* row = rows.data();
-  for (const int body : bodies) {
-    put_pose(body, row);
-    std::memcpy(state_.velocity[body].data(), row + 7, 3 * sizeof(double));
-    std::memcpy(state_.angular_velocity[body].data(), row + 10, 3 * sizeof(double));
-    row += 13;
-  }
-}
-
-/// Through the pack and back, so that the numbers are rounded as the pack has them.
-void SpaceWorld::launch(const Event& event) {
-  const std::span<const int> body(&event.body, 1);
-  pack_->load(0, body, state_);
-  pack_->launch(0, event);
-  pack_->store(0, body, state_);
-  stale_[event.body] = 0;
-  place(event.body);
+  // Of bodies that are fast, root is given the states too.
+  packed_.put_poses(bodies, rows, fast_bodies_ ? PackedState::Velocity::zero : PackedState::Velocity::kept);
 }
 
 std::vector<int> SpaceWorld::fast_bodies() {
-  return fast_bodies_ ? fast_bodies_->find_own(state_) : std::vector<int>();
+  return fast_bodies_ ? fast_bodies_->find_own(state()) : std::vector<int>();
 }
 
 /// What sleeps has other velocities than the pack knows.
@@ -212,13 +157,15 @@ void SpaceWorld::show_sleepers() {
   shown_revision_ = sleepers_->revision();
   pack_->set_awake(0, sleepers_->awake());
   for (int body = 0; body < model_->num_bodies(); ++body) {
-    if (sleepers_->asleep(body)) stale_[body] = 1;
+    if (sleepers_->asleep(body)) packed_.touch(body);
   }
 }
 
 void SpaceWorld::show_broken() {
-  pack_->set_broken(0, state_.broken_in);
-  if (fast_bodies_) fast_bodies_->set_broken(state_.broken_in);
+  const std::vector<std::int32_t>& broken_in = state().broken_in;
+  pack_->set_broken(0, broken_in);
+  if (fast_bodies_) fast_bodies_->set_broken(broken_in);
+  if (field_) field_->set_broken(*model_, broken_in);
 }
 
 void SpaceWorld::strain(std::int64_t step) {
@@ -228,25 +175,26 @@ void SpaceWorld::strain(std::int64_t step) {
     if (std::binary_search(active_units_.begin(), active_units_.end(), unit)) joints.push_back(joint);
   }
   const auto reaction = [&](int joint) { return focused_.reaction(*pack_, 0, joint); };
-  if (breakage_->strain(step, joints, reaction, state_)) show_broken();
+  if (breakage_->strain(step, joints, reaction, packed_.state())) show_broken();
 }
 
 std::vector<std::int32_t> SpaceWorld::broken_rows(std::span<const int> units) const {
   std::vector<std::int32_t> rows;
   if (!breakage_) return rows;
   for (const int unit : units) {
-    for (const int joint : articulations_[unit].joints) rows.push_back(state_.broken_in[joint]);
+    for (const int joint : articulations_[unit].joints) rows.push_back(state().broken_in[joint]);
   }
   return rows;
 }
 
 void SpaceWorld::put_broken(std::span<const int> units, std::span<const std::int32_t> rows) {
+  std::vector<std::int32_t>& broken_in = packed_.state().broken_in;
   auto row = rows.begin();
   bool changed = false;
   for (const int unit : units) {
     for (const int joint : articulations_[unit].joints) {
-      changed |= state_.broken_in[joint] != *row;
-      state_.broken_in[joint] = *row++;
+      changed |= broken_in[joint] != *row;
+      broken_in[joint] = *row++;
     }
   }
   if (changed) show_broken();
@@ -258,15 +206,16 @@ void SpaceWorld::fire_events(std::int64_t step) {
   if (sleepers_) sleepers_->wake_called(step);
   for (const Event& event : events_of(*model_, step)) {
     apply_setting(event, 0, *pack_);
-    if (event.kind == EventKind::launch && is_own(event.body)) launch(event);
+    if (event.kind == EventKind::launch && is_own(event.body)) packed_.launch(event, *pack_);
   }
 }
 
 void SpaceWorld::launch_others(std::int64_t step, std::span<model::Box> boxes) {
   for (const Event& event : events_of(*model_, step)) {
     if (event.kind != EventKind::launch || is_own(event.body)) continue;
-    launch(event);
-    boxes[map_.space_of_body(event.body)].include(bodies_.ball_box(event.body, poses_[event.body]));
+    packed_.launch(event, *pack_);
+    boxes[map_.space_of_body(event.body)].include(
+        bodies_.ball_box(event.body, packed_.poses()[static_cast<std::size_t>(event.body)]));
   }
 }
 
@@ -274,48 +223,34 @@ void SpaceWorld::collide(std::vector<Contact>& contacts) {
   contacts.clear();
   if (std::none_of(own_bodies_.begin(), own_bodies_.end(), [&](int body) { return is_awake(body); })) return;
   show_sleepers();
-  loaded_.clear();
-  for (const int body : own_bodies_) lend(body);
-  load_lent();
+  packed_.lend(own_bodies_, *pack_);
   pack_->collide(std::span(&contacts, 1));
-  if (fast_bodies_) fast_bodies_->add_own(state_, contacts);
-}
-
-void SpaceWorld::load_lent() {
-  if (!loaded_.empty()) pack_->load(0, loaded_, state_);
-}
-
-/// The pack collides at the poses of state_: what is newer there is to be loaded first.
-void SpaceWorld::lend(int body) {
-  if (!stale_[body]) return;
-  loaded_.push_back(body);
-  lent_.push_back(body);
-  stale_[body] = 0;
+  if (fast_bodies_) fast_bodies_->add_own(state(), contacts);
 }
 
 void SpaceWorld::collide_pairs(std::vector<Contact>& contacts) {
-  loaded_.clear();
+  std::vector<int> bodies;
   for (const model::GeomPair& pair : pairs_) {
     for (const int geom : {pair.first, pair.second}) {
-      if (const int body = model_->geoms[geom].body; body != model::no_body) lend(body);
+      if (const int body = model_->geoms[geom].body; body != model::no_body) bodies.push_back(body);
     }
   }
-  load_lent();
+  packed_.lend(bodies, *pack_);
   pack_->collide_pairs(0, pairs_, contacts);
 }
 
-model::Box SpaceWorld::space_box(int space) const { return bodies_.space_box(space, poses_); }
+model::Box SpaceWorld::space_box(int space) const { return bodies_.space_box(space, packed_.poses()); }
 
 void SpaceWorld::collide_across(std::span<const int> owner, std::span<const model::Box> boxes,
                                 std::vector<Contact>& contacts) {
   contacts.clear();
   if (sleepers_ && sleepers_->all_asleep()) return;
-  cross_.find_pairs(owner, boxes, poses_, pairs_);
+  cross_.find_pairs(owner, boxes, packed_.poses(), pairs_);
   std::erase_if(pairs_, [&](const model::GeomPair& pair) {
     return !is_awake(model_->geoms[pair.first].body) && !is_awake(model_->geoms[pair.second].body);
   });
   collide_pairs(contacts);
-  if (fast_bodies_) fast_bodies_->add_across(state_, owner, contacts);
+  if (fast_bodies_) fast_bodies_->add_across(state(), owner, contacts);
 }
 
 void SpaceWorld::activate(std::span<const int> all_units) {
@@ -337,14 +272,11 @@ void SpaceWorld::activate(std::span<const int> all_units) {
     }
   }
   pack_->set_active(0, active_bodies_);
-  // The others' lanes may be moved along with their neighbours': state_ has what they are.
-  std::vector<char> others(stale_.size(), 1);
-  for (const int body : active_bodies_) others[body] = stale_[body];
-  stale_ = std::move(others);
+  packed_.activate(active_bodies_);
 }
 
 void SpaceWorld::focus(std::span<const Contact> contacts) {
-  if (field_) field_->sort(active_bodies_, state_.position, contacts);
+  if (field_) field_->sort(active_bodies_, state().position, contacts);
   bodies_inside_ = field_ ? static_cast<int>(field_->inside().size()) : 0;
   const FocusedWorld world = {model_.get(), field(), contacts};
   focused_.begin(std::span(&world, 1), settings_.iterations);
@@ -357,12 +289,7 @@ void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> cont
   activate(units);
   focus(contacts);
   if (sleepers_ && active_bodies_.empty()) return;
-  loaded_.clear();
-  for (const int body : active_bodies_) {
-    if (stale_[body]) loaded_.push_back(body);
-    stale_[body] = 0;
-  }
-  load_lent();
+  packed_.load(active_bodies_, *pack_);
   timer.lap(core::Phase::rows);
   StepParameters parameters = step_parameters(settings_, step);
   if (focused_.is_cut()) focused_.step_outside(*pack_, parameters, std::nullopt, times);
@@ -371,20 +298,14 @@ void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> cont
   core::LapTimer after(times);
   last_step_ = step;
   if (breakage_) strain(step);
-  pack_->store(0, active_bodies_, state_);
+  packed_.store(active_bodies_, *pack_, sleepers_.has_value());  // a pack with sleepers puts back the others
   if (focused_.is_cut()) pack_->set_active(0, active_bodies_);
-  if (!sleepers_) {  // a pack in which bodies sleep puts back what moved along with its neighbours
-    for (const int body : lent_) stale_[body] = 1;
-  }
-  for (const int body : active_bodies_) stale_[body] = 0;
-  lent_.clear();
-  for (const int body : active_bodies_) place(body);
   after.lap(core::Phase::integrate);
 }
 
 model::IslandCounts SpaceWorld::count(std::span<const int> units, std::span<const Contact> contacts) const {
   const auto joint_rows = [&](int joint) -> std::optional<int> {
-    if (!state_.acted_in(last_step_, static_cast<std::size_t>(joint))) return std::nullopt;
+    if (!state().acted_in(last_step_, static_cast<std::size_t>(joint))) return std::nullopt;
     return focused_.joint_rows(*pack_, 0, joint);
   };
   model::IslandCounts counts = count_islands(*model_, map_, articulations_, units, contacts, joint_rows,

@@ -1,4 +1,5 @@
 """The effect "breakable_joints": the same bits everywhere, what the file and the summary say, what is refused."""
+import re
 import unittest
 
 import h5py
@@ -135,6 +136,36 @@ class Breakage(ProgramTest):
             self.assertNotIn("right link", str(broken), "it bears any load")
             reported = self.json(self.report("run.h5", "--json"))
             self.assertEqual(reported["joints_broken"], len(broken))
+
+    def test_a_comparison_of_runs_tells_what_broke_in_one_of_them_only(self):
+        self.write("strong.toml", SCENE.replace("break_force = 700", "break_force = 1e9"))
+        for name in ("sign", "strong"):
+            self.summary(1, "--scene", f"{name}.toml", "--frames", 40, "-o", f"{name}.h5")
+        sign, strong = ([re.fullmatch(r"(.*) broke in step (\d+)", event[2]).groups() for event in self.broken(name)]
+                        for name in ("sign.h5", "strong.h5"))
+        found = self.json(self.report("diff", "sign.h5", "strong.h5", "--json"))["joints_broken"]
+        for key, one, other in (("in_run_only", sign, strong), ("in_reference_only", strong, sign)):
+            expected = [{"joint": joint, "step": int(step)} for joint, step in one if joint not in dict(other)]
+            self.assertEqual(found[key], expected, key)
+        self.assertIn("world 0: 'left link'", [one["joint"] for one in found["in_run_only"]], "it holds in the other")
+        self.assertEqual(found["in_both"], len(set(dict(sign)) & set(dict(strong))))
+        text = self.report("diff", "sign.h5", "strong.h5").stdout
+        self.assertIn("joints_broken: in the run only: world 0: 'left link' in step ", text)
+        self.assertNotIn(" only: ", self.report("diff", "sign.h5", "sign.h5").stdout)
+
+    def test_a_field_of_interest_lets_go_of_what_broke_off(self):
+        self.write("near.toml", SCENE + '[interest]\nfollows = "right"\nradius = 0.5\n')
+        run = ("--scene", "near.toml", "--frames", 40, "--stepper")
+        for stepper in ("quick", "sor"):
+            self.summary(1, *run, stepper, "-o", "near.h5")
+            self.assertIn("left link", str(self.broken("near.h5")))
+            with h5py.File(self.path("near.h5")) as file:
+                inside = file["observables/interest/bodies_inside"][:, 0]
+            # The links join the sign's three bodies; what the left one held lies on the ground by then.
+            self.assertEqual((inside[0], inside[-1]), (3, 2), stepper)
+        hashes = {self.summary(ranks, *run, "sor", "--no-output", "--decompose", cut)["state_hash"]
+                  for ranks, cut in ((1, "worlds"), (1, "spaces"), (2, "spaces"), (3, "spaces"))}
+        self.assertEqual(len(hashes), 1)
 
     def test_nothing_breaks_or_is_told_where_the_effect_is_left_out_or_not_called_for(self):
         text = self.pbmpi(1, *RUN, "--effects", "-breakable_joints", "-o", "held.h5").stdout

@@ -83,7 +83,7 @@ class Sleeping(ProgramTest):
 
     def test_describe_and_summary_say_what_was_demanded(self):
         text = self.pbmpi(1, *RUN, "--describe").stdout
-        self.assertIn("demanded, after 0.3 s below 0.05 m/s and 0.1 rad/s", text)
+        self.assertIn("after 0.3 s below 0.05 m/s and 0.1 rad/s", text)
         plain = self.summary(1, *RUN[:2], "--frames", 1, "--no-output", "--effects", "-sleeping")
         self.assertNotIn("sleeping", [effect["name"] for effect in plain["effects"]])
 

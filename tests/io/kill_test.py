@@ -27,7 +27,9 @@ def kill_one(mpiexec, writer, folder, attempt, rng):
     command = sample_check.writer_command(mpiexec, 2, writer, path, PLANNED, frames, record_every=1 + attempt % 2,
                                           flush_s=0.004, move=5, pause_us=300)
     with open(os.path.join(folder, "log"), "w+") as log:
-        launcher = subprocess.Popen(command, stdout=log, stderr=subprocess.DEVNULL)
+        # Every fourth time the other rank has a second more.
+        environment = os.environ if attempt % 4 == 0 else {**os.environ, **sample_check.AT_ONCE}
+        launcher = subprocess.Popen(command, stdout=log, stderr=subprocess.DEVNULL, env=environment)
         while not os.path.exists(path) and launcher.poll() is None:
             time.sleep(0.001)
         pids = ranks_of(launcher)

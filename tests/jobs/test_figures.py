@@ -62,13 +62,14 @@ class Figures(unittest.TestCase):
         result = self.run_script("effects.sh", "--quick-look", "--instructions", "out", "--stepper", "sor", "--effect", "friction",
                                  "restitution", "--frames", "1", "--floor-seeds", "1")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(result.stdout, self.read("out/effects.txt"))
+        self.assertEqual(result.stdout, self.read("out/effects.txt") + "\n" + self.read("out/effects.md"))
         self.assertIn("instructions: counted by callgrind", result.stdout)
         for scene in ("2-Cars", "CrashSk"):
             self.assertIn(f"scene: {scene}, sor double", result.stdout)
+        self.assertIn("| `sor double` | 2-Cars | CrashSk |\n", self.read("out/effects.md"))
         self.assertIn("What effects cost", self.read("out/effects.html"))
         self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "out"))),
-                         ["counted.h5", "effects.h5", "effects.html", "effects.txt"])
+                         ["counted.h5", "effects.h5", "effects.html", "effects.md", "effects.txt"])
 
     def test_unknown_options_are_refused(self):
         for script in ("effects.sh", "figure3.sh", "figure6.sh"):

@@ -28,7 +28,7 @@ TEST(EffectChoices, are_read_and_written_alike) {
 
 TEST(EffectChoices, refuse_what_is_no_choice) {
   EXPECT_NE(error_of("+fricton").find("did you mean 'friction'?"), std::string::npos);
-  EXPECT_NE(error_of("-telepathy").find("known: events, steering"), std::string::npos);
+  EXPECT_NE(error_of("-telepathy").find("known: 'events', 'steering'"), std::string::npos);
   EXPECT_NE(error_of("friction").find("write +name"), std::string::npos);
   EXPECT_NE(error_of("+friction,-friction").find("twice"), std::string::npos);
   EXPECT_NE(error_of("+friction,,-gravity"), "");

@@ -148,5 +148,33 @@ TEST(FieldOfInterest, gives_nobody_more_iterations_than_the_run_has) {
   EXPECT_GT(FieldOfInterest(model, 20).outside_share(), 4.0 / 20);
 }
 
+TEST(FieldOfInterest, is_not_joined_by_a_broken_joint) {
+  Model model;
+  for (const double x : {0.0, 5.0, 10.0}) {
+    const std::string name = "b" + std::to_string(static_cast<int>(x));
+    support::add_solid(model, support::add_actor(model, name), name, Shape::sphere, {0.1, 0, 0}, 1,
+                       {x, 0, 0});
+  }
+  support::add_joint(model, JointKind::ball, 0, 1, {2.5, 0, 0});
+  support::add_joint(model, JointKind::ball, 1, 2, {7.5, 0, 0});
+  model.interest = Interest{{0, 0, 0}, no_body, 1, 4};
+  FieldOfInterest field(model, 20);
+  const auto inside = [&](std::span<const Contact> contacts) {
+    field.sort(Indices{0, 1, 2}, positions(model), contacts);
+    return to_vector(field.inside());
+  };
+  EXPECT_EQ(inside({}), (Indices{0, 1, 2}));
+  field.set_broken(model, std::vector<std::int32_t>{unbroken, 7});
+  EXPECT_EQ(inside({}), (Indices{0, 1}));
+  field.set_broken(model, std::vector<std::int32_t>{3, 7});
+  EXPECT_EQ(inside({}), (Indices{0}));
+  Contact contact;
+  contact.body_a = 0;
+  contact.body_b = 2;
+  EXPECT_EQ(inside(std::span(&contact, 1)), (Indices{0, 2})) << "what touches is one island all the same";
+  field.set_broken(model, {});
+  EXPECT_EQ(inside({}), (Indices{0, 1, 2})) << "another state, in which all holds";
+}
+
 }  // namespace
 }  // namespace pbmpi::model

@@ -14,6 +14,7 @@ namespace {
 
 using testing_support::neighbours;
 using testing_support::Oracle;
+using testing_support::placements_of_four_spaces;
 using testing_support::run_spaces;
 using testing_support::share;
 using testing_support::SharedModel;
@@ -43,11 +44,10 @@ TEST(SpaceDriver, has_the_same_bits_for_every_ownership) {
   const std::uint64_t expected = whole_hash(model);
   WorldRunSettings settings = space_settings();
   settings.rebalance_threshold = model::infinity;
-  const int ranks = world().size();
-  for (int code = 0; code < 256; code += 5) {
-    settings.placement = {code % ranks, code / 4 % ranks, code / 16 % ranks, code / 64 % ranks};
+  for (const Placement& placement : placements_of_four_spaces(world().size(), 5)) {
+    settings.placement = placement;
     const SpaceRun run = run_spaces(world(), model, settings);
-    ASSERT_EQ(run.result.state_hash, expected) << "placement code " << code;
+    ASSERT_EQ(run.result.state_hash, expected) << testing::PrintToString(placement);
     ASSERT_EQ(run.owners, settings.placement) << "with an infinite threshold nothing moves";
   }
 }

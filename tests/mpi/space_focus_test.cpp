@@ -15,6 +15,7 @@ namespace {
 using testing_support::make_space_stepper;
 using testing_support::neighbours;
 using testing_support::Oracle;
+using testing_support::placements_of_four_spaces;
 using testing_support::run_spaces;
 using testing_support::share;
 using testing_support::SharedModel;
@@ -56,16 +57,15 @@ std::vector<int> inside_of(FrameDriver& driver) {
 TEST(SpaceFocus, has_the_bits_of_the_whole_world_for_every_ownership) {
   WorldRunSettings settings = space_settings();
   settings.rebalance_threshold = model::infinity;
-  const int ranks = world().size();
   for (const SharedModel& model : {share(followed_ball()), share(watched_place())}) {
     for (const model::Precision precision : {model::Precision::double_, model::Precision::single}) {
       model::StepperSettings stepper;
       stepper.precision = precision;
       const std::uint64_t expected = whole_hash(model, settings, stepper);
-      for (int code = 0; code < 256; code += 23) {
-        settings.placement = {code % ranks, code / 4 % ranks, code / 16 % ranks, code / 64 % ranks};
+      for (const Placement& placement : placements_of_four_spaces(world().size(), 23)) {
+        settings.placement = placement;
         const SpaceRun run = run_spaces(world(), model, settings, stepper, Oracle::none);
-        ASSERT_EQ(run.result.state_hash, expected) << "placement code " << code;
+        ASSERT_EQ(run.result.state_hash, expected) << testing::PrintToString(placement);
       }
     }
   }

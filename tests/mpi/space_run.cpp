@@ -1,5 +1,7 @@
 #include "space_run.h"
 
+#include <set>
+
 #include "contact_oracle.h"
 #include "ode/narrow_phase.h"
 #include "solver/sor_stepper.h"
@@ -30,6 +32,14 @@ mpi::WorldRunSettings space_settings(int frames) {
   settings.warmup = 2;
   settings.frames = frames;
   return settings;
+}
+
+std::vector<mpi::Placement> placements_of_four_spaces(int num_ranks, int stride) {
+  std::set<mpi::Placement> placements;
+  for (int code = 0; code < 256; code += stride)
+    placements.insert(
+        {code % 4 % num_ranks, code / 4 % 4 % num_ranks, code / 16 % 4 % num_ranks, code / 64 % num_ranks});
+  return {placements.begin(), placements.end()};
 }
 
 std::unique_ptr<model::SpaceStepper> make_space_stepper(const SharedModel& model,

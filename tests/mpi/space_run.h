@@ -24,6 +24,10 @@ int add_to_space(model::Model& model, int body, int space);
 /// 2 warm-up and `frames` measured frames of 3 steps.
 mpi::WorldRunSettings space_settings(int frames = 20);
 
+/// Ways to give four spaces to ranks, each once: of the 256 for four ranks every `stride`-th, ranks beyond
+/// the last one wrapped round.
+std::vector<mpi::Placement> placements_of_four_spaces(int num_ranks, int stride);
+
 struct SpaceRun {
   mpi::WorldRunResult result;
   std::vector<model::RunEvent> events;

@@ -13,6 +13,7 @@ namespace {
 
 using testing_support::add_to_space;
 using testing_support::Oracle;
+using testing_support::placements_of_four_spaces;
 using testing_support::run_spaces;
 using testing_support::share;
 using testing_support::SharedModel;
@@ -67,15 +68,14 @@ TEST(SpaceSleep, has_the_bits_of_the_whole_world_for_every_ownership) {
   const SharedModel model = shared_stacks();
   WorldRunSettings settings = space_settings(num_frames);
   settings.rebalance_threshold = model::infinity;
-  const int ranks = world().size();
   for (const model::Precision precision : {model::Precision::double_, model::Precision::single}) {
     model::StepperSettings stepper;
     stepper.precision = precision;
     const std::uint64_t expected = whole_hash(model, settings, stepper);
-    for (int code = 0; code < 256; code += 37) {
-      settings.placement = {code % ranks, code / 4 % ranks, code / 16 % ranks, code / 64 % ranks};
+    for (const Placement& placement : placements_of_four_spaces(world().size(), 37)) {
+      settings.placement = placement;
       ASSERT_EQ(run_spaces(world(), model, settings, stepper, Oracle::none).result.state_hash, expected)
-          << "placement code " << code;
+          << testing::PrintToString(placement);
     }
   }
 }

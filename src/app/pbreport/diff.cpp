@@ -54,6 +54,12 @@ Json invariants_json(const RunInvariants& kept) {
           {"stretch", {{"max", kept.max_stretch}, {"bands", kept.stretch}}}};
 }
 
+Json breaks_json(const std::vector<BrokenJoint>& broken) {
+  Json json = Json::array();
+  for (const BrokenJoint& one : broken) json.push_back({{"joint", one.joint}, {"step", one.step}});
+  return json;
+}
+
 std::string to_json(const DiffOptions& options, const RunComparison& c, bool same_hash) {
   Json json;
   json["run"] = options.run;
@@ -70,6 +76,9 @@ std::string to_json(const DiffOptions& options, const RunComparison& c, bool sam
   json["noise_floor"] = Json::array();
   for (const ErrorTable& table : c.floor) json["noise_floor"].push_back(table_json(table));
   json["invariants"] = {{"run", invariants_json(c.run)}, {"reference", invariants_json(c.reference)}};
+  json["joints_broken"] = {{"in_both", c.breaks.in_both},
+                           {"in_run_only", breaks_json(c.breaks.in_run_only)},
+                           {"in_reference_only", breaks_json(c.breaks.in_reference_only)}};
   return json.dump(2) + "\n";
 }
 
@@ -119,6 +128,24 @@ std::string invariants_text(const char* whose, const RunInvariants& kept) {
       kept.energy_last_j, 100 * kept.max_stretch, bands_text(kept.stretch, names).c_str());
 }
 
+std::string breaks_text(const char* where, const std::vector<BrokenJoint>& broken) {
+  std::string text;
+  for (const BrokenJoint& one : broken) {
+    text += format("joints_broken: in the %s only: %s in step %lld\n", where, one.joint.c_str(),
+                   static_cast<long long>(one.step));
+  }
+  return text;
+}
+
+/// Nothing if none broke.
+std::string breaks_text(const BreakComparison& breaks) {
+  const std::size_t apart = breaks.in_run_only.size() + breaks.in_reference_only.size();
+  if (breaks.in_both == 0 && apart == 0) return "";
+  return format("joints_broken: %lld in both, %zu in one of the two\n",
+                static_cast<long long>(breaks.in_both), apart) +
+         breaks_text("run", breaks.in_run_only) + breaks_text("reference", breaks.in_reference_only);
+}
+
 std::string to_text(const DiffOptions& options, const RunComparison& c, bool same_hash) {
   std::string text =
       format("run: %s\nreference: %s\nframes: %zu measured\nstate_hash: %s\n", options.run.c_str(),
@@ -131,7 +158,8 @@ std::string to_text(const DiffOptions& options, const RunComparison& c, bool sam
   } else {
     text += floor_text(c);
   }
-  return text + invariants_text("run", c.run) + invariants_text("reference", c.reference);
+  text += invariants_text("run", c.run) + invariants_text("reference", c.reference);
+  return text + breaks_text(c.breaks);
 }
 
 /// A floor run that is the reference itself would show a floor of zero.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "app/pbreport/effects_markdown.h"
 #include "app/pbreport/effects_page.h"
 #include "app/pbreport/effects_text.h"
 #include "app/pbreport/study.h"
@@ -30,6 +31,8 @@ core::ExitCode run_effects_report(const std::vector<std::string>& args, std::ost
   if (options.html) write_effects_page(*options.html, file, scenes, options);
   if (options.json) {
     out << effects_to_json(file, scenes);
+  } else if (options.markdown) {
+    out << effects_to_markdown(scenes);
   } else if (!options.quiet) {
     out << effects_to_text(file, scenes);
   }

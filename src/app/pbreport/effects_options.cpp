@@ -20,10 +20,13 @@ po::options_description visible_options() {
        "one self-contained page: share of the step and error if left out, effect by scene")        //
       ("csv", po::value<std::string>()->value_name("OUT"), "all cases as comma-separated values")  //
       ("json", "print all as one JSON document")                                                   //
-      ("help,h", "print this help")                                                                //
+      ("markdown",
+       "print a table a stepper instead: share of the step [%] and defect without the effect, in "
+       "brackets what demanding it costs")  //
+      ("help,h", "print this help")         //
       ("config", po::value<std::string>()->value_name("FILE"),
        "read options from FILE, one 'name = value' a line; the command line wins")  //
-      ("quiet,q", "print nothing but errors and what --json asks for");
+      ("quiet,q", "print nothing but errors and what --json or --markdown asks for");
   return all;
 }
 
@@ -51,6 +54,8 @@ EffectsReportOptions parse_effects_report_options(const std::vector<std::string>
   options.html = output_path(values, "html");
   options.csv = output_path(values, "csv");
   options.json = values.count("json") != 0;
+  options.markdown = values.count("markdown") != 0;
+  require_input(!options.json || !options.markdown, "--json and --markdown: print one of the two");
   options.quiet = values.count("quiet") != 0;
   require_input(values.count("file") != 0,
                 "no file given; name the file of a study of effects, e.g. pbreport effects.h5");

@@ -12,7 +12,7 @@ struct EffectsReportOptions {
   std::string file;
   std::vector<std::string> scenes;  ///< empty: all in the file
   std::optional<std::string> html, csv;
-  bool json = false, quiet = false;
+  bool json = false, markdown = false, quiet = false;
 };
 
 /// Throws core::InputError with one clear message.

@@ -88,6 +88,7 @@ RunComparison compare_runs(const RunModels& models, const io::RunData& run, cons
   }
   result.run = invariants_of(models, run);
   result.reference = invariants_of(models, reference);
+  result.breaks = compare_breaks(run, reference);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "analysis/error_table.h"
 #include "analysis/invariants.h"
+#include "app/pbreport/broken_joints.h"
 #include "app/pbreport/run_models.h"
 
 namespace pbmpi::app {
@@ -27,6 +28,7 @@ struct RunComparison {
   std::optional<analysis::ErrorTable> estimate_drift;  ///< of the run's estimates against the reference
   std::vector<analysis::ErrorTable> floor;             ///< drift of each floor run against the reference
   RunInvariants run, reference;
+  BreakComparison breaks;
 };
 
 /// `run` against `reference`; require_comparable() holds for all of them.

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "analysis/pose_errors.h"
+#include "app/pbreport/broken_joints.h"
 #include "core/error.h"
 #include "model/effect_choices.h"
 #include "model/frame.h"
@@ -135,10 +136,6 @@ void count_rebalance(const std::string& event, RunSummary& summary) {
   if (detail >> moved) summary.worlds_moved += moved;
 }
 
-bool is_broken_joint(const std::string& event) {
-  return event.find(": " + std::string(model::joint_broken) + ": ") != std::string::npos;
-}
-
 void read_settings(const io::RunData& run, const std::string& path, RunSummary& summary) {
   summary.version = text_of(run.attributes, "pbmpi_version");
   summary.scene = text_of(run.attributes, "scene");
@@ -226,7 +223,8 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   summary.effects = effects_of(run, summary.seed);
   summary.effects_chosen = text_of(run.parameters, "effects");
   for (const std::string& event : run.events) count_rebalance(event, summary);
-  summary.joints_broken = std::count_if(run.events.begin(), run.events.end(), is_broken_joint);
+  summary.joints_broken = std::count_if(run.events.begin(), run.events.end(),
+                                        [](const std::string& e) { return broken_joint(e).has_value(); });
   if (!run.estimate.delivered_s.empty()) summary.estimate = estimate_of(run, path, summary.budget_s);
   return summary;
 }

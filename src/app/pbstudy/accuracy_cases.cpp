@@ -111,7 +111,7 @@ void add_yardsticks(int index, const StudyScene& scene, const AccuracyOptions& o
 }  // namespace
 
 StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions& options) {
-  return study_scene(source, SceneOverrides{options.replicas, options.frames, options.warmup});
+  return study_scene(source, options.overrides);
 }
 
 StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options) {

@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "app/pbstudy/option_lists.h"
-#include "app/pbstudy/study_scene.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
@@ -15,9 +14,8 @@ using core::require_input;
 
 po::options_description options_description() {
   po::options_description what("What to vary (lists, separated by blanks; all are crossed)");
-  what.add_options()  //
-      ("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE.toml..."),
-       "scenes, or all; default: all nine")                                          //
+  add_scene_option(what);
+  what.add_options()                                                                 //
       ("stepper", list_of<std::string>(), "quick, direct, sor; default: quick sor")  //
       ("iterations", list_of<int>(), "default: 1 2 3 5 10 15 19 20 40 80")           //
       ("substeps", list_of<int>(), "sor; default: 1 2 4 8 16")                       //
@@ -33,28 +31,19 @@ po::options_description options_description() {
       ("dt", list_of<double>(), "step [s], a whole number of which fills a frame; default: the scene's")  //
       ("max-sweeps", po::value<int>()->default_value(320)->value_name("N"),
        "leave out cases with more iterations x substeps");
-  po::options_description how("How to measure");
-  how.add_options()                                                                              //
-      ("replicas", po::value<int>()->value_name("N"), "worlds of a case; default: the scene's")  //
-      ("frames", po::value<int>()->value_name("N"), "measured frames; default: the scene's")     //
-      ("warmup", po::value<int>()->value_name("N"), "frames before them; default: the scene's")  //
-      ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"),
-       "of the scene's variation and of the reference's row order")  //
-      ("repeats", po::value<int>()->default_value(5)->value_name("N"),
-       "how often each frame is timed, the process being alone on its core")  //
-      ("floor-seeds", po::value<int>()->default_value(8)->value_name("N"),
-       "noise floor: the reference with this many other solver seeds")  //
+  po::options_description how =
+      how_to_measure({"of the scene's variation and of the reference's row order",
+                      "how often each frame is timed, the process being alone on its core", 5,
+                      "noise floor: the reference with this many other solver seeds", 8});
+  how.add_options()  //
       ("reference-iterations", po::value<int>()->default_value(640)->value_name("N"),
        "the reference is sor in double precision with these iterations, so that it solves the scene's own "
        "step; "
        "checked by halving")  //
       ("reference-substeps", po::value<int>()->default_value(1)->value_name("N"),
        "... in each of these substeps; checked by halving. More than 1 only for scenes without fast impacts");
-  po::options_description write("What to write");
-  write.add_options()("output,o", po::value<std::string>()->default_value("accuracy.h5")->value_name("FILE"),
-                      "HDF5 file of the study (io/SCHEMA.md)");
   po::options_description all;
-  all.add(what).add(how).add(write).add(common_options_description());
+  all.add(what).add(how).add(what_to_write("accuracy.h5")).add(common_options_description());
   return all;
 }
 
@@ -62,8 +51,6 @@ void require_possible(const AccuracyOptions& options) {
   require_at_least(options.iterations, 1, "--iterations");
   require_at_least(options.substeps, 1, "--substeps");
   require_at_least({options.max_sweeps}, 1, "--max-sweeps");
-  require_at_least({options.repeats}, 1, "--repeats");
-  require_at_least({options.floor_seeds}, 1, "--floor-seeds");
   require_at_least({options.reference_iterations}, 2, "--reference-iterations");
   require_at_least({options.reference_substeps}, 1, "--reference-substeps");
   for (const double factor : options.sor_factors) {
@@ -101,11 +88,7 @@ std::string accuracy_help_text() {
 AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   const po::variables_map values = parse_command_line(args, options_description());
   AccuracyOptions options;
-  options.help = values.count("help") != 0;
-  options.common = common_options(values);
-  options.command_line = "pbstudy accuracy";
-  for (const std::string& arg : args) options.command_line += " " + arg;
-  options.scenes = study_scene_names(list<std::string>(values, "scene", {}));
+  static_cast<StudyOptions&>(options) = study_options(values, "pbstudy accuracy", args);
   options.steppers =
       choices<model::StepperKind>(values, "stepper", model::stepper_kind_names, {"quick", "sor"});
   options.iterations = list<int>(values, "iterations", {1, 2, 3, 5, 10, 15, 19, 20, 40, 80});
@@ -117,16 +100,9 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   options.row_orders = choices<model::RowOrder>(values, "row-order", model::row_order_names, {"shuffled"});
   options.estimates = list<int>(values, "estimates", {1, 5});
   options.dts_s = list<double>(values, "dt", {});
-  options.replicas = given(values, "replicas", 1);
-  options.frames = given(values, "frames", 1);
-  options.warmup = given(values, "warmup", 0);
   options.max_sweeps = values["max-sweeps"].as<int>();
-  options.repeats = values["repeats"].as<int>();
-  options.floor_seeds = values["floor-seeds"].as<int>();
   options.reference_iterations = values["reference-iterations"].as<int>();
   options.reference_substeps = values["reference-substeps"].as<int>();
-  options.seed = values["seed"].as<std::uint64_t>();
-  options.output = values["output"].as<std::string>();
   require_possible(options);
   return options;
 }

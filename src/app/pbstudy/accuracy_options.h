@@ -1,20 +1,16 @@
 /// The command line of "pbstudy accuracy".
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/common/options.h"
+#include "app/pbstudy/study_options.h"
 #include "model/stepper.h"
 
 namespace pbmpi::app {
 
 /// The settings that are crossed, and how each is measured.
-struct AccuracyOptions {
-  bool help = false;
-  std::vector<std::string> scenes;
+struct AccuracyOptions : StudyOptions {
   std::vector<model::StepperKind> steppers;
   std::vector<int> iterations;
   std::vector<int> substeps;                 ///< sor
@@ -24,16 +20,9 @@ struct AccuracyOptions {
   std::vector<model::RowOrder> row_orders;   ///< sor
   std::vector<int> estimates;  ///< sor: iterations after which the precise solve is looked at (FEEC)
   std::vector<double> dts_s;   ///< empty: the scene's
-  std::optional<int> replicas, frames, warmup;
-  int max_sweeps = 320;  ///< iterations x substeps of a case, at most
-  int repeats = 5;       ///< times that each frame is timed
-  int floor_seeds = 8;   ///< other solver seeds of the reference
+  int max_sweeps = 320;        ///< iterations x substeps of a case, at most
   int reference_iterations = 640;
   int reference_substeps = 1;
-  std::uint64_t seed = 1;
-  std::string output = "accuracy.h5";
-  CommonOptions common;
-  std::string command_line;
 };
 
 /// Throws core::InputError with one clear message.

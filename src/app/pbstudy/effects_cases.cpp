@@ -28,6 +28,11 @@ std::optional<model::RunPass> pass_of(const model::RunPlan& plan, const std::str
   return std::nullopt;
 }
 
+bool leaves_out(const StudyScene& scene, const std::string& effect) {
+  const auto choice = scene.effects.find(effect);
+  return choice != scene.effects.end() && !choice->second;
+}
+
 /// `baseline`: of the scene as it is.
 EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const model::RunPlan& baseline,
                    const std::string& effect) {
@@ -42,7 +47,7 @@ EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const
     one.called_for = demanded && !demanded->idle;
     one.reason = one.called_for ? demanded->reason : "nothing calls for it";
     if (pass && pass->idle) one.reason += "; the scene demands it";
-    if (!pass && one.called_for) one.reason += "; the scene leaves it out";
+    if (!pass && one.called_for && leaves_out(scene, effect)) one.reason += "; the scene leaves it out";
   } catch (const core::InputError& error) {
     one.kind = EffectCaseKind::refused;
     one.called_for = pass && !pass->idle;

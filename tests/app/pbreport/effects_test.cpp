@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/pbreport/effects_data.h"
+#include "app/pbreport/effects_markdown.h"
 #include "app/pbreport/effects_options.h"
 #include "app/pbreport/effects_text.h"
 #include "core/error.h"
@@ -50,6 +51,32 @@ TEST(EffectsReport, shares_are_percent_and_nothing_is_a_dash) {
   EXPECT_EQ(percent_text(NAN), "-");
 }
 
+TEST(EffectsMarkdown, has_a_table_a_stepper_with_costs_errors_and_the_floor) {
+  EffectScene crash{
+      "Crash", "quick", {row("friction", true, false, 0.154), row("joints", true, true, 0)}, {}};
+  crash.effects[0].defect.body_position.rms = 0.0441;
+  crash.effects[1].same_bits.reset();  // refused
+  crash.floor = {row("", false, false, -0.021)};
+  crash.floor[0].defect.body_position.rms = 2.3e-4;
+  EffectScene cars{"Cars", "quick", {row("friction", false, true, 0.019), row("joints", true, true, 0)}, {}};
+  cars.effects[1].same_bits.reset();
+  EffectScene single = crash;
+  single.stepper = "sor single";
+  single.effects[0].defect.body_position.rms = 0;
+  EXPECT_EQ(effects_to_markdown({crash, cars, single}),
+            "| `quick` | Crash | Cars |\n|---|---|---|\n"
+            "| `friction` | 15, 44 mm | (2) |\n"
+            "| noise floor | 2, 0.2 mm | 0, 0 |\n"
+            "\n| `sor single` | Crash |\n|---|---|\n"
+            "| `friction` | 15, 0 |\n"
+            "| noise floor | 2, 0.2 mm |\n");
+}
+
+TEST(EffectsMarkdown, shows_it_if_demanding_changed_the_result) {
+  const EffectScene scene{"Crash", "quick", {row("damping", false, false, -0.001)}, {}};
+  EXPECT_NE(effects_to_markdown({scene}).find("| `damping` | (0), other bits |"), std::string::npos);
+}
+
 std::string refusal(const std::vector<std::string>& args) {
   try {
     parse_effects_report_options(args);
@@ -63,6 +90,7 @@ TEST(EffectsReportOptions, contradictions_are_refused) {
   EXPECT_NE(refusal({}).find("no file"), std::string::npos);
   EXPECT_NE(refusal({"a.h5", "b.h5"}).find("one study"), std::string::npos);
   EXPECT_NE(refusal({"a.h5", "--csv", "a.h5"}).find("to be read"), std::string::npos);
+  EXPECT_NE(refusal({"a.h5", "--json", "--markdown"}).find("one of the two"), std::string::npos);
   EXPECT_EQ(refusal({"a.h5", "--html", "a.html"}), "");
 }
 

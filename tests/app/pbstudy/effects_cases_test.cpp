@@ -92,6 +92,14 @@ TEST(EffectCases, the_choices_of_the_scene_file_are_turned_round) {
   EXPECT_TRUE(gravity.called_for);
   EXPECT_EQ(friction.kind, EffectCaseKind::left_out) << "the scene demands it";
   EXPECT_FALSE(friction.called_for);
+  EXPECT_NE(gravity.reason.find("; the scene leaves it out"), std::string::npos) << gravity.reason;
+  EXPECT_EQ(find(cases, "sleeping").reason, "after 0.5 s below 0.05 m/s and 0.1 rad/s")
+      << "no choice of the scene";
+}
+
+TEST(EffectCases, the_reasons_count_all_worlds) {
+  const auto cases = cases_of(scenes::find_scene("100CrSk"), options_of({"--replicas", "3"}));
+  EXPECT_EQ(find(cases, "friction").reason, "117 geoms with mu > 0, in 3 worlds");
 }
 
 TEST(EffectCases, an_effect_is_named_as_in_the_registry) {
