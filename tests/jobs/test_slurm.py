@@ -20,13 +20,16 @@ STOPPED = "75:0"  # exit code:signal
 
 
 class JobTest(unittest.TestCase):
-    """One cluster for the tests of a class; each test submits from an empty folder of its own."""
+    """One cluster for all tests that need one; each test submits from an empty folder of its own."""
+
+    cluster = None
 
     @classmethod
     def setUpClass(cls):
-        cluster = Cluster()
-        cls.cluster = cluster.__enter__()
-        cls.addClassCleanup(cluster.__exit__, None, None, None)
+        if JobTest.cluster is not None:
+            return
+        JobTest.cluster = Cluster().__enter__()
+        unittest.addModuleCleanup(JobTest.cluster.__exit__, None, None, None)
 
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="pbmpi-jobs-")
