@@ -5,6 +5,7 @@
 
 #include "model/breakage.h"
 #include "model/effects.h"
+#include "solver/active_units.h"
 #include "solver/articulation.h"
 #include "solver/cross_broad_phase.h"
 #include "solver/focused_step.h"
@@ -78,8 +79,7 @@ class SpaceWorld final : public model::SpaceStepper {
   long shown_revision_ = -1;                      ///< of them, that the pack knows
   std::vector<char> is_own_;                      ///< [num_spaces]
   std::vector<int> own_bodies_;                   ///< ascending
-  std::vector<int> active_units_;                 ///< of the last solve(), those that sleep left out
-  std::vector<int> active_bodies_;
+  ActiveUnits active_;                            ///< of the last solve()
   std::vector<model::GeomPair> pairs_;
   std::optional<SpaceFastBodies> fast_bodies_;   ///< none without the pass
   std::optional<model::FieldOfInterest> field_;  ///< likewise
@@ -99,7 +99,8 @@ SpaceWorld::SpaceWorld(const model::StepperSettings& settings,
       narrow_phase_(make_narrow_phase(*model_)),
       bodies_(*model_, map_),
       cross_(*model_, bodies_),
-      packed_(*model_) {
+      packed_(*model_),
+      active_(map_) {
   const model::StepPlan plan(*model_);
   if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_, map_, settings.dt_s);
   if (plan.has("field_of_interest")) field_.emplace(*model_, settings.iterations);
@@ -135,9 +136,8 @@ void SpaceWorld::own(std::span<const int> spaces, const model::State& state, std
   if (breakage_) breakage_->start(packed_.state());
   if (sleepers_) sleepers_->start();
   shown_revision_ = -1;
-  active_units_.clear();
-  active_bodies_.clear();
-  pack_->set_active(0, active_bodies_);
+  active_.clear();
+  pack_->set_active(0, active_.bodies());
   apply_settings_before(*model_, step, 0, *pack_);
   show_broken();
 }
@@ -172,7 +172,7 @@ void SpaceWorld::strain(std::int64_t step) {
   std::vector<int> joints;
   for (const int joint : breakage_->joints()) {
     const int unit = map_.unit_of_body[model_->joints[joint].body_a];
-    if (std::binary_search(active_units_.begin(), active_units_.end(), unit)) joints.push_back(joint);
+    if (active_.contains(unit)) joints.push_back(joint);
   }
   const auto reaction = [&](int joint) { return focused_.reaction(*pack_, 0, joint); };
   if (breakage_->strain(step, joints, reaction, packed_.state())) show_broken();
@@ -253,30 +253,14 @@ void SpaceWorld::collide_across(std::span<const int> owner, std::span<const mode
   if (fast_bodies_) fast_bodies_->add_across(state(), owner, contacts);
 }
 
-void SpaceWorld::activate(std::span<const int> all_units) {
-  std::vector<int> units;
-  for (const int unit : all_units) {
-    const std::vector<int>& bodies = map_.bodies_of_unit[unit];
-    if (std::any_of(bodies.begin(), bodies.end(), [&](int body) { return is_awake(body); }))
-      units.push_back(unit);
-  }
-  const bool may_sleep_in_part = sleepers_ && breakage_;
-  if (!may_sleep_in_part &&
-      std::equal(units.begin(), units.end(), active_units_.begin(), active_units_.end()))
-    return;
-  active_units_.assign(units.begin(), units.end());
-  active_bodies_.clear();
-  for (const int unit : units) {
-    for (const int body : map_.bodies_of_unit[unit]) {
-      if (is_awake(body)) active_bodies_.push_back(body);
-    }
-  }
-  pack_->set_active(0, active_bodies_);
-  packed_.activate(active_bodies_);
+void SpaceWorld::activate(std::span<const int> units) {
+  if (!active_.set(units, sleepers(), sleepers_ && breakage_)) return;
+  pack_->set_active(0, active_.bodies());
+  packed_.activate(active_.bodies());
 }
 
 void SpaceWorld::focus(std::span<const Contact> contacts) {
-  if (field_) field_->sort(active_bodies_, state().position, contacts);
+  if (field_) field_->sort(active_.bodies(), state().position, contacts);
   bodies_inside_ = field_ ? static_cast<int>(field_->inside().size()) : 0;
   const FocusedWorld world = {model_.get(), field(), contacts};
   focused_.begin(std::span(&world, 1), settings_.iterations);
@@ -288,8 +272,8 @@ void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> cont
   show_sleepers();
   activate(units);
   focus(contacts);
-  if (sleepers_ && active_bodies_.empty()) return;
-  packed_.load(active_bodies_, *pack_);
+  if (sleepers_ && active_.bodies().empty()) return;
+  packed_.load(active_.bodies(), *pack_);
   timer.lap(core::Phase::rows);
   StepParameters parameters = step_parameters(settings_, step);
   if (focused_.is_cut()) focused_.step_outside(*pack_, parameters, std::nullopt, times);
@@ -298,8 +282,9 @@ void SpaceWorld::solve(std::span<const int> units, std::span<const Contact> cont
   core::LapTimer after(times);
   last_step_ = step;
   if (breakage_) strain(step);
-  packed_.store(active_bodies_, *pack_, sleepers_.has_value());  // a pack with sleepers puts back the others
-  if (focused_.is_cut()) pack_->set_active(0, active_bodies_);
+  packed_.store(active_.bodies(), *pack_,
+                sleepers_.has_value());  // a pack with sleepers puts back the others
+  if (focused_.is_cut()) pack_->set_active(0, active_.bodies());
   after.lap(core::Phase::integrate);
 }
 
