@@ -15,13 +15,12 @@ std::string whole_percent(double share) {
   return std::to_string(std::lround(100 * share));
 }
 
-/// "44 mm", "0.2 mm", "0": two digits at most below 10 mm.
+/// "44 mm", "0.2 mm"; "0" below 5 um.
 std::string millimetres(double metres) {
   if (!std::isfinite(metres)) return "-";
   const double mm = 1e3 * metres;
-  if (mm == 0) return "0";
-  if (mm >= 10) return std::to_string(std::lround(mm)) + " mm";
-  return format(mm >= 1 ? "%.2g mm" : "%.1g mm", mm);
+  if (mm < 5e-3) return "0";
+  return format(mm >= 1 ? "%.0f mm" : "%.1g mm", mm);
 }
 
 const EffectRow* row_of(const EffectScene& scene, const std::string& effect) {

@@ -62,7 +62,7 @@ TEST(EffectsMarkdown, has_a_table_a_stepper_with_costs_errors_and_the_floor) {
   cars.effects[1].same_bits.reset();
   EffectScene single = crash;
   single.stepper = "sor single";
-  single.effects[0].defect.body_position.rms = 0;
+  single.effects[0].defect.body_position.rms = 4e-6;
   EXPECT_EQ(effects_to_markdown({crash, cars, single}),
             "| `quick` | Crash | Cars |\n|---|---|---|\n"
             "| `friction` | 15, 44 mm | (2) |\n"
