@@ -5,7 +5,7 @@ namespace pbmpi::io {
 
 std::int64_t estimate_file_bytes(std::int64_t num_bodies, int num_worlds, int num_ranks,
                                  std::int64_t num_frames, int record_every, const OptionalColumns& optional) {
-  const RunShape shape{num_bodies, num_worlds, num_ranks, num_frames, record_every, optional};
+  const RunShape shape{num_bodies, num_worlds, num_ranks, num_frames, record_every, optional, 0};
   const FrameBytes frame = frame_bytes(shape);
   // A body's row with names of usual length, and its one geom; a world's static geom; a rank's host.
   constexpr std::int64_t body_bytes = 160 + 112, world_bytes = 112, rank_bytes = 40;

@@ -173,6 +173,8 @@ FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const model::Worl
     : ranks_(ranks),
       table_(table),
       record_every_(shape.record_every),
+      first_frame_(shape.first_frame),
+      next_frame_(shape.first_frame),
       bodies_(file, ranks, "/particles/bodies", body_columns(),
               table_shape(shape.num_recorded(), shape.num_bodies, recorded_to_hold(shape))),
       recorded_(file, ranks, "/particles/bodies/position", recorded_columns(),
@@ -217,7 +219,7 @@ void FrameColumns::add(const model::FrameRecord& frame) {
   if (interest_) add_interest(frame);
   if (islands_) add_profiles(frame);
   add_times(frame);
-  if ((frame.frame + 1) % record_every_ == 0) add_bodies(frame);
+  if (is_recorded(frame)) add_bodies(frame);
   if (estimate_times_) add_estimate(frame);
 }
 
@@ -229,7 +231,7 @@ void FrameColumns::add_estimate(const model::FrameRecord& frame) {
   const auto rank = static_cast<hsize_t>(ranks_.rank());
   estimate_compute_->begin_row({{rank, 1}});
   estimate_compute_->put(0, rank, frame.estimate->compute_s);
-  if ((frame.frame + 1) % record_every_ != 0) return;
+  if (!is_recorded(frame)) return;
   std::vector<Range> ranges;
   for (const model::LocalWorld& world : frame.estimate->worlds) {
     append_range(ranges, static_cast<hsize_t>(table_.body_offset[world.id]), world.state->position.size());

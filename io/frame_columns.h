@@ -21,6 +21,7 @@ struct RunShape {
   std::int64_t num_frames = 0;
   int record_every = 1;
   OptionalColumns optional;
+  std::int64_t first_frame = 0;  ///< number of the file's first frame
 
   std::int64_t num_recorded() const { return num_frames / record_every; }
 };
@@ -72,8 +73,14 @@ class FrameColumns {
 
   const FileRanks& ranks_;
   const model::WorldTable& table_;
+  /// Are the bodies of this frame stored?
+  bool is_recorded(const model::FrameRecord& frame) const {
+    return (frame.frame - first_frame_ + 1) % record_every_ == 0;
+  }
+
   int record_every_;
-  std::int64_t next_frame_ = 0;
+  std::int64_t first_frame_;
+  std::int64_t next_frame_;
   std::int64_t events_dropped_ = 0;
   bool wrote_collectively_ = false;
   GrowingTable bodies_;                    ///< [P][N][width]

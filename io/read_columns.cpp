@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "io/checkpoint_file.h"
 #include "io/skeleton.h"
 
 namespace pbmpi::io {
@@ -109,10 +110,11 @@ void require_type(const std::string& path, hid_t file, const std::string& type, 
   const auto attributes = attributes_as_text(file, "/");
   const auto found = attributes.find("filetype");
   const bool is_run = type == filetype;
+  const std::string writer = type == checkpoint_filetype || is_run ? "pbmpi" : "pbstudy";
   core::require_input(found != attributes.end() && found->second == type,
                       path + ": not a " + (is_run ? "pbmpi run" : type) + " (its attribute filetype is " +
                           (found == attributes.end() ? "missing" : "\"" + found->second + "\"") +
-                          "); give a file that " + (is_run ? "pbmpi" : "pbstudy") + " has written");
+                          "); give a file that " + writer + " has written");
   const auto version = attributes.find("version");
   const std::int64_t major = version == attributes.end() ? 0 : std::atoll(version->second.c_str());
   core::require_input(major == layout, path + ": its layout has version " +

@@ -75,7 +75,8 @@ void RunFile::Impl::make_skeleton() {
   transfer_ = collective_transfer();
   write_skeleton(ranks_, file_.id(), setup_);
   const RunShape shape{setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(),
-                       setup_.num_frames,         setup_.record_every,       setup_.optional};
+                       setup_.num_frames,         setup_.record_every,       setup_.optional,
+                       setup_.first_frame};
   columns_.emplace(file_.id(), ranks_, setup_.table, shape);
   check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
 }

@@ -53,8 +53,9 @@ struct RunSetup {
   model::WorldTable table;
   std::vector<model::LocalWorld> worlds;  ///< this rank's worlds at the start, by ascending id
   std::vector<std::string> hosts;         ///< [num_ranks]
-  std::int64_t num_frames = 0;            ///< warm-up included
-  int record_every = 1;                   ///< bodies are stored in frames k with (k + 1) % record_every == 0
+  std::int64_t first_frame = 0;           ///< of a run that goes on: frames done before
+  std::int64_t num_frames = 0;            ///< of this file, warm-up included
+  int record_every = 1;                   ///< bodies of each so many frames of this file are stored
   double flush_interval_s = 1;
   OptionalColumns optional;
 };

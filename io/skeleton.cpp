@@ -66,6 +66,7 @@ void write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
     write_attribute(root.id(), "created", ranks.broadcast(now_utc()));
   }
   write_attribute(root.id(), "record_every", std::int64_t{setup.record_every});
+  write_attribute(root.id(), "first_frame", setup.first_frame);
   const Group events = create_group(file, "/events");
   create_commit_attributes(root.id(), events.id());
 }

@@ -12,9 +12,6 @@
 namespace pbmpi::io {
 namespace {
 
-/// Version of the layout of table files.
-constexpr std::array<std::int64_t, 2> version = {1, 1};
-
 struct Length {
   std::size_t operator()(const auto& values) const { return values.size(); }
 };
@@ -51,25 +48,28 @@ struct WriteColumn {
   }
 };
 
-void write_all(const std::string& path, const std::string& filetype, const TableFile& content) {
-  auto file = owned<File>(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), "H5Fcreate");
-  {
-    const auto root = owned<Group>(H5Gopen2(file.id(), "/", H5P_DEFAULT), "H5Gopen(/)");
-    write_attribute(root.id(), "filetype", filetype);
-    write_version(root.id(), version);
-    for (const auto& [name, value] : content.attributes) write_attribute(root.id(), name, value);
-    const Group parameters = create_group(file.id(), "/parameters");
-    for (const Parameter& parameter : content.parameters) {
-      create_scalar(parameters.id(), parameter.name, parameter, true);
-    }
-    for (const auto& [table, columns] : content.tables) {
-      for (const TableColumn& column : columns) {
-        const std::string where = "/" + table + "/" + column.name;
-        core::require_invariant(column.num_rows() == columns.front().num_rows(), "columns of one length");
-        std::visit(WriteColumn{file.id(), where, column}, column.values);
-      }
+void write_content(hid_t file, const std::string& filetype, const std::array<std::int64_t, 2>& version,
+                   const TableFile& content) {
+  const auto root = owned<Group>(H5Gopen2(file, "/", H5P_DEFAULT), "H5Gopen(/)");
+  write_attribute(root.id(), "filetype", filetype);
+  write_version(root.id(), version);
+  for (const auto& [name, value] : content.attributes) write_attribute(root.id(), name, value);
+  const Group parameters = create_group(file, "/parameters");
+  for (const Parameter& parameter : content.parameters) {
+    create_scalar(parameters.id(), parameter.name, parameter, true);
+  }
+  for (const auto& [table, columns] : content.tables) {
+    for (const TableColumn& column : columns) {
+      const std::string where = "/" + table + "/" + column.name;
+      core::require_invariant(column.num_rows() == columns.front().num_rows(), "columns of one length");
+      std::visit(WriteColumn{file, where, column}, column.values);
     }
   }
+}
+
+void write_all(const std::string& path, const std::string& filetype, const TableFile& content) {
+  auto file = owned<File>(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), "H5Fcreate");
+  write_content(file.id(), filetype, study_version, content);
   if (!file.close()) check(-1, "H5Fclose");
 }
 
@@ -171,8 +171,25 @@ void TableWriter::write(const std::string& filetype, const TableFile& file) {
   impl_->target.publish();
 }
 
-TableFile read_table_file(const std::string& path, const std::string& filetype) {
-  const File file = open_file(path, filetype, version[0]);
+std::vector<std::byte> table_image(const std::string& filetype, const std::array<std::int64_t, 2>& version,
+                                   const TableFile& content) {
+  prepare_hdf5();
+  constexpr std::size_t growth_bytes = std::size_t{1} << 20;
+  const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
+  check(H5Pset_fapl_core(access.id(), growth_bytes, 0), "H5Pset_fapl_core");
+  const auto file =
+      owned<File>(H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), "H5Fcreate(in memory)");
+  write_content(file.id(), filetype, version, content);
+  check(H5Fflush(file.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
+  const ssize_t size = H5Fget_file_image(file.id(), nullptr, 0);
+  check(size < 0 ? -1 : 0, "H5Fget_file_image");
+  std::vector<std::byte> image(static_cast<std::size_t>(size));
+  check(H5Fget_file_image(file.id(), image.data(), image.size()) < 0 ? -1 : 0, "H5Fget_file_image");
+  return image;
+}
+
+TableFile read_table_file(const std::string& path, const std::string& filetype, std::int64_t major) {
+  const File file = open_file(path, filetype, major);
   try {
     return read_all(file.id());
   } catch (const core::RunError& error) {

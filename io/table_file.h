@@ -2,6 +2,8 @@
 /// by one rank (io/SCHEMA.md, "The file of a study").
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -60,8 +62,17 @@ class TableWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Throws core::InputError: missing, not HDF5, of another file type or a newer layout, damaged.
-TableFile read_table_file(const std::string& path, const std::string& filetype);
+/// Major and minor version of the layout of a study's file.
+inline constexpr std::array<std::int64_t, 2> study_version = {1, 1};
+
+/// The bytes of such a file, made in memory: what is written in one go leaves no half file behind.
+std::vector<std::byte> table_image(const std::string& filetype, const std::array<std::int64_t, 2>& version,
+                                   const TableFile& file);
+
+/// Throws core::InputError: missing, not HDF5, of another file type or layout, damaged. `major`: version of
+/// the layout.
+TableFile read_table_file(const std::string& path, const std::string& filetype,
+                          std::int64_t major = study_version[0]);
 
 /// The attribute filetype of an HDF5 file; empty if `path` is none or has none.
 std::string filetype_of(const std::string& path);

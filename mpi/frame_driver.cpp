@@ -16,6 +16,9 @@ void require_valid(const WorldRunSettings& settings, int num_parts, int num_rank
   core::require_input(settings.num_worlds >= 1, "worlds: at least 1 is needed");
   core::require_input(settings.warmup >= 0, "warm-up: the number of frames is negative");
   core::require_input(settings.frames >= 1, "frames: at least 1 measured frame is needed");
+  core::require_input(settings.first_frame >= 0, "first frame: the number of frames done is negative");
+  core::require_input(settings.first_frame < settings.warmup + settings.frames,
+                      "frames: " + std::to_string(settings.first_frame) + " are done and none is left");
   core::require_input(settings.steps_per_frame >= 1, "steps per frame: at least 1 is needed");
   core::require_input(std::isfinite(settings.dt_s) && settings.dt_s > 0,
                       "dt: a time step is finite and above 0 s");
@@ -34,6 +37,7 @@ std::uint64_t hash_of(const WorldRunSettings& settings) {
   }
   for (const double number : {settings.dt_s, settings.budget_s, settings.rebalance_threshold})
     hash.add(&number, 1);
+  hash.add(static_cast<std::uint64_t>(settings.first_frame));
   for (const int rank : settings.placement) hash.add(static_cast<std::uint64_t>(rank));
   return hash.value();
 }
@@ -57,15 +61,23 @@ std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes) 
 }
 
 FrameDriver::FrameDriver(const Communicator& comm, WorldRunSettings settings, int num_parts)
-    : comm_(comm.dup()), settings_(checked(comm_, std::move(settings), num_parts)) {}
+    : comm_(comm.dup()),
+      settings_(checked(comm_, std::move(settings), num_parts)),
+      frame_(settings_.first_frame) {}
 
 void FrameDriver::add_observer(model::FrameObserver& observer) { observers_.push_back(&observer); }
 void FrameDriver::add_consumer(model::PoseConsumer& consumer) { consumers_.push_back(&consumer); }
 void FrameDriver::set_stop_flag(const std::atomic<int>& flag) { stop_flag_ = &flag; }
 
+void FrameDriver::save_to(SnapshotKeeper& keeper, const CheckpointPlan& plan) {
+  keeper_ = &keeper;
+  save_requests_ = plan.requests;
+  schedule_.emplace(plan, core::now_s());
+}
+
 WorldRunResult FrameDriver::run() {
-  core::require_invariant(frame_ == 0, "FrameDriver::run: once a driver");
-  result_.times.reserve(num_frames());
+  core::require_invariant(frame_ == settings_.first_frame, "FrameDriver::run: once a driver");
+  result_.times.reserve(num_frames() - frame_);
   joints_break_ = any_breakage(comm_, local_worlds());
   while (frame_ < num_frames() && !result_.stopped && result_.failure.empty()) run_frame();
   agree(comm_, errors_);  // what the observers of the last frame threw
@@ -87,8 +99,7 @@ void FrameDriver::run_frame() {
   gather(record.phases);
 
   core::LapTimer after(record.phases);
-  const bool last = frame_ + 1 == num_frames() || status.stop != 0 || status.nonfinite_world >= 0;
-  const Verdict verdict = decide(start_s, delivered_s, last);
+  const Verdict verdict = decide(start_s, delivered_s, status);
   after.lap(core::Phase::wait);
   record.estimate = estimate(verdict.delivered_s);
 
@@ -108,20 +119,25 @@ void FrameDriver::run_frame() {
   if (joints_break_) announce_breaks(worlds);
   if (verdict.num_moves > 0) rebalance(verdict.num_moves, record.step);
   if (status.nonfinite_world >= 0) note_failure(status.nonfinite_world);
-  if (status.stop != 0 && frame_ + 1 < num_frames()) {
-    result_.stopped = true;
-    announce({frame_, "signal", "stop requested (signal " + std::to_string(status.stop) + ")"});
+  if (frame_ + 1 < num_frames()) {
+    if (status.stop != 0) {
+      stop("signal", "stop requested (signal " + std::to_string(status.stop) + ")");
+    } else if (verdict.time_is_up != 0) {
+      stop("time_limit", "the time that the run was given is up");
+    }
   }
+  if (verdict.saves != 0) save(record.step);
   ++frame_;
 }
 
 FrameDriver::Status FrameDriver::agree_on_status() {
-  // One maximum over the ranks carries all four: who is lowest counts down from the number of ranks or
+  // One maximum over the ranks carries all five: who is lowest counts down from the number of ranks or
   // worlds.
-  enum { stop, failed, all_failed, nonfinite, count };
+  enum { stop, save_requests, failed, all_failed, nonfinite, count };
   const bool failed_here = errors_.failed();
   std::array<std::int64_t, count> agreed{};
   agreed[stop] = stop_flag_ ? stop_flag_->load(std::memory_order_relaxed) : 0;
+  agreed[save_requests] = save_requests_ ? save_requests_->load(std::memory_order_relaxed) : 0;
   agreed[failed] = failed_here ? comm_.size() - comm_.rank() : 0;
   agreed[all_failed] = failed_here ? -1 : 0;
   if (!failed_here) agreed[nonfinite] = settings_.num_worlds - lowest_nonfinite_world();
@@ -130,18 +146,56 @@ FrameDriver::Status FrameDriver::agree_on_status() {
     throw_error_of(comm_, errors_, comm_.size() - static_cast<int>(agreed[failed]), agreed[all_failed] == -1);
   }
   const auto world = settings_.num_worlds - static_cast<int>(agreed[nonfinite]);
-  return {static_cast<int>(agreed[stop]), world < settings_.num_worlds ? world : -1};
+  return {static_cast<int>(agreed[stop]), agreed[save_requests], world < settings_.num_worlds ? world : -1};
 }
 
-FrameDriver::Verdict FrameDriver::decide(double frame_start_s, double delivered_s, bool last) {
+FrameDriver::Verdict FrameDriver::decide(double frame_start_s, double delivered_s, const Status& status) {
+  using Then = CheckpointSchedule::Then;
   Verdict verdict;
   if (comm_.is_root()) {
+    const double now_s = core::now_s();
     verdict.delivered_s = delivered_s;
-    verdict.wall_s = core::now_s() - frame_start_s;
-    errors_.guard([&] { verdict.num_moves = plan_moves(last); });
+    verdict.wall_s = now_s - frame_start_s;
+    verdict.time_is_up = now_s >= until_s_ ? 1 : 0;
+    const bool failed = status.nonfinite_world >= 0;
+    Then then = Then::next_frame;
+    if (status.stop != 0 || verdict.time_is_up != 0) then = Then::stop;
+    if (frame_ + 1 == num_frames()) then = Then::end;
+    if (schedule_ && !failed) verdict.saves = schedule_->due(then, status.save_requests, now_s) ? 1 : 0;
+    errors_.guard([&] { verdict.num_moves = plan_moves(failed || then != Then::next_frame); });
   }
   comm_.bcast_value(verdict);
   return verdict;
+}
+
+void FrameDriver::stop(const std::string& kind, const std::string& why) {
+  result_.stopped = true;
+  announce({frame_, kind, why});
+}
+
+void FrameDriver::save(std::int64_t step) {
+  const double start_s = core::now_s();
+  Snapshot snapshot;
+  snapshot.frames = frame_ + 1;
+  snapshot.steps = step;
+  const bool ends_run = result_.stopped || frame_ + 1 == num_frames();
+  snapshot.ends_run = ends_run;
+  snapshot.state_hash = state_hash();
+  snapshot.worlds = gather_states();
+  std::string failure, detail;
+  if (comm_.is_root()) {
+    try {
+      detail = keeper_->keep(std::move(snapshot));
+    } catch (const core::RunError& error) {
+      failure = error.what();
+      detail = "failed: " + failure;
+    }
+  }
+  comm_.bcast_string(failure);
+  comm_.bcast_string(detail);
+  if (ends_run) result_.save_failure = failure;
+  last_output_s_ += core::now_s() - start_s;
+  announce({frame_, "checkpoint", detail});
 }
 
 void FrameDriver::publish(const model::FrameRecord& frame) {

@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "core/clock.h"
 #include "model/frame.h"
 #include "mpi/agreement.h"
+#include "mpi/checkpoint_schedule.h"
 #include "mpi/communicator.h"
 
 namespace pbmpi::mpi {
@@ -22,8 +25,11 @@ struct WorldRunSettings {
   double dt_s = 0.01;
   double budget_s = 0.1 / 30;        ///< a frame's deadline: 10 % of 1/30 s (paper, section 4.1)
   double rebalance_threshold = 1.1;  ///< work moves when max/avg useful time passes this; infinity = never
-  bool profile = false;        ///< measure the last step of each frame again, after the frame's time is taken
+  bool profile = false;  ///< measure the last step of each frame again, after the frame's time is taken
+  std::int64_t first_frame = 0;  ///< frames done before: the run goes on from a checkpoint
   std::vector<int> placement;  ///< owner at the start of each world (or space); empty = as the driver chooses
+
+  std::int64_t first_step() const { return first_frame * steps_per_frame; }
 };
 
 /// Times of one frame: equal on every rank for wall_s, this rank's for the rest.
@@ -37,11 +43,12 @@ struct FrameTimes {
 
 /// The same on every rank, except `times` (phases are this rank's own) and `rebalance_s`.
 struct WorldRunResult {
-  std::int64_t frames_done = 0;  ///< warm-up included
-  bool stopped = false;          ///< a stop was requested before the last frame
+  std::int64_t frames_done = 0;  ///< warm-up included, and what was done before the run went on
+  bool stopped = false;          ///< a stop was requested, or the time was up, before the last frame
   std::string failure;  ///< empty, or why the run failed (e.g. "world 17 has 3 non-finite bodies in frame 4")
   std::uint64_t state_hash = 0;   ///< over all bodies in (world, body) order
-  std::vector<FrameTimes> times;  ///< [frames_done]
+  std::vector<FrameTimes> times;  ///< [frames_done - first_frame]
+  std::string save_failure;       ///< why the snapshot that ends the run could not be kept; else empty
   int num_rebalances = 0;
   std::int64_t worlds_moved = 0;  ///< worlds, or spaces of the one world
   double rebalance_s = 0;         ///< time that this rank spent moving work, between frames: in no wall_s
@@ -53,9 +60,10 @@ std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes);
 
 /// All ranks construct and run it together. The communicator is duplicated.
 ///
-/// A frame is: perhaps estimate -> advance -> agree (one allreduce of 4 numbers: stop, error, non-finite) ->
-/// gather -> verdict (one bcast of 24 bytes: the frame's times, and whether work moves) -> publish
-/// (observers, consumers) -> perhaps rebalance.
+/// A frame is: perhaps estimate -> advance -> agree (one allreduce of 5 numbers: stop, save, error,
+/// non-finite) -> gather -> verdict (one bcast of 32 bytes: the frame's times, whether work moves, whether
+/// the run is saved or its time is up) -> publish (observers, consumers) -> perhaps rebalance -> perhaps
+/// save.
 class FrameDriver {
  public:
   virtual ~FrameDriver() = default;
@@ -69,6 +77,11 @@ class FrameDriver {
   /// Polled once a frame; set it (to the signal's number) from a signal handler. Ranks agree on it in the
   /// frame's own collective.
   void set_stop_flag(const std::atomic<int>& flag);
+
+  /// Gives snapshots of the run to `keeper` (borrowed), between frames. On every rank or on none.
+  void save_to(SnapshotKeeper& keeper, const CheckpointPlan& plan);
+  /// The frame in which root's core::now_s() passes this is the last.
+  void set_time_limit(double until_s) { until_s_ = until_s; }
 
   virtual const model::WorldTable& table() const = 0;
   /// The worlds that this rank reports, by ascending id.
@@ -119,24 +132,31 @@ class FrameDriver {
   virtual std::int64_t plan_moves(bool last) = 0;
   /// Collective. Makes the moves planned on root, between two frames, and says what was done in one line.
   virtual std::string make_moves(std::int64_t num_moves, std::int64_t step) = 0;
-  virtual std::uint64_t state_hash() const = 0;         ///< collective
+  virtual std::uint64_t state_hash() const = 0;  ///< collective
+  /// Collective. On root the states of all worlds after the frame, [num_worlds].
+  virtual std::vector<model::State> gather_states() const = 0;
   virtual model::Traffic take_traffic() { return {}; }  ///< since the last call
 
   /// What the ranks agree on after they advanced.
   struct Status {
-    int stop = 0;              ///< the stop flag
-    int nonfinite_world = -1;  ///< lowest world with a non-finite body
+    int stop = 0;                    ///< the stop flag
+    std::int64_t save_requests = 0;  ///< so far
+    int nonfinite_world = -1;        ///< lowest world with a non-finite body
   };
   /// What root decides once it has everything.
   struct Verdict {
     double wall_s = 0;
     double delivered_s = 0;
     std::int64_t num_moves = 0;
+    std::int32_t saves = 0;       ///< the run is saved after this frame
+    std::int32_t time_is_up = 0;  ///< set_time_limit()
   };
 
   void run_frame();
   Status agree_on_status();
-  Verdict decide(double frame_start_s, double delivered_s, bool last);
+  Verdict decide(double frame_start_s, double delivered_s, const Status& status);
+  void stop(const std::string& kind, const std::string& why);
+  void save(std::int64_t step);
   void publish(const model::FrameRecord& frame);
   void rebalance(std::int64_t num_moves, std::int64_t step);
   void note_failure(int world);
@@ -149,8 +169,12 @@ class FrameDriver {
   std::vector<model::FrameObserver*> observers_;
   std::vector<model::PoseConsumer*> consumers_;
   const std::atomic<int>* stop_flag_ = nullptr;
+  const std::atomic<int>* save_requests_ = nullptr;
+  SnapshotKeeper* keeper_ = nullptr;
+  std::optional<CheckpointSchedule> schedule_;  ///< with a keeper; used on root
+  double until_s_ = std::numeric_limits<double>::infinity();
   ErrorHold errors_;
-  std::int64_t frame_ = 0;     ///< frames done
+  std::int64_t frame_ = 0;     ///< frames done, those before the run went on included
   bool joints_break_ = false;  ///< the effect "breakable_joints", in any world
   double last_output_s_ = 0;   ///< time that observers and consumers took in the frame before
   WorldRunResult result_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "mpi/packed_state.h"
 #include "mpi/wire.h"
 
 namespace pbmpi::mpi {
@@ -30,6 +31,23 @@ std::vector<int> first_numbers(int count) {
   return numbers;
 }
 
+/// Root's one state, on every rank. Throws unless it fits the model.
+model::State share_state(const Communicator& comm, const model::Model& model,
+                         std::span<const model::State> states) {
+  std::vector<double> packed;
+  agree_on_errors(comm, [&] {
+    if (!comm.is_root()) return;
+    if (states.size() != 1) throw core::RunError("there is not one state to start from");
+    require_fit(0, states.front(), model);
+    packed = pack(states.front());
+  });
+  std::int64_t size = std::ssize(packed);
+  comm.bcast_value(size);
+  packed.resize(static_cast<std::size_t>(size));
+  comm.bcast(std::span(packed));
+  return unpack(packed);
+}
+
 }  // namespace
 
 std::vector<int> initial_owners(const model::SpaceMap& map, int num_ranks) {
@@ -44,16 +62,19 @@ std::vector<int> initial_owners(const model::SpaceMap& map, int num_ranks) {
 }
 
 SpaceDriver::SpaceDriver(const Communicator& comm, model::SpaceStepper& stepper,
-                         const WorldRunSettings& settings)
+                         const WorldRunSettings& settings, std::span<const model::State> states)
     : FrameDriver(comm, settings, stepper.map().num_spaces()),
       stepper_(&stepper),
       ownership_(stepper.map(),
                  settings.placement.empty() ? initial_owners(stepper.map(), comm.size()) : settings.placement,
                  comm.size()),
-      step_(this->comm(), stepper, errors()) {
+      step_(this->comm(), stepper, errors()),
+      steps_done_(settings.first_step()) {
   core::require_invariant(settings.num_worlds == 1, "SpaceDriver: one world");
   table_.body_offset.push_back(stepper.model().num_bodies());
-  step_.own(ownership_, model::initial_state(stepper.model()), 0);
+  const model::State start = steps_done_ == 0 ? model::initial_state(stepper.model())
+                                              : share_state(this->comm(), stepper.model(), states);
+  step_.own(ownership_, start, steps_done_);
   agree(this->comm(), errors());
 }
 
@@ -253,6 +274,12 @@ std::string SpaceDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
   step_.own(ownership_, state, step);
   last_times_.clear();
   return describe(planned_);
+}
+
+/// Root got everything with the last step of the frame.
+std::vector<model::State> SpaceDriver::gather_states() const {
+  if (!comm().is_root()) return {};
+  return {stepper_->state()};
 }
 
 std::uint64_t SpaceDriver::state_hash() const {

@@ -24,8 +24,9 @@ namespace pbmpi::mpi {
 class SpaceDriver final : public FrameDriver {
  public:
   /// `stepper` is borrowed and holds the world; settings.num_worlds is 1, and settings.placement of its
-  /// spaces.
-  SpaceDriver(const Communicator& comm, model::SpaceStepper& stepper, const WorldRunSettings& settings);
+  /// spaces. `states`: on root, that after settings.first_frame frames, if that is above 0.
+  SpaceDriver(const Communicator& comm, model::SpaceStepper& stepper, const WorldRunSettings& settings,
+              std::span<const model::State> states = {});
 
   const model::WorldTable& table() const override { return table_; }
   std::vector<model::LocalWorld> local_worlds() const override;
@@ -52,6 +53,7 @@ class SpaceDriver final : public FrameDriver {
   std::int64_t plan_moves(bool last) override;
   std::string make_moves(std::int64_t num_moves, std::int64_t step) override;
   std::uint64_t state_hash() const override;
+  std::vector<model::State> gather_states() const override;
   model::Traffic take_traffic() override { return step_.take_traffic(); }
 
   void observe();

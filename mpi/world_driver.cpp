@@ -21,10 +21,11 @@ std::string describe(const Rebalancing& plan) {
 }  // namespace
 
 WorldDriver::WorldDriver(const Communicator& comm, model::WorldStepper& stepper, BuildWorld build,
-                         WorldRunSettings settings)
+                         WorldRunSettings settings, std::span<const model::State> states)
     : FrameDriver(comm, settings, settings.num_worlds),
       stepper_(&stepper),
-      worlds_(this->comm(), stepper, std::move(build), initial_placement(settings, comm.size())),
+      worlds_(this->comm(), stepper, std::move(build), initial_placement(settings, comm.size()),
+              {settings.first_step(), states}),
       gather_(this->comm(), worlds_.table(), worlds_.placement()),
       rebalancer_(comm.size(), settings.rebalance_threshold) {}
 

@@ -26,8 +26,9 @@ namespace pbmpi::mpi {
 class WorldDriver final : public FrameDriver {
  public:
   /// Throws core::InputError for settings that make no sense, and what BuildWorld or the stepper throws.
+  /// `states`: on root, those after settings.first_frame frames, if that is above 0.
   WorldDriver(const Communicator& comm, model::WorldStepper& stepper, BuildWorld build,
-              WorldRunSettings settings);
+              WorldRunSettings settings, std::span<const model::State> states = {});
 
   /// Estimates every frame first. Borrowed; it must outlive run(). On every rank or on none.
   void set_estimator(model::Estimator& estimator);
@@ -52,6 +53,7 @@ class WorldDriver final : public FrameDriver {
   std::int64_t plan_moves(bool last) override;
   std::string make_moves(std::int64_t num_moves, std::int64_t step) override;
   std::uint64_t state_hash() const override;
+  std::vector<model::State> gather_states() const override { return worlds_.gather_states(); }
 
   model::WorldStepper* stepper_;
   OwnedWorlds worlds_;

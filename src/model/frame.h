@@ -64,7 +64,7 @@ inline constexpr const char* joint_broken = "joint_broken";
 /// Something that happened to the run, for the file's /events.
 struct RunEvent {
   std::int64_t frame = 0;
-  std::string kind;    ///< "rebalance", "signal", "checkpoint", joint_broken
+  std::string kind;    ///< "rebalance", "signal", "time_limit", "checkpoint", joint_broken
   std::string detail;  ///< one line for people
 };
 

@@ -1,6 +1,7 @@
 #include "app/common/options.h"
 
 #include <fstream>
+#include <sstream>
 
 #include "app/common/version.h"
 #include "core/error.h"
@@ -43,7 +44,8 @@ po::options_description common_options_description() {
 
 po::variables_map parse_command_line(const std::vector<std::string>& args,
                                      const po::options_description& description,
-                                     const po::positional_options_description& positional) {
+                                     const po::positional_options_description& positional,
+                                     const std::string& last) {
   po::variables_map values;
   try {
     po::store(po::command_line_parser(args)
@@ -60,6 +62,8 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
                           path + ": cannot be read; --" + option + " wants a file of 'name = value' lines");
       po::store(po::parse_config_file(file, description), values);
     }
+    std::istringstream lines(last);
+    po::store(po::parse_config_file(lines, description), values);
     po::notify(values);
   } catch (const po::unknown_option& error) {
     throw core::InputError(unknown_option_message(error.get_option_name(), description));

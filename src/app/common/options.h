@@ -21,12 +21,13 @@ struct CommonOptions {
 boost::program_options::options_description common_options_description();
 
 /// Parses `args` (without the program's name) and, if given, the files named by --config and --preset; the
-/// command line wins over both, --config over --preset. `positional` names the option that takes the words
-/// without a dash; empty = such words are refused. Throws core::InputError for anything that is not in
-/// `description`, with the nearest option.
+/// command line wins over both, --config over --preset, and all over `last`, lines as in such a file.
+/// `positional` names the option that takes the words without a dash; empty = such words are refused. Throws
+/// core::InputError for anything that is not in `description`, with the nearest option.
 boost::program_options::variables_map parse_command_line(
     const std::vector<std::string>& args, const boost::program_options::options_description& description,
-    const boost::program_options::positional_options_description& positional = {});
+    const boost::program_options::positional_options_description& positional = {},
+    const std::string& last = "");
 
 /// The file to write that an option names, if it is given. Throws core::InputError for an empty name.
 std::optional<std::string> output_path(const boost::program_options::variables_map& values,

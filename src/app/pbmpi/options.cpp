@@ -113,8 +113,22 @@ po::options_description options_description() {
       ("report", po::value<std::string>()->default_value("text")->value_name("text|json"),
        "the summary; json: exactly one JSON document on stdout");
 
+  po::options_description stop("When to stop, and how to go on");
+  stop.add_options()  //
+      ("max-time", po::value<double>()->value_name("SECONDS"),
+       "stop with a checkpoint at the end of the frame in which so much time has passed since the start")  //
+      ("checkpoint", po::value<std::string>()->value_name("FILE"),
+       "where the run is saved: on USR1, when it stops early, and after the last frame too if this option is "
+       "given; default: <output without .h5>.checkpoint.h5, or the file of --resume")  //
+      ("checkpoint-every", po::value<double>()->value_name("SECONDS"),
+       "save the run this often, too")  //
+      ("resume", po::value<std::string>()->value_name("FILE"),
+       "go on from a checkpoint, with any number of ranks and the same bits. Scene and physics are the "
+       "checkpoint's; options that would change them are refused. --frames and --warmup count from the start "
+       "of the first run. What follows goes to a file of its own; default: <first output>.from<frame>.h5");
+
   po::options_description all;
-  all.add(what).add(how).add(feec).add(cut).add(write).add(common_options_description());
+  all.add(what).add(how).add(feec).add(cut).add(write).add(stop).add(common_options_description());
   return all;
 }
 
@@ -151,20 +165,22 @@ std::optional<Enum> choice_if_given(const po::variables_map& values, const std::
   return choice<Enum>(values, name, names);
 }
 
-constexpr std::array<std::string_view, 3> decomposition_names = {"auto", "worlds", "spaces"};
-constexpr std::array<std::string_view, 2> spaces_names = {"one", "many"};
 constexpr std::array<std::string_view, 2> report_format_names = {"text", "json"};
+
+/// A time that is above 0, if it is given.
+std::optional<double> seconds(const po::variables_map& values, const char* name) {
+  const std::optional<double> time_s = given<double>(values, name);
+  require_input(!time_s || (std::isfinite(*time_s) && *time_s > 0),
+                "--" + std::string(name) + " " + std::to_string(time_s.value_or(0)) +
+                    " s: a time must be finite and above 0");
+  return time_s;
+}
 
 Action action_of(const po::variables_map& values) {
   if (values.count("help") != 0) return Action::help;
   if (values.count("version") != 0) return Action::version;
   if (values.count("list-scenes") != 0) return Action::list_scenes;
   return values.count("describe") != 0 ? Action::describe : Action::run;
-}
-
-void require_at_least(int value, int least, const char* option) {
-  require_input(value >= least, std::string(option) + " " + std::to_string(value) + ": it must be at least " +
-                                    std::to_string(least));
 }
 
 }  // namespace
@@ -175,15 +191,15 @@ std::string help_text() {
        << "Usage: mpirun -n RANKS pbmpi --scene NAME [options]\n\n"
        << options_description()
        << "\nExit codes: 0 done; 1 the simulation failed (what was written is readable); "
-       << "2 bad usage or bad input; 75 stopped early on request.\n"
-       << "Signals: INT, TERM and USR2 finish the frame, close the file and end with 75 (send USR2 to "
-          "mpirun).\n"
+       << "2 bad usage or bad input; 75 stopped early on request, with a checkpoint.\n"
+       << "Signals: INT, TERM and USR2 finish the frame, save the run, close the file and end with 75; USR1 "
+          "saves it and\nthe run goes on (send USR2 and USR1 to mpirun).\n"
        << "Example: mpirun -n 2 pbmpi --scene 100CrSk --report json\n";
   return text.str();
 }
 
-Options parse_options(const std::vector<std::string>& args) {
-  const po::variables_map values = parse_command_line(args, options_description());
+Options parse_options(const std::vector<std::string>& args, const std::string& saved) {
+  const po::variables_map values = parse_command_line(args, options_description(), {}, saved);
   Options options;
   options.action = action_of(values);
   options.command_line = "pbmpi";
@@ -230,135 +246,16 @@ Options parse_options(const std::vector<std::string>& args) {
     options.spaces = choice<scenes::SpacesForm>(values, "spaces", spaces_names);
   options.effects = effect_choices(given<std::string>(values, "effects").value_or(""));
   options.report = choice<ReportFormat>(values, "report", report_format_names);
+  options.checkpoint = output_path(values, "checkpoint");
+  options.checkpoint_every_s = seconds(values, "checkpoint-every");
+  options.max_time_s = seconds(values, "max-time");
+  options.resume = given<std::string>(values, "resume");
   const bool needs_scene = options.action == Action::run || options.action == Action::describe;
-  require_input(!needs_scene || !options.scene.empty(),
+  require_input(!needs_scene || !options.scene.empty() || options.resume,
                 "no scene given; name one with --scene (see --list-scenes)");
   require_input(!(options.no_output && options.output),
                 "--output and --no-output exclude each other; drop one");
   return options;
-}
-
-/// The estimate's own settings over those of the precise stepper, whose step and seed it shares.
-std::optional<model::StepperSettings> resolve_estimate(const Options& options,
-                                                       const model::StepperSettings& precise) {
-  const bool asked = options.estimate_iterations || options.estimate_stepper || options.estimate_precision;
-  require_input(
-      options.feec || !asked,
-      "--estimate-iterations, --estimate-stepper and --estimate-precision say how --feec estimates; "
-      "give --feec too");
-  if (!options.feec) return std::nullopt;
-  model::StepperSettings estimate = precise;
-  estimate.kind = options.estimate_stepper.value_or(precise.kind);
-  estimate.iterations = options.estimate_iterations.value_or(1);
-  estimate.precision = options.estimate_precision.value_or(precise.precision);
-  estimate.substeps = 1;
-  estimate.warm_start = 0;
-  estimate.residuals = false;
-  require_at_least(estimate.iterations, 1, "--estimate-iterations");
-  require_input(estimate.kind == model::StepperKind::sor || !options.estimate_precision,
-                "--estimate-precision is an option of an estimate by sor; give --estimate-stepper sor");
-  if (estimate.kind != model::StepperKind::sor) estimate.precision = model::Precision::double_;
-  return estimate;
-}
-
-/// The precise solve can be looked at where it is the frame's only one, and passes the wanted iteration.
-EstimateSource estimate_source(const RunSpec& spec) {
-  const bool one_solve =
-      spec.stepper.kind == model::StepperKind::sor && spec.steps_per_frame == 1 && spec.stepper.substeps == 1;
-  const bool passes = spec.estimate && spec.estimate->kind == spec.stepper.kind &&
-                      spec.estimate->precision == spec.stepper.precision &&
-                      spec.estimate->iterations <= spec.stepper.iterations;
-  return one_solve && passes ? EstimateSource::same_solve : EstimateSource::short_run;
-}
-
-RunSpec resolve(const Options& options, const scenes::Scene& scene) {
-  const scenes::RunDefaults& defaults = scene.defaults();
-  RunSpec spec;
-  spec.num_worlds = options.replicas.value_or(defaults.replicas);
-  spec.warmup = options.warmup.value_or(defaults.warmup);
-  spec.frames = options.frames.value_or(defaults.frames);
-  spec.steps_per_frame = options.steps_per_frame.value_or(defaults.steps_per_frame);
-  spec.stepper.kind = options.stepper;
-  spec.stepper.dt_s = options.dt_s.value_or(defaults.dt_s);
-  spec.stepper.iterations = options.iterations.value_or(defaults.iterations);
-  spec.scene_seed = options.seed;
-  spec.stepper.seed = options.solver_seed.value_or(options.seed);
-  spec.stepper.substeps = options.substeps;
-  spec.stepper.sor_factor = options.sor_factor.value_or(spec.stepper.sor_factor);
-  spec.stepper.warm_start = options.warm_start.value_or(0);
-  spec.stepper.row_order = options.row_order;
-  spec.stepper.precision = options.precision;
-  spec.stepper.simd = options.simd;
-  spec.stepper.colliders = options.colliders;
-  spec.record_every = options.record_every;
-  spec.decomposition = options.decomposition;
-  if (!options.no_output) spec.output = options.output.value_or(scene.name() + ".h5");
-  require_at_least(spec.num_worlds, 1, "--replicas");
-  require_at_least(spec.warmup, 0, "--warmup");
-  require_at_least(spec.frames, 1, "--frames");
-  require_at_least(spec.steps_per_frame, 1, "--steps-per-frame");
-  require_at_least(spec.stepper.iterations, 1, "--iterations");
-  require_at_least(spec.stepper.substeps, 1, "--substeps");
-  const bool own_options =
-      spec.stepper.substeps != 1 || options.sor_factor || options.warm_start ||
-      options.row_order != model::RowOrder::shuffled || options.precision != model::Precision::double_ ||
-      options.simd != model::Simd::automatic || options.colliders != model::Colliders::lanes;
-  require_input(
-      options.stepper == model::StepperKind::sor || !own_options,
-      "--substeps, --sor-factor, --warm-start, --row-order, --precision, --simd and --colliders are "
-      "options of --stepper sor; ODE's steppers have none of them");
-  require_input(
-      spec.stepper.warm_start == 0 || spec.stepper.substeps > 1,
-      "--warm-start carries impulses from one substep to the next, and there is one; give --substeps "
-      "2 or more");
-  require_at_least(spec.record_every, 1, "--record-every");
-  spec.spaces = scene.defaults().spaces;
-  spec.effects = scene.defaults().effects;
-  spec.record_islands = options.record_islands;
-  spec.stepper.profile = options.record_islands;
-  require_input(!options.record_islands || options.stepper != model::StepperKind::sor,
-                "--record-islands: --stepper sor solves many islands in one vector and has no time of one; "
-                "use quick or direct");
-  require_input(!options.record_islands || !options.no_output,
-                "--record-islands writes into the run's file; drop --no-output");
-  spec.stepper.residuals = options.record_residuals;
-  require_input(!options.record_residuals || options.stepper == model::StepperKind::sor,
-                "--record-residuals: ODE's steppers do not show their rows; use --stepper sor");
-  require_input(!options.record_residuals || !options.no_output,
-                "--record-residuals writes into the run's file; drop --no-output");
-  spec.estimate = resolve_estimate(options, spec.stepper);
-  spec.estimate_source = estimate_source(spec);
-  return spec;
-}
-
-namespace {
-
-/// Why this run's worlds stay whole, and what to do about it; nothing if one may be cut.
-std::optional<std::string> why_whole(const RunSpec& spec) {
-  if (spec.stepper.kind != model::StepperKind::sor) {
-    return "--decompose spaces needs --stepper sor (ODE's solvers give no access to single islands, and quick"
-           " draws from one random seed for the whole world); add --stepper sor, or use --decompose worlds";
-  }
-  if (spec.num_worlds != 1) {
-    return "--decompose spaces cuts one world, and there are " + std::to_string(spec.num_worlds) +
-           "; use --replicas 1 or --decompose worlds";
-  }
-  if (spec.stepper.residuals)
-    return "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds";
-  if (spec.estimate)
-    return "--feec: no rank of a world that is cut has all of it to estimate from; use --decompose worlds";
-  return std::nullopt;
-}
-
-}  // namespace
-
-Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks) {
-  const std::optional<std::string> reason = why_whole(spec);
-  if (spec.decomposition == Decomposition::automatic) {
-    return !reason && num_spaces > 1 && num_ranks > 1 ? Decomposition::spaces : Decomposition::worlds;
-  }
-  require_input(spec.decomposition == Decomposition::worlds || !reason, reason.value_or(""));
-  return spec.decomposition;
 }
 
 }  // namespace pbmpi::app

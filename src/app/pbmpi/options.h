@@ -17,6 +17,8 @@ namespace pbmpi::app {
 enum class Action { run, help, version, list_scenes, describe };
 enum class ReportFormat { text, json };
 enum class Decomposition { automatic, worlds, spaces };
+inline constexpr std::array<std::string_view, 3> decomposition_names = {"auto", "worlds", "spaces"};
+inline constexpr std::array<std::string_view, 2> spaces_names = {"one", "many"};
 
 /// The command line as given; what is absent is left to the scene.
 struct Options {
@@ -46,12 +48,15 @@ struct Options {
   model::EffectChoices effects;
   int record_every = 1;
   ReportFormat report = ReportFormat::text;
+  std::optional<std::string> checkpoint, resume;
+  std::optional<double> checkpoint_every_s, max_time_s;
   CommonOptions common;
   std::string command_line;
 };
 
-/// Throws core::InputError with one clear message.
-Options parse_options(const std::vector<std::string>& args);
+/// `saved`: further options of lower rank, one "name = value" a line. Throws core::InputError with one clear
+/// message.
+Options parse_options(const std::vector<std::string>& args, const std::string& saved = "");
 
 /// The text of --help.
 std::string help_text();
@@ -62,6 +67,22 @@ enum class EstimateSource {
   same_solve,  ///< a look at the precise solve
 };
 inline constexpr std::array<std::string_view, 2> estimate_source_names = {"short_run", "same_solve"};
+
+/// What a resumed run needs to know of the one that wrote the checkpoint.
+struct ResumePoint {
+  std::string path;         ///< of the checkpoint; empty: the run begins anew
+  std::int64_t frames = 0;  ///< done, warm-up included
+  std::string output;       ///< of that run, or empty
+};
+
+/// When a run stops early or is saved, and where.
+struct CheckpointSpec {
+  std::string path;
+  std::optional<double> every_s, max_time_s;
+  bool at_end = false;
+  std::string resumed_from;      ///< path, or empty
+  std::int64_t first_frame = 0;  ///< frames done by then
+};
 
 /// Everything that a run needs to know: options over the scene's defaults.
 struct RunSpec {
@@ -80,11 +101,14 @@ struct RunSpec {
   Decomposition decomposition = Decomposition::automatic;  ///< of resolve(): as asked; decided by decompose()
   model::EffectChoices effects;                            ///< of the scene file and the command line
 
+  CheckpointSpec checkpoint;
+
+  /// From the start of the first run, whatever was resumed.
   int total_frames() const { return warmup + frames; }
 };
 
 /// Throws core::InputError for impossible values.
-RunSpec resolve(const Options& options, const scenes::Scene& scene);
+RunSpec resolve(const Options& options, const scenes::Scene& scene, const ResumePoint& from = {});
 
 /// How the work is cut on so many ranks: as asked, and by itself into spaces if there is one world, it has
 /// more than one space, there is more than one rank, and the stepper is sor. `num_spaces`: of world 0. Throws

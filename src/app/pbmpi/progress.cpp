@@ -17,8 +17,8 @@ bool wants_progress(ProgressMode mode, bool quiet) {
   return mode == ProgressMode::always;
 }
 
-ProgressBar::ProgressBar(std::ostream& out, std::int64_t num_frames)
-    : out_(out), num_frames_(num_frames), start_s_(core::now_s()) {}
+ProgressBar::ProgressBar(std::ostream& out, std::int64_t num_frames, std::int64_t first_frame)
+    : out_(out), num_frames_(num_frames), first_frame_(first_frame), start_s_(core::now_s()) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) out_ << '\n';
@@ -32,7 +32,7 @@ void ProgressBar::frame_done(const model::FrameRecord& frame) {
 
 void ProgressBar::draw(std::int64_t done, double now_s) {
   const double elapsed_s = now_s - start_s_;
-  const double rate_hz = elapsed_s > 0 ? static_cast<double>(done) / elapsed_s : 0;
+  const double rate_hz = elapsed_s > 0 ? static_cast<double>(done - first_frame_) / elapsed_s : 0;
   const double left_s = rate_hz > 0 ? static_cast<double>(num_frames_ - done) / rate_hz : 0;
   const int filled = static_cast<int>(bar_width * done / num_frames_);
   const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +

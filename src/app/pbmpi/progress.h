@@ -15,7 +15,8 @@ bool wants_progress(ProgressMode mode, bool quiet);
 /// Redraws at most ten times a second.
 class ProgressBar final : public model::FrameObserver {
  public:
-  ProgressBar(std::ostream& out, std::int64_t num_frames);
+  /// `first_frame`: frames done before the run.
+  ProgressBar(std::ostream& out, std::int64_t num_frames, std::int64_t first_frame = 0);
   ~ProgressBar() override;  ///< ends the line
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -26,7 +27,7 @@ class ProgressBar final : public model::FrameObserver {
   void draw(std::int64_t done, double now_s);
 
   std::ostream& out_;
-  std::int64_t num_frames_;
+  std::int64_t num_frames_, first_frame_;
   double start_s_;
   double last_draw_s_ = 0;
   bool drawn_ = false;

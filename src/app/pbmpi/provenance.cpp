@@ -18,15 +18,6 @@ namespace {
 
 using io::Parameter;
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
-
 /// SLURM_* and OMPI_* of this process, one a line.
 std::string job_environment() {
   std::vector<std::string> lines;
@@ -57,6 +48,15 @@ std::optional<std::string> interest_of(const model::Model& model) {
 }
 
 }  // namespace
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
 
 Provenance collect_provenance(const mpi::Communicator& comm, const std::string& command_line) {
   Provenance provenance;
@@ -141,6 +141,8 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
     const auto source = static_cast<std::size_t>(spec.estimate_source);
     parameters.push_back(Parameter::of("estimate_source", std::string(estimate_source_names[source])));
   }
+  if (!spec.checkpoint.resumed_from.empty())
+    parameters.push_back(Parameter::of("resumed_from", spec.checkpoint.resumed_from));
   for (const std::string& line : provenance.environment) {
     const std::size_t equals = line.find('=');
     parameters.push_back(Parameter::of("env_" + line.substr(0, equals), line.substr(equals + 1)));

@@ -1,11 +1,13 @@
 #include "app/pbmpi/run.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "app/common/load_scene.h"
 #include "app/common/version.h"
+#include "app/pbmpi/checkpoint_keeper.h"
 #include "app/pbmpi/describe.h"
 #include "app/pbmpi/estimate_monitor.h"
 #include "app/pbmpi/gather_plan.h"
@@ -13,6 +15,8 @@
 #include "app/pbmpi/options.h"
 #include "app/pbmpi/progress.h"
 #include "app/pbmpi/provenance.h"
+#include "app/pbmpi/resume.h"
+#include "app/pbmpi/saved_options.h"
 #include "app/pbmpi/signals.h"
 #include "app/pbmpi/stepper_factory.h"
 #include "core/hash.h"
@@ -48,6 +52,7 @@ mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
   settings.steps_per_frame = spec.steps_per_frame;
   settings.dt_s = spec.stepper.dt_s;
   settings.profile = spec.record_islands;
+  settings.first_frame = spec.checkpoint.first_frame;
   return settings;
 }
 
@@ -71,7 +76,8 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.seed = spec.scene_seed;
   summary.dt_s = spec.stepper.dt_s;
   summary.budget_s = budget_s;
-  summary.warmup_frames = spec.warmup;
+  summary.first_frame = spec.checkpoint.first_frame;
+  summary.warmup_frames = std::max<std::int64_t>(0, spec.warmup - summary.first_frame);
   summary.effects_chosen = model::to_text(spec.effects);
   return summary;
 }
@@ -107,7 +113,8 @@ std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const 
   setup.table = driver.table();
   setup.worlds = driver.local_worlds();
   setup.hosts = provenance.hosts;
-  setup.num_frames = spec.total_frames();
+  setup.first_frame = spec.checkpoint.first_frame;
+  setup.num_frames = spec.total_frames() - setup.first_frame;
   setup.record_every = spec.record_every;
   setup.optional = optional_columns(scene, spec);
   return std::make_unique<io::RunFile>(io::FileGroup{comm.fortran_handle(), comm.rank(), comm.size()},
@@ -146,6 +153,39 @@ mpi::WorldRunResult run_to_end(mpi::FrameDriver& driver, io::RunFile* file) {
   }
 }
 
+/// What is to be simulated.
+struct Work {
+  scenes::SceneSource source;
+  std::unique_ptr<scenes::Scene> scene;
+  RunSpec spec;
+  std::vector<model::State> states;  ///< of a run that goes on: where it stands, on root
+};
+
+Work new_work(const mpi::Communicator& comm, const Options& options) {
+  Work work;
+  work.source = share_scene(comm, options.scene);
+  work.scene = scenes::parse_scene(work.source, options.dt_s, options.spaces, options.effects);
+  work.spec = resolve(options, *work.scene);
+  return work;
+}
+
+/// Scene and physics are those of the checkpoint; `options` become what the command line and the checkpoint
+/// say together.
+Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>& args, Options& options) {
+  const std::string path = *options.resume;
+  io::Checkpoint checkpoint = load_checkpoint(comm, path, std::cerr);
+  Work work;
+  work.source = scene_of(comm, checkpoint, path, options.scene);
+  options = parse_options(args, checkpoint.options);
+  work.scene = scenes::parse_scene(work.source, options.dt_s, options.spaces, options.effects);
+  work.spec = resolve(options, *work.scene, {path, checkpoint.frames, checkpoint.output});
+  require_same_physics(path, checkpoint.options, saved_options(work.spec, options.decomposition));
+  core::require_input(checkpoint.steps == checkpoint.frames * work.spec.steps_per_frame,
+                      path + ": its numbers of frames and steps do not fit; the file is damaged");
+  work.states = std::move(checkpoint.worlds);
+  return work;
+}
+
 /// A driver and what it borrows.
 struct Simulation {
   std::unique_ptr<model::WorldStepper> worlds;
@@ -154,13 +194,16 @@ struct Simulation {
   std::unique_ptr<mpi::FrameDriver> driver;
 };
 
-Simulation make_simulation(const mpi::Communicator& comm, const scenes::Scene& scene, const RunSpec& spec) {
+/// `states`: on root, those to go on from.
+Simulation make_simulation(const mpi::Communicator& comm, const scenes::Scene& scene, const RunSpec& spec,
+                           std::span<const model::State> states) {
   Simulation simulation;
   const auto build = [&](int world) { return scene.build(world, spec.scene_seed); };
   if (spec.decomposition == Decomposition::spaces) {
     simulation.spaces =
         mpi::agree_on_errors(comm, [&] { return make_space_stepper(spec.stepper, build(0)); });
-    simulation.driver = std::make_unique<mpi::SpaceDriver>(comm, *simulation.spaces, driver_settings(spec));
+    simulation.driver =
+        std::make_unique<mpi::SpaceDriver>(comm, *simulation.spaces, driver_settings(spec), states);
   } else {
     if (spec.estimate && spec.estimate_source == EstimateSource::same_solve) {
       auto stepper = make_anytime_stepper(spec.stepper);
@@ -172,19 +215,52 @@ Simulation make_simulation(const mpi::Communicator& comm, const scenes::Scene& s
         simulation.estimator =
             std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
     }
-    auto driver = std::make_unique<mpi::WorldDriver>(comm, *simulation.worlds, build, driver_settings(spec));
+    auto driver =
+        std::make_unique<mpi::WorldDriver>(comm, *simulation.worlds, build, driver_settings(spec), states);
     if (simulation.estimator) driver->set_estimator(*simulation.estimator);
     simulation.driver = std::move(driver);
   }
   return simulation;
 }
 
-ExitCode simulate(const mpi::Communicator& comm, const Options& options, const scenes::Scene& scene,
-                  const RunSpec& spec) {
-  const StopOnSignal stop;
-  const Simulation simulation = make_simulation(comm, scene, spec);
+/// What a checkpoint of this run says beside its states.
+io::Checkpoint about(const scenes::SceneSource& source, const RunSpec& spec, Decomposition asked) {
+  io::Checkpoint checkpoint;
+  checkpoint.pbmpi_version = program_version;
+  checkpoint.git_revision = git_revision;
+  checkpoint.build = build_description;
+  checkpoint.scene = source.name;
+  checkpoint.scene_file = source.file;
+  checkpoint.scene_text = source.text;
+  checkpoint.options = saved_options(spec, asked);
+  if (spec.output) checkpoint.output = std::filesystem::absolute(*spec.output).string();
+  return checkpoint;
+}
+
+/// A place for checkpoints that was asked for is tried before the run, not after hours of it.
+void require_writable(const mpi::Communicator& comm, const CheckpointSpec& spec, std::int64_t num_bodies) {
+  constexpr std::int64_t about_bytes_each = 256, about_bytes = std::int64_t{1} << 17;
+  mpi::agree_on_errors(comm, [&] {
+    if (comm.is_root() && (spec.at_end || spec.every_s))
+      io::require_checkpoint_writable(spec.path, about_bytes + about_bytes_each * num_bodies);
+  });
+}
+
+ExitCode simulate(const mpi::Communicator& comm, const Options& options, const Work& work, double start_s) {
+  const scenes::Scene& scene = *work.scene;
+  const RunSpec& spec = work.spec;
+  const SignalRequests signals;
+  const Simulation simulation = make_simulation(comm, scene, spec, work.states);
   mpi::FrameDriver& driver = *simulation.driver;
-  driver.set_stop_flag(stop.flag());
+  driver.set_stop_flag(signals.stop());
+  require_writable(comm, spec.checkpoint, driver.table().num_bodies());
+  CheckpointKeeper keeper(spec.checkpoint.path, about(work.source, spec, options.decomposition), std::cerr);
+  mpi::CheckpointPlan plan;
+  plan.requests = &signals.saves();
+  plan.every_s = spec.checkpoint.every_s.value_or(plan.every_s);
+  plan.at_end = spec.checkpoint.at_end;
+  driver.save_to(keeper, plan);
+  if (spec.checkpoint.max_time_s) driver.set_time_limit(start_s + *spec.checkpoint.max_time_s);
 
   const Provenance provenance = collect_provenance(comm, options.command_line);
   const auto file = create_output(comm, driver, scene, spec, provenance);
@@ -195,7 +271,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, const s
   if (file) driver.add_observer(*file);
   std::unique_ptr<ProgressBar> progress;
   if (comm.is_root() && wants_progress(options.common.progress, options.common.quiet)) {
-    progress = std::make_unique<ProgressBar>(std::cerr, spec.total_frames());
+    progress = std::make_unique<ProgressBar>(std::cerr, spec.total_frames(), spec.checkpoint.first_frame);
     driver.add_observer(*progress);
   }
 
@@ -212,15 +288,19 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, const s
     file->close(summary.complete, summary.state_hash);
     write_sidecar(comm, *spec.output);
   }
+  summary.checkpoint = keeper.last();
   print(comm, options, summary);
   if (!result.failure.empty()) throw core::RunError(result.failure);
+  if (!result.save_failure.empty())
+    throw core::RunError("the run ended without a checkpoint: " + result.save_failure);
   return result.stopped ? ExitCode::stopped : ExitCode::done;
 }
 
 }  // namespace
 
 ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>& args) {
-  const Options options = parse_options(args);
+  const double start_s = core::now_s();
+  Options options = parse_options(args);
   const auto say = [&](const std::string& text) {
     if (comm.is_root()) std::cout << text << std::flush;
     return ExitCode::done;
@@ -236,13 +316,12 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
     case Action::run:
       break;
   }
-  const auto scene = load_scene(comm, options.scene, options.dt_s, options.spaces, options.effects);
-  RunSpec spec = resolve(options, *scene);
-  const auto num_spaces = static_cast<int>(scene->build(0, spec.scene_seed)->spaces.size());
-  spec.decomposition = decompose(spec, num_spaces, comm.size());
-  if (options.action == Action::run) return simulate(comm, options, *scene, spec);
+  Work work = options.resume ? resumed_work(comm, args, options) : new_work(comm, options);
+  const auto num_spaces = static_cast<int>(work.scene->build(0, work.spec.scene_seed)->spaces.size());
+  work.spec.decomposition = decompose(work.spec, num_spaces, comm.size());
+  if (options.action == Action::run) return simulate(comm, options, work, start_s);
   mpi::agree_on_errors(comm, [&] {
-    if (comm.is_root()) say(describe(*scene, spec, comm.size()));
+    if (comm.is_root()) say(describe(*work.scene, work.spec, comm.size()));
   });
   return ExitCode::done;
 }

@@ -1,23 +1,25 @@
-/// Stops a run at the end of its frame on SIGINT, SIGTERM or SIGUSR2.
+/// What signals ask of a run: SIGINT, SIGTERM or SIGUSR2 stop it at the end of its frame, SIGUSR1 saves it.
 ///
 /// USR2 is what a job script sends to mpirun: Open MPI 4.1 forwards it to every rank and passes on their exit
-/// code 75, while after a TERM or INT of its own it kills the ranks and ends with 1.
+/// code 75, while after a TERM or INT of its own it kills the ranks and ends with 1. It forwards USR1, too.
 #pragma once
 
 #include <atomic>
 
 namespace pbmpi::app {
 
-/// While one of these lives, these signals set its flag instead of ending the process. One at a time.
-class StopOnSignal {
+/// While one of these lives, these signals are noted instead of ending the process. One at a time.
+class SignalRequests {
  public:
-  StopOnSignal();
-  ~StopOnSignal();
-  StopOnSignal(const StopOnSignal&) = delete;
-  StopOnSignal& operator=(const StopOnSignal&) = delete;
+  SignalRequests();
+  ~SignalRequests();
+  SignalRequests(const SignalRequests&) = delete;
+  SignalRequests& operator=(const SignalRequests&) = delete;
 
-  /// 0, or the number of the signal that came.
-  const std::atomic<int>& flag() const;
+  /// 0, or the number of the signal that wants the run to stop.
+  const std::atomic<int>& stop() const;
+  /// How often the run was to be saved.
+  const std::atomic<int>& saves() const;
 };
 
 }  // namespace pbmpi::app

@@ -216,6 +216,7 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
 
   const std::vector<double> energy = sum_over_worlds(run, "energy");
   const std::vector<double> nonfinite = sum_over_worlds(run, "nonfinite");
+  summary.first_frame = std::atoll(text_of(run.attributes, "first_frame").c_str());  // files of 1.0 have none
   summary.energy_j = energy.empty() ? 0 : energy.back();
   summary.nonfinite_bodies = nonfinite.empty() ? 0 : static_cast<std::int64_t>(nonfinite.back());
   summary.max_joint_gap_m = largest_measured(run, "joint_gap");

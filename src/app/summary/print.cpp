@@ -33,6 +33,9 @@ std::string run_lines(const RunSummary& s) {
   if (!s.effects_chosen.empty()) text += "effects_chosen: " + s.effects_chosen + "\n";
   text += format("frames: %lld measured after %lld of warm-up%s\n", static_cast<long long>(s.measured_frames),
                  static_cast<long long>(s.warmup_frames), s.complete ? "" : " (stopped before the last)");
+  if (s.first_frame > 0) {
+    text += format("resumed: after %lld frames\n", static_cast<long long>(s.first_frame));
+  }
   return text;
 }
 
@@ -136,6 +139,7 @@ std::string state_lines(const RunSummary& s) {
              s.energy_j);
   if (s.joints_broken > 0) text += format("joints_broken: %lld\n", static_cast<long long>(s.joints_broken));
   text += "output: " + (s.output.empty() ? std::string("none") : s.output) + "\n";
+  if (!s.checkpoint.empty()) text += "checkpoint: " + s.checkpoint + "\n";
   text += "state_hash: " + s.state_hash + "\n";
   return text;
 }
@@ -186,7 +190,7 @@ std::string to_json(const RunSummary& s) {
   json["steps_per_frame"] = s.steps_per_frame;
   json["seed"] = s.seed;
   json["complete"] = s.complete;
-  json["frames"] = {{"warmup", s.warmup_frames}, {"measured", s.measured_frames}};
+  json["frames"] = {{"warmup", s.warmup_frames}, {"measured", s.measured_frames}, {"before", s.first_frame}};
   json["frame_rate"] = {{"harmonic_mean_hz", s.harmonic_mean_hz},
                         {"satisfied_fraction", s.satisfied_fraction},
                         {"budget_s", s.budget_s}};
@@ -220,6 +224,7 @@ std::string to_json(const RunSummary& s) {
   json["rebalances"] = {{"count", s.rebalances}, {"worlds_moved", s.worlds_moved}};  // or spaces
   if (s.estimate) json["estimate"] = estimate_json(*s.estimate);
   json["output"] = s.output;
+  json["checkpoint"] = s.checkpoint;
   json["state_hash"] = s.state_hash;
   return json.dump(2) + "\n";
 }

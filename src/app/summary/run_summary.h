@@ -62,6 +62,8 @@ struct RunSummary {
   std::uint64_t seed = 0;
   double dt_s = 0, budget_s = 0;
   std::int64_t warmup_frames = 0, measured_frames = 0;
+  std::int64_t first_frame = 0;  ///< frames done before, by the run that this one goes on from
+  std::string checkpoint;        ///< the last one written, and after how many frames; or empty
   bool complete = true;
   double harmonic_mean_hz = 0, satisfied_fraction = 0;
   double world_steps_per_s = 0, body_steps_per_s = 0;

@@ -1,0 +1,32 @@
+/// Writes the checkpoints of a run.
+#pragma once
+
+#include <ostream>
+#include <string>
+
+#include "io/checkpoint_file.h"
+#include "mpi/checkpoint_schedule.h"
+
+namespace pbmpi::app {
+
+/// Each snapshot replaces the file of the one before. Used on root.
+class CheckpointKeeper final : public mpi::SnapshotKeeper {
+ public:
+  /// `about`: the file's content but for what a snapshot says. `warnings`, borrowed, is told of a file that
+  /// could not be written while the run goes on.
+  CheckpointKeeper(std::string path, io::Checkpoint about, std::ostream& warnings)
+      : path_(std::move(path)), about_(std::move(about)), warnings_(&warnings) {}
+
+  std::string keep(mpi::Snapshot snapshot) override;
+
+  /// "FILE (after 12 frames)" of the last file written, or nothing.
+  const std::string& last() const { return last_; }
+
+ private:
+  std::string path_;
+  io::Checkpoint about_;
+  std::ostream* warnings_;
+  std::string last_;
+};
+
+}  // namespace pbmpi::app
