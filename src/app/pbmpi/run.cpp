@@ -177,6 +177,7 @@ Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>&
   Work work;
   work.source = scene_of(comm, checkpoint, path, options.scene);
   options = parse_options(args, checkpoint.options);
+  require_same_stepper(path, checkpoint.options, options.stepper);
   work.scene = scenes::parse_scene(work.source, options.dt_s, options.spaces, options.effects);
   work.spec = resolve(options, *work.scene, {path, checkpoint.frames, checkpoint.output});
   require_same_physics(path, checkpoint.options, saved_options(work.spec, options.decomposition));

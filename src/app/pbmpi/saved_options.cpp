@@ -69,6 +69,13 @@ void add_estimate(const model::StepperSettings& estimate, Lines& lines) {
   if (estimate.kind == model::StepperKind::sor) lines.add("estimate-precision", name_of(estimate.precision));
 }
 
+[[noreturn]] void refuse(const std::string& path, const std::string& name, const std::string& before,
+                         const std::string& now) {
+  throw core::InputError("--" + name + " " + now + ": the run in " + path + " has " + name + " " +
+                         (before.empty() ? "none" : before) +
+                         " and would become another one; leave the option out, or begin without --resume");
+}
+
 /// Effects are chosen one by one; their order says nothing.
 std::set<std::string> chosen(const std::string& effects) {
   std::set<std::string> names;
@@ -99,17 +106,19 @@ std::string saved_options(const RunSpec& spec, Decomposition asked) {
   return lines.text();
 }
 
+void require_same_stepper(const std::string& path, const std::string& saved, model::StepperKind now) {
+  const std::string before = parse(saved)["stepper"];
+  if (before != name_of(now)) refuse(path, "stepper", before, std::string(name_of(now)));
+}
+
 void require_same_physics(const std::string& path, const std::string& saved, const std::string& now) {
   auto before = parse(saved), after = parse(now);
-  const auto refuse = [&](const std::string& name) {
-    throw core::InputError("--" + name + " " + after[name] + ": the run in " + path + " has " + name + " " +
-                           (before[name].empty() ? "none" : before[name]) +
-                           " and would become another one; leave the option out, or begin without --resume");
-  };
-  for (const std::string_view name : physics) {
-    if (before[std::string(name)] != after[std::string(name)]) refuse(std::string(name));
+  for (const std::string_view physical : physics) {
+    const std::string name(physical);
+    if (before[name] != after[name]) refuse(path, name, before[name], after[name]);
   }
-  if (chosen(before["effects"]) != chosen(after["effects"])) refuse("effects");
+  if (chosen(before["effects"]) != chosen(after["effects"]))
+    refuse(path, "effects", before["effects"], after["effects"]);
 }
 
 }  // namespace pbmpi::app

@@ -12,8 +12,11 @@ namespace pbmpi::app {
 /// cut.
 std::string saved_options(const RunSpec& spec, Decomposition asked);
 
-/// Throws core::InputError unless `now` has the physics of `saved` (both of saved_options()). `path`: of the
-/// checkpoint.
+/// Throws core::InputError unless `now` is the stepper of `saved`, without which its other options make no
+/// sense. `path`: of the checkpoint.
+void require_same_stepper(const std::string& path, const std::string& saved, model::StepperKind now);
+
+/// Throws core::InputError unless `now` has the physics of `saved` (both of saved_options()).
 void require_same_physics(const std::string& path, const std::string& saved, const std::string& now);
 
 }  // namespace pbmpi::app
