@@ -28,21 +28,46 @@ find_programs() {
 # name_of_scene NAME|FILE.toml: the scene's name.
 name_of_scene() { basename "$1" .toml; }
 
-# output_among OPTIONS...: what pbmpi's options say of the output: its file, "none", or nothing if they leave it open.
-output_among() {
+# values_of OPTION OPTIONS...: what follows OPTION, or stands behind its equals sign (or, of -o, right behind it).
+values_of() {
+  local option=$1
+  shift
   while [[ $# -gt 0 ]]; do
     case $1 in
-      --no-output) echo none ;;
-      --output | -o) echo "${2:-}" ;;
-      --output=*) echo "${1#--output=}" ;;
-      -o*) echo "${1#-o}" ;;
+      "$option") echo "${2:-}" ;;
+      "$option"=*) echo "${1#"$option"=}" ;;
+      -o?*) [[ $option != -o ]] || echo "${1#-o}" ;;
     esac
     shift
   done
 }
 
+# without OPTION OPTIONS...: the others, each ended by a NUL.
+without() {
+  local option=$1
+  shift
+  while [[ $# -gt 0 ]]; do
+    case $1 in
+      "$option") [[ $# -eq 1 ]] || shift ;;
+      "$option"=*) ;;
+      *) printf '%s\0' "$1" ;;
+    esac
+    shift
+  done
+}
+
+# output_among OPTIONS...: what pbmpi's options say of the output: its file, "none", or nothing if they leave it open.
+output_among() {
+  local option
+  for option in "$@"; do
+    [[ $option != --no-output ]] || echo none
+  done
+  values_of --output "$@"
+  values_of -o "$@"
+}
+
 # run_until_stopped COMMAND...: its exit code. TERM, INT or USR2 to this shell become USR2 to mpirun, which passes it
-# to every rank: pbmpi ends the frame, closes its file and exits with 75. TERM itself would not do: mpirun kills its
+# to every rank: pbmpi ends the frame, saves the run, closes its file and exits with 75. USR1 saves the run, which goes on. TERM itself would not do: mpirun kills its
 # ranks a second after it, and exits with 1. On a terminal, job control gives mpirun a process group of its own, so that
 # Ctrl-C comes here only.
 run_until_stopped() {
@@ -52,13 +77,14 @@ run_until_stopped() {
   child=$!
   set +m
   trap 'stopped=yes; kill -USR2 "$child" 2>/dev/null || true' TERM INT USR2
+  trap 'stopped=yes; kill -USR1 "$child" 2>/dev/null || true' USR1
   while :; do
     stopped=
     code=0
     wait "$child" || code=$?
     [[ -n $stopped ]] || break  # a trap interrupts wait, which then knows no exit code yet
   done
-  trap - TERM INT USR2
+  trap - TERM INT USR2 USR1
   return "$code"
 }
 

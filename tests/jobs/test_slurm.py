@@ -132,6 +132,24 @@ class Stop(JobTest):
         self.assertEqual(self.ended(job_id)["JobState"], "CANCELLED")
         self.assertGreater(self.committed(name), 0)
 
+    def test_a_job_that_ran_out_of_time_goes_back_into_the_queue_and_on_from_its_checkpoint(self):
+        # Some 40 s of work: more than the first part gets, and a time limit is far.
+        args = ("CrashSk", "--replicas", "2", "--frames", "150", "--steps-per-frame", "300", "--record-every", "50")
+        job_id = self.submit("-n2", "--export=ALL,PBMPI_REQUEUE=yes", SCRIPT, *args)
+        first, second = f"CrashSk-{job_id}.h5", f"CrashSk-{job_id}.2.h5"
+        self.wait_while_it_runs(job_id, lambda: os.path.exists(self.path(first)), "file")
+        self.cluster.command("scancel", "--batch", "--signal=TERM", job_id)
+        wait_until(lambda: self.cluster.job(job_id)[0].get("Restarts") == "1", "the job to be queued again", JOB_LIMIT_S)
+        wait_until(lambda: self.cluster.job(job_id)[0]["JobState"] != "COMPLETING", "the end of its first part", JOB_LIMIT_S)
+        self.cluster.command("scontrol", "update", f"JobId={job_id}", "StartTime=now")  # Slurm would wait two minutes
+        job = self.ended(job_id)
+        self.assertEqual((job["JobState"], job["ExitCode"]), ("COMPLETED", "0:0"), self.log_of(f"slurm-{job_id}.out"))
+        before = self.check_file(first, complete=0)["frames"]
+        self.assertEqual(before + self.check_file(second, complete=1)["frames"], 153)
+        with h5py.File(self.path(second)) as file:
+            self.assertEqual(int(file.attrs["first_frame"]), before)
+        self.assertTrue(os.path.exists(self.path(f"CrashSk-{job_id}.2.html")))
+
     def committed(self, name):
         with h5py.File(self.path(name), "r") as file:
             committed = int(file.attrs["frames_committed"])

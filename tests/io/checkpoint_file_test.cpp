@@ -1,0 +1,137 @@
+#include "io/checkpoint_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "core/error.h"
+#include "io/replace_file.h"
+#include "scratch.h"
+
+namespace pbmpi::io::test {
+namespace {
+
+/// Worlds of different sizes: with rest, with joints, with neither.
+Checkpoint sample() {
+  Checkpoint checkpoint;
+  checkpoint.pbmpi_version = "0.1.0";
+  checkpoint.git_revision = "abc";
+  checkpoint.build = "GNU 12";
+  checkpoint.created = "2026-01-02T03:04:05Z";
+  checkpoint.scene = "crates";
+  checkpoint.scene_text = "title = \"Krümel\"\n\n[run]\n";
+  checkpoint.options = "dt = 0.01\neffects = +friction\n";
+  checkpoint.frames = 12;
+  checkpoint.steps = 36;
+  checkpoint.state_hash = "0123456789abcdef";
+  for (int world = 0; world < 3; ++world) {
+    model::State& state = checkpoint.worlds.emplace_back();
+    state.resize(world + 1);
+    for (int body = 0; body <= world; ++body) {
+      state.position[body] = {0.1 * world, 1.0 / 3 * body, std::numeric_limits<double>::denorm_min()};
+      state.orientation[body] = {0.9, 0.1 * body, -0.0, 1e-300};
+      state.velocity[body] = {-1.0 * world, 1e300, 2};
+      state.angular_velocity[body] = {0.7, -0.1 * body, std::numeric_limits<double>::infinity()};
+    }
+    if (world == 1) state.rest = {{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}, -1}, {{4, 5, 6}, {}, 17}};
+    if (world == 2) state.broken_in = {-1, 31, -1, 7};
+  }
+  return checkpoint;
+}
+
+TEST(CheckpointFile, comes_back_as_it_was_written) {
+  const Scratch scratch;
+  const std::string path = scratch.file("run.ck.h5");
+  const Checkpoint written = sample();
+  const std::int64_t bytes = write_checkpoint(path, written);
+  EXPECT_EQ(static_cast<std::int64_t>(std::filesystem::file_size(path)), bytes);
+  const Checkpoint found = read_checkpoint(path);
+  EXPECT_EQ(found.scene_text, written.scene_text);
+  EXPECT_EQ(found.scene_file, "");
+  EXPECT_EQ(found.options, written.options);
+  EXPECT_EQ(found.output, "");
+  EXPECT_EQ(found.build, written.build);
+  EXPECT_EQ(found.state_hash, written.state_hash);
+  EXPECT_EQ(found.frames, 12);
+  EXPECT_EQ(found.steps, 36);
+  ASSERT_EQ(found.worlds.size(), 3u);
+  for (std::size_t world = 0; world < 3; ++world) {
+    const model::State &a = found.worlds[world], &b = written.worlds[world];
+    EXPECT_EQ(model::hash(a), model::hash(b)) << "all bits of poses and velocities, and what is broken";
+    EXPECT_EQ(a.broken_in, b.broken_in);
+    ASSERT_EQ(a.rest.size(), b.rest.size());
+    for (std::size_t body = 0; body < a.rest.size(); ++body) {
+      EXPECT_EQ(a.rest[body].position, b.rest[body].position);
+      EXPECT_EQ(a.rest[body].orientation, b.rest[body].orientation);
+      EXPECT_EQ(a.rest[body].idle_steps, b.rest[body].idle_steps);
+    }
+  }
+  EXPECT_EQ(scratch.num_files(), 1u) << "nothing else is left";
+}
+
+TEST(CheckpointFile, replaces_the_one_before_also_behind_a_link) {
+  const Scratch scratch;
+  const std::string path = scratch.file("run.ck.h5"), link = scratch.file("link.h5");
+  Checkpoint checkpoint = sample();
+  write_checkpoint(path, checkpoint);
+  std::filesystem::create_symlink(path, link);
+  checkpoint.frames = 13;
+  write_checkpoint(link, checkpoint);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(read_checkpoint(path).frames, 13);
+}
+
+TEST(CheckpointFile, that_is_cut_off_anywhere_is_refused) {
+  const Scratch scratch;
+  const std::string path = scratch.file("run.ck.h5");
+  const auto bytes = static_cast<std::uintmax_t>(write_checkpoint(path, sample()));
+  for (int tenth = 0; tenth < 10; ++tenth) {
+    write_checkpoint(path, sample());
+    std::filesystem::resize_file(path, bytes * static_cast<std::uintmax_t>(tenth) / 10);
+    EXPECT_THROW(read_checkpoint(path), core::InputError) << tenth;
+  }
+}
+
+TEST(CheckpointFile, places_that_cannot_be_written_are_found_out_without_leaving_a_file) {
+  const Scratch scratch;
+  EXPECT_NO_THROW(require_checkpoint_writable(scratch.file("run.ck.h5"), 1000));
+  EXPECT_EQ(scratch.num_files(), 0u);
+  EXPECT_THROW(require_checkpoint_writable(scratch.file("no/run.ck.h5"), 1000), core::InputError);
+  EXPECT_THROW(require_checkpoint_writable(scratch.folder().string(), 1000), core::InputError);
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::span<const std::byte> bytes_of(const std::string& text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+TEST(ReplaceFile, that_cannot_be_written_leaves_the_old_one_and_says_why) {
+  const Scratch scratch;
+  const std::string path = scratch.file("file");
+  replace_file(path, bytes_of("old"));
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit small{100, limit.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::string message;
+  try {
+    replace_file(path, bytes_of(std::string(101, 'x')));
+  } catch (const core::RunError& error) {
+    message = error.what();
+  }
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  EXPECT_EQ(message, "cannot write " + path + ": File too large");
+  EXPECT_EQ(text_of(path), "old");
+  EXPECT_EQ(scratch.num_files(), 1u);
+  EXPECT_THROW(replace_file(scratch.file("no/file"), bytes_of("new")), core::RunError);
+}
+
+}  // namespace
+}  // namespace pbmpi::io::test
