@@ -1,11 +1,13 @@
 """Runs that go on from a checkpoint: the same bits as if they had never been stopped, and what is refused."""
+import os
+import re
 import shutil
 import unittest
 
 import h5py
 import numpy as np
 
-from harness import PBMPI, ProgramTest
+from harness import PBMPI, SOURCE, ProgramTest
 from test_breakage import SCENE as SIGN
 from test_sleeping import SCENE as STACKS
 
@@ -72,6 +74,19 @@ class Resume(ProgramTest):
         self.assertEqual(third["state_hash"], whole)
         self.assertEqual((second["output"], third["output"]), ("part.from6.h5", "part.from10.h5"))
         self.check_parts("whole.h5", ["part.h5", "part.from6.h5", "part.from10.h5"])
+
+    def test_the_schema_names_all_that_a_checkpoint_holds(self):
+        self.summary(1, "--scene", "CrashSk", "--frames", 1, "--no-output", "--checkpoint", "run.ck.h5")
+        with open(os.path.join(SOURCE, "io", "SCHEMA.md"), encoding="utf-8") as text:
+            part = text.read().split('# The file of a checkpoint (`filetype = "pbmpi-checkpoint"`')[1].split("\n# ")[0]
+        listed = {path for row in re.findall(r"^\| `/.*", part, re.M)
+                  for path in re.findall(r"`(/[^`]*)`", row.split("|")[1])}
+        found = []
+        with h5py.File(self.path("run.ck.h5")) as file:
+            file.visititems(lambda name, item: found.append("/" + name) if isinstance(item, h5py.Dataset) else None)
+            for name in file.attrs:
+                self.assertIn(name, part)
+        self.assertEqual(sorted(found), sorted(listed))
 
     def check_parts(self, whole, parts):
         """The rows of the parts, one after the other, are those of the whole."""

@@ -53,9 +53,10 @@ def schema_examples(schema, path):
 
 
 def schema_names_all(schema, path):
-    """The paths in the schema's tables are those in the file."""
+    """The paths in the schema's tables of a run's file are those in the file."""
     with open(schema) as text:
-        listed = set(re.findall(r"^\| `(/[^`]*)`", text.read(), re.M))
+        of_runs = text.read().split("\n# ")[0]
+    listed = set(re.findall(r"^\| `(/[^`]*)`", of_runs, re.M))
     present = {p for p in datasets(path) if not p.startswith("/parameters/")}
     assert present == listed, (sorted(present - listed), sorted(listed - present))
 

@@ -133,7 +133,7 @@ class Stop(JobTest):
         self.assertGreater(self.committed(name), 0)
 
     def test_a_job_that_ran_out_of_time_goes_back_into_the_queue_and_on_from_its_checkpoint(self):
-        # Some 40 s of work: more than the first part gets, and a time limit is far.
+        # Seconds of work, of which the first part gets one; the time limit is far.
         args = ("CrashSk", "--replicas", "2", "--frames", "150", "--steps-per-frame", "300", "--record-every", "50")
         job_id = self.submit("-n2", "--export=ALL,PBMPI_REQUEUE=yes", SCRIPT, *args)
         first, second = f"CrashSk-{job_id}.h5", f"CrashSk-{job_id}.2.h5"
