@@ -121,9 +121,9 @@ void FrameDriver::run_frame() {
   if (status.nonfinite_world >= 0) note_failure(status.nonfinite_world);
   if (frame_ + 1 < num_frames()) {
     if (status.stop != 0) {
-      stop("signal", "stop requested (signal " + std::to_string(status.stop) + ")");
+      end_early("signal", "stop requested (signal " + std::to_string(status.stop) + ")");
     } else if (verdict.time_is_up != 0) {
-      stop("time_limit", "the time that the run was given is up");
+      end_early("time_limit", "the time that the run was given is up");
     }
   }
   if (verdict.saves != 0) save(record.step);
@@ -168,7 +168,7 @@ FrameDriver::Verdict FrameDriver::decide(double frame_start_s, double delivered_
   return verdict;
 }
 
-void FrameDriver::stop(const std::string& kind, const std::string& why) {
+void FrameDriver::end_early(const std::string& kind, const std::string& why) {
   result_.stopped = true;
   announce({frame_, kind, why});
 }

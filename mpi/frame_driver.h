@@ -155,7 +155,7 @@ class FrameDriver {
   void run_frame();
   Status agree_on_status();
   Verdict decide(double frame_start_s, double delivered_s, const Status& status);
-  void stop(const std::string& kind, const std::string& why);
+  void end_early(const std::string& kind, const std::string& why);
   void save(std::int64_t step);
   void publish(const model::FrameRecord& frame);
   void rebalance(std::int64_t num_moves, std::int64_t step);

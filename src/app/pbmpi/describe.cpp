@@ -157,7 +157,7 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
   out << "memory: about " << in_units(world_bytes) << " a world (measured on world 0)\n";
   if (spec.output) {
     const auto bytes =
-        io::estimate_file_bytes(census.table.num_bodies(), spec.num_worlds, num_ranks, spec.total_frames(),
+        io::estimate_file_bytes(census.table.num_bodies(), spec.num_worlds, num_ranks, spec.frames_to_do(),
                                 spec.record_every, optional_columns(scene, spec));
     out << "output: " << *spec.output << ", about " << in_units(static_cast<double>(bytes)) << '\n';
   } else {

@@ -105,6 +105,7 @@ struct RunSpec {
 
   /// From the start of the first run, whatever was resumed.
   int total_frames() const { return warmup + frames; }
+  std::int64_t frames_to_do() const { return total_frames() - checkpoint.first_frame; }
 };
 
 /// Throws core::InputError for impossible values.

@@ -114,7 +114,7 @@ std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const 
   setup.worlds = driver.local_worlds();
   setup.hosts = provenance.hosts;
   setup.first_frame = spec.checkpoint.first_frame;
-  setup.num_frames = spec.total_frames() - setup.first_frame;
+  setup.num_frames = spec.frames_to_do();
   setup.record_every = spec.record_every;
   setup.optional = optional_columns(scene, spec);
   return std::make_unique<io::RunFile>(io::FileGroup{comm.fortran_handle(), comm.rank(), comm.size()},
