@@ -21,6 +21,10 @@ class RunFile::Impl {
 
   void add(const model::FrameRecord& frame);
   void add(const model::RunEvent& event);
+  void secure() {
+    core::require_invariant(open_, "the run's file was closed");
+    flush();
+  }
   void close(bool complete, const std::string& state_hash);
   bool wrote_collectively() const { return columns_ && columns_->wrote_collectively(); }
 
@@ -157,6 +161,7 @@ RunFile::RunFile(const FileGroup& group, RunSetup setup)
 RunFile::~RunFile() = default;
 void RunFile::frame_done(const model::FrameRecord& frame) { impl_->add(frame); }
 void RunFile::event(const model::RunEvent& event) { impl_->add(event); }
+void RunFile::secure() { impl_->secure(); }
 void RunFile::close(bool complete, const std::string& state_hash) { impl_->close(complete, state_hash); }
 bool RunFile::wrote_collectively() const { return impl_->wrote_collectively(); }
 

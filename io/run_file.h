@@ -83,6 +83,7 @@ class RunFile final : public model::FrameObserver {
 
   void frame_done(const model::FrameRecord& frame) override;
   void event(const model::RunEvent& event) override;
+  void secure() override;  ///< writes what is held
 
   /// Writes what is held, cuts the datasets to the frames committed, stores the final attributes and closes.
   /// `complete` = all planned frames were simulated. `state_hash` counts on root only.

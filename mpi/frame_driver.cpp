@@ -175,6 +175,7 @@ void FrameDriver::end_early(const std::string& kind, const std::string& why) {
 
 void FrameDriver::save(std::int64_t step) {
   const double start_s = core::now_s();
+  for (model::FrameObserver* observer : observers_) errors_.guard([&] { observer->secure(); });
   Snapshot snapshot;
   snapshot.frames = frame_ + 1;
   snapshot.steps = step;

@@ -73,6 +73,9 @@ class FrameObserver {
  public:
   virtual ~FrameObserver() = default;
   virtual void frame_done(const FrameRecord& frame) = 0;
+  /// Before the run is saved after this frame: what an observer holds back of the frames so far must outlive
+  /// a kill, because the run would go on behind them.
+  virtual void secure() {}
   /// The same event on every rank.
   virtual void event(const RunEvent& event) { static_cast<void>(event); }
 };

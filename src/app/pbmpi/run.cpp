@@ -5,7 +5,6 @@
 #include <iostream>
 #include <memory>
 
-#include "app/common/load_scene.h"
 #include "app/common/version.h"
 #include "app/pbmpi/checkpoint_keeper.h"
 #include "app/pbmpi/describe.h"
@@ -15,10 +14,9 @@
 #include "app/pbmpi/options.h"
 #include "app/pbmpi/progress.h"
 #include "app/pbmpi/provenance.h"
-#include "app/pbmpi/resume.h"
-#include "app/pbmpi/saved_options.h"
 #include "app/pbmpi/signals.h"
 #include "app/pbmpi/stepper_factory.h"
+#include "app/pbmpi/work.h"
 #include "core/hash.h"
 #include "estimate/same_solve.h"
 #include "estimate/short_run.h"
@@ -153,40 +151,6 @@ mpi::WorldRunResult run_to_end(mpi::FrameDriver& driver, io::RunFile* file) {
   }
 }
 
-/// What is to be simulated.
-struct Work {
-  scenes::SceneSource source;
-  std::unique_ptr<scenes::Scene> scene;
-  RunSpec spec;
-  std::vector<model::State> states;  ///< of a run that goes on: where it stands, on root
-};
-
-Work new_work(const mpi::Communicator& comm, const Options& options) {
-  Work work;
-  work.source = share_scene(comm, options.scene);
-  work.scene = scenes::parse_scene(work.source, options.dt_s, options.spaces, options.effects);
-  work.spec = resolve(options, *work.scene);
-  return work;
-}
-
-/// Scene and physics are those of the checkpoint; `options` become what the command line and the checkpoint
-/// say together.
-Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>& args, Options& options) {
-  const std::string path = *options.resume;
-  io::Checkpoint checkpoint = load_checkpoint(comm, path, std::cerr);
-  Work work;
-  work.source = scene_of(comm, checkpoint, path, options.scene);
-  options = parse_options(args, checkpoint.options);
-  require_same_stepper(path, checkpoint.options, options.stepper);
-  work.scene = scenes::parse_scene(work.source, options.dt_s, options.spaces, options.effects);
-  work.spec = resolve(options, *work.scene, {path, checkpoint.frames, checkpoint.output});
-  require_same_physics(path, checkpoint.options, saved_options(work.spec, options.decomposition));
-  core::require_input(checkpoint.steps == checkpoint.frames * work.spec.steps_per_frame,
-                      path + ": its numbers of frames and steps do not fit; the file is damaged");
-  work.states = std::move(checkpoint.worlds);
-  return work;
-}
-
 /// A driver and what it borrows.
 struct Simulation {
   std::unique_ptr<model::WorldStepper> worlds;
@@ -224,20 +188,6 @@ Simulation make_simulation(const mpi::Communicator& comm, const scenes::Scene& s
   return simulation;
 }
 
-/// What a checkpoint of this run says beside its states.
-io::Checkpoint about(const scenes::SceneSource& source, const RunSpec& spec, Decomposition asked) {
-  io::Checkpoint checkpoint;
-  checkpoint.pbmpi_version = program_version;
-  checkpoint.git_revision = git_revision;
-  checkpoint.build = build_description;
-  checkpoint.scene = source.name;
-  checkpoint.scene_file = source.file;
-  checkpoint.scene_text = source.text;
-  checkpoint.options = saved_options(spec, asked);
-  if (spec.output) checkpoint.output = std::filesystem::absolute(*spec.output).string();
-  return checkpoint;
-}
-
 /// A place for checkpoints that was asked for is tried before the run, not after hours of it.
 void require_writable(const mpi::Communicator& comm, const CheckpointSpec& spec, std::int64_t num_bodies) {
   constexpr std::int64_t about_bytes_each = 256, about_bytes = std::int64_t{1} << 17;
@@ -247,15 +197,17 @@ void require_writable(const mpi::Communicator& comm, const CheckpointSpec& spec,
   });
 }
 
-ExitCode simulate(const mpi::Communicator& comm, const Options& options, const Work& work, double start_s) {
+ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work work, double start_s) {
   const scenes::Scene& scene = *work.scene;
   const RunSpec& spec = work.spec;
   const SignalRequests signals;
   const Simulation simulation = make_simulation(comm, scene, spec, work.states);
+  work.states = {};
   mpi::FrameDriver& driver = *simulation.driver;
   driver.set_stop_flag(signals.stop());
   require_writable(comm, spec.checkpoint, driver.table().num_bodies());
-  CheckpointKeeper keeper(spec.checkpoint.path, about(work.source, spec, options.decomposition), std::cerr);
+  CheckpointKeeper keeper(spec.checkpoint.path, checkpoint_without_states(work, options.decomposition),
+                          std::cerr);
   mpi::CheckpointPlan plan;
   plan.requests = &signals.saves();
   plan.every_s = spec.checkpoint.every_s.value_or(plan.every_s);
@@ -320,7 +272,7 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
   Work work = options.resume ? resumed_work(comm, args, options) : new_work(comm, options);
   const auto num_spaces = static_cast<int>(work.scene->build(0, work.spec.scene_seed)->spaces.size());
   work.spec.decomposition = decompose(work.spec, num_spaces, comm.size());
-  if (options.action == Action::run) return simulate(comm, options, work, start_s);
+  if (options.action == Action::run) return simulate(comm, options, std::move(work), start_s);
   mpi::agree_on_errors(comm, [&] {
     if (comm.is_root()) say(describe(*work.scene, work.spec, comm.size()));
   });

@@ -1,0 +1,34 @@
+/// What a run of pbmpi is to simulate: a scene from its start, or what a checkpoint holds.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/pbmpi/options.h"
+#include "io/checkpoint_file.h"
+#include "model/state.h"
+#include "mpi/communicator.h"
+#include "scenes/scene.h"
+
+namespace pbmpi::app {
+
+struct Work {
+  scenes::SceneSource source;
+  std::unique_ptr<scenes::Scene> scene;
+  RunSpec spec;  ///< as resolve() leaves it
+  /// [num_worlds] of a run that goes on, where it stands: on root
+  std::vector<model::State> states;
+};
+
+/// Collective. Throws core::InputError.
+Work new_work(const mpi::Communicator& comm, const Options& options);
+
+/// Collective. Of options.resume: scene and physics are those of the checkpoint. `options` become what the
+/// command line, `args`, and the checkpoint say together. Throws core::InputError.
+Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>& args, Options& options);
+
+/// What a checkpoint of this run says beside its states. `asked`: how the work was to be cut.
+io::Checkpoint checkpoint_without_states(const Work& work, Decomposition asked);
+
+}  // namespace pbmpi::app
