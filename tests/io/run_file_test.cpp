@@ -188,6 +188,41 @@ TEST(RunFile, commits_at_every_flush_and_is_readable_before_it_is_closed) {
   file.close(false, "");
 }
 
+TEST(RunFile, commits_what_it_holds_before_the_run_is_saved) {
+  const SharedFolder folder(world());
+  const Sample sample = sample_on(world());
+  const std::string path = folder.file("run.h5");
+  const RankWorlds at_start(sample, 0);
+  RunFile file(group_of(world()), sample_setup(sample, at_start, path));  // which never flushes by itself
+  for (std::int64_t k = 0; k < 3; ++k) put_frame(file, sample, k);
+  file.secure();
+  world().barrier();
+  if (world().is_root()) expect_sample(read_run(path), sample, 3);
+  world().barrier();
+  file.close(false, "");
+}
+
+TEST(RunFile, of_a_run_that_goes_on_has_its_own_rows_for_frames_that_keep_their_numbers) {
+  const SharedFolder folder(world());
+  Sample sample = sample_on(world());
+  sample.record_every = 2;
+  const std::string path = folder.file("run.h5");
+  const RankWorlds at_start(sample, 0);
+  RunSetup setup = sample_setup(sample, at_start, path);
+  setup.first_frame = 3;
+  setup.num_frames = 3;
+  RunFile file(group_of(world()), std::move(setup));
+  for (std::int64_t k = 3; k < 6; ++k) put_frame(file, sample, k);
+  file.close(true, "");
+  if (!world().is_root()) return;
+  const RunData run = read_run(path);
+  EXPECT_EQ(run.attributes.at("first_frame"), "3");
+  EXPECT_EQ(run.frames_committed, 3);
+  EXPECT_EQ(run.frame_wall_s, (std::vector<double>{sample_wall_s(3), sample_wall_s(4), sample_wall_s(5)}));
+  ASSERT_EQ(run.position.size(), 1u) << "each second frame of the file";
+  EXPECT_EQ(run.position[0][0].x(), sample_position(0, 0, 4, 0));
+}
+
 TEST(RunFile, writes_through_collective_mpi_io) {
   const SharedFolder folder(world());
   const Sample sample = sample_on(world());

@@ -50,6 +50,18 @@ class Asker : public model::FrameObserver {
   std::int64_t frame_;
 };
 
+/// Notes how many snapshots there were whenever it was told to write what it holds.
+class Holder : public model::FrameObserver {
+ public:
+  explicit Holder(const Shelf& shelf) : shelf_(&shelf) {}
+  void frame_done(const model::FrameRecord&) override {}
+  void secure() override { snapshots_before.push_back(shelf_->snapshots.size()); }
+  std::vector<std::size_t> snapshots_before;
+
+ private:
+  const Shelf* shelf_;
+};
+
 std::int64_t num_events(const Recorder& recorder, const std::string& kind) {
   return std::count_if(recorder.events.begin(), recorder.events.end(),
                        [&](const model::RunEvent& event) { return event.kind == kind; });
@@ -123,6 +135,22 @@ TEST(Snapshot, that_cannot_be_kept_does_not_end_the_run) {
   EXPECT_EQ(num_events(recorder, "checkpoint"), result.frames_done);
   EXPECT_EQ(recorder.events.back().detail, "failed: disk full");
   EXPECT_EQ(result.save_failure, "disk full") << "every rank knows that the end was not kept";
+}
+
+TEST(Snapshot, is_made_when_observers_have_written_what_they_hold) {
+  const Communicator comm = Communicator::world();
+  SyntheticStepper stepper = resting_stepper();
+  WorldDriver driver(comm, stepper, synthetic_model, settings_of(num_worlds));
+  Shelf shelf;
+  Holder holder(shelf);
+  CheckpointPlan plan;
+  plan.every_s = 0;
+  driver.save_to(shelf, plan);
+  driver.add_observer(holder);
+  const WorldRunResult result = driver.run();
+  ASSERT_EQ(std::ssize(holder.snapshots_before), result.frames_done) << "on every rank";
+  if (!comm.is_root()) return;
+  for (std::size_t i = 0; i < holder.snapshots_before.size(); ++i) EXPECT_EQ(holder.snapshots_before[i], i);
 }
 
 TEST(Snapshot, is_made_of_a_run_whose_time_is_up_and_not_of_one_that_failed) {
