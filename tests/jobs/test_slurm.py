@@ -141,7 +141,8 @@ class Stop(JobTest):
         self.cluster.command("scancel", "--batch", "--signal=TERM", job_id)
         wait_until(lambda: self.cluster.job(job_id)[0].get("Restarts") == "1", "the job to be queued again", JOB_LIMIT_S)
         wait_until(lambda: self.cluster.job(job_id)[0]["JobState"] != "COMPLETING", "the end of its first part", JOB_LIMIT_S)
-        self.cluster.command("scontrol", "update", f"JobId={job_id}", "StartTime=now")  # Slurm would wait two minutes
+        # Slurm would wait two minutes. Within a second the node would take it for what it has just killed.
+        self.cluster.command("scontrol", "update", f"JobId={job_id}", "StartTime=now+3")
         job = self.ended(job_id)
         self.assertEqual((job["JobState"], job["ExitCode"]), ("COMPLETED", "0:0"), self.log_of(f"slurm-{job_id}.out"))
         before = self.check_file(first, complete=0)["frames"]
