@@ -10,11 +10,9 @@ namespace pbmpi::mpi {
 namespace {
 
 constexpr std::size_t num_lengths = 3;  ///< bodies, rows of State::rest, joints
-constexpr std::size_t doubles_per_body = 13;
-constexpr std::size_t doubles_per_rest = 8;  ///< position, orientation, idle_steps
 
 std::size_t size_of(std::size_t bodies, std::size_t rests, std::size_t joints) {
-  return num_lengths + doubles_per_body * bodies + doubles_per_rest * rests + joints;
+  return num_lengths + model::numbers_of_state * bodies + model::numbers_of_rest * rests + joints;
 }
 
 template <class Row>
@@ -51,7 +49,7 @@ std::vector<double> pack(const model::State& state) {
     std::memcpy(to, rest.position.data(), 3 * sizeof(double));
     std::memcpy(to + 3, &rest.orientation.w, 4 * sizeof(double));
     to[7] = rest.idle_steps;
-    to += doubles_per_rest;
+    to += model::numbers_of_rest;
   }
   std::copy(state.broken_in.begin(), state.broken_in.end(), to);
   return packed;
@@ -77,7 +75,7 @@ model::State unpack(std::span<const double> packed) {
     std::memcpy(rest.position.data(), from, 3 * sizeof(double));
     std::memcpy(&rest.orientation.w, from + 3, 4 * sizeof(double));
     rest.idle_steps = static_cast<std::int32_t>(from[7]);
-    from += doubles_per_rest;
+    from += model::numbers_of_rest;
   }
   for (std::size_t joint = 0; joint < joints; ++joint)
     state.broken_in.push_back(static_cast<std::int32_t>(from[joint]));
