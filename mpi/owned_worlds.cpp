@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "mpi/agreement.h"
-#include "mpi/packed_state.h"
+#include "mpi/whole_state.h"
 
 namespace pbmpi::mpi {
 namespace {

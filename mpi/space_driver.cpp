@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "mpi/packed_state.h"
+#include "mpi/whole_state.h"
 #include "mpi/wire.h"
 
 namespace pbmpi::mpi {

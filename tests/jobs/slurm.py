@@ -16,6 +16,10 @@ import time
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "scancel", "sinfo", "squeue", "srun", "setpriv")
 SBIN = "/usr/sbin"
 START_LIMIT_S = 60  # a daemon that does not come up, not a slow one: all of them need about 3 s
+# What Slurm 22.05 says now and then of a connection that it lost on a busy machine; asking again helps. A job is submitted
+# once only: it may have arrived.
+CONNECTION_BROKE = "Zero Bytes were transmitted or received"
+BROKEN_CONNECTIONS = 3
 FINAL_STATES = {"COMPLETED", "FAILED", "CANCELLED", "TIMEOUT", "NODE_FAIL", "OUT_OF_MEMORY", "BOOT_FAIL"}
 
 CONFIGURATION = """\
@@ -122,11 +126,15 @@ class Cluster:
                 "OMPI_MCA_btl": "self,tcp"}
 
     def command(self, *args, **options):
-        result = subprocess.run(args, env=self.environment, capture_output=True, text=True, timeout=60, check=False,
-                                **options)
-        if result.returncode != 0:
-            raise SlurmError(f"{' '.join(args)}: {result.stderr.strip()}")
-        return result.stdout
+        for attempt in range(BROKEN_CONNECTIONS + 1):
+            result = subprocess.run(args, env=self.environment, capture_output=True, text=True, timeout=60, check=False,
+                                    **options)
+            if result.returncode == 0:
+                return result.stdout
+            if CONNECTION_BROKE not in result.stderr or args[0] == "sbatch":
+                break
+            time.sleep(attempt)
+        raise SlurmError(f"{' '.join(args)}: {result.stderr.strip()}")
 
     def submit(self, *args, cwd):
         """`sbatch args...` in the folder `cwd`; returns the job id."""

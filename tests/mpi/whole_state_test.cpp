@@ -1,4 +1,4 @@
-#include "mpi/packed_state.h"
+#include "mpi/whole_state.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ bool same_bytes(const std::vector<Row>& a, const std::vector<Row>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Row)) == 0;
 }
 
-TEST(PackedState, comes_back_bit_for_bit_with_and_without_rest_and_joints) {
+TEST(WholeState, comes_back_bit_for_bit_with_and_without_rest_and_joints) {
   for (const bool rests : {false, true}) {
     for (const int num_joints : {0, 5}) {
       const model::State state = sample(rests, num_joints);
@@ -63,14 +63,14 @@ TEST(PackedState, comes_back_bit_for_bit_with_and_without_rest_and_joints) {
   }
 }
 
-TEST(PackedState, lengths_that_do_not_fit_are_refused) {
+TEST(WholeState, lengths_that_do_not_fit_are_refused) {
   std::vector<double> packed = pack(sample(true, 5));
   packed.pop_back();
   EXPECT_THROW(unpack(packed), core::RunError);
   EXPECT_THROW(unpack(std::span(packed).first(2)), core::RunError);
 }
 
-TEST(PackedState, a_state_of_another_model_is_refused) {
+TEST(WholeState, a_state_of_another_model_is_refused) {
   model::Model model;
   model.bodies.resize(3);
   model.joints.resize(5);

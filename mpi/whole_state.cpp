@@ -1,4 +1,4 @@
-#include "mpi/packed_state.h"
+#include "mpi/whole_state.h"
 
 #include <algorithm>
 #include <cstring>
