@@ -62,7 +62,7 @@ class WorldStepper {
   virtual void set_state(int world, const State& state, std::int64_t step) = 0;
 
   /// Steps every world `num_steps` times and refreshes state(), observables() and cost_s(). Adds the seconds
-  /// spent to `times`.
+  /// spent to `times`. 0 steps only get ready for the next, after worlds have come, gone or changed.
   virtual void advance(int num_steps, core::PhaseTimes& times) = 0;
 
   virtual const State& state(int world) const = 0;

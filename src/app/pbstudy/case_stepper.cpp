@@ -43,6 +43,9 @@ void CaseStepper::start_from(const std::vector<State>& states, int frame) {
     stepper_->set_state(world, states[static_cast<std::size_t>(world)],
                         static_cast<std::int64_t>(frame) * steps_per_frame_);
   }
+  // What a jump costs is no frame's: joints that hold again make sor's packs anew before the next step.
+  core::PhaseTimes times_of_none;
+  stepper_->advance(0, times_of_none);
 }
 
 double CaseStepper::advance_frame() {
