@@ -18,7 +18,7 @@ std::size_t size_of(std::size_t bodies, std::size_t rests, std::size_t joints) {
 template <class Row>
 double* put(const std::vector<Row>& rows, double* to) {
   if (rows.empty()) return to;
-  std::memcpy(to, rows.data(), rows.size() * sizeof(Row));
+  std::memcpy(to, static_cast<const void*>(rows.data()), rows.size() * sizeof(Row));
   return to + rows.size() * sizeof(Row) / sizeof(double);
 }
 
