@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 BIN = os.environ["PBMPI_BIN"]
@@ -81,6 +82,14 @@ def end_group(process):
     process.wait()
     if process.stderr:
         process.stderr.close()
+
+
+def wait_until(condition, what):
+    deadline = time.monotonic() + TIMEOUT_S
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited {TIMEOUT_S} s in vain for {what}")
+        time.sleep(0.005)
 
 
 def rank_pids(process):

@@ -3,24 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "fake_scene.h"
 
 namespace pbmpi::app {
 namespace {
-
-/// A scene of which only the defaults matter.
-class FakeScene final : public scenes::Scene {
- public:
-  explicit FakeScene(scenes::RunDefaults defaults) : defaults_(defaults) {}
-  const std::string& name() const override { return name_; }
-  const std::string& title() const override { return name_; }
-  const std::string& text() const override { return name_; }
-  const scenes::RunDefaults& defaults() const override { return defaults_; }
-  std::shared_ptr<const model::Model> build(int, std::uint64_t) const override { return nullptr; }
-
- private:
-  std::string name_ = "Fake";
-  scenes::RunDefaults defaults_;
-};
 
 std::string refusal(const std::vector<std::string>& args) {
   try {

@@ -5,24 +5,10 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "fake_scene.h"
 
 namespace pbmpi::app {
 namespace {
-
-/// A scene of which only the defaults matter.
-class FakeScene final : public scenes::Scene {
- public:
-  FakeScene() = default;
-  const std::string& name() const override { return name_; }
-  const std::string& title() const override { return name_; }
-  const std::string& text() const override { return name_; }
-  const scenes::RunDefaults& defaults() const override { return defaults_; }
-  std::shared_ptr<const model::Model> build(int, std::uint64_t) const override { return nullptr; }
-
- private:
-  std::string name_ = "Fake";
-  scenes::RunDefaults defaults_;
-};
 
 struct Resolved {
   Options options;
@@ -32,7 +18,7 @@ struct Resolved {
 Resolved resolved(const std::vector<std::string>& args, const std::string& saved = "",
                   const ResumePoint& from = {}) {
   Options options = parse_options(args, saved);
-  RunSpec spec = resolve(options, FakeScene(), from);
+  RunSpec spec = resolve(options, FakeScene({}), from);
   return {std::move(options), std::move(spec)};
 }
 

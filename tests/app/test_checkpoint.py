@@ -9,20 +9,12 @@ import unittest
 
 import h5py
 
-from harness import TIMEOUT_S, ProgramTest, end_group, rank_pids
+from harness import TIMEOUT_S, ProgramTest, end_group, rank_pids, wait_until
 
 # Minutes of work, to be stopped; a frame takes some 20 ms.
 SCENE = ("--scene", "100CrSk", "--replicas", 6, "--steps-per-frame", 30)
 LONG = (*SCENE, "--frames", 100000, "--record-every", 1000)
 NUM_KILLS = 6
-
-
-def wait_until(condition, what):
-    deadline = time.monotonic() + TIMEOUT_S
-    while not condition():
-        if time.monotonic() > deadline:
-            raise AssertionError(f"no {what} after {TIMEOUT_S} s")
-        time.sleep(0.01)
 
 
 class Checkpoint(ProgramTest):

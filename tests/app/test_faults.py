@@ -9,18 +9,10 @@ import unittest
 import h5py
 import numpy
 
-from harness import AT_ONCE, TIMEOUT_S, ProgramTest, rank_pids
+from harness import AT_ONCE, TIMEOUT_S, ProgramTest, rank_pids, wait_until
 
 NUM_KILLS = 20
 LONG_RUN = ["--scene", "CrashSk", "--replicas", "8", "--frames", "1000000", "--record-every", "100", "--quiet"]
-
-
-def wait_until(condition, what):
-    deadline = time.monotonic() + TIMEOUT_S
-    while not condition():
-        if time.monotonic() > deadline:
-            raise AssertionError(f"waited in vain for {what}")
-        time.sleep(0.005)
 
 
 class Faults(ProgramTest):

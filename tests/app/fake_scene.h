@@ -1,0 +1,25 @@
+/// A scene for tests of options.
+#pragma once
+
+#include <string>
+
+#include "scenes/scene.h"
+
+namespace pbmpi::app {
+
+/// Only its defaults matter.
+class FakeScene final : public scenes::Scene {
+ public:
+  explicit FakeScene(scenes::RunDefaults defaults) : defaults_(std::move(defaults)) {}
+  const std::string& name() const override { return name_; }
+  const std::string& title() const override { return name_; }
+  const std::string& text() const override { return name_; }
+  const scenes::RunDefaults& defaults() const override { return defaults_; }
+  std::shared_ptr<const model::Model> build(int, std::uint64_t) const override { return nullptr; }
+
+ private:
+  std::string name_ = "Fake";
+  scenes::RunDefaults defaults_;
+};
+
+}  // namespace pbmpi::app
