@@ -1,9 +1,8 @@
 #include "io/skeleton.h"
 
 #include <algorithm>
-#include <array>
-#include <ctime>
 
+#include "core/utc.h"
 #include "io/columns.h"
 #include "io/commit_record.h"
 #include "io/static_columns.h"
@@ -21,16 +20,6 @@ std::string text_or(const std::vector<Parameter>& parameters, const std::string&
                     const std::string& other) {
   const Parameter* found = find(parameters, name);
   return found != nullptr && !found->text.empty() ? found->text : other;
-}
-
-/// ISO 8601, UTC.
-std::string now_utc() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text.data();
 }
 
 void write_boundary(hid_t box) {
@@ -63,7 +52,7 @@ void write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   write_version(root.id(), {layout_major, layout_minor});
   for (const Parameter& attribute : setup.attributes) write_attribute(root.id(), attribute);
   if (find(setup.attributes, "created") == nullptr) {
-    write_attribute(root.id(), "created", ranks.broadcast(now_utc()));
+    write_attribute(root.id(), "created", ranks.broadcast(core::utc_now()));
   }
   write_attribute(root.id(), "record_every", std::int64_t{setup.record_every});
   write_attribute(root.id(), "first_frame", setup.first_frame);

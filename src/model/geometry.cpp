@@ -6,6 +6,8 @@
 
 namespace pbmpi::model {
 
+bool is_ball(const Geom& geom) { return geom.shape == Shape::sphere && geom.local.position.isZero(0); }
+
 void to_rotation(double w, double x, double y, double z, double rotation[9]) {
   const double xx = 2 * x * x, yy = 2 * y * y, zz = 2 * z * z;
   rotation[0] = 1 - yy - zz;

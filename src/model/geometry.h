@@ -20,6 +20,9 @@ BodyPose geom_pose(const Geom& geom, const BodyPose& body);
 /// Half sides [m] of the smallest world-aligned box about the geom's centre that holds it.
 std::array<double, 3> half_extents(const Geom& geom, const double rotation[9]);
 
+/// Is it a sphere round its body's centre of mass? Such a one has no orientation, and no normal turns it.
+bool is_ball(const Geom& geom);
+
 /// Radius [m] of the smallest ball about the geom's centre that holds it; infinite for a plane.
 double bounding_radius(const Geom& geom);
 

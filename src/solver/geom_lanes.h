@@ -93,7 +93,7 @@ void GeomLanes<T>::set(int index, const model::Geom& geom, LanePlace body) {
   Chunk& chunk = chunks_[static_cast<std::size_t>(index / T::num_lanes)];
   const int lane = index % T::num_lanes;
   chunk.body[lane] = BodyLanes<T>::body_index(body.slot, body.lane);
-  chunk.turns |= geom.shape != Shape::sphere || !geom.local.position.isZero(0);
+  chunk.turns |= !model::is_ball(geom);
   const auto scalar = [](double value) { return static_cast<Scalar>(value); };
   T::set(chunk.local_position.x, lane, scalar(geom.local.position.x()));
   T::set(chunk.local_position.y, lane, scalar(geom.local.position.y()));

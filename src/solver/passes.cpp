@@ -2,16 +2,15 @@
 
 #include <algorithm>
 
+#include "model/geometry.h"
 #include "solver/pack.h"
 
 namespace pbmpi::solver {
 namespace {
 
-/// Are all of the moving geoms spheres round the centres of their bodies?
-bool are_balls(const model::Model& model) {
+bool all_bodies_are_balls(const model::Model& model) {
   return std::all_of(model.geoms.begin(), model.geoms.end(), [](const model::Geom& geom) {
-    return geom.body == model::no_body ||
-           (geom.shape == model::Shape::sphere && geom.local.position.isZero(0));
+    return geom.body == model::no_body || model::is_ball(geom);
   });
 }
 
@@ -20,10 +19,12 @@ bool are_balls(const model::Model& model) {
 Passes passes_of(const model::Model& model) {
   const model::StepPlan plan(model);
   const bool rubs = plan.has("friction") && !plan.is_idle("friction");
-  return {plan.has("collision"),         rubs || !are_balls(model),     plan.has("restitution"),
-          plan.has("gyroscopic_torque"), plan.has("gravity"),           plan.has("damping"),
-          plan.has("sleeping"),          plan.has("field_of_interest"), plan.is_idle("friction"),
-          plan.is_idle("limits"),        plan.is_idle("motors"),        plan.is_idle("gyroscopic_torque")};
+  return {plan.has("collision"),    rubs || !all_bodies_are_balls(model),
+          plan.has("restitution"),  plan.has("gyroscopic_torque"),
+          plan.has("gravity"),      plan.has("damping"),
+          plan.has("sleeping"),     plan.has("field_of_interest"),
+          plan.is_idle("friction"), plan.is_idle("limits"),
+          plan.is_idle("motors"),   plan.is_idle("gyroscopic_torque")};
 }
 
 Passes shared_passes(std::span<const PackedWorld> worlds) {

@@ -14,7 +14,10 @@ namespace pbmpi::solver {
 SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state,
                    std::int64_t step, const model::StepperSettings& settings,
                    const model::MakeNarrowPhase& make_narrow_phase)
-    : id_(id), model_(std::move(model)), narrow_phase_(make_narrow_phase(*model_)) {
+    : id_(id),
+      model_(std::move(model)),
+      passes_(passes_of(*model_)),
+      narrow_phase_(make_narrow_phase(*model_)) {
   const model::StepPlan plan(*model_);
   all_bodies_.resize(model_->bodies.size());
   std::iota(all_bodies_.begin(), all_bodies_.end(), 0);

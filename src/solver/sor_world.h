@@ -17,6 +17,7 @@
 #include "model/stepper.h"
 #include "solver/focused_step.h"
 #include "solver/pack.h"
+#include "solver/passes.h"
 
 namespace pbmpi::solver {
 
@@ -28,6 +29,7 @@ class SorWorld {
   int id() const { return id_; }
   std::int64_t step() const { return step_; }
   const model::Model& model() const { return *model_; }
+  const Passes& passes() const { return passes_; }
   const model::State& state() const { return state_; }
   const model::Observables& observables() const { return observables_; }
 
@@ -89,6 +91,7 @@ class SorWorld {
 
   int id_;
   std::shared_ptr<const model::Model> model_;
+  Passes passes_;  ///< of this world alone
   model::State state_;
   std::int64_t step_;
   std::vector<int> all_bodies_;

@@ -3,14 +3,14 @@
 #include <filesystem>
 #include <utility>
 
-#include "app/pbmpi/provenance.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/utc.h"
 
 namespace pbmpi::app {
 
 std::string CheckpointKeeper::keep(mpi::Snapshot snapshot) {
-  about_.created = utc_now();
+  about_.created = core::utc_now();
   about_.frames = snapshot.frames;
   about_.steps = snapshot.steps;
   about_.state_hash = core::to_hex(snapshot.state_hash);

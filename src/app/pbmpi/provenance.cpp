@@ -3,12 +3,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <ctime>
 #include <optional>
 #include <sstream>
 
 #include "app/common/version.h"
 #include "app/pbmpi/stepper_factory.h"
+#include "core/utc.h"
 #include "model/effects.h"
 #include "model/names.h"
 #include "mpi/session.h"
@@ -49,19 +49,10 @@ std::optional<std::string> interest_of(const model::Model& model) {
 
 }  // namespace
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
-
 Provenance collect_provenance(const mpi::Communicator& comm, const std::string& command_line) {
   Provenance provenance;
   provenance.command_line = command_line;
-  provenance.created = utc_now();
+  provenance.created = core::utc_now();
   std::string environment = job_environment();
   comm.bcast_string(provenance.created);
   comm.bcast_string(environment);

@@ -18,9 +18,6 @@ struct Provenance {
   std::vector<std::string> environment;  ///< root's "NAME=value" of SLURM_* and OMPI_*
 };
 
-/// ISO 8601.
-std::string utc_now();
-
 /// Collective.
 Provenance collect_provenance(const mpi::Communicator& comm, const std::string& command_line);
 
