@@ -8,14 +8,15 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "model/effects.h"
+#include "effects/effect_choices.h"
+#include "effects/effects.h"
 #include "model/validate.h"
-#include "scenes/actor.h"
-#include "scenes/interest.h"
-#include "scenes/joint_reader.h"
-#include "scenes/overlap.h"
+#include "scenes/actors/actor.h"
+#include "scenes/actors/variation.h"
+#include "scenes/format/interest.h"
+#include "scenes/format/joint_reader.h"
+#include "scenes/parts/overlap.h"
 #include "scenes/scene_toml.h"
-#include "scenes/variation.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -94,7 +95,7 @@ class FileScene final : public Scene {
   void read_effects(TableReader& scene) {
     auto table = scene.table("effects");
     if (!table) return;
-    for (const model::Effect& effect : model::effect_registry()) {
+    for (const effects::Effect& effect : effects::effect_registry()) {
       const std::string name(effect.name);
       if (table->has(name)) defaults_.effects[name] = table->flag(name, true);
     }
@@ -203,7 +204,7 @@ class FileScene final : public Scene {
   void leave_out_effects(model::Model& model) const {
     model.effects = defaults_.effects;
     try {
-      model::leave_out_effects(model);
+      effects::leave_out_effects(model);
     } catch (const core::InputError& error) {
       throw core::InputError(source_.file + ": " + error.what());
     }

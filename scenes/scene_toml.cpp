@@ -1,7 +1,7 @@
 #include "scenes/scene_toml.h"
 
 #include "core/error.h"
-#include "scenes/table_reader.h"
+#include "scenes/format/table_reader.h"
 
 namespace pbmpi::scenes {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/run_data.h"
+#include "io/run/run_data.h"
 
 namespace pbmpi::io::html {
 

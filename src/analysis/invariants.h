@@ -10,7 +10,7 @@
 
 namespace pbmpi::analysis {
 
-/// Sum of mass times velocity [kg m/s]; bodies in order. (Energy: model::mechanical_energy.)
+/// Sum of mass times velocity [kg m/s]; bodies in order. (Energy: stepping::mechanical_energy.)
 model::Vec3 linear_momentum(const model::Model& model, const model::State& state);
 
 /// Angular momentum about the origin of the world frame [kg m^2/s].

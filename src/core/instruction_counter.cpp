@@ -70,7 +70,8 @@ InstructionCounter::InstructionCounter() {
   if (perf_file_ < 0) return;
   source_ = InstructionSource::perf_event;
   start();
-  if (stop() == 0) source_ = InstructionSource::none;  // some virtual machines open a counter that stands still
+  if (stop() == 0)
+    source_ = InstructionSource::none;  // some virtual machines open a counter that stands still
 }
 
 InstructionCounter::~InstructionCounter() {

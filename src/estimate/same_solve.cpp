@@ -4,7 +4,7 @@
 
 namespace pbmpi::estimate {
 
-void SameSolve::estimate(std::span<const model::LocalWorld> worlds, std::int64_t step, int num_steps,
+void SameSolve::estimate(std::span<const stepping::LocalWorld> worlds, std::int64_t step, int num_steps,
                          core::PhaseTimes& times) {
   static_cast<void>(step);  // the stepper stands there itself
   core::require_invariant(num_steps == 1, "an estimate from the same solve is of a frame of one step");

@@ -1,25 +1,26 @@
 /// The estimate from the precise solve itself, looked at before it has ended.
 #pragma once
 
-#include "model/estimator.h"
-#include "model/stepper.h"
+#include "stepping/estimator.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::estimate {
 
 /// Begins the precise stepper's next step, and shows its worlds as they would be if the solve ended after so
 /// many iterations: nothing is assembled twice. Whoever advances the stepper goes on from there. Only for
 /// frames of one step: with several, the steps before the last would have to be finished first.
-class SameSolve final : public model::Estimator {
+class SameSolve final : public stepping::Estimator {
  public:
   /// `stepper` is borrowed: the one that computes the precise frames. iterations: at most those of a step.
-  SameSolve(model::AnytimeStepper& stepper, int iterations) : stepper_(&stepper), iterations_(iterations) {}
+  SameSolve(stepping::AnytimeStepper& stepper, int iterations)
+      : stepper_(&stepper), iterations_(iterations) {}
 
-  void estimate(std::span<const model::LocalWorld> worlds, std::int64_t step, int num_steps,
+  void estimate(std::span<const stepping::LocalWorld> worlds, std::int64_t step, int num_steps,
                 core::PhaseTimes& times) override;
   const model::State& state(int world) const override { return stepper_->look(world); }
 
  private:
-  model::AnytimeStepper* stepper_;
+  stepping::AnytimeStepper* stepper_;
   int iterations_;
 };
 

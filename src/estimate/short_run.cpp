@@ -4,7 +4,7 @@
 
 namespace pbmpi::estimate {
 
-void ShortRun::follow(std::span<const model::LocalWorld> worlds, std::int64_t step) {
+void ShortRun::follow(std::span<const stepping::LocalWorld> worlds, std::int64_t step) {
   const auto is_here = [&](int id) {  // `worlds` is sorted
     const auto place = std::lower_bound(worlds.begin(), worlds.end(), id,
                                         [](const auto& world, int wanted) { return world.id < wanted; });
@@ -18,7 +18,7 @@ void ShortRun::follow(std::span<const model::LocalWorld> worlds, std::int64_t st
       known = worlds_.erase(known);
     }
   }
-  for (const model::LocalWorld& world : worlds) {
+  for (const stepping::LocalWorld& world : worlds) {
     if (worlds_.contains(world.id)) {
       stepper_->set_state(world.id, *world.state, step);
     } else {
@@ -28,7 +28,7 @@ void ShortRun::follow(std::span<const model::LocalWorld> worlds, std::int64_t st
   }
 }
 
-void ShortRun::estimate(std::span<const model::LocalWorld> worlds, std::int64_t step, int num_steps,
+void ShortRun::estimate(std::span<const stepping::LocalWorld> worlds, std::int64_t step, int num_steps,
                         core::PhaseTimes& times) {
   core::LapTimer timer(times);
   follow(worlds, step);

@@ -4,8 +4,8 @@
 #include <memory>
 #include <set>
 
-#include "model/estimator.h"
-#include "model/stepper.h"
+#include "stepping/estimator.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::estimate {
 
@@ -13,18 +13,18 @@ namespace pbmpi::estimate {
 /// choice). Follows the worlds that come to and leave this rank; keeps a copy of their models.
 ///
 /// A stepper that can show its state in mid-solve needs no second assembly: SameSolve.
-class ShortRun final : public model::Estimator {
+class ShortRun final : public stepping::Estimator {
  public:
-  explicit ShortRun(std::unique_ptr<model::WorldStepper> stepper) : stepper_(std::move(stepper)) {}
+  explicit ShortRun(std::unique_ptr<stepping::WorldStepper> stepper) : stepper_(std::move(stepper)) {}
 
-  void estimate(std::span<const model::LocalWorld> worlds, std::int64_t step, int num_steps,
+  void estimate(std::span<const stepping::LocalWorld> worlds, std::int64_t step, int num_steps,
                 core::PhaseTimes& times) override;
   const model::State& state(int world) const override { return stepper_->state(world); }
 
  private:
-  void follow(std::span<const model::LocalWorld> worlds, std::int64_t step);
+  void follow(std::span<const stepping::LocalWorld> worlds, std::int64_t step);
 
-  std::unique_ptr<model::WorldStepper> stepper_;
+  std::unique_ptr<stepping::WorldStepper> stepper_;
   std::set<int> worlds_;  ///< that stepper_ has
 };
 

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "model/model.h"
-#include "model/stepper.h"
 
 namespace pbmpi::model {
 
@@ -17,24 +16,9 @@ inline constexpr std::array<std::string_view, num_shapes> shape_names = {"sphere
 inline constexpr std::array<std::string_view, num_joint_kinds> joint_kind_names = {
     "ball", "hinge", "slider", "universal", "fixed", "hinge2"};
 
-inline constexpr std::array<std::string_view, 3> stepper_kind_names = {"quick", "direct", "sor"};
-inline constexpr std::array<std::string_view, 2> precision_names = {"double", "single"};
-inline constexpr std::array<std::string_view, 5> simd_names = {"auto", "sse2", "avx2", "avx512", "off"};
-inline constexpr std::array<std::string_view, 2> colliders_names = {"lanes", "ode"};
-inline constexpr std::array<std::string_view, 2> row_order_names = {"shuffled", "fixed"};
-
 constexpr std::string_view name_of(ActorKind kind) { return actor_kind_names[static_cast<int>(kind)]; }
 constexpr std::string_view name_of(Shape shape) { return shape_names[static_cast<int>(shape)]; }
 constexpr std::string_view name_of(JointKind kind) { return joint_kind_names[static_cast<int>(kind)]; }
-constexpr std::string_view name_of(StepperKind kind) { return stepper_kind_names[static_cast<int>(kind)]; }
-constexpr std::string_view name_of(Precision precision) {
-  return precision_names[static_cast<int>(precision)];
-}
-constexpr std::string_view name_of(Simd simd) { return simd_names[static_cast<int>(simd)]; }
-constexpr std::string_view name_of(Colliders colliders) {
-  return colliders_names[static_cast<int>(colliders)];
-}
-constexpr std::string_view name_of(RowOrder order) { return row_order_names[static_cast<int>(order)]; }
 
 /// The enumerator whose name stands in `names`, or nothing.
 template <class Enum, std::size_t N>

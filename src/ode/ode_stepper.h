@@ -1,19 +1,12 @@
 /// Steps worlds with the Open Dynamics Engine.
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <string>
 
-#include "model/stepper.h"
+#include "ode/objects/warning_sink.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::ode {
-
-/// Gets one line for people, without a newline, e.g. "ode: world 3, step 17: LCP internal error ...".
-using WarningSink = std::function<void(const std::string& line)>;
-
-/// Writes the line to standard error.
-void warn_on_stderr(const std::string& line);
 
 /// StepperKind::quick steps with dWorldQuickStep (`iterations` sweeps, SOR factor 1.3), `direct` with
 /// dWorldStep (the big-matrix reference; `iterations` has no meaning for it).
@@ -26,7 +19,7 @@ void warn_on_stderr(const std::string& line);
 /// Throws core::InputError for dt <= 0 or iterations < 1, and from add() for a joint that ODE cannot express.
 /// Steppers of one process must not step at the same time in two threads: ODE has one random seed and one
 /// set of message handlers a process.
-std::unique_ptr<model::WorldStepper> make_ode_stepper(const model::StepperSettings& settings,
-                                                      WarningSink warn = warn_on_stderr);
+std::unique_ptr<stepping::WorldStepper> make_ode_stepper(const stepping::StepperSettings& settings,
+                                                         WarningSink warn = warn_on_stderr);
 
 }  // namespace pbmpi::ode

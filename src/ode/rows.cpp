@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "ode/joints.h"
+#include "ode/objects/joints.h"
 
 namespace pbmpi::ode {
 
@@ -10,7 +10,7 @@ RowCounter::RowCounter(const model::Model& model, const std::vector<dJointID>& j
     : model_(&model), joints_(joints), sets_(model.num_bodies()) {}
 
 void RowCounter::count(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
-                       std::span<const std::int32_t> broken_in, model::Observables& observables) {
+                       std::span<const std::int32_t> broken_in, stepping::Observables& observables) {
   collect(touches, rest, broken_in);
   const int num_bodies = model_->num_bodies();
   sets_.reset(num_bodies);
@@ -28,14 +28,14 @@ void RowCounter::count(const std::vector<Touch>& touches, std::span<const model:
   for (int body = 0; body < num_bodies; ++body) observables.islands += sets_.find(body) == body ? 1 : 0;
 }
 
-std::vector<model::IslandCost> RowCounter::islands(const std::vector<Touch>& touches) {
-  std::vector<model::IslandCost> by_body(static_cast<std::size_t>(model_->num_bodies()));
+std::vector<stepping::IslandCost> RowCounter::islands(const std::vector<Touch>& touches) {
+  std::vector<stepping::IslandCost> by_body(static_cast<std::size_t>(model_->num_bodies()));
   for (int body = 0; body < model_->num_bodies(); ++body) ++by_body[sets_.find(body)].bodies;
   for (const Touch& touch : touches) {
     by_body[sets_.find(touch.body_a != model::no_body ? touch.body_a : touch.body_b)].contacts +=
         touch.num_contacts;
   }
-  std::vector<model::IslandCost> islands;
+  std::vector<stepping::IslandCost> islands;
   for (int body = 0; body < model_->num_bodies(); ++body) {
     if (by_body[body].bodies == 0) continue;
     by_body[body].first_body = body;

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "model/islands.h"
-#include "model/observables.h"
 #include "model/state.h"
-#include "model/step_profile.h"
-#include "ode/contacts.h"
+#include "ode/collide/contacts.h"
+#include "stepping/observables.h"
+#include "stepping/step_profile.h"
 
 namespace pbmpi::ode {
 
@@ -23,9 +23,9 @@ class RowCounter {
   /// Sets rows, islands and max_island_rows. `rest`, `broken_in`: as in model::State; what sleeps has no
   /// rows.
   void count(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
-             std::span<const std::int32_t> broken_in, model::Observables& observables);
+             std::span<const std::int32_t> broken_in, stepping::Observables& observables);
   /// The islands of the last count(), in order of their lowest body, without times.
-  std::vector<model::IslandCost> islands(const std::vector<Touch>& touches);
+  std::vector<stepping::IslandCost> islands(const std::vector<Touch>& touches);
   /// The lowest body of the island that `body` was in.
   int island_of(int body) { return sets_.find(body); }
 

@@ -1,7 +1,7 @@
 /// What ODE's solver works with besides a world.
 #pragma once
 
-#include "ode/handles.h"
+#include "ode/objects/handles.h"
 
 namespace pbmpi::ode {
 

@@ -8,7 +8,7 @@ namespace pbmpi::ode {
 
 void warn_on_stderr(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
 
-OdeStepper::OdeStepper(const model::StepperSettings& settings, WarningSink warn)
+OdeStepper::OdeStepper(const stepping::StepperSettings& settings, WarningSink warn)
     : settings_(settings), log_(std::move(warn)), resources_(std::make_unique<SolverResources>()) {
   core::require_input(settings.dt_s > 0 && settings.dt_s < model::infinity,
                       "dt: " + std::to_string(settings.dt_s) + " s is no time step; give seconds above 0");
@@ -71,7 +71,7 @@ void OdeStepper::profile_last_step() {
   }
 }
 
-const model::StepProfile* OdeStepper::profile(int world) const {
+const stepping::StepProfile* OdeStepper::profile(int world) const {
   const Slot& slot = get(world);
   return slot.profile ? &*slot.profile : nullptr;
 }
@@ -118,8 +118,8 @@ const OdeStepper::Slot& OdeStepper::get(int world) const {
   return found->second;
 }
 
-std::unique_ptr<model::WorldStepper> make_ode_stepper(const model::StepperSettings& settings,
-                                                      WarningSink warn) {
+std::unique_ptr<stepping::WorldStepper> make_ode_stepper(const stepping::StepperSettings& settings,
+                                                         WarningSink warn) {
   return std::make_unique<OdeStepper>(settings, std::move(warn));
 }
 

@@ -5,16 +5,16 @@
 #include <memory>
 #include <optional>
 
-#include "model/stepper.h"
-#include "ode/engine.h"
+#include "ode/objects/engine.h"
 #include "ode/solver_resources.h"
 #include "ode/world.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::ode {
 
-class OdeStepper final : public model::WorldStepper {
+class OdeStepper final : public stepping::WorldStepper {
  public:
-  OdeStepper(const model::StepperSettings& settings, WarningSink warn);
+  OdeStepper(const stepping::StepperSettings& settings, WarningSink warn);
   ~OdeStepper() override;
 
   void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
@@ -26,19 +26,19 @@ class OdeStepper final : public model::WorldStepper {
 
   const model::State& state(int world) const override { return get(world).state; }
   const model::Model& model(int world) const override { return *get(world).model; }
-  const model::Observables& observables(int world) const override { return get(world).observables; }
+  const stepping::Observables& observables(int world) const override { return get(world).observables; }
   double cost_s(int world) const override { return get(world).cost_s; }
   void profile_last_step() override;
-  const model::StepProfile* profile(int world) const override;
+  const stepping::StepProfile* profile(int world) const override;
 
  private:
   /// What is known of a world after the last advance().
   struct Slot {
     std::shared_ptr<const model::Model> model;
     model::State state;
-    model::Observables observables;
+    stepping::Observables observables;
     double cost_s = 0;
-    std::optional<model::StepProfile> profile;
+    std::optional<stepping::StepProfile> profile;
     std::unique_ptr<World> world;  ///< none once the state is not finite: ODE would stop at an assertion
 
     /// A state from elsewhere may lack what the effects "sleeping" and "breakable_joints" add.
@@ -53,7 +53,7 @@ class OdeStepper final : public model::WorldStepper {
   void move_to_fresh_resources();
 
   Engine engine_;
-  model::StepperSettings settings_;
+  stepping::StepperSettings settings_;
   MessageLog log_;
   std::unique_ptr<SolverResources> resources_;
   std::map<int, Slot> slots_;

@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "ode/bodies.h"
-#include "ode/joints.h"
+#include "ode/objects/bodies.h"
+#include "ode/objects/joints.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -20,7 +20,7 @@ void set_damping(dWorldID world, const model::Model& model, double dt_s) {
 }
 
 /// Before the bodies and joints: ODE's copy ERP, CFM and damping when they are made.
-WorldHandle make_world(const model::Model& model, const model::StepperSettings& settings,
+WorldHandle make_world(const model::Model& model, const stepping::StepperSettings& settings,
                        const SolverResources& resources) {
   WorldHandle world = resources.make_world();
   dWorldSetGravity(world.get(), model.gravity.x(), model.gravity.y(), model.gravity.z());
@@ -34,7 +34,7 @@ WorldHandle make_world(const model::Model& model, const model::StepperSettings& 
 }  // namespace
 
 World::World(int id, const model::Model& model, const model::State& state, std::int64_t step,
-             const model::StepperSettings& settings, const SolverResources& resources)
+             const stepping::StepperSettings& settings, const SolverResources& resources)
     : id_(id),
       model_(&model),
       plan_(model),
@@ -50,7 +50,7 @@ World::World(int id, const model::Model& model, const model::State& state, std::
       step_(step) {
   if (plan_.has("collision")) broad_phase_.emplace(model, bodies_, best_space(model.geoms.size()));
   if (plan_.has("fast_bodies")) fast_bodies_.emplace(model);
-  if (plan_.has("field_of_interest") && settings.kind == model::StepperKind::quick)
+  if (plan_.has("field_of_interest") && settings.kind == stepping::StepperKind::quick)
     focus_.emplace(model, bodies_, settings.iterations);
   if (fast_bodies_ || focus_) before_step_.resize(model.num_bodies());
   if (plan_.has("sleeping")) {
@@ -168,7 +168,7 @@ void World::solve() {
 
 /// QuickStep shuffles its rows by one random seed of the whole process, so that it is set anew each time.
 void World::solve_enabled(int iterations) {
-  if (settings_.kind == model::StepperKind::quick) {
+  if (settings_.kind == stepping::StepperKind::quick) {
     dWorldSetQuickStepNumIterations(world_.get(), iterations);
     dRandSetSeed(
         core::mix_key(settings_.seed, static_cast<std::uint64_t>(id_), static_cast<std::uint64_t>(step_)));
@@ -178,7 +178,7 @@ void World::solve_enabled(int iterations) {
   }
 }
 
-void World::read(model::State& state, model::Observables& observables) {
+void World::read(model::State& state, stepping::Observables& observables) {
   if (!std::exchange(moved_, false)) {  // only poses and what follows from them are as before
     observables.contacts = observables.rows = observables.max_island_rows = observables.bodies_inside = 0;
     observables.max_penetration_m = 0;
@@ -191,8 +191,8 @@ void World::read(model::State& state, model::Observables& observables) {
   observables.contacts = contacts_.count();
   observables.bodies_inside = focus_ ? static_cast<int>(focus_->field().inside().size()) : 0;
   observables.max_penetration_m = contacts_.deepest_m();
-  observables.energy_j = model::mechanical_energy(*model_, state);
-  observables.joint_gap_m = model::max_joint_gap(*model_, state);
+  observables.energy_j = stepping::mechanical_energy(*model_, state);
+  observables.joint_gap_m = stepping::max_joint_gap(*model_, state);
   observables.nonfinite = model::count_nonfinite(state);
 }
 

@@ -7,19 +7,19 @@
 #include <vector>
 
 #include "core/clock.h"
-#include "model/effects.h"
-#include "model/fast_bodies.h"
-#include "model/step_profile.h"
-#include "model/stepper.h"
-#include "ode/breaking.h"
-#include "ode/broad_phase.h"
-#include "ode/contacts.h"
-#include "ode/engine.h"
-#include "ode/events.h"
-#include "ode/focus.h"
+#include "effects/effects.h"
+#include "effects/fast_bodies.h"
+#include "ode/collide/broad_phase.h"
+#include "ode/collide/contacts.h"
+#include "ode/effects/breaking.h"
+#include "ode/effects/focus.h"
+#include "ode/effects/sleeping.h"
+#include "ode/objects/engine.h"
+#include "ode/objects/events.h"
 #include "ode/rows.h"
-#include "ode/sleeping.h"
 #include "ode/solver_resources.h"
+#include "stepping/step_profile.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::ode {
 
@@ -32,7 +32,7 @@ class World {
  public:
   /// `model` is borrowed; `state`: at the start of step `step`.
   World(int id, const model::Model& model, const model::State& state, std::int64_t step,
-        const model::StepperSettings& settings, const SolverResources& resources);
+        const stepping::StepperSettings& settings, const SolverResources& resources);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -42,10 +42,10 @@ class World {
   void set_state(const model::State& state);
   /// Reads out the state after the last step, and what was observed in it.
   /// Both as they were after the last call if all bodies have slept since then.
-  void read(model::State& state, model::Observables& observables);
-  /// Measures the last step again (model::StepProfile); the world is then as it was, bit for bit. Needs the
-  /// setting `profile` and a step taken before.
-  model::StepProfile profile_last_step();
+  void read(model::State& state, stepping::Observables& observables);
+  /// Measures the last step again (stepping::StepProfile); the world is then as it was, bit for bit. Needs
+  /// the setting `profile` and a step taken before.
+  stepping::StepProfile profile_last_step();
   /// As in model::State.
   std::span<const model::Rest> rest() const;
   const std::vector<std::int32_t>& broken_in() const { return breaking_.broken_in(); }
@@ -60,14 +60,14 @@ class World {
   void look_ahead();
   void solve();
   void solve_enabled(int iterations);
-  void profile_collision(model::StepProfile& profile);
-  void profile_islands(model::StepProfile& profile);
+  void profile_collision(stepping::StepProfile& profile);
+  void profile_islands(stepping::StepProfile& profile);
   double time_solve(const std::vector<dBodyID>& enabled, int iterations, const model::State& before);
 
   int id_;
   const model::Model* model_;
-  model::StepPlan plan_;
-  model::StepperSettings settings_;
+  effects::StepPlan plan_;
+  stepping::StepperSettings settings_;
   WorldHandle world_;
   std::vector<dBodyID> bodies_;
   std::vector<dJointID> joints_;
@@ -75,15 +75,15 @@ class World {
   Events events_;
   Breaking breaking_;
   Contacts contacts_;
-  std::optional<BroadPhase> broad_phase_;         ///< none without the effect "collision"
-  std::optional<model::FastBodies> fast_bodies_;  ///< none without the pass
-  std::optional<Focus> focus_;                    ///< likewise; none for `direct`, which has no iterations
-  model::State before_step_;                      ///< with either: at the start of the step
-  std::vector<model::Contact> ahead_;             ///< contacts with a gap
-  std::optional<Sleeping> sleeping_;              ///< none without the pass
+  std::optional<BroadPhase> broad_phase_;           ///< none without the effect "collision"
+  std::optional<effects::FastBodies> fast_bodies_;  ///< none without the pass
+  std::optional<Focus> focus_;                      ///< likewise; none for `direct`, which has no iterations
+  model::State before_step_;                        ///< with either: at the start of the step
+  std::vector<model::Contact> ahead_;               ///< contacts with a gap
+  std::optional<Sleeping> sleeping_;                ///< none without the pass
   RowCounter row_counter_;
-  model::Observables counts_;  ///< rows and islands of the last step
-  model::State before_last_;   ///< with `profile`: before the last step's collision detection, events done
+  stepping::Observables counts_;  ///< rows and islands of the last step
+  model::State before_last_;      ///< with `profile`: before the last step's collision detection, events done
   std::int64_t step_;
   bool moved_ = true;  ///< since the last read()
 };

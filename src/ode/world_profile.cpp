@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "core/clock.h"
-#include "ode/bodies.h"
+#include "ode/objects/bodies.h"
 #include "ode/world.h"
 
 namespace pbmpi::ode {
@@ -47,13 +47,13 @@ std::vector<double> shares_of_geoms(const model::Model& model) {
 
 }  // namespace
 
-model::StepProfile World::profile_last_step() {
+stepping::StepProfile World::profile_last_step() {
   model::State after = before_last_;
   copy_out(bodies_, after);
   after.broken_in = broken_in();
   if (breaking_.start(before_last_.broken_in)) show_broken();
   --step_;
-  model::StepProfile profile;
+  stepping::StepProfile profile;
   restore(bodies_, before_last_);
   if (broad_phase_) profile_collision(profile);
   row_counter_.count(contacts_.touches(), rest(), broken_in(), counts_);
@@ -66,7 +66,7 @@ model::StepProfile World::profile_last_step() {
 }
 
 /// Leaves the contacts of the whole step behind.
-void World::profile_collision(model::StepProfile& profile) {
+void World::profile_collision(stepping::StepProfile& profile) {
   const double broad_s = least_time([&] { restore(bodies_, before_last_); },
                                     [&] { static_cast<void>(broad_phase_->find_pairs()); });
   const std::vector<GeomPair>& pairs = broad_phase_->find_pairs();
@@ -95,7 +95,7 @@ void World::profile_collision(model::StepProfile& profile) {
 }
 
 /// A step without bodies is what every island's step costs besides the island.
-void World::profile_islands(model::StepProfile& profile) {
+void World::profile_islands(stepping::StepProfile& profile) {
   profile.islands = row_counter_.islands(contacts_.touches());
   for (const dBodyID body : bodies_) dBodyDisable(body);
   const double empty_s = time_solve({}, settings_.iterations, before_last_);
@@ -103,7 +103,7 @@ void World::profile_islands(model::StepProfile& profile) {
   for (int body = 0; body < model_->num_bodies(); ++body) {
     members[row_counter_.island_of(body)].push_back(body);
   }
-  for (model::IslandCost& island : profile.islands) {
+  for (stepping::IslandCost& island : profile.islands) {
     std::vector<dBodyID> bodies;
     model::State state;
     for (const int body : members[island.first_body]) {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "analysis/error_bands.h"
-#include "model/observables.h"
 #include "model/state.h"
+#include "stepping/observables.h"
 #include "support/models.h"
 
 namespace pbmpi::analysis {
@@ -124,7 +124,7 @@ TEST(PoseErrors, the_gap_vector_is_as_long_as_the_observed_joint_gap) {
     state.orientation[i] = times(support::rotation(Vec3(1, 2, -2) / 3, 0.02 * i), state.orientation[i]);
   }
   for (const model::Joint& joint : model.joints) {
-    EXPECT_NEAR(joint_gap_vector(model, joint, view(state)).norm(), model::joint_gap(model, state, joint),
+    EXPECT_NEAR(joint_gap_vector(model, joint, view(state)).norm(), stepping::joint_gap(model, state, joint),
                 1e-12)
         << joint.name;  // metres, through two rotations
   }

@@ -1,4 +1,4 @@
-#include "app/pbmpi/options.h"
+#include "app/pbmpi/options/options.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(Options, given_ones_win_over_the_scene) {
   EXPECT_EQ(spec.num_worlds, 3);
   EXPECT_EQ(spec.stepper.dt_s, 0.002);
   EXPECT_EQ(spec.stepper.iterations, 5);
-  EXPECT_EQ(spec.stepper.kind, model::StepperKind::direct);
+  EXPECT_EQ(spec.stepper.kind, stepping::StepperKind::direct);
   EXPECT_EQ(spec.stepper.seed, 18446744073709551615ull);
   EXPECT_FALSE(spec.output.has_value());
 }
@@ -124,7 +124,7 @@ TEST(Options, feec_estimates_as_the_precise_stepper_does_but_with_one_iteration)
   const RunSpec spec =
       resolve(parse_options({"--scene", "Fake", "--feec", "--solver-seed", "7"}), FakeScene({}));
   ASSERT_TRUE(spec.estimate.has_value());
-  EXPECT_EQ(spec.estimate->kind, model::StepperKind::sor);
+  EXPECT_EQ(spec.estimate->kind, stepping::StepperKind::sor);
   EXPECT_EQ(spec.estimate->iterations, 1);
   EXPECT_EQ(spec.estimate->seed, 7u);
   EXPECT_EQ(spec.stepper.seed, 7u);
@@ -138,10 +138,10 @@ TEST(Options, feec_may_estimate_with_another_stepper) {
                              "--estimate-iterations", "3", "--estimate-precision", "single"}),
               FakeScene({}));
   ASSERT_TRUE(spec.estimate.has_value());
-  EXPECT_EQ(spec.stepper.kind, model::StepperKind::quick);
-  EXPECT_EQ(spec.estimate->kind, model::StepperKind::sor);
+  EXPECT_EQ(spec.stepper.kind, stepping::StepperKind::quick);
+  EXPECT_EQ(spec.estimate->kind, stepping::StepperKind::sor);
   EXPECT_EQ(spec.estimate->iterations, 3);
-  EXPECT_EQ(spec.estimate->precision, model::Precision::single);
+  EXPECT_EQ(spec.estimate->precision, stepping::Precision::single);
 }
 
 TEST(Options, those_of_the_estimate_are_refused_where_they_make_no_sense) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ode/bodies.h"
-#include "ode/broad_phase.h"
-#include "ode/joints.h"
+#include "ode/collide/broad_phase.h"
+#include "ode/objects/bodies.h"
+#include "ode/objects/joints.h"
 
 namespace pbmpi::bench {
 namespace {

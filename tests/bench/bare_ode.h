@@ -6,7 +6,7 @@
 
 #include "model/model.h"
 #include "model/state.h"
-#include "ode/geoms.h"
+#include "ode/objects/geoms.h"
 
 namespace pbmpi::bench {
 

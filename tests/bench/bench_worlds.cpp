@@ -10,7 +10,7 @@
 #include "compare.h"
 #include "core/error.h"
 #include "effects.h"
-#include "mpi/session.h"
+#include "mpi/comm/session.h"
 #include "sleeping.h"
 #include "spaces.h"
 #include "substeps.h"

@@ -9,12 +9,12 @@
 #include "core/clock.h"
 #include "core/hash.h"
 #include "core/statistics.h"
-#include "io/run_file.h"
-#include "mpi/communicator.h"
-#include "ode/engine.h"
-#include "ode/narrow_phase.h"
+#include "io/run/run_file.h"
+#include "mpi/comm/communicator.h"
+#include "ode/collide/narrow_phase.h"
+#include "ode/objects/engine.h"
 #include "ode/ode_stepper.h"
-#include "solver/sor_stepper.h"
+#include "solver/worlds/sor_stepper.h"
 
 namespace pbmpi::bench {
 namespace {
@@ -58,7 +58,7 @@ class Side {
 /// recorded if `file` says where.
 class Ours final : public Side {
  public:
-  Ours(const Subject& subject, std::string name, std::unique_ptr<model::WorldStepper> stepper,
+  Ours(const Subject& subject, std::string name, std::unique_ptr<stepping::WorldStepper> stepper,
        const std::string& file)
       : Side(std::move(name)), subject_(&subject), stepper_(std::move(stepper)) {
     for (int world = 0; world < num_worlds(); ++world) {
@@ -90,8 +90,8 @@ class Ours final : public Side {
 
   int num_worlds() const { return static_cast<int>(subject_->models.size()); }
 
-  std::vector<model::LocalWorld> worlds() const {
-    std::vector<model::LocalWorld> views;
+  std::vector<stepping::LocalWorld> worlds() const {
+    std::vector<stepping::LocalWorld> views;
     for (int world = 0; world < num_worlds(); ++world) {
       views.push_back(
           {world, &stepper_->model(world), &stepper_->state(world), &stepper_->observables(world)});
@@ -115,7 +115,7 @@ class Ours final : public Side {
 
   void record() {
     const auto views = worlds();
-    model::FrameRecord frame;
+    stepping::FrameRecord frame;
     frame.frame = frame_++;
     frame.step = frame_ * subject_->steps_per_frame;
     frame.time_s = static_cast<double>(frame.step) * subject_->dt_s;
@@ -127,7 +127,7 @@ class Ours final : public Side {
   }
 
   const Subject* subject_;
-  std::unique_ptr<model::WorldStepper> stepper_;
+  std::unique_ptr<stepping::WorldStepper> stepper_;
   core::PhaseTimes times_;
   std::string path_;
   std::unique_ptr<io::RunFile> file_;
@@ -163,11 +163,11 @@ std::uint64_t hash_of(const Side& side, std::size_t num_worlds) {
   return hash.value();
 }
 
-std::unique_ptr<Side> sor_side(const Subject& subject, const std::string& name, model::Precision precision,
-                               model::Simd simd, int substeps, int iterations,
-                               model::Colliders colliders = model::Colliders::lanes) {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::sor;
+std::unique_ptr<Side> sor_side(const Subject& subject, const std::string& name, stepping::Precision precision,
+                               stepping::Simd simd, int substeps, int iterations,
+                               stepping::Colliders colliders = stepping::Colliders::lanes) {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
   settings.dt_s = subject.dt_s;
   settings.iterations = iterations;
   settings.substeps = substeps;
@@ -180,10 +180,10 @@ std::unique_ptr<Side> sor_side(const Subject& subject, const std::string& name, 
 
 /// The bare loop first: the others are compared with it.
 std::vector<std::unique_ptr<Side>> make_sides(const Subject& subject) {
-  using model::Precision;
-  using model::Simd;
+  using stepping::Precision;
+  using stepping::Simd;
   const auto quick = [&] {
-    model::StepperSettings settings;
+    stepping::StepperSettings settings;
     settings.dt_s = subject.dt_s;
     settings.iterations = subject.iterations;
     return ode::make_ode_stepper(settings);
@@ -200,7 +200,7 @@ std::vector<std::unique_ptr<Side>> make_sides(const Subject& subject) {
   sides.push_back(sor_side(subject, "sor double, widest", Precision::double_, Simd::automatic, 1, n));
   sides.push_back(sor_side(subject, "sor single, widest", Precision::single, Simd::automatic, 1, n));
   sides.push_back(sor_side(subject, "sor single, dCollide", Precision::single, Simd::automatic, 1, n,
-                           model::Colliders::ode));
+                           stepping::Colliders::ode));
   sides.push_back(sor_side(subject, "sor single, 5 x 3", Precision::single, Simd::automatic, 5, 3));
   return sides;
 }

@@ -5,10 +5,10 @@
 
 #include "core/hash.h"
 #include "core/statistics.h"
-#include "model/effects.h"
-#include "ode/engine.h"
-#include "ode/narrow_phase.h"
-#include "solver/sor_stepper.h"
+#include "effects/effects.h"
+#include "ode/collide/narrow_phase.h"
+#include "ode/objects/engine.h"
+#include "solver/worlds/sor_stepper.h"
 #include "support/models.h"
 
 namespace pbmpi::bench {
@@ -22,10 +22,10 @@ constexpr int steps_per_frame = 3;
 
 class Side {
  public:
-  Side(std::string name, double mu, const model::EffectChoices& effects, model::Precision precision)
+  Side(std::string name, double mu, const model::EffectChoices& effects, stepping::Precision precision)
       : name_(std::move(name)) {
-    model::StepperSettings settings;
-    settings.kind = model::StepperKind::sor;
+    stepping::StepperSettings settings;
+    settings.kind = stepping::StepperKind::sor;
     settings.precision = precision;
     stepper_ = solver::make_sor_stepper(settings, ode::make_narrow_phase);
     for (int world = 0; world < num_worlds; ++world) {
@@ -75,12 +75,12 @@ class Side {
   }
 
   std::string name_;
-  std::unique_ptr<model::WorldStepper> stepper_;
+  std::unique_ptr<stepping::WorldStepper> stepper_;
   std::int64_t num_contacts_ = 0;
   double deepest_m_ = 0;
 };
 
-void compare(model::Precision precision) {
+void compare(stepping::Precision precision) {
   std::vector<Side> sides;
   sides.emplace_back("with friction", 0.5, model::EffectChoices{}, precision);
   sides.emplace_back("frictionless", 0.0, model::EffectChoices{}, precision);
@@ -90,7 +90,7 @@ void compare(model::Precision precision) {
     for (std::size_t i = 0; i < sides.size(); ++i) sides[(i + frame) % sides.size()].time_frame();
   }
   std::printf("falling spheres, sor %s: %d worlds of %d, medians over %d alternated frames\n",
-              precision == model::Precision::single ? "single" : "double", num_worlds,
+              precision == stepping::Precision::single ? "single" : "double", num_worlds,
               balls_a_side * balls_a_side * balls_a_side, num_frames);
   for (const Side& side : sides) side.print(sides.front());
 }
@@ -99,8 +99,8 @@ void compare(model::Precision precision) {
 
 void compare_effects() {
   const ode::Engine engine;
-  compare(model::Precision::double_);
-  compare(model::Precision::single);
+  compare(stepping::Precision::double_);
+  compare(stepping::Precision::single);
 }
 
 }  // namespace pbmpi::bench

@@ -7,11 +7,11 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/statistics.h"
-#include "ode/engine.h"
-#include "ode/narrow_phase.h"
+#include "ode/collide/narrow_phase.h"
+#include "ode/objects/engine.h"
 #include "ode/ode_stepper.h"
 #include "scenes/scene.h"
-#include "solver/sor_stepper.h"
+#include "solver/worlds/sor_stepper.h"
 
 namespace pbmpi::bench {
 namespace {
@@ -36,17 +36,17 @@ model::Model quiet_battle2() {
   return model;
 }
 
-std::unique_ptr<model::WorldStepper> make_stepper(model::StepperKind kind) {
-  model::StepperSettings settings;
+std::unique_ptr<stepping::WorldStepper> make_stepper(stepping::StepperKind kind) {
+  stepping::StepperSettings settings;
   settings.kind = kind;
-  if (kind == model::StepperKind::sor) return solver::make_sor_stepper(settings, ode::make_narrow_phase);
+  if (kind == stepping::StepperKind::sor) return solver::make_sor_stepper(settings, ode::make_narrow_phase);
   return ode::make_ode_stepper(settings);
 }
 
 /// A state of Battle2, which each frame starts from.
 class Side {
  public:
-  Side(std::string name, model::StepperKind kind, const model::Model& model, const model::State& state,
+  Side(std::string name, stepping::StepperKind kind, const model::Model& model, const model::State& state,
        int frames_a_round)
       : name_(std::move(name)), frames_(frames_a_round), stepper_(make_stepper(kind)), start_(state) {
     stepper_->add(0, std::make_shared<const model::Model>(model), state, 0);
@@ -78,7 +78,7 @@ class Side {
  private:
   std::string name_;
   int frames_;  ///< a round
-  std::unique_ptr<model::WorldStepper> stepper_;
+  std::unique_ptr<stepping::WorldStepper> stepper_;
   model::State start_;
   std::int64_t step_ = 0;
   std::vector<double> frame_s_;  ///< [num_rounds] of CPU time
@@ -89,7 +89,7 @@ model::Model without_effects(model::Model model) {
   return model;
 }
 
-model::State settle(model::StepperKind kind, const model::Model& model) {
+model::State settle(stepping::StepperKind kind, const model::Model& model) {
   core::PhaseTimes times;
   const auto restless = make_stepper(kind);
   restless->add(0, std::make_shared<const model::Model>(without_effects(model)), model::initial_state(model),
@@ -119,7 +119,7 @@ model::State with_a_ball_awake(const model::Model& model, model::State state) {
   throw core::RunError("Battle2 has lost its last ball");
 }
 
-void compare(const char* title, model::StepperKind kind) {
+void compare(const char* title, stepping::StepperKind kind) {
   std::printf("settled Battle2, %s, medians over %d alternated rounds\n", title, num_rounds);
   const model::Model model = quiet_battle2();
   const model::State asleep = settle(kind, model);
@@ -139,8 +139,8 @@ void compare(const char* title, model::StepperKind kind) {
 
 void compare_sleeping() {
   const ode::Engine engine;
-  compare("sor double", model::StepperKind::sor);
-  compare("quick", model::StepperKind::quick);
+  compare("sor double", stepping::StepperKind::sor);
+  compare("quick", stepping::StepperKind::quick);
 }
 
 }  // namespace pbmpi::bench

@@ -4,9 +4,9 @@
 
 #include "core/clock.h"
 #include "core/statistics.h"
-#include "ode/bodies.h"
-#include "ode/broad_phase.h"
-#include "ode/engine.h"
+#include "ode/collide/broad_phase.h"
+#include "ode/objects/bodies.h"
+#include "ode/objects/engine.h"
 #include "support/models.h"
 
 namespace pbmpi::bench {

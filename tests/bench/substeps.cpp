@@ -7,10 +7,10 @@
 
 #include "core/clock.h"
 #include "core/hash.h"
-#include "model/observables.h"
-#include "ode/engine.h"
-#include "ode/narrow_phase.h"
-#include "solver/sor_stepper.h"
+#include "ode/collide/narrow_phase.h"
+#include "ode/objects/engine.h"
+#include "solver/worlds/sor_stepper.h"
+#include "stepping/observables.h"
 
 namespace pbmpi::bench {
 namespace {
@@ -24,10 +24,10 @@ constexpr Setting settings[] = {{1, 20, 0}, {2, 10, 0}, {4, 5, 0}, {5, 3, 0}, {5
 
 class Side {
  public:
-  Side(const Subject& subject, const Setting& setting, model::Precision precision)
+  Side(const Subject& subject, const Setting& setting, stepping::Precision precision)
       : subject_(&subject), setting_(setting) {
-    model::StepperSettings stepper;
-    stepper.kind = model::StepperKind::sor;
+    stepping::StepperSettings stepper;
+    stepper.kind = stepping::StepperKind::sor;
     stepper.dt_s = subject.dt_s;
     stepper.precision = precision;
     stepper.substeps = setting.substeps;
@@ -72,7 +72,7 @@ class Side {
   void measure(int world) {
     const model::Model& model = *subject_->models[static_cast<std::size_t>(world)];
     for (const model::Joint& joint : model.joints) {
-      const double gap_m = model::joint_gap(model, stepper_->state(world), joint);
+      const double gap_m = stepping::joint_gap(model, stepper_->state(world), joint);
       square_sum_ += gap_m * gap_m;
       ++num_gaps_;
     }
@@ -83,11 +83,11 @@ class Side {
 
   const Subject* subject_;
   Setting setting_;
-  std::unique_ptr<model::WorldStepper> stepper_;
+  std::unique_ptr<stepping::WorldStepper> stepper_;
   double square_sum_ = 0, num_gaps_ = 0, worst_sum_ = 0, depth_sum_ = 0, deepest_m_ = 0, num_frames_ = 0;
 };
 
-void compare(const Subject& subject, int frames, model::Precision precision) {
+void compare(const Subject& subject, int frames, stepping::Precision precision) {
   const auto num_frames = static_cast<std::size_t>(frames);
   std::vector<Side> sides;
   std::vector<std::vector<double>> least_s(std::size(settings), std::vector<double>(num_frames, INFINITY));
@@ -103,7 +103,7 @@ void compare(const Subject& subject, int frames, model::Precision precision) {
   }
   std::printf(
       "%s, sor %s: %zu worlds, substeps x iterations; mean of %d frames, each the least of %d rounds\n",
-      subject.name.c_str(), precision == model::Precision::single ? "single" : "double",
+      subject.name.c_str(), precision == stepping::Precision::single ? "single" : "double",
       subject.models.size(), frames, num_rounds);
   const auto mean = [&](const std::vector<double>& times_s) {
     return std::accumulate(times_s.begin(), times_s.end(), 0.0) / frames;
@@ -116,8 +116,8 @@ void compare(const Subject& subject, int frames, model::Precision precision) {
 
 void compare_substeps(const Subject& subject, int frames) {
   const ode::Engine engine;
-  compare(subject, frames, model::Precision::double_);
-  compare(subject, frames, model::Precision::single);
+  compare(subject, frames, stepping::Precision::double_);
+  compare(subject, frames, stepping::Precision::single);
 }
 
 }  // namespace pbmpi::bench

@@ -1,45 +1,94 @@
-"""Fails if a source file includes what its folder may not see.
+"""Fails if a source file includes what its folder may not see, or a folder holds more files than a part should.
 
-Usage: layering.py PROJECT_ROOT. The arrows are those of the architecture: a folder names the folders of
-pbmpi that it may include (itself always), and the outside libraries that only some may touch.
+Usage: layering.py PROJECT_ROOT. The arrows are those of the architecture: a folder names the folders that it stands on,
+and sees what these see; the outside libraries only some may touch.
 """
 
 import pathlib
 import re
 import sys
 
-# Folder under the root -> folders whose headers it may include.
-ARROWS = {
+# Folder under the root -> the folders that it stands on. A folder without an entry belongs to none of the layers.
+STANDS_ON = {
     "src/core": [],
     "src/model": ["src/core"],
-    "src/ode": ["src/core", "src/model"],
-    "src/solver": ["src/core", "src/model"],
-    "src/estimate": ["src/core", "src/model", "src/solver"],
-    "src/analysis": ["src/core", "src/model"],
-    "scenes": ["src/core", "src/model"],
-    "mpi": ["src/core", "src/model"],
-    "io": ["src/core", "src/model"],
-    "src/app": ["src/core", "src/model", "src/ode", "src/solver", "src/estimate", "src/analysis",
-                "scenes", "mpi", "io"],
+    "src/geometry": ["src/model"],
+    "src/effects": ["src/geometry"],
+    "src/stepping": ["src/effects"],
+    "src/analysis": ["src/model"],
+    "src/estimate": ["src/stepping"],
+    "src/ode/objects": ["src/model"],
+    "src/ode/collide": ["src/ode/objects", "src/effects"],
+    "src/ode/effects": ["src/ode/collide"],
+    "src/ode": ["src/ode/effects", "src/stepping"],
+    "src/solver/lanes": ["src/core"],
+    "src/solver/layout": ["src/solver/lanes", "src/effects"],
+    "src/solver/joints": ["src/solver/layout"],
+    "src/solver/contacts": ["src/solver/layout"],
+    "src/solver/collide": ["src/solver/layout"],
+    "src/solver/pack": ["src/solver/joints", "src/solver/contacts", "src/solver/collide", "src/stepping"],
+    "src/solver/worlds": ["src/solver/pack"],
+    "src/solver/spaces": ["src/solver/pack"],
+    "scenes/parts": ["src/effects"],
+    "scenes/format": ["scenes/parts"],
+    "scenes/actors": ["scenes/format"],
+    "scenes": ["scenes/actors"],
+    "mpi/comm": ["src/stepping"],
+    "mpi/balance": ["src/core"],
+    "mpi/frame": ["mpi/comm"],
+    "mpi/worlds": ["mpi/frame", "mpi/balance"],
+    "mpi/spaces": ["mpi/frame", "mpi/balance"],
+    "io/hdf5": ["src/core"],
+    "io/table": ["io/hdf5"],
+    "io/run": ["io/table", "src/stepping"],
+    "io/html": ["io/run"],
+    "src/app/common": ["mpi/worlds", "mpi/spaces", "scenes", "src/ode", "src/solver/worlds", "src/solver/spaces"],
+    "src/app/summary": ["src/app/common", "src/analysis"],
+    "src/app/pbmpi/options": ["src/app/common"],
+    "src/app/pbmpi": ["src/app/pbmpi/options", "src/app/summary", "src/estimate", "io/run"],
+    "src/app/pbreport/run": ["src/app/summary", "io/html"],
+    "src/app/pbreport/suite": ["src/app/common", "src/analysis", "io/html"],
+    "src/app/pbreport/diff": ["src/app/pbreport/run"],
+    "src/app/pbreport/figures": ["src/app/pbreport/diff"],
+    "src/app/pbreport/study": ["src/app/common", "src/analysis", "io/table"],
+    "src/app/pbreport/accuracy": ["src/app/pbreport/study", "io/html"],
+    "src/app/pbreport/effects": ["src/app/pbreport/study", "io/html"],
+    "src/app/pbreport": ["src/app/pbreport/run", "src/app/pbreport/suite", "src/app/pbreport/figures",
+                         "src/app/pbreport/accuracy", "src/app/pbreport/effects"],
+    "src/app/pbstudy/study": ["src/app/common", "src/analysis", "io/table"],
+    "src/app/pbstudy/accuracy": ["src/app/pbstudy/study"],
+    "src/app/pbstudy/effects": ["src/app/pbstudy/study"],
+    "src/app/pbstudy": ["src/app/pbstudy/accuracy", "src/app/pbstudy/effects"],
 }
+
+# A folder is one part of the program; one with more files than these is more than one.
+MOST_FILES = 25
 
 # Outside headers (a pattern) -> folders that may include them, and how many files of a folder at most.
 OUTSIDE = [
-    (r"ode/ode\.h|drawstuff/.*|ode/(collision|common|contact|mass|misc|objects|odeinit)\.h", {"src/ode": None}),
-    (r"mpi\.h", {"mpi": None, "io": 1}),
-    (r"hdf5.*\.h|H5.*\.h", {"io": None}),
-    (r"boost/.*", {"src/app": None}),
+    (r"ode/ode\.h|drawstuff/.*|ode/(collision|common|contact|mass|misc|objects|odeinit)\.h",
+     {"src/ode": None, "src/ode/objects": None, "src/ode/collide": None, "src/ode/effects": None}),
+    (r"mpi\.h", {"mpi/comm": 1, "io/hdf5": 1}),
+    (r"hdf5.*\.h|H5.*\.h", {"io/hdf5": None, "io/table": None, "io/run": None}),
+    (r"boost/.*", {folder: None for folder in STANDS_ON if folder.startswith("src/app/")}),
 ]
 
 SUFFIXES = {".h", ".hpp", ".cpp", ".cc", ".inc"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 
+def seen_from(folder):
+    """The folders whose headers a folder may include: itself, what it stands on, and what these see."""
+    seen = {folder}
+    for below in STANDS_ON[folder]:
+        seen |= seen_from(below)
+    return seen
+
+
 def folder_of(path):
-    """The folder of ARROWS that a path relative to the root lies in, or None."""
-    name = path.as_posix()
-    matches = [folder for folder in ARROWS if name.startswith(folder + "/")]
-    return max(matches, key=len) if matches else None
+    """The folder of STANDS_ON that a path relative to the root lies in, or None."""
+    folder = path.parent.as_posix()
+    return folder if folder in STANDS_ON else None
 
 
 def target_of(root, source, include):
@@ -55,7 +104,7 @@ def check_inside(folder, target):
     owner = folder_of(target)
     if owner is None:
         return f"{target} belongs to no folder that a library may include"
-    if owner != folder and owner not in ARROWS[folder]:
+    if owner not in seen_from(folder):
         return f"{folder} may not include {owner}"
     return None
 
@@ -75,11 +124,21 @@ def check_counts(users):
             yield f"{', '.join(sorted(files))}: {len(files)} files of {folder} include {pattern}; at most {limit} may"
 
 
+def check_sizes(root, tops):
+    """Folders below these that hold too many files, pictures apart."""
+    for top in (*tops, "tests"):
+        for folder in sorted(path for path in (root / top).rglob("*") if path.is_dir()):
+            num_files = sum(1 for path in folder.iterdir() if path.is_file() and path.suffix not in (".png", ".pyc"))
+            if num_files > MOST_FILES:
+                yield f"{folder.relative_to(root)}: {num_files} files; at most {MOST_FILES} make one part"
+
+
 def find_violations(root):
     """One line for each forbidden include below `root`, and the number of files looked at."""
     root = pathlib.Path(root).resolve()
     violations, users, num_files = [], {}, 0
-    for top in sorted({folder.split("/")[0] for folder in ARROWS}):
+    tops = sorted({folder.split("/")[0] for folder in STANDS_ON})
+    for top in tops:
         for source in sorted((root / top).rglob("*")):
             path = source.relative_to(root)
             folder = folder_of(path)
@@ -98,6 +157,7 @@ def find_violations(root):
                     if target is None and re.fullmatch(pattern, include):
                         users.setdefault((pattern, folder), set()).add(str(path))
     violations.extend(check_counts(users))
+    violations.extend(check_sizes(root, tops))
     return violations, num_files
 
 

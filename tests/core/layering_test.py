@@ -11,31 +11,39 @@ SCRIPT = pathlib.Path(__file__).with_name("layering.py")
 CLEAN = {
     "src/core/error.h": "#include <string>\n",
     "src/model/model.h": '#include "core/error.h"\n#include <Eigen/Core>\n',
+    "src/stepping/stepper.h": '#include "model/model.h"\n',
     "src/ode/world.cpp": '#include "model/model.h"\n#include <ode/ode.h>\n',
-    "src/solver/sor.h": '#include "model/model.h"\n',
-    "src/estimate/feec.h": '#include "solver/sor.h"\n',
+    "src/solver/joints/rows.h": '#include "model/model.h"\n',
+    "src/solver/contacts/rows.h": '#include "model/model.h"\n',
+    "src/solver/worlds/sor.h": '#include "solver/joints/rows.h"\n#include "stepping/stepper.h"\n',
+    "src/estimate/feec.h": '#include "stepping/stepper.h"\n',
     "src/analysis/defect.h": '#include "model/model.h"\n',
     "scenes/scene.h": '#include "model/model.h"\n',
-    "mpi/driver.h": "#include <mpi.h>\n",
-    "io/open.cpp": "#include <hdf5.h>\n#include <mpi.h>\n",
-    "io/file.h": '#include "model/model.h"\n',
-    "src/app/main.cpp": '#include <boost/program_options.hpp>\n#include "scenes/scene.h"\n#include "mpi/driver.h"\n',
+    "mpi/comm/check.h": "#include <mpi.h>\n",
+    "mpi/worlds/driver.h": '#include "mpi/comm/check.h"\n',
+    "io/hdf5/open.cpp": "#include <hdf5.h>\n#include <mpi.h>\n",
+    "io/run/file.h": '#include "model/model.h"\n',
+    "src/app/pbmpi/main.cpp":
+        '#include <boost/program_options.hpp>\n#include "scenes/scene.h"\n#include "mpi/worlds/driver.h"\n',
 }
 
 FORBIDDEN = {
     "core_sees_model": ("src/core/bad.h", '#include "model/model.h"\n'),
     "model_sees_scenes": ("src/model/bad.h", '#include "scenes/scene.h"\n'),
-    "ode_sees_solver": ("src/ode/bad.cpp", '#include "solver/sor.h"\n'),
-    "solver_sees_ode": ("src/solver/bad.cpp", '#include "ode/world.cpp"\n'),
-    "solver_sees_the_engine": ("src/solver/bad.cpp", "  #  include <ode/ode.h>\n"),
+    "model_sees_stepping": ("src/model/bad.h", '#include "stepping/stepper.h"\n'),
+    "ode_sees_solver": ("src/ode/bad.cpp", '#include "solver/worlds/sor.h"\n'),
+    "solver_sees_ode": ("src/solver/worlds/bad.cpp", '#include "ode/world.cpp"\n'),
+    "solver_sees_the_engine": ("src/solver/pack/bad.cpp", "  #  include <ode/ode.h>\n"),
+    "joints_see_contacts": ("src/solver/joints/bad.h", '#include "solver/contacts/rows.h"\n'),
+    "joints_see_worlds": ("src/solver/joints/bad.h", '#include "solver/worlds/sor.h"\n'),
     "model_sees_the_engine": ("src/model/bad.cpp", '#include "ode/ode.h"\n'),
-    "analysis_sees_solver": ("src/analysis/bad.cpp", '#include "solver/sor.h"\n'),
-    "mpi_sees_io": ("mpi/bad.cpp", '#include "io/file.h"\n'),
-    "io_sees_mpi_folder": ("io/bad.cpp", '#include "mpi/driver.h"\n'),
-    "scenes_sees_app": ("scenes/bad.cpp", '#include "../src/app/main.cpp"\n'),
-    "second_file_of_io_sees_mpi": ("io/bad.cpp", "#include <mpi.h>\n"),
-    "app_sees_mpi_header": ("src/app/bad.cpp", "#include <mpi.h>\n"),
-    "mpi_sees_hdf5": ("mpi/bad.cpp", "#include <hdf5.h>\n"),
+    "analysis_sees_solver": ("src/analysis/bad.cpp", '#include "solver/worlds/sor.h"\n'),
+    "mpi_sees_io": ("mpi/frame/bad.cpp", '#include "io/run/file.h"\n'),
+    "io_sees_mpi_folder": ("io/run/bad.cpp", '#include "mpi/worlds/driver.h"\n'),
+    "scenes_sees_app": ("scenes/bad.cpp", '#include "../src/app/pbmpi/main.cpp"\n'),
+    "second_file_of_io_sees_mpi": ("io/hdf5/bad.cpp", "#include <mpi.h>\n"),
+    "app_sees_mpi_header": ("src/app/pbmpi/bad.cpp", "#include <mpi.h>\n"),
+    "mpi_sees_hdf5": ("mpi/comm/bad.cpp", "#include <hdf5.h>\n"),
     "scenes_sees_boost": ("scenes/bad.cpp", "#include <boost/any.hpp>\n"),
     "file_outside_the_folders": ("src/other/bad.cpp", "#include <string>\n"),
 }
@@ -63,6 +71,11 @@ class Layering(unittest.TestCase):
                 self.assertEqual(result.returncode, 1, result.stdout)
                 self.assertIn(path, result.stderr)
                 self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+
+    def test_refuses_a_folder_of_too_many_files(self):
+        result = check(CLEAN | {f"src/core/part{i}.h": "\n" for i in range(25)})
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertIn("src/core: 26 files", result.stderr)
 
     def test_refuses_a_folder_without_sources(self):
         self.assertNotEqual(check({"README.md": "nothing\n"}).returncode, 0)

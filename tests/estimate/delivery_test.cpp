@@ -11,10 +11,10 @@
 namespace pbmpi::testing_support {
 namespace {
 
-using model::PoseKind;
+using stepping::PoseKind;
 
 /// An example consumer: draws each frame from its estimate, and learns afterwards how far that was off.
-class ExampleConsumer final : public model::PoseConsumer {
+class ExampleConsumer final : public stepping::PoseConsumer {
  public:
   void poses(std::int64_t frame, PoseKind kind, std::span<const model::Vec3> position,
              std::span<const model::Quat> orientation) override {

@@ -3,29 +3,29 @@
 #include <gtest/gtest.h>
 
 #include "estimate/short_run.h"
-#include "ode/narrow_phase.h"
-#include "solver/sor_stepper.h"
+#include "ode/collide/narrow_phase.h"
+#include "solver/worlds/sor_stepper.h"
 #include "support/models.h"
 
 namespace pbmpi::estimate {
 namespace {
 
-std::unique_ptr<model::AnytimeStepper> sor(int iterations) {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::sor;
+std::unique_ptr<stepping::AnytimeStepper> sor(int iterations) {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
   settings.iterations = iterations;
   return solver::make_sor_stepper(settings, ode::make_narrow_phase);
 }
 
-void add_crashes(model::WorldStepper& stepper) {
+void add_crashes(stepping::WorldStepper& stepper) {
   for (int world = 0; world < 3; ++world) {
     const auto model = std::make_shared<const model::Model>(support::crash(world));
     stepper.add(world, model, model::initial_state(*model), 0);
   }
 }
 
-std::vector<model::LocalWorld> views(const model::WorldStepper& stepper) {
-  std::vector<model::LocalWorld> worlds;
+std::vector<stepping::LocalWorld> views(const stepping::WorldStepper& stepper) {
+  std::vector<stepping::LocalWorld> worlds;
   for (int world = 0; world < 3; ++world)
     worlds.push_back({world, &stepper.model(world), &stepper.state(world), nullptr});
   return worlds;

@@ -4,19 +4,19 @@
 
 #include <limits>
 
-#include "model/names.h"
-#include "ode/narrow_phase.h"
+#include "ode/collide/narrow_phase.h"
 #include "ode/ode_stepper.h"
-#include "solver/sor_stepper.h"
+#include "solver/worlds/sor_stepper.h"
+#include "stepping/names.h"
 #include "support/models.h"
 
 namespace pbmpi::estimate {
 namespace {
 
-using model::StepperKind;
+using stepping::StepperKind;
 
-std::unique_ptr<model::WorldStepper> make(StepperKind kind, int iterations) {
-  model::StepperSettings settings;
+std::unique_ptr<stepping::WorldStepper> make(StepperKind kind, int iterations) {
+  stepping::StepperSettings settings;
   settings.kind = kind;
   settings.iterations = iterations;
   if (kind == StepperKind::sor) return solver::make_sor_stepper(settings, ode::make_narrow_phase);
@@ -40,7 +40,7 @@ std::shared_ptr<const model::Model> crash_with_motor(int variant) {
 }
 
 std::string name_of_case(const testing::TestParamInfo<StepperKind>& info) {
-  return std::string(model::name_of(info.param));
+  return std::string(name_of(info.param));
 }
 
 class SetState : public testing::TestWithParam<StepperKind> {};
@@ -99,7 +99,7 @@ TEST(ShortRun, follows_the_worlds_that_come_and_go) {
   const auto precise = make(StepperKind::quick, 20);
   ShortRun estimator(make(StepperKind::quick, 20));
   const auto views = [&](std::vector<int> ids) {
-    std::vector<model::LocalWorld> worlds;
+    std::vector<stepping::LocalWorld> worlds;
     for (const int id : ids) worlds.push_back({id, &precise->model(id), &precise->state(id), nullptr});
     return worlds;
   };
@@ -132,7 +132,7 @@ TEST(ShortRun, fewer_iterations_give_another_result_and_leave_the_precise_one_al
   for (const auto& stepper : {&precise, &alone}) (*stepper)->add(0, model, model::initial_state(*model), 0);
   ShortRun estimator(make(StepperKind::quick, 1));
   for (std::int64_t step = 0; step < 12; step += 3) {
-    const std::vector<model::LocalWorld> worlds = {{0, &precise->model(0), &precise->state(0), nullptr}};
+    const std::vector<stepping::LocalWorld> worlds = {{0, &precise->model(0), &precise->state(0), nullptr}};
     estimator.estimate(worlds, step, 3, times);
     precise->advance(3, times);
     alone->advance(3, times);

@@ -1,4 +1,4 @@
-#include "io/checkpoint_file.h"
+#include "io/run/checkpoint_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "io/replace_file.h"
+#include "io/hdf5/replace_file.h"
 #include "scratch.h"
 
 namespace pbmpi::io::test {

@@ -3,9 +3,9 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "io/hdf5_handle.h"
-#include "io/run_data.h"
-#include "io/xdmf.h"
+#include "io/hdf5/hdf5_handle.h"
+#include "io/run/run_data.h"
+#include "io/run/xdmf.h"
 #include "shared_folder.h"
 
 namespace pbmpi::io::test {

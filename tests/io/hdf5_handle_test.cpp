@@ -1,9 +1,9 @@
-#include "io/hdf5_handle.h"
+#include "io/hdf5/hdf5_handle.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "io/columns.h"
+#include "io/hdf5/columns.h"
 
 namespace pbmpi::io::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/output_target.h"
+#include "io/hdf5/output_target.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "io/rows.h"
+#include "io/hdf5/rows.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "io/run_file.h"
+#include "io/run/run_file.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "core/error.h"
-#include "io/run_data.h"
+#include "io/run/run_data.h"
 #include "shared_folder.h"
 
 namespace pbmpi::io::test {
@@ -22,8 +22,8 @@ void expect_profiles(const RunData& run, const Sample& sample, std::int64_t num_
     std::size_t row = 0;
     std::int64_t first_of_world = 0;
     for (int w = 0; w < sample.num_worlds; ++w) {
-      const model::StepProfile profile = sample_profile(sample, w, static_cast<std::int64_t>(k));
-      for (const model::IslandCost& island : profile.islands) {
+      const stepping::StepProfile profile = sample_profile(sample, w, static_cast<std::int64_t>(k));
+      for (const stepping::IslandCost& island : profile.islands) {
         ASSERT_LT(row, run.islands[k].size());
         const IslandRow& found = run.islands[k][row++];
         EXPECT_EQ(found.first_body, first_of_world + island.first_body);
@@ -63,7 +63,7 @@ void expect_sample(const RunData& run, const Sample& sample, std::int64_t num_fr
     EXPECT_EQ(run.frame_measured[k], k >= 2);
     EXPECT_EQ(run.deadline_met[k], k % 2 == 0);
     for (int w = 0; w < sample.num_worlds; ++w) {
-      const model::Observables seen = sample_observables(w, k);
+      const stepping::Observables seen = sample_observables(w, k);
       EXPECT_EQ(run.observables.at("contacts")[k][w], seen.contacts);
       EXPECT_EQ(run.observables.at("energy")[k][w], seen.energy_j);
       EXPECT_EQ(run.observables.at("joint_gap")[k][w], seen.joint_gap_m);

@@ -13,10 +13,10 @@
 #include <iostream>
 
 #include "core/error.h"
-#include "io/run_file.h"
-#include "io/xdmf.h"
-#include "mpi/communicator.h"
-#include "mpi/session.h"
+#include "io/run/run_file.h"
+#include "io/run/xdmf.h"
+#include "mpi/comm/communicator.h"
+#include "mpi/comm/session.h"
 #include "sample_run.h"
 
 namespace {

@@ -44,7 +44,7 @@ model::State sample_state(const Sample& sample, int world, std::int64_t frame) {
   return state;
 }
 
-model::Observables sample_observables(int world, std::int64_t frame) {
+stepping::Observables sample_observables(int world, std::int64_t frame) {
   const int k = static_cast<int>(frame);
   return {.contacts = 100 * world + k,
           .rows = 300 * world + k,
@@ -58,10 +58,10 @@ model::Observables sample_observables(int world, std::int64_t frame) {
           .residuals = {1e-3 * (k + 1), 2e-3 * k, 1e-4 * world, 3e-3 * (k + 1), 4e-3 * k}};
 }
 
-model::StepProfile sample_profile(const Sample& sample, int world, std::int64_t frame) {
+stepping::StepProfile sample_profile(const Sample& sample, int world, std::int64_t frame) {
   const int others = sample.bodies_per_world + world % 2 - 1;
   const auto k = static_cast<double>(frame);
-  model::StepProfile profile;
+  stepping::StepProfile profile;
   profile.islands = {{0, 1, world, 3 * world, 1e-6 * (k + 1)}, {1, others, 7, 21, 1e-5 * (world + 1)}};
   profile.collide_s = 1e-4 * (k + 1);
   profile.collide_spaces_s = 1e-5 * (k + 1);
@@ -120,7 +120,7 @@ RankWorlds sample_estimate(const Sample& sample, std::int64_t frame) {
 
 void put_frame(RunFile& file, const Sample& sample, std::int64_t frame) {
   const RankWorlds worlds(sample, frame);
-  model::FrameRecord record;
+  stepping::FrameRecord record;
   record.frame = frame;
   record.step = 3 * (frame + 1);
   record.time_s = 0.01 * static_cast<double>(record.step);
@@ -133,7 +133,7 @@ void put_frame(RunFile& file, const Sample& sample, std::int64_t frame) {
   record.wall_s = sample_wall_s(frame);
   record.deadline_met = frame % 2 == 0;
   const RankWorlds estimated = sample_estimate(sample, frame);
-  const model::EstimateRecord estimate{estimated.worlds, 0.25 * record.wall_s, 1e-4 * (sample.rank + 1)};
+  const stepping::EstimateRecord estimate{estimated.worlds, 0.25 * record.wall_s, 1e-4 * (sample.rank + 1)};
   record.estimate = &estimate;
   file.frame_done(record);
 }

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "io/run_file.h"
-#include "model/frame.h"
+#include "io/run/run_file.h"
+#include "stepping/frame.h"
 
 namespace pbmpi::io::test {
 
@@ -33,9 +33,9 @@ struct Sample {
 
 std::shared_ptr<const model::Model> sample_model(const Sample& sample, int world);
 model::State sample_state(const Sample& sample, int world, std::int64_t frame);
-model::Observables sample_observables(int world, std::int64_t frame);
+stepping::Observables sample_observables(int world, std::int64_t frame);
 /// The first body and the others are one island each.
-model::StepProfile sample_profile(const Sample& sample, int world, std::int64_t frame);
+stepping::StepProfile sample_profile(const Sample& sample, int world, std::int64_t frame);
 double sample_wall_s(std::int64_t frame);
 /// Seconds of a phase of a rank.
 double sample_phase_s(int rank, int phase, std::int64_t frame);
@@ -47,9 +47,9 @@ struct RankWorlds {
   RankWorlds(const Sample& sample, std::int64_t frame);
   std::vector<std::shared_ptr<const model::Model>> models;
   std::vector<model::State> states;
-  std::vector<model::Observables> observables;
-  std::vector<model::StepProfile> profiles;
-  std::vector<model::LocalWorld> worlds;
+  std::vector<stepping::Observables> observables;
+  std::vector<stepping::StepProfile> profiles;
+  std::vector<stepping::LocalWorld> worlds;
 };
 
 /// What a RunFile needs; flushes only when it is closed unless flush_interval_s is changed.

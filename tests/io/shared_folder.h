@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "io/run_file.h"
-#include "mpi/communicator.h"
+#include "io/run/run_file.h"
+#include "mpi/comm/communicator.h"
 #include "sample_run.h"
 #include "scratch.h"
 

@@ -1,4 +1,4 @@
-#include "io/table_file.h"
+#include "io/table/table_file.h"
 
 #include <gtest/gtest.h>
 

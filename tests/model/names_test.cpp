@@ -1,4 +1,5 @@
 #include "model/names.h"
+#include "stepping/names.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "mpi/communicator.h"
-#include "mpi/session.h"
+#include "mpi/comm/communicator.h"
+#include "mpi/comm/session.h"
 
 namespace {
 

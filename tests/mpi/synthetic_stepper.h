@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "core/random.h"
-#include "model/stepper.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::testing_support {
 
@@ -30,7 +30,7 @@ inline std::shared_ptr<const model::Model> synthetic_model(int world) {
   return model;
 }
 
-class SyntheticStepper final : public model::WorldStepper {
+class SyntheticStepper final : public stepping::WorldStepper {
  public:
   /// What a test wants of it. Each function is asked for a (world, step about to be done).
   struct Behaviour {
@@ -70,7 +70,7 @@ class SyntheticStepper final : public model::WorldStepper {
 
   const model::State& state(int world) const override { return worlds_.at(world).state; }
   const model::Model& model(int world) const override { return *worlds_.at(world).model; }
-  const model::Observables& observables(int world) const override { return worlds_.at(world).observables; }
+  const stepping::Observables& observables(int world) const override { return worlds_.at(world).observables; }
   double cost_s(int world) const override { return behaviour_.cost_s(world); }
 
   int num_worlds() const { return static_cast<int>(worlds_.size()); }
@@ -79,7 +79,7 @@ class SyntheticStepper final : public model::WorldStepper {
   struct World {
     std::shared_ptr<const model::Model> model;
     model::State state;
-    model::Observables observables;
+    stepping::Observables observables;
     std::int64_t step = 0;
   };
 

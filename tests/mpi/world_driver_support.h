@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "mpi/world_driver.h"
+#include "mpi/worlds/world_driver.h"
 #include "synthetic_stepper.h"
 
 namespace pbmpi::testing_support {
@@ -42,7 +42,7 @@ inline std::uint64_t reference_hash(const WorldRunSettings& settings) {
 }
 
 /// Keeps what it was told.
-class Recorder : public model::FrameObserver {
+class Recorder : public stepping::FrameObserver {
  public:
   struct Frame {
     std::int64_t frame, step;
@@ -54,16 +54,16 @@ class Recorder : public model::FrameObserver {
     core::PhaseTimes phases;
   };
 
-  void frame_done(const model::FrameRecord& frame) override {
+  void frame_done(const stepping::FrameRecord& frame) override {
     std::vector<int> ids;
-    for (const model::LocalWorld& world : frame.worlds) ids.push_back(world.id);
+    for (const stepping::LocalWorld& world : frame.worlds) ids.push_back(world.id);
     frames.push_back({frame.frame, frame.step, frame.time_s, frame.measured, ids, frame.wall_s,
                       frame.deadline_met, frame.phases});
   }
-  void event(const model::RunEvent& event) override { events.push_back(event); }
+  void event(const stepping::RunEvent& event) override { events.push_back(event); }
 
   std::vector<Frame> frames;
-  std::vector<model::RunEvent> events;
+  std::vector<stepping::RunEvent> events;
 };
 
 }  // namespace pbmpi::testing_support

@@ -1,9 +1,9 @@
-#include "ode/broad_phase.h"
+#include "ode/collide/broad_phase.h"
 
 #include <gtest/gtest.h>
 
-#include "ode/bodies.h"
-#include "ode/engine.h"
+#include "ode/objects/bodies.h"
+#include "ode/objects/engine.h"
 #include "support/models.h"
 
 namespace pbmpi::ode {

@@ -1,9 +1,9 @@
-#include "ode/contacts.h"
+#include "ode/collide/contacts.h"
 
 #include <gtest/gtest.h>
 
-#include "ode/bodies.h"
-#include "ode/engine.h"
+#include "ode/objects/bodies.h"
+#include "ode/objects/engine.h"
 #include "support/models.h"
 
 namespace pbmpi::ode {
@@ -19,7 +19,7 @@ class Collided {
       : world_(dWorldCreate()),
         bodies_(make_bodies(world_.get(), model)),
         broad_(model, bodies_, SpaceKind::simple),
-        contacts(model, model::StepPlan(model), bodies_) {
+        contacts(model, effects::StepPlan(model), bodies_) {
     contacts.make(world_.get(), broad_.find_pairs(), broad_.geoms());
   }
   ~Collided() { contacts.clear(); }

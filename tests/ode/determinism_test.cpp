@@ -12,9 +12,9 @@ namespace {
 
 using model::Model;
 using model::State;
-using model::StepperKind;
-using model::StepperSettings;
-using model::WorldStepper;
+using stepping::StepperKind;
+using stepping::StepperSettings;
+using stepping::WorldStepper;
 
 std::unique_ptr<WorldStepper> make_stepper(const StepperSettings& settings) {
   // ODE's big-matrix solver may complain about the pile-up; that is the subject of another test.

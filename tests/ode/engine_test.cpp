@@ -1,9 +1,9 @@
-#include "ode/engine.h"
+#include "ode/objects/engine.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "ode/handles.h"
+#include "ode/objects/handles.h"
 #include "support/models.h"
 
 namespace pbmpi::ode {

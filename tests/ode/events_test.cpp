@@ -1,4 +1,4 @@
-#include "ode/events.h"
+#include "ode/objects/events.h"
 
 #include <cmath>
 
@@ -19,7 +19,7 @@ using model::Model;
 using model::Shape;
 using model::Vec3;
 
-const model::StepperSettings fine = {model::StepperKind::quick, 0.002, 100, 1};
+const stepping::StepperSettings fine = {stepping::StepperKind::quick, 0.002, 100, 1};
 
 Event event_at(std::int64_t step, EventKind kind) {
   Event event;

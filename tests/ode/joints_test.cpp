@@ -1,4 +1,4 @@
-#include "ode/joints.h"
+#include "ode/objects/joints.h"
 
 #include <cmath>
 #include <numbers>
@@ -16,10 +16,10 @@ namespace {
 using model::JointKind;
 using model::Model;
 using model::Shape;
-using model::StepperKind;
 using model::Vec3;
+using stepping::StepperKind;
 
-const model::StepperSettings fine = {StepperKind::quick, 0.002, 100, 1};
+const stepping::StepperSettings fine = {StepperKind::quick, 0.002, 100, 1};
 
 /// A heavy box a and a light box b beside it, free of gravity, joined in the middle between them.
 Model joined(JointKind kind, const Vec3& axis1, const Vec3& axis2) {
@@ -126,7 +126,7 @@ TEST(Joints, keep_each_bodys_own_anchor_over_a_gap_of_the_start) {
   Model model = joined(JointKind::ball, Vec3::UnitZ(), Vec3::UnitX());
   model.joints[0].anchor_b.y() += 0.2;
   for (model::Body& body : model.bodies) body.velocity = body.angular_velocity = Vec3::Zero();
-  EXPECT_NEAR(model::max_joint_gap(model, model::initial_state(model)), 0.2, 1e-12);
+  EXPECT_NEAR(stepping::max_joint_gap(model, model::initial_state(model)), 0.2, 1e-12);
   Simulation simulation(model, fine);
   simulation.advance(200);
   EXPECT_LT(simulation.observables().joint_gap_m, drift);  // ERP has pulled them together
@@ -239,7 +239,7 @@ TEST(Joints, turn_back_to_the_pose_that_a_motor_holds) {
       const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.2, Vec3::UnitY()));
       pushed.position[0] = turn * pushed.position[0];
       pushed.orientation[0] = {turn.w(), turn.x(), turn.y(), turn.z()};
-      model::StepperSettings settings = fine;
+      stepping::StepperSettings settings = fine;
       settings.kind = kind;
       const auto stepper = make_ode_stepper(settings, fail_on_warning);
       stepper->add(0, std::make_shared<Model>(model), pushed, 0);

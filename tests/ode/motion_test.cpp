@@ -11,9 +11,9 @@ namespace pbmpi::ode {
 namespace {
 
 using model::Model;
-using model::StepperKind;
-using model::StepperSettings;
 using model::Vec3;
+using stepping::StepperKind;
+using stepping::StepperSettings;
 
 constexpr double g = 9.81;
 

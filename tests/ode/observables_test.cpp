@@ -11,7 +11,7 @@ using model::Model;
 using model::Shape;
 using model::Vec3;
 
-const model::StepperSettings plain;
+const stepping::StepperSettings plain;
 
 TEST(Observables, count_each_body_without_contact_as_an_island) {
   Model model;
@@ -75,9 +75,9 @@ TEST(Observables, follow_the_crash_from_three_islands_to_one) {
 TEST(Observables, give_the_energy_of_the_last_state) {
   Simulation simulation(support::free_box(), plain);
   simulation.advance(7);
-  EXPECT_EQ(simulation.energy(), model::mechanical_energy(simulation.model(), simulation.state()));
+  EXPECT_EQ(simulation.energy(), stepping::mechanical_energy(simulation.model(), simulation.state()));
   simulation.advance(1);
-  EXPECT_EQ(simulation.energy(), model::mechanical_energy(simulation.model(), simulation.state()));
+  EXPECT_EQ(simulation.energy(), stepping::mechanical_energy(simulation.model(), simulation.state()));
 }
 
 }  // namespace

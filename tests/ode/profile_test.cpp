@@ -10,22 +10,22 @@
 namespace pbmpi::ode {
 namespace {
 
-model::StepperSettings profiling(model::StepperKind kind) {
-  model::StepperSettings settings;
+stepping::StepperSettings profiling(stepping::StepperKind kind) {
+  stepping::StepperSettings settings;
   settings.kind = kind;
   settings.profile = true;
   return settings;
 }
 
-std::unique_ptr<model::WorldStepper> stepper_with(const model::Model& model,
-                                                  const model::StepperSettings& settings) {
+std::unique_ptr<stepping::WorldStepper> stepper_with(const model::Model& model,
+                                                     const stepping::StepperSettings& settings) {
   auto stepper = make_ode_stepper(settings, [](const std::string&) {});
   stepper->add(0, std::make_shared<model::Model>(model), model::initial_state(model), 0);
   return stepper;
 }
 
 /// The bits after 40 steps, profiled every third step or never.
-std::uint64_t hash_of(const model::Model& model, const model::StepperSettings& settings, bool profile) {
+std::uint64_t hash_of(const model::Model& model, const stepping::StepperSettings& settings, bool profile) {
   const auto stepper = stepper_with(model, settings);
   core::PhaseTimes times;
   for (int frame = 0; frame < 13; ++frame) {
@@ -36,7 +36,7 @@ std::uint64_t hash_of(const model::Model& model, const model::StepperSettings& s
 }
 
 TEST(StepProfile, changes_no_bit_of_the_run) {
-  for (const auto kind : {model::StepperKind::quick, model::StepperKind::direct}) {
+  for (const auto kind : {stepping::StepperKind::quick, stepping::StepperKind::direct}) {
     const auto settings = profiling(kind);
     EXPECT_EQ(hash_of(support::crash(), settings, true), hash_of(support::crash(), settings, false));
     EXPECT_EQ(hash_of(support::pile(8), settings, true), hash_of(support::pile(8), settings, false));
@@ -50,14 +50,14 @@ TEST(StepProfile, a_launch_in_the_last_step_is_not_fired_twice) {
   launch.body = 2;
   launch.velocity = model::Vec3(4, 0, 2);
   model.events.push_back(launch);
-  const auto settings = profiling(model::StepperKind::quick);
+  const auto settings = profiling(stepping::StepperKind::quick);
   EXPECT_EQ(hash_of(model, settings, true), hash_of(model, settings, false));
 }
 
 TEST(StepProfile, a_joint_that_broke_in_the_last_step_acts_in_its_profile) {
   model::Model model = support::pendulum(1, 1.5);
   model.joints[0].break_force = 20;  // twice its weight, on its way down
-  const auto settings = profiling(model::StepperKind::quick);
+  const auto settings = profiling(stepping::StepperKind::quick);
   EXPECT_EQ(hash_of(model, settings, true), hash_of(model, settings, false));
   const auto stepper = stepper_with(model, settings);
   core::PhaseTimes times;
@@ -74,16 +74,16 @@ TEST(StepProfile, a_joint_that_broke_in_the_last_step_acts_in_its_profile) {
 }
 
 TEST(StepProfile, counts_what_the_observables_of_the_step_count) {
-  const auto stepper = stepper_with(support::crash(), profiling(model::StepperKind::quick));
+  const auto stepper = stepper_with(support::crash(), profiling(stepping::StepperKind::quick));
   core::PhaseTimes times;
   for (int frame = 0; frame < 10; ++frame) {
     stepper->advance(3, times);
     stepper->profile_last_step();
-    const model::StepProfile* profile = stepper->profile(0);
+    const stepping::StepProfile* profile = stepper->profile(0);
     ASSERT_NE(profile, nullptr);
-    const model::Observables& seen = stepper->observables(0);
+    const stepping::Observables& seen = stepper->observables(0);
     int bodies = 0, rows = 0, contacts = 0;
-    for (const model::IslandCost& island : profile->islands) {
+    for (const stepping::IslandCost& island : profile->islands) {
       bodies += island.bodies;
       rows += island.rows;
       contacts += island.contacts;
@@ -102,7 +102,7 @@ TEST(StepProfile, a_large_island_costs_more_than_a_single_body) {
   const int actor = support::add_actor(model, "ball");
   const int ball =
       support::add_solid(model, actor, "ball", model::Shape::sphere, {0.1, 0, 0}, 1, model::Vec3(0, 50, 50));
-  const auto stepper = stepper_with(model, profiling(model::StepperKind::quick));
+  const auto stepper = stepper_with(model, profiling(stepping::StepperKind::quick));
   core::PhaseTimes times;
   stepper->advance(3, times);
   stepper->profile_last_step();
@@ -117,7 +117,7 @@ TEST(StepProfile, a_large_island_costs_more_than_a_single_body) {
 TEST(StepProfile, leaves_islands_inside_and_outside_of_a_field_of_interest_as_they_were) {
   model::Model model = support::crash();
   model.interest = model::Interest{model.bodies.back().pose.position, model::no_body, 1, 3};
-  const model::StepperSettings settings = profiling(model::StepperKind::quick);
+  const stepping::StepperSettings settings = profiling(stepping::StepperKind::quick);
   EXPECT_EQ(hash_of(model, settings, true), hash_of(model, settings, false));
   const auto stepper = stepper_with(model, settings);
   core::PhaseTimes times;
@@ -130,7 +130,7 @@ TEST(StepProfile, counts_contacts_between_spaces_but_not_with_the_ground) {
   model::Model model = support::pile(2);
   core::PhaseTimes times;
   const auto cross_contacts = [&] {
-    const auto stepper = stepper_with(model, profiling(model::StepperKind::quick));
+    const auto stepper = stepper_with(model, profiling(stepping::StepperKind::quick));
     for (int frame = 0; frame < 10; ++frame) stepper->advance(3, times);
     stepper->profile_last_step();
     EXPECT_GT(stepper->observables(0).contacts, 0);

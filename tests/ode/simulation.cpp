@@ -14,8 +14,8 @@ bool is_lcp_complaint(const std::string& line) {
   return line.find("LCP internal error") != std::string::npos;
 }
 
-WarningSink sink_for(model::StepperKind kind) {
-  if (kind == model::StepperKind::quick) return fail_on_warning;
+WarningSink sink_for(stepping::StepperKind kind) {
+  if (kind == stepping::StepperKind::quick) return fail_on_warning;
   return [](const std::string& line) {
     if (!is_lcp_complaint(line)) fail_on_warning(line);
   };
@@ -25,7 +25,7 @@ WarningSink sink_for(model::StepperKind kind) {
 
 void fail_on_warning(const std::string& line) { ADD_FAILURE() << line; }
 
-Simulation::Simulation(const model::Model& model, const model::StepperSettings& settings)
+Simulation::Simulation(const model::Model& model, const stepping::StepperSettings& settings)
     : stepper_(make_ode_stepper(settings, sink_for(settings.kind))) {
   model::validate(model, "test");
   stepper_->add(0, std::make_shared<model::Model>(model), model::initial_state(model), 0);
@@ -40,7 +40,7 @@ model::Vec3 Simulation::direction(int body, const model::Vec3& local) const {
   return state().orientation[body].to_eigen() * local;
 }
 
-std::uint64_t hash_after(const model::Model& model, const model::StepperSettings& settings, int world,
+std::uint64_t hash_after(const model::Model& model, const stepping::StepperSettings& settings, int world,
                          int num_steps) {
   const auto stepper = make_ode_stepper(settings, sink_for(settings.kind));
   stepper->add(world, std::make_shared<model::Model>(model), model::initial_state(model), 0);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/stepper.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::ode {
 
@@ -15,22 +15,22 @@ void fail_on_warning(const std::string& line);
 /// With `quick`, any message of ODE fails the test; with `direct`, any but that of its LCP solver.
 class Simulation {
  public:
-  Simulation(const model::Model& model, const model::StepperSettings& settings);
+  Simulation(const model::Model& model, const stepping::StepperSettings& settings);
 
   void advance(int num_steps);
   const model::State& state() const { return stepper_->state(0); }
-  const model::Observables& observables() const { return stepper_->observables(0); }
+  const stepping::Observables& observables() const { return stepper_->observables(0); }
   const model::Model& model() const { return stepper_->model(0); }
   double energy() const { return observables().energy_j; }
   /// A direction fixed in a body, in the world frame.
   model::Vec3 direction(int body, const model::Vec3& local) const;
 
  private:
-  std::unique_ptr<model::WorldStepper> stepper_;
+  std::unique_ptr<stepping::WorldStepper> stepper_;
 };
 
 /// The bits of a world after `num_steps` steps, alone in a new stepper.
-std::uint64_t hash_after(const model::Model& model, const model::StepperSettings& settings, int world,
+std::uint64_t hash_after(const model::Model& model, const stepping::StepperSettings& settings, int world,
                          int num_steps);
 
 }  // namespace pbmpi::ode

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "ode/ode_stepper.h"
 #include "simulation.h"
 #include "support/models.h"
 
@@ -21,16 +22,16 @@ namespace {
 
 using model::Model;
 
-void add(model::WorldStepper& stepper, int world, const Model& model) {
+void add(stepping::WorldStepper& stepper, int world, const Model& model) {
   stepper.add(world, std::make_shared<Model>(model), model::initial_state(model), 0);
 }
 
 TEST(OdeStepper, refuses_settings_that_step_nothing) {
-  EXPECT_THROW(make_ode_stepper({model::StepperKind::quick, 0, 20, 1}), core::InputError);
-  EXPECT_THROW(make_ode_stepper({model::StepperKind::quick, -0.01, 20, 1}), core::InputError);
-  EXPECT_THROW(make_ode_stepper({model::StepperKind::quick, std::nan(""), 20, 1}), core::InputError);
-  EXPECT_THROW(make_ode_stepper({model::StepperKind::quick, model::infinity, 20, 1}), core::InputError);
-  EXPECT_THROW(make_ode_stepper({model::StepperKind::quick, 0.01, 0, 1}), core::InputError);
+  EXPECT_THROW(make_ode_stepper({stepping::StepperKind::quick, 0, 20, 1}), core::InputError);
+  EXPECT_THROW(make_ode_stepper({stepping::StepperKind::quick, -0.01, 20, 1}), core::InputError);
+  EXPECT_THROW(make_ode_stepper({stepping::StepperKind::quick, std::nan(""), 20, 1}), core::InputError);
+  EXPECT_THROW(make_ode_stepper({stepping::StepperKind::quick, model::infinity, 20, 1}), core::InputError);
+  EXPECT_THROW(make_ode_stepper({stepping::StepperKind::quick, 0.01, 0, 1}), core::InputError);
 }
 
 TEST(OdeStepper, knows_a_world_from_its_adding_to_its_removal) {
@@ -82,12 +83,12 @@ TEST(OdeStepper, steps_nothing_in_no_steps) {
   EXPECT_EQ(model::hash(stepper->state(0)), model::hash(model::initial_state(model)));
 }
 
-class Nan : public testing::TestWithParam<model::StepperKind> {};
+class Nan : public testing::TestWithParam<stepping::StepperKind> {};
 INSTANTIATE_TEST_SUITE_P(OdeStepper, Nan,
-                         testing::Values(model::StepperKind::quick, model::StepperKind::direct));
+                         testing::Values(stepping::StepperKind::quick, stepping::StepperKind::direct));
 
 TEST_P(Nan, in_one_world_is_shown_and_leaves_the_others_alone) {
-  const model::StepperSettings settings{GetParam(), 0.01, 20, 1};
+  const stepping::StepperSettings settings{GetParam(), 0.01, 20, 1};
   std::vector<std::string> lines;
   const auto stepper = make_ode_stepper(settings, [&](const std::string& line) { lines.push_back(line); });
   const Model model = support::crash();
@@ -122,7 +123,7 @@ TEST(OdeStepper, reports_how_often_the_direct_solver_complained) {
       support::add_solid(model, actor, "box" + std::to_string(i), model::Shape::box, {1, 1, 1}, 1,
                          {0, 0, 0.4999 + 0.9999 * i});
     }
-    const auto stepper = make_ode_stepper({model::StepperKind::direct, 0.01, 1, 1}, sink);
+    const auto stepper = make_ode_stepper({stepping::StepperKind::direct, 0.01, 1, 1}, sink);
     add(*stepper, 0, model);
     core::PhaseTimes times;
     stepper->advance(20, times);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "helpers.h"
-#include "model/stepper.h"
 #include "ode/ode_stepper.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::scenes {
 
@@ -16,11 +16,11 @@ namespace pbmpi::scenes {
 class Simulation {
  public:
   explicit Simulation(const Scene& scene, int num_worlds, std::uint64_t seed = 1,
-                      model::StepperKind kind = model::StepperKind::quick)
+                      stepping::StepperKind kind = stepping::StepperKind::quick)
       : num_worlds_(num_worlds) {
     const RunDefaults& defaults = scene.defaults();
     steps_per_frame_ = defaults.steps_per_frame;
-    model::StepperSettings settings;
+    stepping::StepperSettings settings;
     settings.dt_s = defaults.dt_s;
     settings.iterations = defaults.iterations;
     settings.seed = seed;
@@ -50,12 +50,12 @@ class Simulation {
   }
 
   const model::State& state(int world) const { return stepper_->state(world); }
-  const model::Observables& observables(int world) const { return stepper_->observables(world); }
+  const stepping::Observables& observables(int world) const { return stepper_->observables(world); }
 
  private:
   int num_worlds_;
   int steps_per_frame_ = 1;
-  std::unique_ptr<model::WorldStepper> stepper_;
+  std::unique_ptr<stepping::WorldStepper> stepper_;
 };
 
 /// The measured part of `islands` of warm-up and measured frames.

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "model/names.h"
-#include "ode/narrow_phase.h"
+#include "ode/collide/narrow_phase.h"
 #include "solver/sor_run.h"
-#include "solver/sor_stepper.h"
+#include "solver/worlds/sor_stepper.h"
+#include "stepping/names.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -14,9 +14,9 @@ namespace {
 
 constexpr int num_worlds = 5;  // so that some lanes idle, whatever the width
 
-model::StepperSettings settings_of(model::Simd simd, model::Precision precision) {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::sor;
+stepping::StepperSettings settings_of(stepping::Simd simd, stepping::Precision precision) {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
   settings.simd = simd;
   settings.precision = precision;
   return settings;
@@ -35,14 +35,14 @@ struct Crashes {
   std::vector<model::State> states;
   static constexpr std::int64_t step = 14;
 
-  explicit Crashes(const model::StepperSettings& settings) {
+  explicit Crashes(const stepping::StepperSettings& settings) {
     const auto path = make_sor_stepper(settings, ode::make_narrow_phase);
     for (int world = 0; world < num_worlds; ++world)
       path->add(world, crash(world), model::initial_state(*crash(world)), 0);
     advance(*path, step);
     for (int world = 0; world < num_worlds; ++world) states.push_back(path->state(world));
   }
-  std::unique_ptr<model::AnytimeStepper> start(const model::StepperSettings& settings) const {
+  std::unique_ptr<stepping::AnytimeStepper> start(const stepping::StepperSettings& settings) const {
     auto stepper = make_sor_stepper(settings, ode::make_narrow_phase);
     for (int world = 0; world < num_worlds; ++world)
       stepper->add(world, crash(world), states[static_cast<std::size_t>(world)], step);
@@ -50,21 +50,21 @@ struct Crashes {
   }
 };
 
-std::vector<std::uint64_t> hashes(const model::WorldStepper& stepper) {
+std::vector<std::uint64_t> hashes(const stepping::WorldStepper& stepper) {
   std::vector<std::uint64_t> all;
   for (int world = 0; world < num_worlds; ++world) all.push_back(model::hash(stepper.state(world)));
   return all;
 }
 
-std::vector<std::uint64_t> looks(const model::AnytimeStepper& stepper) {
+std::vector<std::uint64_t> looks(const stepping::AnytimeStepper& stepper) {
   std::vector<std::uint64_t> all;
   for (int world = 0; world < num_worlds; ++world) all.push_back(model::hash(stepper.look(world)));
   return all;
 }
 
-class Anytime : public testing::TestWithParam<std::tuple<model::Simd, model::Precision>> {
+class Anytime : public testing::TestWithParam<std::tuple<stepping::Simd, stepping::Precision>> {
  protected:
-  model::StepperSettings settings() const {
+  stepping::StepperSettings settings() const {
     return settings_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
   }
 };
@@ -75,7 +75,7 @@ TEST_P(Anytime, a_look_is_the_state_of_a_run_of_so_many_iterations) {
   for (const int iterations : {1, 2, 9, 20}) {
     const auto stepper = crashes.start(settings());
     stepper->begin_step(iterations, times);
-    model::StepperSettings few = settings();
+    stepping::StepperSettings few = settings();
     few.iterations = iterations;
     const auto short_run = crashes.start(few);
     advance(*short_run, 1);
@@ -99,7 +99,7 @@ TEST_P(Anytime, a_look_changes_no_bit_of_the_step) {
 }
 
 TEST_P(Anytime, of_several_steps_and_substeps_the_first_step_was_begun) {
-  model::StepperSettings substeps = settings();
+  stepping::StepperSettings substeps = settings();
   substeps.substeps = 3;
   substeps.iterations = 4;
   substeps.warm_start = 0.5;
@@ -114,18 +114,19 @@ TEST_P(Anytime, of_several_steps_and_substeps_the_first_step_was_begun) {
   EXPECT_EQ(hashes(*begun), hashes(*alone));
 }
 
-std::vector<model::Simd> simds() { return machine_simds(); }
+std::vector<stepping::Simd> simds() { return machine_simds(); }
 INSTANTIATE_TEST_SUITE_P(every_width, Anytime,
                          testing::Combine(testing::ValuesIn(simds()),
-                                          testing::Values(model::Precision::double_,
-                                                          model::Precision::single)),
+                                          testing::Values(stepping::Precision::double_,
+                                                          stepping::Precision::single)),
                          [](const auto& test) {
-                           return std::string(model::name_of(std::get<0>(test.param))) + "_" +
-                                  std::string(model::name_of(std::get<1>(test.param)));
+                           return std::string(name_of(std::get<0>(test.param))) + "_" +
+                                  std::string(name_of(std::get<1>(test.param)));
                          });
 
 TEST(AnytimeStepper, what_was_begun_is_dropped_when_worlds_come_go_or_change) {
-  const model::StepperSettings settings = settings_of(model::Simd::automatic, model::Precision::double_);
+  const stepping::StepperSettings settings =
+      settings_of(stepping::Simd::automatic, stepping::Precision::double_);
   const Crashes crashes(settings);
   core::PhaseTimes times;
   const auto expected = crashes.start(settings);
@@ -142,7 +143,8 @@ TEST(AnytimeStepper, what_was_begun_is_dropped_when_worlds_come_go_or_change) {
 }
 
 TEST(AnytimeStepper, a_step_cannot_be_begun_twice_or_beyond_its_iterations) {
-  const model::StepperSettings settings = settings_of(model::Simd::automatic, model::Precision::double_);
+  const stepping::StepperSettings settings =
+      settings_of(stepping::Simd::automatic, stepping::Precision::double_);
   core::PhaseTimes times;
   const auto stepper = Crashes(settings).start(settings);
   EXPECT_ANY_THROW(stepper->begin_step(21, times));

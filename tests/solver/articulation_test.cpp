@@ -1,4 +1,4 @@
-#include "solver/articulation.h"
+#include "solver/layout/articulation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "solver/awake_geoms.h"
+#include "solver/layout/awake_geoms.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "core/random.h"
-#include "ode/narrow_phase.h"
-#include "solver/simd.h"
+#include "ode/collide/narrow_phase.h"
+#include "solver/pack/simd.h"
 #include "solver/sor_run.h"
 #include "support/models.h"
 
@@ -53,9 +53,9 @@ TEST(AwakeGeoms, limit_the_contacts_to_those_of_which_a_body_is_awake) {
   for (const int count : {40, 200, 1100}) {
     const Model model = heap(count);
     const auto fallback = ode::make_narrow_phase(model);
-    for (const model::Simd simd : machine_simds()) {
+    for (const stepping::Simd simd : machine_simds()) {
       const std::vector<PackedWorld> worlds = {{&model, find_articulations(model), fallback.get()}};
-      const auto pack = make_pack(worlds, simd, model::Precision::double_);
+      const auto pack = make_pack(worlds, simd, stepping::Precision::double_);
       const std::vector<Contact> all = collide(*pack);
       ASSERT_GT(all.size(), static_cast<std::size_t>(count)) << "a heap";
       for (const int stride : {10, count, 2 * count}) {

@@ -4,6 +4,7 @@
 #include "core/hash.h"
 #include "model/names.h"
 #include "solver/sor_run.h"
+#include "stepping/names.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -11,10 +12,10 @@ namespace {
 
 constexpr int num_steps = 80;  // the first balls touch the ground after 10 steps, each other after 15
 
-model::StepperSettings sor_settings(model::Precision precision = model::Precision::double_,
-                                    model::Simd simd = model::Simd::automatic) {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::sor;
+stepping::StepperSettings sor_settings(stepping::Precision precision = stepping::Precision::double_,
+                                       stepping::Simd simd = stepping::Simd::automatic) {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
   settings.precision = precision;
   settings.simd = simd;
   return settings;
@@ -29,7 +30,7 @@ std::vector<model::Model> worlds_of_balls(const model::EffectChoices& effects) {
   return worlds;
 }
 
-std::vector<std::uint64_t> hashes_after(const model::StepperSettings& settings,
+std::vector<std::uint64_t> hashes_after(const stepping::StepperSettings& settings,
                                         const std::vector<model::Model>& worlds) {
   const auto stepper = make_stepper(settings, worlds);
   advance(*stepper, num_steps);
@@ -38,15 +39,15 @@ std::vector<std::uint64_t> hashes_after(const model::StepperSettings& settings,
   return result;
 }
 
-class Balls : public testing::TestWithParam<model::Precision> {};
+class Balls : public testing::TestWithParam<stepping::Precision> {};
 
 TEST_P(Balls, end_in_the_same_bits_with_friction_demanded_and_for_every_width) {
-  const auto expected = hashes_after(sor_settings(GetParam(), model::Simd::off), worlds_of_balls({}));
-  for (const model::Simd simd : machine_simds()) {
-    const model::StepperSettings settings = sor_settings(GetParam(), simd);
-    EXPECT_EQ(hashes_after(settings, worlds_of_balls({})), expected) << model::name_of(simd);
+  const auto expected = hashes_after(sor_settings(GetParam(), stepping::Simd::off), worlds_of_balls({}));
+  for (const stepping::Simd simd : machine_simds()) {
+    const stepping::StepperSettings settings = sor_settings(GetParam(), simd);
+    EXPECT_EQ(hashes_after(settings, worlds_of_balls({})), expected) << name_of(simd);
     EXPECT_EQ(hashes_after(settings, worlds_of_balls({{"friction", true}})), expected)
-        << model::name_of(simd) << ", friction demanded";
+        << name_of(simd) << ", friction demanded";
   }
 }
 
@@ -69,8 +70,8 @@ TEST_P(Balls, keep_their_spin_to_the_bit) {
     EXPECT_EQ(omega, model::Vec3(1.25, -0.5, 3));
 }
 
-INSTANTIATE_TEST_SUITE_P(, Balls, testing::Values(model::Precision::double_, model::Precision::single),
-                         [](const auto& test) { return std::string(model::name_of(test.param)); });
+INSTANTIATE_TEST_SUITE_P(, Balls, testing::Values(stepping::Precision::double_, stepping::Precision::single),
+                         [](const auto& test) { return std::string(name_of(test.param)); });
 
 TEST(BallsAndOthers, balls_that_meet_pass_their_momentum_on) {
   model::Model model = support::falling_balls(3, 0);

@@ -1,5 +1,5 @@
 // The effect "breakable_joints" in all steppers: quick, direct and sor.
-#include "model/breakage.h"
+#include "effects/breakage.h"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@ namespace {
 using model::JointKind;
 using model::Model;
 using model::State;
-using model::StepperKind;
-using model::StepperSettings;
 using model::Vec3;
+using stepping::StepperKind;
+using stepping::StepperSettings;
 
 constexpr double gravity = 9.81;
 constexpr double mass_kg = 12;
@@ -39,13 +39,13 @@ std::vector<Stepped> all_steppers() {
   direct.kind = StepperKind::direct;
   sor.kind = StepperKind::sor;
   StepperSettings single = sor, substeps = sor;
-  single.precision = model::Precision::single;
+  single.precision = stepping::Precision::single;
   substeps.substeps = 4;
   return {{"quick", quick}, {"direct", direct}, {"sor", sor}, {"single", single}, {"substeps", substeps}};
 }
 
-std::unique_ptr<model::WorldStepper> start(const StepperSettings& settings, const Model& model,
-                                           const State& state, std::int64_t step = 0) {
+std::unique_ptr<stepping::WorldStepper> start(const StepperSettings& settings, const Model& model,
+                                              const State& state, std::int64_t step = 0) {
   auto stepper = settings.kind == StepperKind::sor
                      ? make_stepper(settings)
                      : ode::make_ode_stepper(settings, [](const std::string&) {});
@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(Joints, EveryStepperAndKind,
                                                           JointKind::fixed, JointKind::hinge2)),
                          [](const auto& test) {
                            return std::get<0>(test.param).name + "_" +
-                                  std::string(model::name_of(std::get<1>(test.param)));
+                                  std::string(name_of(std::get<1>(test.param)));
                          });
 
 class EveryStepper : public testing::TestWithParam<Stepped> {
@@ -255,7 +255,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryStepper, testing::ValuesIn(all_steppers()),
 
 // Worlds in one pack: they break at different steps, one not at all.
 TEST(Breakage, in_a_lane_leaves_its_neighbours_as_they_are) {
-  for (const model::Precision precision : {model::Precision::double_, model::Precision::single}) {
+  for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
     StepperSettings settings;
     settings.kind = StepperKind::sor;
     settings.precision = precision;
@@ -265,7 +265,7 @@ TEST(Breakage, in_a_lane_leaves_its_neighbours_as_they_are) {
       worlds.push_back(swing(strength));
       alone.push_back(model::hash(state_after(settings, worlds.back(), swing_steps)));
     }
-    for (const model::Simd simd : machine_simds()) {
+    for (const stepping::Simd simd : machine_simds()) {
       settings.simd = simd;
       const auto together = make_stepper(settings, worlds);
       advance(*together, swing_steps);
@@ -286,7 +286,7 @@ TEST(Breakage, leaves_no_residual) {
   model.joints[1].break_force = 1;
   const auto stepper = start(settings, model, model::initial_state(model));
   advance(*stepper, 20);
-  const model::Residuals& seen = stepper->observables(0).residuals;
+  const stepping::Residuals& seen = stepper->observables(0).residuals;
   // [m/s] the base's joint alone, which 20 iterations solve; the broken one's rows would be off by 2 m/s.
   EXPECT_LT(seen.joint_speed, 1e-3);
   EXPECT_LT(seen.natural_speed, 1e-3);

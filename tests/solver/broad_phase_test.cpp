@@ -1,11 +1,11 @@
-#include "solver/broad_phase.h"
+#include "solver/collide/broad_phase.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/random.h"
-#include "model/geometry.h"
+#include "geometry/geometry.h"
 #include "model/state.h"
 #include "support/models.h"
 
@@ -39,7 +39,7 @@ std::vector<model::BodyPose> poses_of(const model::Model& model) {
     model::BodyPose pose{};
     std::copy_n(body.pose.position.data(), 3, pose.position);
     const model::Quat& q = body.pose.orientation;
-    model::to_rotation(q.w, q.x, q.y, q.z, pose.rotation);
+    geometry::to_rotation(q.w, q.x, q.y, q.z, pose.rotation);
     poses.push_back(pose);
   }
   return poses;
@@ -57,14 +57,14 @@ std::vector<GeomPair> brute_force(const model::Model& model, const std::vector<m
       const model::Geom& a = model.geoms[static_cast<std::size_t>(i)];
       const model::Geom& b = model.geoms[static_cast<std::size_t>(j)];
       if (a.body == b.body || a.actor == b.actor) continue;
-      const model::BodyPose pose_b = model::geom_pose(b, poses[static_cast<std::size_t>(b.body)]);
-      const auto half_b = model::half_extents(b, pose_b.rotation);
+      const model::BodyPose pose_b = geometry::geom_pose(b, poses[static_cast<std::size_t>(b.body)]);
+      const auto half_b = geometry::half_extents(b, pose_b.rotation);
       bool touch = true;
       if (a.shape == model::Shape::plane) {
         touch = pose_b.position[2] - half_b[2] <= 0;  // the ground z = 0
       } else {
-        const model::BodyPose pose_a = model::geom_pose(a, poses[static_cast<std::size_t>(a.body)]);
-        const auto half_a = model::half_extents(a, pose_a.rotation);
+        const model::BodyPose pose_a = geometry::geom_pose(a, poses[static_cast<std::size_t>(a.body)]);
+        const auto half_a = geometry::half_extents(a, pose_a.rotation);
         for (std::size_t k = 0; k < 3; ++k) {
           touch = touch && std::abs(pose_a.position[k] - pose_b.position[k]) <= half_a[k] + half_b[k];
         }

@@ -1,4 +1,4 @@
-#include "solver/contact_colors.h"
+#include "solver/contacts/contact_colors.h"
 
 #include <gtest/gtest.h>
 

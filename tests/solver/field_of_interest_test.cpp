@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <ostream>
 
-#include "model/effects.h"
-#include "ode/narrow_phase.h"
+#include "effects/effects.h"
+#include "ode/collide/narrow_phase.h"
 #include "ode/ode_stepper.h"
 #include "solver/sor_run.h"
-#include "solver/sor_stepper.h"
+#include "solver/worlds/sor_stepper.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -17,8 +17,8 @@ namespace {
 using model::Interest;
 using model::Model;
 using model::State;
-using model::StepperKind;
-using model::StepperSettings;
+using stepping::StepperKind;
+using stepping::StepperSettings;
 
 constexpr int bodies_a_yard = 8;
 constexpr double between_yards_m = 30;
@@ -71,16 +71,16 @@ Model yards_with_ball(int launched_at, bool sleeping = false) {
   return model;
 }
 
-std::unique_ptr<model::WorldStepper> start(const StepperSettings& settings, const Model& model,
-                                           const State& state, std::int64_t step = 0) {
+std::unique_ptr<stepping::WorldStepper> start(const StepperSettings& settings, const Model& model,
+                                              const State& state, std::int64_t step = 0) {
   auto stepper = settings.kind == StepperKind::sor
-                     ? std::unique_ptr<model::WorldStepper>(make_stepper(settings))
+                     ? std::unique_ptr<stepping::WorldStepper>(make_stepper(settings))
                      : ode::make_ode_stepper(settings, [](const std::string&) {});
   stepper->add(0, std::make_shared<const Model>(model), state, step);
   return stepper;
 }
 
-std::unique_ptr<model::WorldStepper> start(const StepperSettings& settings, const Model& model) {
+std::unique_ptr<stepping::WorldStepper> start(const StepperSettings& settings, const Model& model) {
   return start(settings, model, model::initial_state(model));
 }
 
@@ -99,7 +99,7 @@ State part(const State& state, int first, int count) {
 struct Case {
   const char* name;
   StepperKind kind;
-  model::Precision precision;
+  stepping::Precision precision;
   int substeps;
 };
 
@@ -122,12 +122,13 @@ class FieldOfInterest : public testing::TestWithParam<Case> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Steppers, FieldOfInterest,
-                         testing::Values(Case{"quick", StepperKind::quick, model::Precision::double_, 1},
-                                         Case{"sor", StepperKind::sor, model::Precision::double_, 1},
-                                         Case{"sor_substeps", StepperKind::sor, model::Precision::double_, 3},
-                                         Case{"sor_single", StepperKind::sor, model::Precision::single, 1}),
-                         [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Steppers, FieldOfInterest,
+    testing::Values(Case{"quick", StepperKind::quick, stepping::Precision::double_, 1},
+                    Case{"sor", StepperKind::sor, stepping::Precision::double_, 1},
+                    Case{"sor_substeps", StepperKind::sor, stepping::Precision::double_, 3},
+                    Case{"sor_single", StepperKind::sor, stepping::Precision::single, 1}),
+    [](const auto& instance) { return instance.param.name; });
 
 // QuickStep shuffles the rows of one call with one sequence of random numbers: those of the other islands in
 // the call, so that only the same islands have the same bits.
@@ -145,8 +146,8 @@ TEST_P(FieldOfInterest, gives_each_island_the_bits_of_a_run_of_its_own_with_its_
     ASSERT_EQ(model::hash(part(state, 0, bodies_a_yard)), model::hash(near->state(0))) << "step " << step;
     ASSERT_EQ(model::hash(part(state, bodies_a_yard, bodies_a_yard)), model::hash(far->state(0)))
         << "step " << step;
-    const model::Observables &seen = both->observables(0), &a = near->observables(0),
-                             &b = far->observables(0);
+    const stepping::Observables &seen = both->observables(0), &a = near->observables(0),
+                                &b = far->observables(0);
     ASSERT_EQ(seen.contacts, a.contacts + b.contacts);
     ASSERT_EQ(seen.rows, a.rows + b.rows);
     ASSERT_EQ(seen.islands, a.islands + b.islands);
@@ -176,7 +177,7 @@ TEST_P(FieldOfInterest, changes_no_bit_where_it_is_demanded_of_a_model_without) 
   plain.interest.reset();
   Model demanded = plain;
   demanded.effects["field_of_interest"] = true;
-  ASSERT_TRUE(model::StepPlan(demanded).is_idle("field_of_interest"));
+  ASSERT_TRUE(effects::StepPlan(demanded).is_idle("field_of_interest"));
   EXPECT_EQ(hash_after(60, demanded), hash_after(60, plain));
 }
 
@@ -225,24 +226,24 @@ TEST(FieldOfInterestInPacks, worlds_have_the_bits_that_each_has_alone_for_every_
     for (const int launched_at : {20, 50, 90, 25, 400, 60, 35})
       worlds.push_back(yards_with_ball(launched_at, sleeping));
     constexpr int num_steps = 130;
-    for (const model::Precision precision : {model::Precision::double_, model::Precision::single}) {
+    for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
       StepperSettings settings;
       settings.kind = StepperKind::sor;
       settings.precision = precision;
       settings.residuals = true;
-      std::vector<std::unique_ptr<model::WorldStepper>> alone;
+      std::vector<std::unique_ptr<stepping::WorldStepper>> alone;
       for (const Model& model : worlds) {
         alone.push_back(start(settings, model));
         advance(*alone.back(), num_steps);
       }
-      for (const model::Simd simd : machine_simds()) {
+      for (const stepping::Simd simd : machine_simds()) {
         settings.simd = simd;
         const auto together = make_stepper(settings, worlds);
         advance(*together, num_steps);
         for (std::size_t i = 0; i < worlds.size(); ++i) {
           const int world = static_cast<int>(i);
           EXPECT_EQ(model::hash(together->state(world)), model::hash(alone[i]->state(0))) << i;
-          const model::Observables &seen = together->observables(world), &same = alone[i]->observables(0);
+          const stepping::Observables &seen = together->observables(world), &same = alone[i]->observables(0);
           EXPECT_EQ(seen.rows, same.rows) << i;
           EXPECT_EQ(seen.bodies_inside, same.bodies_inside) << i;
           EXPECT_EQ(seen.residuals.joint_speed, same.residuals.joint_speed) << i;

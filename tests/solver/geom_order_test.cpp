@@ -1,4 +1,4 @@
-#include "solver/geom_order.h"
+#include "solver/layout/geom_order.h"
 
 #include <gtest/gtest.h>
 

@@ -41,9 +41,9 @@ model::Model linked_boxes(JointKind kind) {
   return model;
 }
 
-std::unique_ptr<model::WorldStepper> reference(const model::Model& model) {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::direct;
+std::unique_ptr<stepping::WorldStepper> reference(const model::Model& model) {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::direct;
   auto stepper = ode::make_ode_stepper(settings, [](const std::string&) {});  // its LCP solver is chatty
   stepper->add(0, std::make_shared<const model::Model>(model), model::initial_state(model), 0);
   return stepper;
@@ -51,8 +51,8 @@ std::unique_ptr<model::WorldStepper> reference(const model::Model& model) {
 
 /// The largest difference of a velocity after `num_steps` steps.
 double velocity_difference(const model::Model& model, int num_steps) {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::sor;
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
   settings.iterations = converged;
   const auto own = make_stepper(settings, {model});
   const auto direct = reference(model);
@@ -126,7 +126,7 @@ TEST_P(JointOracle, a_motor_at_its_limit_pushes_alike) {
 INSTANTIATE_TEST_SUITE_P(EveryKind, JointOracle,
                          testing::Values(JointKind::ball, JointKind::hinge, JointKind::slider,
                                          JointKind::universal, JointKind::fixed, JointKind::hinge2),
-                         [](const auto& test) { return std::string(model::name_of(test.param)); });
+                         [](const auto& test) { return std::string(name_of(test.param)); });
 
 TEST(JointOracle, a_universal_joint_limits_and_drives_its_second_axis_alike) {
   model::Model model = linked_boxes(JointKind::universal);

@@ -1,11 +1,12 @@
 /// Same bits, whatever the lane: for every width, every packing and both number types.
-#include "solver/lanes.h"
+#include "solver/lanes/lanes.h"
 
 #include <gtest/gtest.h>
 
 #include "core/hash.h"
 #include "model/names.h"
 #include "solver/sor_run.h"
+#include "stepping/names.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -13,9 +14,9 @@ namespace {
 
 constexpr int num_steps = 60;  // well past the impact of the crash, where one wrong bit has grown to metres
 
-model::StepperSettings settings_of(model::Precision precision, model::Simd simd) {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::sor;
+stepping::StepperSettings settings_of(stepping::Precision precision, stepping::Simd simd) {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
   settings.precision = precision;
   settings.simd = simd;
   settings.seed = 7;
@@ -24,7 +25,7 @@ model::StepperSettings settings_of(model::Precision precision, model::Simd simd)
 
 /// The hash of each world after num_steps.
 std::vector<std::uint64_t> hashes(const std::vector<model::Model>& worlds,
-                                  const model::StepperSettings& settings) {
+                                  const stepping::StepperSettings& settings) {
   const auto stepper = make_stepper(settings, worlds);
   advance(*stepper, num_steps);
   std::vector<std::uint64_t> result;
@@ -38,13 +39,13 @@ std::vector<model::Model> crashes(int count) {
   return worlds;
 }
 
-class Lanes : public testing::TestWithParam<model::Precision> {};
+class Lanes : public testing::TestWithParam<stepping::Precision> {};
 
 TEST_P(Lanes, every_width_gives_the_bits_of_one_lane) {
   const auto worlds = crashes(19);  // fills some lanes of each width, and leaves some idle
-  const auto one_lane = hashes(worlds, settings_of(GetParam(), model::Simd::off));
-  for (const model::Simd simd : machine_simds()) {
-    EXPECT_EQ(hashes(worlds, settings_of(GetParam(), simd)), one_lane) << model::name_of(simd);
+  const auto one_lane = hashes(worlds, settings_of(GetParam(), stepping::Simd::off));
+  for (const stepping::Simd simd : machine_simds()) {
+    EXPECT_EQ(hashes(worlds, settings_of(GetParam(), simd)), one_lane) << name_of(simd);
   }
 }
 
@@ -52,7 +53,7 @@ TEST_P(Lanes, a_world_does_not_notice_its_neighbours) {
   std::vector<model::Model> worlds = crashes(5);
   worlds.insert(worlds.begin() + 2, support::pile(12));  // another shape of world in the same pack
   worlds.push_back(support::chain(9));
-  const auto settings = settings_of(GetParam(), model::Simd::automatic);
+  const auto settings = settings_of(GetParam(), stepping::Simd::automatic);
   const auto together = hashes(worlds, settings);
   for (std::size_t i = 0; i < worlds.size(); ++i)
     EXPECT_EQ(hashes({worlds[i]}, settings).front(), together[i]) << i;
@@ -62,19 +63,19 @@ TEST_P(Lanes, a_world_does_not_notice_its_neighbours) {
 /// the sines and cosines of joint limits. Whoever changes them says in the commit why.
 TEST_P(Lanes, a_crash_ends_in_the_same_bits_everywhere) {
   const std::uint64_t golden =
-      GetParam() == model::Precision::single ? 0xc98e920553cde0d6u : 0x5ea1f220a399b5cfu;
-  for (const model::Simd simd : machine_simds())
-    EXPECT_EQ(hashes(crashes(1), settings_of(GetParam(), simd)).front(), golden) << model::name_of(simd);
+      GetParam() == stepping::Precision::single ? 0xc98e920553cde0d6u : 0x5ea1f220a399b5cfu;
+  for (const stepping::Simd simd : machine_simds())
+    EXPECT_EQ(hashes(crashes(1), settings_of(GetParam(), simd)).front(), golden) << name_of(simd);
 }
 
 TEST_P(Lanes, worlds_differ_from_each_other) {
-  const auto values = hashes(crashes(3), settings_of(GetParam(), model::Simd::automatic));
+  const auto values = hashes(crashes(3), settings_of(GetParam(), stepping::Simd::automatic));
   EXPECT_NE(values[0], values[1]);
   EXPECT_NE(values[1], values[2]);
 }
 
 TEST_P(Lanes, a_world_that_moves_to_another_stepper_goes_on_bit_for_bit) {
-  const auto settings = settings_of(GetParam(), model::Simd::automatic);
+  const auto settings = settings_of(GetParam(), stepping::Simd::automatic);
   const auto worlds = crashes(3);
   const auto stayed = make_stepper(settings, worlds);
   advance(*stayed, 20);
@@ -86,10 +87,8 @@ TEST_P(Lanes, a_world_that_moves_to_another_stepper_goes_on_bit_for_bit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BothPrecisions, Lanes,
-                         testing::Values(model::Precision::double_, model::Precision::single),
-                         [](const auto& test) {
-                           return std::string(model::name_of(test.param)) + "_precision";
-                         });
+                         testing::Values(stepping::Precision::double_, stepping::Precision::single),
+                         [](const auto& test) { return std::string(name_of(test.param)) + "_precision"; });
 
 }  // namespace
 }  // namespace pbmpi::solver

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "model/geometry.h"
+#include "geometry/geometry.h"
 #include "model/names.h"
-#include "ode/engine.h"
-#include "ode/narrow_phase.h"
-#include "solver/articulation.h"
-#include "solver/pack.h"
-#include "solver/simd.h"
+#include "ode/collide/narrow_phase.h"
+#include "ode/objects/engine.h"
+#include "solver/layout/articulation.h"
+#include "solver/pack/pack.h"
+#include "solver/pack/simd.h"
 
 namespace pbmpi::solver {
 namespace {
@@ -82,7 +82,7 @@ class NarrowOracle : public testing::TestWithParam<Kind> {
       fallbacks_.push_back(ode::make_narrow_phase(model));
       packed.push_back({&model, find_articulations(model), fallbacks_.back().get()});
     }
-    pack_ = make_pack(packed, model::Simd::automatic, model::Precision::double_);
+    pack_ = make_pack(packed, stepping::Simd::automatic, stepping::Precision::double_);
   }
 
   /// Gives a world random poses; its contacts as ODE has them.
@@ -179,7 +179,7 @@ TEST_P(NarrowOracle, agrees_with_dcollide) {
 
 /// Contacts of two geoms at rest, the first on a body that lies at `pose`.
 std::vector<Contact> contacts_of(const model::Geom& moving, const model::Pose& pose, const model::Geom& other,
-                                 model::Precision precision = model::Precision::double_) {
+                                 stepping::Precision precision = stepping::Precision::double_) {
   model::Model model;
   for (int i = 0; i < 2; ++i) {
     model.actors.emplace_back().name = std::to_string(i);
@@ -191,7 +191,7 @@ std::vector<Contact> contacts_of(const model::Geom& moving, const model::Pose& p
   model.bodies[0].pose = pose;
   const auto fallback = ode::make_narrow_phase(model);
   const PackedWorld world{&model, find_articulations(model), fallback.get()};
-  const auto pack = make_pack({&world, 1}, model::Simd::automatic, precision);
+  const auto pack = make_pack({&world, 1}, stepping::Simd::automatic, precision);
   std::vector<Contact> contacts;
   pack->collide({&contacts, 1});
   return contacts;
@@ -250,8 +250,8 @@ TEST(NarrowLanes, a_cylinder_is_as_deep_in_a_plane_as_dcollide_says) {
     poses[0].position[1] = pose.position.y();
     poses[0].position[2] = pose.position.z();
     const model::Quat& q = pose.orientation;
-    model::to_rotation(q.w, q.x, q.y, q.z, poses[0].rotation);
-    poses[1] = model::static_pose();
+    geometry::to_rotation(q.w, q.x, q.y, q.z, poses[0].rotation);
+    poses[1] = geometry::static_pose();
     std::vector<Contact> oracle;
     const model::GeomPair pair{0, 1};
     ode::make_narrow_phase(model)->collide(poses, {&pair, 1}, oracle);
@@ -266,7 +266,7 @@ TEST(NarrowLanes, a_cylinder_is_as_deep_in_a_plane_as_dcollide_says) {
 }
 
 /// Pushed by its contacts' depths along their normals a capsule comes out of a box, wherever it began.
-void expect_led_out(model::Precision precision, double tolerance_m) {
+void expect_led_out(stepping::Precision precision, double tolerance_m) {
   const ode::Engine engine;
   Dice dice(23);
   int entered = 0;
@@ -288,11 +288,11 @@ void expect_led_out(model::Precision precision, double tolerance_m) {
   EXPECT_GT(entered, 200) << "too few capsules enter to say much";
 }
 
-TEST(NarrowLanes, a_capsule_in_a_box_is_led_out) { expect_led_out(model::Precision::double_, 1e-9); }
+TEST(NarrowLanes, a_capsule_in_a_box_is_led_out) { expect_led_out(stepping::Precision::double_, 1e-9); }
 
 // Positions of a metre, rounded to 1e-7.
 TEST(NarrowLanes, a_capsule_in_a_box_is_led_out_in_single_precision) {
-  expect_led_out(model::Precision::single, 1e-5);
+  expect_led_out(stepping::Precision::single, 1e-5);
 }
 
 TEST(NarrowLanes, a_capsule_that_lies_flat_in_a_box_is_pushed_at_its_middle_through_the_nearest_face) {
@@ -309,7 +309,7 @@ TEST(NarrowLanes, a_capsule_that_lies_flat_in_a_box_is_pushed_at_its_middle_thro
 }
 
 std::string kind_name(const testing::TestParamInfo<Kind>& info) {
-  return std::string(model::name_of(info.param.a)) + "_and_" + std::string(model::name_of(info.param.b));
+  return std::string(name_of(info.param.a)) + "_and_" + std::string(name_of(info.param.b));
 }
 
 // Either order of the shapes in some, so that the turning of normals is seen too.

@@ -6,23 +6,23 @@
 #include <cmath>
 #include <vector>
 
-#include "model/geometry.h"
-#include "ode/narrow_phase.h"
+#include "geometry/geometry.h"
+#include "ode/collide/narrow_phase.h"
 #include "solver/sor_run.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
 namespace {
 
-using model::Residuals;
 using model::Vec3;
+using stepping::Residuals;
 using Vector = Eigen::VectorXd;
 
-model::StepperSettings settings_of(int iterations) {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::sor;
+stepping::StepperSettings settings_of(int iterations) {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
   settings.iterations = iterations;
-  settings.colliders = model::Colliders::ode;
+  settings.colliders = stepping::Colliders::ode;
   settings.residuals = true;
   return settings;
 }
@@ -90,7 +90,7 @@ model::Contact only_contact(const model::Model& model) {
   std::vector<model::BodyPose> poses(2);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     std::copy_n(model.bodies[i].pose.position.data(), 3, poses[i].position);
-    model::to_rotation(1, 0, 0, 0, poses[i].rotation);
+    geometry::to_rotation(1, 0, 0, 0, poses[i].rotation);
   }
   const model::GeomPair pair{0, 2};
   std::vector<model::Contact> contacts;
@@ -126,7 +126,7 @@ Residuals recompute(const model::Model& model, const model::State& after, double
 TEST(Residuals, are_those_of_a_dense_recomputation) {
   const model::Model model = dragged_ball();
   for (const int iterations : {1, 2, 5, 20}) {
-    const model::StepperSettings settings = settings_of(iterations);
+    const stepping::StepperSettings settings = settings_of(iterations);
     const auto stepper = make_stepper(settings, {model});
     advance(*stepper, 1);
     const Residuals found = stepper->observables(0).residuals;
@@ -173,9 +173,9 @@ TEST(Residuals, vanish_with_many_iterations_for_every_kind_of_row) {
 TEST(Residuals, are_the_same_for_every_width_and_only_measured_when_asked_for) {
   std::vector<model::Model> worlds;
   for (int variant = 0; variant < 5; ++variant) worlds.push_back(support::crash(variant));
-  model::StepperSettings settings = settings_of(20);
+  stepping::StepperSettings settings = settings_of(20);
   std::vector<Residuals> expected;
-  for (const model::Simd simd : machine_simds()) {
+  for (const stepping::Simd simd : machine_simds()) {
     settings.simd = simd;
     const auto stepper = make_stepper(settings, worlds);
     advance(*stepper, 15);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "model/sleepers.h"
+#include "effects/sleepers.h"
 #include "ode/ode_stepper.h"
 #include "solver/sor_run.h"
 #include "support/models.h"
@@ -14,8 +14,8 @@ namespace {
 
 using model::Model;
 using model::State;
-using model::StepperKind;
-using model::StepperSettings;
+using stepping::StepperKind;
+using stepping::StepperSettings;
 
 constexpr int launch_step = 130;
 
@@ -44,13 +44,13 @@ Model stacks(int height = 4, int launched_at = launch_step) {
   return model;
 }
 
-std::unique_ptr<model::WorldStepper> make(const StepperSettings& settings) {
+std::unique_ptr<stepping::WorldStepper> make(const StepperSettings& settings) {
   if (settings.kind == StepperKind::sor) return make_stepper(settings);
   return ode::make_ode_stepper(settings, [](const std::string&) {});
 }
 
-std::unique_ptr<model::WorldStepper> start(const StepperSettings& settings, const Model& model,
-                                           const State& state, std::int64_t step = 0) {
+std::unique_ptr<stepping::WorldStepper> start(const StepperSettings& settings, const Model& model,
+                                              const State& state, std::int64_t step = 0) {
   auto stepper = make(settings);
   stepper->add(0, std::make_shared<const Model>(model), state, step);
   return stepper;
@@ -64,7 +64,7 @@ int num_asleep(const State& state) {
 struct Case {
   const char* name;
   StepperKind kind;
-  model::Precision precision;
+  stepping::Precision precision;
   int height;  ///< of a stack; ODE's dWorldStep makes boxes on boxes creep
 };
 
@@ -83,10 +83,11 @@ class Sleeping : public testing::TestWithParam<Case> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Steppers, Sleeping,
-                         testing::Values(Case{"quick", StepperKind::quick, model::Precision::double_, 4},
-                                         Case{"direct", StepperKind::direct, model::Precision::double_, 1},
-                                         Case{"sor", StepperKind::sor, model::Precision::double_, 4},
-                                         Case{"sor_single", StepperKind::sor, model::Precision::single, 4}),
+                         testing::Values(Case{"quick", StepperKind::quick, stepping::Precision::double_, 4},
+                                         Case{"direct", StepperKind::direct, stepping::Precision::double_, 1},
+                                         Case{"sor", StepperKind::sor, stepping::Precision::double_, 4},
+                                         Case{"sor_single", StepperKind::sor, stepping::Precision::single,
+                                              4}),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST_P(Sleeping, world_keeps_its_bits_and_solves_nothing) {
@@ -94,7 +95,7 @@ TEST_P(Sleeping, world_keeps_its_bits_and_solves_nothing) {
   const auto stepper = start(settings(), model, model::initial_state(model));
   advance(*stepper, 30);
   EXPECT_EQ(num_asleep(stepper->state(0)), 0) << "half a second has not passed";
-  const model::Observables awake = stepper->observables(0);
+  const stepping::Observables awake = stepper->observables(0);
   EXPECT_GT(awake.rows, 0);
   advance(*stepper, 90);
   ASSERT_EQ(num_asleep(stepper->state(0)), num_bodies());
@@ -121,7 +122,7 @@ double largest_difference(const State& a, const State& b, const State& look) {
 }
 
 /// Steps one by one until fewer bodies sleep; the state before that step.
-State until_touched(model::WorldStepper& stepper, int most_asleep, std::int64_t& step) {
+State until_touched(stepping::WorldStepper& stepper, int most_asleep, std::int64_t& step) {
   for (;; ++step) {
     const State before = stepper.state(0);
     advance(stepper, 1);
@@ -216,7 +217,7 @@ TEST(SleepingInPacks, worlds_have_the_bits_that_each_has_alone_for_every_instruc
   std::vector<Model> worlds;
   for (const int launched_at : {70, 90, 110, 75, 400, 95, 85}) worlds.push_back(stacks(4, launched_at));
   constexpr int num_steps = 150;
-  for (const model::Precision precision : {model::Precision::double_, model::Precision::single}) {
+  for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
     StepperSettings settings;
     settings.kind = StepperKind::sor;
     settings.precision = precision;
@@ -226,7 +227,7 @@ TEST(SleepingInPacks, worlds_have_the_bits_that_each_has_alone_for_every_instruc
       advance(*stepper, num_steps);
       alone.push_back(model::hash(stepper->state(0)));
     }
-    for (const model::Simd simd : machine_simds()) {
+    for (const stepping::Simd simd : machine_simds()) {
       settings.simd = simd;
       const auto together = make_stepper(settings, worlds);
       advance(*together, num_steps);

@@ -5,20 +5,20 @@
 #include <memory>
 #include <vector>
 
-#include "model/stepper.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::solver {
 
 /// A sor stepper with ODE's dCollide.
-std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings);
+std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings);
 
 /// These worlds, ids 0, 1, ..., in a stepper of their own.
-std::unique_ptr<model::WorldStepper> make_stepper(const model::StepperSettings& settings,
-                                                  const std::vector<model::Model>& worlds);
+std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings,
+                                                     const std::vector<model::Model>& worlds);
 
-void advance(model::WorldStepper& stepper, int num_steps);
+void advance(stepping::WorldStepper& stepper, int num_steps);
 
 /// The instruction sets of this machine, one lane included.
-std::vector<model::Simd> machine_simds();
+std::vector<stepping::Simd> machine_simds();
 
 }  // namespace pbmpi::solver

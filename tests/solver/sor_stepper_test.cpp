@@ -1,4 +1,4 @@
-#include "solver/sor_stepper.h"
+#include "solver/worlds/sor_stepper.h"
 
 #include <gtest/gtest.h>
 
@@ -10,15 +10,15 @@
 namespace pbmpi::solver {
 namespace {
 
-model::StepperSettings sor_settings() {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::sor;
+stepping::StepperSettings sor_settings() {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
   return settings;
 }
 
-std::unique_ptr<model::WorldStepper> quick(model::StepperSettings settings,
-                                           const std::vector<model::Model>& worlds) {
-  settings.kind = model::StepperKind::quick;
+std::unique_ptr<stepping::WorldStepper> quick(stepping::StepperSettings settings,
+                                              const std::vector<model::Model>& worlds) {
+  settings.kind = stepping::StepperKind::quick;
   auto stepper = ode::make_ode_stepper(settings);
   for (std::size_t i = 0; i < worlds.size(); ++i) {
     stepper->add(static_cast<int>(i), std::make_shared<const model::Model>(worlds[i]),
@@ -54,7 +54,7 @@ double largest_speed_difference(const model::State& a, const model::State& b) {
 }
 
 /// The state one step after `start`.
-model::State one_step(std::unique_ptr<model::WorldStepper> stepper, const model::Model& model,
+model::State one_step(std::unique_ptr<stepping::WorldStepper> stepper, const model::Model& model,
                       const model::State& start, std::int64_t step) {
   stepper->add(0, std::make_shared<const model::Model>(model), start, step);
   advance(*stepper, 1);
@@ -66,11 +66,11 @@ model::State one_step(std::unique_ptr<model::WorldStepper> stepper, const model:
 /// solver does.
 TEST(SorStepper, from_a_common_state_it_differs_from_quickstep_no_more_than_another_seed) {
   const model::Model model = support::crash();
-  model::StepperSettings settings = sor_settings();
+  stepping::StepperSettings settings = sor_settings();
   const auto path = quick(settings, {model});
   settings.iterations = 3000;
-  settings.kind = model::StepperKind::quick;
-  settings.colliders = model::Colliders::ode;  // the same contacts on both sides
+  settings.kind = stepping::StepperKind::quick;
+  settings.colliders = stepping::Colliders::ode;  // the same contacts on both sides
   int steps_with_impact = 0;
   for (int step = 0; step < 24; ++step) {
     const model::State start = path->state(0);
@@ -103,7 +103,7 @@ TEST(SorStepper, counts_rows_and_islands_as_the_ode_backend_does) {
 }
 
 TEST(SorStepper, substeps_hold_joints_better_than_iterations) {
-  model::StepperSettings iterations = sor_settings(), substeps = sor_settings();
+  stepping::StepperSettings iterations = sor_settings(), substeps = sor_settings();
   substeps.substeps = 5;
   substeps.iterations = 3;
   const auto coarse = make_stepper(iterations, {support::chain(12)});
@@ -119,12 +119,13 @@ TEST(SorStepper, substeps_hold_joints_better_than_iterations) {
 }
 
 TEST(SorStepper, settings_that_make_no_sense_are_refused) {
-  for (const auto& spoil : std::vector<void (*)(model::StepperSettings&)>{
-           [](model::StepperSettings& s) { s.dt_s = 0; }, [](model::StepperSettings& s) { s.iterations = 0; },
-           [](model::StepperSettings& s) { s.substeps = 0; },
-           [](model::StepperSettings& s) { s.warm_start = 1.1; },
-           [](model::StepperSettings& s) { s.warm_start = -0.1; }}) {
-    model::StepperSettings settings = sor_settings();
+  for (const auto& spoil : std::vector<void (*)(stepping::StepperSettings&)>{
+           [](stepping::StepperSettings& s) { s.dt_s = 0; },
+           [](stepping::StepperSettings& s) { s.iterations = 0; },
+           [](stepping::StepperSettings& s) { s.substeps = 0; },
+           [](stepping::StepperSettings& s) { s.warm_start = 1.1; },
+           [](stepping::StepperSettings& s) { s.warm_start = -0.1; }}) {
+    stepping::StepperSettings settings = sor_settings();
     spoil(settings);
     EXPECT_THROW(make_stepper(settings), core::InputError);
   }

@@ -7,6 +7,7 @@
 
 #include "model/names.h"
 #include "solver/sor_run.h"
+#include "stepping/names.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -15,17 +16,17 @@ namespace {
 using model::JointKind;
 using model::Vec3;
 
-model::StepperSettings settings_of(int substeps, int iterations) {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::sor;
+stepping::StepperSettings settings_of(int substeps, int iterations) {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
   settings.substeps = substeps;
   settings.iterations = iterations;
   return settings;
 }
 
 /// RMS over 100 steps of the largest joint gap [m] of a chain that swings down.
-double gap_of_swinging_chain(int substeps, int iterations, model::Precision precision) {
-  model::StepperSettings settings = settings_of(substeps, iterations);
+double gap_of_swinging_chain(int substeps, int iterations, stepping::Precision precision) {
+  stepping::StepperSettings settings = settings_of(substeps, iterations);
   settings.precision = precision;
   const auto stepper = make_stepper(settings, {support::chain(12)});
   double squares = 0;
@@ -37,7 +38,7 @@ double gap_of_swinging_chain(int substeps, int iterations, model::Precision prec
 }
 
 TEST(Substeps, close_the_gaps_of_a_swinging_chain_at_the_same_number_of_sweeps) {
-  for (const model::Precision precision : {model::Precision::double_, model::Precision::single}) {
+  for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
     double before_m = std::numeric_limits<double>::infinity();
     for (const int substeps : {1, 2, 4, 8}) {
       const double gap_m = gap_of_swinging_chain(substeps, 40 / substeps, precision);
@@ -91,7 +92,7 @@ double farthest(const model::State& a, const model::State& b) {
 }
 
 TEST_P(EveryJoint, comes_nearer_to_the_motion_of_small_steps) {
-  model::StepperSettings small = settings_of(1, 200);
+  stepping::StepperSettings small = settings_of(1, 200);
   small.dt_s /= 50;
   const model::Model model = swinging_boxes(GetParam());
   const auto reference = make_stepper(small, {model});
@@ -111,7 +112,7 @@ TEST_P(EveryJoint, comes_nearer_to_the_motion_of_small_steps) {
 INSTANTIATE_TEST_SUITE_P(Substeps, EveryJoint,
                          testing::Values(JointKind::ball, JointKind::hinge, JointKind::slider,
                                          JointKind::universal, JointKind::fixed, JointKind::hinge2),
-                         [](const auto& test) { return std::string(model::name_of(test.param)); });
+                         [](const auto& test) { return std::string(name_of(test.param)); });
 
 TEST(Substeps, stop_an_axis_at_the_limit_that_it_reaches_within_a_step) {
   for (const JointKind kind : {JointKind::hinge, JointKind::slider, JointKind::universal}) {
@@ -120,7 +121,7 @@ TEST(Substeps, stop_an_axis_at_the_limit_that_it_reaches_within_a_step) {
     model.joints[0].limits[0] = {-0.02, 0.02};  // [rad] or [m]: a third of what it does in a step
     model.bodies[1].angular_velocity = {0, 8, 0};
     model.bodies[1].velocity = {0, 8, 0};
-    model::StepperSettings small = settings_of(1, 200);
+    stepping::StepperSettings small = settings_of(1, 200);
     small.dt_s /= 5;
     const auto reference = make_stepper(small, {model});
     const auto substeps = make_stepper(settings_of(5, 200), {model});
@@ -129,7 +130,7 @@ TEST(Substeps, stop_an_axis_at_the_limit_that_it_reaches_within_a_step) {
     // As in small steps but for the directions, which stay through the step: 8 /s x 0.01 s of 8 m/s.
     for (std::size_t body = 0; body < 2; ++body) {
       EXPECT_LT((substeps->state(0).velocity[body] - reference->state(0).velocity[body]).norm(), 0.64)
-          << model::name_of(kind);
+          << name_of(kind);
     }
   }
 }
@@ -155,7 +156,7 @@ std::vector<model::Model> unlike_worlds() {
   return worlds;
 }
 
-std::vector<std::uint64_t> hashes_after_20_steps(const model::StepperSettings& settings,
+std::vector<std::uint64_t> hashes_after_20_steps(const stepping::StepperSettings& settings,
                                                  const std::vector<model::Model>& worlds) {
   const auto stepper = make_stepper(settings, worlds);
   advance(*stepper, 20);
@@ -167,15 +168,15 @@ std::vector<std::uint64_t> hashes_after_20_steps(const model::StepperSettings& s
 
 TEST(Substeps, give_the_same_bits_for_every_width_and_for_a_world_alone) {
   const std::vector<model::Model> worlds = unlike_worlds();
-  for (const model::Precision precision : {model::Precision::double_, model::Precision::single}) {
+  for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
     for (const auto& [substeps, iterations] : {std::pair{5, 3}, std::pair{3, 1}}) {
-      model::StepperSettings settings = settings_of(substeps, iterations);
+      stepping::StepperSettings settings = settings_of(substeps, iterations);
       settings.precision = precision;
-      settings.simd = model::Simd::off;
+      settings.simd = stepping::Simd::off;
       std::vector<std::uint64_t> alone;
       for (const model::Model& world : worlds)
         alone.push_back(hashes_after_20_steps(settings, {world}).front());
-      for (const model::Simd simd : machine_simds()) {
+      for (const stepping::Simd simd : machine_simds()) {
         settings.simd = simd;
         EXPECT_EQ(hashes_after_20_steps(settings, worlds), alone) << static_cast<int>(simd);
       }

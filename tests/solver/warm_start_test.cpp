@@ -9,16 +9,16 @@
 namespace pbmpi::solver {
 namespace {
 
-model::StepperSettings settings_of(int substeps, int iterations, double warm_start) {
-  model::StepperSettings settings;
-  settings.kind = model::StepperKind::sor;
+stepping::StepperSettings settings_of(int substeps, int iterations, double warm_start) {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
   settings.substeps = substeps;
   settings.iterations = iterations;
   settings.warm_start = warm_start;
   return settings;
 }
 
-std::vector<std::uint64_t> hashes_after(const model::StepperSettings& settings,
+std::vector<std::uint64_t> hashes_after(const stepping::StepperSettings& settings,
                                         const std::vector<model::Model>& worlds, int num_steps) {
   const auto stepper = make_stepper(settings, worlds);
   advance(*stepper, num_steps);
@@ -42,12 +42,12 @@ TEST(WarmStart, one_substep_has_nothing_to_take_over) {
 }
 
 TEST(WarmStart, gives_the_same_bits_for_every_width_and_for_a_world_alone) {
-  for (const model::Precision precision : {model::Precision::double_, model::Precision::single}) {
-    model::StepperSettings settings = settings_of(5, 3, 0.9);
+  for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
+    stepping::StepperSettings settings = settings_of(5, 3, 0.9);
     settings.precision = precision;
-    settings.simd = model::Simd::off;
+    settings.simd = stepping::Simd::off;
     const std::vector<std::uint64_t> expected = hashes_after(settings, worlds(), 24);
-    for (const model::Simd simd : machine_simds()) {
+    for (const stepping::Simd simd : machine_simds()) {
       settings.simd = simd;
       EXPECT_EQ(hashes_after(settings, worlds(), 24), expected) << static_cast<int>(simd);
       EXPECT_EQ(hashes_after(settings, {worlds()[3]}, 24).front(), expected[3]) << static_cast<int>(simd);
@@ -58,7 +58,7 @@ TEST(WarmStart, gives_the_same_bits_for_every_width_and_for_a_world_alone) {
 }
 
 TEST(WarmStart, the_step_depends_on_the_state_alone) {
-  const model::StepperSettings settings = settings_of(5, 3, 0.9);
+  const stepping::StepperSettings settings = settings_of(5, 3, 0.9);
   const model::Model model = support::crash();
   const auto straight = make_stepper(settings, {model}), stepper = make_stepper(settings, {model});
   advance(*straight, 20);
@@ -111,12 +111,12 @@ std::vector<model::Model> holders() {
 }
 
 TEST(Substeps, go_by_a_held_angle_in_its_own_lane_only) {
-  for (const model::Precision precision : {model::Precision::double_, model::Precision::single}) {
-    model::StepperSettings settings = settings_of(4, 4, 0.5);
+  for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
+    stepping::StepperSettings settings = settings_of(4, 4, 0.5);
     settings.precision = precision;
-    settings.simd = model::Simd::off;
+    settings.simd = stepping::Simd::off;
     const std::vector<std::uint64_t> expected = hashes_after(settings, holders(), 20);
-    for (const model::Simd simd : machine_simds()) {
+    for (const stepping::Simd simd : machine_simds()) {
       settings.simd = simd;
       EXPECT_EQ(hashes_after(settings, holders(), 20), expected) << static_cast<int>(simd);
       for (const std::size_t alone : {2, 3})
@@ -130,7 +130,7 @@ TEST(Substeps, hold_a_pose_as_small_steps_do) {
   swings.joints[0].motors[0] = {0, 15, 3};  // back towards its first angle
   swings.joints[0].limits[0] = {-0.4, 0.3};
   swings.bodies[0].velocity = {4, 0, 0};
-  model::StepperSettings small = settings_of(1, 400, 0), substeps = settings_of(5, 400, 0);
+  stepping::StepperSettings small = settings_of(1, 400, 0), substeps = settings_of(5, 400, 0);
   small.dt_s = substeps.dt_s / 5;
   const auto fine = make_stepper(small, {swings}), coarse = make_stepper(substeps, {swings});
   double farthest_m = 0;
@@ -146,9 +146,9 @@ TEST(Substeps, hold_a_pose_as_small_steps_do) {
 }
 
 TEST(RowOrder, fixed_and_shuffled_orders_agree_once_converged) {
-  model::StepperSettings settings = settings_of(1, 4000, 0);
+  stepping::StepperSettings settings = settings_of(1, 4000, 0);
   const auto shuffled = make_stepper(settings, {support::chain(6)});
-  settings.row_order = model::RowOrder::fixed;
+  settings.row_order = stepping::RowOrder::fixed;
   const auto fixed = make_stepper(settings, {support::chain(6)});
   advance(*shuffled, 1);
   advance(*fixed, 1);

@@ -1,6 +1,6 @@
 #include "app/common/load_scene.h"
 
-#include "mpi/agreement.h"
+#include "mpi/comm/agreement.h"
 
 namespace pbmpi::app {
 

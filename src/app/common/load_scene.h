@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "mpi/communicator.h"
+#include "mpi/comm/communicator.h"
 #include "scenes/scene.h"
 
 namespace pbmpi::app {

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "mpi/session.h"
+#include "mpi/comm/session.h"
 
 namespace pbmpi::app {
 

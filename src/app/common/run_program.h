@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "mpi/communicator.h"
+#include "mpi/comm/communicator.h"
 
 namespace pbmpi::app {
 

@@ -4,8 +4,8 @@
 #include <ostream>
 #include <string>
 
-#include "io/checkpoint_file.h"
-#include "mpi/checkpoint_schedule.h"
+#include "io/run/checkpoint_file.h"
+#include "mpi/frame/checkpoint_schedule.h"
 
 namespace pbmpi::app {
 

@@ -7,29 +7,31 @@
 #include <map>
 #include <sstream>
 
-#include "app/pbmpi/provenance.h"
-#include "app/pbmpi/stepper_factory.h"
-#include "io/run_file.h"
-#include "model/frame.h"
+#include "app/common/stepper_factory.h"
+#include "app/pbmpi/run_parameters.h"
+#include "effects/effect_choices.h"
+#include "effects/run_plan.h"
+#include "io/run/run_file.h"
 #include "model/names.h"
-#include "model/run_plan.h"
-#include "mpi/partition.h"
-#include "mpi/space_driver.h"
+#include "mpi/balance/partition.h"
+#include "mpi/spaces/space_driver.h"
+#include "stepping/frame.h"
+#include "stepping/names.h"
 
 namespace pbmpi::app {
 namespace {
 
 /// What is counted over all worlds.
 struct Census {
-  model::WorldTable table;
+  stepping::WorldTable table;
   std::size_t geoms = 0, joints = 0, events = 0, spaces = 0;
   std::map<std::string, int> actor_kinds;
-  model::RunPlan plan;
+  effects::RunPlan plan;
 };
 
 /// What of a pass the stepper leaves undone.
-std::string idle_note(const model::RunPass& pass, model::StepperKind stepper) {
-  if (pass.effect->name != "field_of_interest" || stepper != model::StepperKind::direct) return "";
+std::string idle_note(const effects::RunPass& pass, stepping::StepperKind stepper) {
+  if (pass.effect->name != "field_of_interest" || stepper != stepping::StepperKind::direct) return "";
   return "; idle, since direct solves without iterations";
 }
 
@@ -42,8 +44,7 @@ Census take_census(const scenes::Scene& scene, const RunSpec& spec) {
     census.joints += model->joints.size();
     census.events += model->events.size();
     census.spaces = std::max(census.spaces, model->spaces.size());
-    for (const model::Actor& actor : model->actors)
-      ++census.actor_kinds[std::string(model::name_of(actor.kind))];
+    for (const model::Actor& actor : model->actors) ++census.actor_kinds[std::string(name_of(actor.kind))];
     census.plan.add(*model);
   }
   return census;
@@ -111,9 +112,9 @@ void print_spaces(std::ostream& out, const model::Model& model, int num_ranks) {
   }
 }
 
-void print_plan(std::ostream& out, const model::RunPlan& plan, model::StepperKind stepper) {
+void print_plan(std::ostream& out, const effects::RunPlan& plan, stepping::StepperKind stepper) {
   out << "step plan:\n";
-  for (const model::RunPass& pass : plan.passes()) {
+  for (const effects::RunPass& pass : plan.passes()) {
     out << "  " << std::left << std::setw(18) << pass.effect->name << std::setw(10)
         << core::phase_names[static_cast<std::size_t>(pass.effect->phase)] << pass.effect->meaning << ": "
         << pass.reason << idle_note(pass, stepper) << '\n';
@@ -144,7 +145,7 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
         << (spec.estimate_source == EstimateSource::same_solve ? "from the same solve\n"
                                                                : "before each frame\n");
   }
-  if (!spec.effects.empty()) out << "effects chosen: " << model::to_text(spec.effects) << '\n';
+  if (!spec.effects.empty()) out << "effects chosen: " << effects::to_text(spec.effects) << '\n';
   print_plan(out, census.plan, spec.stepper.kind);
   const bool spaces = spec.decomposition == Decomposition::spaces;
   out << "decomposition: " << (spaces ? "spaces" : "worlds") << " over " << num_ranks

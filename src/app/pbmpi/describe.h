@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/pbmpi/options.h"
+#include "app/pbmpi/options/options.h"
 
 namespace pbmpi::app {
 

@@ -2,10 +2,10 @@
 
 namespace pbmpi::app {
 
-void EstimateMonitor::poses(std::int64_t frame, model::PoseKind kind, std::span<const model::Vec3> position,
-                            std::span<const model::Quat> orientation) {
+void EstimateMonitor::poses(std::int64_t frame, stepping::PoseKind kind,
+                            std::span<const model::Vec3> position, std::span<const model::Quat> orientation) {
   if (frame < num_warmup_) return;
-  if (kind == model::PoseKind::estimate) {
+  if (kind == stepping::PoseKind::estimate) {
     position_.assign(position.begin(), position.end());
     orientation_.assign(orientation.begin(), orientation.end());
   } else {

@@ -5,17 +5,17 @@
 
 #include "analysis/error_bands.h"
 #include "analysis/pose_errors.h"
-#include "model/frame.h"
+#include "stepping/frame.h"
 
 namespace pbmpi::app {
 
 /// A consumer as any other: it gets the estimate of a frame, and later the precise poses. Keeps 16 bytes a
 /// body and measured frame (the file of the run, if there is one, takes nine times as much).
-class EstimateMonitor final : public model::PoseConsumer {
+class EstimateMonitor final : public stepping::PoseConsumer {
  public:
   explicit EstimateMonitor(std::int64_t num_warmup) : num_warmup_(num_warmup) {}
 
-  void poses(std::int64_t frame, model::PoseKind kind, std::span<const model::Vec3> position,
+  void poses(std::int64_t frame, stepping::PoseKind kind, std::span<const model::Vec3> position,
              std::span<const model::Quat> orientation) override;
 
   /// Over all bodies of the measured frames. Empty on other ranks than root.

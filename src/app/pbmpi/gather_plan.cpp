@@ -10,16 +10,16 @@ namespace {
 using Json = nlohmann::json;
 
 /// A line.
-std::string to_line(const model::RunPlan& plan) {
+std::string to_line(const effects::RunPlan& plan) {
   Json tallies = Json::array();
-  for (const model::PassTally& tally : plan.tallies)
+  for (const effects::PassTally& tally : plan.tallies)
     tallies.push_back({tally.worlds, tally.idle_worlds, tally.counts});
   return Json{plan.num_worlds, tallies}.dump() + "\n";
 }
 
-model::RunPlan from_line(const std::string& line) {
+effects::RunPlan from_line(const std::string& line) {
   const Json json = Json::parse(line);
-  model::RunPlan plan;
+  effects::RunPlan plan;
   json.at(0).get_to(plan.num_worlds);
   for (std::size_t i = 0; i < plan.tallies.size(); ++i) {
     const Json& tally = json.at(1).at(i);
@@ -32,13 +32,13 @@ model::RunPlan from_line(const std::string& line) {
 
 }  // namespace
 
-model::RunPlan gather_plan(const mpi::Communicator& comm, std::span<const model::LocalWorld> own) {
-  model::RunPlan mine;
-  for (const model::LocalWorld& world : own) mine.add(*world.model);
+effects::RunPlan gather_plan(const mpi::Communicator& comm, std::span<const stepping::LocalWorld> own) {
+  effects::RunPlan mine;
+  for (const stepping::LocalWorld& world : own) mine.add(*world.model);
   const std::string line = to_line(mine);
   const std::vector<char> lines = comm.allgatherv(std::span<const char>(line));
   std::istringstream stream(std::string(lines.begin(), lines.end()));
-  model::RunPlan plan;
+  effects::RunPlan plan;
   for (std::string one; std::getline(stream, one);) plan.add(from_line(one));
   return plan;
 }

@@ -3,13 +3,13 @@
 
 #include <span>
 
-#include "model/frame.h"
-#include "model/run_plan.h"
-#include "mpi/communicator.h"
+#include "effects/run_plan.h"
+#include "mpi/comm/communicator.h"
+#include "stepping/frame.h"
 
 namespace pbmpi::app {
 
 /// Collective. `own`: the worlds that this rank owns. The same on every rank.
-model::RunPlan gather_plan(const mpi::Communicator& comm, std::span<const model::LocalWorld> own);
+effects::RunPlan gather_plan(const mpi::Communicator& comm, std::span<const stepping::LocalWorld> own);
 
 }  // namespace pbmpi::app

@@ -6,12 +6,12 @@
 
 namespace pbmpi::app {
 
-void LiveSummary::frame_done(const model::FrameRecord& frame) {
+void LiveSummary::frame_done(const stepping::FrameRecord& frame) {
   double islands = 0, contacts = 0, rows = 0, largest = 0;
   energy_j_ = 0;
   nonfinite_ = 0;
-  for (const model::LocalWorld& world : frame.worlds) {
-    const model::Observables& seen = *world.observables;
+  for (const stepping::LocalWorld& world : frame.worlds) {
+    const stepping::Observables& seen = *world.observables;
     islands += seen.islands;
     contacts += seen.contacts;
     rows += seen.rows;

@@ -2,18 +2,18 @@
 #pragma once
 
 #include "app/summary/run_summary.h"
-#include "model/frame.h"
-#include "mpi/communicator.h"
-#include "mpi/world_driver.h"
+#include "mpi/comm/communicator.h"
+#include "mpi/worlds/world_driver.h"
+#include "stepping/frame.h"
 
 namespace pbmpi::app {
 
 /// One per rank: sums over the rank's own worlds, joined over the ranks at the end.
-class LiveSummary final : public model::FrameObserver {
+class LiveSummary final : public stepping::FrameObserver {
  public:
-  void frame_done(const model::FrameRecord& frame) override;
-  void event(const model::RunEvent& event) override {
-    joints_broken_ += event.kind == model::joint_broken ? 1 : 0;
+  void frame_done(const stepping::FrameRecord& frame) override;
+  void event(const stepping::RunEvent& event) override {
+    joints_broken_ += event.kind == stepping::joint_broken ? 1 : 0;
   }
 
   /// Collective. Fills what is measured into `summary`, whose settings (worlds, bodies, ranks,

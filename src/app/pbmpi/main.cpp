@@ -2,7 +2,7 @@
 #include "app/common/options.h"
 #include "app/common/run_program.h"
 #include "app/pbmpi/run.h"
-#include "mpi/session.h"
+#include "mpi/comm/session.h"
 
 int main(int argc, char** argv) {
   const pbmpi::mpi::Session session(argc, argv);

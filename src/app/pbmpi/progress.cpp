@@ -24,7 +24,7 @@ ProgressBar::~ProgressBar() {
   if (drawn_) out_ << '\n';
 }
 
-void ProgressBar::frame_done(const model::FrameRecord& frame) {
+void ProgressBar::frame_done(const stepping::FrameRecord& frame) {
   const double now = core::now_s();
   const bool last = frame.frame + 1 == num_frames_;
   if (now - last_draw_s_ >= redraw_interval_s || last) draw(frame.frame + 1, now);

@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include "app/common/options.h"
-#include "model/frame.h"
+#include "stepping/frame.h"
 
 namespace pbmpi::app {
 
@@ -13,7 +13,7 @@ namespace pbmpi::app {
 bool wants_progress(ProgressMode mode, bool quiet);
 
 /// Redraws at most ten times a second.
-class ProgressBar final : public model::FrameObserver {
+class ProgressBar final : public stepping::FrameObserver {
  public:
   /// `first_frame`: frames done before the run.
   ProgressBar(std::ostream& out, std::int64_t num_frames, std::int64_t first_frame = 0);
@@ -21,7 +21,7 @@ class ProgressBar final : public model::FrameObserver {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  void frame_done(const model::FrameRecord& frame) override;
+  void frame_done(const stepping::FrameRecord& frame) override;
 
  private:
   void draw(std::int64_t done, double now_s);

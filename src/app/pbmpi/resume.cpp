@@ -6,8 +6,8 @@
 #include "app/common/version.h"
 #include "core/error.h"
 #include "core/hash.h"
-#include "mpi/agreement.h"
-#include "mpi/frame_driver.h"
+#include "mpi/comm/agreement.h"
+#include "mpi/frame/frame_driver.h"
 
 namespace pbmpi::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "io/checkpoint_file.h"
-#include "mpi/communicator.h"
+#include "io/run/checkpoint_file.h"
+#include "mpi/comm/communicator.h"
 #include "scenes/scene.h"
 
 namespace pbmpi::app {

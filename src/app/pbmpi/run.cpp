@@ -5,28 +5,30 @@
 #include <iostream>
 #include <memory>
 
+#include "app/common/provenance.h"
+#include "app/common/stepper_factory.h"
 #include "app/common/version.h"
 #include "app/pbmpi/checkpoint_keeper.h"
 #include "app/pbmpi/describe.h"
 #include "app/pbmpi/estimate_monitor.h"
 #include "app/pbmpi/gather_plan.h"
 #include "app/pbmpi/live_summary.h"
-#include "app/pbmpi/options.h"
+#include "app/pbmpi/options/options.h"
 #include "app/pbmpi/progress.h"
-#include "app/pbmpi/provenance.h"
+#include "app/pbmpi/run_parameters.h"
 #include "app/pbmpi/signals.h"
-#include "app/pbmpi/stepper_factory.h"
 #include "app/pbmpi/work.h"
 #include "core/hash.h"
+#include "effects/effect_choices.h"
 #include "estimate/same_solve.h"
 #include "estimate/short_run.h"
-#include "io/run_file.h"
-#include "io/xdmf.h"
-#include "model/effect_choices.h"
+#include "io/run/run_file.h"
+#include "io/run/xdmf.h"
 #include "model/names.h"
-#include "mpi/agreement.h"
-#include "mpi/space_driver.h"
-#include "mpi/world_driver.h"
+#include "mpi/comm/agreement.h"
+#include "mpi/spaces/space_driver.h"
+#include "mpi/worlds/world_driver.h"
+#include "stepping/names.h"
 
 namespace pbmpi::app {
 namespace {
@@ -67,7 +69,7 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.decomposition = spec.decomposition == Decomposition::spaces ? "spaces" : "worlds";
   summary.iterations = spec.stepper.iterations;
   summary.substeps = spec.stepper.substeps;
-  summary.precision = model::name_of(spec.stepper.precision);
+  summary.precision = name_of(spec.stepper.precision);
   summary.simd = simd_text(spec.stepper);
   summary.steps_per_frame = spec.steps_per_frame;
   summary.bodies = num_bodies;
@@ -76,14 +78,14 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.budget_s = budget_s;
   summary.first_frame = spec.checkpoint.first_frame;
   summary.warmup_frames = std::max<std::int64_t>(0, spec.warmup - summary.first_frame);
-  summary.effects_chosen = model::to_text(spec.effects);
+  summary.effects_chosen = effects::to_text(spec.effects);
   return summary;
 }
 
 EstimateSummary estimate_summary(const RunSpec& spec, const mpi::WorldRunResult& result,
                                  const EstimateMonitor& monitor, double budget_s) {
   EstimateSummary summary;
-  const model::StepperSettings& settings = *spec.estimate;
+  const stepping::StepperSettings& settings = *spec.estimate;
   summary.stepper = name_of(settings.kind);
   summary.source = estimate_source_names[static_cast<std::size_t>(spec.estimate_source)];
   summary.iterations = settings.iterations;
@@ -153,9 +155,9 @@ mpi::WorldRunResult run_to_end(mpi::FrameDriver& driver, io::RunFile* file) {
 
 /// A driver and what it borrows.
 struct Simulation {
-  std::unique_ptr<model::WorldStepper> worlds;
-  std::unique_ptr<model::SpaceStepper> spaces;
-  std::unique_ptr<model::Estimator> estimator;  ///< with FEEC
+  std::unique_ptr<stepping::WorldStepper> worlds;
+  std::unique_ptr<stepping::SpaceStepper> spaces;
+  std::unique_ptr<stepping::Estimator> estimator;  ///< with FEEC
   std::unique_ptr<mpi::FrameDriver> driver;
 };
 

@@ -6,8 +6,8 @@
 
 #include "app/common/load_scene.h"
 #include "app/common/version.h"
+#include "app/pbmpi/options/saved_options.h"
 #include "app/pbmpi/resume.h"
-#include "app/pbmpi/saved_options.h"
 #include "core/error.h"
 
 namespace pbmpi::app {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/pbmpi/options.h"
-#include "io/checkpoint_file.h"
+#include "app/pbmpi/options/options.h"
+#include "io/run/checkpoint_file.h"
 #include "model/state.h"
-#include "mpi/communicator.h"
+#include "mpi/comm/communicator.h"
 #include "scenes/scene.h"
 
 namespace pbmpi::app {

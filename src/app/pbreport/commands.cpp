@@ -1,30 +1,55 @@
 #include "app/pbreport/commands.h"
 
 #include <algorithm>
+#include <ostream>
 
-#include "app/pbreport/diff.h"
-#include "app/pbreport/effects.h"
-#include "app/pbreport/figures.h"
-#include "app/pbreport/report.h"
-#include "app/pbreport/study.h"
-#include "app/pbreport/suite_commands.h"
+#include "app/pbreport/accuracy/study.h"
+#include "app/pbreport/diff/diff.h"
+#include "app/pbreport/effects/effects.h"
+#include "app/pbreport/figures/figures.h"
+#include "app/pbreport/run/options.h"
+#include "app/pbreport/run/report.h"
+#include "app/pbreport/study/study_file.h"
+#include "app/pbreport/suite/suite_commands.h"
 
 namespace pbmpi::app {
 namespace {
+
+void print_help(std::ostream& out) {
+  out << "pbreport shows what a run of pbmpi amounts to.\n\n"
+      << "Usage: pbreport [COMMAND] FILE [options]\n\nCommands:\n";
+  for (const ReportCommand& command : report_commands()) {
+    out << "  " << command.name << std::string(10 - std::min<std::size_t>(9, command.name.size()), ' ')
+        << command.meaning << "\n";
+  }
+  out << report_options_text() << "\nExit codes: 0 done; 1 failed; 2 bad usage or bad input.\n\nExamples:\n"
+      << "  pbreport 100CrSk.h5\n"
+      << "  pbreport 100CrSk.h5 --html 100CrSk.html\n"
+      << "  pbreport 100CrSk.h5 --json | jq .frame_rate\n";
+}
+
+/// "pbreport [report] FILE", whose help is that of the program.
+core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostream& out) {
+  if (parse_report_options(args).action != ReportAction::help) return run_report(args, out);
+  print_help(out);
+  return core::ExitCode::done;
+}
 
 using Run = core::ExitCode (*)(const std::vector<std::string>& args, std::ostream& out);
 
 /// Files say what they are.
 Run command_for_the_files_of(const std::vector<std::string>& args) {
-  if (names_an_effect_study(args)) return run_effects_report;
-  return names_a_study(args) ? run_study : report_commands().front().run;
+  const std::string study = study_named_in(args);
+  if (study == "effects") return run_effects_report;
+  return study.empty() ? report_commands().front().run : run_study;
 }
 
 }  // namespace
 
 const std::vector<ReportCommand>& report_commands() {
   static const std::vector<ReportCommand> commands = {
-      {"report", "the summary of one run, its HTML page, its ParaView sidecar (the default)", run_report},
+      {"report", "the summary of one run, its HTML page, its ParaView sidecar (the default)",
+       run_first_command},
       {"islands", "the paper's Table 1 from runs", run_islands},
       {"cores", "the paper's Table 2 and Figure 6 from runs with --record-islands", run_cores},
       {"figure6", "one page of both, from such runs", run_figure6},

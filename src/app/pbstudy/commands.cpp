@@ -4,8 +4,8 @@
 #include <iostream>
 
 #include "app/common/options.h"
-#include "app/pbstudy/accuracy.h"
-#include "app/pbstudy/effects.h"
+#include "app/pbstudy/accuracy/accuracy.h"
+#include "app/pbstudy/effects/effects.h"
 #include "core/text.h"
 
 namespace pbmpi::app {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "mpi/communicator.h"
+#include "mpi/comm/communicator.h"
 
 namespace pbmpi::app {
 

@@ -131,9 +131,9 @@ void compute_delivery(const std::vector<double>& delivered_s, const std::vector<
   estimate.precise_over_delivered = sum(precise_s) / elapsed_s;
 }
 
-std::vector<EffectSummary> effect_summaries(const model::RunPlan& plan) {
+std::vector<EffectSummary> effect_summaries(const effects::RunPlan& plan) {
   std::vector<EffectSummary> effects;
-  for (const model::RunPass& pass : plan.passes())
+  for (const effects::RunPass& pass : plan.passes())
     effects.push_back({std::string(pass.effect->name), pass.reason});
   return effects;
 }

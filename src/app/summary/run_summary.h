@@ -11,7 +11,7 @@
 #include "analysis/error_bands.h"
 #include "core/clock.h"
 #include "core/statistics.h"
-#include "model/run_plan.h"
+#include "effects/run_plan.h"
 
 namespace pbmpi::app {
 
@@ -28,7 +28,7 @@ struct EffectSummary {
   std::string reason;
 };
 
-std::vector<EffectSummary> effect_summaries(const model::RunPlan& plan);
+std::vector<EffectSummary> effect_summaries(const effects::RunPlan& plan);
 
 /// FEEC, over the measured frames. Defects are of all bodies: estimate against precise pose of the same
 /// frame.

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "app/pbreport/effects_data.h"
-#include "app/pbreport/effects_markdown.h"
-#include "app/pbreport/effects_options.h"
-#include "app/pbreport/effects_text.h"
+#include "app/pbreport/effects/effects_data.h"
+#include "app/pbreport/effects/effects_markdown.h"
+#include "app/pbreport/effects/effects_options.h"
+#include "app/pbreport/effects/effects_text.h"
 #include "core/error.h"
 
 namespace pbmpi::app {

@@ -1,4 +1,4 @@
-#include "app/pbreport/facts.h"
+#include "app/pbreport/run/facts.h"
 
 #include <gtest/gtest.h>
 

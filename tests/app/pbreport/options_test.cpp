@@ -1,4 +1,4 @@
-#include "app/pbreport/options.h"
+#include "app/pbreport/run/options.h"
 
 #include <gtest/gtest.h>
 

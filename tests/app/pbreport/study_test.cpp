@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "app/pbreport/study_data.h"
-#include "app/pbreport/study_options.h"
-#include "app/pbreport/study_text.h"
+#include "app/pbreport/accuracy/study_data.h"
+#include "app/pbreport/accuracy/study_options.h"
+#include "app/pbreport/accuracy/study_text.h"
 #include "core/error.h"
 
 namespace pbmpi::app {

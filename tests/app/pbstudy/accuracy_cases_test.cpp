@@ -1,11 +1,11 @@
-#include "app/pbstudy/accuracy_cases.h"
+#include "app/pbstudy/accuracy/accuracy_cases.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "app/pbstudy/case_runner.h"
+#include "app/pbstudy/accuracy/case_runner.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
@@ -88,7 +88,7 @@ TEST(AccuracyCases, the_yardsticks_are_other_seeds_and_halves_of_the_reference) 
 
 TEST(AccuracyCases, max_sweeps_leaves_out_the_dear_ones) {
   for (const AccuracyCase& one : cases_of(options_of({"--max-sweeps", "40"}))) {
-    if (one.kind == CaseKind::setting && one.stepper.kind == model::StepperKind::sor) {
+    if (one.kind == CaseKind::setting && one.stepper.kind == stepping::StepperKind::sor) {
       EXPECT_LE(one.sweeps(), 40);
     }
   }

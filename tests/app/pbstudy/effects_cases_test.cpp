@@ -1,11 +1,11 @@
-#include "app/pbstudy/effects_cases.h"
+#include "app/pbstudy/effects/effects_cases.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "app/pbstudy/effects_runner.h"
+#include "app/pbstudy/effects/effects_runner.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
@@ -45,9 +45,10 @@ std::string refusal(const std::vector<std::string>& args) {
 TEST(EffectCases, every_effect_of_the_registry_has_one_case_a_stepper_and_seeds_follow) {
   const auto cases = cases_of(scenes::find_scene("CrashSk"),
                               options_of({"--precision", "double", "single", "--floor-seeds", "3"}));
-  const std::size_t num_effects = model::effect_registry().size();
+  const std::size_t num_effects = effects::effect_registry().size();
   ASSERT_EQ(cases.size(), 3 * (num_effects + 3)) << "quick, sor double, sor single";
-  for (std::size_t i = 0; i < num_effects; ++i) EXPECT_EQ(cases[i].effect, model::effect_registry()[i].name);
+  for (std::size_t i = 0; i < num_effects; ++i)
+    EXPECT_EQ(cases[i].effect, effects::effect_registry()[i].name);
   std::set<std::uint64_t> seeds;
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(cases[num_effects + i].kind, EffectCaseKind::floor);

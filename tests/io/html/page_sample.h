@@ -1,7 +1,7 @@
 /// Runs made up for the tests of the page: no engine, but poses whose values are known.
 #pragma once
 
-#include "io/run_data.h"
+#include "io/run/run_data.h"
 
 namespace pbmpi::io::html {
 

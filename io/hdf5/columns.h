@@ -1,0 +1,42 @@
+/// Makes the datasets and attributes of a run's file. Metadata: every rank makes the same calls.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/hdf5/hdf5_handle.h"
+#include "io/hdf5/parameter.h"
+
+namespace pbmpi::io {
+
+/// Fixed-length UTF-8 text, padded with NUL: unlike variable-length text it can be written in parallel.
+Datatype text_type(std::size_t bytes);
+/// A copy of one of HDF5's own types, e.g. H5T_NATIVE_DOUBLE.
+Datatype number_type(hid_t native);
+
+/// The longest start of `text` that has at most `bytes` bytes and ends between two characters of UTF-8.
+std::string cut_text(std::string_view text, std::size_t bytes);
+
+/// Makes and writes a scalar attribute. Text beyond 60,000 bytes is cut.
+void write_attribute(hid_t object, const std::string& name, std::int64_t value);
+void write_attribute(hid_t object, const std::string& name, const std::string& value);
+void write_attribute(hid_t object, const Parameter& value);
+
+/// Makes and writes the attribute "version": major, minor.
+void write_version(hid_t object, const std::array<std::int64_t, 2>& version);
+
+/// A dataset whose space in the file is allocated now and never filled, with its unit if it has one. Missing
+/// groups on the way to `path` are made. A growing one is chunked, and its rows (first index) can be cut.
+Dataset create_fixed(hid_t file, const std::string& path, const Datatype& type,
+                     const std::vector<hsize_t>& dims, const std::string& unit);
+Dataset create_growing(hid_t file, const std::string& path, const Datatype& type,
+                       const std::vector<hsize_t>& dims, const std::string& unit);
+/// A scalar dataset; `write` on one rank is enough.
+void create_scalar(hid_t file, const std::string& path, const Parameter& value, bool write);
+
+Group create_group(hid_t file, const std::string& path);
+
+}  // namespace pbmpi::io

@@ -1,0 +1,57 @@
+#include "io/hdf5/commit_record.h"
+
+#include "io/hdf5/columns.h"
+
+namespace pbmpi::io {
+namespace {
+
+/// Through the group, because HDF5 1.10 cannot write what H5Aopen_by_name has opened.
+void rewrite(const File& file, const char* object, const std::string& name, const Datatype& type,
+             const void* value) {
+  const auto group =
+      owned<Group>(H5Gopen2(file.id(), object, H5P_DEFAULT), std::string("H5Gopen(") + object + ")");
+  const auto attribute =
+      owned<Attribute>(H5Aopen(group.id(), name.c_str(), H5P_DEFAULT), "H5Aopen(" + name + ")");
+  check(H5Awrite(attribute.id(), type.id(), value), "H5Awrite(" + name + ")");
+}
+
+void rewrite(const File& file, const char* object, const std::string& name, std::int64_t value) {
+  rewrite(file, object, name, number_type(H5T_NATIVE_INT64), &value);
+}
+
+}  // namespace
+
+void create_commit_attributes(hid_t root, hid_t events) {
+  write_attribute(root, "frames_committed", std::int64_t{0});
+  write_attribute(root, "complete", std::int64_t{0});
+  write_attribute(root, "state_hash", std::string(hash_digits, ' '));
+  write_attribute(events, "num_events", std::int64_t{0});
+  write_attribute(events, "num_dropped", std::int64_t{0});
+}
+
+CommitRecord::CommitRecord(const std::string& path) {
+  // The serial driver, whose flush is a write: that of MPI-IO waits for the disk, with all data since the
+  // last.
+  const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
+  check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");
+  file_ = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "H5Fopen");
+}
+
+void CommitRecord::commit(std::int64_t num_frames, std::int64_t num_events) {
+  rewrite(file_, "/events", "num_events", num_events);
+  rewrite(file_, "/", "frames_committed", num_frames);
+  flush();
+}
+
+void CommitRecord::finish(bool complete, const std::string& state_hash, std::int64_t events_dropped) {
+  std::string padded = state_hash;
+  padded.resize(hash_digits, ' ');
+  rewrite(file_, "/", "state_hash", text_type(hash_digits), padded.data());
+  rewrite(file_, "/events", "num_dropped", events_dropped);
+  rewrite(file_, "/", "complete", complete ? 1 : 0);
+  flush();
+}
+
+void CommitRecord::flush() { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush"); }
+
+}  // namespace pbmpi::io

@@ -1,0 +1,39 @@
+/// The few bytes of a run's file that say what it holds: written by root alone, after the data.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "io/hdf5/hdf5_handle.h"
+
+namespace pbmpi::io {
+
+/// Digits of state_hash.
+inline constexpr std::size_t hash_digits = 16;
+
+/// Makes the attributes that a CommitRecord overwrites, at their final size: a change later is a few bytes in
+/// place. Part of the skeleton: collective.
+void create_commit_attributes(hid_t root, hid_t events);
+
+/// Root's own handle of the file beside the one through which all ranks write data. With it no rank changes
+/// metadata through the common handle once the skeleton stands: there an error on one rank (a full disk)
+/// would leave the others waiting inside HDF5.
+class CommitRecord {
+ public:
+  CommitRecord() = default;
+  explicit CommitRecord(const std::string& path);
+
+  /// Vouches for the first rows; the caller has seen to it that they are in the file.
+  void commit(std::int64_t num_frames, std::int64_t num_events);
+  /// What is known at the end of the run.
+  void finish(bool complete, const std::string& state_hash, std::int64_t events_dropped);
+  /// False if HDF5 could not write all of it.
+  bool close() { return file_.close(); }
+
+ private:
+  void flush();
+
+  File file_;
+};
+
+}  // namespace pbmpi::io

@@ -1,0 +1,13 @@
+/// The ranks that write one file together.
+#pragma once
+
+namespace pbmpi::io {
+
+/// Where this rank stands, and through which communicator the file is opened.
+struct FileGroup {
+  int fortran_communicator = 0;  ///< MPI_Comm_c2f of the ranks that write together
+  int rank = 0;
+  int num_ranks = 1;
+};
+
+}  // namespace pbmpi::io

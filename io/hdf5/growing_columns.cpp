@@ -1,0 +1,186 @@
+#include "io/hdf5/growing_columns.h"
+
+#include <algorithm>
+
+#include "io/hdf5/columns.h"
+
+namespace pbmpi::io {
+namespace {
+
+Datatype type_of(const ColumnSpec& column) {
+  return column.text_bytes > 0 ? text_type(column.text_bytes) : number_type(column.native_type);
+}
+
+/// [rows] or [rows][items] or [rows][items][width]
+std::vector<hsize_t> dims_of(hsize_t rows, hsize_t items, hsize_t width) {
+  std::vector<hsize_t> dims{rows};
+  if (items > 0) dims.push_back(items);
+  if (width > 1) dims.push_back(width);
+  return dims;
+}
+
+std::vector<hsize_t> extent(hid_t dataset) {
+  const auto space = owned<Dataspace>(H5Dget_space(dataset), "H5Dget_space");
+  std::vector<hsize_t> dims(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.id())));
+  check(H5Sget_simple_extent_dims(space.id(), dims.data(), nullptr), "H5Sget_simple_extent_dims");
+  return dims;
+}
+
+/// Adds the bytes of the chunks that lie behind row `num_rows` altogether.
+void add_unused_chunks(hid_t dataset, hsize_t num_rows, std::vector<ByteRange>& unused) {
+  const auto space = owned<Dataspace>(H5Dget_space(dataset), "H5Dget_space");
+  hsize_t num_chunks = 0;
+  check(H5Dget_num_chunks(dataset, space.id(), &num_chunks), "H5Dget_num_chunks");
+  for (hsize_t chunk = 0; chunk < num_chunks; ++chunk) {
+    std::vector<hsize_t> offset(H5S_MAX_RANK);
+    unsigned filters = 0;
+    haddr_t address = HADDR_UNDEF;
+    hsize_t bytes = 0;
+    check(H5Dget_chunk_info(dataset, space.id(), chunk, offset.data(), &filters, &address, &bytes),
+          "H5Dget_chunk_info");
+    if (offset[0] >= num_rows) unused.emplace_back(address, bytes);
+  }
+}
+
+}  // namespace
+
+GrowingTable::GrowingTable(hid_t file, const FileRanks& ranks, const std::string& group,
+                           const std::vector<ColumnSpec>& columns, TableShape shape)
+    : ranks_(ranks), shape_(shape), items_(std::max<hsize_t>(shape.num_items, 1)) {
+  shape_.capacity = std::clamp<hsize_t>(shape.capacity, 1, std::max<hsize_t>(shape.num_rows, 1));
+  for (const ColumnSpec& spec : columns) {
+    Column column{group + "/" + spec.name, type_of(spec), {}, 0, nullptr};
+    column.item_bytes = H5Tget_size(column.type.id()) * spec.width;
+    column.dataset = create_growing(file, column.path, column.type,
+                                    dims_of(shape.num_rows, shape.num_items, spec.width), spec.unit);
+    // Not value-initialised: see the class comment.
+    column.waiting.reset(new std::byte[shape_.capacity * items_ * column.item_bytes]);
+    columns_.push_back(std::move(column));
+  }
+}
+
+void GrowingTable::begin_row(const std::vector<Range>& ranges) {
+  core::require_invariant(!full() && written_ + num_waiting_ < shape_.num_rows, "a row too many");
+  owned_.push_back(ranges);
+  ++num_waiting_;
+}
+
+void GrowingTable::put_text(std::size_t column, const std::string& text) {
+  std::string padded = cut_text(text, columns_[column].item_bytes);
+  padded.resize(columns_[column].item_bytes, '\0');
+  std::memcpy(place(column, 0), padded.data(), padded.size());
+}
+
+std::size_t GrowingTable::row_bytes(const std::vector<ColumnSpec>& columns, hsize_t num_items) {
+  std::size_t bytes = 0;
+  for (const ColumnSpec& column : columns) {
+    const std::size_t value = column.text_bytes > 0 ? column.text_bytes : H5Tget_size(column.native_type);
+    bytes += value * column.width * std::max<hsize_t>(num_items, 1);
+  }
+  return bytes;
+}
+
+void GrowingTable::pack(hsize_t row, std::vector<std::byte>& message) {
+  const auto append = [&message](const void* data, std::size_t bytes) {
+    const auto* begin = static_cast<const std::byte*>(data);
+    message.insert(message.end(), begin, begin + bytes);
+  };
+  const std::vector<Range>& ranges = owned_[row];
+  const std::size_t num_ranges = ranges.size();
+  append(&num_ranges, sizeof num_ranges);
+  append(ranges.data(), num_ranges * sizeof(Range));
+  for (Column& column : columns_) {
+    for (const Range& range : ranges)
+      append(place(column, row, range.first), range.count * column.item_bytes);
+  }
+}
+
+const std::byte* GrowingTable::unpack(hsize_t row, const std::byte* message) {
+  const auto take = [&message](void* data, std::size_t bytes) {
+    if (bytes > 0) std::memcpy(data, message, bytes);
+    message += bytes;
+  };
+  std::size_t num_ranges = 0;
+  take(&num_ranges, sizeof num_ranges);
+  std::vector<Range> ranges(num_ranges);
+  take(ranges.data(), num_ranges * sizeof(Range));
+  for (Column& column : columns_) {
+    for (const Range& range : ranges) take(place(column, row, range.first), range.count * column.item_bytes);
+  }
+  return message;
+}
+
+void GrowingTable::exchange_items() {
+  if (ranks_.size() == 1) return;
+  std::vector<std::vector<std::byte>> messages(static_cast<std::size_t>(ranks_.size()));
+  for (int to = 0; to < ranks_.size(); ++to) {
+    if (to == ranks_.rank()) continue;
+    const Range rows = share_of_rows(num_waiting_, to, ranks_.size());
+    for (hsize_t row = rows.first; row < rows.first + rows.count; ++row) pack(row, messages[to]);
+  }
+  const std::vector<std::byte> received = ranks_.exchange(messages);
+  const Range own = share_of_rows(num_waiting_, ranks_.rank(), ranks_.size());
+  const std::byte* message = received.data();
+  for (int from = 0; from < ranks_.size(); ++from) {
+    if (from == ranks_.rank()) continue;
+    for (hsize_t row = own.first; row < own.first + own.count; ++row) message = unpack(row, message);
+  }
+}
+
+std::string GrowingTable::write(const PropertyList& transfer) {
+  if (num_waiting_ == 0) return {};
+  exchange_items();
+  const Range rows = share_of_rows(num_waiting_, ranks_.rank(), ranks_.size());
+  std::string error;
+  collective_ = true;
+  for (Column& column : columns_) {
+    try {
+      write(column, rows, transfer);
+      collective_ = was_collective(transfer) && collective_;
+    } catch (const core::RunError& e) {
+      if (error.empty()) error = e.what();
+    }
+  }
+  owned_.clear();
+  written_ += num_waiting_;
+  num_waiting_ = 0;
+  return error;
+}
+
+void GrowingTable::write(Column& column, Range rows, const PropertyList& transfer) {
+  const auto in_file = owned<Dataspace>(H5Dget_space(column.dataset.id()), "H5Dget_space");
+  std::vector<hsize_t> dims = extent(column.dataset.id());
+  dims[0] = std::max<hsize_t>(rows.count, 1);
+  const auto in_memory = owned<Dataspace>(
+      H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), "H5Screate_simple");
+  if (rows.count == 0) {
+    check(H5Sselect_none(in_file.id()), "H5Sselect_none");
+    check(H5Sselect_none(in_memory.id()), "H5Sselect_none");
+  } else {
+    std::vector<hsize_t> start(dims.size(), 0);
+    start[0] = written_ + rows.first;
+    check(H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr, dims.data(), nullptr),
+          "H5Sselect_hyperslab");
+  }
+  check(H5Dwrite(column.dataset.id(), column.type.id(), in_memory.id(), in_file.id(), transfer.id(),
+                 place(column, rows.first, 0)),
+        "H5Dwrite(" + column.path + ")");
+}
+
+void GrowingTable::close() {
+  for (Column& column : columns_) column.dataset.close();
+}
+
+void GrowingTable::cut(hid_t file, std::vector<ByteRange>& unused) const {
+  for (const Column& column : columns_) {
+    const auto dataset =
+        owned<Dataset>(H5Dopen2(file, column.path.c_str(), H5P_DEFAULT), "H5Dopen(" + column.path + ")");
+    std::vector<hsize_t> dims = extent(dataset.id());
+    if (dims[0] == written_) continue;
+    add_unused_chunks(dataset.id(), written_, unused);
+    dims[0] = written_;
+    check(H5Dset_extent(dataset.id(), dims.data()), "H5Dset_extent(" + column.path + ")");
+  }
+}
+
+}  // namespace pbmpi::io

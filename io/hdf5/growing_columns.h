@@ -1,0 +1,110 @@
+/// Columns with a row a frame: their rows wait in memory and go to the file together.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "io/hdf5/hdf5_handle.h"
+#include "io/hdf5/output_target.h"
+#include "io/hdf5/parallel_file.h"
+#include "io/hdf5/rows.h"
+
+namespace pbmpi::io {
+
+/// A column of a table: its name in the group, the type and number of an item's values, their unit.
+struct ColumnSpec {
+  std::string name;
+  hid_t native_type;  ///< borrowed; copied by create()
+  hsize_t width = 1;  ///< values of an item; 1 = no extra dimension
+  std::string unit = {};
+  std::size_t text_bytes = 0;  ///< > 0: text of this length, native_type is ignored
+};
+
+/// Which shape the rows of a table have.
+struct TableShape {
+  hsize_t num_rows = 0;   ///< full length in the file
+  hsize_t num_items = 0;  ///< of a row; 0 = the column is one-dimensional
+  hsize_t capacity = 1;   ///< rows that can wait
+};
+
+/// Columns of one group that get the same rows, of which each rank owns some items. Before they are written
+/// the ranks exchange items, so that each has some rows whole and writes them in one piece: that is what
+/// MPI-IO's collective buffering is for, which loses errors (parallel_file.cpp).
+/// A waiting row has room for all items; pages that a rank never touches take no memory.
+class GrowingTable {
+ public:
+  /// Makes the datasets. Collective.
+  GrowingTable(hid_t file, const FileRanks& ranks, const std::string& group,
+               const std::vector<ColumnSpec>& columns, TableShape shape);
+
+  /// Begins the next row, in which this rank writes the items of `ranges` ({0, 1} or nothing in a
+  /// one-dimensional table).
+  void begin_row(const std::vector<Range>& ranges);
+  /// Puts `count` items, each a T, into the row begun last.
+  template <class T>
+  void put(std::size_t column, hsize_t first_item, const T* items, hsize_t count) {
+    core::require_invariant(sizeof(T) == columns_[column].item_bytes,
+                            "an item of another type than its column");
+    std::memcpy(place(column, first_item), static_cast<const void*>(items), count * sizeof(T));
+  }
+  template <class T>
+  void put(std::size_t column, hsize_t item, T value) {
+    put(column, item, &value, 1);
+  }
+  void put_text(std::size_t column, const std::string& text);
+
+  hsize_t num_waiting() const { return num_waiting_; }
+  bool full() const { return num_waiting_ == shape_.capacity; }
+  hsize_t num_rows() const { return written_; }
+  /// Bytes of a row, all items and columns.
+  static std::size_t row_bytes(const std::vector<ColumnSpec>& columns, hsize_t num_items);
+
+  /// Writes the waiting rows; collective, and so done to the end even if a column fails. Returns the first
+  /// error of this rank, empty if there was none.
+  std::string write(const PropertyList& transfer);
+  /// Was each column of the last write() written collectively?
+  bool wrote_collectively() const { return collective_; }
+
+  /// Closes the datasets.
+  void close();
+  /// Cuts the datasets, which `file` has opened anew, to the rows written; adds to `unused` the bytes of the
+  /// file that this frees. One rank alone: HDF5 1.10 gets stuck if ranks cut together a dataset whose chunks
+  /// only some of them have written.
+  void cut(hid_t file, std::vector<ByteRange>& unused) const;
+
+ private:
+  struct Column {
+    std::string path;
+    Datatype type;
+    Dataset dataset;
+    std::size_t item_bytes;
+    std::unique_ptr<std::byte[]> waiting;  ///< [capacity][items][width]
+  };
+  std::byte* place(Column& column, hsize_t row, hsize_t item) {
+    return column.waiting.get() + (row * items_ + item) * column.item_bytes;
+  }
+  std::byte* place(std::size_t column, hsize_t item) {
+    return place(columns_[column], num_waiting_ - 1, item);
+  }
+  /// Completes the rows that this rank writes.
+  void exchange_items();
+  /// This rank's items of a waiting row, behind what `message` has; and the same back.
+  void pack(hsize_t row, std::vector<std::byte>& message);
+  const std::byte* unpack(hsize_t row, const std::byte* message);
+  void write(Column& column, Range rows, const PropertyList& transfer);
+
+  const FileRanks& ranks_;
+  TableShape shape_;
+  hsize_t items_;
+  std::vector<Column> columns_;
+  std::vector<std::vector<Range>> owned_;  ///< [num_waiting] this rank's items of each row
+  hsize_t num_waiting_ = 0;
+  hsize_t written_ = 0;
+  bool collective_ = false;
+};
+
+}  // namespace pbmpi::io

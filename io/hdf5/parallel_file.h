@@ -1,0 +1,70 @@
+/// The ranks that write one file together: how they open it, and how they agree on an error.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "io/hdf5/file_group.h"
+#include "io/hdf5/hdf5_handle.h"
+
+namespace pbmpi::io {
+
+/// Borrows the communicator. Every call is collective, except rank(), size() and is_root().
+class FileRanks {
+ public:
+  explicit FileRanks(const FileGroup& group);
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool is_root() const { return rank_ == 0; }
+
+  /// Root's value, on every rank.
+  std::string broadcast(std::string text) const;
+  bool broadcast(bool flag) const;
+  /// Element-wise sum over the ranks, in place.
+  void sum(std::span<std::int64_t> values) const;
+  std::int64_t max(std::int64_t value) const;
+  /// Sends messages[r] to rank r; returns what the ranks sent to this one, in their order. 2 GiB at most.
+  std::vector<std::byte> exchange(const std::vector<std::vector<std::byte>>& messages) const;
+
+  /// The error of the lowest rank that has one, with the rank's number if it is not root; empty if none has.
+  std::string first_error(const std::string& error) const;
+
+  /// Does `work` on every rank; if it threw on any, throws Error with the same message on all.
+  template <class Error = core::RunError, class Work>
+  void together(Work&& work) const {
+    std::string error;
+    try {
+      work();
+    } catch (const std::exception& e) {
+      error = e.what();
+    }
+    if (const std::string first = first_error(error); !first.empty()) throw Error(first);
+  }
+
+  /// Creates `path` (cut to nothing if it exists) for parallel writing.
+  File create(const std::string& path) const;
+
+ private:
+  int fortran_communicator_;
+  int rank_;
+  int size_;
+};
+
+/// Opens a file for writing by this rank alone. MPI-IO here too: unlike the serial driver it holds no
+/// metadata back, so that a kill between two writes never leaves the superblock behind the length of the
+/// file.
+File open_alone(const std::string& path);
+
+/// Transfer properties of a collective write: all ranks and all chunks of a call in one operation.
+PropertyList collective_transfer();
+
+/// Was the last write with `transfer` collective on this rank, or did HDF5 fall back to one rank at a time?
+bool was_collective(const PropertyList& transfer);
+
+}  // namespace pbmpi::io

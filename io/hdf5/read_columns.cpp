@@ -1,0 +1,249 @@
+#include "io/hdf5/read_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <numeric>
+
+#include "core/error.h"
+#include "io/hdf5/file_types.h"
+
+namespace pbmpi::io {
+namespace {
+
+/// A number with as many digits as it takes to read it back.
+template <class Number>
+std::string to_text(Number value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string trimmed(const char* text, std::size_t bytes) {
+  const std::string all(text, bytes);
+  return all.substr(0, all.find('\0'));
+}
+
+/// Turns the values of a dataset or an attribute into text; `read(type, buffer)` reads them.
+template <class Read>
+std::string values_as_text(const Datatype& type, hsize_t count, Read&& read) {
+  const std::size_t bytes = H5Tget_size(type.id());
+  std::vector<std::string> parts;
+  switch (H5Tget_class(type.id())) {
+    case H5T_STRING: {
+      if (H5Tis_variable_str(type.id()) > 0) return "(text of variable length)";
+      std::vector<char> buffer(bytes * count);
+      read(type.id(), buffer.data());
+      for (hsize_t i = 0; i < count; ++i) parts.push_back(trimmed(&buffer[i * bytes], bytes));
+      break;
+    }
+    case H5T_INTEGER: {
+      std::vector<std::int64_t> buffer(count);
+      read(H5T_NATIVE_INT64, buffer.data());
+      for (const std::int64_t value : buffer) parts.push_back(to_text(value));
+      break;
+    }
+    case H5T_FLOAT: {
+      std::vector<double> buffer(count);
+      read(H5T_NATIVE_DOUBLE, buffer.data());
+      for (const double value : buffer) parts.push_back(to_text(value));
+      break;
+    }
+    default:
+      return "(of a type that pbmpi does not read)";
+  }
+  std::string joined;
+  for (const std::string& part : parts) joined += (joined.empty() ? "" : ".") + part;
+  return joined;
+}
+
+hsize_t num_points(const Dataspace& space) {
+  const hssize_t points = H5Sget_simple_extent_npoints(space.id());
+  check(points < 0 ? -1 : 0, "H5Sget_simple_extent_npoints");
+  return static_cast<hsize_t>(points);
+}
+
+/// The selection of the first rows of a dataset.
+struct FirstRows {
+  Dataset dataset;
+  Dataspace in_file, in_memory;
+  hsize_t num_rows = 0;
+  hsize_t num_values = 0;
+};
+
+FirstRows select_first_rows(hid_t file, const std::string& path, std::int64_t num_rows, hsize_t row_values) {
+  FirstRows rows;
+  rows.dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
+  std::vector<hsize_t> dims = dims_of(file, path);
+  if (dims.empty()) throw core::RunError(path + " has no rows");
+  if (num_rows >= 0) {
+    if (dims[0] < static_cast<hsize_t>(num_rows)) {
+      throw core::RunError(path + " has " + std::to_string(dims[0]) + " rows, not " +
+                           std::to_string(num_rows));
+    }
+    dims[0] = static_cast<hsize_t>(num_rows);
+  }
+  const hsize_t values = std::accumulate(dims.begin() + 1, dims.end(), hsize_t{1}, std::multiplies<>());
+  if (row_values != 0 && values != row_values) {
+    throw core::RunError(path + " has rows of " + std::to_string(values) + " values, not " +
+                         std::to_string(row_values));
+  }
+  rows.num_rows = dims[0];
+  rows.num_values = dims[0] * values;
+  rows.in_file = owned<Dataspace>(H5Dget_space(rows.dataset.id()), "H5Dget_space");
+  const std::vector<hsize_t> start(dims.size(), 0);
+  check(H5Sselect_hyperslab(rows.in_file.id(), H5S_SELECT_SET, start.data(), nullptr, dims.data(), nullptr),
+        "H5Sselect_hyperslab");
+  rows.in_memory = owned<Dataspace>(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
+                                    "H5Screate_simple");
+  return rows;
+}
+
+void read(const FirstRows& rows, hid_t type, void* values, const std::string& path) {
+  if (rows.num_values == 0) return;
+  check(H5Dread(rows.dataset.id(), type, rows.in_memory.id(), rows.in_file.id(), H5P_DEFAULT, values),
+        "H5Dread(" + path + ")");
+}
+
+void require_type(const std::string& path, hid_t file, const std::string& type, std::int64_t layout) {
+  const auto attributes = attributes_as_text(file, "/");
+  const auto found = attributes.find("filetype");
+  const bool is_run = type == filetype;
+  const std::string writer = type == checkpoint_filetype || is_run ? "pbmpi" : "pbstudy";
+  core::require_input(found != attributes.end() && found->second == type,
+                      path + ": not a " + (is_run ? "pbmpi run" : type) + " (its attribute filetype is " +
+                          (found == attributes.end() ? "missing" : "\"" + found->second + "\"") +
+                          "); give a file that " + writer + " has written");
+  const auto version = attributes.find("version");
+  const std::int64_t major = version == attributes.end() ? 0 : std::atoll(version->second.c_str());
+  core::require_input(major == layout, path + ": its layout has version " +
+                                           (major == 0 ? "unknown" : version->second) +
+                                           ", this program reads version " + to_text(layout) +
+                                           ".x; use the pbmpi that wrote it");
+}
+
+}  // namespace
+
+File open_run(const std::string& path) { return open_file(path, filetype, layout_major); }
+
+File open_file(const std::string& path, const std::string& type, std::int64_t major) {
+  prepare_hdf5();
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  core::require_input(std::filesystem::exists(status), path + ": there is no such file; check the name");
+  core::require_input(!std::filesystem::is_directory(status),
+                      path + ": it is a directory; give the name of a file");
+  const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
+  // A file may be read while it is written, and on file systems without locks.
+  check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");
+  File file;
+  try {
+    file = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), "H5Fopen");
+  } catch (const core::RunError& e) {
+    throw core::InputError(path + ": cannot be opened as an HDF5 file (" + e.what() +
+                           "); give a file that pbmpi has written");
+  }
+  try {
+    require_type(path, file.id(), type, major);
+  } catch (const core::RunError& e) {
+    throw core::InputError(path + ": " + e.what() + "; the file is damaged");
+  }
+  return file;
+}
+
+bool has_object(hid_t file, const std::string& path) {
+  const htri_t found = H5Lexists(file, path.c_str(), H5P_DEFAULT);
+  check(found < 0 ? -1 : 0, "H5Lexists(" + path + ")");
+  return found > 0;
+}
+
+std::vector<hsize_t> dims_of(hid_t file, const std::string& path) {
+  const auto dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
+  const auto space = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
+  std::vector<hsize_t> dims(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space.id()), 0)));
+  check(H5Sget_simple_extent_dims(space.id(), dims.data(), nullptr), "H5Sget_simple_extent_dims");
+  return dims;
+}
+
+std::vector<double> read_doubles(hid_t file, const std::string& path, std::int64_t num_rows,
+                                 hsize_t row_values) {
+  const FirstRows rows = select_first_rows(file, path, num_rows, row_values);
+  std::vector<double> values(rows.num_values);
+  read(rows, H5T_NATIVE_DOUBLE, values.data(), path);
+  return values;
+}
+
+std::vector<std::int64_t> read_integers(hid_t file, const std::string& path, std::int64_t num_rows) {
+  const FirstRows rows = select_first_rows(file, path, num_rows, 0);
+  std::vector<std::int64_t> values(rows.num_values);
+  read(rows, H5T_NATIVE_INT64, values.data(), path);
+  return values;
+}
+
+std::vector<std::string> read_texts(hid_t file, const std::string& path, std::int64_t num_rows) {
+  const FirstRows rows = select_first_rows(file, path, num_rows, 1);
+  const auto type = owned<Datatype>(H5Dget_type(rows.dataset.id()), "H5Dget_type");
+  if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) > 0) {
+    throw core::RunError(path + " is not text of fixed length");
+  }
+  const std::size_t bytes = H5Tget_size(type.id());
+  std::vector<char> buffer(bytes * rows.num_values);
+  read(rows, type.id(), buffer.data(), path);
+  std::vector<std::string> texts;
+  for (hsize_t i = 0; i < rows.num_values; ++i) texts.push_back(trimmed(&buffer[i * bytes], bytes));
+  return texts;
+}
+
+std::int64_t integer_attribute(hid_t file, const std::string& object, const std::string& name) {
+  const auto attribute = owned<Attribute>(
+      H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "H5Aopen(" + name + ")");
+  const auto space = owned<Dataspace>(H5Aget_space(attribute.id()), "H5Aget_space");
+  if (num_points(space) != 1) throw core::RunError("attribute " + name + " is not one number");
+  std::int64_t value = 0;
+  check(H5Aread(attribute.id(), H5T_NATIVE_INT64, &value), "H5Aread(" + name + ")");
+  return value;
+}
+
+std::map<std::string, std::string> attributes_as_text(hid_t file, const std::string& object) {
+  const auto owner = owned<Object>(H5Oopen(file, object.c_str(), H5P_DEFAULT), "H5Oopen(" + object + ")");
+  H5O_info_t info;
+  check(H5Oget_info2(owner.id(), &info, H5O_INFO_NUM_ATTRS), "H5Oget_info");
+  std::map<std::string, std::string> texts;
+  for (hsize_t i = 0; i < info.num_attrs; ++i) {
+    const auto attribute = owned<Attribute>(
+        H5Aopen_by_idx(owner.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT, H5P_DEFAULT),
+        "H5Aopen_by_idx");
+    std::array<char, 256> name{};
+    check(H5Aget_name(attribute.id(), name.size(), name.data()) < 0 ? -1 : 0, "H5Aget_name");
+    const auto type = owned<Datatype>(H5Aget_type(attribute.id()), "H5Aget_type");
+    const auto space = owned<Dataspace>(H5Aget_space(attribute.id()), "H5Aget_space");
+    texts[name.data()] = values_as_text(type, num_points(space), [&](hid_t as, void* values) {
+      check(H5Aread(attribute.id(), as, values), "H5Aread");
+    });
+  }
+  return texts;
+}
+
+std::map<std::string, std::string> scalars_as_text(hid_t file, const std::string& group) {
+  const auto owner = owned<Group>(H5Gopen2(file, group.c_str(), H5P_DEFAULT), "H5Gopen(" + group + ")");
+  H5G_info_t info;
+  check(H5Gget_info(owner.id(), &info), "H5Gget_info");
+  std::map<std::string, std::string> texts;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    std::array<char, 256> name{};
+    check(H5Lget_name_by_idx(owner.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(),
+                             H5P_DEFAULT) < 0
+              ? -1
+              : 0,
+          "H5Lget_name_by_idx");
+    const auto dataset = owned<Dataset>(H5Dopen2(owner.id(), name.data(), H5P_DEFAULT), "H5Dopen");
+    const auto type = owned<Datatype>(H5Dget_type(dataset.id()), "H5Dget_type");
+    const auto space = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
+    texts[name.data()] = values_as_text(type, num_points(space), [&](hid_t as, void* values) {
+      check(H5Dread(dataset.id(), as, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "H5Dread");
+    });
+  }
+  return texts;
+}
+
+}  // namespace pbmpi::io

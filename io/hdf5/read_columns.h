@@ -1,0 +1,42 @@
+/// Reads datasets and attributes of a file, serially. Errors are core::RunError; the callers turn them into
+/// core::InputError with the file's name.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/hdf5/hdf5_handle.h"
+
+namespace pbmpi::io {
+
+/// Opens `path` read-only and checks that it is a pbmpi-run file that this program understands. Throws
+/// core::InputError.
+File open_run(const std::string& path);
+
+/// The same for a file of another type and major version of its layout.
+File open_file(const std::string& path, const std::string& type, std::int64_t major);
+
+/// Is there a group or dataset of this path, whose parent exists?
+bool has_object(hid_t file, const std::string& path);
+
+/// Extent of a dataset.
+std::vector<hsize_t> dims_of(hid_t file, const std::string& path);
+
+/// The first `num_rows` rows, row-major; all rows if num_rows < 0. Throws if there are fewer, or if a row
+/// does not have `row_values` values (0 = any number).
+std::vector<double> read_doubles(hid_t file, const std::string& path, std::int64_t num_rows = -1,
+                                 hsize_t row_values = 0);
+std::vector<std::int64_t> read_integers(hid_t file, const std::string& path, std::int64_t num_rows = -1);
+std::vector<std::string> read_texts(hid_t file, const std::string& path, std::int64_t num_rows = -1);
+
+std::int64_t integer_attribute(hid_t file, const std::string& object, const std::string& name);
+
+/// All attributes of an object as text; the values of an array are separated by a dot ("1.0").
+std::map<std::string, std::string> attributes_as_text(hid_t file, const std::string& object);
+
+/// All scalar datasets of a group as text.
+std::map<std::string, std::string> scalars_as_text(hid_t file, const std::string& group);
+
+}  // namespace pbmpi::io

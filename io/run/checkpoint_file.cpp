@@ -1,0 +1,209 @@
+#include "io/run/checkpoint_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "io/hdf5/file_types.h"
+#include "io/hdf5/output_target.h"
+#include "io/hdf5/replace_file.h"
+#include "io/table/table_file.h"
+
+namespace pbmpi::io {
+namespace {
+
+/// Of the layout; the first number changes when old programs would be misled.
+constexpr std::array<std::int64_t, 2> version = {1, 0};
+
+using core::Quat;
+using core::Vec3;
+using Doubles = std::vector<double>;
+using Integers = std::vector<std::int64_t>;
+
+void append(Doubles& column, const Vec3& vector) {
+  column.insert(column.end(), vector.data(), vector.data() + 3);
+}
+void append(Doubles& column, const Quat& q) { column.insert(column.end(), {q.w, q.x, q.y, q.z}); }
+
+/// The columns of all worlds, one world's rows after the other's.
+struct Columns {
+  Integers bodies, resting, joints;  ///< [W] rows of each world
+  Doubles position, orientation, velocity, angular_velocity;
+  Doubles rest_position, rest_orientation;
+  Integers idle_steps, broken_in;
+
+  void add(const model::State& state) {
+    bodies.push_back(std::ssize(state.position));
+    resting.push_back(std::ssize(state.rest));
+    joints.push_back(std::ssize(state.broken_in));
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+      append(position, state.position[i]);
+      append(orientation, state.orientation[i]);
+      append(velocity, state.velocity[i]);
+      append(angular_velocity, state.angular_velocity[i]);
+    }
+    for (const model::Rest& rest : state.rest) {
+      append(rest_position, rest.position);
+      append(rest_orientation, rest.orientation);
+      idle_steps.push_back(rest.idle_steps);
+    }
+    broken_in.insert(broken_in.end(), state.broken_in.begin(), state.broken_in.end());
+  }
+};
+
+TableFile tables_of(const Checkpoint& checkpoint) {
+  Columns columns;
+  for (const model::State& state : checkpoint.worlds) columns.add(state);
+  TableFile file;
+  file.attributes = {{"pbmpi_version", checkpoint.pbmpi_version},
+                     {"git_revision", checkpoint.git_revision},
+                     {"build", checkpoint.build},
+                     {"created", checkpoint.created},
+                     {"state_hash", checkpoint.state_hash},
+                     {"scene", checkpoint.scene}};
+  file.parameters = {
+      Parameter::of("frames_done", checkpoint.frames),    Parameter::of("steps_done", checkpoint.steps),
+      Parameter::of("scene_file", checkpoint.scene_file), Parameter::of("scene_text", checkpoint.scene_text),
+      Parameter::of("options", checkpoint.options),       Parameter::of("output", checkpoint.output)};
+  file.tables["worlds"] = {{"bodies", "", std::move(columns.bodies)},
+                           {"resting", "", std::move(columns.resting)},
+                           {"joints", "", std::move(columns.joints)}};
+  file.tables["bodies"] = {{"position", "m", std::move(columns.position), 3},
+                           {"orientation", "", std::move(columns.orientation), 4},
+                           {"velocity", "m s-1", std::move(columns.velocity), 3},
+                           {"angular_velocity", "rad s-1", std::move(columns.angular_velocity), 3}};
+  file.tables["rest"] = {{"position", "m", std::move(columns.rest_position), 3},
+                         {"orientation", "", std::move(columns.rest_orientation), 4},
+                         {"idle_steps", "", std::move(columns.idle_steps)}};
+  file.tables["joints"] = {{"broken_in", "", std::move(columns.broken_in)}};
+  return file;
+}
+
+/// Hands out the rows of a file's column, one after the other.
+template <class Value>
+class Rows {
+ public:
+  Rows(const TableFile& file, const std::string& table, const std::string& name, std::size_t width = 1)
+      : name_("/" + table + "/" + name), values_(&file.column<Value>(table, name)), width_(width) {}
+
+  const Value* next() {
+    if (next_ + width_ > values_->size()) refuse();
+    next_ += width_;
+    return values_->data() + next_ - width_;
+  }
+  Vec3 vector() { return Vec3(next()); }
+  Quat quaternion() {
+    const Value* q = next();
+    return {q[0], q[1], q[2], q[3]};
+  }
+  std::int32_t integer() {
+    const Value value = *next();
+    if (!std::in_range<std::int32_t>(value)) refuse();
+    return static_cast<std::int32_t>(value);
+  }
+  void require_end() const {
+    if (next_ != values_->size()) refuse();
+  }
+
+ private:
+  [[noreturn]] void refuse() const { throw core::RunError(name_ + " does not fit /worlds"); }
+
+  std::string name_;
+  const std::vector<Value>* values_;
+  std::size_t width_, next_ = 0;
+};
+
+std::vector<model::State> worlds_of(const TableFile& file) {
+  Rows<std::int64_t> bodies(file, "worlds", "bodies"), resting(file, "worlds", "resting"),
+      joints(file, "worlds", "joints"), idle_steps(file, "rest", "idle_steps"),
+      broken_in(file, "joints", "broken_in");
+  Rows<double> position(file, "bodies", "position", 3), orientation(file, "bodies", "orientation", 4),
+      velocity(file, "bodies", "velocity", 3), angular_velocity(file, "bodies", "angular_velocity", 3),
+      rest_position(file, "rest", "position", 3), rest_orientation(file, "rest", "orientation", 4);
+  std::vector<model::State> worlds(file.column<std::int64_t>("worlds", "bodies").size());
+  for (model::State& state : worlds) {
+    const int num_bodies = bodies.integer(), num_resting = resting.integer(), num_joints = joints.integer();
+    for (int body = 0; body < num_bodies; ++body) {
+      state.position.push_back(position.vector());
+      state.orientation.push_back(orientation.quaternion());
+      state.velocity.push_back(velocity.vector());
+      state.angular_velocity.push_back(angular_velocity.vector());
+    }
+    for (int body = 0; body < num_resting; ++body)
+      state.rest.push_back({rest_position.vector(), rest_orientation.quaternion(), idle_steps.integer()});
+    for (int joint = 0; joint < num_joints; ++joint) state.broken_in.push_back(broken_in.integer());
+  }
+  for (const auto* column :
+       {&position, &orientation, &velocity, &angular_velocity, &rest_position, &rest_orientation}) {
+    column->require_end();
+  }
+  idle_steps.require_end();
+  broken_in.require_end();
+  return worlds;
+}
+
+const Parameter& parameter(const TableFile& file, const std::string& name) {
+  const auto found = std::find_if(file.parameters.begin(), file.parameters.end(),
+                                  [&](const Parameter& one) { return one.name == name; });
+  if (found == file.parameters.end()) throw core::RunError("there is no /parameters/" + name);
+  return *found;
+}
+
+std::string attribute(const TableFile& file, const std::string& name) {
+  const auto found = file.attributes.find(name);
+  if (found == file.attributes.end()) throw core::RunError("there is no attribute " + name);
+  return found->second;
+}
+
+std::int64_t count(const TableFile& file, const std::string& name) {
+  const std::string& text = parameter(file, name).text;  // of a file that was read all are text
+  char* end = nullptr;
+  const long long value = std::strtoll(text.c_str(), &end, 10);
+  if (end == text.c_str() || *end != '\0' || value < 1)
+    throw core::RunError("/parameters/" + name + " is not above 0");
+  return value;
+}
+
+Checkpoint checkpoint_of(const TableFile& file) {
+  Checkpoint checkpoint;
+  checkpoint.pbmpi_version = attribute(file, "pbmpi_version");
+  checkpoint.git_revision = attribute(file, "git_revision");
+  checkpoint.build = attribute(file, "build");
+  checkpoint.created = attribute(file, "created");
+  checkpoint.state_hash = attribute(file, "state_hash");
+  checkpoint.scene = attribute(file, "scene");
+  checkpoint.frames = count(file, "frames_done");
+  checkpoint.steps = count(file, "steps_done");
+  checkpoint.scene_file = parameter(file, "scene_file").text;
+  checkpoint.scene_text = parameter(file, "scene_text").text;
+  checkpoint.options = parameter(file, "options").text;
+  checkpoint.output = parameter(file, "output").text;
+  checkpoint.worlds = worlds_of(file);
+  return checkpoint;
+}
+
+}  // namespace
+
+std::int64_t write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
+  const std::vector<std::byte> image = table_image(checkpoint_filetype, version, tables_of(checkpoint));
+  replace_file(path, image);
+  return std::ssize(image);
+}
+
+Checkpoint read_checkpoint(const std::string& path) {
+  const TableFile file = read_table_file(path, checkpoint_filetype, version[0]);
+  try {
+    return checkpoint_of(file);
+  } catch (const std::runtime_error& error) {
+    throw core::InputError(path + ": " + error.what() + "; the file is damaged");
+  }
+}
+
+void require_checkpoint_writable(const std::string& path, std::int64_t bytes) {
+  const OutputTarget removed_at_once(path, std::max<std::int64_t>(bytes, 1));
+}
+
+}  // namespace pbmpi::io

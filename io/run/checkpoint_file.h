@@ -1,0 +1,36 @@
+/// The file from which a run goes on (`filetype = "pbmpi-checkpoint"`, io/SCHEMA.md). One rank writes and
+/// reads it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/state.h"
+
+namespace pbmpi::io {
+
+struct Checkpoint {
+  std::string pbmpi_version, git_revision, build;  ///< of the program that wrote it
+  std::string created;                             ///< ISO 8601, UTC
+  std::string scene;                               ///< its name
+  std::string scene_file;                          ///< what error messages call its text
+  std::string scene_text;                          ///< TOML
+  std::string options;                             ///< as resolved, one "name = value" a line
+  std::string output;                              ///< file of the run that wrote it, or empty
+  std::int64_t frames = 0;                         ///< done, warm-up included
+  std::int64_t steps = 0;                          ///< done
+  std::string state_hash;
+  std::vector<model::State> worlds;  ///< [num_worlds] bit for bit
+};
+
+/// Replaces `path` in one go (io/replace_file.h); returns the bytes written. Throws core::RunError.
+std::int64_t write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
+
+/// Throws core::InputError: missing, not HDF5, of another file type, a newer layout, damaged.
+Checkpoint read_checkpoint(const std::string& path);
+
+/// Throws core::InputError unless a checkpoint of about so many bytes can be written to `path`.
+void require_checkpoint_writable(const std::string& path, std::int64_t bytes);
+
+}  // namespace pbmpi::io

@@ -1,0 +1,205 @@
+#include <algorithm>
+
+#include "core/error.h"
+#include "io/hdf5/read_columns.h"
+#include "io/run/run_data.h"
+
+namespace pbmpi::io {
+namespace {
+
+using core::Pose;
+using core::Quat;
+using core::Vec3;
+
+std::vector<int> to_ints(const std::vector<std::int64_t>& values) { return {values.begin(), values.end()}; }
+
+std::vector<Vec3> to_vectors(const double* values, std::size_t count) {
+  std::vector<Vec3> vectors;
+  vectors.reserve(count);
+  for (std::size_t i = 0; i < count; ++i, values += 3) vectors.emplace_back(values[0], values[1], values[2]);
+  return vectors;
+}
+
+std::vector<Quat> to_quaternions(const double* values, std::size_t count) {
+  std::vector<Quat> quaternions;
+  quaternions.reserve(count);
+  for (std::size_t i = 0; i < count; ++i, values += 4) {
+    quaternions.push_back({values[0], values[1], values[2], values[3]});
+  }
+  return quaternions;
+}
+
+std::vector<Pose> read_poses(hid_t file, const std::string& position, const std::string& orientation,
+                             std::int64_t count) {
+  const auto positions =
+      to_vectors(read_doubles(file, position, count, 3).data(), static_cast<std::size_t>(count));
+  const auto turns =
+      to_quaternions(read_doubles(file, orientation, count, 4).data(), static_cast<std::size_t>(count));
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < positions.size(); ++i) poses.push_back({positions[i], turns[i]});
+  return poses;
+}
+
+Table read_table(hid_t file, const std::string& path, std::int64_t rows, int items) {
+  const std::vector<double> values = read_doubles(file, path, rows, static_cast<hsize_t>(items));
+  Table table;
+  for (auto row = values.begin(); row != values.end(); row += items) table.emplace_back(row, row + items);
+  return table;
+}
+
+BodyTable read_bodies(hid_t file) {
+  const std::string group = "/particles/bodies/";
+  BodyTable bodies;
+  bodies.id = read_integers(file, group + "id");
+  const auto count = static_cast<std::int64_t>(bodies.id.size());
+  bodies.world = to_ints(read_integers(file, group + "world", count));
+  bodies.local_body = to_ints(read_integers(file, group + "local_body", count));
+  bodies.name = read_texts(file, group + "name", count);
+  bodies.kind = read_texts(file, group + "kind", count);
+  bodies.actor = read_texts(file, group + "actor", count);
+  bodies.mass_kg = read_doubles(file, group + "mass", count, 1);
+  bodies.initial = read_poses(file, group + "initial_position", group + "initial_orientation", count);
+  return bodies;
+}
+
+std::vector<GeomRow> read_geoms(hid_t file, std::int64_t num_bodies) {
+  const auto world = read_integers(file, "/geoms/world");
+  const auto count = static_cast<std::int64_t>(world.size());
+  const auto body = read_integers(file, "/geoms/body", count);
+  const auto kind = read_texts(file, "/geoms/kind", count);
+  const auto shape = read_texts(file, "/geoms/shape", count);
+  const auto size = read_doubles(file, "/geoms/size", count, 3);
+  const auto local = read_poses(file, "/geoms/position", "/geoms/orientation", count);
+  std::vector<GeomRow> geoms;
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    if (body[i] < -1 || body[i] >= num_bodies) throw core::RunError("/geoms/body points to no body");
+    geoms.push_back({static_cast<int>(world[i]),
+                     body[i],
+                     kind[i],
+                     shape[i],
+                     {size[3 * i], size[3 * i + 1], size[3 * i + 2]},
+                     local[i]});
+  }
+  return geoms;
+}
+
+/// Position [P][N] and orientation [P][N] below `group`.
+void read_poses(hid_t file, const std::string& group, std::int64_t num_recorded, std::size_t bodies,
+                std::vector<std::vector<Vec3>>& positions, std::vector<std::vector<Quat>>& orientations) {
+  const auto position = read_doubles(file, group + "/position/value", num_recorded, 3 * bodies);
+  const auto orientation = read_doubles(file, group + "/orientation/value", num_recorded, 4 * bodies);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(num_recorded); ++row) {
+    positions.push_back(to_vectors(&position[row * 3 * bodies], bodies));
+    orientations.push_back(to_quaternions(&orientation[row * 4 * bodies], bodies));
+  }
+}
+
+void read_motion(hid_t file, std::int64_t num_recorded, RunData& run) {
+  const std::string group = "/particles/bodies";
+  run.recorded_step = read_integers(file, group + "/position/step", num_recorded);
+  run.recorded_time_s = read_doubles(file, group + "/position/time", num_recorded, 1);
+  read_poses(file, group, num_recorded, run.bodies.id.size(), run.position, run.orientation);
+}
+
+void read_estimate(hid_t file, std::int64_t num_recorded, RunData& run) {
+  if (!has_object(file, "/estimate")) return;
+  read_poses(file, "/estimate", num_recorded, run.bodies.id.size(), run.estimate.position,
+             run.estimate.orientation);
+  run.estimate.delivered_s = read_doubles(file, "/estimate/delivered", run.frames_committed, 1);
+  run.estimate.precise_s = read_doubles(file, "/estimate/precise", run.frames_committed, 1);
+}
+
+std::vector<bool> to_flags(const std::vector<std::int64_t>& values) {
+  std::vector<bool> flags;
+  flags.reserve(values.size());
+  for (const std::int64_t value : values) flags.push_back(value != 0);
+  return flags;
+}
+
+void read_frames(hid_t file, RunData& run) {
+  const std::int64_t rows = run.frames_committed;
+  for (const char* name : {"contacts", "rows", "islands", "max_island_rows", "energy", "max_penetration",
+                           "joint_gap", "nonfinite"}) {
+    run.observables[name] = read_table(file, std::string("/observables/world/") + name, rows, run.num_worlds);
+  }
+  run.frame_wall_s = read_doubles(file, "/timings/frame/wall", rows, 1);
+  run.frame_measured = to_flags(read_integers(file, "/timings/frame/measured", rows));
+  run.deadline_met = to_flags(read_integers(file, "/timings/frame/deadline_met", rows));
+  std::vector<std::string> phases(core::phase_names.begin(), core::phase_names.end());
+  for (const char* column : {"useful", "messages", "bytes"}) phases.emplace_back(column);
+  for (const std::string& phase : phases) {
+    run.rank_times[phase] = read_table(file, "/timings/rank/" + phase, rows, run.num_ranks);
+  }
+}
+
+/// Opt-in: older runs and most others are without.
+void read_profiles(hid_t file, RunData& run) {
+  if (H5Lexists(file, "/timings/island", H5P_DEFAULT) <= 0) return;
+  const std::int64_t rows = run.frames_committed;
+  const std::size_t bodies = run.bodies.id.size();
+  const auto column = [&](const char* name) {
+    return read_doubles(file, std::string("/timings/island/") + name, rows, bodies);
+  };
+  const std::vector<double> size = column("bodies"), contacts = column("contacts"),
+                            row_count = column("rows"), solve = column("solve");
+  for (std::size_t frame = 0; frame < static_cast<std::size_t>(rows); ++frame) {
+    std::vector<IslandRow>& islands = run.islands.emplace_back();
+    for (std::size_t body = 0; body < bodies; ++body) {
+      const std::size_t i = frame * bodies + body;
+      if (size[i] == 0) continue;
+      islands.push_back({static_cast<std::int64_t>(body), static_cast<int>(size[i]),
+                         static_cast<int>(contacts[i]), static_cast<int>(row_count[i]), solve[i]});
+    }
+  }
+  for (const char* name : {"cross_contacts", "collide", "collide_spaces"}) {
+    run.space_times[name] = read_table(file, std::string("/timings/space/") + name, rows, run.num_worlds);
+  }
+}
+
+std::vector<std::string> read_events(hid_t file) {
+  const std::int64_t count = integer_attribute(file, "/events", "num_events");
+  const auto frame = read_integers(file, "/events/frame", count);
+  const auto kind = read_texts(file, "/events/kind", count);
+  const auto detail = read_texts(file, "/events/detail", count);
+  std::vector<std::string> events;
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    events.push_back("frame " + std::to_string(frame[i]) + ": " + kind[i] + ": " + detail[i]);
+  }
+  return events;
+}
+
+RunData read_all(hid_t file) {
+  RunData run;
+  run.attributes = attributes_as_text(file, "/");
+  run.parameters = scalars_as_text(file, "/parameters");
+  run.complete = integer_attribute(file, "/", "complete") != 0;
+  run.frames_committed = integer_attribute(file, "/", "frames_committed");
+  const std::int64_t record_every = integer_attribute(file, "/", "record_every");
+  if (run.frames_committed < 0 || record_every < 1) throw core::RunError("impossible root attributes");
+  run.hosts = read_texts(file, "/ranks/host");
+  run.num_ranks = static_cast<int>(run.hosts.size());
+  const std::vector<hsize_t> table = dims_of(file, "/observables/world/contacts");
+  if (table.size() != 2) throw core::RunError("/observables/world/contacts is not a table");
+  run.num_worlds = static_cast<int>(table[1]);
+  run.bodies = read_bodies(file);
+  run.geoms = read_geoms(file, static_cast<std::int64_t>(run.bodies.id.size()));
+  read_motion(file, run.frames_committed / record_every, run);
+  read_frames(file, run);
+  read_profiles(file, run);
+  read_estimate(file, run.frames_committed / record_every, run);
+  run.events = read_events(file);
+  return run;
+}
+
+}  // namespace
+
+RunData read_run(const std::string& path) {
+  const File file = open_run(path);
+  try {
+    return read_all(file.id());
+  } catch (const core::RunError& error) {
+    throw core::InputError(path + ": " + error.what() + "; the file is damaged or incomplete");
+  }
+}
+
+}  // namespace pbmpi::io

@@ -1,0 +1,168 @@
+#include "io/run/run_file.h"
+
+#include <optional>
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "io/hdf5/commit_record.h"
+#include "io/hdf5/output_target.h"
+#include "io/hdf5/parallel_file.h"
+#include "io/run/frame_columns.h"
+#include "io/run/skeleton.h"
+
+namespace pbmpi::io {
+
+class RunFile::Impl {
+ public:
+  Impl(const FileGroup& group, RunSetup setup);
+  ~Impl() { file_.release(); }  // closing it is collective
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void add(const stepping::FrameRecord& frame);
+  void add(const stepping::RunEvent& event);
+  void secure() {
+    core::require_invariant(open_, "the run's file was closed");
+    flush();
+  }
+  void close(bool complete, const std::string& state_hash);
+  bool wrote_collectively() const { return columns_ && columns_->wrote_collectively(); }
+
+ private:
+  void make_skeleton();
+  void flush();
+  /// Does `work` on every rank; an error on any closes the file on all and becomes the same RunError.
+  template <class Work>
+  void write_together(Work&& work);
+  /// After an error on which all ranks agree: closes what is open, and drops errors of closing.
+  void close_all();
+  /// Root only, when the file is closed for data.
+  void finish(bool complete, const std::string& state_hash);
+
+  RunSetup setup_;
+  FileRanks ranks_;
+  OutputTarget target_;  ///< root only
+  File file_;
+  CommitRecord record_;  ///< root only
+  std::optional<FrameColumns> columns_;
+  PropertyList transfer_;
+  double last_flush_s_ = 0;
+  bool open_ = false;
+};
+
+RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(setup)), ranks_(group) {
+  prepare_hdf5();
+  ranks_.together<core::InputError>([this] {
+    const std::int64_t bytes =
+        estimate_file_bytes(setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(),
+                            setup_.num_frames, setup_.record_every, setup_.optional);
+    if (ranks_.is_root()) target_ = OutputTarget(setup_.path, bytes);
+  });
+  try {
+    ranks_.together([this] { make_skeleton(); });
+    ranks_.together<core::InputError>([this] {
+      if (!ranks_.is_root()) return;
+      record_ = CommitRecord(target_.temporary_path());
+      target_.publish();
+    });
+  } catch (...) {
+    close_all();
+    throw;
+  }
+  setup_.worlds.clear();  // borrowed for the skeleton only
+  open_ = true;
+  last_flush_s_ = core::now_s();
+}
+
+void RunFile::Impl::make_skeleton() {
+  file_ = ranks_.create(ranks_.broadcast(target_.temporary_path()));
+  transfer_ = collective_transfer();
+  write_skeleton(ranks_, file_.id(), setup_);
+  const RunShape shape{setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(),
+                       setup_.num_frames,         setup_.record_every,       setup_.optional,
+                       setup_.first_frame};
+  columns_.emplace(file_.id(), ranks_, setup_.table, shape);
+  check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
+}
+
+template <class Work>
+void RunFile::Impl::write_together(Work&& work) {
+  try {
+    ranks_.together(std::forward<Work>(work));
+  } catch (const core::RunError& error) {
+    close_all();
+    std::string shortage = ranks_.broadcast(ranks_.is_root() ? target_.shortage() : "");
+    if (!shortage.empty()) shortage += "; ";
+    throw core::RunError("cannot write " + setup_.path + ": " + shortage + error.what() +
+                         "; the frames committed before are readable");
+  }
+}
+
+void RunFile::Impl::add(const stepping::FrameRecord& frame) {
+  core::require_invariant(open_, "a frame after the run's file was closed");
+  columns_->add(frame);
+  const bool due = core::now_s() - last_flush_s_ >= setup_.flush_interval_s;
+  // Root's clock decides for all; that the columns are full is known to every rank.
+  if (ranks_.broadcast(due) || columns_->full()) flush();
+}
+
+void RunFile::Impl::add(const stepping::RunEvent& event) {
+  core::require_invariant(open_, "an event after the run's file was closed");
+  columns_->add(event);
+}
+
+void RunFile::Impl::flush() {
+  if (!columns_->empty()) {
+    write_together([this] {
+      const std::string error = columns_->write(transfer_);
+      if (!error.empty()) throw core::RunError(error);
+    });
+    // The data of all ranks are in the file before the number that vouches for them. They may still be on
+    // their way to the disk: a kill does not lose them, and waiting would cost some percent of the run.
+    write_together([this] {
+      if (ranks_.is_root()) record_.commit(columns_->frames_written(), columns_->events_written());
+    });
+  }
+  last_flush_s_ = core::now_s();
+}
+
+void RunFile::Impl::close(bool complete, const std::string& state_hash) {
+  if (!open_) return;
+  flush();
+  open_ = false;
+  write_together([this] { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush"); });
+  write_together([this] {
+    columns_->close();
+    if (!file_.close()) check(-1, "H5Fclose");
+  });
+  write_together([&] {
+    if (ranks_.is_root()) finish(complete, state_hash);
+  });
+}
+
+void RunFile::Impl::finish(bool complete, const std::string& state_hash) {
+  record_.finish(complete, state_hash, columns_->events_dropped());
+  if (!record_.close()) check(-1, "H5Fclose");
+  File file = open_alone(target_.path());
+  const std::vector<ByteRange> unused = columns_->cut(file.id());
+  if (!file.close()) check(-1, "H5Fclose");
+  target_.release(unused);
+}
+
+void RunFile::Impl::close_all() {
+  open_ = false;
+  if (columns_) columns_->close();
+  file_.close();
+  record_.close();
+}
+
+RunFile::RunFile(const FileGroup& group, RunSetup setup)
+    : impl_(std::make_unique<Impl>(group, std::move(setup))) {}
+RunFile::~RunFile() = default;
+void RunFile::frame_done(const stepping::FrameRecord& frame) { impl_->add(frame); }
+void RunFile::event(const stepping::RunEvent& event) { impl_->add(event); }
+void RunFile::secure() { impl_->secure(); }
+void RunFile::close(bool complete, const std::string& state_hash) { impl_->close(complete, state_hash); }
+bool RunFile::wrote_collectively() const { return impl_->wrote_collectively(); }
+
+}  // namespace pbmpi::io

@@ -1,0 +1,83 @@
+/// Writes the HDF5 file of a run (io/SCHEMA.md), in parallel.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/hdf5/file_group.h"
+#include "io/hdf5/parameter.h"
+#include "stepping/frame.h"
+
+namespace pbmpi::io {
+
+/// What a file holds only if the run makes it.
+struct OptionalColumns {
+  bool profile = false;    ///< every frame has step profiles: /timings/island and /timings/space
+  bool estimate = false;   ///< every frame has an EstimateRecord: /estimate
+  bool residuals = false;  ///< every frame has Observables::residuals: /observables/residual
+  bool interest = false;   ///< every frame has Observables::bodies_inside: /observables/interest
+};
+
+/// Everything that is known before the first frame. Equal on every rank, except `worlds`.
+struct RunSetup {
+  std::string path;  ///< final name of the file
+  std::vector<Parameter>
+      attributes;  ///< of the root: pbmpi_version, git_revision, seed, scene, command_line ...
+  std::vector<Parameter> parameters;  ///< of /parameters
+  stepping::WorldTable table;
+  std::vector<stepping::LocalWorld> worlds;  ///< this rank's worlds at the start, by ascending id
+  std::vector<std::string> hosts;            ///< [num_ranks]
+  std::int64_t first_frame = 0;              ///< of a run that goes on: frames done before
+  std::int64_t num_frames = 0;               ///< of this file, warm-up included
+  int record_every = 1;                      ///< bodies of each so many frames of this file are stored
+  double flush_interval_s = 1;
+  OptionalColumns optional;
+};
+
+/// The file of one run. Every call is collective over the file's ranks. Throws core::InputError from the
+/// constructor if the file cannot be created, core::RunError if a write fails (the same error on every rank,
+/// so that no rank waits for another).
+///
+/// A SIGKILL loses at most the frames since the last flush; a power failure may lose more, since only close()
+/// waits for the disk.
+///
+/// The skeleton (all datasets at their full length, allocated, with all metadata) is made under a temporary
+/// name, flushed, and renamed to `path`; from then on only raw data and the attribute frames_committed
+/// change, so that the file opens after a SIGKILL at any moment. Frames are held in memory and written at the
+/// flush cadence, or when those of all ranks pass 32 MiB.
+///
+/// The destructor does not communicate, since it may run on one rank alone: without close(), frames since the
+/// last flush are lost.
+class RunFile final : public stepping::FrameObserver {
+ public:
+  RunFile(const FileGroup& group, RunSetup setup);
+  ~RunFile() override;
+  RunFile(const RunFile&) = delete;
+  RunFile& operator=(const RunFile&) = delete;
+
+  void frame_done(const stepping::FrameRecord& frame) override;
+  void event(const stepping::RunEvent& event) override;
+  void secure() override;  ///< writes what is held
+
+  /// Writes what is held, cuts the datasets to the frames committed, stores the final attributes and closes.
+  /// `complete` = all planned frames were simulated. `state_hash` counts on root only.
+  void close(bool complete, const std::string& state_hash);
+
+  /// Was every dataset of the last flush written by all ranks together, as HDF5 reports it on this rank
+  /// (H5Pget_mpio_actual_io_mode)? False before the first flush.
+  bool wrote_collectively() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Bytes of the file for these numbers, within 10 %: what --describe prints.
+std::int64_t estimate_file_bytes(std::int64_t num_bodies, int num_worlds, int num_ranks,
+                                 std::int64_t num_frames, int record_every,
+                                 const OptionalColumns& optional = {});
+
+}  // namespace pbmpi::io

@@ -1,0 +1,80 @@
+#include "io/run/skeleton.h"
+
+#include <algorithm>
+
+#include "core/utc.h"
+#include "io/hdf5/columns.h"
+#include "io/hdf5/commit_record.h"
+#include "io/hdf5/file_types.h"
+#include "io/run/static_columns.h"
+
+namespace pbmpi::io {
+namespace {
+
+const Parameter* find(const std::vector<Parameter>& parameters, const std::string& name) {
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&name](const Parameter& parameter) { return parameter.name == name; });
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+std::string text_or(const std::vector<Parameter>& parameters, const std::string& name,
+                    const std::string& other) {
+  const Parameter* found = find(parameters, name);
+  return found != nullptr && !found->text.empty() ? found->text : other;
+}
+
+void write_boundary(hid_t box) {
+  constexpr std::size_t bytes = 4;
+  const Datatype type = text_type(bytes);
+  const hsize_t length = 3;
+  const auto space = owned<Dataspace>(H5Screate_simple(1, &length, nullptr), "H5Screate_simple");
+  const auto attribute = owned<Attribute>(
+      H5Acreate2(box, "boundary", type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), "H5Acreate(boundary)");
+  check(H5Awrite(attribute.id(), type.id(), "nonenonenone"), "H5Awrite(boundary)");
+}
+
+/// What H5MD 1.1 (nongnu.org/h5md) asks for beside the elements of a particle group.
+void write_h5md(hid_t file, const RunSetup& setup) {
+  const Group h5md = create_group(file, "/h5md");
+  write_version(h5md.id(), {1, 1});
+  const Group author = create_group(file, "/h5md/author");
+  write_attribute(author.id(), "name", text_or(setup.attributes, "author", "unknown"));
+  const Group creator = create_group(file, "/h5md/creator");
+  write_attribute(creator.id(), "name", std::string("pbmpi"));
+  write_attribute(creator.id(), "version", text_or(setup.attributes, "pbmpi_version", "unknown"));
+  const Group box = create_group(file, "/particles/bodies/box");
+  write_attribute(box.id(), "dimension", std::int64_t{3});
+  write_boundary(box.id());
+}
+
+void write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+  const auto root = owned<Group>(H5Gopen2(file, "/", H5P_DEFAULT), "H5Gopen(/)");
+  write_attribute(root.id(), "filetype", std::string(filetype));
+  write_version(root.id(), {layout_major, layout_minor});
+  for (const Parameter& attribute : setup.attributes) write_attribute(root.id(), attribute);
+  if (find(setup.attributes, "created") == nullptr) {
+    write_attribute(root.id(), "created", ranks.broadcast(core::utc_now()));
+  }
+  write_attribute(root.id(), "record_every", std::int64_t{setup.record_every});
+  write_attribute(root.id(), "first_frame", setup.first_frame);
+  const Group events = create_group(file, "/events");
+  create_commit_attributes(root.id(), events.id());
+}
+
+void write_parameters(const FileRanks& ranks, hid_t file, const std::vector<Parameter>& parameters) {
+  const Group group = create_group(file, "/parameters");
+  for (const Parameter& parameter : parameters) {
+    create_scalar(group.id(), parameter.name, parameter, ranks.is_root());
+  }
+}
+
+}  // namespace
+
+void write_skeleton(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+  write_root(ranks, file, setup);
+  write_static_columns(ranks, file, setup);
+  write_h5md(file, setup);
+  write_parameters(ranks, file, setup.parameters);
+}
+
+}  // namespace pbmpi::io

@@ -1,0 +1,147 @@
+#include "io/run/xdmf.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "core/error.h"
+#include "io/hdf5/read_columns.h"
+
+namespace pbmpi::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* bodies = "/particles/bodies/";
+
+/// What the sidecar has to know of the run.
+struct Bodies {
+  std::string file;      ///< as written into the sidecar
+  hsize_t num_rows = 0;  ///< extent in the file: in a killed run longer than `times`
+  hsize_t count = 0;
+  std::vector<double> times;  ///< of the committed rows [s]
+};
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+Bodies read_bodies(const std::string& run_path, const std::string& xdmf_path) {
+  const File file = open_run(run_path);
+  try {
+    const std::int64_t committed = integer_attribute(file.id(), "/", "frames_committed");
+    const std::int64_t record_every = integer_attribute(file.id(), "/", "record_every");
+    if (committed < 0 || record_every < 1) throw core::RunError("impossible root attributes");
+    const auto dims = dims_of(file.id(), std::string(bodies) + "position/value");
+    if (dims.size() != 3) throw core::RunError("/particles/bodies/position/value is not [rows][bodies][3]");
+    const fs::path folder = fs::absolute(xdmf_path).parent_path();
+    return {escaped(fs::absolute(run_path).lexically_proximate(folder).generic_string()), dims[0], dims[1],
+            read_doubles(file.id(), std::string(bodies) + "position/time", committed / record_every, 1)};
+  } catch (const core::RunError& error) {
+    throw core::InputError(run_path + ": " + error.what() + "; the file is damaged or incomplete");
+  }
+}
+
+/// Row `row` of an array [rows][bodies][width] of the run's file, said twice: ParaView's "XDMF Reader" takes
+/// the hyperslab that the two children describe (it knows Type as well as ItemType), and its Xdmf3 readers,
+/// which crash on an ItemType of HyperSlab, take the text "dataset|start:stride:count:extent".
+void row_item(std::ostream& out, const Bodies& b, const std::string& name, int width, std::size_t row) {
+  const std::string dataset = b.file + ":" + bodies + name;
+  const std::string number = "\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">";
+  std::ostringstream items;
+  items << b.count << ' ' << width;
+  const std::string count = "1 " + items.str();
+  const std::string extent = std::to_string(b.num_rows) + " " + items.str();
+  const std::string start = std::to_string(row) + " 0 0";
+  out << "<DataItem Type=\"HyperSlab\" Dimensions=\"" << items.str() << number << dataset << '|' << start
+      << ":1 1 1:" << count << ':' << extent << "<DataItem Dimensions=\"3 3\" Format=\"XML\">" << start
+      << " 1 1 1 " << count << "</DataItem><DataItem Dimensions=\"" << extent << number << dataset
+      << "</DataItem></DataItem>";
+}
+
+void row_attribute(std::ostream& out, const Bodies& b, const std::string& name, int width, std::size_t row) {
+  out << "    <Attribute Name=\"" << name << "\" Center=\"Node\" AttributeType=\""
+      << (width == 3 ? "Vector" : "Matrix") << "\">";
+  row_item(out, b, name + "/value", width, row);
+  out << "</Attribute>\n";
+}
+
+/// A column that does not change with time.
+void fixed_attribute(std::ostream& out, const Bodies& b, const std::string& name, const char* number) {
+  out << "    <Attribute Name=\"" << name
+      << "\" Center=\"Node\" AttributeType=\"Scalar\"><DataItem Dimensions=\"" << b.count << "\" " << number
+      << " Format=\"HDF\">" << b.file << ':' << bodies << name << "</DataItem></Attribute>\n";
+}
+
+void grid(std::ostream& out, const Bodies& b, std::size_t row) {
+  out << "   <Grid Name=\"bodies\" GridType=\"Uniform\">\n    <Time Value=\"" << b.times[row]
+      << "\"/>\n"
+      // The connectivity, one point a cell, is 0, 1, 2 ...: the ids of the bodies.
+      << "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" << b.count
+      << "\" NodesPerElement=\"1\"><DataItem Dimensions=\"" << b.count
+      << "\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">" << b.file << ':' << bodies
+      << "id</DataItem></Topology>\n"
+      << "    <Geometry GeometryType=\"XYZ\">";
+  row_item(out, b, "position/value", 3, row);
+  out << "</Geometry>\n";
+  row_attribute(out, b, "velocity", 3, row);
+  row_attribute(out, b, "angular_velocity", 3, row);
+  row_attribute(out, b, "orientation", 4, row);
+  fixed_attribute(out, b, "world", "NumberType=\"Int\" Precision=\"4\"");
+  fixed_attribute(out, b, "id", "NumberType=\"Int\" Precision=\"8\"");
+  fixed_attribute(out, b, "mass", "NumberType=\"Float\" Precision=\"8\"");
+  out << "   </Grid>\n";
+}
+
+std::string document(const Bodies& b) {
+  std::ostringstream out;
+  out.precision(17);
+  out << "<?xml version=\"1.0\"?>\n"
+      << "<Xdmf Version=\"3.0\">\n <Domain>\n"
+      << "  <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (std::size_t row = 0; row < b.times.size(); ++row) grid(out, b, row);
+  out << "  </Grid>\n </Domain>\n</Xdmf>\n";
+  return out.str();
+}
+
+}  // namespace
+
+void write_xdmf(const std::string& run_path, const std::string& xdmf_path) {
+  const std::string text = document(read_bodies(run_path, xdmf_path));
+  const std::string temporary = xdmf_path + ".part";
+  errno = 0;
+  std::ofstream out(temporary, std::ios::binary);
+  out << text << std::flush;
+  const bool written = out.good();
+  out.close();
+  if (!written || std::rename(temporary.c_str(), xdmf_path.c_str()) != 0) {
+    const std::string why = std::generic_category().message(errno);
+    std::remove(temporary.c_str());
+    throw core::InputError("cannot write " + xdmf_path + ": " + why +
+                           "; give the name of a file in a directory you can write to");
+  }
+}
+
+}  // namespace pbmpi::io

@@ -1,0 +1,80 @@
+/// Files that are tables: attributes, parameters, and groups of equal-length columns. Written and read whole,
+/// by one rank (io/SCHEMA.md, "The file of a study").
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/hdf5/parameter.h"
+
+namespace pbmpi::io {
+
+/// One column; a row has `width` numbers, one after the other.
+struct TableColumn {
+  std::string name;
+  std::string unit;
+  std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>> values;
+  std::size_t width = 1;
+
+  std::size_t num_rows() const;
+};
+
+struct TableFile {
+  std::map<std::string, std::string> attributes;           ///< of the root, as text
+  std::vector<Parameter> parameters;                       ///< of /parameters
+  std::map<std::string, std::vector<TableColumn>> tables;  ///< by group name
+
+  bool has_column(const std::string& table, const std::string& name) const;
+  /// A column of a table. Throws core::InputError if there is none, or of another type.
+  template <class Value>
+  const std::vector<Value>& column(const std::string& table, const std::string& name) const {
+    const auto* values = std::get_if<std::vector<Value>>(&find(table, name).values);
+    if (values == nullptr) throw_type(table, name);
+    return *values;
+  }
+
+ private:
+  const TableColumn& find(const std::string& table, const std::string& name) const;
+  [[noreturn]] static void throw_type(const std::string& table, const std::string& name);
+};
+
+/// Makes sure that `path` can be written before the work begins; the file appears under its name only when it
+/// is complete.
+class TableWriter {
+ public:
+  /// Throws core::InputError if the file cannot be created.
+  explicit TableWriter(const std::string& path);
+  ~TableWriter();
+  TableWriter(const TableWriter&) = delete;
+  TableWriter& operator=(const TableWriter&) = delete;
+
+  /// Throws core::RunError if it cannot be written.
+  void write(const std::string& filetype, const TableFile& file);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Major and minor version of the layout of a study's file.
+inline constexpr std::array<std::int64_t, 2> study_version = {1, 1};
+
+/// The bytes of such a file, made in memory: what is written in one go leaves no half file behind.
+std::vector<std::byte> table_image(const std::string& filetype, const std::array<std::int64_t, 2>& version,
+                                   const TableFile& file);
+
+/// Throws core::InputError: missing, not HDF5, of another file type or layout, damaged. `major`: version of
+/// the layout.
+TableFile read_table_file(const std::string& path, const std::string& filetype,
+                          std::int64_t major = study_version[0]);
+
+/// The attribute filetype of an HDF5 file; empty if `path` is none or has none.
+std::string filetype_of(const std::string& path);
+
+}  // namespace pbmpi::io

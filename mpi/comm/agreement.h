@@ -1,0 +1,72 @@
+/// One error for all ranks: what fails on one rank alone must not leave the others waiting.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "mpi/comm/communicator.h"
+
+namespace pbmpi::mpi {
+
+/// The class of an error, by which it is thrown again on the other ranks.
+enum class ErrorKind : std::int8_t {
+  none,
+  input,  ///< core::InputError
+  run,    ///< core::RunError
+  other,  ///< anything else; thrown again as std::runtime_error
+};
+
+/// Keeps the first error of this rank until the ranks next talk about it.
+class ErrorHold {
+ public:
+  /// Calls `function`; what it throws is kept, unless an earlier error is.
+  template <class Function>
+  void guard(Function&& function) {
+    try {
+      std::forward<Function>(function)();
+    } catch (...) {
+      keep_current();
+    }
+  }
+
+  bool failed() const { return kind_ != ErrorKind::none; }
+  ErrorKind kind() const { return kind_; }
+  const std::string& message() const { return message_; }
+
+ private:
+  void keep_current();
+
+  ErrorKind kind_ = ErrorKind::none;
+  std::string message_;
+};
+
+/// Collective. Throws on every rank the error that rank `source` holds. Its message begins with "rank N: "
+/// unless the error is `everywhere`.
+[[noreturn]] void throw_error_of(const Communicator& comm, const ErrorHold& mine, int source,
+                                 bool everywhere);
+
+/// Collective. If any rank holds an error, throws that of the lowest such rank on every rank.
+void agree(const Communicator& comm, const ErrorHold& mine);
+
+/// Collective. Calls `function` on every rank and returns what it returns; if it throws on any rank, every
+/// rank throws the same error (see agree). It may communicate only if it cannot throw before that on one rank
+/// alone.
+template <class Function>
+auto agree_on_errors(const Communicator& comm, Function&& function) {
+  using Result = std::invoke_result_t<Function>;
+  ErrorHold hold;
+  if constexpr (std::is_void_v<Result>) {
+    hold.guard(std::forward<Function>(function));
+    agree(comm, hold);
+  } else {
+    std::optional<Result> result;
+    hold.guard([&] { result.emplace(std::forward<Function>(function)()); });
+    agree(comm, hold);
+    return std::move(*result);
+  }
+}
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,36 @@
+#include "mpi/comm/session.h"
+
+#include <cstdlib>
+#include <exception>
+
+#include "mpi/comm/check.h"
+
+namespace pbmpi::mpi {
+
+Session::Session(int& argc, char**& argv) : exceptions_at_start_(std::uncaught_exceptions()) {
+  int provided = 0;
+  // Before MPI_Init there is no error handler to set: MPI aborts by itself if it cannot start.
+  check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
+  check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  check(MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+}
+
+Session::~Session() {
+  if (std::uncaught_exceptions() > exceptions_at_start_) return;
+  MPI_Finalize();  // a destructor has nobody to report an error to
+}
+
+void Session::abort(int exit_code) {
+  MPI_Abort(MPI_COMM_WORLD, exit_code);
+  std::_Exit(exit_code);  // MPI_Abort does not promise not to return
+}
+
+std::string library_version() {
+  char text[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+  int length = 0;
+  check(MPI_Get_library_version(text, &length), "MPI_Get_library_version");
+  const std::string version(text, length);
+  return version.substr(0, version.find_first_of(",\n"));
+}
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,23 @@
+/// Which joints broke, told to every rank.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mpi/comm/communicator.h"
+#include "stepping/frame.h"
+
+namespace pbmpi::mpi {
+
+/// Collective: does any world have the effect "breakable_joints"? `worlds`: those that this rank reports.
+bool any_breakage(const Communicator& comm, std::span<const stepping::LocalWorld> worlds);
+
+/// Collective. The joints that broke in step `first_step` or later, the same on every rank: one event each,
+/// by step, world and joint.
+std::vector<stepping::RunEvent> find_breaks(const Communicator& comm,
+                                            std::span<const stepping::LocalWorld> worlds, std::int64_t frame,
+                                            std::int64_t first_step);
+
+}  // namespace pbmpi::mpi

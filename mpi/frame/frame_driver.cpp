@@ -1,0 +1,256 @@
+#include "mpi/frame/frame_driver.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "mpi/frame/breaks.h"
+
+namespace pbmpi::mpi {
+namespace {
+
+/// Throws core::InputError unless a driver of `num_ranks` ranks can run these settings.
+void require_valid(const WorldRunSettings& settings, int num_parts, int num_ranks) {
+  core::require_input(settings.num_worlds >= 1, "worlds: at least 1 is needed");
+  core::require_input(settings.warmup >= 0, "warm-up: the number of frames is negative");
+  core::require_input(settings.frames >= 1, "frames: at least 1 measured frame is needed");
+  core::require_input(settings.first_frame >= 0, "first frame: the number of frames done is negative");
+  core::require_input(settings.first_frame < settings.warmup + settings.frames,
+                      "frames: " + std::to_string(settings.first_frame) + " are done and none is left");
+  core::require_input(settings.steps_per_frame >= 1, "steps per frame: at least 1 is needed");
+  core::require_input(std::isfinite(settings.dt_s) && settings.dt_s > 0,
+                      "dt: a time step is finite and above 0 s");
+  core::require_input(settings.rebalance_threshold >= 1, "rebalance threshold: max/avg is never below 1");
+  core::require_input(settings.placement.empty() || std::ssize(settings.placement) == num_parts,
+                      "placement: one rank a world (or space) is needed");
+  for (const int rank : settings.placement) {
+    core::require_input(rank >= 0 && rank < num_ranks, "placement: there is no rank " + std::to_string(rank));
+  }
+}
+
+std::uint64_t hash_of(const WorldRunSettings& settings) {
+  core::Hash64 hash;
+  for (const int number : {settings.num_worlds, settings.warmup, settings.frames, settings.steps_per_frame}) {
+    hash.add(static_cast<std::uint64_t>(number));
+  }
+  for (const double number : {settings.dt_s, settings.budget_s, settings.rebalance_threshold})
+    hash.add(&number, 1);
+  hash.add(static_cast<std::uint64_t>(settings.first_frame));
+  for (const int rank : settings.placement) hash.add(static_cast<std::uint64_t>(rank));
+  return hash.value();
+}
+
+/// The settings, once every rank has found them valid and the same as every other rank's.
+WorldRunSettings checked(const Communicator& comm, WorldRunSettings settings, int num_parts) {
+  agree_on_errors(comm, [&] { require_valid(settings, num_parts, comm.size()); });
+  const std::uint64_t mine = hash_of(settings);
+  std::array<std::uint64_t, 2> extremes = {mine, ~mine};
+  comm.allreduce(extremes, Reduce::max);
+  core::require_invariant(extremes[0] == ~extremes[1], "WorldRunSettings are the same on every rank");
+  return settings;
+}
+
+}  // namespace
+
+std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes) {
+  core::Hash64 hash;
+  for (const std::uint64_t world : world_hashes) hash.add(world);
+  return hash.value();
+}
+
+FrameDriver::FrameDriver(const Communicator& comm, WorldRunSettings settings, int num_parts)
+    : comm_(comm.dup()),
+      settings_(checked(comm_, std::move(settings), num_parts)),
+      frame_(settings_.first_frame) {}
+
+void FrameDriver::add_observer(stepping::FrameObserver& observer) { observers_.push_back(&observer); }
+void FrameDriver::add_consumer(stepping::PoseConsumer& consumer) { consumers_.push_back(&consumer); }
+void FrameDriver::set_stop_flag(const std::atomic<int>& flag) { stop_flag_ = &flag; }
+
+void FrameDriver::save_to(SnapshotKeeper& keeper, const CheckpointPlan& plan) {
+  keeper_ = &keeper;
+  save_requests_ = plan.requests;
+  schedule_.emplace(plan, core::now_s());
+}
+
+WorldRunResult FrameDriver::run() {
+  core::require_invariant(frame_ == settings_.first_frame, "FrameDriver::run: once a driver");
+  result_.times.reserve(num_frames() - frame_);
+  joints_break_ = any_breakage(comm_, local_worlds());
+  while (frame_ < num_frames() && !result_.stopped && result_.failure.empty()) run_frame();
+  agree(comm_, errors_);  // what the observers of the last frame threw
+  result_.frames_done = frame_;
+  result_.state_hash = state_hash();
+  return std::move(result_);
+}
+
+void FrameDriver::run_frame() {
+  const double start_s = core::now_s();
+  stepping::FrameRecord record;
+  record.phases[core::Phase::output] = last_output_s_;
+  const double delivered_s = make_estimate(frame_, start_s, record.phases);
+  advance(record.phases);
+
+  core::LapTimer timer(record.phases);
+  const Status status = agree_on_status();
+  timer.lap(core::Phase::wait);
+  gather(record.phases);
+
+  core::LapTimer after(record.phases);
+  const Verdict verdict = decide(start_s, delivered_s, status);
+  after.lap(core::Phase::wait);
+  record.estimate = estimate(verdict.delivered_s);
+
+  const std::vector<stepping::LocalWorld> worlds = settings_.profile ? profiled_worlds() : local_worlds();
+  record.frame = frame_;
+  record.step = (frame_ + 1) * settings_.steps_per_frame;
+  record.time_s = static_cast<double>(record.step) * settings_.dt_s;
+  record.measured = frame_ >= settings_.warmup;
+  record.worlds = worlds;
+  record.traffic = take_traffic();
+  record.wall_s = verdict.wall_s;
+  record.deadline_met = verdict.wall_s <= settings_.budget_s;
+  publish(record);
+  result_.times.push_back(
+      {record.wall_s, verdict.delivered_s, record.measured, record.phases, record.traffic});
+
+  if (joints_break_) announce_breaks(worlds);
+  if (verdict.num_moves > 0) rebalance(verdict.num_moves, record.step);
+  if (status.nonfinite_world >= 0) note_failure(status.nonfinite_world);
+  if (frame_ + 1 < num_frames()) {
+    if (status.stop != 0) {
+      end_early("signal", "stop requested (signal " + std::to_string(status.stop) + ")");
+    } else if (verdict.time_is_up != 0) {
+      end_early("time_limit", "the time that the run was given is up");
+    }
+  }
+  if (verdict.saves != 0) save(record.step);
+  ++frame_;
+}
+
+FrameDriver::Status FrameDriver::agree_on_status() {
+  // One maximum over the ranks carries all five: who is lowest counts down from the number of ranks or
+  // worlds.
+  enum { stop, save_requests, failed, all_failed, nonfinite, count };
+  const bool failed_here = errors_.failed();
+  std::array<std::int64_t, count> agreed{};
+  agreed[stop] = stop_flag_ ? stop_flag_->load(std::memory_order_relaxed) : 0;
+  agreed[save_requests] = save_requests_ ? save_requests_->load(std::memory_order_relaxed) : 0;
+  agreed[failed] = failed_here ? comm_.size() - comm_.rank() : 0;
+  agreed[all_failed] = failed_here ? -1 : 0;
+  if (!failed_here) agreed[nonfinite] = settings_.num_worlds - lowest_nonfinite_world();
+  comm_.allreduce(agreed, Reduce::max);
+  if (agreed[failed] > 0) {
+    throw_error_of(comm_, errors_, comm_.size() - static_cast<int>(agreed[failed]), agreed[all_failed] == -1);
+  }
+  const auto world = settings_.num_worlds - static_cast<int>(agreed[nonfinite]);
+  return {static_cast<int>(agreed[stop]), agreed[save_requests], world < settings_.num_worlds ? world : -1};
+}
+
+FrameDriver::Verdict FrameDriver::decide(double frame_start_s, double delivered_s, const Status& status) {
+  using Then = CheckpointSchedule::Then;
+  Verdict verdict;
+  if (comm_.is_root()) {
+    const double now_s = core::now_s();
+    verdict.delivered_s = delivered_s;
+    verdict.wall_s = now_s - frame_start_s;
+    verdict.time_is_up = now_s >= until_s_ ? 1 : 0;
+    const bool failed = status.nonfinite_world >= 0;
+    Then then = Then::next_frame;
+    if (status.stop != 0 || verdict.time_is_up != 0) then = Then::stop;
+    if (frame_ + 1 == num_frames()) then = Then::end;
+    if (schedule_ && !failed) verdict.saves = schedule_->due(then, status.save_requests, now_s) ? 1 : 0;
+    errors_.guard([&] { verdict.num_moves = plan_moves(failed || then != Then::next_frame); });
+  }
+  comm_.bcast_value(verdict);
+  return verdict;
+}
+
+void FrameDriver::end_early(const std::string& kind, const std::string& why) {
+  result_.stopped = true;
+  announce({frame_, kind, why});
+}
+
+void FrameDriver::save(std::int64_t step) {
+  const double start_s = core::now_s();
+  for (stepping::FrameObserver* observer : observers_) errors_.guard([&] { observer->secure(); });
+  Snapshot snapshot;
+  snapshot.frames = frame_ + 1;
+  snapshot.steps = step;
+  const bool ends_run = result_.stopped || frame_ + 1 == num_frames();
+  snapshot.ends_run = ends_run;
+  snapshot.state_hash = state_hash();
+  snapshot.worlds = gather_states();
+  std::string failure, detail;
+  if (comm_.is_root()) {
+    try {
+      detail = keeper_->keep(std::move(snapshot));
+    } catch (const core::RunError& error) {
+      failure = error.what();
+      detail = "failed: " + failure;
+    }
+  }
+  comm_.bcast_string(failure);
+  comm_.bcast_string(detail);
+  if (ends_run) result_.save_failure = failure;
+  last_output_s_ += core::now_s() - start_s;
+  announce({frame_, "checkpoint", detail});
+}
+
+void FrameDriver::publish(const stepping::FrameRecord& frame) {
+  const double start_s = core::now_s();
+  // If one observer throws the others are called all the same: they may do collective work, and a rank that
+  // left it out would leave the other ranks waiting.
+  for (stepping::FrameObserver* observer : observers_) {
+    errors_.guard([&] { observer->frame_done(frame); });
+  }
+  if (comm_.is_root()) {
+    hand_to_consumers(frame.frame, stepping::PoseKind::precise, position(), orientation());
+  }
+  last_output_s_ = core::now_s() - start_s;
+}
+
+void FrameDriver::hand_to_consumers(std::int64_t frame, stepping::PoseKind kind,
+                                    std::span<const core::Vec3> position,
+                                    std::span<const core::Quat> orientation) {
+  for (stepping::PoseConsumer* consumer : consumers_) {
+    errors_.guard([&] { consumer->poses(frame, kind, position, orientation); });
+  }
+}
+
+void FrameDriver::rebalance(std::int64_t num_moves, std::int64_t step) {
+  const double start_s = core::now_s();
+  std::string detail = make_moves(num_moves, step);
+  comm_.bcast_string(detail);
+  ++result_.num_rebalances;
+  result_.worlds_moved += num_moves;
+  result_.rebalance_s += core::now_s() - start_s;
+  announce({frame_, "rebalance", detail});
+}
+
+void FrameDriver::note_failure(int world) {
+  std::int64_t num_bodies = 0;
+  const int owner = reporter_of(world);
+  if (owner == comm_.rank()) num_bodies = count_nonfinite(world);
+  comm_.bcast_value(num_bodies, owner);
+  result_.failure = "world " + std::to_string(world) + " has " + std::to_string(num_bodies) + " non-finite " +
+                    (num_bodies == 1 ? "body" : "bodies") + " in frame " + std::to_string(frame_);
+}
+
+void FrameDriver::announce_breaks(std::span<const stepping::LocalWorld> worlds) {
+  for (const stepping::RunEvent& event :
+       find_breaks(comm_, worlds, frame_, frame_ * settings_.steps_per_frame))
+    announce(event);
+}
+
+void FrameDriver::announce(const stepping::RunEvent& event) {
+  const double start_s = core::now_s();
+  for (stepping::FrameObserver* observer : observers_) {
+    errors_.guard([&] { observer->event(event); });
+  }
+  last_output_s_ += core::now_s() - start_s;
+}
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,56 @@
+/// Brings the poses of all bodies, and the costs of all worlds, to root.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/vector.h"
+#include "mpi/comm/communicator.h"
+#include "mpi/comm/pending_messages.h"
+#include "stepping/frame.h"
+
+namespace pbmpi::mpi {
+
+/// One MPI_Gatherv a frame into buffers that persist, or messages that travel while the ranks go on. Root
+/// copies its own worlds without a message. The communicator and the table are borrowed.
+class PoseGather {
+ public:
+  PoseGather(const Communicator& comm, const stepping::WorldTable& table, std::span<const int> placement);
+
+  /// After worlds have moved.
+  void set_placement(std::span<const int> placement);
+
+  /// Collective. `worlds`: this rank's, by ascending id; `cost_s` [worlds.size()].
+  void gather(std::span<const stepping::LocalWorld> worlds, std::span<const double> cost_s);
+
+  /// The same without holding up the other ranks: root calls expect() before its own share, every rank calls
+  /// start() with its share, root deliver() when it wants the poses, and the others deliver() before the next
+  /// start(). Throws core::RunError on the rank whose message failed.
+  void expect();
+  void start(std::span<const stepping::LocalWorld> worlds, std::span<const double> cost_s);
+  void deliver();
+
+  /// What the last gather() brought, on root; empty elsewhere.
+  std::span<const core::Vec3> position() const { return position_; }  ///< [num_bodies] m, (world, body) order
+  std::span<const core::Quat> orientation() const { return orientation_; }  ///< [num_bodies] (w, x, y, z)
+  std::span<const double> cost_s() const { return cost_s_; }                ///< [num_worlds]
+
+ private:
+  void pack(std::span<const stepping::LocalWorld> worlds, std::span<const double> cost_s);
+  void unpack();
+  void copy_own(std::span<const stepping::LocalWorld> worlds, std::span<const double> cost_s);
+
+  const Communicator* comm_;
+  const stepping::WorldTable* table_;
+  std::vector<int> placement_;
+  GatherLayout layout_;           ///< in doubles; root's own share is empty
+  std::vector<double> sent_;      ///< per world: cost, positions [n][3], orientations [n][4]
+  std::vector<double> received_;  ///< root: the ranks' shares by rank
+  std::vector<int> cursor_;       ///< [num_ranks] where the next world of a rank stands in received_
+  std::vector<core::Vec3> position_;
+  std::vector<core::Quat> orientation_;
+  std::vector<double> cost_s_;
+  PendingMessages messages_;  ///< last, so that it gives up before the memory that its messages use is gone
+};
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,206 @@
+#include "mpi/spaces/space_loads.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pbmpi::mpi {
+namespace {
+
+double rating(const SpaceLoads& loads, std::span<const int> owner, int num_ranks) {
+  const PredictedLoads load = predict_loads(loads, owner, num_ranks);
+  // Of two equal makespans the one with less work in all is better: it ships less.
+  double sum = 0;
+  for (const RankLoad& rank : load.ranks) sum += rank.collide_s + rank.solve_s;
+  return load.makespan_s() + 1e-3 * sum;
+}
+
+/// Tries changed ownerships and keeps the best.
+class Search {
+ public:
+  Search(const SpaceLoads& loads, std::span<const int> owner, int num_ranks)
+      : loads_(loads), num_ranks_(num_ranks), owner_(owner.begin(), owner.end()) {
+    best_ = rating(loads_, owner_, num_ranks_);
+  }
+
+  /// The best single change; false if none helps.
+  bool improve() {
+    found_.clear();
+    try_moves();
+    try_swaps();
+    try_mirrors();
+    try_islands();
+    if (found_.empty()) return false;
+    owner_ = found_;
+    return true;
+  }
+  const std::vector<int>& owner() const { return owner_; }
+
+ private:
+  void consider(const std::vector<int>& owner) {
+    const double time = rating(loads_, owner, num_ranks_);
+    if (time >= best_ * (1 - 1e-9)) return;
+    best_ = time;
+    found_ = owner;
+  }
+  void try_moves() {
+    for (std::size_t space = 0; space < owner_.size(); ++space) {
+      for (int rank = 0; rank < num_ranks_; ++rank) {
+        if (rank == owner_[space]) continue;
+        std::vector<int> changed = owner_;
+        changed[space] = rank;
+        consider(changed);
+      }
+    }
+  }
+  void try_swaps() {
+    constexpr std::size_t most_spaces = 64;  // their number goes with the square
+    if (owner_.size() > most_spaces) return;
+    for (std::size_t a = 0; a < owner_.size(); ++a) {
+      for (std::size_t b = a + 1; b < owner_.size(); ++b) {
+        if (owner_[a] == owner_[b]) continue;
+        std::vector<int> changed = owner_;
+        std::swap(changed[a], changed[b]);
+        consider(changed);
+      }
+    }
+  }
+  /// Two ranks change places: root may have taken the part that leaves least time for its section.
+  void try_mirrors() {
+    for (int a = 0; a < num_ranks_; ++a) {
+      for (int b = a + 1; b < num_ranks_; ++b) {
+        std::vector<int> changed = owner_;
+        for (int& rank : changed) rank = rank == a ? b : rank == b ? a : rank;
+        consider(changed);
+      }
+    }
+  }
+  void try_islands() {
+    for (const std::vector<SpacePart>& island : loads_.islands) {
+      for (int rank = 0; rank < num_ranks_; ++rank) {
+        std::vector<int> changed = owner_;
+        for (const SpacePart& part : island) changed[part.space] = rank;
+        consider(changed);
+      }
+    }
+  }
+
+  const SpaceLoads& loads_;
+  int num_ranks_;
+  std::vector<int> owner_;
+  double best_ = 0;
+  std::vector<int> found_;  ///< the best change of this round; empty if there is none
+};
+
+}  // namespace
+
+double PredictedLoads::makespan_s() const {
+  double collide = 0, solve = 0, both = 0;
+  for (const RankLoad& rank : ranks) {
+    collide = std::max(collide, rank.collide_s);
+    solve = std::max(solve, rank.solve_s);
+    both = std::max(both, rank.collide_s + rank.solve_s);
+  }
+  return ships ? collide + solve : both;
+}
+
+void SolverWork::add(const SolverWork& other) {
+  if (units.empty()) units.resize(other.units.size());
+  for (std::size_t shape = 0; shape < other.units.size(); ++shape) units[shape] += other.units[shape];
+  contacts_s += other.contacts_s;
+  bodies += other.bodies;
+}
+
+double SpaceLoads::seconds(const SolverWork& work) const {
+  double sum = work.contacts_s;
+  for (std::size_t shape = 0; shape < work.units.size(); ++shape) {
+    const int batches = (work.units[shape] + num_lanes - 1) / num_lanes;
+    sum += batch_s[shape] * batches;
+  }
+  return sum;
+}
+
+void SpaceLoads::scale(const SolverCosts& costs) {
+  for (double& batch : batch_s) batch *= costs.batches;
+  for (SolverWork& work : inside) work.contacts_s *= costs.contacts;
+  for (std::vector<SpacePart>& island : islands) {
+    for (SpacePart& part : island) part.work.contacts_s *= costs.contacts;
+  }
+}
+
+namespace {
+
+/// The rank that has most bodies of the island, and what each other has of it is shipped there.
+void add_island(const SpaceLoads& loads, const std::vector<SpacePart>& island, std::span<const int> owner,
+                std::vector<SolverWork>& work, PredictedLoads& load) {
+  std::vector<int> bodies(work.size(), 0);
+  for (const SpacePart& part : island) bodies[owner[part.space]] += part.work.bodies;
+  const auto solver = std::max_element(bodies.begin(), bodies.end()) - bodies.begin();
+  for (const SpacePart& part : island) {
+    work[solver].add(part.work);
+    const int home = owner[part.space];
+    if (home == solver) continue;
+    load.ships = true;
+    load.ranks[solver].solve_s += loads.ship_s * part.work.bodies;
+    load.ranks[home].solve_s += loads.ship_s * part.work.bodies;
+  }
+}
+
+}  // namespace
+
+PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner, int num_ranks) {
+  PredictedLoads load{std::vector<RankLoad>(static_cast<std::size_t>(num_ranks)), false};
+  std::vector<SolverWork> work(load.ranks.size());
+  load.ranks.front().collide_s = loads.root_extra_s;
+  for (std::size_t space = 0; space < owner.size(); ++space) {
+    load.ranks[owner[space]].collide_s += loads.collide_s[space];
+    work[owner[space]].add(loads.inside[space]);
+  }
+  for (const std::vector<SpacePart>& island : loads.islands) add_island(loads, island, owner, work, load);
+  for (std::size_t rank = 0; rank < work.size(); ++rank)
+    load.ranks[rank].solve_s += loads.seconds(work[rank]);
+  return load;
+}
+
+SolverCosts fit_costs(std::span<const RankSample> ranks) {
+  double bb = 0, bc = 0, cc = 0, bt = 0, ct = 0, weight = 0, seconds = 0;
+  for (const RankSample& rank : ranks) {
+    bb += rank.batches * rank.batches;
+    bc += rank.batches * rank.contacts;
+    cc += rank.contacts * rank.contacts;
+    bt += rank.batches * rank.seconds;
+    ct += rank.contacts * rank.seconds;
+    weight += rank.batches + rank.contacts;
+    seconds += rank.seconds;
+  }
+  if (weight <= 0) return {};
+  const double common = seconds / weight;
+  const double determinant = bb * cc - bc * bc;
+  constexpr double least_independence = 0.02;  // of the squared sine between the two columns
+  if (determinant <= least_independence * bb * cc) return {common, common};
+  // Lanes make the rows of joints cheaper than those of contacts, by their number at most; whatever a noisy
+  // frame says, neither is for nothing.
+  constexpr double most = 4;
+  const double batch = std::clamp((bt * cc - ct * bc) / determinant, common / most, common * most);
+  const double contact = std::clamp((ct * bb - bt * bc) / determinant, common / most, common * most);
+  return {batch, contact};
+}
+
+Reassignment reassign_spaces(const SpaceLoads& loads, std::span<const int> owner, int num_ranks,
+                             double threshold) {
+  constexpr int most_changes = 1000;  // each makes it better, so that this is never reached
+  Search search(loads, owner, num_ranks);
+  for (int change = 0; change < most_changes && search.improve(); ++change) {
+  }
+  Reassignment result{{},
+                      predict_loads(loads, owner, num_ranks).makespan_s(),
+                      predict_loads(loads, search.owner(), num_ranks).makespan_s()};
+  const double least_gain = (threshold - 1) / 2;
+  if (result.makespan_before_s <= result.makespan_after_s * (1 + least_gain)) return result;
+  for (std::size_t space = 0; space < owner.size(); ++space) {
+    if (search.owner()[space] != owner[space])
+      result.moves.push_back({static_cast<int>(space), search.owner()[space]});
+  }
+  return result;
+}
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,134 @@
+#include "mpi/worlds/owned_worlds.h"
+
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "mpi/comm/agreement.h"
+#include "mpi/frame/whole_state.h"
+
+namespace pbmpi::mpi {
+namespace {
+
+constexpr int state_tag = 1;
+
+}  // namespace
+
+OwnedWorlds::OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepper, BuildWorld build,
+                         Placement placement, const Start& start)
+    : comm_(&comm), stepper_(&stepper), build_(std::move(build)), placement_(std::move(placement)) {
+  find_own();
+  std::map<int, model::State> states;
+  if (start.step > 0) states = deal_out(start.states);
+  agree_on_errors(comm, [&] {
+    for (const int world : ids_) {
+      const std::shared_ptr<const model::Model> model = build_(world);
+      if (start.step == 0) states[world] = model::initial_state(*model);
+      require_fit(world, states[world], *model);
+      stepper.add(world, model, states[world], start.step);
+      states.erase(world);
+    }
+  });
+  exchange_sizes();
+}
+
+std::map<int, model::State> OwnedWorlds::deal_out(std::span<const model::State> states) const {
+  agree_on_errors(*comm_, [&] {
+    if (comm_->is_root() && states.size() != placement_.size())
+      throw core::RunError("there are " + std::to_string(states.size()) + " states to start from, and " +
+                           std::to_string(placement_.size()) + " worlds");
+  });
+  std::map<int, model::State> own;
+  for (int world = 0; world < std::ssize(placement_); ++world) {
+    const int owner = placement_[world];
+    if (comm_->is_root() && owner == Communicator::root) own[world] = states[world];
+    if (owner == Communicator::root) continue;
+    if (comm_->is_root()) {
+      const std::vector<double> packed = pack(states[world]);
+      const std::int64_t size = std::ssize(packed);
+      comm_->send(std::span<const std::int64_t>(&size, 1), owner, state_tag);
+      comm_->send(std::span<const double>(packed), owner, state_tag);
+    } else if (owner == comm_->rank()) {
+      std::int64_t size = 0;
+      comm_->recv(std::span(&size, 1), Communicator::root, state_tag);
+      std::vector<double> packed(static_cast<std::size_t>(size));
+      comm_->recv(std::span(packed), Communicator::root, state_tag);
+      own[world] = unpack(packed);
+    }
+  }
+  return own;
+}
+
+std::vector<model::State> OwnedWorlds::gather_states() const {
+  std::vector<model::State> states;
+  for (int world = 0; world < std::ssize(placement_); ++world) {
+    const int owner = placement_[world];
+    if (owner == comm_->rank() && !comm_->is_root()) {
+      comm_->send(std::span<const double>(pack(stepper_->state(world))), Communicator::root, state_tag);
+    } else if (comm_->is_root() && owner == Communicator::root) {
+      states.push_back(stepper_->state(world));
+    } else if (comm_->is_root()) {
+      std::vector<double> packed(static_cast<std::size_t>(state_doubles_[world]));
+      comm_->recv(std::span(packed), owner, state_tag);
+      states.push_back(unpack(packed));
+    }
+  }
+  return states;
+}
+
+void OwnedWorlds::find_own() {
+  ids_.clear();
+  for (std::size_t world = 0; world < placement_.size(); ++world) {
+    if (placement_[world] == comm_->rank()) ids_.push_back(static_cast<int>(world));
+  }
+}
+
+void OwnedWorlds::exchange_sizes() {
+  std::vector<std::int64_t> num_bodies(placement_.size(), 0);
+  state_doubles_.assign(placement_.size(), 0);
+  for (const int world : ids_) {
+    num_bodies[world] = stepper_->model(world).num_bodies();
+    state_doubles_[world] = packed_size(stepper_->state(world));
+  }
+  comm_->allreduce(num_bodies, Reduce::max);
+  comm_->allreduce(state_doubles_, Reduce::max);
+  for (const std::int64_t count : num_bodies) table_.body_offset.push_back(table_.body_offset.back() + count);
+}
+
+std::vector<stepping::LocalWorld> OwnedWorlds::views() const {
+  std::vector<stepping::LocalWorld> worlds;
+  worlds.reserve(ids_.size());
+  for (const int world : ids_) {
+    worlds.push_back({world, &stepper_->model(world), &stepper_->state(world), &stepper_->observables(world),
+                      stepper_->profile(world)});
+  }
+  return worlds;
+}
+
+void OwnedWorlds::move(std::span<const Move> moves, std::int64_t step) {
+  // Every rank goes through the moves in the same order, so that blocking calls cannot wait in a circle.
+  std::vector<std::pair<int, model::State>> arrivals;
+  for (const Move& move : moves) {
+    if (placement_[move.world] == comm_->rank()) {
+      comm_->send(std::span<const double>(pack(stepper_->state(move.world))), move.to, state_tag);
+    } else if (move.to == comm_->rank()) {
+      std::vector<double> packed(state_doubles_[move.world]);
+      comm_->recv(std::span(packed), placement_[move.world], state_tag);
+      arrivals.emplace_back(move.world, unpack(packed));
+    }
+  }
+  agree_on_errors(*comm_, [&] {
+    for (const Move& move : moves) {
+      if (placement_[move.world] == comm_->rank()) stepper_->remove(move.world);
+    }
+    for (const auto& [world, state] : arrivals) {
+      std::shared_ptr<const model::Model> model = build_(world);
+      require_rows(world, state, *model);
+      stepper_->add(world, std::move(model), state, step);
+    }
+  });
+  for (const Move& move : moves) placement_[move.world] = move.to;
+  find_own();
+}
+
+}  // namespace pbmpi::mpi

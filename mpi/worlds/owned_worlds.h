@@ -1,0 +1,63 @@
+/// The worlds that one rank owns: built here, handed to the stepper, passed on to other ranks.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "mpi/balance/partition.h"
+#include "mpi/comm/communicator.h"
+#include "stepping/frame.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::mpi {
+
+/// Builds the model of one world; called on the rank that owns it (and again where it moves to).
+using BuildWorld = std::function<std::shared_ptr<const model::Model>(int world)>;
+
+/// Where a run begins. `step` is the same on every rank.
+struct Start {
+  std::int64_t step = 0;                   ///< steps done; 0 = the worlds start as their models say
+  std::span<const model::State> states{};  ///< after them, on root: [num_worlds]
+};
+
+/// Knows every world's owner; the worlds of this rank live in the stepper. Communicator and stepper are
+/// borrowed. Constructor and move() are collective and throw the same error on every rank.
+class OwnedWorlds {
+ public:
+  OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepper, BuildWorld build,
+              Placement placement, const Start& start = {});
+
+  const Placement& placement() const { return placement_; }
+  const stepping::WorldTable& table() const { return table_; }
+  std::span<const int> ids() const { return ids_; }  ///< this rank's, ascending
+
+  /// This rank's worlds as they are now, by ascending id; until the stepper's next call.
+  std::vector<stepping::LocalWorld> views() const;
+
+  /// Passes worlds to their new owners between two steps: the state travels, the model is built anew, and the
+  /// result is the same bit for bit. `step`: steps done. `moves` equal on every rank.
+  void move(std::span<const Move> moves, std::int64_t step);
+
+  /// Collective. On root the states of all worlds as they are now, [num_worlds]; none elsewhere.
+  std::vector<model::State> gather_states() const;
+
+ private:
+  /// Collective. Root's states reach the owners of their worlds.
+  std::map<int, model::State> deal_out(std::span<const model::State> states) const;
+  void exchange_sizes();
+  void find_own();
+
+  const Communicator* comm_;
+  stepping::WorldStepper* stepper_;
+  BuildWorld build_;
+  Placement placement_;
+  stepping::WorldTable table_;
+  std::vector<std::int64_t> state_doubles_;  ///< [worlds] numbers of a state that moves
+  std::vector<int> ids_;
+};
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,132 @@
+#include "mpi/worlds/world_driver.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace pbmpi::mpi {
+namespace {
+
+Placement initial_placement(const WorldRunSettings& settings, int num_ranks) {
+  return settings.placement.empty() ? equal_placement(settings.num_worlds, num_ranks) : settings.placement;
+}
+
+std::string describe(const Rebalancing& plan) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%zu world%s moved: max/avg useful time %.3f -> %.3f", plan.moves.size(),
+                plan.moves.size() == 1 ? "" : "s", plan.imbalance_before, plan.imbalance_after);
+  return text;
+}
+
+}  // namespace
+
+WorldDriver::WorldDriver(const Communicator& comm, stepping::WorldStepper& stepper, BuildWorld build,
+                         WorldRunSettings settings, std::span<const model::State> states)
+    : FrameDriver(comm, settings, settings.num_worlds),
+      stepper_(&stepper),
+      worlds_(this->comm(), stepper, std::move(build), initial_placement(settings, comm.size()),
+              {settings.first_step(), states}),
+      gather_(this->comm(), worlds_.table(), worlds_.placement()),
+      rebalancer_(comm.size(), settings.rebalance_threshold) {}
+
+std::vector<int> WorldDriver::idle_ranks() const {
+  std::vector<int> idle;
+  for (int rank = 0; rank < comm().size(); ++rank) {
+    if (std::find(placement().begin(), placement().end(), rank) == placement().end()) idle.push_back(rank);
+  }
+  return idle;
+}
+
+void WorldDriver::set_estimator(stepping::Estimator& estimator) {
+  estimator_ = &estimator;
+  estimates_ = std::make_unique<PoseGather>(comm(), worlds_.table(), worlds_.placement());
+}
+
+/// Messages go out whatever fails here, so that root never waits for one in vain.
+double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) {
+  if (estimator_ == nullptr) return 0;
+  const double start_s = core::now_s();
+  estimates_->expect();
+  estimated_worlds_ = worlds_.views();
+  errors().guard([&] {
+    const int steps = settings().steps_per_frame;
+    estimator_->estimate(estimated_worlds_, frame * steps, steps, times);
+    for (stepping::LocalWorld& world : estimated_worlds_) {
+      world.state = &estimator_->state(world.id);
+      world.observables = nullptr;
+    }
+  });
+  estimate_record_.compute_s = core::now_s() - start_s;
+
+  core::LapTimer timer(times);
+  estimates_->start(estimated_worlds_, std::vector<double>(estimated_worlds_.size(), 0));
+  timer.lap(core::Phase::gather);
+  if (!comm().is_root()) return 0;
+  estimates_->deliver();
+  timer.lap(core::Phase::wait);
+  const double delivered_s = core::now_s() - frame_start_s;
+  hand_to_consumers(frame, stepping::PoseKind::estimate, estimates_->position(), estimates_->orientation());
+  return delivered_s;
+}
+
+const stepping::EstimateRecord* WorldDriver::estimate(double delivered_s) {
+  if (estimator_ == nullptr) return nullptr;
+  if (!comm().is_root()) errors().guard([&] { estimates_->deliver(); });
+  estimate_record_.worlds = estimated_worlds_;
+  estimate_record_.delivered_s = delivered_s;
+  return &estimate_record_;
+}
+
+std::vector<stepping::LocalWorld> WorldDriver::profiled_worlds() {
+  errors().guard([&] { stepper_->profile_last_step(); });
+  comm().barrier();  // else the slowest rank's measuring would be the others' wait in the next frame
+  return worlds_.views();
+}
+
+void WorldDriver::advance(core::PhaseTimes& times) {
+  if (errors().failed() || worlds_.ids().empty()) return;
+  errors().guard([&] { stepper_->advance(settings().steps_per_frame, times); });
+}
+
+int WorldDriver::lowest_nonfinite_world() const {
+  for (const int world : worlds_.ids()) {
+    if (stepper_->observables(world).nonfinite > 0) return world;
+  }
+  return settings().num_worlds;
+}
+
+void WorldDriver::gather(core::PhaseTimes& times) {
+  core::LapTimer timer(times);
+  const std::vector<stepping::LocalWorld> worlds = worlds_.views();
+  std::vector<double> cost_s;
+  cost_s.reserve(worlds.size());
+  for (const stepping::LocalWorld& world : worlds) cost_s.push_back(stepper_->cost_s(world.id));
+  gather_.gather(worlds, cost_s);
+  timer.lap(core::Phase::gather);
+}
+
+std::int64_t WorldDriver::plan_moves(bool last) {
+  planned_ = {};
+  if (comm().size() > 1 && !last) {
+    planned_ = rebalancer_.frame_done(gather_.cost_s(), worlds_.placement());
+  }
+  return std::ssize(planned_.moves);
+}
+
+std::string WorldDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
+  planned_.moves.resize(num_moves);
+  comm().bcast(std::span(planned_.moves));
+  worlds_.move(planned_.moves, step);
+  gather_.set_placement(worlds_.placement());
+  if (estimates_) estimates_->set_placement(worlds_.placement());
+  return describe(planned_);
+}
+
+std::uint64_t WorldDriver::state_hash() const {
+  std::vector<std::uint64_t> hashes(settings().num_worlds, 0);
+  for (const int world : worlds_.ids()) hashes[world] = model::hash(stepper_->state(world));
+  comm().allreduce(hashes, Reduce::max);  // every world's hash against the zeros of those who do not own it
+  return combine_world_hashes(hashes);
+}
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,159 @@
+// A centipede: a chain of segments on universal joints, each with a pair of driven legs.
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "scenes/actors/actor.h"
+#include "scenes/parts/mass_properties.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+/// Defaults are a monster of a man's height in length units of a car: 8 segments of 0.6 m.
+struct Centipede {
+  int num_segments = 8;
+  double segment_length_m = 0.6, segment_width_m = 0.5, segment_height_m = 0.3;
+  double ride_height_m = 0.45;                     // of the segments' middle above the ground
+  double leg_radius_m = 0.05, leg_reach_m = 0.45;  // the foot's distance from the segment's side
+  double density_kg_m3 = 1000;                     // flesh, about water's
+  double stride_s = 0.5;                           // period of the legs' swing
+  double walk_s = 2;                               // how long they swing; then they hold
+  double torque_nm = 400;                          // of each of a leg's two motors
+  model::Material material{0.8, 0};
+  double dt_s = 0.01;
+};
+
+// A contact needs some depth to exist; see the car.
+constexpr double initial_depth_m = 1e-4;
+constexpr double gap_m = 0.05;          // between segments, so that they can bend
+constexpr double most_bend_deg = 30;    // of a joint between segments, to each side
+constexpr double back_torque_nm = 600;  // holds the back straight: a segment's weight at three lengths
+constexpr double swing_deg = 20, lift_deg = 12;  // reach of a leg fore and aft, and up
+
+class CentipedeBuilder {
+ public:
+  CentipedeBuilder(const Centipede& centipede, const Placement& place, model::Model& model)
+      : c_(centipede), place_(place), model_(model) {
+    actor_ = add_actor(model, place.name, model::ActorKind::centipede);
+  }
+
+  void build() {
+    int before = model::no_body;
+    for (int i = 0; i < c_.num_segments; ++i) {
+      const double x = -i * (c_.segment_length_m + gap_m);
+      const int segment = add_segment(i, x);
+      if (before != model::no_body) add_back_joint(i, before, segment, x);
+      for (const int side : {1, -1}) add_leg(i, segment, x, side);
+      before = segment;
+    }
+  }
+
+ private:
+  int add_segment(int number, double x) {
+    const std::array<double, 3> size = {c_.segment_length_m, c_.segment_width_m, c_.segment_height_m};
+    const Pose pose{{x, 0, c_.ride_height_m - initial_depth_m}, {}};
+    return add_part("segment" + std::to_string(number + 1), model::Shape::box, size, pose);
+  }
+
+  void add_back_joint(int number, int before, int segment, double x) {
+    const Vec3 middle = at({x + (c_.segment_length_m + gap_m) / 2, 0, c_.ride_height_m - initial_depth_m});
+    model::Joint joint = join(model_, place_.name + ".back" + std::to_string(number),
+                              model::JointKind::universal, before, segment, middle, up(), left());
+    for (int axis = 0; axis < 2; ++axis) {
+      joint.limits[axis] = {-radians(most_bend_deg), radians(most_bend_deg)};
+      joint.motors[axis] = {0, back_torque_nm};
+    }
+    model_.joints.push_back(joint);
+  }
+
+  /// A capsule from the segment's flank down and out to the ground.
+  void add_leg(int number, int segment, double x, int side) {
+    const double rise = c_.ride_height_m - c_.leg_radius_m;
+    const Vec3 hip(x, side * c_.segment_width_m / 2, c_.ride_height_m - initial_depth_m);
+    const Vec3 foot = hip + Vec3(0, side * c_.leg_reach_m, -rise);
+    const double angle = side * std::atan2(c_.leg_reach_m, rise);  // from straight down, about x
+    const std::array<double, 3> size = {c_.leg_radius_m, (foot - hip).norm(), 0};
+    const std::string name = (side > 0 ? "left_leg" : "right_leg") + std::to_string(number + 1);
+    const int leg =
+        add_part(name, model::Shape::capsule, size, {(hip + foot) / 2, rotation(angle, Vec3::UnitX())});
+    // Axis 1 swings the leg fore and aft, axis 2 lifts it. ODE counts the segment's turn against the leg's:
+    // with these axes a positive angle is a swing forward, and a lift.
+    model::Joint joint = join(model_, place_.name + "." + name + "_hip", model::JointKind::universal, segment,
+                              leg, at(hip), side * up(), -side * forward());
+    joint.limits[0] = {-radians(swing_deg), radians(swing_deg)};
+    joint.limits[1] = {-radians(lift_deg), radians(lift_deg)};
+    joint.motors[0] = joint.motors[1] = {0, c_.torque_nm};
+    model_.joints.push_back(joint);
+    const bool first_group = (number + (side > 0 ? 0 : 1)) % 2 == 0;
+    add_gait(static_cast<int>(model_.joints.size()) - 1, first_group);
+  }
+
+  /// Alternating groups, as insects walk: in one half of the stride a group is lifted and swings ahead, in
+  /// the other it stands and pushes back. Both quarters of a swing have constant speed.
+  void add_gait(int joint, bool first_group) {
+    const auto half = std::max<std::int64_t>(2, std::llround(c_.stride_s / 2 / c_.dt_s));
+    const std::int64_t end = std::llround(c_.walk_s / c_.dt_s);
+    const double half_s = static_cast<double>(half) * c_.dt_s;
+    const double swing_speed = radians(swing_deg) / half_s;
+    const double lift_speed = 2 * radians(lift_deg) / 2 / half_s;
+    bool ahead = first_group;
+    for (std::int64_t step = 0; step < end; step += half, ahead = !ahead) {
+      drive(joint, 0, step, ahead ? swing_speed : -swing_speed);
+      drive(joint, 1, step, ahead ? lift_speed : -lift_speed);
+      drive(joint, 1, step + half / 2, ahead ? -lift_speed : 0);
+    }
+    drive(joint, 0, end, 0);
+    drive(joint, 1, end, 0);
+  }
+
+  void drive(int joint, int axis, std::int64_t step, double speed_rad_s) {
+    model::Event event;
+    event.step = step;
+    event.kind = model::EventKind::motor;
+    event.joint = joint;
+    event.axis = axis;
+    event.motor = {speed_rad_s, c_.torque_nm, 0};
+    model_.events.push_back(event);
+  }
+
+  int add_part(const std::string& name, model::Shape shape, const std::array<double, 3>& size,
+               const Pose& pose) {
+    model::Body body;
+    body.name = place_.name + "." + name;
+    body.actor = actor_;
+    body.mass_kg = c_.density_kg_m3 * volume(shape, size);
+    body.inertia = solid_inertia(shape, size, body.mass_kg);
+    body.pose = compose(place_.pose, pose);
+    body.velocity = place_.velocity;
+    const int index = add_body(model_, std::move(body));
+    model_.geoms.push_back({index, actor_, place_.space, shape, size, {}, c_.material});
+    return index;
+  }
+
+  Vec3 at(const Vec3& local) const { return place_.pose.point_to_outer(local); }
+  Vec3 forward() const { return place_.pose.direction_to_outer(Vec3::UnitX()); }
+  Vec3 left() const { return place_.pose.direction_to_outer(Vec3::UnitY()); }
+  Vec3 up() const { return place_.pose.direction_to_outer(Vec3::UnitZ()); }
+
+  const Centipede& c_;
+  const Placement& place_;
+  model::Model& model_;
+  int actor_ = 0;
+};
+
+}  // namespace
+
+ActorPlan read_centipede(TableReader& actor, const SceneContext& context) {
+  Centipede centipede;
+  centipede.dt_s = context.dt_s;
+  centipede.num_segments = actor.integer("segments", 1, centipede.num_segments);
+  centipede.stride_s = actor.number("stride", Sign::positive, centipede.stride_s);
+  centipede.walk_s = actor.number("walk", Sign::non_negative, centipede.walk_s);
+  centipede.torque_nm = actor.number("torque", Sign::positive, centipede.torque_nm);
+  centipede.material = read_material(actor, centipede.material);
+  return [centipede](const Placement& place, model::Model& model) {
+    CentipedeBuilder(centipede, place, model).build();
+  };
+}
+
+}  // namespace pbmpi::scenes

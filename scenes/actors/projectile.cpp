@@ -1,0 +1,135 @@
+// Projectiles: bodies that lie ready from the start, and that a tank fires at their time.
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "model/names.h"
+#include "scenes/actors/actor.h"
+#include "scenes/parts/mass_properties.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+struct Shot {
+  std::string tank;       ///< name of the actor that fires; empty: it stays where it lies
+  std::string where;      ///< of that name in the file
+  double first_s = 0;     ///< when copy 0 leaves the muzzle; each further copy ...
+  double interval_s = 0;  ///< ... this much later
+  double speed_m_s = 0;
+  double azimuth_deg = 0, elevation_deg = 0;  ///< against the barrel, to the left and up
+};
+
+struct Projectile {
+  model::Shape shape = model::Shape::sphere;
+  std::array<double, 3> size{};
+  double mass_kg = 0;
+  model::Material material{0.5, 0};  // steel on stone
+  Shot shot;
+  double dt_s = 0.01;
+};
+
+// A contact needs some depth to exist; see the car.
+constexpr double initial_depth_m = 1e-4;
+
+/// Half of the extent along z as it lies, and along x as it flies (a cylinder flies with its axis ahead).
+double half_height(const Projectile& p) {
+  if (p.shape == model::Shape::sphere) return p.size[0];
+  return (p.shape == model::Shape::cylinder ? p.size[1] : p.size[2]) / 2;
+}
+double half_length(const Projectile& p) {
+  return p.shape == model::Shape::box ? p.size[0] / 2 : half_height(p);
+}
+
+/// The muzzle: the end of the barrel's only geom, x ahead.
+Pose muzzle(const Projectile& projectile, const model::Model& model) {
+  const Shot& shot = projectile.shot;
+  const int barrel = find_body(model, shot.tank + ".barrel");
+  core::require_input(barrel != model::no_body, shot.where + ": no tank " + core::in_quotes(shot.tank) +
+                                                    " stands above this actor in the file; place it there");
+  for (const model::Geom& geom : model.geoms) {
+    if (geom.body != barrel) continue;
+    // A hand's breadth clear of the barrel.
+    const double ahead = geom.size[1] / 2 + half_length(projectile) + 0.1;
+    const Quat aim = compose({{}, rotation(radians(shot.azimuth_deg), Vec3::UnitZ())},
+                             {{}, rotation(-radians(shot.elevation_deg), Vec3::UnitY())})
+                         .orientation;
+    return compose(model.bodies[barrel].pose, {Vec3(ahead, 0, 0), aim});
+  }
+  core::require_invariant(false, "a barrel without a geom");
+  return {};
+}
+
+model::Event launch(const Projectile& projectile, int body, int copy, const model::Model& model) {
+  const Shot& shot = projectile.shot;
+  const Pose start = muzzle(projectile, model);
+  model::Event event;
+  event.kind = model::EventKind::launch;
+  event.step = std::llround((shot.first_s + copy * shot.interval_s) / projectile.dt_s);
+  event.body = body;
+  event.velocity = shot.speed_m_s * start.direction_to_outer(Vec3::UnitX());
+  const bool lies_along_z = projectile.shape == model::Shape::cylinder;
+  const Quat ahead = lies_along_z ? rotation(std::numbers::pi / 2, Vec3::UnitY()) : Quat{};
+  event.pose = compose(start, {Vec3::Zero(), ahead});
+  return event;
+}
+
+void build(const Projectile& projectile, const Placement& place, model::Model& model) {
+  model::Body body;
+  body.name = place.name;
+  body.actor = add_actor(model, place.name, model::ActorKind::projectile);
+  body.mass_kg = projectile.mass_kg;
+  body.inertia = solid_inertia(projectile.shape, projectile.size, body.mass_kg);
+  body.pose = compose(place.pose, {{0, 0, half_height(projectile) - initial_depth_m}, {}});
+  body.velocity = place.velocity;
+  model::Geom geom{model::no_body,  body.actor, place.space,        projectile.shape,
+                   projectile.size, {},         projectile.material};
+  geom.body = add_body(model, std::move(body));
+  model.geoms.push_back(geom);
+  if (!projectile.shot.tank.empty()) {
+    model.events.push_back(launch(projectile, geom.body, place.copy, model));
+  }
+}
+
+void read_shape(TableReader& actor, Projectile& projectile) {
+  const std::string name = actor.text("shape");
+  if (name == "sphere") {
+    projectile.size = {actor.number("radius", Sign::positive)};
+  } else if (name == "cylinder") {
+    projectile.shape = model::Shape::cylinder;
+    projectile.size = {actor.number("radius", Sign::positive), actor.number("length", Sign::positive)};
+  } else if (name == "box") {
+    projectile.shape = model::Shape::box;
+    const Vec3 size = actor.vector("size", Sign::positive);
+    projectile.size = {size.x(), size.y(), size.z()};
+  } else {
+    actor.fail("shape", "unknown shape " + core::in_quotes(name) +
+                            core::suggestion(name, {"sphere", "cylinder", "box"}));
+  }
+}
+
+void read_shot(TableReader& actor, Shot& shot) {
+  if (!actor.has("fired_by")) return;
+  shot.tank = actor.text("fired_by");
+  shot.where = actor.where("fired_by");
+  shot.speed_m_s = actor.number("muzzle_speed", Sign::positive);
+  shot.first_s = actor.number("first_shot", Sign::non_negative);
+  shot.interval_s = actor.number("interval", Sign::positive, 0.1);
+  shot.azimuth_deg = actor.number("azimuth", Sign::any, 0.0);
+  shot.elevation_deg = actor.number("elevation", Sign::any, 0.0);
+}
+
+}  // namespace
+
+ActorPlan read_projectile(TableReader& actor, const SceneContext& context) {
+  Projectile projectile;
+  projectile.dt_s = context.dt_s;
+  read_shape(actor, projectile);
+  projectile.mass_kg = actor.number("density", Sign::positive) * volume(projectile.shape, projectile.size);
+  projectile.material = read_material(actor, projectile.material);
+  read_shot(actor, projectile.shot);
+  return [projectile](const Placement& place, model::Model& model) { build(projectile, place, model); };
+}
+
+}  // namespace pbmpi::scenes

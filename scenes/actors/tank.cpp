@@ -1,0 +1,140 @@
+// A battle tank at rest: hull with its two tracks, turret and barrel.
+#include <numbers>
+#include <string>
+
+#include "scenes/actors/actor.h"
+#include "scenes/parts/mass_properties.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+/// Defaults are a main battle tank of about 54 t (Leopard 2: 7.7 m hull, 3.7 m wide, 2.5 m roof; turret with
+/// gun about 16 t).
+struct Tank {
+  double hull_mass_kg = 38000, turret_mass_kg = 14000, barrel_mass_kg = 2000;
+  double length_m = 7.5, width_m = 3.6;  // over the tracks
+  double track_width_m = 0.6, track_height_m = 0.9;
+  double ground_clearance_m = 0.5, deck_m = 1.6;  // heights of the hull's underside and of its deck
+  double turret_length_m = 3.6, turret_width_m = 2.6, turret_height_m = 0.8;
+  double barrel_length_m = 5.0, barrel_radius_m = 0.16;
+  double turret_deg = 0, elevation_deg = 0;  // where the gun points, against the hull
+  model::Material material{0.7, 0};          // rubber pads and steel on the ground
+};
+
+// A contact needs some depth to exist; see the car.
+constexpr double initial_depth_m = 1e-4;
+// The drives hold the gun against any blow that the scenes deal; four times the barrel's weight at its
+// middle, and the turret's ring likewise.
+constexpr double elevation_torque_nm = 2e5;
+constexpr double traverse_torque_nm = 2e5;
+
+class TankBuilder {
+ public:
+  TankBuilder(const Tank& tank, const Placement& place, model::Model& model)
+      : tank_(tank), place_(place), model_(model) {
+    actor_ = add_actor(model, place.name, model::ActorKind::tank);
+  }
+
+  void build() {
+    const int hull = add_hull();
+    const Pose ring =
+        compose(place_.pose, {{0, 0, tank_.deck_m}, rotation(radians(tank_.turret_deg), Vec3::UnitZ())});
+    const int turret = add_turret(ring);
+    const Pose trunnion = compose(ring, {{tank_.turret_length_m / 2, 0, tank_.turret_height_m / 2},
+                                         rotation(-radians(tank_.elevation_deg), Vec3::UnitY())});
+    const int barrel = add_barrel(trunnion);
+    hold("traverse", hull, turret, ring.position, ring.direction_to_outer(Vec3::UnitZ()), traverse_torque_nm);
+    hold("elevation", turret, barrel, trunnion.position, ring.direction_to_outer(Vec3::UnitY()),
+         elevation_torque_nm);
+  }
+
+ private:
+  /// Tracks that stand still are two long feet: part of the hull.
+  int add_hull() {
+    const double belly_height = tank_.deck_m - tank_.ground_clearance_m;
+    const double belly_width = tank_.width_m - 2 * tank_.track_width_m;
+    const std::array<double, 3> belly = {tank_.length_m, belly_width, belly_height};
+    const double middle = tank_.ground_clearance_m + belly_height / 2 - initial_depth_m;
+    const int hull = add_part("hull", tank_.hull_mass_kg, belly, compose(place_.pose, {{0, 0, middle}, {}}));
+    add_geom(hull, model::Shape::box, belly, {});
+    for (const int side : {1, -1}) {
+      const double y = side * (tank_.width_m - tank_.track_width_m) / 2;
+      add_geom(hull, model::Shape::box, {0.9 * tank_.length_m, tank_.track_width_m, tank_.track_height_m},
+               {{0, y, tank_.track_height_m / 2 - initial_depth_m - middle}, {}});
+    }
+    return hull;
+  }
+
+  int add_turret(const Pose& ring) {
+    const std::array<double, 3> size = {tank_.turret_length_m, tank_.turret_width_m, tank_.turret_height_m};
+    const int turret = add_part("turret", tank_.turret_mass_kg, size,
+                                compose(ring, {{0, 0, tank_.turret_height_m / 2}, {}}));
+    add_geom(turret, model::Shape::box, size, {});
+    return turret;
+  }
+
+  /// Its body's x axis points to the muzzle, so that a projectile knows where it leaves.
+  int add_barrel(const Pose& trunnion) {
+    const std::array<double, 3> size = {tank_.barrel_length_m, 2 * tank_.barrel_radius_m,
+                                        2 * tank_.barrel_radius_m};
+    const int barrel = add_part("barrel", tank_.barrel_mass_kg, size,
+                                compose(trunnion, {{tank_.barrel_length_m / 2, 0, 0}, {}}));
+    add_geom(barrel, model::Shape::cylinder, {tank_.barrel_radius_m, tank_.barrel_length_m, 0},
+             {Vec3::Zero(), rotation(std::numbers::pi / 2, Vec3::UnitY())});
+    return barrel;
+  }
+
+  int add_part(const std::string& name, double mass_kg, const std::array<double, 3>& box, const Pose& pose) {
+    model::Body body;
+    body.name = place_.name + "." + name;
+    body.actor = actor_;
+    body.mass_kg = mass_kg;
+    body.inertia = solid_inertia(model::Shape::box, box, mass_kg);
+    body.pose = pose;
+    body.velocity = place_.velocity;
+    return add_body(model_, std::move(body));
+  }
+
+  void add_geom(int body, model::Shape shape, const std::array<double, 3>& size, const Pose& local) {
+    model_.geoms.push_back({body, actor_, place_.space, shape, size, local, tank_.material});
+  }
+
+  /// A drive at rest: its motor holds the angle.
+  void hold(const std::string& name, int inner, int outer, const Vec3& anchor, const Vec3& axis,
+            double torque_nm) {
+    model::Joint joint =
+        join(model_, place_.name + "." + name, model::JointKind::hinge, inner, outer, anchor, axis);
+    joint.limits[0] = {0, 0};
+    joint.motors[0] = {0, torque_nm};
+    model_.joints.push_back(joint);
+  }
+
+  const Tank& tank_;
+  const Placement& place_;
+  model::Model& model_;
+  int actor_ = 0;
+};
+
+}  // namespace
+
+ActorPlan read_tank(TableReader& actor, const SceneContext&) {
+  Tank tank;
+  const auto positive = [&](const char* key, double& value) {
+    value = actor.number(key, Sign::positive, value);
+  };
+  positive("hull_mass", tank.hull_mass_kg);
+  positive("turret_mass", tank.turret_mass_kg);
+  positive("barrel_mass", tank.barrel_mass_kg);
+  positive("barrel_length", tank.barrel_length_m);
+  positive("barrel_radius", tank.barrel_radius_m);
+  tank.turret_deg = actor.number("turret", Sign::any, 0.0);
+  tank.elevation_deg = actor.number("elevation", Sign::any, 0.0);
+  // Guns of tanks move between about -9 and 20 degrees.
+  if (tank.elevation_deg < -10 || tank.elevation_deg > 20) {
+    actor.fail("elevation", "'elevation' must lie in -10 to 20 degrees");
+  }
+  tank.material = read_material(actor, tank.material);
+  return [tank](const Placement& place, model::Model& model) { TankBuilder(tank, place, model).build(); };
+}
+
+}  // namespace pbmpi::scenes

@@ -1,0 +1,161 @@
+// A wall of blocks in running bond, laid dry: each block is a body of its own.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "scenes/actors/actor.h"
+#include "scenes/parts/mass_properties.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+struct Opening {
+  double from_m = 0, to_m = 0;  ///< along the wall, from its middle; an empty range is no opening
+  int num_courses = 0;          ///< of its height; the next course carries the lintel
+};
+
+struct Wall {
+  double length_m = 0, thickness_m = 0;
+  int num_courses = 0;
+  double block_length_m = 0, block_height_m = 0;
+  double density_kg_m3 = 0;
+  Opening opening;
+  model::Material material;
+};
+
+// A contact needs some depth to exist; see the car.
+constexpr double initial_depth_m = 1e-4;
+// Between neighbours of a course. Dry blocks bear on the courses below and above them; without the gap every
+// one would also lean on its neighbours, and rounding would decide how hard.
+constexpr double joint_width_m = 0.002;
+// Shares of a block's length: masons put no shorter piece than a quarter, and bear a lintel on a half.
+constexpr double shortest_piece = 0.25;
+constexpr double lintel_bearing = 0.5;
+
+struct Piece {
+  double from_m = 0, to_m = 0;  ///< along the wall, from its middle
+};
+
+/// Pieces that fill [from, to], cut at `phase` + whole block lengths; a cut that would leave a splinter is
+/// not made.
+void lay(const Wall& wall, double from_m, double to_m, double phase_m, std::vector<Piece>& pieces) {
+  const double block = wall.block_length_m;
+  const double least = shortest_piece * block;
+  if (to_m - from_m < least) return;
+  double start = from_m;
+  for (double k = std::floor((from_m - phase_m) / block); phase_m + k * block < to_m - least; ++k) {
+    const double cut = phase_m + k * block;
+    if (cut < start + least) continue;
+    pieces.push_back({start, cut});
+    start = cut;
+  }
+  pieces.push_back({start, to_m});
+}
+
+std::vector<Piece> pieces_of_course(const Wall& wall, int course) {
+  const double half = wall.length_m / 2;
+  // Every second course starts with half a block: each block bears on two.
+  const double phase = -half + (course % 2 == 0 ? 0 : wall.block_length_m / 2);
+  const Opening& hole = wall.opening;
+  std::vector<Piece> pieces;
+  if (hole.num_courses == 0 || course > hole.num_courses) {
+    lay(wall, -half, half, phase, pieces);
+    return pieces;
+  }
+  const double bearing = course == hole.num_courses ? lintel_bearing * wall.block_length_m : 0;
+  lay(wall, -half, hole.from_m - bearing, phase, pieces);
+  if (bearing > 0) pieces.push_back({hole.from_m - bearing, hole.to_m + bearing});
+  lay(wall, hole.to_m + bearing, half, phase, pieces);
+  return pieces;
+}
+
+void add_block(const Wall& wall, const Placement& place, int actor, const std::string& name, double height_m,
+               const Piece& piece, model::Model& model) {
+  const double length = piece.to_m - piece.from_m - joint_width_m;
+  model::Geom geom;
+  geom.actor = actor;
+  geom.space = place.space;
+  geom.shape = model::Shape::box;
+  geom.size = {length, wall.thickness_m, wall.block_height_m};
+  geom.material = wall.material;
+  model::Body body;
+  body.name = name;
+  body.actor = actor;
+  body.mass_kg = wall.density_kg_m3 * volume(geom.shape, geom.size);
+  body.inertia = solid_inertia(geom.shape, geom.size, body.mass_kg);
+  body.pose = compose(place.pose, {{(piece.from_m + piece.to_m) / 2, 0, height_m}, {}});
+  body.velocity = place.velocity;
+  geom.body = add_body(model, std::move(body));
+  model.geoms.push_back(geom);
+}
+
+void build(const Wall& wall, const Placement& place, model::Model& model) {
+  const int actor = add_actor(model, place.name, model::ActorKind::wall);
+  model.actors[actor].self_collision = true;
+  for (int course = 0; course < wall.num_courses; ++course) {
+    const double height = (course + 0.5) * wall.block_height_m - (course + 1) * initial_depth_m;
+    int number = 0;
+    for (const Piece& piece : pieces_of_course(wall, course)) {
+      const std::string name = place.name + "." + std::to_string(course + 1) + "_" + std::to_string(++number);
+      add_block(wall, place, actor, name, height, piece, model);
+    }
+  }
+}
+
+/// A wall is laid in whole courses; `key` is told if the height is not.
+int courses(TableReader& table, const char* key, double height_m, double block_height_m) {
+  const double courses = height_m / block_height_m;
+  const double whole = std::round(courses);
+  if (whole < 1) table.fail(key, "no course of blocks fits below this height; raise it or take lower blocks");
+  if (std::abs(courses - whole) > 1e-6) {  // rounding of a user's digits
+    table.fail(key, "the height must be a whole number of courses; a block is " +
+                        std::to_string(block_height_m) + " m high");
+  }
+  return static_cast<int>(whole);
+}
+
+Opening read_opening(TableReader& actor, const Wall& wall) {
+  auto table = actor.table("opening");
+  if (!table) return {};
+  const double width = table->number("width", Sign::positive);
+  const double height = table->number("height", Sign::positive);
+  const double middle = table->number("position", Sign::any, 0.0);
+  table->finish();
+  Opening hole{middle - width / 2, middle + width / 2,
+               courses(*table, "height", height, wall.block_height_m)};
+  const double pier = (lintel_bearing + shortest_piece) * wall.block_length_m;
+  if (hole.from_m - pier < -wall.length_m / 2 || hole.to_m + pier > wall.length_m / 2) {
+    table->fail("width",
+                "the opening leaves no pier beside it that could bear the lintel; narrow or move it");
+  }
+  if (hole.num_courses >= wall.num_courses) {
+    table->fail("height", "no course is left above the opening for the lintel; lower it");
+  }
+  return hole;
+}
+
+}  // namespace
+
+ActorPlan read_wall(TableReader& actor, const SceneContext&) {
+  Wall wall;
+  wall.length_m = actor.number("length", Sign::positive);
+  const double height = actor.number("height", Sign::positive);
+  const Vec3 block = actor.vector("block", Sign::positive);
+  wall.block_length_m = block.x();
+  wall.thickness_m = block.y();
+  wall.block_height_m = block.z();
+  wall.density_kg_m3 = actor.number("density", Sign::positive, 600.0);  // autoclaved aerated concrete
+  wall.material =
+      read_material(actor, {0.7, 0});  // concrete on concrete, 0.6 to 0.8 (ACI 318, shear friction)
+  if (block.x() > wall.length_m) {
+    actor.fail("length", "the wall has no block: one is longer than the wall; lengthen it");
+  }
+  if (shortest_piece * block.x() <= joint_width_m) {
+    actor.fail("block", "the block's length must be above 8 mm (joints are 2 mm wide)");
+  }
+  wall.num_courses = courses(actor, "height", height, wall.block_height_m);
+  wall.opening = read_opening(actor, wall);
+  return [wall](const Placement& place, model::Model& model) { build(wall, place, model); };
+}
+
+}  // namespace pbmpi::scenes

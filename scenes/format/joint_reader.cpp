@@ -1,0 +1,144 @@
+#include "scenes/format/joint_reader.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "model/names.h"
+#include "scenes/parts/parts.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+using model::JointKind;
+
+constexpr std::string_view world_name = "world";
+
+struct JointSpec {
+  std::string name;
+  JointKind kind = JointKind::ball;
+  std::vector<std::string> bodies;  // two
+  std::string bodies_where;
+  Vec3 anchor = Vec3::Zero(), axis1 = Vec3::UnitZ(), axis2 = Vec3::UnitX();
+  std::array<model::AxisLimit, 2> limits;
+  std::array<model::AxisMotor, 2> motors;
+  model::Spring suspension;
+  double break_force = 0, break_torque = 0;
+};
+
+JointKind read_kind(TableReader& table) {
+  const std::string name = table.text("kind");
+  const auto kind = model::enum_from_name<JointKind>(name, model::joint_kind_names);
+  if (kind) return *kind;
+  const auto& names = model::joint_kind_names;
+  table.fail("kind",
+             "unknown kind " + core::in_quotes(name) + core::suggestion(name, {names.begin(), names.end()}));
+}
+
+bool has_anchor(JointKind kind) { return kind != JointKind::slider && kind != JointKind::fixed; }
+bool has_axis1(JointKind kind) { return kind != JointKind::ball && kind != JointKind::fixed; }
+bool has_axis2(JointKind kind) { return kind == JointKind::universal || kind == JointKind::hinge2; }
+
+void read_bodies(TableReader& table, JointSpec& joint) {
+  joint.bodies = table.texts("bodies");
+  joint.bodies_where = table.where("bodies");
+  if (joint.bodies.size() != 2) table.fail("bodies", "'bodies' must name two bodies (or one and \"world\")");
+  if (joint.bodies[0] == joint.bodies[1]) {
+    table.fail("bodies",
+               "it joins the body " + core::in_quotes(joint.bodies[0]) + " to itself; name two bodies");
+  }
+  if (joint.bodies[0] == world_name) table.fail("bodies", "\"world\" must be the second of 'bodies'");
+  if (joint.kind == JointKind::hinge2 && joint.bodies[1] == world_name) {
+    table.fail("bodies", "a hinge2 needs two bodies, not \"world\"");
+  }
+}
+
+model::AxisLimit read_limit(TableReader& table, const char* key, JointKind kind) {
+  if (!table.has(key)) return {};
+  const auto [low, high] = table.pair(key);
+  if (low > high) table.fail(key, "the low limit is above the high one; swap them");
+  // Angles are known within one turn only (ODE manual, "Stops and motor parameters").
+  const bool is_angle = kind != JointKind::slider;
+  if (is_angle && (low < -180 || high > 180)) table.fail(key, "limits must lie in -180 to 180 degrees");
+  return is_angle ? model::AxisLimit{radians(low), radians(high)} : model::AxisLimit{low, high};
+}
+
+model::AxisMotor read_motor(TableReader& table, const char* key) {
+  auto motor = table.table(key);
+  if (!motor) return {};
+  const double velocity = motor->number("velocity", Sign::any);
+  const double max_force = motor->number("max_force", Sign::non_negative);
+  const double hold_rate = motor->number("hold_rate", Sign::non_negative, 0.0);
+  motor->finish();
+  return {velocity, max_force, hold_rate};
+}
+
+void read_axes(TableReader& table, JointSpec& joint) {
+  if (has_axis1(joint.kind)) {
+    joint.axis1 = table.direction("axis");
+    joint.limits[0] = read_limit(table, "limits", joint.kind);
+    joint.motors[0] = read_motor(table, "motor");
+  }
+  if (has_axis2(joint.kind)) {
+    joint.axis2 = table.direction("axis2");
+    joint.motors[1] = read_motor(table, "motor2");
+    const double cosine = std::abs(joint.axis1.dot(joint.axis2));
+    if (joint.kind == JointKind::universal && cosine > 1e-6) {  // rounding of a user's digits
+      table.fail("axis2", "the axes of a universal joint must be at right angles");
+    }
+    if (cosine > 0.999) table.fail("axis2", "the two axes are parallel; turn one");
+  }
+  if (joint.kind == JointKind::universal) joint.limits[1] = read_limit(table, "limits2", joint.kind);
+  if (joint.kind == JointKind::hinge2) {
+    joint.suspension.stiffness = table.number("stiffness", Sign::non_negative, 0.0);
+    joint.suspension.damping = table.number("damping", Sign::non_negative, 0.0);
+  }
+}
+
+/// A fixed joint needs its anchor for the torque alone.
+void read_strength(TableReader& table, JointSpec& joint) {
+  joint.break_force = table.number("break_force", Sign::non_negative, 0.0);
+  joint.break_torque = table.number("break_torque", Sign::non_negative, 0.0);
+  const bool is_weld = joint.kind == JointKind::fixed && joint.break_torque > 0;
+  if (has_anchor(joint.kind) || is_weld) joint.anchor = table.vector("anchor", Sign::any);
+}
+
+int resolve(const JointSpec& joint, const model::Model& model, const std::string& name) {
+  if (name == world_name) return model::no_body;
+  const int body = find_body(model, name);
+  if (body != model::no_body) return body;
+  std::vector<std::string> names;
+  for (const model::Body& candidate : model.bodies) names.push_back(candidate.name);
+  throw core::InputError(joint.bodies_where + ": joint " + core::in_quotes(joint.name) + ": unknown body " +
+                         core::in_quotes(name) + core::suggestion(name, names));
+}
+
+void build(const JointSpec& spec, model::Model& model) {
+  const int a = resolve(spec, model, spec.bodies[0]);
+  const int b = resolve(spec, model, spec.bodies[1]);
+  model::Joint joint = join(model, spec.name, spec.kind, a, b, spec.anchor, spec.axis1, spec.axis2);
+  joint.limits = spec.limits;
+  joint.motors = spec.motors;
+  joint.suspension = spec.suspension;
+  joint.break_force = spec.break_force;
+  joint.break_torque = spec.break_torque;
+  model.joints.push_back(joint);
+}
+
+}  // namespace
+
+JointPlan read_joint(TableReader& table) {
+  JointSpec joint;
+  joint.name = table.text("name");
+  table.set_what("joint " + core::in_quotes(joint.name));
+  joint.kind = read_kind(table);
+  read_bodies(table, joint);
+  read_strength(table, joint);
+  read_axes(table, joint);
+  table.finish();
+  return [joint](model::Model& model) { build(joint, model); };
+}
+
+}  // namespace pbmpi::scenes

@@ -1,0 +1,191 @@
+#include "scenes/format/table_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+std::string to_text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+}  // namespace
+
+std::string to_string(const toml::source_region& source) {
+  return (source.path ? *source.path : std::string("scene")) + ":" + std::to_string(source.begin.line) + ":" +
+         std::to_string(source.begin.column);
+}
+
+TableReader::TableReader(const toml::table& table, std::string what)
+    : table_(&table), what_(std::move(what)) {}
+
+const toml::node* TableReader::find(std::string_view key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
+  return table_->get(key);
+}
+
+const toml::node& TableReader::need(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) fail_at(*table_, "the key " + core::in_quotes(key) + " is missing; add it");
+  return *node;
+}
+
+const toml::array& TableReader::need_array(std::string_view key, std::string_view form) {
+  const toml::node& node = need(key);
+  if (!node.is_array()) fail_at(node, core::in_quotes(key) + " must be an array " + std::string(form));
+  return *node.as_array();
+}
+
+double TableReader::checked_number(std::string_view key, const toml::node& node, Sign sign) const {
+  if (!node.is_number()) fail_at(node, core::in_quotes(key) + " must be a number");
+  const double value = node.value<double>().value();
+  const auto refuse = [&](const char* rule) {
+    fail_at(node, core::in_quotes(key) + " is " + to_text(value) + "; it must be " + rule);
+  };
+  if (!std::isfinite(value)) refuse("finite");
+  if (sign == Sign::positive && value <= 0) refuse("above 0");
+  if (sign == Sign::non_negative && value < 0) refuse("at least 0");
+  return value;
+}
+
+bool TableReader::has(std::string_view key) { return find(key) != nullptr; }
+
+bool TableReader::is_array(std::string_view key) {
+  const toml::node* node = find(key);
+  return node && node->is_array();
+}
+
+double TableReader::number(std::string_view key, Sign sign, std::optional<double> fallback) {
+  if (fallback && !has(key)) return *fallback;
+  return checked_number(key, need(key), sign);
+}
+
+int TableReader::integer(std::string_view key, int least, std::optional<int> fallback) {
+  if (fallback && !has(key)) return *fallback;
+  const toml::node& node = need(key);
+  if (!node.is_integer()) fail_at(node, core::in_quotes(key) + " must be a whole number");
+  const std::int64_t value = node.as_integer()->get();
+  if (value < least || value > std::numeric_limits<int>::max()) {
+    fail_at(node, core::in_quotes(key) + " is " + std::to_string(value) + "; it must be at least " +
+                      std::to_string(least) + " and below 2^31");
+  }
+  return static_cast<int>(value);
+}
+
+bool TableReader::flag(std::string_view key, bool fallback) {
+  if (!has(key)) return fallback;
+  const toml::node& node = need(key);
+  if (!node.is_boolean()) fail_at(node, core::in_quotes(key) + " must be true or false");
+  return node.as_boolean()->get();
+}
+
+std::string TableReader::text(std::string_view key, const std::optional<std::string>& fallback) {
+  if (fallback && !has(key)) return *fallback;
+  const toml::node& node = need(key);
+  if (!node.is_string()) fail_at(node, core::in_quotes(key) + " must be a \"text\"");
+  if (node.as_string()->get().empty()) fail_at(node, core::in_quotes(key) + " must not be empty");
+  return node.as_string()->get();
+}
+
+core::Vec3 TableReader::vector(std::string_view key, Sign sign, const std::optional<core::Vec3>& fallback) {
+  if (fallback && !has(key)) return *fallback;
+  const toml::array& array = need_array(key, "[x, y, z]");
+  if (array.size() != 3) fail_at(array, core::in_quotes(key) + " must have three numbers [x, y, z]");
+  core::Vec3 result;
+  for (int i = 0; i < 3; ++i) result[i] = checked_number(key, array[i], sign);
+  return result;
+}
+
+core::Vec3 TableReader::direction(std::string_view key, const std::optional<core::Vec3>& fallback) {
+  const core::Vec3 value = vector(key, Sign::any, fallback);
+  if (value.norm() < 1e-9) fail(key, core::in_quotes(key) + " has no direction; give one that is not zero");
+  return value.normalized();
+}
+
+std::vector<std::string> TableReader::texts(std::string_view key) {
+  std::vector<std::string> result;
+  for (const toml::node& node : need_array(key, "[\"a\", \"b\"]")) {
+    if (!node.is_string() || node.as_string()->get().empty()) {
+      fail_at(node, "each entry of " + core::in_quotes(key) + " must be a \"text\"");
+    }
+    result.push_back(node.as_string()->get());
+  }
+  return result;
+}
+
+std::array<double, 2> TableReader::pair(std::string_view key) {
+  const toml::array& array = need_array(key, "[a, b]");
+  if (array.size() != 2) fail_at(array, core::in_quotes(key) + " must have two numbers [a, b]");
+  return {checked_number(key, array[0], Sign::any), checked_number(key, array[1], Sign::any)};
+}
+
+std::vector<std::array<double, 2>> TableReader::ascending_pairs(std::string_view key) {
+  std::vector<std::array<double, 2>> result;
+  if (!has(key)) return result;
+  for (const toml::node& node : need_array(key, "[[a, b], [c, d]]")) {
+    const toml::array* entry = node.as_array();
+    if (!entry || entry->size() != 2) {
+      fail_at(node, "each entry of " + core::in_quotes(key) + " must have two numbers [a, b]");
+    }
+    result.push_back(
+        {checked_number(key, (*entry)[0], Sign::non_negative), checked_number(key, (*entry)[1], Sign::any)});
+    if (result.size() > 1 && result.back()[0] <= result[result.size() - 2][0]) {
+      fail_at(node, "the entries of " + core::in_quotes(key) + " must ascend in their first number");
+    }
+  }
+  if (result.empty()) fail(key, core::in_quotes(key) + " is empty; give at least one pair");
+  return result;
+}
+
+std::optional<TableReader> TableReader::table(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (!node->is_table()) fail_at(*node, core::in_quotes(key) + " must be a table");
+  return TableReader(*node->as_table(), what_ + ", " + std::string(key));
+}
+
+std::vector<TableReader> TableReader::tables(std::string_view key) {
+  std::vector<TableReader> result;
+  const toml::node* node = find(key);
+  if (!node) return result;
+  if (!node->is_array()) fail_at(*node, "write [[" + std::string(key) + "]], with two brackets");
+  for (const toml::node& entry : *node->as_array()) {
+    if (!entry.is_table()) fail_at(entry, "write [[" + std::string(key) + "]] tables");
+    result.emplace_back(*entry.as_table(), std::string(key));
+  }
+  return result;
+}
+
+void TableReader::finish() const {
+  for (const auto& [key, node] : *table_) {
+    if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
+    throw core::InputError(to_string(key.source()) + ": " + what_ + ": unknown key " +
+                           core::in_quotes(key.str()) + core::suggestion(key.str(), known_));
+  }
+}
+
+std::string TableReader::where(std::string_view key) const {
+  const toml::node* node = table_->get(key);
+  return to_string(node ? node->source() : table_->source());
+}
+
+std::string TableReader::where() const { return to_string(table_->source()); }
+
+void TableReader::fail(std::string_view key, const std::string& problem) const {
+  const toml::node* node = table_->get(key);
+  fail_at(node ? *node : *table_, problem);
+}
+
+void TableReader::fail_at(const toml::node& node, const std::string& problem) const {
+  throw core::InputError(to_string(node.source()) + ": " + what_ + ": " + problem);
+}
+
+}  // namespace pbmpi::scenes

@@ -1,0 +1,155 @@
+#include "scenes/parts/overlap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include "scenes/parts/parts.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+using model::Shape;
+using ActorPair = std::pair<int, int>;
+
+/// A box inside a geom, world frame.
+struct InnerBox {
+  int actor = 0;
+  bool is_static = false;
+  Vec3 centre;
+  model::Mat3 axes;  ///< columns
+  Vec3 half;
+  Vec3 low, high;  ///< of its axis-parallel hull
+};
+
+Vec3 half_extents(const model::Geom& geom) {
+  const auto& size = geom.size;
+  const double in_circle = size[0] / std::numbers::sqrt2;
+  switch (geom.shape) {
+    case Shape::sphere:
+      return Vec3::Constant(size[0] / std::numbers::sqrt3);
+    case Shape::box:
+      return Vec3(size[0], size[1], size[2]) / 2;
+    case Shape::capsule:
+    case Shape::cylinder:
+      return {in_circle, in_circle, size[1] / 2};
+    case Shape::plane:
+      break;
+  }
+  return Vec3::Zero();
+}
+
+Pose pose_of(const model::Geom& geom, const model::Model& model) {
+  return geom.body == model::no_body ? geom.local : compose(model.bodies[geom.body].pose, geom.local);
+}
+
+InnerBox inner_box(const model::Geom& geom, const model::Model& model) {
+  const Pose pose = pose_of(geom, model);
+  InnerBox box;
+  box.actor = geom.actor;
+  box.is_static = geom.body == model::no_body;
+  box.centre = pose.position;
+  box.axes = pose.orientation.to_eigen().toRotationMatrix();
+  box.half = half_extents(geom);
+  const Vec3 reach = box.axes.cwiseAbs() * box.half;
+  box.low = box.centre - reach;
+  box.high = box.centre + reach;
+  return box;
+}
+
+double reach_along(const InnerBox& box, const Vec3& direction) {
+  return (box.axes.transpose() * direction).cwiseAbs().dot(box.half);
+}
+
+/// Least overlap over the separating axes of two boxes (Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996);
+/// at most 0 if they are apart.
+double depth(const InnerBox& a, const InnerBox& b) {
+  const Vec3 between = b.centre - a.centre;
+  double least = model::infinity;
+  const auto try_axis = [&](const Vec3& axis) {
+    const double length = axis.norm();
+    if (length < 1e-6) return;  // parallel edges: the faces' axes say all
+    const Vec3 unit = axis / length;
+    least = std::min(least, reach_along(a, unit) + reach_along(b, unit) - std::abs(between.dot(unit)));
+  };
+  for (int i = 0; i < 3; ++i) {
+    try_axis(a.axes.col(i));
+    try_axis(b.axes.col(i));
+    for (int j = 0; j < 3; ++j) try_axis(a.axes.col(i).cross(b.axes.col(j)));
+  }
+  return least;
+}
+
+double depth_in_plane(const InnerBox& box, const Pose& plane) {
+  const Vec3 normal = plane.direction_to_outer(Vec3::UnitZ());
+  return reach_along(box, normal) - normal.dot(box.centre - plane.position);
+}
+
+/// Actors that a joint connects may overlap: a door in its frame.
+std::set<ActorPair> joined_actors(const model::Model& model) {
+  std::set<ActorPair> pairs;
+  for (const model::Joint& joint : model.joints) {
+    if (joint.body_b == model::no_body) continue;
+    pairs.insert(std::minmax(model.bodies[joint.body_a].actor, model.bodies[joint.body_b].actor));
+  }
+  return pairs;
+}
+
+class Search {
+ public:
+  explicit Search(const model::Model& model) : model_(&model), joined_(joined_actors(model)) {
+    for (const model::Geom& geom : model.geoms) {
+      if (geom.shape != Shape::plane) boxes_.push_back(inner_box(geom, model));
+    }
+    std::sort(boxes_.begin(), boxes_.end(),
+              [](const InnerBox& a, const InnerBox& b) { return a.low.x() < b.low.x(); });
+  }
+
+  std::optional<Overlap> run() const {
+    for (const model::Geom& geom : model_->geoms) {
+      if (geom.shape != Shape::plane) continue;
+      for (const InnerBox& box : boxes_) {
+        if (box.is_static || geom.actor == box.actor) continue;
+        const double deep = depth_in_plane(box, pose_of(geom, *model_));
+        if (deep > overlap_tolerance_m) return overlap(geom.actor, box.actor, deep);
+      }
+    }
+    return among_boxes();
+  }
+
+ private:
+  /// Sweep along x.
+  std::optional<Overlap> among_boxes() const {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      const InnerBox& a = boxes_[i];
+      for (std::size_t j = i + 1; j < boxes_.size() && boxes_[j].low.x() <= a.high.x(); ++j) {
+        const InnerBox& b = boxes_[j];
+        if (!may_clash(a, b)) continue;
+        const double deep = depth(a, b);
+        if (deep > overlap_tolerance_m) return overlap(a.actor, b.actor, deep);
+      }
+    }
+    return std::nullopt;
+  }
+
+  bool may_clash(const InnerBox& a, const InnerBox& b) const {
+    if (a.actor == b.actor || (a.is_static && b.is_static)) return false;
+    if (a.low.y() > b.high.y() || b.low.y() > a.high.y()) return false;
+    if (a.low.z() > b.high.z() || b.low.z() > a.high.z()) return false;
+    return !joined_.contains(std::minmax(a.actor, b.actor));
+  }
+
+  static Overlap overlap(int a, int b, double deep) { return {std::min(a, b), std::max(a, b), deep}; }
+
+  const model::Model* model_;
+  std::set<ActorPair> joined_;
+  std::vector<InnerBox> boxes_;
+};
+
+}  // namespace
+
+std::optional<Overlap> find_overlap(const model::Model& model) { return Search(model).run(); }
+
+}  // namespace pbmpi::scenes

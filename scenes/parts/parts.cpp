@@ -1,0 +1,67 @@
+#include "scenes/parts/parts.h"
+
+#include <numbers>
+#include <utility>
+
+namespace pbmpi::scenes {
+namespace {
+
+Pose pose_of(const model::Model& model, int body) {
+  return body == model::no_body ? Pose{} : model.bodies[body].pose;
+}
+
+Vec3 point_to_inner(const Pose& pose, const Vec3& point) {
+  return pose.orientation.to_eigen().conjugate() * (point - pose.position);
+}
+
+Vec3 direction_to_inner(const Pose& pose, const Vec3& direction) {
+  return (pose.orientation.to_eigen().conjugate() * direction).normalized();
+}
+
+}  // namespace
+
+Pose compose(const Pose& outer, const Pose& inner) {
+  const Eigen::Quaterniond q = outer.orientation.to_eigen() * inner.orientation.to_eigen();
+  return {outer.point_to_outer(inner.position), Quat::from_eigen(q.normalized())};
+}
+
+Quat rotation(double angle_rad, const Vec3& axis) {
+  return Quat::from_eigen(Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, axis)));
+}
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+int add_actor(model::Model& model, std::string name, model::ActorKind kind) {
+  model.actors.push_back({std::move(name), kind, false});
+  return static_cast<int>(model.actors.size()) - 1;
+}
+
+int add_body(model::Model& model, model::Body body) {
+  model.bodies.push_back(std::move(body));
+  return model.num_bodies() - 1;
+}
+
+int find_body(const model::Model& model, std::string_view name) {
+  for (int i = 0; i < model.num_bodies(); ++i) {
+    if (model.bodies[i].name == name) return i;
+  }
+  return model::no_body;
+}
+
+model::Joint join(const model::Model& model, std::string name, model::JointKind kind, int a, int b,
+                  const Vec3& anchor, const Vec3& axis1, const Vec3& axis2) {
+  const Pose pose_a = pose_of(model, a);
+  const Pose pose_b = pose_of(model, b);
+  model::Joint joint;
+  joint.name = std::move(name);
+  joint.kind = kind;
+  joint.body_a = a;
+  joint.body_b = b;
+  joint.anchor_a = point_to_inner(pose_a, anchor);
+  joint.anchor_b = point_to_inner(pose_b, anchor);
+  joint.axis1_a = direction_to_inner(pose_a, axis1);
+  joint.axis2_b = direction_to_inner(pose_b, axis2);
+  return joint;
+}
+
+}  // namespace pbmpi::scenes

@@ -1,0 +1,25 @@
+/// Where a run came from: what its file says of the program, the machine and the job.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mpi/comm/communicator.h"
+
+namespace pbmpi::app {
+
+/// The same on every rank.
+struct Provenance {
+  std::string created;  ///< UTC, ISO 8601
+  std::string command_line;
+  std::vector<std::string> hosts;        ///< [num_ranks]
+  std::vector<std::string> environment;  ///< root's "NAME=value" of SLURM_* and OMPI_*
+};
+
+/// Collective.
+Provenance collect_provenance(const mpi::Communicator& comm, const std::string& command_line);
+
+/// Each value once, in order of first appearance.
+std::vector<std::string> distinct(const std::vector<std::string>& values);
+
+}  // namespace pbmpi::app

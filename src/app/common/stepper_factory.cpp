@@ -1,0 +1,39 @@
+#include "app/common/stepper_factory.h"
+
+#include <utility>
+
+#include "model/names.h"
+#include "ode/collide/narrow_phase.h"
+#include "ode/ode_stepper.h"
+#include "solver/pack/simd.h"
+#include "solver/spaces/sor_space_stepper.h"
+#include "solver/worlds/sor_stepper.h"
+#include "stepping/names.h"
+
+namespace pbmpi::app {
+
+std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings,
+                                                     const std::string& warning_prefix) {
+  if (settings.kind == stepping::StepperKind::sor) return make_anytime_stepper(settings);
+  return ode::make_ode_stepper(
+      settings, [warning_prefix](const std::string& line) { ode::warn_on_stderr(warning_prefix + line); });
+}
+
+std::unique_ptr<stepping::AnytimeStepper> make_anytime_stepper(const stepping::StepperSettings& settings) {
+  return solver::make_sor_stepper(settings, ode::make_narrow_phase);
+}
+
+std::unique_ptr<stepping::SpaceStepper> make_space_stepper(const stepping::StepperSettings& settings,
+                                                           std::shared_ptr<const model::Model> model) {
+  return solver::make_sor_space_stepper(settings, ode::make_narrow_phase, std::move(model));
+}
+
+std::string simd_text(const stepping::StepperSettings& settings) {
+  if (settings.kind != stepping::StepperKind::sor) return "";
+  const stepping::Simd simd =
+      settings.simd == stepping::Simd::automatic ? solver::best_simd() : settings.simd;
+  const int lanes = solver::num_lanes(simd, settings.precision);
+  return std::string(name_of(simd)) + ", " + std::to_string(lanes) + (lanes == 1 ? " lane" : " lanes");
+}
+
+}  // namespace pbmpi::app

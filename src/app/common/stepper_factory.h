@@ -1,0 +1,27 @@
+/// The stepper that a run asks for.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "stepping/space_stepper.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::app {
+
+/// quick and direct are ODE's; sor is pbmpi's own, with ODE's dCollide. Throws core::InputError for settings
+/// that the stepper refuses. Warnings go to stderr behind `warning_prefix`.
+std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings,
+                                                     const std::string& warning_prefix = "");
+
+/// sor alone, which can be looked at in mid-solve.
+std::unique_ptr<stepping::AnytimeStepper> make_anytime_stepper(const stepping::StepperSettings& settings);
+
+/// The same for one world that is cut into spaces; sor only.
+std::unique_ptr<stepping::SpaceStepper> make_space_stepper(const stepping::StepperSettings& settings,
+                                                           std::shared_ptr<const model::Model> model);
+
+/// The vector instructions that the stepper uses and its lanes, e.g. "avx512, 16 lanes"; empty for ODE's.
+std::string simd_text(const stepping::StepperSettings& settings);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,263 @@
+#include "app/pbmpi/options/options.h"
+
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "core/error.h"
+#include "effects/effect_choices.h"
+#include "effects/effects.h"
+#include "model/names.h"
+#include "stepping/names.h"
+
+namespace pbmpi::app {
+
+namespace po = boost::program_options;
+using core::require_input;
+
+namespace {
+
+std::string effect_list() {
+  std::string list;
+  for (const effects::Effect& effect : effects::effect_registry())
+    list += (list.empty() ? "" : ", ") + std::string(effect.name);
+  return list;
+}
+
+po::options_description options_description() {
+  po::options_description what("What to simulate");
+  what.add_options()  //
+      ("scene", po::value<std::string>()->value_name("NAME|FILE.toml"),
+       "a scene that pbmpi brings (--list-scenes), or a scene file of your own")  //
+      ("list-scenes", "list the scenes that pbmpi brings")                        //
+      ("describe",
+       "print the resolved scene, the step plan, who owns what and the size of the file; run nothing")  //
+      ("replicas", po::value<int>()->value_name("N"), "worlds; default: the scene's")                   //
+      ("frames", po::value<int>()->value_name("N"), "measured frames; default: the scene's")            //
+      ("warmup", po::value<int>()->value_name("N"),
+       "frames before the measured ones; default: the scene's, 3")  //
+      ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"),
+       "of the solver's row order and of the scene's variation")  //
+      ("solver-seed", po::value<std::uint64_t>()->value_name("N"),
+       "of the solver's row order alone: runs that differ in it show the noise floor; default: --seed")  //
+      ("effects", po::value<std::string>()->value_name("+NAME,-NAME"),
+       ("for an experiment: + demands an effect that the scene does not call for, - leaves one out; they "
+        "are " +
+        effect_list())
+           .c_str());
+
+  po::options_description how("How to step");
+  how.add_options()  //
+      ("stepper", po::value<std::string>()->default_value("sor")->value_name("sor|quick|direct"),
+       "sor: pbmpi's own projected SOR, worlds side by side in vector lanes; quick: ODE's iterative "
+       "dWorldQuickStep; direct: ODE's big-matrix dWorldStep")  //
+      ("dt", po::value<double>()->value_name("SECONDS"),
+       "length of a step [s]; default: the scene's, 0.01")                                                 //
+      ("steps-per-frame", po::value<int>()->value_name("N"), "steps in a frame; default: the scene's, 3")  //
+      ("iterations", po::value<int>()->value_name("N"),
+       "sweeps of the iterative solver, in each substep; default: the scene's, 20")  //
+      ("substeps", po::value<int>()->default_value(1)->value_name("N"),
+       "sor: parts of a step that share its collision detection")  //
+      ("sor-factor", po::value<double>()->value_name("X"),
+       "sor: over-relaxation, above 0 and below 2; default: 1.3, as in ODE")  //
+      ("warm-start", po::value<double>()->value_name("X"),
+       "sor: share of their impulses with which joints and contacts start a substep after the first, 0 to 1; "
+       "default: 0, none; needs --substeps")  //
+      ("row-order", po::value<std::string>()->default_value("shuffled")->value_name("shuffled|fixed"),
+       "sor: the joints' order in the sweeps: another every 8 iterations, or always the model's")  //
+      ("precision", po::value<std::string>()->default_value("double")->value_name("double|single"),
+       "sor: number type of the solver")  //
+      ("simd", po::value<std::string>()->default_value("auto")->value_name("auto|sse2|avx2|avx512|off"),
+       "sor: vector instructions; the result is the same with all")  //
+      ("colliders", po::value<std::string>()->default_value("lanes")->value_name("lanes|ode"),
+       "sor: what collides pairs of geoms; lanes: kernels over vector lanes, ode: dCollide");
+
+  how.add_options()(
+      "preset", po::value<std::string>()->value_name("FILE"),
+      "a setting that pbreport has chosen from a study (pbreport --write-preset); other options win");
+
+  po::options_description feec("Fast estimation with error control (FEEC)");
+  feec.add_options()  //
+      ("feec",
+       "estimate every frame from the precise state before it is computed: the estimate goes to root at "
+       "once, and is dropped when the precise result is there. It is a short run of its own; with sor and "
+       "one "
+       "step of one substep a frame it is the state after the first iterations of the precise solve")   //
+      ("estimate-iterations", po::value<int>()->value_name("N"), "sweeps of the estimate; default: 1")  //
+      ("estimate-stepper", po::value<std::string>()->value_name("quick|direct|sor"),
+       "what estimates; default: that of --stepper")  //
+      ("estimate-precision", po::value<std::string>()->value_name("double|single"),
+       "of an estimate by sor; default: that of --precision, or double");
+
+  po::options_description cut("How to cut the work");
+  cut.add_options()  //
+      ("decompose", po::value<std::string>()->default_value("auto")->value_name("auto|worlds|spaces"),
+       "worlds: each rank owns whole worlds; spaces: each rank owns collision spaces of the one world (sor "
+       "only); auto: spaces for one world of several spaces on several ranks with sor and without --feec, "
+       "else worlds")  //
+      ("spaces", po::value<std::string>()->value_name("one|many"),
+       "many: the scene's named collision spaces; one: all of them as one, with the same physics; default: "
+       "the scene's");
+
+  po::options_description write("What to write");
+  write.add_options()  //
+      ("output,o", po::value<std::string>()->value_name("FILE"),
+       "HDF5 file of the run; default: <scene>.h5")  //
+      ("no-output", "write no file")                 //
+      ("record-every", po::value<int>()->default_value(1)->value_name("N"),
+       "store the bodies of every Nth frame; timings are stored for all")  //
+      ("record-islands",
+       "quick, direct: after each frame measure its last step again, island by island (slow; outside of the "
+       "frame's time, and the states stay the same)")  //
+      ("record-residuals",
+       "sor: store how far the last step of each frame is from the solution of its constraints")  //
+      ("report", po::value<std::string>()->default_value("text")->value_name("text|json"),
+       "the summary; json: exactly one JSON document on stdout");
+
+  po::options_description stop("When to stop, and how to go on");
+  stop.add_options()  //
+      ("max-time", po::value<double>()->value_name("SECONDS"),
+       "stop with a checkpoint at the end of the frame in which so much time has passed since the start")  //
+      ("checkpoint", po::value<std::string>()->value_name("FILE"),
+       "where the run is saved: on USR1, when it stops early, and after the last frame too if this option is "
+       "given; default: <output without .h5>.checkpoint.h5, or the file of --resume")  //
+      ("checkpoint-every", po::value<double>()->value_name("SECONDS"),
+       "save the run this often, too")  //
+      ("resume", po::value<std::string>()->value_name("FILE"),
+       "go on from a checkpoint, with any number of ranks and the same bits. Scene and physics are the "
+       "checkpoint's; options that would change them are refused. --frames and --warmup count from the start "
+       "of the first run. What follows goes to a file of its own; default: <first output>.from<frame>.h5");
+
+  po::options_description all;
+  all.add(what).add(how).add(feec).add(cut).add(write).add(stop).add(common_options_description());
+  return all;
+}
+
+template <class T>
+std::optional<T> given(const po::variables_map& values, const char* name) {
+  if (values.count(name) == 0) return std::nullopt;
+  return values[name].as<T>();
+}
+
+/// The enumerator that belongs to the word given for --`name`; `names` are in the order of the enumerators.
+template <class Enum, std::size_t N>
+Enum choice(const po::variables_map& values, const std::string& name,
+            const std::array<std::string_view, N>& names) {
+  const std::string word = values[name].as<std::string>();
+  if (const auto value = model::enum_from_name<Enum>(word, names)) return *value;
+  std::string known;
+  for (const std::string_view text : names) known += (known.empty() ? "" : ", ") + std::string(text);
+  throw core::InputError("--" + name + " " + word + ": it must be one of " + known);
+}
+
+model::EffectChoices effect_choices(const std::string& text) {
+  try {
+    return effects::parse_effect_choices(text);
+  } catch (const core::InputError& error) {
+    throw core::InputError("--effects " + text + ": " + error.what());
+  }
+}
+
+/// The same for an option that has no default.
+template <class Enum, std::size_t N>
+std::optional<Enum> choice_if_given(const po::variables_map& values, const std::string& name,
+                                    const std::array<std::string_view, N>& names) {
+  if (values.count(name) == 0) return std::nullopt;
+  return choice<Enum>(values, name, names);
+}
+
+constexpr std::array<std::string_view, 2> report_format_names = {"text", "json"};
+
+/// A time that is above 0, if it is given.
+std::optional<double> seconds(const po::variables_map& values, const char* name) {
+  const std::optional<double> time_s = given<double>(values, name);
+  require_input(!time_s || (std::isfinite(*time_s) && *time_s > 0),
+                "--" + std::string(name) + " " + std::to_string(time_s.value_or(0)) +
+                    " s: a time must be finite and above 0");
+  return time_s;
+}
+
+Action action_of(const po::variables_map& values) {
+  if (values.count("help") != 0) return Action::help;
+  if (values.count("version") != 0) return Action::version;
+  if (values.count("list-scenes") != 0) return Action::list_scenes;
+  return values.count("describe") != 0 ? Action::describe : Action::run;
+}
+
+}  // namespace
+
+std::string help_text() {
+  std::ostringstream text;
+  text << "pbmpi simulates many rigid-body worlds over MPI ranks and shows what accuracy costs in time.\n\n"
+       << "Usage: mpirun -n RANKS pbmpi --scene NAME [options]\n\n"
+       << options_description()
+       << "\nExit codes: 0 done; 1 the simulation failed (what was written is readable); "
+       << "2 bad usage or bad input; 75 stopped early on request, with a checkpoint.\n"
+       << "Signals: INT, TERM and USR2 finish the frame, save the run, close the file and end with 75; USR1 "
+          "saves it and\nthe run goes on (send USR2 and USR1 to mpirun).\n"
+       << "Example: mpirun -n 2 pbmpi --scene 100CrSk --report json\n";
+  return text.str();
+}
+
+Options parse_options(const std::vector<std::string>& args, const std::string& saved) {
+  const po::variables_map values = parse_command_line(args, options_description(), {}, saved);
+  Options options;
+  options.action = action_of(values);
+  options.command_line = "pbmpi";
+  for (const std::string& arg : args) options.command_line += " " + arg;
+  options.common = common_options(values);
+  options.scene = given<std::string>(values, "scene").value_or("");
+  options.replicas = given<int>(values, "replicas");
+  options.frames = given<int>(values, "frames");
+  options.warmup = given<int>(values, "warmup");
+  options.steps_per_frame = given<int>(values, "steps-per-frame");
+  options.iterations = given<int>(values, "iterations");
+  options.dt_s = given<double>(values, "dt");
+  require_input(!options.dt_s || (std::isfinite(*options.dt_s) && *options.dt_s > 0),
+                "--dt " + std::to_string(options.dt_s.value_or(0)) + " s: a step must be finite and above 0");
+  options.stepper = choice<stepping::StepperKind>(values, "stepper", stepping::stepper_kind_names);
+  options.substeps = values["substeps"].as<int>();
+  options.sor_factor = given<double>(values, "sor-factor");
+  require_input(!options.sor_factor || (*options.sor_factor > 0 && *options.sor_factor < 2),
+                "--sor-factor " + std::to_string(options.sor_factor.value_or(0)) +
+                    ": the iteration converges above 0 and below 2 only");
+  options.warm_start = given<double>(values, "warm-start");
+  require_input(!options.warm_start || (*options.warm_start >= 0 && *options.warm_start <= 1),
+                "--warm-start " + std::to_string(options.warm_start.value_or(0)) +
+                    ": the share of the impulses to take over is 0 to 1");
+  options.row_order = choice<stepping::RowOrder>(values, "row-order", stepping::row_order_names);
+  options.precision = choice<stepping::Precision>(values, "precision", stepping::precision_names);
+  options.simd = choice<stepping::Simd>(values, "simd", stepping::simd_names);
+  options.colliders = choice<stepping::Colliders>(values, "colliders", stepping::colliders_names);
+  options.decomposition = choice<Decomposition>(values, "decompose", decomposition_names);
+  options.seed = values["seed"].as<std::uint64_t>();
+  options.solver_seed = given<std::uint64_t>(values, "solver-seed");
+  options.feec = values.count("feec") != 0;
+  options.estimate_iterations = given<int>(values, "estimate-iterations");
+  options.estimate_stepper =
+      choice_if_given<stepping::StepperKind>(values, "estimate-stepper", stepping::stepper_kind_names);
+  options.estimate_precision =
+      choice_if_given<stepping::Precision>(values, "estimate-precision", stepping::precision_names);
+  options.output = given<std::string>(values, "output");
+  options.no_output = values.count("no-output") != 0;
+  options.record_every = values["record-every"].as<int>();
+  options.record_islands = values.count("record-islands") != 0;
+  options.record_residuals = values.count("record-residuals") != 0;
+  if (values.count("spaces") != 0)
+    options.spaces = choice<scenes::SpacesForm>(values, "spaces", spaces_names);
+  options.effects = effect_choices(given<std::string>(values, "effects").value_or(""));
+  options.report = choice<ReportFormat>(values, "report", report_format_names);
+  options.checkpoint = output_path(values, "checkpoint");
+  options.checkpoint_every_s = seconds(values, "checkpoint-every");
+  options.max_time_s = seconds(values, "max-time");
+  options.resume = given<std::string>(values, "resume");
+  const bool needs_scene = options.action == Action::run || options.action == Action::describe;
+  require_input(!needs_scene || !options.scene.empty() || options.resume,
+                "no scene given; name one with --scene (see --list-scenes)");
+  require_input(!(options.no_output && options.output),
+                "--output and --no-output exclude each other; drop one");
+  return options;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,119 @@
+/// The command line of pbmpi, and the run that it and the scene ask for together.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/common/options.h"
+#include "scenes/scene.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::app {
+
+enum class Action { run, help, version, list_scenes, describe };
+enum class ReportFormat { text, json };
+enum class Decomposition { automatic, worlds, spaces };
+inline constexpr std::array<std::string_view, 3> decomposition_names = {"auto", "worlds", "spaces"};
+inline constexpr std::array<std::string_view, 2> spaces_names = {"one", "many"};
+
+/// The command line as given; what is absent is left to the scene.
+struct Options {
+  Action action = Action::run;
+  std::string scene;
+  std::optional<int> replicas, frames, warmup, steps_per_frame, iterations;
+  std::optional<double> dt_s;
+  int substeps = 1;
+  std::optional<double> sor_factor, warm_start;
+  stepping::RowOrder row_order = stepping::RowOrder::shuffled;
+  stepping::Precision precision = stepping::Precision::double_;
+  stepping::Simd simd = stepping::Simd::automatic;
+  stepping::Colliders colliders = stepping::Colliders::lanes;
+  stepping::StepperKind stepper = stepping::StepperKind::quick;
+  Decomposition decomposition = Decomposition::automatic;
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> solver_seed;
+  bool feec = false;
+  std::optional<int> estimate_iterations;
+  std::optional<stepping::StepperKind> estimate_stepper;
+  std::optional<stepping::Precision> estimate_precision;
+  std::optional<std::string> output;
+  bool no_output = false;
+  bool record_islands = false;
+  bool record_residuals = false;
+  std::optional<scenes::SpacesForm> spaces;
+  model::EffectChoices effects;
+  int record_every = 1;
+  ReportFormat report = ReportFormat::text;
+  std::optional<std::string> checkpoint, resume;
+  std::optional<double> checkpoint_every_s, max_time_s;
+  CommonOptions common;
+  std::string command_line;
+};
+
+/// `saved`: further options of lower rank, one "name = value" a line. Throws core::InputError with one clear
+/// message.
+Options parse_options(const std::vector<std::string>& args, const std::string& saved = "");
+
+/// The text of --help.
+std::string help_text();
+
+/// How FEEC's estimate comes about.
+enum class EstimateSource {
+  short_run,   ///< a run of its own, before the precise one
+  same_solve,  ///< a look at the precise solve
+};
+inline constexpr std::array<std::string_view, 2> estimate_source_names = {"short_run", "same_solve"};
+
+/// What a resumed run needs to know of the one that wrote the checkpoint.
+struct ResumePoint {
+  std::string path;         ///< of the checkpoint; empty: the run begins anew
+  std::int64_t frames = 0;  ///< done, warm-up included
+  std::string output;       ///< of that run, or empty
+};
+
+/// When a run stops early or is saved, and where.
+struct CheckpointSpec {
+  std::string path;
+  std::optional<double> every_s, max_time_s;
+  bool at_end = false;
+  std::string resumed_from;      ///< path, or empty
+  std::int64_t first_frame = 0;  ///< frames done by then
+};
+
+/// Everything that a run needs to know: options over the scene's defaults.
+struct RunSpec {
+  int num_worlds = 1;
+  int warmup = 3;
+  int frames = 5;
+  int steps_per_frame = 3;
+  std::uint64_t scene_seed = 1;  ///< of the scene's variation; the stepper has its own
+  stepping::StepperSettings stepper;
+  std::optional<stepping::StepperSettings> estimate;  ///< FEEC: what estimates each frame first
+  EstimateSource estimate_source = EstimateSource::short_run;
+  std::optional<std::string> output;  ///< path of the HDF5 file, or nothing with --no-output
+  int record_every = 1;
+  bool record_islands = false;
+  scenes::SpacesForm spaces = scenes::SpacesForm::many;
+  Decomposition decomposition = Decomposition::automatic;  ///< of resolve(): as asked; decided by decompose()
+  model::EffectChoices effects;                            ///< of the scene file and the command line
+
+  CheckpointSpec checkpoint;
+
+  /// From the start of the first run, whatever was resumed.
+  int total_frames() const { return warmup + frames; }
+  std::int64_t frames_to_do() const { return total_frames() - checkpoint.first_frame; }
+};
+
+/// Throws core::InputError for impossible values.
+RunSpec resolve(const Options& options, const scenes::Scene& scene, const ResumePoint& from = {});
+
+/// How the work is cut on so many ranks: as asked, and by itself into spaces if there is one world, it has
+/// more than one space, there is more than one rank, and the stepper is sor. `num_spaces`: of world 0. Throws
+/// core::InputError where spaces are asked for and cannot be had.
+Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks);
+
+}  // namespace pbmpi::app

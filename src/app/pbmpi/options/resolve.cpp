@@ -1,0 +1,207 @@
+/// What the options and the scene's defaults make of a run, and what they refuse.
+#include <array>
+#include <filesystem>
+#include <regex>
+#include <string_view>
+
+#include "app/pbmpi/options/options.h"
+#include "core/error.h"
+
+namespace pbmpi::app {
+
+using core::require_input;
+
+namespace {
+
+void require_at_least(int value, int least, const char* option) {
+  require_input(value >= least, std::string(option) + " " + std::to_string(value) + ": it must be at least " +
+                                    std::to_string(least));
+}
+
+/// The estimate's own settings over those of the precise stepper, whose step and seed it shares.
+std::optional<stepping::StepperSettings> resolve_estimate(const Options& options,
+                                                          const stepping::StepperSettings& precise) {
+  const bool asked = options.estimate_iterations || options.estimate_stepper || options.estimate_precision;
+  require_input(
+      options.feec || !asked,
+      "--estimate-iterations, --estimate-stepper and --estimate-precision say how --feec estimates; "
+      "give --feec too");
+  if (!options.feec) return std::nullopt;
+  stepping::StepperSettings estimate = precise;
+  estimate.kind = options.estimate_stepper.value_or(precise.kind);
+  estimate.iterations = options.estimate_iterations.value_or(1);
+  estimate.precision = options.estimate_precision.value_or(precise.precision);
+  estimate.substeps = 1;
+  estimate.warm_start = 0;
+  estimate.residuals = false;
+  require_at_least(estimate.iterations, 1, "--estimate-iterations");
+  require_input(estimate.kind == stepping::StepperKind::sor || !options.estimate_precision,
+                "--estimate-precision is an option of an estimate by sor; give --estimate-stepper sor");
+  if (estimate.kind != stepping::StepperKind::sor) estimate.precision = stepping::Precision::double_;
+  return estimate;
+}
+
+/// The precise solve can be looked at where it is the frame's only one, and passes the wanted iteration.
+EstimateSource estimate_source(const RunSpec& spec) {
+  const bool one_solve = spec.stepper.kind == stepping::StepperKind::sor && spec.steps_per_frame == 1 &&
+                         spec.stepper.substeps == 1;
+  const bool passes = spec.estimate && spec.estimate->kind == spec.stepper.kind &&
+                      spec.estimate->precision == spec.stepper.precision &&
+                      spec.estimate->iterations <= spec.stepper.iterations;
+  return one_solve && passes ? EstimateSource::same_solve : EstimateSource::short_run;
+}
+
+namespace fs = std::filesystem;
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(a), ignored) == fs::weakly_canonical(fs::absolute(b), ignored);
+}
+
+/// "run.h5" -> "run"
+std::string stem(const std::string& path) {
+  const fs::path file(path);
+  return file.extension() == ".h5" ? fs::path(file).replace_extension().string() : path;
+}
+
+/// What follows the checkpoint has a file of its own beside that of the run which wrote it.
+std::string output_after(const ResumePoint& from) {
+  const std::string first = std::regex_replace(stem(from.output), std::regex("\\.from[0-9]+$"), "");
+  const std::string path = first + ".from" + std::to_string(from.frames) + ".h5";
+  // Below the current folder names are shorter without it.
+  const std::string near = fs::proximate(path).string();
+  return near.starts_with("..") ? path : near;
+}
+
+std::optional<std::string> resolve_output(const Options& options, const scenes::Scene& scene,
+                                          const ResumePoint& from) {
+  if (options.no_output) return std::nullopt;
+  if (options.output) {
+    require_input(from.output.empty() || !is_same_file(*options.output, from.output),
+                  "--output " + *options.output +
+                      ": the frames before the checkpoint are in that file; name "
+                      "another, or leave the option out");
+    return options.output;
+  }
+  if (from.path.empty()) return scene.name() + ".h5";
+  if (from.output.empty()) return std::nullopt;
+  return output_after(from);
+}
+
+CheckpointSpec resolve_checkpoint(const Options& options, const scenes::Scene& scene, const ResumePoint& from,
+                                  const std::optional<std::string>& output) {
+  CheckpointSpec spec;
+  const std::string beside = stem(output.value_or(scene.name())) + ".checkpoint.h5";
+  spec.path = options.checkpoint.value_or(from.path.empty() ? beside : from.path);
+  spec.every_s = options.checkpoint_every_s;
+  spec.max_time_s = options.max_time_s;
+  spec.at_end = options.checkpoint.has_value();
+  spec.resumed_from = from.path;
+  spec.first_frame = from.frames;
+  require_input(!output || !is_same_file(*output, spec.path),
+                "--checkpoint " + spec.path + ": that is the run's own output; name another file");
+  require_input(
+      !output || from.path.empty() || !is_same_file(*output, from.path),
+      "--output " + output.value_or("") + ": that is the checkpoint to go on from; name another file");
+  return spec;
+}
+
+}  // namespace
+
+RunSpec resolve(const Options& options, const scenes::Scene& scene, const ResumePoint& from) {
+  const scenes::RunDefaults& defaults = scene.defaults();
+  RunSpec spec;
+  spec.num_worlds = options.replicas.value_or(defaults.replicas);
+  spec.warmup = options.warmup.value_or(defaults.warmup);
+  spec.frames = options.frames.value_or(defaults.frames);
+  spec.steps_per_frame = options.steps_per_frame.value_or(defaults.steps_per_frame);
+  spec.stepper.kind = options.stepper;
+  spec.stepper.dt_s = options.dt_s.value_or(defaults.dt_s);
+  spec.stepper.iterations = options.iterations.value_or(defaults.iterations);
+  spec.scene_seed = options.seed;
+  spec.stepper.seed = options.solver_seed.value_or(options.seed);
+  spec.stepper.substeps = options.substeps;
+  spec.stepper.sor_factor = options.sor_factor.value_or(spec.stepper.sor_factor);
+  spec.stepper.warm_start = options.warm_start.value_or(0);
+  spec.stepper.row_order = options.row_order;
+  spec.stepper.precision = options.precision;
+  spec.stepper.simd = options.simd;
+  spec.stepper.colliders = options.colliders;
+  spec.record_every = options.record_every;
+  spec.decomposition = options.decomposition;
+  spec.output = resolve_output(options, scene, from);
+  spec.checkpoint = resolve_checkpoint(options, scene, from, spec.output);
+  require_at_least(spec.num_worlds, 1, "--replicas");
+  require_at_least(spec.warmup, 0, "--warmup");
+  require_at_least(spec.frames, 1, "--frames");
+  require_at_least(spec.steps_per_frame, 1, "--steps-per-frame");
+  require_input(spec.total_frames() > from.frames,
+                "--resume " + from.path + ": all " + std::to_string(spec.total_frames()) + " frames (" +
+                    std::to_string(spec.warmup) + " of warm-up) are done; give --frames above " +
+                    std::to_string(from.frames - spec.warmup) + " to go on");
+  require_at_least(spec.stepper.iterations, 1, "--iterations");
+  require_at_least(spec.stepper.substeps, 1, "--substeps");
+  const bool own_options = spec.stepper.substeps != 1 || options.sor_factor || options.warm_start ||
+                           options.row_order != stepping::RowOrder::shuffled ||
+                           options.precision != stepping::Precision::double_ ||
+                           options.simd != stepping::Simd::automatic ||
+                           options.colliders != stepping::Colliders::lanes;
+  require_input(
+      options.stepper == stepping::StepperKind::sor || !own_options,
+      "--substeps, --sor-factor, --warm-start, --row-order, --precision, --simd and --colliders are "
+      "options of --stepper sor; ODE's steppers have none of them");
+  require_input(
+      spec.stepper.warm_start == 0 || spec.stepper.substeps > 1,
+      "--warm-start carries impulses from one substep to the next, and there is one; give --substeps "
+      "2 or more");
+  require_at_least(spec.record_every, 1, "--record-every");
+  spec.spaces = scene.defaults().spaces;
+  spec.effects = scene.defaults().effects;
+  spec.record_islands = options.record_islands;
+  spec.stepper.profile = options.record_islands;
+  require_input(!options.record_islands || options.stepper != stepping::StepperKind::sor,
+                "--record-islands: --stepper sor solves many islands in one vector and has no time of one; "
+                "use quick or direct");
+  require_input(!options.record_islands || !options.no_output,
+                "--record-islands writes into the run's file; drop --no-output");
+  spec.stepper.residuals = options.record_residuals;
+  require_input(!options.record_residuals || options.stepper == stepping::StepperKind::sor,
+                "--record-residuals: ODE's steppers do not show their rows; use --stepper sor");
+  require_input(!options.record_residuals || !options.no_output,
+                "--record-residuals writes into the run's file; drop --no-output");
+  spec.estimate = resolve_estimate(options, spec.stepper);
+  spec.estimate_source = estimate_source(spec);
+  return spec;
+}
+
+namespace {
+
+/// Why this run's worlds stay whole, and what to do about it; nothing if one may be cut.
+std::optional<std::string> why_whole(const RunSpec& spec) {
+  if (spec.stepper.kind != stepping::StepperKind::sor) {
+    return "--decompose spaces needs --stepper sor (ODE's solvers give no access to single islands, and quick"
+           " draws from one random seed for the whole world); add --stepper sor, or use --decompose worlds";
+  }
+  if (spec.num_worlds != 1) {
+    return "--decompose spaces cuts one world, and there are " + std::to_string(spec.num_worlds) +
+           "; use --replicas 1 or --decompose worlds";
+  }
+  if (spec.stepper.residuals)
+    return "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds";
+  if (spec.estimate)
+    return "--feec: no rank of a world that is cut has all of it to estimate from; use --decompose worlds";
+  return std::nullopt;
+}
+
+}  // namespace
+
+Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks) {
+  const std::optional<std::string> reason = why_whole(spec);
+  if (spec.decomposition == Decomposition::automatic) {
+    return !reason && num_spaces > 1 && num_ranks > 1 ? Decomposition::spaces : Decomposition::worlds;
+  }
+  require_input(spec.decomposition == Decomposition::worlds || !reason, reason.value_or(""));
+  return spec.decomposition;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,127 @@
+#include "app/pbmpi/options/saved_options.h"
+
+#include <array>
+#include <charconv>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+#include "core/error.h"
+#include "effects/effect_choices.h"
+#include "model/names.h"
+#include "stepping/names.h"
+
+namespace pbmpi::app {
+namespace {
+
+/// With these the run is another one. In this order they are compared.
+constexpr std::array<std::string_view, 13> physics = {
+    "stepper",   "precision",  "replicas",  "dt",   "steps-per-frame", "iterations", "substeps", "sor-factor",
+    "row-order", "warm-start", "colliders", "seed", "solver-seed"};
+
+class Lines {
+ public:
+  void add(std::string_view name, std::string_view value) {
+    text_ += std::string(name) + " = " + std::string(value) + "\n";
+  }
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void add(std::string_view name, Number value) {
+    std::array<char, 32> digits{};  // as many as it takes to read the number back
+    const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    add(name, std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())));
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::map<std::string, std::string, std::less<>> parse(const std::string& options) {
+  std::map<std::string, std::string, std::less<>> values;
+  std::istringstream lines(options);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t equals = line.find('=');
+    if (equals != std::string::npos)
+      values[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+  }
+  return values;
+}
+
+void add_sor(const stepping::StepperSettings& stepper, Lines& lines) {
+  lines.add("substeps", stepper.substeps);
+  lines.add("sor-factor", stepper.sor_factor);
+  lines.add("warm-start", stepper.warm_start);
+  lines.add("row-order", name_of(stepper.row_order));
+  lines.add("precision", name_of(stepper.precision));
+  lines.add("colliders", name_of(stepper.colliders));
+  lines.add("simd", name_of(stepper.simd));
+}
+
+void add_estimate(const stepping::StepperSettings& estimate, Lines& lines) {
+  lines.add("feec", "");
+  lines.add("estimate-stepper", name_of(estimate.kind));
+  lines.add("estimate-iterations", estimate.iterations);
+  if (estimate.kind == stepping::StepperKind::sor)
+    lines.add("estimate-precision", name_of(estimate.precision));
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& name, const std::string& before,
+                         const std::string& now) {
+  throw core::InputError("--" + name + " " + now + ": the run in " + path + " has " + name + " " +
+                         (before.empty() ? "none" : before) +
+                         " and would become another one; leave the option out, or begin without --resume");
+}
+
+/// Effects are chosen one by one; their order says nothing.
+std::set<std::string> chosen(const std::string& effects) {
+  std::set<std::string> names;
+  std::istringstream list(effects);
+  for (std::string name; std::getline(list, name, ',');) names.insert(name);
+  return names;
+}
+
+}  // namespace
+
+std::string saved_options(const RunSpec& spec, Decomposition asked) {
+  Lines lines;
+  lines.add("stepper", name_of(spec.stepper.kind));
+  lines.add("replicas", spec.num_worlds);
+  lines.add("dt", spec.stepper.dt_s);
+  lines.add("steps-per-frame", spec.steps_per_frame);
+  lines.add("iterations", spec.stepper.iterations);
+  lines.add("seed", spec.scene_seed);
+  lines.add("solver-seed", spec.stepper.seed);
+  if (!spec.effects.empty()) lines.add("effects", effects::to_text(spec.effects));
+  if (spec.stepper.kind == stepping::StepperKind::sor) add_sor(spec.stepper, lines);
+  lines.add("warmup", spec.warmup);
+  lines.add("frames", spec.frames);
+  lines.add("record-every", spec.record_every);
+  lines.add("decompose", decomposition_names[static_cast<std::size_t>(asked)]);
+  lines.add("spaces", spaces_names[static_cast<std::size_t>(spec.spaces)]);
+  if (spec.estimate) add_estimate(*spec.estimate, lines);
+  return lines.text();
+}
+
+void require_same_stepper(const std::string& path, const std::string& saved, stepping::StepperKind now) {
+  const std::string before = parse(saved)["stepper"];
+  if (before != name_of(now)) refuse(path, "stepper", before, std::string(name_of(now)));
+}
+
+void require_same_physics(const std::string& path, const std::string& saved, const std::string& now) {
+  auto before = parse(saved), after = parse(now);
+  for (const std::string_view physical : physics) {
+    const std::string name(physical);
+    if (before[name] != after[name]) refuse(path, name, before[name], after[name]);
+  }
+  if (chosen(before["effects"]) != chosen(after["effects"]))
+    refuse(path, "effects", before["effects"], after["effects"]);
+}
+
+}  // namespace pbmpi::app

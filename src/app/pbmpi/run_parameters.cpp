@@ -1,0 +1,100 @@
+#include "app/pbmpi/run_parameters.h"
+
+#include <optional>
+
+#include "app/common/stepper_factory.h"
+#include "app/common/version.h"
+#include "effects/effect_choices.h"
+#include "effects/effects.h"
+#include "mpi/comm/session.h"
+#include "stepping/names.h"
+
+namespace pbmpi::app {
+namespace {
+
+using io::Parameter;
+
+/// What the plan says of the effect "field_of_interest".
+std::optional<std::string> interest_of(const model::Model& model) {
+  const effects::StepPlan plan(model);
+  for (const effects::Pass& pass : plan.passes()) {
+    if (pass.effect->name == "field_of_interest") return pass.reason.text();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+io::OptionalColumns optional_columns(const scenes::Scene& scene, const RunSpec& spec) {
+  io::OptionalColumns columns;
+  columns.profile = spec.record_islands;
+  columns.estimate = spec.estimate.has_value();
+  columns.residuals = spec.stepper.residuals;
+  columns.interest = spec.stepper.kind != stepping::StepperKind::direct &&
+                     interest_of(*scene.build(0, spec.scene_seed)).has_value();
+  return columns;
+}
+
+std::vector<Parameter> run_attributes(const scenes::Scene& scene, const RunSpec& spec,
+                                      const Provenance& provenance) {
+  return {Parameter::of("pbmpi_version", program_version),
+          Parameter::of("git_revision", git_revision),
+          Parameter::of("created", provenance.created),
+          Parameter::of("seed", static_cast<std::int64_t>(spec.scene_seed)),
+          Parameter::of("scene", scene.name()),
+          Parameter::of("command_line", provenance.command_line)};
+}
+
+std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec& spec,
+                                      const Provenance& provenance) {
+  std::vector<Parameter> parameters = {
+      Parameter::of("scene", scene.name()),
+      Parameter::of("scene_text", scene.text()),
+      Parameter::of("replicas", std::int64_t{spec.num_worlds}),
+      Parameter::of("warmup", std::int64_t{spec.warmup}),
+      Parameter::of("frames", std::int64_t{spec.frames}),
+      Parameter::of("steps_per_frame", std::int64_t{spec.steps_per_frame}),
+      Parameter::of("dt", spec.stepper.dt_s),
+      Parameter::of("stepper", std::string(name_of(spec.stepper.kind))),
+      Parameter::of("iterations", std::int64_t{spec.stepper.iterations}),
+      Parameter::of("substeps", std::int64_t{spec.stepper.substeps}),
+      Parameter::of("sor_factor", spec.stepper.sor_factor),
+      Parameter::of("warm_start", spec.stepper.warm_start),
+      Parameter::of("row_order", std::string(name_of(spec.stepper.row_order))),
+      Parameter::of("precision", std::string(name_of(spec.stepper.precision))),
+      Parameter::of("simd", simd_text(spec.stepper)),
+      Parameter::of("colliders", std::string(name_of(spec.stepper.colliders))),
+      Parameter::of("seed", static_cast<std::int64_t>(spec.scene_seed)),
+      Parameter::of("solver_seed", static_cast<std::int64_t>(spec.stepper.seed)),
+      Parameter::of("feec", std::int64_t{spec.estimate ? 1 : 0}),
+      Parameter::of("decompose", spec.decomposition == Decomposition::spaces ? "spaces" : "worlds"),
+      Parameter::of("spaces", spec.spaces == scenes::SpacesForm::one ? "one" : "many"),
+      Parameter::of("effects", effects::to_text(spec.effects)),
+      Parameter::of("num_spaces", static_cast<std::int64_t>(scene.build(0, spec.scene_seed)->spaces.size())),
+      Parameter::of("record_every", std::int64_t{spec.record_every}),
+      Parameter::of("record_islands", std::int64_t{spec.record_islands ? 1 : 0}),
+      Parameter::of("ranks", static_cast<std::int64_t>(provenance.hosts.size())),
+      Parameter::of("build", build_description),
+      Parameter::of("library_mpi", mpi::library_version()),
+      Parameter::of("library_hdf5", hdf5_version),
+      Parameter::of("library_ode", ode_version),
+  };
+  if (const auto interest = interest_of(*scene.build(0, spec.scene_seed)))
+    parameters.push_back(Parameter::of("field_of_interest", *interest));
+  if (spec.estimate) {
+    parameters.push_back(Parameter::of("estimate_stepper", std::string(name_of(spec.estimate->kind))));
+    parameters.push_back(Parameter::of("estimate_iterations", std::int64_t{spec.estimate->iterations}));
+    parameters.push_back(Parameter::of("estimate_precision", std::string(name_of(spec.estimate->precision))));
+    const auto source = static_cast<std::size_t>(spec.estimate_source);
+    parameters.push_back(Parameter::of("estimate_source", std::string(estimate_source_names[source])));
+  }
+  if (!spec.checkpoint.resumed_from.empty())
+    parameters.push_back(Parameter::of("resumed_from", spec.checkpoint.resumed_from));
+  for (const std::string& line : provenance.environment) {
+    const std::size_t equals = line.find('=');
+    parameters.push_back(Parameter::of("env_" + line.substr(0, equals), line.substr(equals + 1)));
+  }
+  return parameters;
+}
+
+}  // namespace pbmpi::app

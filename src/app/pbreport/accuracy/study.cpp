@@ -1,0 +1,44 @@
+#include "app/pbreport/accuracy/study.h"
+
+#include <ostream>
+
+#include "app/pbreport/accuracy/study_page.h"
+#include "app/pbreport/accuracy/study_text.h"
+#include "app/pbreport/study/study_file.h"
+
+namespace pbmpi::app {
+namespace {
+
+void write_preset(const std::vector<SceneCases>& scenes, const StudyOptions& options) {
+  core::require_input(scenes.size() == 1, "--write-preset holds one scene, the study has " +
+                                              std::to_string(scenes.size()) + "; name one with --scene");
+  const auto chosen = chosen_setting(scenes.front(), options);
+  core::require_input(chosen.has_value(), "no setting of the study keeps what is asked for in " +
+                                              scenes.front().name + "; ask for less or study more settings");
+  write_text(*options.preset, preset_text(scenes.front().settings[*chosen]));
+}
+
+}  // namespace
+
+core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out) {
+  const StudyOptions options = parse_study_options(args);
+  if (options.help) {
+    out << study_help_text();
+    return core::ExitCode::done;
+  }
+  const io::TableFile file = read_study(options.file, "accuracy");
+  const std::vector<SceneCases> scenes = study_scenes(file, options.scenes);
+  if (options.preset) write_preset(scenes, options);
+  if (options.csv) write_text(*options.csv, study_to_csv(file));
+  if (options.html) write_study_page(*options.html, scenes, options);
+  if (options.json) {
+    out << study_to_json(scenes, options);
+  } else if (!options.quiet) {
+    out << study_to_text(file, scenes, options);
+  }
+  out.flush();
+  if (!out) throw core::RunError("the report cannot be written to standard output; is the disk full?");
+  return core::ExitCode::done;
+}
+
+}  // namespace pbmpi::app

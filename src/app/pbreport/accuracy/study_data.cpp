@@ -1,0 +1,171 @@
+#include "app/pbreport/accuracy/study_data.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "app/common/format.h"
+#include "app/pbreport/study/case_row.h"
+#include "core/error.h"
+
+namespace pbmpi::app {
+namespace {
+
+StudyCase read_case(const CaseRow& row) {
+  StudyCase one;
+  one.scene = row.text("scene");
+  one.kind = row.text("kind");
+  one.stepper = row.text("stepper");
+  one.precision = row.text("precision");
+  one.iterations = row.integer("iterations");
+  one.substeps = row.integer("substeps");
+  one.steps_per_frame = row.integer("steps_per_frame");
+  one.worlds = row.integer("worlds");
+  one.warmup = row.integer("warmup");
+  one.frames = row.integer("frames");
+  one.sor_factor = row.real("sor_factor");
+  if (row.has("warm_start")) {  // since version 1.1 of the file
+    one.warm_start = row.real("warm_start");
+    one.row_order = row.text("row_order");
+    one.estimate_iterations = row.integer("estimate_iterations");
+  }
+  one.dt_s = row.real("dt");
+  one.time_s = row.real("frame_time_worst");
+  one.median_time_s = row.real("frame_time_median");
+  one.row_visits = row.real("row_visits");
+  one.joint_gap_m = row.real("joint_gap");
+  one.penetration_m = row.real("penetration");
+  one.energy_change_j = row.real("energy_change");
+  one.defect = row.errors("defect");
+  one.drift = row.errors("drift");
+  return one;
+}
+
+void add_case(StudyCase one, SceneCases& scene) {
+  if (one.kind == "setting")
+    scene.settings.push_back(std::move(one));
+  else if (one.kind == "estimate")
+    scene.estimates.push_back(std::move(one));
+  else if (one.kind == "floor")
+    scene.floor.push_back(std::move(one));
+  else if (one.kind == "halved_iterations")
+    scene.halved_iterations = std::move(one);
+  else if (one.kind == "halved_substeps")
+    scene.halved_substeps = std::move(one);
+  else if (one.kind == "halved_dt")
+    scene.halved_dt = std::move(one);
+}
+
+}  // namespace
+
+bool StudyCase::finite() const {
+  return std::all_of(
+      analysis::error_columns.begin(), analysis::error_columns.end(),
+      [&](const analysis::NamedSummary& named) { return (defect.*named.summary).bands.back() == 0; });
+}
+
+double StudyCase::error_m(ErrorMeasure measure) const {
+  switch (measure) {
+    case ErrorMeasure::rms:
+      return defect.body_position.rms;
+    case ErrorMeasure::p99:
+      return defect.body_position.p99;
+    case ErrorMeasure::max:
+      return defect.body_position.max;
+    case ErrorMeasure::joint:
+      return defect.joint_position.rms;
+  }
+  return 0;
+}
+
+std::string setting_text(const StudyCase& one) {
+  if (one.stepper == "direct") return format("direct, dt %g s", one.dt_s);
+  std::string text = one.stepper;
+  if (one.stepper == "sor") text += " " + one.precision;
+  text += format(", %d x %d", one.substeps, one.iterations);
+  if (one.stepper == "sor" && one.sor_factor != 1.3) text += format(", factor %g", one.sor_factor);
+  if (one.warm_start > 0) text += format(", warm %g", one.warm_start);
+  if (one.row_order != "shuffled") text += ", " + one.row_order + " order";
+  if (one.estimate_iterations > 0) text += format(", look at %d", one.estimate_iterations);
+  return text + format(", dt %g s", one.dt_s);
+}
+
+std::vector<std::pair<std::string, std::string>> setting_options(const StudyCase& one) {
+  std::vector<std::pair<std::string, std::string>> options = {
+      {"scene", one.scene},
+      {"stepper", one.stepper},
+      {"iterations", std::to_string(one.iterations)},
+      {"dt", format("%.17g", one.dt_s)},
+      {"steps-per-frame", std::to_string(one.steps_per_frame)},
+      {"replicas", std::to_string(one.worlds)},
+      {"warmup", std::to_string(one.warmup)},
+      {"frames", std::to_string(one.frames)},
+  };
+  if (one.stepper == "sor") {
+    options.emplace_back("substeps", std::to_string(one.substeps));
+    options.emplace_back("precision", one.precision);
+    options.emplace_back("sor-factor", format("%.17g", one.sor_factor));
+    options.emplace_back("warm-start", format("%.17g", one.warm_start));
+    options.emplace_back("row-order", one.row_order);
+  }
+  return options;
+}
+
+double SceneCases::floor_m(ErrorMeasure measure) const {
+  double most = 0;
+  for (const StudyCase& one : floor) most = std::max(most, one.error_m(measure));
+  return most;
+}
+
+std::vector<std::size_t> SceneCases::pareto_front(
+    const std::function<double(const StudyCase&)>& error) const {
+  std::vector<std::size_t> order(settings.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (settings[a].time_s != settings[b].time_s) return settings[a].time_s < settings[b].time_s;
+    return error(settings[a]) < error(settings[b]);
+  });
+  std::vector<std::size_t> front;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : order) {
+    if (!settings[i].finite() || error(settings[i]) >= least) continue;
+    least = error(settings[i]);
+    front.push_back(i);
+  }
+  return front;
+}
+
+std::vector<std::size_t> SceneCases::pareto_front(ErrorMeasure measure) const {
+  return pareto_front([measure](const StudyCase& one) { return one.error_m(measure); });
+}
+
+std::optional<std::size_t> SceneCases::best_within(double budget_s, ErrorMeasure measure) const {
+  std::optional<std::size_t> best;
+  for (const std::size_t i : pareto_front(measure)) {
+    if (settings[i].time_s <= budget_s) best = i;
+  }
+  return best;
+}
+
+std::optional<std::size_t> SceneCases::cheapest_within(double tolerance_m, ErrorMeasure measure) const {
+  for (const std::size_t i : pareto_front(measure)) {
+    if (settings[i].error_m(measure) <= tolerance_m) return i;
+  }
+  return std::nullopt;
+}
+
+std::vector<SceneCases> study_scenes(const io::TableFile& file, const std::vector<std::string>& names) {
+  std::vector<SceneCases> scenes;
+  const std::size_t num_cases = file.column<std::string>("cases", "scene").size();
+  for (std::size_t i = 0; i < num_cases; ++i) {
+    StudyCase one = read_case(CaseRow(file, i));
+    auto scene =
+        std::find_if(scenes.begin(), scenes.end(), [&](const SceneCases& s) { return s.name == one.scene; });
+    if (scene == scenes.end())
+      scene = scenes.insert(scenes.end(), SceneCases{one.scene, {}, {}, {}, {}, {}, {}});
+    add_case(std::move(one), *scene);
+  }
+  return chosen_scenes(scenes, names);
+}
+
+}  // namespace pbmpi::app

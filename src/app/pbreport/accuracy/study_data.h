@@ -1,0 +1,60 @@
+/// A study of accuracy read back, and the choice among its settings.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/error_table.h"
+#include "app/pbreport/accuracy/study_options.h"
+#include "io/table/table_file.h"
+
+namespace pbmpi::app {
+
+/// A row of /cases.
+struct StudyCase {
+  std::string scene, kind, stepper, precision, row_order = "shuffled";
+  int iterations = 0, substeps = 1, steps_per_frame = 0, worlds = 1, warmup = 0, frames = 0;
+  int estimate_iterations = 0;  ///< of a look into the frame's last solve; 0: the frame's end
+  double sor_factor = 0, warm_start = 0, dt_s = 0;
+  double time_s = 0;         ///< of the worst measured frame: what a budget must hold
+  double median_time_s = 0;  ///< of the measured frames
+  double row_visits = 0;
+  double joint_gap_m = 0, penetration_m = 0, energy_change_j = 0;
+  analysis::ErrorTable defect, drift;
+
+  /// Did every body and joint stay finite?
+  bool finite() const;
+  /// What ranks it [m].
+  double error_m(ErrorMeasure measure) const;
+};
+
+/// "sor single, 2 substeps x 3 iterations"; what all have in common is left out.
+std::string setting_text(const StudyCase& one);
+/// The options of pbmpi that give this setting, e.g. {"stepper", "sor"}.
+std::vector<std::pair<std::string, std::string>> setting_options(const StudyCase& one);
+
+/// The cases of one scene.
+struct SceneCases {
+  std::string name;
+  std::vector<StudyCase> settings;
+  std::vector<StudyCase> estimates;  ///< of the scene's own setting; never chosen, since more work follows
+  std::vector<StudyCase> floor;
+  std::optional<StudyCase> halved_iterations, halved_substeps, halved_dt;
+
+  /// The noise floor [m]: the largest error that another seed alone gave the reference.
+  double floor_m(ErrorMeasure measure) const;
+  /// Indices of the settings that no other beats in time and error at once, by rising time: the error falls
+  /// from each to the next. Settings that blew up are never among them.
+  std::vector<std::size_t> pareto_front(ErrorMeasure measure) const;
+  std::vector<std::size_t> pareto_front(const std::function<double(const StudyCase&)>& error) const;
+  /// Of the front: the least error within the time; the least time within the error.
+  std::optional<std::size_t> best_within(double budget_s, ErrorMeasure measure) const;
+  std::optional<std::size_t> cheapest_within(double tolerance_m, ErrorMeasure measure) const;
+};
+
+/// In the order of the file. Throws core::InputError for a scene that is not in it.
+std::vector<SceneCases> study_scenes(const io::TableFile& file, const std::vector<std::string>& names);
+
+}  // namespace pbmpi::app

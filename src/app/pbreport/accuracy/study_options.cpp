@@ -1,0 +1,127 @@
+#include "app/pbreport/accuracy/study_options.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "app/common/options.h"
+#include "core/error.h"
+#include "model/names.h"
+
+namespace pbmpi::app {
+namespace {
+
+namespace po = boost::program_options;
+using core::require_input;
+using Units = std::vector<std::pair<std::string, double>>;
+
+constexpr std::array<std::string_view, 4> measure_names = {"rms", "p99", "max", "joint"};
+
+po::options_description visible_options() {
+  po::options_description choose("What to choose");
+  choose.add_options()  //
+      ("budget", po::value<std::string>()->value_name("TIME"),
+       "name, per scene, the setting with the least defect that fits this frame time (us, ms, s)")  //
+      ("tolerance", po::value<std::string>()->value_name("LENGTH"),
+       "name, per scene, the cheapest setting that keeps its defect within this length (mm, cm, m)")  //
+      ("measure", po::value<std::string>()->default_value("rms")->value_name("rms|p99|max|joint"),
+       "the defect that counts: rms, p99 or max of all body positions, or the rms of all joint gaps")  //
+      ("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME..."),
+       "these scenes of the study only");
+  po::options_description write("What to write");
+  write.add_options()  //
+      ("html", po::value<std::string>()->value_name("OUT"),
+       "one self-contained page: work-precision diagrams, Pareto fronts, categories")              //
+      ("csv", po::value<std::string>()->value_name("OUT"), "all cases as comma-separated values")  //
+      ("write-preset", po::value<std::string>()->value_name("OUT"),
+       "the setting chosen for one scene, for pbmpi --preset")  //
+      ("json", "print the fronts and the choices as one JSON document");
+  po::options_description general("General");
+  general.add_options()("help,h", "print this help")  //
+      ("config", po::value<std::string>()->value_name("FILE"),
+       "read options from FILE, one 'name = value' a line; the command line wins")  //
+      ("quiet,q", "print nothing but errors and what --json asks for");
+  po::options_description all;
+  all.add(choose).add(write).add(general);
+  return all;
+}
+
+double with_unit(const std::string& text, const char* option, const Units& units) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  std::string known;
+  for (const auto& [unit, factor] : units) {
+    if (error == std::errc{} && text.substr(static_cast<std::size_t>(end - text.data())) == unit &&
+        number > 0 && std::isfinite(number)) {
+      return number * factor;
+    }
+    known += (known.empty() ? "" : ", ") + unit;
+  }
+  throw core::InputError(std::string(option) + " " + text + ": it must be a number above 0 and a unit (" +
+                         known + "), e.g. " + (option == std::string("--budget") ? "3.33ms" : "1cm"));
+}
+
+}  // namespace
+
+double parse_time_s(const std::string& text, const char* option) {
+  return with_unit(text, option, {{"us", 1e-6}, {"ms", 1e-3}, {"s", 1}});
+}
+
+double parse_length_m(const std::string& text, const char* option) {
+  return with_unit(text, option, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}});
+}
+
+std::string study_help_text() {
+  std::ostringstream text;
+  text << "pbreport study shows what accuracy costs in time: the file of pbstudy accuracy. The word study "
+          "may be left "
+          "out.\n\n"
+       << "Usage: pbreport [study] accuracy.h5 [options]\n\n"
+       << visible_options() << "\nExamples:\n"
+       << "  pbreport accuracy.h5 --budget 3.33ms\n"
+       << "  pbreport accuracy.h5 --scene CrashWa --tolerance 1cm --write-preset CrashWa.preset\n";
+  return text.str();
+}
+
+StudyOptions parse_study_options(const std::vector<std::string>& args) {
+  po::options_description all = visible_options();
+  all.add_options()("file", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("file", -1);
+  const po::variables_map values = parse_command_line(args, all, positional);
+  StudyOptions options;
+  options.help = values.count("help") != 0;
+  if (options.help) return options;
+  const std::string measure = values["measure"].as<std::string>();
+  const auto known = model::enum_from_name<ErrorMeasure>(measure, measure_names);
+  require_input(known.has_value(), "--measure " + measure + ": it must be rms, p99, max or joint");
+  options.measure = *known;
+  if (values.count("budget") != 0)
+    options.budget_s = parse_time_s(values["budget"].as<std::string>(), "--budget");
+  if (values.count("tolerance") != 0) {
+    options.tolerance_m = parse_length_m(values["tolerance"].as<std::string>(), "--tolerance");
+  }
+  if (values.count("scene") != 0) options.scenes = values["scene"].as<std::vector<std::string>>();
+  options.html = output_path(values, "html");
+  options.csv = output_path(values, "csv");
+  options.preset = output_path(values, "write-preset");
+  options.json = values.count("json") != 0;
+  options.quiet = values.count("quiet") != 0;
+  require_input(values.count("file") != 0,
+                "no file given; name the file of a study, e.g. pbreport accuracy.h5");
+  const auto files = values["file"].as<std::vector<std::string>>();
+  require_input(files.size() == 1, "'" + files.back() + "' follows '" + files.front() + "': give one study");
+  options.file = files.front();
+  for (const auto& output : {options.html, options.csv, options.preset}) {
+    require_input(output != options.file, options.file + ": this file is to be read, not written over");
+  }
+  require_input(!options.preset || options.budget_s || options.tolerance_m,
+                "--write-preset writes the setting that --budget or --tolerance chooses; give one of them");
+  require_input(!options.budget_s || !options.tolerance_m,
+                "--budget and --tolerance exclude each other; drop one");
+  return options;
+}
+
+}  // namespace pbmpi::app

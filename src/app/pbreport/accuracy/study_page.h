@@ -1,0 +1,15 @@
+/// The HTML page of a study.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/pbreport/accuracy/study_data.h"
+
+namespace pbmpi::app {
+
+/// Throws core::InputError if the page cannot be written.
+void write_study_page(const std::string& path, const std::vector<SceneCases>& scenes,
+                      const StudyOptions& options);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,19 @@
+/// A study as text, JSON, CSV and preset.
+#pragma once
+
+#include <string>
+
+#include "app/pbreport/accuracy/study_data.h"
+
+namespace pbmpi::app {
+
+/// The setting that the options ask for, or nothing.
+std::optional<std::size_t> chosen_setting(const SceneCases& scene, const StudyOptions& options);
+
+std::string study_to_text(const io::TableFile& file, const std::vector<SceneCases>& scenes,
+                          const StudyOptions& options);
+std::string study_to_json(const std::vector<SceneCases>& scenes, const StudyOptions& options);
+/// Lines "name = value" for pbmpi --preset.
+std::string preset_text(const StudyCase& one);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,62 @@
+#include "app/pbreport/diff/diff_options.h"
+
+#include <sstream>
+
+#include "app/common/options.h"
+#include "core/error.h"
+
+namespace pbmpi::app {
+namespace {
+
+namespace po = boost::program_options;
+
+po::options_description visible_options() {
+  po::options_description what("What to compare");
+  what.add_options()  //
+      ("floor", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE..."),
+       "the noise floor: runs like REFERENCE in all but --solver-seed")  //
+      ("json", "print one JSON document");
+  po::options_description general("General");
+  general.add_options()("help,h", "print this help")  //
+      ("config", po::value<std::string>()->value_name("FILE"),
+       "read options from FILE, one 'name = value' a line; the command line wins");
+  po::options_description all;
+  all.add(what).add(general);
+  return all;
+}
+
+}  // namespace
+
+std::string diff_help_text() {
+  std::ostringstream text;
+  text << "pbreport diff shows how far two recorded runs of the same bodies are apart: drift, along the "
+          "trajectory, over the measured frames; where RUN has estimates (FEEC), their defect too.\n\n"
+       << "Usage: pbreport diff RUN.h5 REFERENCE.h5 [options]\n\n"
+       << visible_options() << "\nExamples:\n"
+       << "  pbreport diff iter19.h5 iter20.h5\n"
+       << "  pbreport diff iter19.h5 iter20.h5 --floor seed2.h5 seed3.h5 --json\n";
+  return text.str();
+}
+
+DiffOptions parse_diff_options(const std::vector<std::string>& args) {
+  po::options_description all = visible_options();
+  all.add_options()("file", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("file", -1);
+  const po::variables_map values = parse_command_line(args, all, positional);
+  DiffOptions options;
+  options.help = values.count("help") != 0;
+  options.json = values.count("json") != 0;
+  if (options.help) return options;
+  const auto files =
+      values.count("file") != 0 ? values["file"].as<std::vector<std::string>>() : std::vector<std::string>{};
+  core::require_input(files.size() == 2, "diff: " + std::to_string(files.size()) +
+                                             " files are given; it compares two, RUN and REFERENCE (those of "
+                                             "--floor come last)");
+  options.run = files[0];
+  options.reference = files[1];
+  if (values.count("floor") != 0) options.floor = values["floor"].as<std::vector<std::string>>();
+  return options;
+}
+
+}  // namespace pbmpi::app

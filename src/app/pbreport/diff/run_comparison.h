@@ -1,0 +1,38 @@
+/// What "pbreport diff" finds out about two runs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/error_table.h"
+#include "analysis/invariants.h"
+#include "app/pbreport/run/broken_joints.h"
+#include "app/pbreport/run/run_models.h"
+
+namespace pbmpi::app {
+
+/// What a run kept or lost by itself, over its measured frames.
+struct RunInvariants {
+  double max_penetration_m = 0, max_joint_gap_m = 0;
+  double energy_first_j = 0, energy_last_j = 0;
+  analysis::StretchBands stretch{};  ///< human segments of all measured frames
+  double max_stretch = 0;            ///< of the finite ones
+};
+
+struct RunComparison {
+  std::size_t num_frames = 0;  ///< measured frames compared
+  analysis::ErrorTable drift;
+  std::vector<analysis::ErrorTable> drift_by_frame;    ///< [num_frames]
+  std::optional<analysis::ErrorTable> defect;          ///< of the run's estimates, with FEEC
+  std::optional<analysis::ErrorTable> estimate_drift;  ///< of the run's estimates against the reference
+  std::vector<analysis::ErrorTable> floor;             ///< drift of each floor run against the reference
+  RunInvariants run, reference;
+  BreakComparison breaks;
+};
+
+/// `run` against `reference`; require_comparable() holds for all of them.
+RunComparison compare_runs(const RunModels& models, const io::RunData& run, const io::RunData& reference,
+                           const std::vector<io::RunData>& floor);
+
+}  // namespace pbmpi::app

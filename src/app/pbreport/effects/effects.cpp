@@ -1,0 +1,34 @@
+#include "app/pbreport/effects/effects.h"
+
+#include <ostream>
+
+#include "app/pbreport/effects/effects_markdown.h"
+#include "app/pbreport/effects/effects_page.h"
+#include "app/pbreport/effects/effects_text.h"
+#include "app/pbreport/study/study_file.h"
+
+namespace pbmpi::app {
+
+core::ExitCode run_effects_report(const std::vector<std::string>& args, std::ostream& out) {
+  const EffectsReportOptions options = parse_effects_report_options(args);
+  if (options.help) {
+    out << effects_report_help_text();
+    return core::ExitCode::done;
+  }
+  const io::TableFile file = read_study(options.file, "effects");
+  const std::vector<EffectScene> scenes = effect_scenes(file, options.scenes);
+  if (options.csv) write_text(*options.csv, study_to_csv(file));
+  if (options.html) write_effects_page(*options.html, file, scenes, options);
+  if (options.json) {
+    out << effects_to_json(file, scenes);
+  } else if (options.markdown) {
+    out << effects_to_markdown(scenes);
+  } else if (!options.quiet) {
+    out << effects_to_text(file, scenes);
+  }
+  out.flush();
+  if (!out) throw core::RunError("the report cannot be written to standard output; is the disk full?");
+  return core::ExitCode::done;
+}
+
+}  // namespace pbmpi::app

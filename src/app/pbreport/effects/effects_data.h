@@ -1,0 +1,58 @@
+/// A study of effects read back.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/error_table.h"
+#include "io/table/table_file.h"
+
+namespace pbmpi::app {
+
+/// Median and tenths of a sample.
+struct ReadSpread {
+  double median = 0, p10 = 0, p90 = 0;
+};
+
+/// A row of /cases. Numbers are NaN where nothing was measured.
+struct EffectRow {
+  std::string scene, kind, effect, reason, stepper, precision, hash_baseline, hash_variant;
+  bool called_for = false;
+  std::optional<bool> same_bits;  ///< none: nothing was measured
+  int iterations = 0, worlds = 1;
+  ReadSpread time_with_s, time_without_s, cost_s;  ///< of a step of all worlds
+  ReadSpread share;                                ///< of the step with the effect
+  std::optional<double> instructions_with, instructions_without;
+  analysis::ErrorTable defect, drift;
+
+  bool measured() const { return same_bits.has_value(); }
+  /// Of the step with the effect; none if nothing counted.
+  std::optional<double> instruction_share() const;
+  /// The study adds the effect to the scene: nothing calls for it, or the scene leaves it out.
+  bool demanded() const { return kind == "demanded"; }
+};
+
+/// The cases of one scene and one stepper.
+struct EffectScene {
+  std::string name;
+  std::string stepper;  ///< "quick", "sor double"
+  std::vector<EffectRow> effects;
+  std::vector<EffectRow> floor;  ///< other solver seeds
+
+  /// Largest rms of body positions that another seed alone gave [m].
+  double floor_defect_m() const;
+  double floor_drift_m() const;
+  /// Largest share of a step that another seed alone seemed to cost: what the clock does not resolve.
+  double floor_share() const;
+  /// Median time of a step of the scene as it is [s]; NaN if nothing was measured.
+  double step_s() const;
+};
+
+/// In the order of the file. Throws core::InputError for a scene that is not in it.
+std::vector<EffectScene> effect_scenes(const io::TableFile& file, const std::vector<std::string>& names);
+
+/// What counted instructions: none, perf_event, callgrind.
+std::string instructions_by(const io::TableFile& file);
+
+}  // namespace pbmpi::app

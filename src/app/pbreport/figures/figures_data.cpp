@@ -1,0 +1,151 @@
+#include "app/pbreport/figures/figures_data.h"
+
+#include <algorithm>
+#include <map>
+
+#include "app/pbreport/diff/run_comparison.h"
+#include "core/error.h"
+
+namespace pbmpi::app {
+namespace {
+
+constexpr const char* reference_label = "Iter20";
+constexpr const char* floor_label = "seed";
+/// 10 % of 1/30 s (paper, section 4.1).
+constexpr double budget_s = 0.1 / 30;
+
+struct Recorded {
+  std::string path;
+  std::string scene, label;
+  io::RunData run;
+};
+
+std::string parameter(const io::RunData& run, const std::string& name) {
+  const auto found = run.parameters.find(name);
+  return found == run.parameters.end() ? "" : found->second;
+}
+
+std::string label_of(const io::RunData& run) {
+  if (parameter(run, "feec") == "1") {
+    const std::string stepper = parameter(run, "estimate_stepper");
+    return "FEEC " + stepper + (stepper == "sor" ? " " + parameter(run, "estimate_precision") : "") + " x " +
+           parameter(run, "estimate_iterations");
+  }
+  if (parameter(run, "solver_seed") != parameter(run, "seed")) return floor_label;
+  const std::string stepper = parameter(run, "stepper");
+  return (stepper == "quick" ? "Iter" : stepper + " x ") + parameter(run, "iterations");
+}
+
+Recorded read(const std::string& path) {
+  Recorded recorded{path, "", "", io::read_run(path)};
+  recorded.scene = parameter(recorded.run, "scene");
+  recorded.label = label_of(recorded.run);
+  return recorded;
+}
+
+/// Times of the measured frames of one run: of the precise result, or of an estimate's delivery.
+std::vector<double> frame_times(const io::RunData& run, bool is_estimate) {
+  const std::vector<double>& all = is_estimate ? run.estimate.delivered_s : run.frame_wall_s;
+  std::vector<double> measured;
+  for (std::size_t frame = 0; frame < all.size(); ++frame) {
+    if (run.frame_measured[frame]) measured.push_back(all[frame]);
+  }
+  return measured;
+}
+
+/// Frame by frame the least of the repeats: what else runs on the machine only adds, to some runs and not to
+/// others.
+void fill_times(const std::vector<const Recorded*>& runs, FigureMethod& method) {
+  std::vector<std::vector<double>> by_frame;
+  for (const Recorded* run : runs) {
+    const std::vector<double> times = frame_times(run->run, method.is_estimate);
+    by_frame.resize(std::max(by_frame.size(), times.size()));
+    for (std::size_t frame = 0; frame < times.size(); ++frame) by_frame[frame].push_back(times[frame]);
+  }
+  if (by_frame.empty()) return;
+  double sum = 0, satisfied = 0;
+  for (const std::vector<double>& repeats : by_frame) {
+    const double time_s = *std::min_element(repeats.begin(), repeats.end());
+    sum += time_s;
+    satisfied += time_s <= budget_s ? 1 : 0;
+  }
+  const auto num_frames = static_cast<double>(by_frame.size());
+  method.mean_frame_s = sum / num_frames;
+  method.frame_rate_hz = num_frames / sum;
+  method.satisfied_fraction = satisfied / num_frames;
+}
+
+FigureMethod make_method(const std::string& label, const std::vector<const Recorded*>& runs,
+                         const RunModels& models, const Recorded& reference) {
+  FigureMethod method;
+  method.label = label;
+  method.num_runs = static_cast<int>(runs.size());
+  method.is_estimate = !runs.front()->run.estimate.position.empty();
+  for (const Recorded* run : runs) require_comparable(run->run, run->path, reference.run, reference.path);
+  fill_times(runs, method);
+  const RunComparison comparison = compare_runs(models, runs.front()->run, reference.run, {});
+  method.errors = method.is_estimate ? *comparison.estimate_drift : comparison.drift;
+  method.same_hash =
+      runs.front()->run.attributes.at("state_hash") == reference.run.attributes.at("state_hash");
+  return method;
+}
+
+FigureScene make_scene(const std::string& name, const std::vector<const Recorded*>& runs) {
+  std::vector<std::pair<std::string, std::vector<const Recorded*>>> methods;
+  for (const Recorded* run : runs) {
+    auto method =
+        std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.first == run->label; });
+    if (method == methods.end()) method = methods.insert(methods.end(), {run->label, {}});
+    method->second.push_back(run);
+  }
+  const auto first =
+      std::find_if(methods.begin(), methods.end(), [](const auto& m) { return m.first == reference_label; });
+  core::require_input(first != methods.end(),
+                      name +
+                          ": no file has a run of quick with 20 iterations, which the "
+                          "others are held against; record one");
+  std::rotate(methods.begin(), first, first + 1);
+  const Recorded& reference = *methods.front().second.front();
+  const RunModels models = rebuild_models(reference.run, reference.path);
+  FigureScene scene{name, {}, {}};
+  for (const auto& [label, of_label] : methods) {
+    if (label != floor_label) {
+      scene.methods.push_back(make_method(label, of_label, models, reference));
+      continue;
+    }
+    for (const Recorded* run : of_label) {
+      scene.floor.push_back(make_method(label, {run}, models, reference).errors);
+    }
+  }
+  return scene;
+}
+
+}  // namespace
+
+const FigureMethod* FigureScene::find(const std::string& label) const {
+  const auto found =
+      std::find_if(methods.begin(), methods.end(), [&](const FigureMethod& m) { return m.label == label; });
+  return found == methods.end() ? nullptr : &*found;
+}
+
+std::vector<FigureScene> figure_scenes(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<std::string>> by_scene;  // runs of one scene at a time are in memory
+  for (const std::string& path : paths) {
+    const std::string name = parameter(io::read_run(path), "scene");
+    if (!by_scene.contains(name)) names.push_back(name);
+    by_scene[name].push_back(path);
+  }
+  std::vector<FigureScene> scenes;
+  for (const std::string& name : names) {
+    std::vector<Recorded> runs;
+    for (const std::string& path : by_scene[name]) runs.push_back(read(path));
+    std::vector<const Recorded*> pointers;
+    pointers.reserve(runs.size());
+    for (const Recorded& run : runs) pointers.push_back(&run);
+    scenes.push_back(make_scene(name, pointers));
+  }
+  return scenes;
+}
+
+}  // namespace pbmpi::app

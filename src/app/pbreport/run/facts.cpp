@@ -1,0 +1,60 @@
+#include "app/pbreport/run/facts.h"
+
+#include <cstdio>
+
+namespace pbmpi::app {
+namespace {
+
+template <class... Args>
+std::string format(const char* pattern, Args... args) {
+  char text[128];
+  std::snprintf(text, sizeof text, pattern, args...);
+  return text;
+}
+
+/// "37,000" for 37000.
+std::string with_commas(std::int64_t number) {
+  std::string text = std::to_string(number);
+  for (int place = static_cast<int>(text.size()) - 3; place > 0; place -= 3) {
+    text.insert(static_cast<std::size_t>(place), ",");
+  }
+  return text;
+}
+
+std::string counted(std::int64_t count, const char* one, const char* many) {
+  return with_commas(count) + " " + (count == 1 ? one : many);
+}
+
+}  // namespace
+
+std::vector<io::html::Fact> facts_of(const RunSummary& s) {
+  std::vector<io::html::Fact> facts = {
+      {"Size", counted(s.bodies, "body", "bodies"), "in " + counted(s.worlds, "world", "worlds")},
+      {"Ranks", with_commas(s.ranks),
+       "on " + counted(static_cast<std::int64_t>(s.hosts.size()), "host", "hosts")},
+      {"Stepper", s.stepper, format("%d iterations, dt %g ms", s.iterations, 1e3 * s.dt_s)},
+  };
+  if (s.measured_frames == 0) {
+    facts.push_back({"Frame rate", "not measured", "the run ended in its warm-up"});
+    return facts;
+  }
+  facts.push_back({"Frame rate", format("%.0f Hz", s.harmonic_mean_hz),
+                   "harmonic mean of " + counted(s.measured_frames, "frame", "frames")});
+  facts.push_back({"Within budget", format("%.0f %%", 100 * s.satisfied_fraction),
+                   format("of frames in %.2f ms", 1e3 * s.budget_s)});
+  facts.push_back({"Frame time", format("%.2f ms", 1e3 * s.frame_p50_s),
+                   format("median; p99 %.2f, max %.2f", 1e3 * s.frame_p99_s, 1e3 * s.frame_max_s)});
+  facts.push_back(
+      {"Efficiency", format("%.0f %%", 100 * s.parallel_efficiency),
+       format("balance %.0f %% × comm. %.0f %%", 100 * s.load_balance, 100 * s.communication_efficiency)});
+  if (s.estimate) {
+    facts.push_back({"Estimate", format("%.2f ms", 1e3 * s.estimate->delivered_p50_s),
+                     format("delivered; precise %.1f × later, rms off %.1f mm",
+                            s.estimate->precise_over_delivered, 1e3 * s.estimate->position_defect.rms)});
+  }
+  facts.push_back({"Invariants", format("%.2f mm", 1e3 * s.max_joint_gap_m),
+                   format("joint gap; penetration %.2f mm", 1e3 * s.max_penetration_m)});
+  return facts;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,115 @@
+#include "app/pbreport/run/run_models.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "analysis/invariants.h"
+#include "core/error.h"
+#include "scenes/scene.h"
+
+namespace pbmpi::app {
+namespace {
+
+std::string parameter(const io::RunData& run, const std::string& name, const std::string& path) {
+  const auto found = run.parameters.find(name);
+  core::require_input(found != run.parameters.end(),
+                      path + ": /parameters has no '" + name + "'; was the file written by pbmpi?");
+  return found->second;
+}
+
+bool same_start(const core::Pose& a, const core::Pose& b) {
+  return a.position == b.position && a.orientation == b.orientation;
+}
+
+/// Why two runs do not have the same bodies; empty if they have.
+std::string difference(const io::BodyTable& a, const io::BodyTable& b) {
+  if (a.id.size() != b.id.size()) {
+    return std::to_string(a.id.size()) + " bodies against " + std::to_string(b.id.size());
+  }
+  for (std::size_t i = 0; i < a.id.size(); ++i) {
+    const std::string which =
+        "body " + std::to_string(i) + " ('" + a.name[i] + "' of world " + std::to_string(a.world[i]) + ")";
+    if (a.name[i] != b.name[i] || a.world[i] != b.world[i]) return which + " is '" + b.name[i] + "' there";
+    if (a.mass_kg[i] != b.mass_kg[i]) return which + " has another mass there";
+    if (!same_start(a.initial[i], b.initial[i])) return which + " starts elsewhere there";
+  }
+  return "";
+}
+
+}  // namespace
+
+RunModels rebuild_models(const io::RunData& run, const std::string& path) {
+  const std::string name = parameter(run, "scene", path);
+  const double dt_s = std::strtod(parameter(run, "dt", path).c_str(), nullptr);
+  const auto seed = std::strtoull(parameter(run, "seed", path).c_str(), nullptr, 10);
+  const auto scene = scenes::parse_scene({name, name + ".toml", parameter(run, "scene_text", path)}, dt_s);
+  RunModels models;
+  std::size_t first = 0;
+  for (int world = 0; world < run.num_worlds; ++world) {
+    models.worlds.push_back(scene->build(world, seed));
+    models.first_body.push_back(first);
+    for (const model::Body& body : models.worlds.back()->bodies) {
+      core::require_input(first < run.bodies.name.size() && run.bodies.name[first] == body.name,
+                          path +
+                              ": its scene text gives other bodies than it has recorded; use the pbmpi that "
+                              "wrote it");
+      ++first;
+    }
+  }
+  return models;
+}
+
+analysis::PoseView RecordedPoses::world(const RunModels& models, std::size_t world) const {
+  const auto count = static_cast<std::size_t>(models.worlds[world]->num_bodies());
+  return {std::span(*position).subspan(models.first_body[world], count),
+          std::span(*orientation).subspan(models.first_body[world], count)};
+}
+
+analysis::PoseErrors compare_recorded(const RunModels& models, RecordedPoses poses, RecordedPoses reference) {
+  analysis::PoseErrors errors;
+  for (std::size_t world = 0; world < models.worlds.size(); ++world) {
+    errors.append(
+        analysis::compare(*models.worlds[world], poses.world(models, world), reference.world(models, world)));
+  }
+  return errors;
+}
+
+std::vector<double> recorded_stretch(const RunModels& models, RecordedPoses poses) {
+  std::vector<double> all;
+  for (std::size_t world = 0; world < models.worlds.size(); ++world) {
+    const model::Model& model = *models.worlds[world];
+    const auto stretch =
+        analysis::segment_stretch(model, analysis::human_segments(model), poses.world(models, world));
+    all.insert(all.end(), stretch.begin(), stretch.end());
+  }
+  return all;
+}
+
+std::vector<std::size_t> measured_rows(const io::RunData& run, std::size_t num_rows) {
+  std::vector<std::size_t> rows;
+  if (run.position.empty()) return rows;
+  const std::size_t record_every = std::max<std::size_t>(run.frame_measured.size() / run.position.size(), 1);
+  for (std::size_t row = 0; row < num_rows; ++row) {
+    if (run.frame_measured[(row + 1) * record_every - 1]) rows.push_back(row);
+  }
+  return rows;
+}
+
+void require_comparable(const io::RunData& a, const std::string& path_a, const io::RunData& b,
+                        const std::string& path_b) {
+  const std::string reason = difference(a.bodies, b.bodies);
+  core::require_input(reason.empty(), path_a + " and " + path_b + " do not describe the same bodies (" +
+                                          reason + "); compare runs of one scene and one --seed");
+  const std::size_t rows = std::min(a.recorded_time_s.size(), b.recorded_time_s.size());
+  core::require_input(rows > 0, path_a + " and " + path_b + ": one of them has no recorded frame to compare");
+  for (std::size_t row = 0; row < rows; ++row) {
+    // Times are step x dt, so that another dt rounds otherwise.
+    if (std::abs(a.recorded_time_s[row] - b.recorded_time_s[row]) <= 1e-9) continue;
+    throw core::InputError(
+        path_a + " and " + path_b + ": row " + std::to_string(row) +
+        " was recorded at another time; give both the same frame length and --record-every");
+  }
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,45 @@
+/// The worlds behind a recorded run, built anew from the scene's text that its file carries.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/pose_errors.h"
+#include "io/run/run_data.h"
+
+namespace pbmpi::app {
+
+struct RunModels {
+  std::vector<std::shared_ptr<const model::Model>> worlds;
+  std::vector<std::size_t> first_body;  ///< [num_worlds] in the file's order
+};
+
+/// Throws core::InputError if the text cannot be read, or gives other bodies than the file has.
+RunModels rebuild_models(const io::RunData& run, const std::string& path);
+
+/// Poses [N] of all bodies of one recorded frame.
+struct RecordedPoses {
+  const std::vector<core::Vec3>* position = nullptr;
+  const std::vector<core::Quat>* orientation = nullptr;
+
+  /// Those of one world.
+  analysis::PoseView world(const RunModels& models, std::size_t world) const;
+};
+
+/// Every body and joint of every world, in order.
+analysis::PoseErrors compare_recorded(const RunModels& models, RecordedPoses poses, RecordedPoses reference);
+
+/// Stretch of every human segment of every world.
+std::vector<double> recorded_stretch(const RunModels& models, RecordedPoses poses);
+
+/// Rows of the recorded frames that are measured (not warm-up), below `num_rows`.
+std::vector<std::size_t> measured_rows(const io::RunData& run, std::size_t num_rows);
+
+/// Throws core::InputError unless both runs have the same bodies in the same order, with the same mass and
+/// the same start, and recorded them at the same times (as far as both go).
+void require_comparable(const io::RunData& a, const std::string& path_a, const io::RunData& b,
+                        const std::string& path_b);
+
+}  // namespace pbmpi::app

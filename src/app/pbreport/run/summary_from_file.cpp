@@ -1,0 +1,233 @@
+#include "app/pbreport/run/summary_from_file.h"
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include "analysis/pose_errors.h"
+#include "app/pbreport/run/broken_joints.h"
+#include "core/error.h"
+#include "effects/effect_choices.h"
+#include "scenes/scene.h"
+#include "stepping/frame.h"
+
+namespace pbmpi::app {
+namespace {
+
+/// 10 % of 1/30 s (paper, section 4.1): what deadline_met was measured against.
+constexpr double frame_budget_s = 0.1 / 30;
+
+std::string text_of(const std::map<std::string, std::string>& texts, const std::string& name) {
+  const auto found = texts.find(name);
+  return found == texts.end() ? "" : found->second;
+}
+
+template <class Number>
+Number number_of(const io::RunData& run, const std::string& name, const std::string& path) {
+  std::istringstream text(text_of(run.parameters, name));
+  Number number{};
+  core::require_input(static_cast<bool>(text >> number),
+                      path + ": /parameters has no number '" + name + "'; was the file written by pbmpi?");
+  return number;
+}
+
+/// An observable summed over the worlds, of every frame (not only the measured ones).
+std::vector<double> sum_over_worlds(const io::RunData& run, const std::string& name) {
+  std::vector<double> sums;
+  const auto found = run.observables.find(name);
+  if (found == run.observables.end()) return sums;
+  for (const auto& worlds : found->second) sums.push_back(std::accumulate(worlds.begin(), worlds.end(), 0.0));
+  return sums;
+}
+
+/// A column of /timings/rank summed over the ranks, of every frame.
+std::vector<double> sum_over_ranks(const io::RunData& run, const std::string& name) {
+  std::vector<double> sums(run.frame_measured.size(), 0);
+  const auto found = run.rank_times.find(name);
+  if (found == run.rank_times.end()) return sums;
+  for (std::size_t frame = 0; frame < sums.size(); ++frame)
+    sums[frame] = std::accumulate(found->second[frame].begin(), found->second[frame].end(), 0.0);
+  return sums;
+}
+
+/// Rows of the largest island of any world, of every frame.
+std::vector<double> largest_islands(const io::RunData& run) {
+  std::vector<double> rows;
+  const auto found = run.observables.find("max_island_rows");
+  if (found == run.observables.end()) return std::vector<double>(run.frame_measured.size(), 0);
+  for (const auto& worlds : found->second) rows.push_back(*std::max_element(worlds.begin(), worlds.end()));
+  return rows;
+}
+
+/// The largest value in any world in the measured frames.
+double largest_measured(const io::RunData& run, const std::string& name) {
+  double largest = 0;
+  const auto found = run.observables.find(name);
+  if (found == run.observables.end()) return largest;
+  for (std::size_t frame = 0; frame < found->second.size(); ++frame) {
+    if (!run.frame_measured[frame]) continue;
+    for (double value : found->second[frame]) largest = std::max(largest, value);
+  }
+  return largest;
+}
+
+std::vector<double> only_measured(const std::vector<double>& values, const std::vector<bool>& measured) {
+  std::vector<double> picked;
+  for (std::size_t frame = 0; frame < values.size(); ++frame) {
+    if (measured[frame]) picked.push_back(values[frame]);
+  }
+  return picked;
+}
+
+/// [R][T] seconds of the measured frames.
+std::vector<std::vector<std::array<double, core::num_phases>>> phases_by_rank(const io::RunData& run) {
+  std::vector<std::vector<std::array<double, core::num_phases>>> ranks(
+      static_cast<std::size_t>(run.num_ranks));
+  for (std::size_t frame = 0; frame < run.frame_measured.size(); ++frame) {
+    if (!run.frame_measured[frame]) continue;
+    for (std::size_t rank = 0; rank < ranks.size(); ++rank) {
+      auto& phases = ranks[rank].emplace_back();
+      for (std::size_t phase = 0; phase < phases.size(); ++phase) {
+        const auto found = run.rank_times.find(std::string(core::phase_names[phase]));
+        phases[phase] = found == run.rank_times.end() ? 0 : found->second[frame][rank];
+      }
+    }
+  }
+  return ranks;
+}
+
+/// Ranks that spent no time on any world in the last frame.
+std::vector<int> idle_ranks(const io::RunData& run) {
+  std::vector<int> idle;
+  const auto useful = run.rank_times.find("useful");
+  if (useful == run.rank_times.end() || useful->second.empty()) return idle;
+  for (int rank = 0; rank < run.num_ranks; ++rank) {
+    if (useful->second.back()[static_cast<std::size_t>(rank)] == 0) idle.push_back(rank);
+  }
+  return idle;
+}
+
+/// The effects that the scene calls for, from the scene's text in the file. None if this pbmpi cannot read
+/// that text (a newer scene format): the rest of the summary stands without them.
+std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed) {
+  try {
+    const std::string name = text_of(run.attributes, "scene");
+    const auto form =
+        text_of(run.parameters, "spaces") == "one" ? scenes::SpacesForm::one : scenes::SpacesForm::many;
+    const auto scene =
+        scenes::parse_scene({name, name + ".toml", text_of(run.parameters, "scene_text")}, {}, form,
+                            effects::parse_effect_choices(text_of(run.parameters, "effects")));
+    effects::RunPlan plan;
+    for (int world = 0; world < run.num_worlds; ++world) plan.add(*scene->build(world, seed));
+    return effect_summaries(plan);
+  } catch (const core::InputError&) {
+    return {};
+  }
+}
+
+/// An event reads "frame 6: rebalance: 8 worlds moved: ...".
+void count_rebalance(const std::string& event, RunSummary& summary) {
+  static constexpr std::string_view word = ": rebalance: ";
+  const std::size_t at = event.find(word);
+  if (at == std::string::npos) return;
+  ++summary.rebalances;
+  std::istringstream detail(event.substr(at + word.size()));
+  std::int64_t moved = 0;
+  if (detail >> moved) summary.worlds_moved += moved;
+}
+
+void read_settings(const io::RunData& run, const std::string& path, RunSummary& summary) {
+  summary.version = text_of(run.attributes, "pbmpi_version");
+  summary.scene = text_of(run.attributes, "scene");
+  summary.stepper = text_of(run.parameters, "stepper");
+  summary.precision = text_of(run.parameters, "precision");
+  summary.simd = text_of(run.parameters, "simd");
+  if (text_of(run.parameters, "decompose") == "spaces") summary.decomposition = "spaces";
+  summary.iterations = number_of<int>(run, "iterations", path);
+  summary.substeps = number_of<int>(run, "substeps", path);
+  summary.steps_per_frame = number_of<int>(run, "steps_per_frame", path);
+  summary.dt_s = number_of<double>(run, "dt", path);
+  summary.seed = number_of<std::uint64_t>(run, "seed", path);
+  summary.budget_s = frame_budget_s;
+}
+
+/// The run's estimates against its precise poses; those of recorded, measured frames.
+EstimateSummary estimate_of(const io::RunData& run, const std::string& path, double budget_s) {
+  EstimateSummary summary;
+  summary.stepper = text_of(run.parameters, "estimate_stepper");
+  summary.iterations = number_of<int>(run, "estimate_iterations", path);
+  summary.precision = text_of(run.parameters, "estimate_precision");
+  const std::string source = text_of(run.parameters, "estimate_source");  // older files have none
+  if (!source.empty()) summary.source = source;
+  compute_delivery(only_measured(run.estimate.delivered_s, run.frame_measured),
+                   only_measured(run.estimate.precise_s, run.frame_measured), budget_s, summary);
+  const std::size_t record_every = run.position.empty() ? 1 : run.frame_measured.size() / run.position.size();
+  std::vector<double> distances, angles;
+  for (std::size_t row = 0; row < run.position.size(); ++row) {
+    if (!run.frame_measured[(row + 1) * record_every - 1]) continue;
+    const analysis::PoseErrors errors =
+        analysis::compare_bodies({run.estimate.position[row], run.estimate.orientation[row]},
+                                 {run.position[row], run.orientation[row]});
+    distances.insert(distances.end(), errors.body_position_m.begin(), errors.body_position_m.end());
+    angles.insert(angles.end(), errors.body_orientation_rad.begin(), errors.body_orientation_rad.end());
+  }
+  summary.position_defect = analysis::summarize_positions(distances);
+  summary.orientation_defect = analysis::summarize_orientations(angles);
+  return summary;
+}
+
+}  // namespace
+
+MeasuredFrames measured_frames(const io::RunData& run) {
+  MeasuredFrames frames;
+  frames.wall_s = only_measured(run.frame_wall_s, run.frame_measured);
+  frames.phases = phases_by_rank(run);
+  frames.islands = only_measured(sum_over_worlds(run, "islands"), run.frame_measured);
+  frames.contacts = only_measured(sum_over_worlds(run, "contacts"), run.frame_measured);
+  frames.rows = only_measured(sum_over_worlds(run, "rows"), run.frame_measured);
+  frames.max_island_rows = only_measured(largest_islands(run), run.frame_measured);
+  frames.messages = only_measured(sum_over_ranks(run, "messages"), run.frame_measured);
+  frames.bytes = only_measured(sum_over_ranks(run, "bytes"), run.frame_measured);
+  return frames;
+}
+
+RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
+  RunSummary summary;
+  read_settings(run, path, summary);
+  summary.output = path;
+  summary.complete = run.complete;
+  summary.state_hash = text_of(run.attributes, "state_hash");
+  // Until the run ends, the file keeps its place with blanks.
+  if (summary.state_hash.find_first_not_of(' ') == std::string::npos) {
+    summary.state_hash = "none (the run was cut off)";
+  }
+  for (const std::string& host : run.hosts) {
+    if (std::find(summary.hosts.begin(), summary.hosts.end(), host) == summary.hosts.end()) {
+      summary.hosts.push_back(host);
+    }
+  }
+  summary.worlds = run.num_worlds;
+  summary.ranks = run.num_ranks;
+  summary.idle_ranks = idle_ranks(run);
+  summary.bodies = static_cast<std::int64_t>(run.bodies.id.size());
+  summary.warmup_frames =
+      std::find(run.frame_measured.begin(), run.frame_measured.end(), true) - run.frame_measured.begin();
+  compute_performance(measured_frames(run), summary);
+
+  const std::vector<double> energy = sum_over_worlds(run, "energy");
+  const std::vector<double> nonfinite = sum_over_worlds(run, "nonfinite");
+  summary.first_frame = std::atoll(text_of(run.attributes, "first_frame").c_str());  // files of 1.0 have none
+  summary.energy_j = energy.empty() ? 0 : energy.back();
+  summary.nonfinite_bodies = nonfinite.empty() ? 0 : static_cast<std::int64_t>(nonfinite.back());
+  summary.max_joint_gap_m = largest_measured(run, "joint_gap");
+  summary.max_penetration_m = largest_measured(run, "max_penetration");
+  summary.effects = effects_of(run, summary.seed);
+  summary.effects_chosen = text_of(run.parameters, "effects");
+  for (const std::string& event : run.events) count_rebalance(event, summary);
+  summary.joints_broken = std::count_if(run.events.begin(), run.events.end(),
+                                        [](const std::string& e) { return broken_joint(e).has_value(); });
+  if (!run.estimate.delivered_s.empty()) summary.estimate = estimate_of(run, path, summary.budget_s);
+  return summary;
+}
+
+}  // namespace pbmpi::app

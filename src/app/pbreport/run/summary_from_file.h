@@ -1,0 +1,18 @@
+/// The summary of a run that was read back from its file.
+#pragma once
+
+#include <string>
+
+#include "app/summary/run_summary.h"
+#include "io/run/run_data.h"
+
+namespace pbmpi::app {
+
+/// The measured frames' rows of the run's columns. Frames before the first measured one are warm-up.
+MeasuredFrames measured_frames(const io::RunData& run);
+
+/// The same numbers that pbmpi printed at the end of the run; of a run that was cut off, those of the frames
+/// that its file holds. `path` names the file. Throws core::InputError if a setting is missing or no number.
+RunSummary summary_from_file(const io::RunData& run, const std::string& path);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,73 @@
+/// How the reports of studies read their file.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "analysis/error_table.h"
+#include "core/error.h"
+#include "io/table/table_file.h"
+
+namespace pbmpi::app {
+
+/// Row `index` of /cases.
+class CaseRow {
+ public:
+  CaseRow(const io::TableFile& file, std::size_t index) : file_(&file), index_(index) {}
+  bool has(const std::string& name) const { return file_->has_column("cases", name); }
+  double real(const std::string& name) const { return file_->column<double>("cases", name)[index_]; }
+  int integer(const std::string& name) const {
+    return static_cast<int>(file_->column<std::int64_t>("cases", name)[index_]);
+  }
+  std::string text(const std::string& name) const {
+    return file_->column<std::string>("cases", name)[index_];
+  }
+  analysis::BandCounts bands(const std::string& name) const {
+    analysis::BandCounts counts{};
+    const auto& all = file_->column<std::int64_t>("cases", name);
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(index_ * counts.size()), counts.size(),
+                counts.begin());
+    return counts;
+  }
+  analysis::ErrorTable errors(const std::string& prefix) const {
+    analysis::ErrorTable table;
+    for (const analysis::NamedSummary& named : analysis::error_columns) {
+      const std::string name = prefix + "_" + named.name + "_";
+      analysis::ErrorSummary& summary = table.*named.summary;
+      summary.rms = real(name + "rms");
+      summary.p99 = real(name + "p99");
+      summary.max = real(name + "max");
+      summary.bands = bands(name + "bands");
+      summary.count = std::accumulate(summary.bands.begin(), summary.bands.end(), std::int64_t{0});
+    }
+    return table;
+  }
+
+ private:
+  const io::TableFile* file_;
+  std::size_t index_;
+};
+
+/// Those of `scenes` (each with a `name`) that `names` names, in its order; all for none. Throws
+/// core::InputError for a scene that is not in the study.
+template <class Scene>
+std::vector<Scene> chosen_scenes(const std::vector<Scene>& scenes, const std::vector<std::string>& names) {
+  if (names.empty()) return scenes;
+  std::vector<Scene> chosen;
+  std::string known;
+  for (const Scene& scene : scenes) {
+    if (known.find(" " + scene.name + ",") == std::string::npos) known += " " + scene.name + ",";
+  }
+  known.pop_back();
+  for (const std::string& name : names) {
+    const std::size_t before = chosen.size();
+    std::copy_if(scenes.begin(), scenes.end(), std::back_inserter(chosen),
+                 [&](const Scene& scene) { return scene.name == name; });
+    core::require_input(chosen.size() > before, "--scene " + name + ": the study has" + known);
+  }
+  return chosen;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,28 @@
+/// What the reports of all studies do with the files of pbstudy.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/table/table_file.h"
+
+namespace pbmpi::app {
+
+/// The attribute filetype of all files of pbstudy.
+inline constexpr const char* study_filetype = "pbmpi-study";
+
+/// The attribute `study` of the first file of pbstudy among a command's arguments, e.g. "accuracy"; empty if
+/// none of them is one.
+std::string study_named_in(const std::vector<std::string>& args);
+
+/// Reads the file of a study of this kind. Throws core::InputError, with the command for the study that it is
+/// of.
+io::TableFile read_study(const std::string& path, const std::string& kind);
+
+/// All rows and one-dimensional columns of /cases, with a header; a column of several values becomes several.
+std::string study_to_csv(const io::TableFile& file);
+
+/// Throws core::InputError if `path` cannot be written.
+void write_text(const std::string& path, const std::string& text);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,187 @@
+#include "app/pbreport/suite/suite_commands.h"
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <sstream>
+
+#include "app/common/options.h"
+#include "app/pbreport/suite/characterise.h"
+#include "app/pbreport/suite/suite_json.h"
+#include "io/html/suite_page.h"
+
+namespace pbmpi::app {
+namespace {
+
+namespace po = boost::program_options;
+using nlohmann::ordered_json;
+
+struct SuiteOptions {
+  bool help = false, json = false;
+  std::vector<std::string> files;
+  std::string html, stills;
+};
+
+po::options_description described(bool page) {
+  po::options_description all("Options");
+  all.add_options()("help,h", "print this help");
+  if (page) {
+    all.add_options()  //
+        ("html", po::value<std::string>()->value_name("OUT"), "the page to write")(
+            "stills", po::value<std::string>()->value_name("DIR"),
+            "folder with SCENE.png: a picture of each scene for the page");
+  } else {
+    all.add_options()("json", "print one JSON document");
+  }
+  return all;
+}
+
+SuiteOptions parse(const std::vector<std::string>& args, bool page) {
+  po::options_description all = described(page);
+  all.add_options()("file", po::value<std::vector<std::string>>())("config", po::value<std::string>());
+  po::positional_options_description positional;
+  positional.add("file", -1);
+  const po::variables_map values = parse_command_line(args, all, positional);
+  SuiteOptions options;
+  options.help = values.count("help") != 0;
+  options.json = values.count("json") != 0;
+  if (values.count("file") != 0) options.files = values["file"].as<std::vector<std::string>>();
+  if (values.count("html") != 0) options.html = values["html"].as<std::string>();
+  if (values.count("stills") != 0) options.stills = values["stills"].as<std::string>();
+  core::require_input(options.help || !options.files.empty(),
+                      "no file given; name the HDF5 files of runs, e.g. CrashSk.h5 Fight.h5");
+  core::require_input(options.help || !page || !options.html.empty(),
+                      "--html is missing; name the page to write");
+  return options;
+}
+
+void print_help(std::ostream& out, const char* command, const char* meaning, bool page) {
+  out << "Usage: pbreport " << command << " FILE... [options]\n\n" << meaning << "\n\n" << described(page);
+}
+
+template <class... Args>
+std::string format(const char* pattern, Args... args) {
+  char text[256];
+  std::snprintf(text, sizeof text, pattern, args...);
+  return text;
+}
+
+std::string percent(double ours, double papers) {
+  if (papers == 0) return ours == 0 ? "0 %" : "-";
+  return format("%+.0f %%", 100 * (ours - papers) / papers);
+}
+
+std::string islands_text(const IslandSummary& s) {
+  const core::Summary& n = s.islands;
+  std::string text = format("%-8s  %-5s  %5.0f %5.0f %7.1f %6.2f   spaces %-6d contacts across spaces %s\n",
+                            s.scene.c_str(), "ours", n.max, n.min, n.mean, n.stddev, s.spaces,
+                            s.has_profile ? format("%.1f", s.cross_contacts).c_str() : "not recorded");
+  const PaperRow* p = paper_row(s.scene);
+  if (p == nullptr) return text;
+  text +=
+      format("%-8s  %-5s  %5.0f %5.0f %7.1f %6.2f   spaces %-6s traffic %s\n", "", "paper", p->islands_max,
+             p->islands_min, p->islands_mean, p->islands_stddev, p->spaces.c_str(), p->traffic.c_str());
+  return text + format("%-8s  %-5s  %5s %5s %7s %6s\n", "", "diff", percent(n.max, p->islands_max).c_str(),
+                       percent(n.min, p->islands_min).c_str(), percent(n.mean, p->islands_mean).c_str(),
+                       percent(n.stddev, p->islands_stddev).c_str());
+}
+
+std::string rate_text(const Rate& rate) {
+  return format("%9.1f Hz %4.0f %%", rate.harmonic_mean_hz, 100 * rate.satisfied_fraction);
+}
+
+std::string cores_text(const CoreSummary& s) {
+  const PaperRow* paper = paper_row(s.scene);
+  return format("%-8s  %5d %7.1f  %5s   %4.0f %%  ", s.scene.c_str(), s.cores, s.cores_mean,
+                paper != nullptr ? std::to_string(paper->cores).c_str() : "-", 100 * s.longest_share) +
+         rate_text(s.serial) + "  " + rate_text(s.islands_parallel) + "  " + rate_text(s.spaces_parallel) +
+         format("   %3.0f %% -> %3.0f %%\n", 100 * s.collide_share_serial, 100 * s.collide_share_parallel);
+}
+
+core::ExitCode finish(std::ostream& out) {
+  out.flush();
+  if (!out) throw core::RunError("the table cannot be written to standard output; is the disk full?");
+  return core::ExitCode::done;
+}
+
+/// "data:image/png;base64,..." or empty.
+std::string still_of(const std::string& folder, const std::string& scene) {
+  if (folder.empty()) return "";
+  const std::string path = folder + "/" + scene + ".png";
+  std::ifstream file(path, std::ios::binary);
+  core::require_input(file.good(),
+                      path + ": cannot be read; make it with jobs/stills.sh, or leave --stills out");
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+}  // namespace
+
+core::ExitCode run_islands(const std::vector<std::string>& args, std::ostream& out) {
+  const SuiteOptions options = parse(args, false);
+  if (options.help) {
+    print_help(out, "islands", "The paper's Table 1 from runs: islands at the end of each measured frame.",
+               false);
+    return finish(out);
+  }
+  auto json = ordered_json::array();
+  if (!options.json) out << "scene     islands  max   min    mean    dev\n";
+  for (const std::string& file : options.files) {
+    const IslandSummary summary = summarize_islands(io::read_run(file));
+    json.push_back(to_json(summary));
+    if (!options.json) out << islands_text(summary);
+  }
+  if (options.json) out << json.dump(2) << "\n";
+  return finish(out);
+}
+
+core::ExitCode run_cores(const std::vector<std::string>& args, std::ostream& out) {
+  const SuiteOptions options = parse(args, false);
+  if (options.help) {
+    print_help(
+        out, "cores",
+        "The paper's Table 2 and Figure 6 from runs with --record-islands on one rank: the fewest cores\n"
+        "on which the islands of a step, longest first, take no longer than the longest of them, and the\n"
+        "frame rate (share of frames within 3.33 ms) if islands, then also spaces, had a core each.",
+        false);
+    return finish(out);
+  }
+  auto json = ordered_json::array();
+  if (!options.json) {
+    out << "cores: fewest in the worst measured frame and mean, makespan at most "
+        << format("%.0f %%", 100 * cores_tolerance) << " above the longest island\n"
+        << "scene     cores    mean  paper  longest            serial   islands parallel   + spaces parallel "
+           "  "
+           "collide: serial, parallel\n";
+  }
+  for (const std::string& file : options.files) {
+    const CoreSummary summary = summarize_cores(io::read_run(file), file);
+    json.push_back(to_json(summary));
+    if (!options.json) out << cores_text(summary);
+  }
+  if (options.json) out << json.dump(2) << "\n";
+  return finish(out);
+}
+
+core::ExitCode run_figure6(const std::vector<std::string>& args, std::ostream& out) {
+  const SuiteOptions options = parse(args, true);
+  if (options.help) {
+    print_help(out, "figure6",
+               "One page: the paper's Figure 6 and Tables 1 and 2 from runs as 'cores' wants them.", true);
+    return finish(out);
+  }
+  std::vector<io::html::SuiteScene> scenes;
+  for (const std::string& file : options.files) {
+    const io::RunData run = io::read_run(file);
+    const IslandSummary islands = summarize_islands(run);
+    scenes.push_back({to_json(islands).dump(), to_json(summarize_cores(run, file)).dump(), islands.scene,
+                      still_of(options.stills, islands.scene)});
+  }
+  io::html::write_suite_page(options.html, scenes);
+  out << options.html << "\n";
+  return finish(out);
+}
+
+}  // namespace pbmpi::app

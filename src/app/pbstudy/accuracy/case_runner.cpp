@@ -1,0 +1,112 @@
+#include "app/pbstudy/accuracy/case_runner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/invariants.h"
+#include "core/statistics.h"
+
+namespace pbmpi::app {
+namespace {
+
+using analysis::PoseErrors;
+using model::State;
+
+analysis::PoseView view(const State& state) { return {state.position, state.orientation, state.broken_in}; }
+
+/// Raises `most` to `value`; a NaN counts as infinite.
+void raise(double& most, double value) { most = std::isnan(value) ? INFINITY : std::max(most, value); }
+
+/// What a frame did to joints, contacts, energy, momentum and segments.
+void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector<State>& reference,
+             CaseResult& result) {
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    const auto world = static_cast<int>(i);
+    const stepping::Observables seen = stepper.observables(world);
+    const State& state = stepper.shown(world);
+    result.rows += seen.rows;
+    raise(result.max_joint_gap_m, seen.joint_gap_m);
+    raise(result.max_penetration_m, seen.max_penetration_m);
+    raise(result.energy_change_j,
+          std::abs(seen.energy_j - stepping::mechanical_energy(*worlds[i], reference[i])));
+    raise(result.momentum_change_ns,
+          (analysis::linear_momentum(*worlds[i], state) - analysis::linear_momentum(*worlds[i], reference[i]))
+              .norm());
+    const auto segments = analysis::human_segments(*worlds[i]);
+    for (const double stretch : analysis::segment_stretch(*worlds[i], segments, view(state))) {
+      raise(result.max_stretch, stretch);
+    }
+  }
+}
+
+/// Times [measured frame][repeat], in rounds over the frames: from one frame to the next the stepper already
+/// stands at the right step. Errors come from the first round, the others give the same bits.
+std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const StudyScene& scene,
+                                                const Reference& reference, const Worlds& worlds, int repeats,
+                                                CaseResult& result) {
+  CaseStepper stepper(worlds, one.stepper, one.steps_per_frame, one.estimate_iterations);
+  std::vector<std::vector<double>> times_s(static_cast<std::size_t>(scene.frames));
+  PoseErrors errors;
+  for (int round = 0; round < repeats; ++round) {
+    if (scene.warmup > 0) {  // what a jump back to another step costs must not be timed
+      stepper.start_from(reference.states[static_cast<std::size_t>(scene.warmup - 1)], scene.warmup - 1);
+      stepper.advance_frame();
+    }
+    for (int i = 0; i < scene.frames; ++i) {
+      const int first = scene.warmup + i;
+      const auto frame = static_cast<std::size_t>(first);
+      stepper.start_from(reference.states[frame], first);
+      times_s[static_cast<std::size_t>(i)].push_back(stepper.advance_frame());
+      if (round > 0) continue;
+      errors.append(errors_of(stepper, worlds, reference.states[frame + 1]));
+      observe(stepper, worlds, reference.states[frame + 1], result);
+    }
+  }
+  result.rows /= scene.frames;
+  const int looked = one.estimate_iterations > 0 ? one.estimate_iterations : one.sweeps();
+  result.row_visits = result.rows * (one.sweeps() * (one.steps_per_frame - 1) + looked);
+  result.defect = analysis::summarize(errors);
+  return times_s;
+}
+
+/// An estimate's drift is that of the precise run that it is taken from.
+void measure_drift(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
+                   const Worlds& worlds, CaseResult& result) {
+  CaseStepper stepper(worlds, one.stepper, one.steps_per_frame);
+  PoseErrors errors;
+  for (int frame = 0; frame < scene.total_frames(); ++frame) {
+    stepper.advance_frame();
+    if (frame < scene.warmup) continue;
+    errors.append(errors_of(stepper, worlds, reference.states[static_cast<std::size_t>(frame) + 1]));
+  }
+  result.drift = analysis::summarize(errors);
+}
+
+void summarize_times(const std::vector<std::vector<double>>& times_s, CaseResult& result) {
+  std::vector<double> medians, all;
+  for (const std::vector<double>& frame : times_s) {
+    medians.push_back(core::quantile(frame, 0.5));
+    all.insert(all.end(), frame.begin(), frame.end());
+  }
+  result.frame_time_median_s = core::quantile(medians, 0.5);
+  result.frame_time_worst_s = *std::max_element(medians.begin(), medians.end());
+  result.frame_time_p10_s = core::quantile(all, 0.1);
+  result.frame_time_p90_s = core::quantile(all, 0.9);
+}
+
+}  // namespace
+
+CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
+                    int repeats) {
+  CaseResult result;
+  // Another step length has its events at other steps. The bodies are the same.
+  const bool own_step = one.stepper.dt_s == scene.dt_s;
+  const Worlds worlds = own_step ? reference.worlds : build_worlds(scene, one.stepper.dt_s, one.stepper.seed);
+  const bool is_yardstick = one.kind != CaseKind::setting && one.kind != CaseKind::estimate;
+  const auto times_s = measure_defect(one, scene, reference, worlds, is_yardstick ? 1 : repeats, result);
+  summarize_times(times_s, result);
+  measure_drift(one, scene, reference, worlds, result);
+  return result;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,33 @@
+/// Runs one case of "pbstudy accuracy" on this rank.
+#pragma once
+
+#include <type_traits>
+
+#include "analysis/error_table.h"
+#include "app/pbstudy/accuracy/accuracy_cases.h"
+#include "app/pbstudy/study/case_stepper.h"
+
+namespace pbmpi::app {
+
+/// What is measured of a case. Sent between ranks as its bytes.
+struct CaseResult {
+  int index = 0;  ///< into the cases
+  // Processor time: other processes on the core spoil it far less than elapsed time.
+  double frame_time_median_s = 0;  ///< over the measured frames of each frame's median over the repeats
+  double frame_time_worst_s = 0;   ///< the largest of those medians: what a frame budget must hold
+  double frame_time_p10_s = 0, frame_time_p90_s = 0;  ///< over all timings: the spread
+  double rows = 0;                                    ///< mean over the measured frames, of the last step
+  double row_visits = 0;                              ///< rows x sweeps of a frame, until it is shown
+  double max_joint_gap_m = 0, max_penetration_m = 0;  ///< after one frame from the reference's states
+  double energy_change_j = 0;     ///< largest distance from the reference's energy after one frame
+  double momentum_change_ns = 0;  ///< the same of the linear momentum
+  double max_stretch = 0;         ///< of a human segment after one frame
+  analysis::ErrorTable defect;
+  analysis::ErrorTable drift;
+};
+static_assert(std::is_trivially_copyable_v<CaseResult>);
+
+CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
+                    int repeats);
+
+}  // namespace pbmpi::app

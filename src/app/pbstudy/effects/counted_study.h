@@ -1,0 +1,28 @@
+/// Counts of instructions out of a study of effects that counted them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/pbstudy/effects/effects_runner.h"
+#include "io/table/table_file.h"
+
+namespace pbmpi::app {
+
+class CountedStudy {
+ public:
+  /// Throws core::InputError if the file is no study of effects, has no counts, or not just these cases.
+  CountedStudy(std::string path, const std::vector<StudyScene>& scenes, const std::vector<EffectCase>& cases);
+
+  /// What counted them, as core::name_of names it.
+  std::string source() const;
+  /// Puts the counts into `results` [num_cases]. Throws core::InputError if their states are others than
+  /// those that were counted.
+  void give_counts(std::vector<EffectResult>& results) const;
+
+ private:
+  std::string path_;
+  io::TableFile file_;
+};
+
+}  // namespace pbmpi::app

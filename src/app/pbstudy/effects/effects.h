@@ -1,0 +1,15 @@
+/// "pbstudy effects": what each effect costs, and what leaving it out does to the result.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "mpi/comm/communicator.h"
+
+namespace pbmpi::app {
+
+/// Collective. Throws core::InputError and core::RunError, the same on every rank.
+core::ExitCode run_effects(const mpi::Communicator& comm, const std::vector<std::string>& args);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,134 @@
+#include "app/pbstudy/effects/effects_cases.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "effects/run_plan.h"
+#include "mpi/balance/partition.h"
+
+namespace pbmpi::app {
+namespace {
+
+using stepping::StepperKind;
+using stepping::StepperSettings;
+
+/// The plan of all worlds of the scene with some effects chosen.
+effects::RunPlan plan_of(const StudyScene& scene, std::uint64_t seed, const model::EffectChoices& effects) {
+  const auto parsed = scenes::parse_scene(scene.source, scene.dt_s, std::nullopt, effects);
+  effects::RunPlan plan;
+  for (int world = 0; world < scene.num_worlds; ++world) plan.add(*parsed->build(world, seed));
+  return plan;
+}
+
+/// The effect's pass, or nothing.
+std::optional<effects::RunPass> pass_of(const effects::RunPlan& plan, const std::string& effect) {
+  for (const effects::RunPass& pass : plan.passes()) {
+    if (pass.effect->name == effect) return pass;
+  }
+  return std::nullopt;
+}
+
+bool leaves_out(const StudyScene& scene, const std::string& effect) {
+  const auto choice = scene.effects.find(effect);
+  return choice != scene.effects.end() && !choice->second;
+}
+
+/// `baseline`: of the scene as it is.
+EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const effects::RunPlan& baseline,
+                   const std::string& effect) {
+  EffectCase one;
+  one.scene = index;
+  one.effect = effect;
+  const auto pass = pass_of(baseline, effect);
+  one.kind = pass ? EffectCaseKind::left_out : EffectCaseKind::demanded;
+  try {
+    const effects::RunPlan variant = plan_of(scene, seed, one.choices());
+    const auto demanded = pass ? pass : pass_of(variant, effect);
+    one.called_for = demanded && !demanded->idle;
+    one.reason = one.called_for ? demanded->reason : "nothing calls for it";
+    if (pass && pass->idle) one.reason += "; the scene demands it";
+    if (!pass && one.called_for && leaves_out(scene, effect)) one.reason += "; the scene leaves it out";
+  } catch (const core::InputError& error) {
+    one.kind = EffectCaseKind::refused;
+    one.called_for = pass && !pass->idle;
+    one.reason = error.what();
+  }
+  return one;
+}
+
+std::vector<StepperSettings> steppers_of(const StudyScene& scene, const EffectsOptions& options) {
+  std::vector<StepperSettings> all;
+  StepperSettings one;
+  one.dt_s = scene.dt_s;
+  one.iterations = options.iterations.value_or(scene.iterations);
+  one.seed = options.seed;
+  for (const StepperKind kind : options.steppers) {
+    one.kind = kind;
+    one.precision = stepping::Precision::double_;
+    if (kind != StepperKind::sor) {
+      all.push_back(one);
+      continue;
+    }
+    for (const stepping::Precision precision : options.precisions) {
+      one.precision = precision;
+      all.push_back(one);
+    }
+  }
+  return all;
+}
+
+void add_floor(int index, StepperSettings stepper, int num_seeds, std::vector<EffectCase>& cases) {
+  for (int i = 0; i < num_seeds; ++i) {
+    ++stepper.seed;
+    EffectCase one;
+    one.scene = index;
+    one.stepper = stepper;
+    one.reason = "another solver seed";
+    cases.push_back(one);
+  }
+}
+
+}  // namespace
+
+model::EffectChoices EffectCase::choices() const {
+  if (kind == EffectCaseKind::floor || kind == EffectCaseKind::refused) return {};
+  return {{effect, kind == EffectCaseKind::demanded}};
+}
+
+std::vector<EffectCase> make_effect_cases(const std::vector<StudyScene>& scenes,
+                                          const EffectsOptions& options) {
+  std::vector<EffectCase> cases;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const int index = static_cast<int>(i);
+    const effects::RunPlan baseline = plan_of(scenes[i], options.seed, {});
+    std::vector<EffectCase> of_scene;
+    for (const std::string& effect : options.effects)
+      of_scene.push_back(case_of(index, scenes[i], options.seed, baseline, effect));
+    for (const StepperSettings& stepper : steppers_of(scenes[i], options)) {
+      for (EffectCase& one : of_scene) {
+        one.stepper = stepper;
+        cases.push_back(one);
+      }
+      add_floor(index, stepper, options.floor_seeds, cases);
+    }
+  }
+  return cases;
+}
+
+std::vector<int> deal_out(const std::vector<EffectCase>& cases, const std::vector<StudyScene>& scenes,
+                          int num_ranks) {
+  std::vector<double> bodies;  // of a scene: its worlds differ little
+  for (const StudyScene& scene : scenes) {
+    const auto first = scenes::parse_scene(scene.source, scene.dt_s)->build(0, 1);
+    bodies.push_back(scene.num_worlds * first->num_bodies());
+  }
+  std::vector<double> cost;
+  for (const EffectCase& one : cases) {
+    const double share = one.stepper.kind == StepperKind::sor ? 1 : 5;  // quick is about five times as dear
+    const double nothing_to_do = one.kind == EffectCaseKind::refused ? 1e-6 : 1;
+    cost.push_back(share * nothing_to_do * bodies[static_cast<std::size_t>(one.scene)]);
+  }
+  return mpi::lpt_placement(cost, num_ranks);
+}
+
+}  // namespace pbmpi::app

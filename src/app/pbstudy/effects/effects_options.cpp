@@ -1,0 +1,85 @@
+#include "app/pbstudy/effects/effects_options.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "app/pbstudy/study/option_lists.h"
+#include "core/error.h"
+#include "effects/effect_choices.h"
+#include "effects/effects.h"
+#include "stepping/names.h"
+
+namespace pbmpi::app {
+namespace {
+
+namespace po = boost::program_options;
+
+po::options_description options_description() {
+  po::options_description what("What to measure (lists, separated by blanks)");
+  add_scene_option(what);
+  what.add_options()                                                                  //
+      ("effect", list_of<std::string>(), "effects; default: all (pbmpi --describe)")  //
+      ("stepper", list_of<std::string>(), "quick, direct, sor; default: quick sor")   //
+      ("precision", list_of<std::string>(), "sor: double, single; default: double")   //
+      ("iterations", po::value<int>()->value_name("N"), "default: the scene's");
+  po::options_description how =
+      how_to_measure({"of the scene's variation and of the solver",
+                      "how often each frame is timed with and without the effect, in turn", 15,
+                      "noise floor: the scene as it is with this many other solver seeds", 4});
+  how.add_options()  //
+      ("instructions-from", po::value<std::string>()->value_name("FILE"),
+       "take the counts of instructions from this study of the same cases, which counted them");
+  po::options_description all;
+  all.add(what).add(how).add(what_to_write("effects.h5")).add(common_options_description());
+  return all;
+}
+
+/// The names given, each once and in the registry's order; all for none.
+std::vector<std::string> known_effects(const std::vector<std::string>& given) {
+  for (const std::string& name : given) effects::require_effect(name);
+  std::vector<std::string> names;
+  for (const effects::Effect& effect : effects::effect_registry()) {
+    if (given.empty() || std::find(given.begin(), given.end(), effect.name) != given.end())
+      names.emplace_back(effect.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string effects_help_text() {
+  std::ostringstream text;
+  text << "pbstudy effects measures what each effect costs. Each case is a scene (with its replicas), a "
+          "stepper and an effect. From the scene's own state at the start of each measured frame the frame "
+          "is "
+          "done with and without the effect, in turn, so that both meet the same contacts. An effect that "
+          "the "
+          "scene calls for is left out: what that saves, and how far the result is then from the scene's "
+          "own. "
+          "One that nothing calls for is demanded: what that costs, and that no bit changes.\n\n"
+       << "Usage: mpirun -n RANKS pbstudy effects [--scene NAME...] [options]\n\n"
+       << options_description()
+       << "\nThe cases are dealt out over the ranks; a rank works on one at a time. More ranks than cores "
+          "spoil the times.\nInstructions are counted by the processor's counter where Linux gives it "
+          "(perf_event_open), or under\ncallgrind (jobs/effects.sh --instructions); else they are not in "
+          "the file.\nThen: pbreport effects.h5 --html effects.html\n";
+  return text.str();
+}
+
+EffectsOptions parse_effects_options(const std::vector<std::string>& args) {
+  const po::variables_map values = parse_command_line(args, options_description());
+  EffectsOptions options;
+  static_cast<StudyOptions&>(options) = study_options(values, "pbstudy effects", args);
+  options.effects = known_effects(list<std::string>(values, "effect", {}));
+  options.steppers =
+      choices<stepping::StepperKind>(values, "stepper", stepping::stepper_kind_names, {"quick", "sor"});
+  options.precisions =
+      choices<stepping::Precision>(values, "precision", stepping::precision_names, {"double"});
+  options.iterations = given(values, "iterations", 1);
+  options.instructions_from = output_path(values, "instructions-from");
+  core::require_input(options.instructions_from != options.output,
+                      "--instructions-from " + options.output + ": it is to be read, not written over");
+  return options;
+}
+
+}  // namespace pbmpi::app

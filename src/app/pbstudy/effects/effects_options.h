@@ -1,0 +1,27 @@
+/// The command line of "pbstudy effects".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/pbstudy/study/study_options.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::app {
+
+struct EffectsOptions : StudyOptions {
+  std::vector<std::string> effects;  ///< of the registry, in its order
+  std::vector<stepping::StepperKind> steppers;
+  std::vector<stepping::Precision> precisions;   ///< sor
+  std::optional<int> iterations;                 ///< else the scene's
+  std::optional<std::string> instructions_from;  ///< a file of the same cases, counted
+};
+
+/// Throws core::InputError with one clear message.
+EffectsOptions parse_effects_options(const std::vector<std::string>& args);
+
+std::string effects_help_text();
+
+}  // namespace pbmpi::app

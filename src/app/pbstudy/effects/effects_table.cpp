@@ -1,0 +1,76 @@
+#include "app/pbstudy/effects/effects_table.h"
+
+#include "app/pbstudy/study/table_columns.h"
+#include "core/hash.h"
+#include "model/names.h"
+#include "stepping/names.h"
+
+namespace pbmpi::app {
+namespace {
+
+void add_spread(const std::string& name, const std::string& unit, Spread EffectResult::*spread,
+                const std::vector<EffectResult>& results, std::vector<io::TableColumn>& columns) {
+  const auto add = [&](const std::string& suffix, double Spread::*number) {
+    columns.push_back(column<double>(name + suffix, unit, results,
+                                     [&](const EffectResult& r) { return r.*spread.*number; }));
+  };
+  add("", &Spread::median);
+  add("_p10", &Spread::p10);
+  add("_p90", &Spread::p90);
+}
+
+std::string hash_text(std::uint64_t hash) { return hash == 0 ? "" : core::to_hex(hash); }
+
+/// 1 or 0; -1 where nothing is measured.
+int same_bits(const EffectResult& result) {
+  if (result.hash_baseline == 0) return -1;
+  return result.hash_baseline == result.hash_variant ? 1 : 0;
+}
+
+}  // namespace
+
+std::vector<io::TableColumn> effect_columns(const std::vector<StudyScene>& scenes,
+                                            const std::vector<EffectCase>& cases,
+                                            const std::vector<EffectResult>& results, bool counted) {
+  using Case = const EffectCase&;
+  using Result = const EffectResult&;
+  const auto scene_of = [&](Case c) -> const StudyScene& {
+    return scenes[static_cast<std::size_t>(c.scene)];
+  };
+  std::vector<io::TableColumn> columns = {
+      column<std::string>("scene", "", cases, [&](Case c) { return scene_of(c).source.name; }),
+      column<std::string>("kind", "", cases,
+                          [](Case c) { return effect_case_kind_names[static_cast<std::size_t>(c.kind)]; }),
+      column<std::string>("effect", "", cases, [](Case c) { return c.effect; }),
+      column<std::int64_t>("called_for", "", cases, [](Case c) { return c.called_for ? 1 : 0; }),
+      column<std::string>("reason", "", cases, [](Case c) { return c.reason; }),
+      column<std::string>("stepper", "", cases, [](Case c) { return name_of(c.stepper.kind); }),
+      column<std::string>("precision", "", cases, [](Case c) { return name_of(c.stepper.precision); }),
+      column<std::int64_t>("iterations", "", cases, [](Case c) { return c.stepper.iterations; }),
+      column<double>("dt", "s", cases, [](Case c) { return c.stepper.dt_s; }),
+      column<std::int64_t>("solver_seed", "", cases, [](Case c) { return c.stepper.seed; }),
+      column<std::int64_t>("steps_per_frame", "", cases,
+                           [&](Case c) { return scene_of(c).steps_per_frame(); }),
+      column<std::int64_t>("worlds", "", cases, [&](Case c) { return scene_of(c).num_worlds; }),
+      column<std::int64_t>("warmup", "", cases, [&](Case c) { return scene_of(c).warmup; }),
+      column<std::int64_t>("frames", "", cases, [&](Case c) { return scene_of(c).frames; }),
+      column<std::int64_t>("same_bits", "", results, same_bits),
+      column<std::string>("hash_baseline", "", results, [](Result r) { return hash_text(r.hash_baseline); }),
+      column<std::string>("hash_variant", "", results, [](Result r) { return hash_text(r.hash_variant); }),
+  };
+  add_spread("time_with", "s", &EffectResult::time_with_s, results, columns);
+  add_spread("time_without", "s", &EffectResult::time_without_s, results, columns);
+  add_spread("time_cost", "s", &EffectResult::cost_s, results, columns);
+  add_spread("time_share", "", &EffectResult::share, results, columns);
+  if (counted) {
+    columns.push_back(
+        column<double>("instructions_with", "", results, [](Result r) { return r.instructions_with; }));
+    columns.push_back(
+        column<double>("instructions_without", "", results, [](Result r) { return r.instructions_without; }));
+  }
+  add_errors("defect", &EffectResult::defect, results, columns);
+  add_errors("drift", &EffectResult::drift, results, columns);
+  return columns;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,46 @@
+/// What the command lines of all studies have: the scenes, the window, how often each frame is measured.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/common/options.h"
+#include "app/pbstudy/study/study_scene.h"
+
+namespace pbmpi::app {
+
+struct StudyOptions {
+  bool help = false;
+  std::vector<std::string> scenes;
+  SceneOverrides overrides;
+  int repeats = 1;      ///< times that each frame is timed
+  int floor_seeds = 1;  ///< other solver seeds, for the noise floor
+  std::uint64_t seed = 1;
+  std::string output;
+  CommonOptions common;
+  std::string command_line;
+};
+
+/// --scene.
+void add_scene_option(boost::program_options::options_description& what);
+
+/// "How to measure": --replicas, --frames, --warmup, and what each study says of the others. What is its own
+/// it adds after them.
+struct HowOptions {
+  const char* seed = "";
+  const char* repeats = "";
+  int default_repeats = 1;
+  const char* floor_seeds = "";
+  int default_floor_seeds = 1;
+};
+boost::program_options::options_description how_to_measure(const HowOptions& says);
+
+/// "What to write": --output.
+boost::program_options::options_description what_to_write(const char* default_output);
+
+/// Throws core::InputError for a number that cannot be.
+StudyOptions study_options(const boost::program_options::variables_map& values, const std::string& program,
+                           const std::vector<std::string>& args);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,43 @@
+/// How rows of results become columns of a study's file.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/error_table.h"
+#include "io/table/table_file.h"
+
+namespace pbmpi::app {
+
+template <class Value, class Rows, class Get>
+io::TableColumn column(const std::string& name, const std::string& unit, const Rows& rows, Get&& get) {
+  std::vector<Value> values;
+  for (const auto& row : rows) values.push_back(static_cast<Value>(get(row)));
+  return {name, unit, std::move(values)};
+}
+
+/// Columns "PREFIX_body_position_rms" and so on, of the ErrorTable that `table` points to in each result.
+template <class Result>
+void add_errors(const std::string& prefix, analysis::ErrorTable Result::*table,
+                const std::vector<Result>& results, std::vector<io::TableColumn>& columns) {
+  for (const analysis::NamedSummary& named : analysis::error_columns) {
+    const std::string name = prefix + "_" + named.name + "_";
+    const auto add = [&](const char* what, double analysis::ErrorSummary::*number) {
+      columns.push_back(column<double>(name + what, named.unit, results, [&](const Result& result) {
+        return result.*table.*named.summary.*number;
+      }));
+    };
+    add("rms", &analysis::ErrorSummary::rms);
+    add("p99", &analysis::ErrorSummary::p99);
+    add("max", &analysis::ErrorSummary::max);
+    std::vector<std::int64_t> bands;
+    for (const Result& result : results) {
+      const analysis::BandCounts& counts = (result.*table.*named.summary).bands;
+      bands.insert(bands.end(), counts.begin(), counts.end());
+    }
+    columns.push_back({name + "bands", "", std::move(bands), analysis::num_bands});
+  }
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,57 @@
+/// The effect breakable_joints: joints give way under load.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "model/state.h"
+
+namespace pbmpi::effects {
+
+/// What a joint exerts on its bodies in a step, the same on both but for the sign: ODE's feedback f1, t1 of
+/// the first body (ODE manual, "Joint feedback"), magnitudes. With sor the impulses of the joint's rows over
+/// the length of the (last) substep. Rows of limits and motors count; a motor that is pressed against its
+/// limit pushes from outside the joint, as in ODE, and does not.
+///
+/// The torque is that about the first body's anchor, t1 - r x f1 with r from its centre of mass to there (of
+/// a fixed joint as the body stands after the step); a slider's is about the middle between the two centres
+/// of mass, a slider's to the world about the first's.
+struct Reaction {
+  double force_n = 0;    ///< [N]
+  double torque_nm = 0;  ///< [N m]
+};
+
+/// Of a fixed joint: where the second body's centre of mass belongs, [m] in the first's frame; zero if the
+/// first is fixed to the world. There the rows along lines act.
+core::Vec3 offset_of_second(const model::Model& model, const model::Joint& joint);
+
+/// Is that more than the joint bears?
+bool breaks(const model::Joint& joint, const Reaction& reaction);
+
+/// The rule by which joints break, over State::broken_in alone: what a world does next follows from its
+/// state, whoever steps it. A joint whose reaction in a step is above what it bears acts no more from the
+/// next step on: it has no rows, its limits, motors and suspension are gone with it, it connects no island,
+/// and its bodies may touch (TouchRule). It stays broken. Joints of bodies that sleep are not looked at.
+class Breakage {
+ public:
+  using GetReaction = std::function<Reaction(int joint)>;
+
+  /// `model` is borrowed.
+  explicit Breakage(const model::Model& model);
+
+  /// One that has no `broken_in` gets it, with all joints whole.
+  void start(model::State& state) const;
+  /// After step `step`: breaks what its load was too much for; true if anything broke. `reaction` is asked
+  /// for the joints that can break; `joints` are all of them, or those that took part in the step.
+  bool strain(std::int64_t step, std::span<const int> joints, const GetReaction& reaction,
+              model::State& state) const;
+  std::span<const int> joints() const { return joints_; }  ///< those that can break, ascending
+
+ private:
+  const model::Model* model_;
+  std::vector<int> joints_;
+};
+
+}  // namespace pbmpi::effects

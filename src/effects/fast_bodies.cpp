@@ -1,0 +1,285 @@
+#include "effects/fast_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "geometry/geometry.h"
+#include "geometry/ray_cast.h"
+
+namespace pbmpi::effects {
+namespace {
+
+double least_half_extent(const model::Geom& geom) {
+  switch (geom.shape) {
+    case model::Shape::sphere:
+    case model::Shape::capsule:
+      return geom.size[0];
+    case model::Shape::box:
+      return std::min({geom.size[0], geom.size[1], geom.size[2]}) / 2;
+    case model::Shape::cylinder:
+      return std::min(geom.size[0], geom.size[1] / 2);
+    case model::Shape::plane:
+      break;
+  }
+  return model::infinity;
+}
+
+model::BodyPose body_pose(const core::Vec3& position, const core::Quat& q) {
+  model::BodyPose pose;
+  std::memcpy(pose.position, position.data(), sizeof pose.position);
+  geometry::to_rotation(q.w, q.x, q.y, q.z, pose.rotation);
+  return pose;
+}
+
+model::BodyPose pose_of(const model::State& state, const model::Geom& geom) {
+  return geom.body == model::no_body
+             ? geometry::geom_pose(geom, geometry::static_pose())
+             : geometry::geom_pose(geom, body_pose(state.position[geom.body], state.orientation[geom.body]));
+}
+
+/// `body`, `pose`: the body's; `geom_at`: the geom's.
+core::Vec3 velocity_of_centre(const model::BodyPose& geom_at, const core::Vec3& body_position,
+                              const core::Vec3& velocity, const core::Vec3& angular_velocity) {
+  return velocity + angular_velocity.cross(core::Vec3(geom_at.position) - body_position);
+}
+
+bool moves_past_half(const model::Geom& geom, const model::BodyPose& geom_at, const core::Vec3& way) {
+  const double length = way.norm();
+  return std::isfinite(length) && length > least_half_extent(geom) &&
+         length > half_extent(geom, geom_at.rotation, way / length);
+}
+
+/// A way of the geom's centre, longer by what the geom reaches ahead of it.
+core::Vec3 with_front(const model::Geom& geom, const model::BodyPose& geom_at, const core::Vec3& way) {
+  const double length = way.norm();
+  if (length == 0) return way;
+  return way + half_extent(geom, geom_at.rotation, way / length) / length * way;
+}
+
+bool starts_fast(const model::Geom& geom, const core::Pose& pose, const core::Vec3& velocity,
+                 const core::Vec3& angular_velocity) {
+  const model::BodyPose at = geometry::geom_pose(geom, body_pose(pose.position, pose.orientation));
+  return moves_past_half(geom, at,
+                         nominal_step_s * velocity_of_centre(at, pose.position, velocity, angular_velocity));
+}
+
+bool by_geoms(const model::Contact& a, const model::Contact& b) { return a.geoms < b.geoms; }
+
+}  // namespace
+
+double half_extent(const model::Geom& geom, const double rotation[9], const core::Vec3& direction) {
+  double along[3];  // the direction in the geom's frame
+  for (int k = 0; k < 3; ++k) {
+    along[k] =
+        rotation[k] * direction.x() + rotation[3 + k] * direction.y() + rotation[6 + k] * direction.z();
+  }
+  switch (geom.shape) {
+    case model::Shape::sphere:
+      return geom.size[0];
+    case model::Shape::box:
+      return 0.5 * (std::abs(along[0]) * geom.size[0] + std::abs(along[1]) * geom.size[1] +
+                    std::abs(along[2]) * geom.size[2]);
+    case model::Shape::capsule:
+      return geom.size[0] + 0.5 * geom.size[1] * std::abs(along[2]);
+    case model::Shape::cylinder:
+      return 0.5 * geom.size[1] * std::abs(along[2]) + geom.size[0] * std::hypot(along[0], along[1]);
+    case model::Shape::plane:
+      break;
+  }
+  return model::infinity;
+}
+
+int count_fast_starts(const model::Model& model) {
+  std::vector<char> is_fast(model.bodies.size(), 0);
+  std::vector<std::vector<const model::Geom*>> geoms(model.bodies.size());
+  for (const model::Geom& geom : model.geoms) {
+    if (geom.body != model::no_body) geoms[geom.body].push_back(&geom);
+  }
+  const auto start = [&](int body, const core::Pose& pose, const core::Vec3& velocity,
+                         const core::Vec3& angular_velocity) {
+    is_fast[body] |= std::any_of(geoms[body].begin(), geoms[body].end(), [&](const model::Geom* geom) {
+      return starts_fast(*geom, pose, velocity, angular_velocity);
+    });
+  };
+  for (int i = 0; i < model.num_bodies(); ++i) {
+    const model::Body& body = model.bodies[i];
+    start(i, body.pose, body.velocity, body.angular_velocity);
+  }
+  for (const model::Event& event : model.events) {
+    if (event.kind != model::EventKind::launch) continue;
+    start(event.body, event.pose.value_or(model.bodies[event.body].pose), event.velocity,
+          event.angular_velocity);
+  }
+  return static_cast<int>(std::count(is_fast.begin(), is_fast.end(), 1));
+}
+
+FastBodies::FastBodies(const model::Model& model, std::span<const char> of_bodies)
+    : model_(&model), rule_(model), fast_of_geom_(model.geoms.size(), -1) {
+  if (count_fast_starts(model) == 0) return;
+  for (std::size_t i = 0; i < model.geoms.size(); ++i) {
+    const model::Geom& geom = model.geoms[i];
+    const int index = static_cast<int>(i);
+    const double arm = geom.local.position.norm(), radius = geometry::bounding_radius(geom) + arm;
+    if (geom.body == model::no_body) {
+      balls_.push_back({index, model::no_body, geom.local.position, geometry::bounding_radius(geom)});
+    } else if (of_bodies.empty() || of_bodies[geom.body] != 0) {
+      balls_.push_back({index, geom.body, core::Vec3::Zero(), radius});
+      watched_.push_back({index, geom.body, least_half_extent(geom), arm, radius});
+    }
+  }
+  for (const model::Body& body : model.bodies) ease_of_turning_.push_back(3 / body.inertia.trace());
+}
+
+/// Without a square root, of which there would be two a geom: the part of either is below half of what makes
+/// a geom fast. What is not finite is slow.
+bool FastBodies::is_slow(const Watched& watched, const core::Vec3& velocity, const core::Vec3& spin,
+                         double dt_s) {
+  const double half_s = 0.499 * watched.least_half / dt_s;
+  const bool clearly = velocity.squaredNorm() < half_s * half_s &&
+                       spin.squaredNorm() * watched.arm * watched.arm < half_s * half_s;
+  if (clearly) return true;
+  const double most = velocity.norm() + (watched.arm > 0 ? spin.norm() * watched.arm : 0);
+  return !(most * dt_s > watched.least_half);
+}
+
+bool FastBodies::look(const model::State& state, double dt_s) {
+  for (const Fast& fast : fast_) fast_of_geom_[fast.geom] = -1;
+  fast_.clear();
+  bodies_.clear();
+  for (const Watched& watched : watched_) {
+    const core::Vec3& velocity = state.velocity[watched.body];
+    const core::Vec3& spin = state.angular_velocity[watched.body];
+    if (is_slow(watched, velocity, spin, dt_s)) continue;
+    const model::Geom& geom = model_->geoms[watched.geom];
+    const model::BodyPose at = pose_of(state, geom);
+    const core::Vec3 way = dt_s * velocity_of_centre(at, state.position[watched.body], velocity, spin);
+    if (!moves_past_half(geom, at, way)) continue;
+    fast_of_geom_[watched.geom] = static_cast<int>(fast_.size());
+    fast_.push_back({watched.geom, watched.radius, at, way, with_front(geom, at, way)});
+    bodies_.push_back(watched.body);
+  }
+  std::sort(bodies_.begin(), bodies_.end());
+  bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
+  return !fast_.empty();
+}
+
+bool FastBodies::is_near(const model::State& state, const core::Vec3& middle, double half_way,
+                         const Ball& ball) {
+  const core::Vec3& centre = ball.body == model::no_body ? ball.centre : state.position[ball.body];
+  const double reach = half_way + ball.radius;
+  return (centre - middle).squaredNorm() <= reach * reach;
+}
+
+/// The contact acts where the way meets the surface, or below the fast geom's centre: a lever that comes from
+/// meeting at a slant would turn a body instead of stopping it, so that it is dealt out by how easily the two
+/// turn, the less to the one that turns easily.
+void FastBodies::meet(const model::State& state, const Fast& fast, const core::Vec3& way, int other) {
+  const core::Vec3 centre(fast.pose.position);
+  const model::Geom& geom = model_->geoms[fast.geom];
+  const auto entry = geometry::enter(model_->geoms[other], pose_of(state, model_->geoms[other]), centre, way);
+  if (!entry) return;
+  const core::Vec3 hit = centre + entry->share * way;
+  const double height = entry->normal.dot(centre - hit);
+  const int other_body = model_->geoms[other].body;
+  const double own_ease = ease_of_turning_[geom.body];
+  const double other_ease = other_body == model::no_body ? 0 : ease_of_turning_[other_body];
+  model::Contact contact;
+  contact.geoms = {std::min(fast.geom, other), std::max(fast.geom, other)};
+  const int first_body = model_->geoms[contact.geoms.first].body;
+  const bool fast_is_a = other_body == model::no_body || first_body == geom.body;
+  contact.body_a = fast_is_a ? geom.body : other_body;
+  contact.body_b = fast_is_a ? other_body : geom.body;
+  contact.normal = fast_is_a ? entry->normal : core::Vec3(-entry->normal);
+  contact.position =
+      (own_ease * (centre - height * entry->normal) + other_ease * hit) / (own_ease + other_ease);
+  contact.depth = std::min(0.0, half_extent(geom, fast.pose.rotation, entry->normal) - height);
+  found_.push_back(contact);
+}
+
+/// `accepts`: the other geom.
+template <class Accepts>
+void FastBodies::look_from(const model::State& state, const Fast& fast, const BallSet& set,
+                           const Accepts& accepts) {
+  const core::Vec3 centre(fast.pose.position);
+  const model::Geom& geom = model_->geoms[fast.geom];
+  const core::Vec3 middle = centre + 0.5 * fast.reach;
+  const double half = 0.5 * fast.reach.norm();
+  const auto look_at = [&](const core::Vec3& way, int other) {
+    if (rule_.may_touch(fast.geom, other)) meet(state, fast, way, other);
+  };
+  const auto meet_if_near = [&](int index) {
+    const Ball& ball = balls_[set.balls[index]];
+    const int other = ball.geom;
+    if (!accepts(other)) return;
+    if (const int too = fast_of_geom_[other]; too >= 0) {
+      const core::Vec3 way = with_front(geom, fast.pose, fast.way - fast_[too].way);
+      if (is_near(state, centre + 0.5 * way, 0.5 * way.norm(), ball)) look_at(way, other);
+    } else if (is_near(state, middle, half, ball)) {
+      look_at(fast.reach, other);
+    }
+  };
+  // The front is within the geom's ball; the way of what is fast, too, is in its swept ball.
+  set.swept.for_each_near(geometry::swept_box(centre, fast.radius, fast.way), meet_if_near);
+}
+
+/// Keeps their memory.
+void FastBodies::clear_sets(std::size_t count) {
+  sets_.resize(count);
+  for (BallSet& set : sets_) {
+    set.swept.clear();
+    set.balls.clear();
+  }
+}
+
+void FastBodies::put_ball(const model::State& state, int index, BallSet& set) const {
+  const Ball& ball = balls_[index];
+  const core::Vec3& centre = ball.body == model::no_body ? ball.centre : state.position[ball.body];
+  const int fast = fast_of_geom_[ball.geom];
+  set.swept.add(centre, ball.radius, fast >= 0 ? fast_[fast].way : core::Vec3(core::Vec3::Zero()));
+  set.balls.push_back(index);
+}
+
+void FastBodies::add(const model::State& state, const Filter& filter, std::vector<model::Contact>& contacts) {
+  if (fast_.empty()) return;
+  clear_sets(1);
+  for (int i = 0; i < static_cast<int>(balls_.size()); ++i) put_ball(state, i, sets_.front());
+  for (const Fast& fast : fast_)
+    look_from(state, fast, sets_.front(), [&](int other) { return filter(fast.geom, other); });
+  join_found(contacts);
+}
+
+void FastBodies::add_across(const model::State& state, std::span<const int> group_of_body,
+                            std::vector<model::Contact>& contacts) {
+  if (fast_.empty()) return;
+  const auto group_of = [&](const Fast& fast) { return group_of_body[model_->geoms[fast.geom].body]; };
+  const int first = group_of(fast_.front());
+  const bool all_in_first =
+      std::all_of(fast_.begin(), fast_.end(), [&](const Fast& fast) { return group_of(fast) == first; });
+  clear_sets(static_cast<std::size_t>(*std::max_element(group_of_body.begin(), group_of_body.end()) + 1));
+  for (int i = 0; i < static_cast<int>(balls_.size()); ++i) {
+    if (balls_[i].body == model::no_body) continue;
+    const int group = group_of_body[balls_[i].body];
+    if (!all_in_first || group != first) put_ball(state, i, sets_[group]);
+  }
+  for (const Fast& fast : fast_) {
+    for (int group = 0; group < static_cast<int>(sets_.size()); ++group) {
+      if (group != group_of(fast)) look_from(state, fast, sets_[group], [](int) { return true; });
+    }
+  }
+  join_found(contacts);
+}
+
+/// In canonical order, after those of the same geoms that touch.
+void FastBodies::join_found(std::vector<model::Contact>& contacts) {
+  std::stable_sort(found_.begin(), found_.end(), by_geoms);
+  const auto end =
+      std::unique(found_.begin(), found_.end(),
+                  [](const model::Contact& a, const model::Contact& b) { return a.geoms == b.geoms; });
+  const auto num_touching = std::ssize(contacts);
+  contacts.insert(contacts.end(), found_.begin(), end);
+  std::inplace_merge(contacts.begin(), contacts.begin() + num_touching, contacts.end(), by_geoms);
+  found_.clear();
+}
+
+}  // namespace pbmpi::effects

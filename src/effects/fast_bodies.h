@@ -1,0 +1,111 @@
+/// The effect fast_bodies: contacts ahead of geoms that could pass through others between two steps.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "geometry/swept_balls.h"
+#include "model/contact.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "model/touch_rule.h"
+
+namespace pbmpi::effects {
+
+/// The step [s] by which a model is judged, whatever step a run takes: a plan follows from the model alone.
+inline constexpr double nominal_step_s = 0.01;
+
+/// Half of a geom's extent [m] along the unit `direction`; `rotation`: of the geom, by rows. Not for planes.
+double half_extent(const model::Geom& geom, const double rotation[9], const core::Vec3& direction);
+
+/// Bodies that start, or are launched, at more than half the extent along their way of one of their geoms in
+/// a nominal step.
+int count_fast_starts(const model::Model& model);
+
+/// Looks ahead of fast geoms. A geom is fast in a step if its centre moves further than half its extent along
+/// its way: from then on colliding at steps alone can find it behind the middle of what it hits, or miss it.
+///
+/// From its centre its way in the step, longer by that half extent, is cast against each geom that it may
+/// touch, as seen from that geom if it is fast itself. Where the way comes in, a contact with a gap (negative
+/// depth) keeps the two from coming closer than to touch. It has neither friction nor bounce, which are of
+/// surfaces that touch: the next step's contact has them. A pair that touches already has it too, since a
+/// touch at the end of a rod turns the rod and lets its middle through. What a pair gets depends on nothing
+/// but the two, so that a world cut into spaces finds the same.
+///
+/// Without a body that starts fast the model does not call for it, and no geom is ever fast: a pass that is
+/// only demanded changes no bit.
+class FastBodies {
+ public:
+  /// False for a pair that is looked at elsewhere.
+  using Filter = std::function<bool(int fast_geom, int other_geom)>;
+
+  /// `model` is borrowed. `of_bodies` [num_bodies]: looks only at these, and at static geoms; empty: at all.
+  explicit FastBodies(const model::Model& model, std::span<const char> of_bodies = {});
+
+  /// Joints are broken from now on: State::broken_in.
+  void set_broken(std::span<const std::int32_t> broken_in) { rule_ = model::TouchRule(*model_, broken_in); }
+
+  /// Finds the fast geoms at the start of a step of `dt_s`. Is there any?
+  bool look(const model::State& state, double dt_s);
+  /// Those of the last look(), ascending: bodies with a fast geom.
+  const std::vector<int>& bodies() const { return bodies_; }
+  /// Adds to `contacts`, in canonical order (sorted by Contact::geoms), those of the fast geoms of the last
+  /// look() with the geoms that `filter` lets through: at most one a pair, after those of its touch.
+  void add(const model::State& state, const Filter& filter, std::vector<model::Contact>& contacts);
+  /// The same with the geoms of bodies of other groups only; `group_of_body` [num_bodies], from 0 on.
+  void add_across(const model::State& state, std::span<const int> group_of_body,
+                  std::vector<model::Contact>& contacts);
+
+ private:
+  /// A ball that holds a geom: about its body's centre of mass, so that it need not be turned.
+  struct Ball {
+    int geom = 0;
+    int body = model::no_body;
+    core::Vec3 centre = core::Vec3::Zero();  ///< of a static geom
+    double radius = 0;                       ///< [m]
+  };
+  /// Balls of now, on the ways of those that are fast.
+  struct BallSet {
+    geometry::SweptBalls swept;
+    std::vector<int> balls;  ///< index of each into balls_
+  };
+  /// A geom that moves.
+  struct Watched {
+    int geom = 0, body = 0;
+    double least_half = 0;  ///< half the least extent [m]
+    double arm = 0;         ///< from its body's centre of mass [m]
+    double radius = 0;      ///< of its ball [m]
+  };
+  /// A geom that is fast in this step.
+  struct Fast {
+    int geom = 0;
+    double radius = 0;     ///< of its ball [m]
+    model::BodyPose pose;  ///< of the geom
+    core::Vec3 way;        ///< of its centre in this step [m], world frame
+    core::Vec3 reach;      ///< from its centre to where its front comes, past what does not move
+  };
+
+  void clear_sets(std::size_t count);
+  void put_ball(const model::State& state, int index, BallSet& set) const;
+  void join_found(std::vector<model::Contact>& contacts);
+  static bool is_slow(const Watched& watched, const core::Vec3& velocity, const core::Vec3& spin,
+                      double dt_s);
+  static bool is_near(const model::State& state, const core::Vec3& middle, double half_way, const Ball& ball);
+  template <class Accepts>
+  void look_from(const model::State& state, const Fast& fast, const BallSet& set, const Accepts& accepts);
+  void meet(const model::State& state, const Fast& fast, const core::Vec3& way, int other);
+
+  const model::Model* model_;
+  model::TouchRule rule_;
+  std::vector<Watched> watched_;         ///< ascending; none if the model does not call for the pass
+  std::vector<Ball> balls_;              ///< ascending, static ones too
+  std::vector<double> ease_of_turning_;  ///< [bodies] one over the mean moment of inertia [1/(kg m^2)]
+  std::vector<Fast> fast_;               ///< ascending
+  std::vector<int> fast_of_geom_;        ///< [geoms] index into fast_, or -1
+  std::vector<int> bodies_;
+  std::vector<BallSet> sets_;  ///< of add(), add_across(): one for each group
+  std::vector<model::Contact> found_;
+};
+
+}  // namespace pbmpi::effects

@@ -1,0 +1,23 @@
+#include "geometry/box.h"
+
+#include <cmath>
+
+#include "geometry/geometry.h"
+
+namespace pbmpi::geometry {
+
+Box geom_box(const model::Geom& geom, const model::BodyPose& body) {
+  const core::Pose& local = geom.local;
+  const bool centred = local.position.isZero(0) && local.orientation.w == 1;  // geom_pose() is then the same
+  const model::BodyPose pose = centred ? body : geom_pose(geom, body);
+  const std::array<double, 3> half = half_extents(geom, pose.rotation);
+  Box box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double slack = 1e-6 * (std::abs(pose.position[k]) + half[k]);
+    box.min[k] = pose.position[k] - half[k] - slack;
+    box.max[k] = pose.position[k] + half[k] + slack;
+  }
+  return box;
+}
+
+}  // namespace pbmpi::geometry

@@ -1,0 +1,35 @@
+/// World-aligned boxes about geoms and about whole spaces.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "model/contact.h"
+#include "model/model.h"
+
+namespace pbmpi::geometry {
+
+/// Corners [m], world frame. Empty at first: no box overlaps it.
+struct Box {
+  std::array<double, 3> min{model::infinity, model::infinity, model::infinity};
+  std::array<double, 3> max{-model::infinity, -model::infinity, -model::infinity};
+
+  void include(const Box& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      min[k] = std::min(min[k], other.min[k]);
+      max[k] = std::max(max[k], other.max[k]);
+    }
+  }
+  /// Touching counts.
+  bool overlaps(const Box& other) const {
+    return min[0] <= other.max[0] && other.min[0] <= max[0] && min[1] <= other.max[1] &&
+           other.min[1] <= max[1] && min[2] <= other.max[2] && other.min[2] <= max[2];
+  }
+};
+
+/// A box about the geom's centre that holds it, from its body's pose. Not for planes. It is larger than need
+/// be by some 1e-6 of the coordinates: what a collider in single precision finds touching, boxes must not
+/// part.
+Box geom_box(const model::Geom& geom, const model::BodyPose& body);
+
+}  // namespace pbmpi::geometry

@@ -1,0 +1,86 @@
+#include "ode/collide/contacts.h"
+
+#include <algorithm>
+
+namespace pbmpi::ode {
+
+Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan,
+                   const std::vector<dBodyID>& bodies)
+    : model_(&model),
+      bodies_(bodies),
+      friction_(plan.has("friction")),
+      restitution_(plan.has("restitution")),
+      cross_space_(plan.has("cross_space")),
+      joints_(dJointGroupCreate(0)) {
+  constexpr int most_of_dcollide = 0xffff;  // the flags of dCollide hold the count in 16 bits
+  found_.resize(static_cast<std::size_t>(std::min(model.contact_law.max_per_pair, most_of_dcollide)));
+  contact_.surface.soft_erp = model.contact_law.soft_erp;
+  contact_.surface.soft_cfm = model.contact_law.soft_cfm;
+  contact_.surface.bounce_vel = model.contact_law.bounce_velocity;
+}
+
+void Contacts::make(dWorldID world, const std::vector<GeomPair>& pairs, const std::vector<dGeomID>& geoms) {
+  touches_.clear();
+  deepest_m_ = 0;
+  for (const GeomPair& pair : pairs) {
+    const int num_contacts = dCollide(geoms[pair.first], geoms[pair.second], static_cast<int>(found_.size()),
+                                      found_.data(), sizeof(dContactGeom));
+    if (num_contacts > 0) join(world, pair, num_contacts);
+  }
+}
+
+/// ODE takes no negative depth; its motion along the normal is the slowest at which the bodies part.
+void Contacts::make_ahead(dWorldID world, const std::vector<model::Contact>& contacts, double dt_s) {
+  contact_.surface.mode = dContactSoftERP | dContactSoftCFM | dContactMotionN;
+  contact_.surface.mu = 0;
+  for (const model::Contact& contact : contacts) {
+    contact_.surface.motionN = contact.depth / dt_s;
+    std::copy_n(contact.position.data(), 3, contact_.geom.pos);
+    std::copy_n(contact.normal.data(), 3, contact_.geom.normal);
+    contact_.geom.depth = 0;
+    touches_.push_back({contact.body_a, contact.body_b, 1, 1, is_cross_space(contact.geoms)});
+    dJointAttach(dJointCreateContact(world, joints_.get(), &contact_), body_id(contact.body_a),
+                 body_id(contact.body_b));
+  }
+}
+
+bool Contacts::is_cross_space(const GeomPair& pair) const {
+  const model::Geom& first = model_->geoms[pair.first];
+  const model::Geom& second = model_->geoms[pair.second];
+  return cross_space_ && first.body != model::no_body && second.body != model::no_body &&
+         first.space != second.space;
+}
+
+int Contacts::count() const {
+  int sum = 0;
+  for (const Touch& touch : touches_) sum += touch.num_contacts;
+  return sum;
+}
+
+void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
+  const int body_a = model_->geoms[pair.first].body;
+  const int body_b = model_->geoms[pair.second].body;
+  touches_.push_back({body_a, body_b, num_contacts, set_surface(pair), is_cross_space(pair)});
+  for (int i = 0; i < num_contacts; ++i) {
+    contact_.geom = found_[i];
+    deepest_m_ = std::max(deepest_m_, found_[i].depth);
+    dJointAttach(dJointCreateContact(world, joints_.get(), &contact_), body_id(body_a), body_id(body_b));
+  }
+}
+
+/// Returns the rows of a contact with this surface. dContactApprox1 makes mu Coulomb's coefficient; without
+/// it ODE takes mu as a force [N]. An infinite mu (no slip) must go without: ODE would multiply it by a
+/// normal force of 0.
+int Contacts::set_surface(const GeomPair& pair) {
+  const model::Material material =
+      model::combined(model_->geoms[pair.first].material, model_->geoms[pair.second].material);
+  dSurfaceParameters& surface = contact_.surface;
+  surface.mode = dContactSoftERP | dContactSoftCFM;
+  surface.mu = friction_ ? material.mu : 0;
+  if (surface.mu > 0 && surface.mu < model::infinity) surface.mode |= dContactApprox1;
+  surface.bounce = material.restitution;
+  if (restitution_) surface.mode |= dContactBounce;
+  return surface.mu > 0 ? 3 : 1;
+}
+
+}  // namespace pbmpi::ode

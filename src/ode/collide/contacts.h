@@ -1,0 +1,63 @@
+/// The narrow phase: contact points of pairs of geoms, and their contact joints.
+#pragma once
+
+#include <vector>
+
+#include "effects/effects.h"
+#include "model/contact.h"
+#include "ode/collide/broad_phase.h"
+
+namespace pbmpi::ode {
+
+/// A pair of geoms that touch.
+struct Touch {
+  int body_a = model::no_body;
+  int body_b = model::no_body;
+  int num_contacts = 0;
+  int rows_per_contact = 1;  ///< 3 with friction
+  bool cross_space = false;  ///< two real bodies whose geoms lie in different collision spaces
+};
+
+/// Makes the contact joints of a step. Friction, restitution and the telling apart of
+/// spaces are there only if the plan has them.
+class Contacts {
+ public:
+  /// `model` is borrowed.
+  Contacts(const model::Model& model, const effects::StepPlan& plan, const std::vector<dBodyID>& bodies);
+
+  /// Collides each pair (dCollide with the lower geom first) and joins what touches, in the order of `pairs`.
+  void make(dWorldID world, const std::vector<GeomPair>& pairs, const std::vector<dGeomID>& geoms);
+  /// Joins what is ahead of fast bodies (effects::FastBodies): gaps that may close in a step of `dt_s`.
+  void make_ahead(dWorldID world, const std::vector<model::Contact>& contacts, double dt_s);
+  /// Removes the contact joints. touches() and deepest_m() stay until the next make().
+  void clear() { dJointGroupEmpty(joints_.get()); }
+
+  /// Forgets touches(), too: the step has no contacts.
+  void forget() {
+    touches_.clear();
+    deepest_m_ = 0;
+  }
+
+  const std::vector<Touch>& touches() const { return touches_; }
+  double deepest_m() const { return deepest_m_; }  ///< 0 without contacts
+  int count() const;
+
+ private:
+  dBodyID body_id(int body) const { return body == model::no_body ? nullptr : bodies_[body]; }
+  void join(dWorldID world, const GeomPair& pair, int num_contacts);
+  int set_surface(const GeomPair& pair);
+  bool is_cross_space(const GeomPair& pair) const;
+
+  const model::Model* model_;
+  std::vector<dBodyID> bodies_;
+  bool friction_;
+  bool restitution_;
+  bool cross_space_;
+  JointGroupHandle joints_;
+  dContact contact_{};               ///< the one that is being filled
+  std::vector<dContactGeom> found_;  ///< [max_per_pair]
+  std::vector<Touch> touches_;
+  double deepest_m_ = 0;
+};
+
+}  // namespace pbmpi::ode

@@ -1,0 +1,92 @@
+#include "ode/collide/narrow_phase.h"
+
+#include <vector>
+
+#include "geometry/geometry.h"
+#include "ode/objects/engine.h"
+#include "ode/objects/geoms.h"
+
+namespace pbmpi::ode {
+namespace {
+
+/// Geoms in no space and on no body, put where they are looked at.
+class NarrowPhase final : public model::NarrowPhase {
+ public:
+  explicit NarrowPhase(const model::Model& model)
+      : model_(&model),
+        placed_(model.geoms.size(), 0),
+        found_(static_cast<std::size_t>(model.contact_law.max_per_pair)) {
+    for (const model::Geom& geom : model.geoms) {
+      geoms_.push_back(make_shape(geom, nullptr));
+      if (geom.body == model::no_body && geom.shape != model::Shape::plane)
+        place(geoms_.back(), geom, geometry::static_pose());
+    }
+  }
+  ~NarrowPhase() override {
+    for (dGeomID geom : geoms_) dGeomDestroy(geom);
+  }
+  NarrowPhase(const NarrowPhase&) = delete;
+  NarrowPhase& operator=(const NarrowPhase&) = delete;
+
+  void collide(std::span<const model::BodyPose> poses, std::span<const model::GeomPair> pairs,
+               std::vector<model::Contact>& contacts) override {
+    ++time_;
+    for (const model::GeomPair& pair : pairs) {
+      bring(pair.first, poses);
+      bring(pair.second, poses);
+      const int count = dCollide(geoms_[pair.first], geoms_[pair.second], static_cast<int>(found_.size()),
+                                 found_.data(), sizeof(dContactGeom));
+      for (int i = 0; i < count; ++i) contacts.push_back(to_contact(pair, found_[i]));
+    }
+  }
+
+ private:
+  static void place(dGeomID id, const model::Geom& geom, const model::BodyPose& body) {
+    const model::BodyPose pose = geometry::geom_pose(geom, body);
+    const double* r = pose.rotation;
+    const dMatrix3 rotation = {r[0], r[1], r[2], 0, r[3], r[4], r[5], 0, r[6], r[7], r[8], 0};
+    dGeomSetPosition(id, pose.position[0], pose.position[1], pose.position[2]);
+    dGeomSetRotation(id, rotation);
+  }
+
+  /// Places a geom of a body, once a call of collide().
+  void bring(int index, std::span<const model::BodyPose> poses) {
+    const model::Geom& geom = model_->geoms[index];
+    if (geom.body == model::no_body || placed_[index] == time_) return;
+    place(geoms_[index], geom, poses[geom.body]);
+    placed_[index] = time_;
+  }
+
+  model::Contact to_contact(const model::GeomPair& pair, const dContactGeom& found) const {
+    const model::Geom& a = model_->geoms[pair.first];
+    const model::Geom& b = model_->geoms[pair.second];
+    const bool swapped =
+        a.body == model::no_body;  // the normal points into the first geom; a must be a real body
+    model::Contact contact;
+    contact.body_a = swapped ? b.body : a.body;
+    contact.body_b = swapped ? a.body : b.body;
+    contact.position = model::Vec3(found.pos);
+    contact.normal = swapped ? model::Vec3(-model::Vec3(found.normal)) : model::Vec3(found.normal);
+    contact.depth = found.depth;
+    const model::Material material = model::combined(a.material, b.material);
+    contact.mu = material.mu;
+    contact.restitution = material.restitution;
+    contact.geoms = pair;
+    return contact;
+  }
+
+  Engine engine_;
+  const model::Model* model_;
+  std::vector<dGeomID> geoms_;
+  std::vector<long> placed_;  ///< [geoms] the call that placed it
+  long time_ = 0;
+  std::vector<dContactGeom> found_;  ///< [max_per_pair]
+};
+
+}  // namespace
+
+std::unique_ptr<model::NarrowPhase> make_narrow_phase(const model::Model& model) {
+  return std::make_unique<NarrowPhase>(model);
+}
+
+}  // namespace pbmpi::ode

@@ -1,0 +1,76 @@
+/// The start and the end of ODE in this process, and what it says in between.
+#pragma once
+
+#include <cstdarg>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "core/error.h"
+#include "ode/objects/warning_sink.h"
+
+namespace pbmpi::ode {
+
+/// ODE found what it takes for a mistake in itself, e.g. a quaternion that is not a number.
+class EngineError : public core::RunError {
+ public:
+  using core::RunError::RunError;
+};
+
+/// Collects ODE's messages ("LCP internal error ..."), which it would print on standard error.
+class MessageLog {
+ public:
+  explicit MessageLog(WarningSink warn) : warn_(std::move(warn)) {}
+
+  /// What the messages that follow belong to.
+  void set_place(int world, std::int64_t step);
+  /// Counts a message, and hands the first of its number to the sink.
+  void record(int number, const std::string& text);
+  /// Hands the sink a line, after the place.
+  void warn(const std::string& text) const { warn_("ode: " + place() + ": " + text); }
+  /// Hands the sink how often each message came, if more than once.
+  void report_counts() const;
+  /// "world 3, step 17".
+  std::string place() const;
+  std::int64_t total() const;
+
+ private:
+  struct Seen {
+    std::string text;  ///< of the first
+    std::int64_t count = 0;
+  };
+  WarningSink warn_;
+  int world_ = -1;
+  std::int64_t step_ = 0;
+  std::map<int, Seen> seen_;
+};
+
+/// Keeps ODE initialised while it lives. ODE counts its initialisations itself (dInitODE2 and dCloseODE
+/// come in pairs), so that each stepper owns one.
+class Engine {
+ public:
+  Engine();
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+};
+
+/// Sends ODE's messages to `log` while it lives, and turns its errors into EngineError. Scopes nest; the
+/// handlers found are put back.
+///
+/// ODE's handlers are bare functions without user data, so that the log of the innermost scope has to be
+/// reachable from a variable of the thread: the one such variable of this library.
+class MessageScope {
+ public:
+  explicit MessageScope(MessageLog& log);
+  ~MessageScope();
+  MessageScope(const MessageScope&) = delete;
+  MessageScope& operator=(const MessageScope&) = delete;
+
+ private:
+  using Handler = void (*)(int, const char*, std::va_list);
+  MessageLog* outer_log_;
+  Handler message_, error_, debug_;
+};
+
+}  // namespace pbmpi::ode

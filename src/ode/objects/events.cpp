@@ -1,0 +1,80 @@
+#include "ode/objects/events.h"
+
+#include "core/error.h"
+#include "ode/objects/joints.h"
+
+namespace pbmpi::ode {
+namespace {
+
+bool can_drive(model::JointKind kind, int axis) {
+  switch (kind) {
+    case model::JointKind::hinge:
+    case model::JointKind::slider:
+      return axis == 0;
+    case model::JointKind::universal:
+    case model::JointKind::hinge2:
+      return true;
+    case model::JointKind::ball:
+    case model::JointKind::fixed:
+      return false;
+  }
+  return false;
+}
+
+/// ODE normalises the quaternion: the same each time, so that a restart before or after the launch changes
+/// nothing.
+void place(dBodyID body, const model::Pose& pose) {
+  dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
+  const dQuaternion q = {pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z};
+  dBodySetQuaternion(body, q);
+}
+
+void require_drivable(const model::Model& model) {
+  for (const model::Event& event : model.events) {
+    if (event.kind == model::EventKind::launch) continue;
+    const model::Joint& joint = model.joints[event.joint];
+    const int axis = event.kind == model::EventKind::steer ? 0 : event.axis;
+    core::require_input(can_drive(joint.kind, axis),
+                        "event of step " + std::to_string(event.step) + ": joint '" + joint.name +
+                            "' has no axis " + std::to_string(axis + 1) + " to drive; name another joint");
+  }
+}
+
+}  // namespace
+
+Events::Events(const model::Model& model, const std::vector<dBodyID>& bodies,
+               const std::vector<dJointID>& joints, HeldPoses& poses)
+    : model_(&model), bodies_(bodies), joints_(joints), poses_(&poses) {
+  require_drivable(model);
+}
+
+void Events::skip_to(std::int64_t step) {
+  for (; next_ < model_->events.size() && model_->events[next_].step < step; ++next_) {
+    const model::Event& event = model_->events[next_];
+    if (event.kind != model::EventKind::launch) set_joint(event);
+  }
+}
+
+void Events::apply(const model::Event& event) {
+  if (event.kind != model::EventKind::launch) {
+    set_joint(event);
+    return;
+  }
+  const dBodyID body = bodies_[event.body];
+  if (event.pose) place(body, *event.pose);
+  dBodySetLinearVel(body, event.velocity.x(), event.velocity.y(), event.velocity.z());
+  dBodySetAngularVel(body, event.angular_velocity.x(), event.angular_velocity.y(),
+                     event.angular_velocity.z());
+}
+
+void Events::set_joint(const model::Event& event) {
+  const model::JointKind kind = model_->joints[event.joint].kind;
+  if (event.kind == model::EventKind::motor) {
+    set_motor(joints_[event.joint], kind, event.axis, event.motor);
+    poses_->replace(event.joint, event.axis, event.motor);
+  } else {
+    set_limit(joints_[event.joint], kind, 0, {event.angle, event.angle});
+  }
+}
+
+}  // namespace pbmpi::ode

@@ -1,0 +1,110 @@
+#include "solver/collide/broad_phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/geometry.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::BodyPose;
+using model::Geom;
+using model::GeomPair;
+using model::Shape;
+
+/// From here on sorting beats testing the list of all pairs (bench_sor --broad-phase).
+constexpr std::size_t most_listed_solids = 96;
+
+}  // namespace
+
+BroadPhase::BroadPhase(const model::Model& model, std::span<const int> geoms,
+                       std::span<const std::int32_t> broken_in)
+    : model_(&model), rule_(model, broken_in), boxes_(model.geoms.size()) {
+  for (const int index : geoms) {
+    const Geom& geom = model.geoms[static_cast<std::size_t>(index)];
+    (geom.shape == Shape::plane ? planes_ : solids_).push_back(index);
+    if (geom.body == model::no_body && geom.shape != Shape::plane)
+      boxes_[static_cast<std::size_t>(index)] = geometry::geom_box(geom, geometry::static_pose());
+  }
+  order_ = solids_;
+  listed_only_ = solids_.size() <= most_listed_solids;
+  if (!listed_only_) return;
+  for (std::size_t i = 0; i < solids_.size(); ++i) {
+    for (std::size_t j = i + 1; j < solids_.size(); ++j) {
+      if (rule_.may_touch(solids_[i], solids_[j])) listed_.push_back({solids_[i], solids_[j]});
+    }
+  }
+}
+
+void BroadPhase::update_boxes(std::span<const BodyPose> poses) {
+  for (int index : solids_) {
+    const Geom& geom = model_->geoms[static_cast<std::size_t>(index)];
+    if (geom.body != model::no_body) {
+      boxes_[static_cast<std::size_t>(index)] =
+          geometry::geom_box(geom, poses[static_cast<std::size_t>(geom.body)]);
+    }
+  }
+}
+
+/// A box reaches below a plane if its corner nearest to the inside does.
+void BroadPhase::test_planes(std::vector<GeomPair>& pairs) const {
+  for (int plane : planes_) {
+    const Geom& geom = model_->geoms[static_cast<std::size_t>(plane)];
+    const model::Vec3 normal = geom.local.direction_to_outer(model::Vec3::UnitZ());
+    const double offset = normal.dot(geom.local.position);
+    for (int solid : solids_) {
+      if (model_->geoms[static_cast<std::size_t>(solid)].body == model::no_body) continue;
+      const geometry::Box& box = boxes_[static_cast<std::size_t>(solid)];
+      double nearest = 0;
+      for (int k = 0; k < 3; ++k) {
+        nearest += normal[k] * (normal[k] > 0 ? box.min[static_cast<std::size_t>(k)]
+                                              : box.max[static_cast<std::size_t>(k)]);
+      }
+      if (nearest <= offset && rule_.may_touch(plane, solid))
+        pairs.push_back({std::min(plane, solid), std::max(plane, solid)});
+    }
+  }
+}
+
+void BroadPhase::test_listed(std::vector<GeomPair>& pairs) const {
+  for (const GeomPair& pair : listed_) {
+    if (boxes_[static_cast<std::size_t>(pair.first)].overlaps(
+            boxes_[static_cast<std::size_t>(pair.second)])) {
+      pairs.push_back(pair);
+    }
+  }
+}
+
+/// Sweep and prune along x: insertion sort, since the order of the step before is nearly right.
+void BroadPhase::sweep(std::vector<GeomPair>& pairs) {
+  const auto low = [&](int geom) { return boxes_[static_cast<std::size_t>(geom)].min[0]; };
+  for (std::size_t i = 1; i < order_.size(); ++i) {
+    const int geom = order_[i];
+    std::size_t j = i;
+    for (; j > 0 && low(order_[j - 1]) > low(geom); --j) order_[j] = order_[j - 1];
+    order_[j] = geom;
+  }
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const geometry::Box& box = boxes_[static_cast<std::size_t>(order_[i])];
+    for (std::size_t j = i + 1; j < order_.size() && low(order_[j]) <= box.max[0]; ++j) {
+      if (!box.overlaps(boxes_[static_cast<std::size_t>(order_[j])])) continue;
+      const auto [first, second] = std::minmax(order_[i], order_[j]);
+      if (rule_.may_touch(first, second)) pairs.push_back({first, second});
+    }
+  }
+}
+
+void BroadPhase::find_pairs(std::span<const BodyPose> poses, std::vector<GeomPair>& pairs) {
+  pairs.clear();
+  update_boxes(poses);
+  test_planes(pairs);
+  if (listed_only_) {
+    test_listed(pairs);
+  } else {
+    sweep(pairs);
+  }
+  std::sort(pairs.begin(), pairs.end());
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,139 @@
+/// The pairs of geoms that a step looks at, all worlds of a pack together, and what touches.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "model/contact.h"
+#include "model/model.h"
+#include "solver/collide/broad_phase.h"
+#include "solver/layout/awake_geoms.h"
+#include "solver/layout/geom_order.h"
+#include "solver/layout/packed_world.h"
+
+namespace pbmpi::solver {
+
+/// What a kernel collides. The first shape named is the pair's a. `other`: shapes without a kernel.
+enum class PairKind {
+  sphere_plane,
+  capsule_plane,
+  box_plane,
+  cylinder_plane,
+  sphere_sphere,
+  capsule_sphere,
+  sphere_box,
+  capsule_capsule,
+  capsule_box,
+  box_box,
+  other
+};
+inline constexpr int num_pair_kinds = 11;
+
+/// A point that a kernel found.
+struct TouchPoint {
+  double position[3];  ///< [m] world frame
+  double normal[3];    ///< unit, into a
+  double depth;        ///< [m]
+};
+
+/// What came out of a pair: points of the table, in a row.
+struct Touch {
+  static constexpr int most_points = 4;
+  int first_point = 0;
+  short num_points = 0;
+  bool to_fallback = false;  ///< no kernel collides this kind of pair
+};
+
+/// Pairs of one kind, in columns: indices over the columns of the pack's geoms. Padded to whole lanes by
+/// repeating the last.
+struct PairColumn {
+  std::vector<std::int32_t> a, b, touch;  ///< [at least count, padded]
+  int count = 0;                          ///< without the padding
+  void make_room(std::ptrdiff_t pairs);   ///< for so many more
+};
+
+/// Room for the poses of a world's bodies, kept from step to step.
+class PoseCache {
+ public:
+  std::span<model::BodyPose> all(int num_bodies) {
+    if (static_cast<std::size_t>(num_bodies) > poses_.size()) grow(num_bodies);
+    return {poses_.data(), static_cast<std::size_t>(num_bodies)};
+  }
+
+ private:
+  void grow(int num_bodies);
+  std::vector<model::BodyPose> poses_;
+};
+
+/// Is every number of a pose finite?
+bool is_finite(const model::BodyPose& pose);
+
+class PairTable {
+ public:
+  PairTable(std::span<const PackedWorld> worlds, const GeomOrder& order);
+
+  void clear();
+  /// Pairs of this world follow; in any order.
+  void start_world(int world);
+  /// Geoms of the world at hand, by their index in its model.
+  void add(int first, int second);
+  /// `geom` with each geom of `others` whose bit is set.
+  void add(int geom, const int* others, std::uint32_t bits);
+  /// All pairs that this broad phase finds in the world at hand; of these only those with an awake geom, if
+  /// `awake` is given.
+  void add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses, const AwakeGeoms* awake);
+  /// After the last pair of a world: puts them in canonical order.
+  void finish_world();
+  /// After the last world: fills the columns up to multiples of num_lanes.
+  void pad(int num_lanes);
+
+  const PairColumn& column(PairKind kind) const { return columns_[static_cast<std::size_t>(kind)]; }
+  /// Where the kernels put what they found: touches by PairColumn::touch, points one after the other.
+  Touch* touches() { return touches_.data(); }
+  TouchPoint* points() { return points_.data(); }
+
+  /// Appends the contacts of a world, in canonical order. `fallback(pair)` appends those of a pair
+  /// without a kernel.
+  template <class Fallback>
+  void append_contacts(int world, std::vector<model::Contact>& contacts, Fallback fallback) const {
+    for (int i = world_begin_[static_cast<std::size_t>(world)];
+         i < world_begin_[static_cast<std::size_t>(world) + 1]; ++i) {
+      const Touch& touch = touches_[static_cast<std::size_t>(i)];
+      const model::GeomPair& pair = pairs_[static_cast<std::size_t>(i)];
+      if (touch.to_fallback) {
+        fallback(pair);
+      } else if (touch.num_points > 0) {
+        append(world, pair, touch, contacts);
+      }
+    }
+  }
+
+ private:
+  /// What a pair needs to know of a geom, apart from the rest of it so that more of them are in the cache.
+  struct GeomFacts {
+    model::Shape shape;
+    int body;
+    model::Material material;
+  };
+  struct World {
+    std::vector<GeomFacts> geoms;
+    int most_points = 0;  ///< contacts a pair
+  };
+
+  void append(int world, const model::GeomPair& pair, const Touch& touch,
+              std::vector<model::Contact>& contacts) const;
+
+  std::vector<World> worlds_;
+  const GeomOrder* order_;  ///< borrowed
+  bool kernels_ = true;     ///< false: all pairs are of kind `other`
+  int world_ = 0;
+  std::vector<int> world_begin_;  ///< [worlds + 1] into pairs
+  std::vector<model::GeomPair> pairs_;
+  std::vector<Touch> touches_;      ///< [pairs]
+  std::vector<TouchPoint> points_;  ///< at least [pairs][most_points]
+  std::array<PairColumn, num_pair_kinds> columns_;
+};
+
+}  // namespace pbmpi::solver

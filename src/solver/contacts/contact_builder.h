@@ -1,0 +1,229 @@
+/// Builds the rows of contacts from the poses of their bodies.
+#pragma once
+
+#include <cstddef>
+
+#include "solver/contacts/contact_rows.h"
+#include "solver/contacts/manifold_order.h"
+#include "solver/lanes/plane_space.h"
+
+namespace pbmpi::solver {
+
+template <class T, bool two_bodies, ContactKind kind>
+class ContactBuilder {
+ public:
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+  using L3 = Vec3L<V>;
+  using Solver = ContactSolver<T, two_bodies, kind>;
+  using Row = typename Solver::Row;
+  using Point = typename Solver::Point;
+  using Motion = typename Solver::Motion;
+
+  ContactBuilder(const BodyLanes<T>& bodies, const ContactParameters<Scalar>& parameters)
+      : bodies_(&bodies), parameters_(parameters) {}
+
+  /// Rows of manifolds[num_lanes], before forces act on the twists (bounce looks at the speed of approach).
+  /// Impulses start at 0. `points`: [slot.num_points].
+  void build(const Manifold* manifolds, ContactSlot<T>& slot, Point* points) const;
+
+  /// Next substep, with the velocities as the last sweep left them: the depth that the normal speed has left,
+  /// the same directions and arms. What is deeper than the push has planned is taken back at once: that is no
+  /// more than the last sweep's residual. Of the impulses the share to be taken over remains; it has not
+  /// acted on the velocities yet.
+  void advance(const ContactSlot<T>& slot, Point* points) const;
+
+ private:
+  /// What is read of a manifold's bodies.
+  struct BodyPair {
+    L3 centre_a, centre_b;
+    Sym3L<V> inv_inertia_a, inv_inertia_b;
+    Motion motion_a, motion_b;
+  };
+  /// The point at hand of each lane's manifold; harmless numbers in idle lanes. What rows of this kind do not
+  /// ask for is not read.
+  struct Given {
+    L3 position, normal;
+    V depth, mu, restitution, factor;
+  };
+
+  BodyPair gather(const Manifold* manifolds, ContactSlot<T>& slot) const;
+  Given read(const Manifold* manifolds, int point) const;
+  template <bool bounces>
+  void build_point(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, Point& point) const;
+  PBMPI_LANES static void build_row(const ContactSlot<T>& slot, const BodyPair& pair, const L3& direction,
+                                    const L3& arm_a, const L3& arm_b, Scalar cfm, const V& factor, Row& row);
+  PBMPI_LANES Motion gather_motion(const std::int32_t* index) const {
+    const Twist<V> twist = bodies_->gather_twist(index);
+    if constexpr (Solver::central) {
+      return twist.linear;
+    } else {
+      return twist;
+    }
+  }
+
+  PBMPI_LANES L3 gather_vector(std::size_t member, const std::int32_t* index) const {
+    return {bodies_->gather_member(member, index), bodies_->gather_member(member + sizeof(V), index),
+            bodies_->gather_member(member + 2 * sizeof(V), index)};
+  }
+  PBMPI_LANES Sym3L<V> gather_inertia(const std::int32_t* index) const {
+    constexpr std::size_t member = offsetof(BodyLane<V>, inv_inertia);
+    const L3 upper = gather_vector(member, index), lower = gather_vector(member + 3 * sizeof(V), index);
+    return {upper.x, upper.y, upper.z, lower.x, lower.y, lower.z};
+  }
+
+  const BodyLanes<T>* bodies_;
+  ContactParameters<Scalar> parameters_;
+};
+
+template <class T, bool two_bodies, ContactKind kind>
+void ContactBuilder<T, two_bodies, kind>::build(const Manifold* manifolds, ContactSlot<T>& slot,
+                                                Point* points) const {
+  const BodyPair pair = gather(manifolds, slot);
+  for (int i = 0; i < slot.num_points; ++i) {
+    const Given given = read(manifolds, i);
+    if (parameters_.restitution) {
+      build_point<true>(slot, pair, given, points[i]);
+    } else {
+      build_point<false>(slot, pair, given, points[i]);
+    }
+  }
+}
+
+template <class T, bool two_bodies, ContactKind kind>
+typename ContactBuilder<T, two_bodies, kind>::BodyPair ContactBuilder<T, two_bodies, kind>::gather(
+    const Manifold* manifolds, ContactSlot<T>& slot) const {
+  std::int32_t body_a[T::num_lanes], body_b[T::num_lanes], twist_a[T::num_lanes], twist_b[T::num_lanes];
+  for (int lane = 0; lane < T::num_lanes; ++lane) {
+    const LanePlace a = manifolds[lane].a, b = manifolds[lane].b;
+    slot.row_a[lane] = TwistRows<T>::index(a.slot, a.lane);
+    slot.row_b[lane] = TwistRows<T>::index(b.slot, b.lane);
+    twist_a[lane] = BodyLanes<T>::twist_index(a.slot, a.lane);
+    twist_b[lane] = BodyLanes<T>::twist_index(b.slot, b.lane);
+    body_a[lane] = BodyLanes<T>::body_index(a.slot, a.lane);
+    body_b[lane] = BodyLanes<T>::body_index(b.slot, b.lane);
+  }
+  constexpr std::size_t inv_mass = offsetof(BodyLane<V>, inv_mass);
+  constexpr std::size_t centre = offsetof(BodyLane<V>, position);
+  BodyPair pair{};
+  slot.inv_mass_a = bodies_->gather_member(inv_mass, body_a);
+  slot.inv_mass_b = two_bodies ? bodies_->gather_member(inv_mass, body_b) : T::broadcast(0);
+  if (parameters_.restitution) {
+    pair.motion_a = gather_motion(twist_a);
+    if constexpr (two_bodies) pair.motion_b = gather_motion(twist_b);
+  }
+  if constexpr (!Solver::central) {
+    pair.centre_a = gather_vector(centre, body_a);
+    pair.inv_inertia_a = gather_inertia(body_a);
+    if constexpr (two_bodies) {
+      pair.centre_b = gather_vector(centre, body_b);
+      pair.inv_inertia_b = gather_inertia(body_b);
+    }
+  }
+  return pair;
+}
+
+template <class T, bool two_bodies, ContactKind kind>
+typename ContactBuilder<T, two_bodies, kind>::Given ContactBuilder<T, two_bodies, kind>::read(
+    const Manifold* manifolds, int point) const {
+  const V zero = T::broadcast(0);
+  Given given{{zero, zero, zero}, {zero, zero, T::broadcast(1)}, zero, zero, zero, zero};
+  for (int lane = 0; lane < T::num_lanes; ++lane) {
+    if (point >= manifolds[lane].num_points) continue;
+    const model::Contact& contact = manifolds[lane].points[point];
+    if constexpr (!Solver::central) {
+      T::set(given.position.x, lane, static_cast<Scalar>(contact.position.x()));
+      T::set(given.position.y, lane, static_cast<Scalar>(contact.position.y()));
+      T::set(given.position.z, lane, static_cast<Scalar>(contact.position.z()));
+    }
+    T::set(given.normal.x, lane, static_cast<Scalar>(contact.normal.x()));
+    T::set(given.normal.y, lane, static_cast<Scalar>(contact.normal.y()));
+    T::set(given.normal.z, lane, static_cast<Scalar>(contact.normal.z()));
+    T::set(given.depth, lane, static_cast<Scalar>(contact.depth));
+    if constexpr (Solver::friction) T::set(given.mu, lane, static_cast<Scalar>(contact.mu));
+    T::set(given.restitution, lane, static_cast<Scalar>(contact.restitution));
+    T::set(given.factor, lane, parameters_.sor_factor);
+  }
+  return given;
+}
+
+template <class T, bool two_bodies, ContactKind kind>
+template <bool bounces>
+void ContactBuilder<T, two_bodies, kind>::build_point(const ContactSlot<T>& slot, const BodyPair& pair,
+                                                      const Given& given, Point& point) const {
+  const V zero = T::broadcast(0);
+  L3 arm_a{zero, zero, zero}, arm_b = arm_a;
+  if (parameters_.turning) {
+    arm_a = given.position - pair.centre_a;
+    if constexpr (two_bodies) arm_b = given.position - pair.centre_b;
+  }
+  build_row(slot, pair, given.normal, arm_a, arm_b, parameters_.soft_cfm / parameters_.h, given.factor,
+            point.normal);
+  V bounce = zero;
+  if constexpr (bounces) {
+    const V outgoing = Solver::speed(point.normal, pair.motion_a, pair.motion_b);
+    bounce = outgoing < T::broadcast(-parameters_.bounce_velocity) ? -given.restitution * outgoing : zero;
+  }
+  const V push = parameters_.push_rate * given.depth;
+  // A gap (negative depth) lets the bodies approach until they touch.
+  point.rhs = given.depth < zero ? given.depth / parameters_.h : T::max(push, bounce);
+  point.depth = point.planned = given.depth;
+  if constexpr (Solver::friction) {
+    point.mu = given.mu;
+    L3 directions[2];
+    plane_space<T>(given.normal, directions[0], directions[1]);
+    for (int i = 0; i < 2; ++i) {
+      build_row(slot, pair, directions[i], arm_a, arm_b, parameters_.cfm / parameters_.h, given.factor,
+                point.friction[i]);
+    }
+  }
+}
+
+template <class T, bool two_bodies, ContactKind kind>
+PBMPI_LANES void ContactBuilder<T, two_bodies, kind>::build_row(const ContactSlot<T>& slot,
+                                                                const BodyPair& pair, const L3& direction,
+                                                                const L3& arm_a, const L3& arm_b, Scalar cfm,
+                                                                const V& factor, Row& row) {
+  row.direction = direction;
+  V diagonal = slot.inv_mass_a;
+  if constexpr (!Solver::central) {
+    row.moment_a = cross(arm_a, direction);
+    row.turn_a = pair.inv_inertia_a * row.moment_a;
+    diagonal += dot(row.moment_a, row.turn_a);
+  }
+  if constexpr (two_bodies && Solver::central) {
+    diagonal += slot.inv_mass_b;
+  } else if constexpr (two_bodies) {
+    row.moment_b = -cross(arm_b, direction);
+    row.turn_b = pair.inv_inertia_b * row.moment_b;
+    diagonal += slot.inv_mass_b + dot(row.moment_b, row.turn_b);
+  }
+  row.scale = factor / (diagonal + cfm);
+  row.impulse = T::broadcast(0);
+}
+
+template <class T, bool two_bodies, ContactKind kind>
+void ContactBuilder<T, two_bodies, kind>::advance(const ContactSlot<T>& slot, Point* points) const {
+  const Motion a = Solver::gather(bodies_->contact_twists, slot.row_a);
+  const Motion b = two_bodies ? Solver::gather(bodies_->contact_twists, slot.row_b) : Motion{};
+  const V zero = T::broadcast(0);
+  const auto carried = [&](const V& impulse) {
+    return parameters_.warm_start > 0 ? impulse * T::broadcast(parameters_.warm_start) : zero;
+  };
+  const V per_h = T::broadcast(1 / parameters_.h), rate = T::broadcast(parameters_.push_rate);
+  const V rest = T::broadcast(1 - parameters_.push_rate * parameters_.h);
+  for (int i = 0; i < slot.num_points; ++i) {
+    Point& point = points[i];
+    point.depth = point.depth - Solver::speed(point.normal, a, b) * parameters_.h;
+    point.planned = point.planned * rest;
+    const V excess = T::max(point.depth - T::max(point.planned, zero), zero);
+    // A gap (negative depth) lets the bodies approach until they touch.
+    point.rhs = (point.depth > zero ? rate : per_h) * point.depth + excess * per_h;
+    point.normal.impulse = carried(point.normal.impulse);
+    if constexpr (Solver::friction) {
+      for (Row& row : point.friction) row.impulse = carried(row.impulse);
+    }
+  }
+}
+
+}  // namespace pbmpi::solver

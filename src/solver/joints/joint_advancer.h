@@ -1,0 +1,123 @@
+/// Leads the rows of a joint from one substep to the next.
+#pragma once
+
+#include "solver/joints/joint_controls.h"
+#include "solver/joints/joint_points.h"
+
+namespace pbmpi::solver {
+
+/// Uniform numbers of the substeps after a step's first. What moves a joint's gap is built anew: the arms of
+/// point rows, and all that follows from them. Axes and lines stay through the step, as contacts do, with
+/// their errors advanced by the velocities that the rows have left: what that misses, of second order in how
+/// far the bodies turn in a step, the next step sees in the poses.
+template <class T>
+class JointAdvancer {
+ public:
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+
+  /// As JointBuilder; carry: the share of a row's impulse with which its next impulse starts.
+  JointAdvancer(Scalar h, Scalar erp, Scalar cfm, Scalar sor_factor, Scalar carry)
+      : controls_(h, erp), erp_(erp), cfm_(cfm / h), inverse_factor_(1 / sor_factor), carry_(carry) {}
+
+  /// Before the bodies move on with the twists that they have.
+  template <model::JointKind kind>
+  PBMPI_LANES void advance(JointLane<V>& joint, const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
+  /// After it. May add to the twists, as JointBuilder::build(); carried impulses have not acted on them yet.
+  template <model::JointKind kind>
+  PBMPI_LANES void rebuild(JointLane<V>& joint, BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
+
+ private:
+  V carried(const V& impulse) const { return carry_ > 0 ? impulse * T::broadcast(carry_) : T::broadcast(0); }
+  /// Newton's step from the scale of before towards factor / diagonal, which is near enough: the scale
+  /// decides how fast a row converges, not where to. Up to a diagonal four times that of before it does not
+  /// come out too large.
+  V scale_of(const V& diagonal, const V& before) const {
+    const V least = T::broadcast(static_cast<Scalar>(0.25));
+    return before * T::max(2 - (diagonal + cfm_) * before * inverse_factor_, least);
+  }
+  /// Bounds and right-hand side of the row of an axis; push(impulse): of a motor at its limit. Returns
+  /// whether any lane has a row.
+  template <class Row, class Push>
+  PBMPI_LANES bool control(const AxisControl<V>& control, Bounded<Row, V>& row, const Push& push) const;
+
+  ControlRules<T> controls_;
+  Scalar erp_, cfm_, inverse_factor_, carry_;
+};
+
+template <class T>
+template <model::JointKind kind>
+PBMPI_LANES void JointAdvancer<T>::advance(JointLane<V>& joint, const BodyLanes<T>& bodies,
+                                           JointRows<T, kind>& rows) const {
+  const Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
+  const Vec3L<V> turning = a.angular - b.angular;
+  const V erp = T::broadcast(erp_);
+  for (AxisRow<V>& row : rows.axes) row.rhs = row.rhs - erp * dot(row.axis, turning);
+  for (std::size_t i = 0; i < rows.lines.size(); ++i) {
+    LineRow<V>& row = rows.lines[i];
+    const bool springs = kind == model::JointKind::hinge2 && joint.sprung && i == 0;
+    // A spring's ERP is h k / (h k + damping), its CFM (here over h) 1 / (h (h k + damping)).
+    const V share = springs ? joint.terms.stiffness * row.cfm * (controls_.h() * controls_.h()) : erp;
+    row.rhs = row.rhs - share * relative_speed(row, a, b);
+  }
+  for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+    AxisControl<V>& control = joint.controls[i];
+    if (control.is_placed())
+      control.place = control.place + controls_.h() * dot(rows.axis_controls[i].row.axis, turning);
+  }
+  for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
+    AxisControl<V>& control = joint.controls[i];
+    control.place = control.place + controls_.h() * relative_speed(rows.line_controls[i].row, a, b);
+  }
+}
+
+template <class T>
+template <model::JointKind kind>
+PBMPI_LANES void JointAdvancer<T>::rebuild(JointLane<V>& joint, BodyLanes<T>& bodies,
+                                           JointRows<T, kind>& rows) const {
+  Twist<V>&twist_a = bodies.twists[rows.slot_a], &twist_b = bodies.twists[rows.slot_b];
+  for (PointRows<V>& row : rows.points) {
+    build_point<T>(joint.terms, bodies.bodies[rows.slot_a], bodies.bodies[rows.slot_b], erp_ / controls_.h(),
+                   row, [&](const V& diagonal, const V& before) { return scale_of(diagonal, before); });
+    row.impulse = {carried(row.impulse.x), carried(row.impulse.y), carried(row.impulse.z)};
+  }
+  for (LineRow<V>& row : rows.lines) row.impulse = carried(row.impulse);
+  for (AxisRow<V>& row : rows.axes) row.impulse = carried(row.impulse);
+  for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+    auto& row = rows.axis_controls[i];
+    if (!joint.controls[i].any()) continue;
+    rows.control_on[i] = control(joint.controls[i], row, [&](const V& impulse) {
+      controls_.push(row.row, impulse, twist_a, twist_b);
+    });
+  }
+  for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
+    auto& row = rows.line_controls[i];
+    rows.control_on[i] = control(joint.controls[i], row, [&](const V& impulse) {
+      controls_.push(row.row, impulse, rows.inv_mass_a, rows.inv_mass_b, twist_a, twist_b);
+    });
+  }
+}
+
+template <class T>
+template <class Row, class Push>
+PBMPI_LANES bool JointAdvancer<T>::control(const AxisControl<V>& control, Bounded<Row, V>& row,
+                                           const Push& push) const {
+  const V zero = T::broadcast(0), one = T::broadcast(1);
+  V at_low = zero, at_high = zero;
+  if (control.has_limit) {
+    at_low = control.place <= control.low ? one : zero;
+    at_high = at_low > zero ? zero : (control.place >= control.high ? one : zero);
+  }
+  if (!control.has_motor && !T::any(at_low + at_high)) {
+    row.row.impulse = zero;  // nothing for a later substep to carry
+    return false;
+  }
+  const ControlState<V> state = controls_.decide(control, at_low, at_high, control.place);
+  row.row.rhs = state.rhs;
+  set_bounds(state, row);
+  row.row.impulse = T::min(T::max(carried(row.row.impulse), state.low), state.high);
+  push(state.push);
+  return true;
+}
+
+}  // namespace pbmpi::solver

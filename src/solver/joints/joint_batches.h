@@ -1,0 +1,257 @@
+/// The joints of a pack: copies of one articulation shape lie in the lanes of consecutive batches.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/random.h"
+#include "solver/joints/joint_advancer.h"
+#include "solver/joints/joint_builder.h"
+#include "solver/joints/loose_joints.h"
+
+namespace pbmpi::solver {
+
+template <class T>
+class JointBatches {
+ public:
+  using V = typename T::V;
+
+  /// Appends a shape whose body i of batch k is slot first_slot + k num_bodies + i; returns its index.
+  int add_shape(const ArticulationShape& shape, int first_slot, int num_batches, int static_slot);
+  int num_shapes() const { return static_cast<int>(shapes_.size()); }
+  /// The joints of a shape: [num_batches][shape.joints].
+  std::vector<JointLane<V>>& joints(int shape) { return shapes_[static_cast<std::size_t>(shape)].joints; }
+
+  /// Which batches a step works on, by the slots of their bodies; at the start all.
+  void deactivate_all() {
+    for (Shape& shape : shapes_) std::fill(shape.active.begin(), shape.active.end(), 0);
+  }
+  void activate(int slot);
+  /// As many articulations of one shape as there are lanes. Their bodies are the slots first_slot to
+  /// end_slot - 1, and no other batch's joint is on any of them.
+  struct Batch {
+    std::size_t shape = 0, index = 0;
+    int first_slot = 0, end_slot = 0;
+  };
+  /// visit(batch), in the order of their slots.
+  template <class Visit>
+  void for_each_active_batch(Visit visit) const {
+    for (std::size_t s = 0; s < shapes_.size(); ++s) {
+      const Shape& shape = shapes_[s];
+      for (std::size_t i = 0; i < shape.active.size(); ++i) {
+        const int first_slot = shape.first_slot + static_cast<int>(i) * shape.num_bodies;
+        if (shape.active[i]) visit(Batch{s, i, first_slot, first_slot + shape.num_bodies});
+      }
+    }
+  }
+
+  /// A joint that has broken in this lane.
+  void loosen(int shape, int joint, int lane) { loose_.add(shape, joint, lane); }
+  /// The rows of a step's first substep.
+  void build(const Batch& batch, const JointBuilder<T>& builder, BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) { builder.build(joint, bodies, rows); });
+  }
+  /// After it, in all active batches: broken joints push nothing, in no substep of the step.
+  void loosen_broken();
+  /// Before and after the bodies move on to the next substep; `carries`: the rows start with impulses, which
+  /// act on the bodies.
+  void advance(const Batch& batch, const JointAdvancer<T>& advancer, const BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) { advancer.advance(joint, bodies, rows); });
+  }
+  void rebuild(const Batch& batch, const JointAdvancer<T>& advancer, bool carries, BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) {
+      advancer.rebuild(joint, bodies, rows);
+      if (carries) JointSolver<T>::push_carried(rows, bodies);
+    });
+  }
+  /// Fisher-Yates with keyed numbers: the same order in every batch of a shape, so in every world.
+  void shuffle(std::uint64_t key);
+  /// That of the model.
+  void order_as_given();
+  /// places_last: see JointSolver::solve().
+  template <bool places_last>
+  void sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies);
+
+  /// Rows of a lane of a joint as last built, limits and motors included.
+  int num_rows(int shape, int joint, int lane) const;
+  /// visit(rows) of a joint as last solved.
+  template <class Visit>
+  void visit_rows(int shape, int joint, Visit visit) const {
+    const RowsAt at = shapes_[static_cast<std::size_t>(shape)].rows[static_cast<std::size_t>(joint)];
+    with_kind(at.kind, [&](auto kind) { visit(rows_of<kind.value>()[static_cast<std::size_t>(at.index)]); });
+  }
+
+ private:
+  using Kind = model::JointKind;
+  /// Where the rows of a joint are; apart from its terms, which a sweep does not need.
+  struct RowsAt {
+    Kind kind = Kind::ball;
+    int index = 0;
+  };
+  struct Shape {
+    std::size_t num_joints = 0;  ///< of one articulation
+    int first_slot = 0, num_bodies = 0;
+    std::vector<char> active;          ///< [num_batches]
+    std::vector<JointLane<V>> joints;  ///< [num_batches][num_joints]
+    std::vector<RowsAt> rows;          ///< likewise
+    std::vector<std::size_t> order;    ///< of the joints within a batch, in this sweep
+  };
+  template <Kind kind>
+  using RowsOf = std::vector<JointRows<T, kind>>;
+
+  template <Kind kind>
+  RowsOf<kind>& rows_of() {
+    return std::get<RowsOf<kind>>(rows_);
+  }
+  template <Kind kind>
+  const RowsOf<kind>& rows_of() const {
+    return std::get<RowsOf<kind>>(rows_);
+  }
+  /// Calls visit<kind>(std::integral_constant<Kind, kind>).
+  template <class Visit>
+  static auto with_kind(Kind kind, Visit visit) {
+    switch (kind) {
+      case Kind::ball:
+        return visit(std::integral_constant<Kind, Kind::ball>{});
+      case Kind::hinge:
+        return visit(std::integral_constant<Kind, Kind::hinge>{});
+      case Kind::slider:
+        return visit(std::integral_constant<Kind, Kind::slider>{});
+      case Kind::universal:
+        return visit(std::integral_constant<Kind, Kind::universal>{});
+      case Kind::fixed:
+        return visit(std::integral_constant<Kind, Kind::fixed>{});
+      case Kind::hinge2:
+        break;
+    }
+    return visit(std::integral_constant<Kind, Kind::hinge2>{});
+  }
+
+  /// visit(joint, its rows) for each joint of a batch.
+  template <class Visit>
+  void for_each_rows(const Batch& batch, Visit visit);
+
+  std::vector<Shape> shapes_;
+  LooseJoints<T> loose_;
+  std::tuple<RowsOf<Kind::ball>, RowsOf<Kind::hinge>, RowsOf<Kind::slider>, RowsOf<Kind::universal>,
+             RowsOf<Kind::fixed>, RowsOf<Kind::hinge2>>
+      rows_;
+};
+
+template <class T>
+int JointBatches<T>::add_shape(const ArticulationShape& shape, int first_slot, int num_batches,
+                               int static_slot) {
+  Shape batches;
+  batches.num_joints = shape.joints.size();
+  batches.first_slot = first_slot;
+  batches.num_bodies = shape.num_bodies;
+  batches.active.assign(static_cast<std::size_t>(num_batches), 1);
+  batches.order.resize(batches.num_joints);
+  for (int batch = 0; batch < num_batches; ++batch) {
+    const int first = first_slot + batch * shape.num_bodies;
+    for (const JointLink& link : shape.joints) {
+      JointLane<V>& joint = batches.joints.emplace_back();
+      joint.sprung = link.sprung;
+      joint.slot_a = first + link.body_a;
+      joint.slot_b = link.body_b == shape.num_bodies ? static_slot : first + link.body_b;
+      const int index = with_kind(link.kind, [this](auto kind) {
+        auto& rows = this->template rows_of<kind.value>();
+        rows.emplace_back();
+        return static_cast<int>(rows.size()) - 1;
+      });
+      batches.rows.push_back({link.kind, index});
+    }
+  }
+  shapes_.push_back(std::move(batches));
+  return num_shapes() - 1;
+}
+
+template <class T>
+void JointBatches<T>::activate(int slot) {
+  for (Shape& shape : shapes_) {
+    const int batch = (slot - shape.first_slot) / shape.num_bodies;
+    if (slot < shape.first_slot || batch >= static_cast<int>(shape.active.size())) continue;
+    shape.active[static_cast<std::size_t>(batch)] = 1;
+  }
+}
+
+template <class T>
+template <class Visit>
+void JointBatches<T>::for_each_rows(const Batch& batch, Visit visit) {
+  Shape& shape = shapes_[batch.shape];
+  const std::size_t first = batch.index * shape.num_joints;
+  for (std::size_t i = first; i < first + shape.num_joints; ++i) {
+    const RowsAt at = shape.rows[i];
+    with_kind(at.kind, [&](auto kind) {
+      visit(shape.joints[i], rows_of<kind.value>()[static_cast<std::size_t>(at.index)]);
+    });
+  }
+}
+
+template <class T>
+void JointBatches<T>::loosen_broken() {
+  loose_.for_each([&](int shape, int joint, const V& holds) {
+    const Shape& batches = shapes_[static_cast<std::size_t>(shape)];
+    const RowsAt at = batches.rows[static_cast<std::size_t>(joint)];
+    if (!batches.active[static_cast<std::size_t>(joint) / batches.num_joints]) return;
+    with_kind(at.kind, [&](auto kind) {
+      solver::loosen(rows_of<kind.value>()[static_cast<std::size_t>(at.index)], holds);
+    });
+  });
+}
+
+template <class T>
+void JointBatches<T>::order_as_given() {
+  for (Shape& shape : shapes_) std::iota(shape.order.begin(), shape.order.end(), std::size_t{0});
+}
+
+template <class T>
+void JointBatches<T>::shuffle(std::uint64_t key) {
+  order_as_given();
+  for (Shape& shape : shapes_) {
+    for (std::size_t i = shape.order.size(); i > 1; --i) {
+      std::swap(shape.order[i - 1], shape.order[core::mix_key(key, i, 0) % i]);
+    }
+  }
+}
+
+/// The same joint of all batches in turn: they share no body, so that the processor works on several at once.
+template <class T>
+template <bool places_last>
+void JointBatches<T>::sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies) {
+  for (const Shape& shape : shapes_) {
+    for (const std::size_t joint : shape.order) {
+      for (std::size_t i = joint; i < shape.rows.size(); i += shape.num_joints) {
+        if (!shape.active[i / shape.num_joints]) continue;
+        const RowsAt at = shape.rows[i];
+        with_kind(at.kind, [&](auto kind) {
+          solver.template solve<places_last>(rows_of<kind.value>()[static_cast<std::size_t>(at.index)],
+                                             bodies);
+        });
+      }
+    }
+  }
+}
+
+template <class T>
+int JointBatches<T>::num_rows(int shape, int joint, int lane) const {
+  const RowsAt at = shapes_[static_cast<std::size_t>(shape)].rows[static_cast<std::size_t>(joint)];
+  return with_kind(at.kind, [&](auto kind) {
+    const auto& rows = rows_of<kind.value>()[static_cast<std::size_t>(at.index)];
+    int count = rows.counts.fixed_rows();
+    const auto add = [&](const auto& controls) {
+      for (std::size_t i = 0; i < controls.size(); ++i) {
+        if (rows.control_on[i] && T::get(controls[i].low, lane) < T::get(controls[i].high, lane)) ++count;
+      }
+    };
+    add(rows.axis_controls);
+    add(rows.line_controls);
+    return count;
+  });
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,49 @@
+/// Builds the rows that hold a point of one body on a point of another.
+#pragma once
+
+#include "solver/joints/joint_rows.h"
+#include "solver/joints/joint_terms.h"
+
+namespace pbmpi::solver {
+
+/// S (arm x e_k): the turn that a push along axis k at the end of the arm gives. The 0 in arm x e_k is left
+/// out.
+template <class V>
+PBMPI_LANES Vec3L<V> turn_of(const Sym3L<V>& s, const Vec3L<V>& arm, int k) {
+  const auto& [x, y, z] = arm;
+  if (k == 0) return {s.xy * z - s.xz * y, s.yy * z - s.yz * y, s.yz * z - s.zz * y};
+  if (k == 1) return {s.xz * x - s.xx * z, s.yz * x - s.xy * z, s.zz * x - s.xz * z};
+  return {s.xx * y - s.xy * x, s.xy * y - s.yy * x, s.xz * y - s.yz * x};
+}
+
+/// (arm x e_k) . turn
+template <class V>
+PBMPI_LANES V turning(const Vec3L<V>& turn, const Vec3L<V>& arm, int k) {
+  if (k == 0) return arm.z * turn.y - arm.y * turn.z;
+  return k == 1 ? arm.x * turn.z - arm.z * turn.x : arm.y * turn.x - arm.x * turn.y;
+}
+
+/// All but the impulse. k [1/s]: of the gap, how much a second is to close; scale_of(J M^-1 J^T of a row, its
+/// scale of before).
+template <class T, class ScaleOf>
+PBMPI_LANES void build_point(const JointTermsLane<typename T::V>& terms, const BodyLane<typename T::V>& a,
+                             const BodyLane<typename T::V>& b, typename T::Scalar k,
+                             PointRows<typename T::V>& row, const ScaleOf& scale_of) {
+  using V = typename T::V;
+  row.arm_a = a.rotation * terms.anchor_a;
+  row.arm_b = b.rotation * terms.anchor_b;
+  const V masses = a.inv_mass + b.inv_mass;
+  const auto set_row = [&](int axis, V& scale) {
+    row.turn_a[axis] = turn_of(a.inv_inertia, row.arm_a, axis);
+    row.turn_b[axis] = turn_of(b.inv_inertia, row.arm_b, axis);
+    scale = scale_of(
+        masses + turning(row.turn_a[axis], row.arm_a, axis) + turning(row.turn_b[axis], row.arm_b, axis),
+        scale);
+  };
+  set_row(0, row.scale.x);
+  set_row(1, row.scale.y);
+  set_row(2, row.scale.z);
+  row.rhs = (b.position + row.arm_b - a.position - row.arm_a) * T::broadcast(k);
+}
+
+}  // namespace pbmpi::solver

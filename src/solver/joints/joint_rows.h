@@ -1,0 +1,215 @@
+/// The rows of one joint of up to `num_lanes` articulations: one block a kind, so that the sweep knows at
+/// compile time what it solves.
+///
+/// Which rows each kind has, with signs and right-hand sides as in ODE 0.16's joints (ode/src/joints/*.cpp):
+///   ball       3 point                      hinge   3 point + 2 axis + limit/motor
+///   universal  3 point + 1 axis + 2 l/m     fixed   3 point + 3 axis
+///   hinge2     3 line (along axis 1 with the suspension's ERP and CFM, and across) + 1 axis + 2 l/m
+///   slider     2 line + 3 axis + limit/motor along the line
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+#include "solver/layout/body_lanes.h"
+
+namespace pbmpi::solver {
+
+/// How many rows of each type a joint has.
+struct RowCounts {
+  int points = 0;  ///< blocks of three rows
+  int lines = 0, axes = 0;
+  int axis_controls = 0, line_controls = 0;  ///< limits and motors, in rows of their own
+
+  constexpr int fixed_rows() const { return 3 * points + lines + axes; }
+};
+
+constexpr RowCounts row_counts(model::JointKind kind) {
+  switch (kind) {
+    case model::JointKind::ball:
+      return {.points = 1};
+    case model::JointKind::hinge:
+      return {.points = 1, .axes = 2, .axis_controls = 1};
+    case model::JointKind::universal:
+      return {.points = 1, .axes = 1, .axis_controls = 2};
+    case model::JointKind::fixed:
+      return {.points = 1, .axes = 3};
+    case model::JointKind::hinge2:
+      return {.lines = 3, .axes = 1, .axis_controls = 2};
+    case model::JointKind::slider:
+      return {.lines = 2, .axes = 3, .line_controls = 1};
+  }
+  return {};
+}
+
+/// A row with bounds on its impulse [N s or N m s].
+template <class Row, class V>
+struct alignas(sizeof(V)) Bounded {
+  Row row;
+  V low, high;
+};
+
+template <class T, model::JointKind kind>
+struct alignas(sizeof(typename T::V)) JointRows {
+  using V = typename T::V;
+  static constexpr RowCounts counts = row_counts(kind);
+
+  int slot_a = 0, slot_b = 0;
+  bool control_on[2] = {false, false};  ///< does a row stand for this axis now, in any lane?
+  V inv_mass_a, inv_mass_b;
+  std::array<PointRows<V>, counts.points> points;
+  std::array<LineRow<V>, counts.lines> lines;
+  std::array<AxisRow<V>, counts.axes> axes;
+  std::array<Bounded<AxisRow<V>, V>, counts.axis_controls> axis_controls;
+  std::array<Bounded<LineRow<V>, V>, counts.line_controls> line_controls;
+};
+
+/// Calls visit(row) for each row that stands alone: lines, axes, and limits and motors that are on.
+template <class Rows, class Visit>
+PBMPI_LANES void for_each_single_row(Rows& rows, Visit visit) {
+  for (auto& row : rows.lines) visit(row);
+  for (auto& row : rows.axes) visit(row);
+  for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+    if (rows.control_on[i]) visit(rows.axis_controls[i].row);
+  }
+  for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
+    if (rows.control_on[i]) visit(rows.line_controls[i].row);
+  }
+}
+
+/// Sweeps over the rows of a joint. `factor` is in the rows' scale already.
+template <class T>
+class JointSolver {
+ public:
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+
+  /// cfm [s/kg] of the joints, divided by the step.
+  explicit JointSolver(Scalar cfm) : cfm_(cfm) {}
+
+  /// Rows in ODE's order, place before angles before limits and motors; places_last: the other way round.
+  template <bool places_last, model::JointKind kind>
+  PBMPI_LANES void solve(JointRows<T, kind>& rows, BodyLanes<T>& bodies) const {
+    Twist<V> a = bodies.twists[rows.slot_a], b = bodies.twists[rows.slot_b];
+    if constexpr (places_last) {
+      solve_controls(rows, a, b);
+      solve_axes(rows, a, b);
+      solve_lines(rows, a, b);
+      solve_points(rows, a, b);
+    } else {
+      solve_points(rows, a, b);
+      solve_lines(rows, a, b);
+      solve_axes(rows, a, b);
+      solve_controls(rows, a, b);
+    }
+    bodies.twists[rows.slot_a] = a;
+    bodies.twists[rows.slot_b] = b;
+  }
+
+  /// Lets the impulses that the rows start with act on the bodies.
+  template <model::JointKind kind>
+  PBMPI_LANES static void push_carried(const JointRows<T, kind>& rows, BodyLanes<T>& bodies) {
+    Twist<V> a = bodies.twists[rows.slot_a], b = bodies.twists[rows.slot_b];
+    for (const PointRows<V>& row : rows.points) {
+      const Vec3L<V>& p = row.impulse;
+      a.linear = a.linear + p * rows.inv_mass_a;
+      b.linear = b.linear - p * rows.inv_mass_b;
+      a.angular = a.angular + row.turn_a[0] * p.x + row.turn_a[1] * p.y + row.turn_a[2] * p.z;
+      b.angular = b.angular - row.turn_b[0] * p.x - row.turn_b[1] * p.y - row.turn_b[2] * p.z;
+    }
+    for_each_single_row(rows, [&](const auto& row) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(row)>, AxisRow<V>>) {
+        a.angular = a.angular + row.turn_a * row.impulse;
+        b.angular = b.angular - row.turn_b * row.impulse;
+      } else {
+        apply(row, row.impulse, rows.inv_mass_a, a);
+        apply_to_b(row, row.impulse, rows.inv_mass_b, b);
+      }
+    });
+    bodies.twists[rows.slot_a] = a;
+    bodies.twists[rows.slot_b] = b;
+  }
+
+ private:
+  template <model::JointKind kind>
+  PBMPI_LANES void solve_points(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
+    for (PointRows<V>& row : rows.points) solve_point(row, rows.inv_mass_a, rows.inv_mass_b, a, b);
+  }
+  template <model::JointKind kind>
+  PBMPI_LANES void solve_lines(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
+    for (LineRow<V>& row : rows.lines) push(row, step_of(row, a, b), rows.inv_mass_a, rows.inv_mass_b, a, b);
+  }
+  template <model::JointKind kind>
+  PBMPI_LANES void solve_axes(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
+    for (AxisRow<V>& row : rows.axes) push(row, step_of(row, a, b), a, b);
+  }
+  template <model::JointKind kind>
+  PBMPI_LANES void solve_controls(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
+    for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+      if (!rows.control_on[i]) continue;
+      auto& control = rows.axis_controls[i];
+      push(control.row, clamped(control, step_of(control.row, a, b)), a, b);
+    }
+    for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
+      if (!rows.control_on[i]) continue;
+      auto& control = rows.line_controls[i];
+      push(control.row, clamped(control, step_of(control.row, a, b)), rows.inv_mass_a, rows.inv_mass_b, a, b);
+    }
+  }
+  PBMPI_LANES void solve_point(PointRows<V>& row, const V& inv_mass_a, const V& inv_mass_b, Twist<V>& a,
+                               Twist<V>& b) const {
+    const Vec3L<V>&ra = row.arm_a, &rb = row.arm_b;
+    const auto apply = [&](V speed, V rhs, V scale, V& impulse, V& linear_a, V& linear_b, int k) {
+      const V change = (rhs - speed - cfm_ * impulse) * scale;
+      impulse += change;
+      linear_a += inv_mass_a * change;
+      linear_b -= inv_mass_b * change;
+      a.angular = a.angular + row.turn_a[k] * change;
+      b.angular = b.angular - row.turn_b[k] * change;
+    };
+    const auto speed_of = [](V linear_a, V w1_a, V r2_a, V w2_a, V r1_a, V linear_b, V w1_b, V r2_b, V w2_b,
+                             V r1_b) {
+      return linear_a + w1_a * r2_a - w2_a * r1_a - linear_b - w1_b * r2_b + w2_b * r1_b;
+    };
+    apply(speed_of(a.linear.x, a.angular.y, ra.z, a.angular.z, ra.y, b.linear.x, b.angular.y, rb.z,
+                   b.angular.z, rb.y),
+          row.rhs.x, row.scale.x, row.impulse.x, a.linear.x, b.linear.x, 0);
+    apply(speed_of(a.linear.y, a.angular.z, ra.x, a.angular.x, ra.z, b.linear.y, b.angular.z, rb.x,
+                   b.angular.x, rb.z),
+          row.rhs.y, row.scale.y, row.impulse.y, a.linear.y, b.linear.y, 1);
+    apply(speed_of(a.linear.z, a.angular.x, ra.y, a.angular.y, ra.x, b.linear.z, b.angular.x, rb.y,
+                   b.angular.y, rb.x),
+          row.rhs.z, row.scale.z, row.impulse.z, a.linear.z, b.linear.z, 2);
+  }
+
+  /// The impulse of a row after a Gauss-Seidel step on it, before bounds.
+  PBMPI_LANES V step_of(const AxisRow<V>& row, const Twist<V>& a, const Twist<V>& b) const {
+    return row.impulse + (row.rhs - dot(row.axis, a.angular - b.angular) - cfm_ * row.impulse) * row.scale;
+  }
+  PBMPI_LANES static V step_of(const LineRow<V>& row, const Twist<V>& a, const Twist<V>& b) {
+    return row.impulse + (row.rhs - relative_speed(row, a, b) - row.cfm * row.impulse) * row.scale;
+  }
+  template <class Row>
+  PBMPI_LANES static V clamped(const Bounded<Row, V>& control, const V& impulse) {
+    return T::min(T::max(impulse, control.low), control.high);
+  }
+  /// Brings a row to this impulse.
+  PBMPI_LANES static void push(AxisRow<V>& row, const V& impulse, Twist<V>& a, Twist<V>& b) {
+    const V change = impulse - row.impulse;
+    row.impulse = impulse;
+    a.angular = a.angular + row.turn_a * change;
+    b.angular = b.angular - row.turn_b * change;
+  }
+  PBMPI_LANES static void push(LineRow<V>& row, const V& impulse, const V& inv_mass_a, const V& inv_mass_b,
+                               Twist<V>& a, Twist<V>& b) {
+    const V change = impulse - row.impulse;
+    row.impulse = impulse;
+    apply(row, change, inv_mass_a, a);
+    apply_to_b(row, change, inv_mass_b, b);
+  }
+
+  Scalar cfm_;
+};
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,39 @@
+/// What a joint's rows are built from, in lanes: the same joint of up to `num_lanes` articulations.
+#pragma once
+
+#include "solver/lanes/lanes.h"
+#include "solver/layout/articulation.h"
+
+namespace pbmpi::solver {
+
+/// Limit and motor of one axis: they may differ from lane to lane and change by events.
+template <class V>
+struct alignas(sizeof(V)) AxisControl {
+  V low, high;                             ///< [rad] or [m]; +-huge = none
+  V sin_low, cos_low, sin_high, cos_high;  ///< of half the angles
+  V velocity, max_force, hold_rate;
+  V place{};  ///< [rad] or [m] where the joint is along this axis, from substep to substep
+  bool has_motor = false, has_limit = false, has_hold = false;  ///< in any lane
+
+  bool any() const { return has_motor || has_limit; }
+  /// Does anybody look at `place`?
+  bool is_placed() const { return has_limit || has_hold; }
+};
+
+template <class V>
+struct alignas(sizeof(V)) JointTermsLane {
+  Vec3L<V> anchor_a, anchor_b, axis1_a, axis1_b, axis2_b, normal1_a, normal2_b;
+  V relative_w, relative_x, relative_y, relative_z;
+  V cos0, sin0, stiffness, damping;
+};
+
+/// One joint of a batch.
+template <class V>
+struct alignas(sizeof(V)) JointLane {
+  int slot_a = 0, slot_b = 0;
+  bool sprung = false;  ///< hinge2 with a suspension spring
+  JointTermsLane<V> terms;
+  AxisControl<V> controls[2];
+};
+
+}  // namespace pbmpi::solver

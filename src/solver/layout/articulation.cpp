@@ -1,0 +1,91 @@
+#include "solver/layout/articulation.h"
+
+#include <cmath>
+#include <utility>
+
+#include "model/islands.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::Joint;
+using model::JointKind;
+using model::Model;
+using model::Pose;
+using model::Quat;
+using model::Vec3;
+
+Pose start_pose(const Model& model, int body) {
+  return body == model::no_body ? Pose{} : model.bodies[static_cast<std::size_t>(body)].pose;
+}
+
+Vec3 to_local(const Pose& pose, const Vec3& direction) {
+  return pose.orientation.to_eigen().conjugate() * direction;
+}
+
+/// The part of `direction` across the unit vector `axis`, of unit length.
+Vec3 across(const Vec3& direction, const Vec3& axis) {
+  return (direction - axis * axis.dot(direction)).normalized();
+}
+
+JointTerms make_terms(const Model& model, const Joint& joint) {
+  const Pose a = start_pose(model, joint.body_a);
+  const Pose b = start_pose(model, joint.body_b);
+  JointTerms terms;
+  terms.anchor_a = joint.anchor_a;
+  terms.anchor_b = joint.anchor_b;
+  if (joint.kind == JointKind::fixed) {  // holds b's centre where it was, as seen from a
+    terms.anchor_a = joint.body_b == model::no_body ? Vec3::Zero() : to_local(a, b.position - a.position);
+    terms.anchor_b = joint.body_b == model::no_body ? a.position : Vec3::Zero();
+  } else if (joint.kind ==
+             JointKind::slider) {  // holds a's centre on a line through this point, as seen from b
+    terms.anchor_a = Vec3::Zero();
+    terms.anchor_b = to_local(b, a.position - b.position);
+  }
+  const Vec3 axis1 = a.direction_to_outer(joint.axis1_a);
+  const Vec3 axis2 = b.direction_to_outer(joint.axis2_b);
+  terms.axis1_a = joint.axis1_a;
+  terms.axis1_b = to_local(b, axis1);
+  terms.axis2_b = joint.axis2_b;
+  if (joint.kind == JointKind::universal || joint.kind == JointKind::hinge2) {
+    terms.normal1_a = across(to_local(a, axis2), terms.axis1_a);
+    terms.normal2_b = across(terms.axis1_b, terms.axis2_b);
+    terms.cos0 = axis1.dot(axis2);
+    terms.sin0 = axis1.cross(axis2).norm();
+  } else {
+    terms.normal1_a = terms.normal2_b = Vec3::Zero();
+  }
+  terms.relative = Quat::from_eigen(a.orientation.to_eigen().conjugate() * b.orientation.to_eigen());
+  terms.stiffness = joint.suspension.stiffness;
+  terms.damping = joint.suspension.damping;
+  return terms;
+}
+
+}  // namespace
+
+std::vector<Articulation> find_articulations(const Model& model) {
+  std::vector<std::pair<int, int>> links;
+  for (const Joint& joint : model.joints) links.emplace_back(joint.body_a, joint.body_b);
+  const model::Islands islands = model::find_islands(model.num_bodies(), links);
+
+  std::vector<Articulation> articulations(static_cast<std::size_t>(islands.count));
+  std::vector<int> local(model.bodies.size());
+  for (std::size_t body = 0; body < model.bodies.size(); ++body) {
+    Articulation& articulation = articulations[static_cast<std::size_t>(islands.of_body[body])];
+    local[body] = articulation.shape.num_bodies++;
+    articulation.bodies.push_back(static_cast<int>(body));
+  }
+  for (std::size_t index = 0; index < model.joints.size(); ++index) {
+    const Joint& joint = model.joints[index];
+    const auto body_a = static_cast<std::size_t>(joint.body_a);
+    Articulation& articulation = articulations[static_cast<std::size_t>(islands.of_body[body_a])];
+    const int body_b = joint.body_b == model::no_body ? articulation.shape.num_bodies
+                                                      : local[static_cast<std::size_t>(joint.body_b)];
+    articulation.shape.joints.push_back({joint.kind, local[body_a], body_b, joint.suspension.stiffness > 0});
+    articulation.terms.push_back(make_terms(model, joint));
+    articulation.joints.push_back(static_cast<int>(index));
+  }
+  return articulations;
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,74 @@
+/// Bodies that a step does not move in a batch with others that it moves: their lanes move along, and are put
+/// back after it.
+#pragma once
+
+#include <vector>
+
+#include "solver/layout/body_lanes.h"
+#include "solver/layout/lane_place.h"
+
+namespace pbmpi::solver {
+
+template <class T>
+class HeldLanes {
+ public:
+  using V = typename T::V;
+
+  /// Holds these from now on; `num_slots` of the pack.
+  template <class Places>
+  void hold(int num_slots, const Places& places);
+
+  void save(const BodyLanes<T>& bodies) {
+    for (Slot& held : slots_) {
+      held.body = bodies.bodies[held.slot];
+      held.twist = bodies.twists[held.slot];
+    }
+  }
+  void restore(BodyLanes<T>& bodies) const {
+    for (const Slot& held : slots_) {
+      BodyLane<V>& body = bodies.bodies[held.slot];
+      put_back(held, held.body.position, body.position);
+      for (V BodyLane<V>::*q : {&BodyLane<V>::qw, &BodyLane<V>::qx, &BodyLane<V>::qy, &BodyLane<V>::qz})
+        body.*q = is_held(held) ? held.body.*q : body.*q;
+      refresh(body);
+      Twist<V>& twist = bodies.twists[held.slot];
+      put_back(held, held.twist.linear, twist.linear);
+      put_back(held, held.twist.angular, twist.angular);
+    }
+  }
+
+ private:
+  struct alignas(sizeof(V)) Slot {
+    BodyLane<V> body;
+    Twist<V> twist;
+    V held;  ///< 1 in the lanes that are
+    int slot = 0;
+  };
+  PBMPI_LANES static auto is_held(const Slot& held) { return held.held > T::broadcast(0); }
+  PBMPI_LANES static void put_back(const Slot& held, const Vec3L<V>& before, Vec3L<V>& after) {
+    after.x = is_held(held) ? before.x : after.x;
+    after.y = is_held(held) ? before.y : after.y;
+    after.z = is_held(held) ? before.z : after.z;
+  }
+
+  std::vector<Slot> slots_;
+};
+
+template <class T>
+template <class Places>
+void HeldLanes<T>::hold(int num_slots, const Places& places) {
+  slots_.clear();
+  std::vector<int> index(static_cast<std::size_t>(num_slots), -1);
+  for (const LanePlace& at : places) {
+    int& found = index[static_cast<std::size_t>(at.slot)];
+    if (found < 0) {
+      found = static_cast<int>(slots_.size());
+      Slot& held = slots_.emplace_back();
+      held.held = T::broadcast(0);
+      held.slot = at.slot;
+    }
+    T::set(slots_[static_cast<std::size_t>(found)].held, at.lane, 1);
+  }
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,23 @@
+/// What a pack needs to know of the worlds that it steps.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "model/contact.h"
+#include "model/model.h"
+#include "solver/layout/articulation.h"
+
+namespace pbmpi::solver {
+
+/// A world in a pack: what the pack needs to know of its model.
+struct PackedWorld {
+  const model::Model* model = nullptr;
+  std::vector<Articulation> articulations;
+  model::NarrowPhase* fallback = nullptr;  ///< collides the pairs that the lanes do not
+  bool lanes_collide = true;               ///< false: the fallback collides all pairs
+  /// Those that collide() looks at, ascending; none: all of the model.
+  std::optional<std::vector<int>> swept_geoms = std::nullopt;
+};
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,89 @@
+/// A pack: the worlds that are stepped together, so that their bodies, joints and contacts fill the lanes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/clock.h"
+#include "effects/breakage.h"
+#include "model/contact.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "solver/layout/packed_world.h"
+#include "stepping/observables.h"
+
+namespace pbmpi::solver {
+
+/// Uniform numbers of a step.
+struct StepParameters {
+  double dt_s = 0.01;
+  int substeps = 1;
+  int iterations = 20;
+  double sor_factor = 1.3;
+  double warm_start = 0;        ///< share of the impulses that a substep takes over from the one before
+  bool shuffled = true;         ///< false: the joints of an articulation keep their order
+  bool residuals = false;       ///< measure them at the end of the solve
+  std::uint64_t order_key = 0;  ///< (seed, step): the order of joints within an articulation
+};
+
+/// One implementation for each number type, number of lanes and instruction set; all give the same bits for a
+/// number type. Bodies of a world are those of its model.
+class Pack {
+ public:
+  virtual ~Pack() = default;
+  virtual void load(int world, const model::State& state) = 0;
+  virtual void store(int world, model::State& state) const = 0;
+  /// The same for some bodies: the rows of `state` that belong to them.
+  virtual void load(int world, std::span<const int> bodies, const model::State& state) = 0;
+  virtual void store(int world, std::span<const int> bodies, model::State& state) const = 0;
+  /// From now on a step moves these bodies of this world and no others of it (at the start: all). Batches
+  /// that hold none of them are passed over; a body that shares a batch with them may move, too, and is not
+  /// to be looked at before its next load(), unless Passes::holds_bodies(): it is then put back. Bodies
+  /// that joints connect are active together, and the two of a contact; step() passes over the contacts of
+  /// others.
+  virtual void set_active(int world, std::span<const int> bodies) = 0;
+  /// With the pass "sleeping": from now on collide() looks for the contacts of which one of these bodies is
+  /// one (at the start: all).
+  virtual void set_awake(int world, std::span<const int> bodies) = 0;
+  virtual void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) = 0;
+  virtual void set_limit(int world, int joint, int axis, const model::AxisLimit& limit) = 0;
+  virtual void launch(int world, const model::Event& event) = 0;
+  /// Joints of a world are broken from now on (State::broken_in): they act no more, their settings change no
+  /// more, their bodies may touch, and need not be active together. What is broken stays so.
+  virtual void set_broken(int world, std::span<const std::int32_t> broken_in) = 0;
+  /// Poses of a world's bodies: [num_bodies].
+  virtual void poses(int world, std::span<model::BodyPose> poses) const = 0;
+  /// Collision detection among the swept geoms at the poses of now: the contacts of each world, in canonical
+  /// order. Nothing without the pass "collision".
+  virtual void collide(std::span<std::vector<model::Contact>> contacts) = 0;
+  /// The contacts of given pairs (sorted) of one world, swept geoms or not; appended.
+  virtual void collide_pairs(int world, std::span<const model::GeomPair> pairs,
+                             std::vector<model::Contact>& contacts) = 0;
+  /// One step with these contacts (of each world, in canonical order); spans hold during the call.
+  /// Adds the seconds spent on rows, solve and integrate to `times`.
+  void step(std::span<const std::span<const model::Contact>> contacts, const StepParameters& parameters,
+            core::PhaseTimes& times) {
+    begin_step(contacts, parameters, times);
+    finish_step(times);
+  }
+  /// The same in parts: all before the iterations of the last substep, then of these as many as are left at
+  /// most, then the rest of the step.
+  virtual void begin_step(std::span<const std::span<const model::Contact>> contacts,
+                          const StepParameters& parameters, core::PhaseTimes& times) = 0;
+  virtual void iterate(int iterations, core::PhaseTimes& times) = 0;
+  virtual void finish_step(core::PhaseTimes& times) = 0;
+  /// Before finish_step(): the states [num_worlds] as they would be if the step ended now. Costs an
+  /// integration, and disturbs nothing.
+  virtual void look(std::span<model::State> states) = 0;
+  /// How far a world's last step was from the solution of its constraints; StepParameters::residuals only.
+  virtual stepping::Residuals residuals(int world) const = 0;
+  /// What a joint of an active body exerted in the last substep.
+  virtual effects::Reaction reaction(int world, int joint) const = 0;
+  /// Rows that a joint had in the last step in which it acted, limits and motors included.
+  virtual int joint_rows(int world, int joint) const = 0;
+};
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,42 @@
+/// To be included before the instruction set is switched on: what the lanes' templates use of the standard
+/// library and of our own plain code, so that none of it is compiled for an instruction set that another
+/// machine may lack.
+#pragma once
+
+#include <immintrin.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/random.h"
+#include "effects/breakage.h"
+#include "geometry/geometry.h"
+#include "model/state.h"
+#include "solver/collide/broad_phase.h"
+#include "solver/collide/may_touch_table.h"
+#include "solver/collide/pair_table.h"
+#include "solver/contacts/manifold_order.h"
+#include "solver/joints/broken_joints.h"
+#include "solver/joints/joint_load.h"
+#include "solver/layout/active_bodies.h"
+#include "solver/layout/articulation.h"
+#include "solver/layout/awake_geoms.h"
+#include "solver/layout/lane_places.h"
+#include "solver/layout/passes.h"
+#include "solver/layout/slot_list.h"
+#include "solver/pack/pack.h"
+#include "solver/pack/pack_instances.h"

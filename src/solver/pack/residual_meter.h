@@ -1,0 +1,128 @@
+/// Measures how far a step's impulses and velocities are from the solution of its rows.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/contacts/contact_rows.h"
+#include "stepping/observables.h"
+
+namespace pbmpi::solver {
+
+/// Over the rows of one world as the last sweep left them, with the twists of then. What each number means:
+/// stepping::Residuals. One lane at a time: it is called on demand only.
+template <class T>
+class ResidualMeter {
+ public:
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+
+  /// h [s], cfm [s/kg] of the joints, and what the contacts were built with.
+  ResidualMeter(Scalar h, double cfm, const ContactParameters<Scalar>& contacts)
+      : cfm_(static_cast<Scalar>(cfm) / h), contacts_(contacts) {}
+
+  /// The rows of a joint in one lane.
+  template <model::JointKind kind>
+  void add_joint(const JointRows<T, kind>& rows, const BodyLanes<T>& bodies, int lane) {
+    const Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
+    for (const PointRows<V>& row : rows.points) {
+      const Vec3L<V> speed = a.linear + cross(a.angular, row.arm_a) - b.linear - cross(b.angular, row.arm_b);
+      add_free(line_, error(speed.x, row.rhs.x, cfm_, row.impulse.x, lane));
+      add_free(line_, error(speed.y, row.rhs.y, cfm_, row.impulse.y, lane));
+      add_free(line_, error(speed.z, row.rhs.z, cfm_, row.impulse.z, lane));
+    }
+    for (const LineRow<V>& row : rows.lines) add_free(line_, error(row, a, b, lane));
+    for (const AxisRow<V>& row : rows.axes) add_free(axis_, error(row, a, b, lane));
+    for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+      if (rows.control_on[i]) add_bounded(axis_, rows.axis_controls[i], a, b, lane);
+    }
+    for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
+      if (rows.control_on[i]) add_bounded(line_, rows.line_controls[i], a, b, lane);
+    }
+  }
+
+  /// The contacts of a slot for which is_wanted(lane, point).
+  template <class Point, class IsWanted>
+  void add_contacts(const ContactSlot<T>& slot, const Point* points, const TwistRows<T>& twists,
+                    IsWanted is_wanted) {
+    using Solver = ContactSolver<T, Point::two_bodies, Point::kind>;
+    using Motion = typename Solver::Motion;
+    const Motion a = Solver::gather(twists, slot.row_a);
+    const Motion b = Point::two_bodies ? Solver::gather(twists, slot.row_b) : Motion{};
+    for (int i = 0; i < slot.num_points; ++i) {
+      for (int lane = 0; lane < T::num_lanes; ++lane) {
+        if (is_wanted(lane, i)) add_contact<Solver>(points[i], a, b, lane);
+      }
+    }
+  }
+
+  stepping::Residuals result() const {
+    return {line_.free, axis_.free, complementarity_, line_.natural, axis_.natural};
+  }
+
+ private:
+  struct Largest {
+    double free = 0, natural = 0;
+  };
+
+  /// -w = rhs - J v - cfm p.
+  static double error(const V& speed, const V& rhs, double cfm, const V& impulse, int lane) {
+    return T::get(rhs, lane) - T::get(speed, lane) - cfm * T::get(impulse, lane);
+  }
+  double error(const LineRow<V>& row, const Twist<V>& a, const Twist<V>& b, int lane) const {
+    return error(relative_speed(row, a, b), row.rhs, T::get(row.cfm, lane), row.impulse, lane);
+  }
+  double error(const AxisRow<V>& row, const Twist<V>& a, const Twist<V>& b, int lane) const {
+    return error(dot(row.axis, a.angular - b.angular), row.rhs, cfm_, row.impulse, lane);
+  }
+
+  /// A NaN stays: it is no small residual.
+  static void raise(double& most, double value) {
+    if (!(std::abs(value) <= most)) most = std::abs(value);
+  }
+  static void add_free(Largest& largest, double error) {
+    raise(largest.free, error);
+    raise(largest.natural, error);
+  }
+  /// scale = factor / d.
+  double natural(double error, double impulse, double low, double high, double scale) const {
+    const double per_d = scale / contacts_.sor_factor;
+    return (std::clamp(impulse + error * per_d, low, high) - impulse) / per_d;
+  }
+  template <class Row>
+  void add_bounded(Largest& largest, const Bounded<Row, V>& bounded, const Twist<V>& a, const Twist<V>& b,
+                   int lane) const {
+    const double low = T::get(bounded.low, lane), high = T::get(bounded.high, lane);
+    if (!(low < high)) return;  // no row in this lane
+    const Row& row = bounded.row;
+    raise(largest.natural,
+          natural(error(row, a, b, lane), T::get(row.impulse, lane), low, high, T::get(row.scale, lane)));
+  }
+  template <class Solver>
+  void add_contact(const typename Solver::Point& point, const typename Solver::Motion& a,
+                   const typename Solver::Motion& b, int lane) {
+    const auto row_natural = [&](const auto& row, double error, double low, double high) {
+      return natural(error, T::get(row.impulse, lane), low, high, T::get(row.scale, lane));
+    };
+    const double impulse = T::get(point.normal.impulse, lane);
+    const double normal = error(Solver::speed(point.normal, a, b), point.rhs,
+                                contacts_.soft_cfm / contacts_.h, point.normal.impulse, lane);
+    raise(complementarity_, impulse * normal);
+    raise(line_.natural, row_natural(point.normal, normal, 0, huge_bound));
+    if constexpr (Solver::friction) {
+      const double bound = T::get(point.mu, lane) * impulse;
+      for (const auto& row : point.friction) {
+        const double slip =
+            error(Solver::speed(row, a, b), T::broadcast(0), contacts_.cfm / contacts_.h, row.impulse, lane);
+        raise(line_.natural, row_natural(row, slip, -bound, bound));
+      }
+    }
+  }
+
+  Scalar cfm_;
+  ContactParameters<Scalar> contacts_;
+  Largest line_, axis_;
+  double complementarity_ = 0;
+};
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,77 @@
+/// Plain numbers into one lane of what a pack keeps in lanes.
+#pragma once
+
+#include <cmath>
+
+#include "geometry/geometry.h"
+#include "solver/joints/joint_terms.h"
+#include "solver/layout/body_lanes.h"
+
+namespace pbmpi::solver {
+
+template <class T>
+struct SetLanes {
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+
+  static void set(V& v, int lane, double value) { T::set(v, lane, static_cast<Scalar>(value)); }
+  static void set(Vec3L<V>& v, int lane, const model::Vec3& value) {
+    set(v.x, lane, value.x());
+    set(v.y, lane, value.y());
+    set(v.z, lane, value.z());
+  }
+  /// The upper triangle of a symmetric matrix.
+  static void set(Sym3L<V>& s, int lane, const model::Mat3& m) {
+    set(s.xx, lane, m(0, 0));
+    set(s.xy, lane, m(0, 1));
+    set(s.xz, lane, m(0, 2));
+    set(s.yy, lane, m(1, 1));
+    set(s.yz, lane, m(1, 2));
+    set(s.zz, lane, m(2, 2));
+  }
+  /// Position and quaternion; refresh() makes the rest of them.
+  static void set(BodyLane<V>& body, int lane, const model::Pose& pose) {
+    set(body.position, lane, pose.position);
+    set(body.qw, lane, pose.orientation.w);
+    set(body.qx, lane, pose.orientation.x);
+    set(body.qy, lane, pose.orientation.y);
+    set(body.qz, lane, pose.orientation.z);
+  }
+  static void set(JointTermsLane<V>& to, int lane, const JointTerms& terms) {
+    set(to.anchor_a, lane, terms.anchor_a);
+    set(to.anchor_b, lane, terms.anchor_b);
+    set(to.axis1_a, lane, terms.axis1_a);
+    set(to.axis1_b, lane, terms.axis1_b);
+    set(to.axis2_b, lane, terms.axis2_b);
+    set(to.normal1_a, lane, terms.normal1_a);
+    set(to.normal2_b, lane, terms.normal2_b);
+    set(to.relative_w, lane, terms.relative.w);
+    set(to.relative_x, lane, terms.relative.x);
+    set(to.relative_y, lane, terms.relative.y);
+    set(to.relative_z, lane, terms.relative.z);
+    set(to.cos0, lane, terms.cos0);
+    set(to.sin0, lane, terms.sin0);
+    set(to.stiffness, lane, terms.stiffness);
+    set(to.damping, lane, terms.damping);
+  }
+  static void set(AxisControl<V>& control, int lane, const model::AxisMotor& motor) {
+    set(control.velocity, lane, motor.velocity);
+    set(control.max_force, lane, motor.max_force);
+    set(control.hold_rate, lane, motor.hold_rate);
+    control.has_motor = control.has_motor || motor.active();
+    control.has_hold = control.has_hold || (motor.active() && motor.hold_rate > 0);
+  }
+  /// No stop is a stop that no angle reaches: s cos <= c sin with sin = -1, cos = 0 holds for no c > 0.
+  static void set(AxisControl<V>& control, int lane, const model::AxisLimit& limit) {
+    const bool low = limit.low > -model::infinity, high = limit.high < model::infinity;
+    set(control.low, lane, low ? limit.low : -huge_bound);
+    set(control.high, lane, high ? limit.high : huge_bound);
+    set(control.sin_low, lane, low ? std::sin(limit.low / 2) : -1);
+    set(control.cos_low, lane, low ? std::cos(limit.low / 2) : 0);
+    set(control.sin_high, lane, high ? std::sin(limit.high / 2) : 1);
+    set(control.cos_high, lane, high ? std::cos(limit.high / 2) : 0);
+    control.has_limit = control.has_limit || low || high;
+  }
+};
+
+}  // namespace pbmpi::solver

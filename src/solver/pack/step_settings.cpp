@@ -1,0 +1,53 @@
+#include "solver/pack/step_settings.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "solver/pack/simd.h"
+
+namespace pbmpi::solver {
+
+using model::Event;
+using model::EventKind;
+
+void require_valid(const stepping::StepperSettings& settings) {
+  core::require_input(settings.dt_s > 0, "a step must be longer than 0 s");
+  core::require_input(settings.iterations >= 1, "the solver needs at least 1 iteration");
+  core::require_input(settings.substeps >= 1, "a step has at least 1 substep");
+  core::require_input(settings.warm_start >= 0 && settings.warm_start <= 1,
+                      "warm start: the share of the impulses to take over is 0 to 1");
+  core::require_input(has_simd(settings.simd),
+                      "this machine lacks the instruction set asked for with --simd; use auto");
+}
+
+StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step) {
+  StepParameters parameters;
+  parameters.dt_s = settings.dt_s;
+  parameters.substeps = settings.substeps;
+  parameters.iterations = settings.iterations;
+  parameters.sor_factor = settings.sor_factor;
+  parameters.warm_start = settings.warm_start;
+  parameters.residuals = settings.residuals;
+  parameters.shuffled = settings.row_order == stepping::RowOrder::shuffled;
+  parameters.order_key = core::mix_key(settings.seed, static_cast<std::uint64_t>(step), 0);
+  return parameters;
+}
+
+std::span<const Event> events_of(const model::Model& model, std::int64_t step) {
+  const auto events = std::ranges::equal_range(model.events, step, {}, &Event::step);
+  return {events.begin(), events.end()};
+}
+
+void apply_setting(const Event& event, int world, Pack& pack) {
+  if (event.kind == EventKind::motor) pack.set_motor(world, event.joint, event.axis, event.motor);
+  if (event.kind == EventKind::steer) pack.set_limit(world, event.joint, 0, {event.angle, event.angle});
+}
+
+void apply_settings_before(const model::Model& model, std::int64_t step, int world, Pack& pack) {
+  for (const Event& event : model.events) {
+    if (event.step < step) apply_setting(event, world, pack);
+  }
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,28 @@
+/// What sor takes from a run's settings and a model's events, whole worlds and spaces alike.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "solver/pack/pack.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::solver {
+
+/// Throws core::InputError for dt <= 0, iterations or substeps < 1, a warm start outside 0 to 1, or an
+/// instruction set that this machine lacks.
+void require_valid(const stepping::StepperSettings& settings);
+
+/// Of this step of a run.
+StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step);
+
+/// The events of a step, in the model's order.
+std::span<const model::Event> events_of(const model::Model& model, std::int64_t step);
+
+/// Puts what an event says of a joint into the pack; a launch says nothing of one.
+void apply_setting(const model::Event& event, int world, Pack& pack);
+
+/// The joint settings of all steps before this one.
+void apply_settings_before(const model::Model& model, std::int64_t step, int world, Pack& pack);
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,361 @@
+/// The worlds of a pack in their lanes, and all that goes in and out.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geometry/geometry.h"
+#include "solver/joints/broken_joints.h"
+#include "solver/joints/joint_batches.h"
+#include "solver/joints/load_meter.h"
+#include "solver/layout/active_bodies.h"
+#include "solver/layout/held_lanes.h"
+#include "solver/layout/lane_places.h"
+#include "solver/layout/passes.h"
+#include "solver/pack/set_lanes.h"
+
+namespace pbmpi::solver {
+
+template <class T>
+class WorldLanes {
+ public:
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+
+  /// A slot of bodies with gyroscopic torque, and 1 in the lanes that have it, else 0.
+  struct alignas(sizeof(V)) GyroscopicSlot {
+    V has_torque;
+    int slot = 0;
+  };
+
+  WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes);
+
+  void load(int world, const model::State& state) {
+    for (int body = 0; body < model(world).num_bodies(); ++body) load_body(world, body, state);
+  }
+  void store(int world, model::State& state) const {
+    for (int body = 0; body < model(world).num_bodies(); ++body) store_body(world, body, state);
+  }
+  void load_body(int world, int body, const model::State& state);
+  void store_body(int world, int body, model::State& state) const {
+    store_body(world, body, bodies.bodies.data(), state);
+  }
+  /// A world as it would be with these poses [slots] and the twists of now.
+  void store_with(const PoseLane<V>* poses, int world, model::State& state) const {
+    for (int body = 0; body < model(world).num_bodies(); ++body) store_body(world, body, poses, state);
+  }
+  /// See Pack. Batches know of it after the next update_active().
+  void set_active(int world, std::span<const int> moving) { active_.set(world, moving); }
+  void set_awake(int world, std::span<const int> awake_bodies) { awake_.set(world, awake_bodies); }
+  const ActiveBodies& awake() const { return awake_; }
+  bool moves(int world, int body) const { return active_.contains(world, body); }
+  void update_active();
+  /// With Passes::holds_bodies(): round a step, for the bodies that are not active in batches that are.
+  void save_held() { held_.save(bodies); }
+  void restore_held() { held_.restore(bodies); }
+  template <class Visit>
+  void for_each_active_slot(Visit visit) const {
+    joints.for_each_active_batch([&](const auto& batch) {
+      for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) visit(slot);
+    });
+  }
+  void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) {
+    set_control(world, joint, axis, motor);
+  }
+  void set_limit(int world, int joint, int axis, const model::AxisLimit& limit) {
+    set_control(world, joint, axis, limit);
+  }
+  void launch(int world, const model::Event& event);
+  /// True if more joints are broken than before.
+  bool set_broken(int world, std::span<const std::int32_t> broken_in);
+  /// Of the last substep, of h seconds.
+  effects::Reaction reaction(int world, int joint, double h) const;
+  void poses(int world, std::span<model::BodyPose> poses) const {
+    for (std::size_t body = 0; body < poses.size(); ++body) poses[body] = pose(world, static_cast<int>(body));
+  }
+  model::BodyPose pose(int world, int body) const;
+  int joint_rows(int world, int joint) const;
+  /// visit(rows, lane) of each joint of a world, as last solved.
+  template <class Visit>
+  void visit_joint_rows(int world, Visit visit) const {
+    for (int joint = 0; joint < model(world).num_joints(); ++joint) {
+      if (!active_.contains(world, model(world).joints[joint].body_a)) continue;
+      if (broken_.contains(world, joint)) continue;
+      const JointPlace& at = places.joint(world, joint);
+      joints.visit_rows(at.shape, at.joint, [&](const auto& rows) { visit(rows, at.lane); });
+    }
+  }
+  int num_worlds() const { return static_cast<int>(models_.size()); }
+  const model::Model& model(int world) const { return *models_[static_cast<std::size_t>(world)]; }
+
+  LanePlaces places;  ///< which body and joint lies where
+  BodyLanes<T> bodies;
+  JointBatches<T> joints;
+  std::vector<Vec3L<V>> gravity;           ///< [slots] worlds may differ
+  std::vector<GyroscopicSlot> gyroscopic;  ///< in the order of slots; none without the pass
+
+ private:
+  using Set = SetLanes<T>;
+
+  /// `poses`: BodyLane or PoseLane, [slots].
+  template <class Poses>
+  void store_body(int world, int body, const Poses* poses, model::State& state) const;
+  void set_masses(int world, int body);
+  void set_joint(int world, const Articulation& articulation, std::size_t index);
+  template <class Setting>
+  void set_control(int world, int joint, int axis, const Setting& setting);
+  void set_pose(LanePlace at, const model::Pose& pose);
+  void set_twist(LanePlace at, const model::Vec3& linear, const model::Vec3& angular);
+  void fill_idle_lanes();
+  void find_gyroscopic(bool all_slots);
+  void allow_idle_controls(const Passes& passes);
+  JointLane<V>& joint_at(int world, int joint) {
+    const JointPlace& at = places.joint(world, joint);
+    return joints.joints(at.shape)[at.joint];
+  }
+
+  std::vector<const model::Model*> models_;
+  bool holds_bodies_;
+  ActiveBodies active_, awake_;
+  BrokenJoints broken_;
+  long active_revision_ = 0;       ///< that slot_active_ and the batches are of
+  std::vector<char> slot_active_;  ///< [slots]; empty: all are
+  HeldLanes<T> held_;
+};
+
+template <class T>
+WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes)
+    : places(worlds, T::num_lanes),
+      bodies(places.num_slots()),
+      gravity(static_cast<std::size_t>(places.num_slots()),
+              {T::broadcast(0), T::broadcast(0), T::broadcast(0)}),
+      holds_bodies_(passes.holds_bodies()) {
+  for (const LanePlaces::ShapePlace& at : places.shapes())
+    joints.add_shape(at.shape, at.first_slot, at.num_batches, bodies.static_slot);
+  for (int w = 0; w < static_cast<int>(worlds.size()); ++w) {
+    const PackedWorld& world = worlds[static_cast<std::size_t>(w)];
+    models_.push_back(world.model);
+    active_.add_world(world.model->num_bodies());
+    awake_.add_world(world.model->num_bodies());
+    broken_.add_world();
+    for (int body = 0; body < world.model->num_bodies(); ++body) set_masses(w, body);
+    for (const Articulation& articulation : world.articulations) {
+      for (std::size_t j = 0; j < articulation.joints.size(); ++j) set_joint(w, articulation, j);
+    }
+    load(w, model::initial_state(*world.model));
+  }
+  allow_idle_controls(passes);
+  if (passes.gyroscopic_torque) find_gyroscopic(passes.idle_gyroscopic_torque);
+  fill_idle_lanes();
+  for (BodyLane<V>& body : bodies.bodies) refresh(body);
+}
+
+/// What never changes of a joint, and its limits and motors as at the start.
+template <class T>
+void WorldLanes<T>::set_joint(int world, const Articulation& articulation, std::size_t index) {
+  const int joint = articulation.joints[index];
+  Set::set(joint_at(world, joint).terms, places.joint(world, joint).lane, articulation.terms[index]);
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    set_limit(world, joint, axis, model(world).joints[joint].limits[a]);
+    set_motor(world, joint, axis, model(world).joints[joint].motors[a]);
+  }
+}
+
+template <class T>
+void WorldLanes<T>::set_masses(int world, int body) {
+  const LanePlace at = places.body(world, body);
+  const model::Body& source = model(world).bodies[body];
+  BodyLane<V>& lane = bodies.bodies[at.slot];
+  Set::set(lane.inv_mass, at.lane, 1 / source.mass_kg);
+  Set::set(lane.inertia_body, at.lane, source.inertia);
+  Set::set(lane.inv_inertia_body, at.lane, model::Mat3(source.inertia.inverse()));
+  // Adding -0 changes no number, adding +0 changes -0.
+  const bool falls = !model(world).gravity.isZero(0);
+  Set::set(gravity[at.slot], at.lane,
+           falls ? model(world).gravity : model::Vec3(model::Vec3::Constant(-0.0)));
+}
+
+template <class T>
+void WorldLanes<T>::find_gyroscopic(bool all_slots) {
+  std::vector<GyroscopicSlot> slots(static_cast<std::size_t>(bodies.static_slot), {T::broadcast(0), 0});
+  std::vector<bool> used(slots.size(), all_slots);
+  for (int world = 0; world < num_worlds(); ++world) {
+    for (int body = 0; body < model(world).num_bodies(); ++body) {
+      if (!effects::has_gyroscopic_torque(model(world).bodies[body])) continue;
+      const LanePlace at = places.body(world, body);
+      T::set(slots[static_cast<std::size_t>(at.slot)].has_torque, at.lane, 1);
+      used[static_cast<std::size_t>(at.slot)] = true;
+    }
+  }
+  for (std::size_t slot = 0; slot < used.size(); ++slot) {
+    slots[slot].slot = static_cast<int>(slot);
+    if (used[slot]) gyroscopic.push_back(slots[slot]);
+  }
+}
+
+/// Their limits are out of reach and their motors have no force, so that their rows push nothing.
+template <class T>
+void WorldLanes<T>::allow_idle_controls(const Passes& passes) {
+  using model::JointKind;
+  for (int world = 0; world < num_worlds(); ++world) {
+    for (int joint = 0; joint < model(world).num_joints(); ++joint) {
+      const JointKind kind = model(world).joints[joint].kind;
+      if (kind == JointKind::ball || kind == JointKind::fixed) continue;
+      const bool two_motors = kind == JointKind::universal || kind == JointKind::hinge2;
+      AxisControl<V>* controls = joint_at(world, joint).controls;
+      controls[0].has_limit |= passes.idle_limits;
+      controls[1].has_limit |= passes.idle_limits && kind == JointKind::universal;
+      controls[0].has_motor |= passes.idle_motors;
+      controls[1].has_motor |= passes.idle_motors && two_motors;
+    }
+  }
+}
+
+/// Idle lanes of the last batch of a shape repeat lane 0, so that they compute something harmless.
+template <class T>
+void WorldLanes<T>::fill_idle_lanes() {
+  const auto repeat = [](auto& lanes, int from) {
+    auto* values = reinterpret_cast<V*>(&lanes);
+    for (std::size_t i = 0; i < sizeof lanes / sizeof(V); ++i) {
+      for (int lane = from; lane < T::num_lanes; ++lane) T::set(values[i], lane, T::get(values[i], 0));
+    }
+  };
+  for (int slot = 0; slot < places.num_slots(); ++slot) {
+    repeat(bodies.bodies[slot], places.num_used(slot));
+    repeat(bodies.twists[slot], places.num_used(slot));
+  }
+  for (int shape = 0; shape < joints.num_shapes(); ++shape) {
+    for (JointLane<V>& joint : joints.joints(shape)) {
+      const int from = places.num_used(joint.slot_a);
+      repeat(joint.terms, from);
+      for (AxisControl<V>& control : joint.controls) {
+        for (V* v : {&control.low, &control.high, &control.sin_low, &control.cos_low, &control.sin_high,
+                     &control.cos_high, &control.velocity, &control.max_force, &control.hold_rate}) {
+          repeat(*v, from);
+        }
+      }
+    }
+  }
+}
+
+template <class T>
+void WorldLanes<T>::load_body(int world, int body, const model::State& state) {
+  const LanePlace at = places.body(world, body);
+  set_pose(at, {state.position[body], state.orientation[body]});
+  set_twist(at, state.velocity[body], state.angular_velocity[body]);
+}
+
+template <class T>
+template <class Poses>
+void WorldLanes<T>::store_body(int world, int body, const Poses* poses, model::State& state) const {
+  const auto vector_of = [](const Vec3L<V>& v, int lane) {
+    return model::Vec3(T::get(v.x, lane), T::get(v.y, lane), T::get(v.z, lane));
+  };
+  const LanePlace at = places.body(world, body);
+  const Poses& lanes = poses[at.slot];
+  state.position[body] = vector_of(lanes.position, at.lane);
+  state.orientation[body] = {T::get(lanes.qw, at.lane), T::get(lanes.qx, at.lane), T::get(lanes.qy, at.lane),
+                             T::get(lanes.qz, at.lane)};
+  state.velocity[body] = vector_of(bodies.twists[at.slot].linear, at.lane);
+  state.angular_velocity[body] = vector_of(bodies.twists[at.slot].angular, at.lane);
+}
+
+template <class T>
+void WorldLanes<T>::update_active() {
+  if (active_revision_ == active_.revision()) return;
+  active_revision_ = active_.revision();
+  joints.deactivate_all();
+  slot_active_.assign(gravity.size(), 0);
+  for (int world = 0; world < num_worlds(); ++world) {
+    for (const int body : active_.of(world)) {
+      const int slot = places.body(world, body).slot;
+      if (slot_active_[slot] == 0) joints.activate(slot);
+      slot_active_[slot] = 1;
+    }
+  }
+  for_each_active_slot([&](int slot) { slot_active_[slot] = 1; });
+  if (!holds_bodies_) return;
+  std::vector<LanePlace> held;
+  for (int world = 0; world < num_worlds(); ++world) {
+    for (int body = 0; body < model(world).num_bodies(); ++body) {
+      const LanePlace at = places.body(world, body);
+      if (slot_active_[at.slot] && !active_.contains(world, body)) held.push_back(at);
+    }
+  }
+  held_.hold(bodies.static_slot, held);
+}
+
+template <class T>
+template <class Setting>
+void WorldLanes<T>::set_control(int world, int joint, int axis, const Setting& setting) {
+  if (broken_.contains(world, joint)) return;
+  Set::set(joint_at(world, joint).controls[axis], places.joint(world, joint).lane, setting);
+}
+
+template <class T>
+void WorldLanes<T>::launch(int world, const model::Event& event) {
+  const LanePlace at = places.body(world, event.body);
+  set_twist(at, event.velocity, event.angular_velocity);
+  if (event.pose) set_pose(at, *event.pose);
+}
+
+template <class T>
+bool WorldLanes<T>::set_broken(int world, std::span<const std::int32_t> broken_in) {
+  const std::span<const int> fresh = broken_.find_fresh(world, broken_in);
+  if (fresh.empty()) return false;
+  for (const int joint : fresh) {
+    for (const int axis : {0, 1}) {
+      set_motor(world, joint, axis, {});
+      set_limit(world, joint, axis, {});
+    }
+    const JointPlace& at = places.joint(world, joint);
+    joints.loosen(at.shape, at.joint, at.lane);
+  }
+  broken_.set(world, broken_in);
+  return true;
+}
+
+template <class T>
+effects::Reaction WorldLanes<T>::reaction(int world, int joint, double h) const {
+  const JointPlace& at = places.joint(world, joint);
+  const model::Joint& held = model(world).joints[joint];
+  JointLoad load;
+  joints.visit_rows(at.shape, at.joint, [&](const auto& rows) { load = load_of(rows, at.lane); });
+  return reaction_of(load, model(world), held, pose(world, held.body_a), h);
+}
+
+template <class T>
+void WorldLanes<T>::set_pose(LanePlace at, const model::Pose& pose) {
+  Set::set(bodies.bodies[at.slot], at.lane, pose);
+  refresh(bodies.bodies[at.slot]);
+}
+
+template <class T>
+void WorldLanes<T>::set_twist(LanePlace at, const model::Vec3& linear, const model::Vec3& angular) {
+  Set::set(bodies.twists[at.slot].linear, at.lane, linear);
+  Set::set(bodies.twists[at.slot].angular, at.lane, angular);
+}
+
+/// In double from the quaternion: a rotation in float makes rounding noise a contact normal in ODE's
+/// colliders.
+template <class T>
+model::BodyPose WorldLanes<T>::pose(int world, int body) const {
+  const LanePlace at = places.body(world, body);
+  const BodyLane<V>& lanes = bodies.bodies[at.slot];
+  model::BodyPose pose;
+  pose.position[0] = T::get(lanes.position.x, at.lane);
+  pose.position[1] = T::get(lanes.position.y, at.lane);
+  pose.position[2] = T::get(lanes.position.z, at.lane);
+  geometry::to_rotation(T::get(lanes.qw, at.lane), T::get(lanes.qx, at.lane), T::get(lanes.qy, at.lane),
+                        T::get(lanes.qz, at.lane), pose.rotation);
+  return pose;
+}
+
+template <class T>
+int WorldLanes<T>::joint_rows(int world, int joint) const {
+  const JointPlace& at = places.joint(world, joint);
+  return joints.num_rows(at.shape, at.joint, at.lane);
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,32 @@
+/// Which units of a world cut into spaces a rank moves in a step.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "effects/space_sleepers.h"
+#include "model/space_map.h"
+
+namespace pbmpi::solver {
+
+/// None at the start.
+class ActiveUnits {
+ public:
+  /// `map` is borrowed.
+  explicit ActiveUnits(const model::SpaceMap& map) : map_(&map) {}
+
+  void clear();
+  /// Those of `units` (ascending) of which a body is awake; all without sleepers. False if that changes
+  /// nothing. `may_sleep_in_part`: not all bodies of a unit sleep together, since its joints break.
+  bool set(std::span<const int> units, const effects::SpaceSleepers* sleepers, bool may_sleep_in_part);
+  bool contains(int unit) const;
+  /// Of these units, unit by unit, those that are awake.
+  const std::vector<int>& bodies() const { return bodies_; }
+
+ private:
+  const model::SpaceMap* map_;
+  std::vector<int> units_;
+  std::vector<int> bodies_;
+};
+
+}  // namespace pbmpi::solver

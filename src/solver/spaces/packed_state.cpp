@@ -1,0 +1,96 @@
+#include "solver/spaces/packed_state.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace pbmpi::solver {
+
+PackedState::PackedState(const model::Model& model)
+    : state_(model::initial_state(model)), poses_(model.bodies.size()), stale_(model.bodies.size(), 0) {}
+
+void PackedState::start(const model::State& state, Pack& pack) {
+  pack.load(0, state);
+  state_ = state;
+  pack.store(0, state_);
+  for (int body = 0; body < state_.num_bodies(); ++body) place(body);
+  std::fill(stale_.begin(), stale_.end(), 0);
+}
+
+void PackedState::place(int body) {
+  const model::Quat& q = state_.orientation[body];
+  std::memcpy(poses_[body].position, state_.position[body].data(), sizeof poses_[body].position);
+  geometry::to_rotation(q.w, q.x, q.y, q.z, poses_[body].rotation);
+}
+
+void PackedState::put_pose(int body, const double* row) {
+  std::memcpy(state_.position[body].data(), row, 3 * sizeof(double));
+  state_.orientation[body] = {row[3], row[4], row[5], row[6]};
+  stale_[body] = 1;
+  place(body);
+}
+
+void PackedState::put_poses(std::span<const int> bodies, std::span<const double> rows, Velocity velocity) {
+  const double* row = rows.data();
+  for (const int body : bodies) {
+    put_pose(body, row);
+    if (velocity == Velocity::zero) {
+      state_.velocity[body].setZero();
+      state_.angular_velocity[body].setZero();
+    }
+    row += model::numbers_of_pose;
+  }
+}
+
+void PackedState::put_states(std::span<const int> bodies, std::span<const double> rows) {
+  const double* row = rows.data();
+  for (const int body : bodies) {
+    put_pose(body, row);
+    std::memcpy(state_.velocity[body].data(), row + 7, 3 * sizeof(double));
+    std::memcpy(state_.angular_velocity[body].data(), row + 10, 3 * sizeof(double));
+    row += model::numbers_of_state;
+  }
+}
+
+void PackedState::launch(const model::Event& event, Pack& pack) {
+  const std::span<const int> body(&event.body, 1);
+  pack.load(0, body, state_);
+  pack.launch(0, event);
+  pack.store(0, body, state_);
+  stale_[event.body] = 0;
+  place(event.body);
+}
+
+void PackedState::load_stale(std::span<const int> bodies, Pack& pack) {
+  loaded_.clear();
+  for (const int body : bodies) {
+    if (!stale_[body]) continue;
+    loaded_.push_back(body);
+    stale_[body] = 0;
+  }
+  if (!loaded_.empty()) pack.load(0, loaded_, state_);
+}
+
+void PackedState::lend(std::span<const int> bodies, Pack& pack) {
+  load_stale(bodies, pack);
+  lent_.insert(lent_.end(), loaded_.begin(), loaded_.end());
+}
+
+void PackedState::activate(std::span<const int> bodies) {
+  std::vector<char> others(stale_.size(), 1);
+  for (const int body : bodies) others[body] = stale_[body];
+  stale_ = std::move(others);
+}
+
+void PackedState::load(std::span<const int> bodies, Pack& pack) { load_stale(bodies, pack); }
+
+void PackedState::store(std::span<const int> bodies, const Pack& pack, bool others_stay) {
+  pack.store(0, bodies, state_);
+  if (!others_stay) {
+    for (const int body : lent_) stale_[body] = 1;
+  }
+  for (const int body : bodies) stale_[body] = 0;
+  lent_.clear();
+  for (const int body : bodies) place(body);
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,316 @@
+#include "solver/spaces/sor_space_stepper.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "effects/breakage.h"
+#include "effects/effects.h"
+#include "solver/layout/articulation.h"
+#include "solver/pack/focused_step.h"
+#include "solver/pack/simd.h"
+#include "solver/pack/step_settings.h"
+#include "solver/spaces/active_units.h"
+#include "solver/spaces/cross_broad_phase.h"
+#include "solver/spaces/island_counts.h"
+#include "solver/spaces/own_first.h"
+#include "solver/spaces/packed_state.h"
+#include "solver/spaces/space_bodies.h"
+#include "solver/spaces/space_fast_bodies.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::Contact;
+using model::Event;
+using model::EventKind;
+
+class SorSpaceStepper final : public stepping::SpaceStepper {
+ public:
+  SorSpaceStepper(const stepping::StepperSettings& settings, const model::MakeNarrowPhase& make_narrow_phase,
+                  std::shared_ptr<const model::Model> model);
+
+  const model::Model& model() const override { return *model_; }
+  const model::SpaceMap& map() const override { return map_; }
+  const model::State& state() const override { return packed_.state(); }
+  effects::SpaceSleepers* sleepers() override { return sleepers_ ? &*sleepers_ : nullptr; }
+  effects::FieldOfInterest* field() override { return field_ ? &*field_ : nullptr; }
+  int num_lanes() const override { return solver::num_lanes(simd(), settings_.precision); }
+  void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override;
+  void put_states(std::span<const int> bodies, std::span<const double> rows) override {
+    packed_.put_states(bodies, rows);
+  }
+  void put_poses(std::span<const int> bodies, std::span<const double> rows) override;
+  std::vector<std::int32_t> broken_rows(std::span<const int> units) const override;
+  void put_broken(std::span<const int> units, std::span<const std::int32_t> rows) override;
+  std::vector<int> fast_bodies() override;
+  void fire_events(std::int64_t step) override;
+  void launch_others(std::int64_t step, std::span<geometry::Box> boxes) override;
+  void collide(std::vector<Contact>& contacts) override;
+  geometry::Box space_box(int space) const override;
+  void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
+                      std::vector<Contact>& contacts) override;
+  void solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
+             core::PhaseTimes& times) override;
+  stepping::IslandCounts count(std::span<const int> units, std::span<const Contact> contacts) const override;
+
+ private:
+  stepping::Simd simd() const {
+    return settings_.simd == stepping::Simd::automatic ? best_simd() : settings_.simd;
+  }
+  std::vector<PackedWorld> packed_own_first() const;
+  std::vector<char> own_mask() const;
+  bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
+  void activate(std::span<const int> units);
+  void focus(std::span<const Contact> contacts);
+  bool is_awake(int body) const { return !sleepers_ || !sleepers_->asleep(body); }
+  void show_sleepers();
+  void show_broken();
+  void strain(std::int64_t step);
+  void collide_pairs(std::vector<Contact>& contacts);
+
+  stepping::StepperSettings settings_;
+  std::shared_ptr<const model::Model> model_;
+  model::SpaceMap map_;
+  std::vector<Articulation> articulations_;
+  std::unique_ptr<model::NarrowPhase> narrow_phase_;
+  SpaceBodies bodies_;
+  CrossBroadPhase cross_;
+  std::unique_ptr<Pack> pack_;
+  PackedState packed_;
+  std::optional<effects::SpaceSleepers> sleepers_;  ///< none without the effect "sleeping"
+  long shown_revision_ = -1;                        ///< of them, that the pack knows
+  std::vector<char> is_own_;                        ///< [num_spaces]
+  std::vector<int> own_bodies_;                     ///< ascending
+  ActiveUnits active_;                              ///< of the last solve()
+  std::vector<model::GeomPair> pairs_;
+  std::optional<SpaceFastBodies> fast_bodies_;     ///< none without the pass
+  std::optional<effects::FieldOfInterest> field_;  ///< likewise
+  FocusedStep focused_;                            ///< of the last solve()
+  int bodies_inside_ = 0;                          ///< likewise
+  std::optional<effects::Breakage> breakage_;      ///< none without the effect "breakable_joints"
+  std::int64_t last_step_ = 0;                     ///< solved
+};
+
+SorSpaceStepper::SorSpaceStepper(const stepping::StepperSettings& settings,
+                                 const model::MakeNarrowPhase& make_narrow_phase,
+                                 std::shared_ptr<const model::Model> model)
+    : settings_(settings),
+      model_(std::move(model)),
+      map_(model::make_space_map(*model_)),
+      articulations_(find_articulations(*model_)),
+      narrow_phase_(make_narrow_phase(*model_)),
+      bodies_(*model_, map_),
+      cross_(*model_, bodies_),
+      packed_(*model_),
+      active_(map_) {
+  const effects::StepPlan plan(*model_);
+  if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_, map_, settings.dt_s);
+  if (plan.has("field_of_interest")) field_.emplace(*model_, settings.iterations);
+  if (plan.has("breakable_joints")) breakage_.emplace(*model_);
+  if (!plan.has("sleeping")) return;
+  sleepers_.emplace(*model_, settings.dt_s, packed_.state());
+  sleepers_->start();
+}
+
+std::vector<PackedWorld> SorSpaceStepper::packed_own_first() const {
+  std::vector<PackedWorld> packed = {pack_own_first(*model_, map_, articulations_, is_own_)};
+  packed[0].fallback = narrow_phase_.get();
+  packed[0].lanes_collide = settings_.colliders == stepping::Colliders::lanes;
+  return packed;
+}
+
+std::vector<char> SorSpaceStepper::own_mask() const {
+  std::vector<char> mask(model_->bodies.size(), 0);
+  for (const int body : own_bodies_) mask[body] = 1;
+  return mask;
+}
+
+void SorSpaceStepper::own(std::span<const int> spaces, const model::State& state, std::int64_t step) {
+  is_own_.assign(static_cast<std::size_t>(map_.num_spaces()), 0);
+  for (const int space : spaces) is_own_[space] = 1;
+  own_bodies_.clear();
+  for (int body = 0; body < model_->num_bodies(); ++body) {
+    if (is_own(body)) own_bodies_.push_back(body);
+  }
+  if (fast_bodies_) fast_bodies_->own(own_mask());
+  pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
+  packed_.start(state, *pack_);
+  if (breakage_) breakage_->start(packed_.state());
+  if (sleepers_) sleepers_->start();
+  shown_revision_ = -1;
+  active_.clear();
+  pack_->set_active(0, active_.bodies());
+  apply_settings_before(*model_, step, 0, *pack_);
+  show_broken();
+}
+
+void SorSpaceStepper::put_poses(std::span<const int> bodies, std::span<const double> rows) {
+  // Of bodies that are fast, root is given the states too.
+  packed_.put_poses(bodies, rows, fast_bodies_ ? PackedState::Velocity::zero : PackedState::Velocity::kept);
+}
+
+std::vector<int> SorSpaceStepper::fast_bodies() {
+  return fast_bodies_ ? fast_bodies_->find_own(state()) : std::vector<int>();
+}
+
+/// What sleeps has other velocities than the pack knows.
+void SorSpaceStepper::show_sleepers() {
+  if (!sleepers_ || shown_revision_ == sleepers_->revision()) return;
+  shown_revision_ = sleepers_->revision();
+  pack_->set_awake(0, sleepers_->awake());
+  for (int body = 0; body < model_->num_bodies(); ++body) {
+    if (sleepers_->asleep(body)) packed_.touch(body);
+  }
+}
+
+void SorSpaceStepper::show_broken() {
+  const std::vector<std::int32_t>& broken_in = state().broken_in;
+  pack_->set_broken(0, broken_in);
+  if (fast_bodies_) fast_bodies_->set_broken(broken_in);
+  if (field_) field_->set_broken(*model_, broken_in);
+}
+
+void SorSpaceStepper::strain(std::int64_t step) {
+  std::vector<int> joints;
+  for (const int joint : breakage_->joints()) {
+    const int unit = map_.unit_of_body[model_->joints[joint].body_a];
+    if (active_.contains(unit)) joints.push_back(joint);
+  }
+  const auto reaction = [&](int joint) { return focused_.reaction(*pack_, 0, joint); };
+  if (breakage_->strain(step, joints, reaction, packed_.state())) show_broken();
+}
+
+std::vector<std::int32_t> SorSpaceStepper::broken_rows(std::span<const int> units) const {
+  std::vector<std::int32_t> rows;
+  if (!breakage_) return rows;
+  for (const int unit : units) {
+    for (const int joint : articulations_[unit].joints) rows.push_back(state().broken_in[joint]);
+  }
+  return rows;
+}
+
+void SorSpaceStepper::put_broken(std::span<const int> units, std::span<const std::int32_t> rows) {
+  std::vector<std::int32_t>& broken_in = packed_.state().broken_in;
+  auto row = rows.begin();
+  bool changed = false;
+  for (const int unit : units) {
+    for (const int joint : articulations_[unit].joints) {
+      changed |= broken_in[joint] != *row;
+      broken_in[joint] = *row++;
+    }
+  }
+  if (changed) show_broken();
+}
+
+void SorSpaceStepper::fire_events(std::int64_t step) {
+  bodies_inside_ = 0;  // while all sleep there is no solve()
+  show_sleepers();
+  if (sleepers_) sleepers_->wake_called(step);
+  for (const Event& event : events_of(*model_, step)) {
+    apply_setting(event, 0, *pack_);
+    if (event.kind == EventKind::launch && is_own(event.body)) packed_.launch(event, *pack_);
+  }
+}
+
+void SorSpaceStepper::launch_others(std::int64_t step, std::span<geometry::Box> boxes) {
+  for (const Event& event : events_of(*model_, step)) {
+    if (event.kind != EventKind::launch || is_own(event.body)) continue;
+    packed_.launch(event, *pack_);
+    boxes[map_.space_of_body(event.body)].include(
+        bodies_.ball_box(event.body, packed_.poses()[static_cast<std::size_t>(event.body)]));
+  }
+}
+
+void SorSpaceStepper::collide(std::vector<Contact>& contacts) {
+  contacts.clear();
+  if (std::none_of(own_bodies_.begin(), own_bodies_.end(), [&](int body) { return is_awake(body); })) return;
+  show_sleepers();
+  packed_.lend(own_bodies_, *pack_);
+  pack_->collide(std::span(&contacts, 1));
+  if (fast_bodies_) fast_bodies_->add_own(state(), contacts);
+}
+
+void SorSpaceStepper::collide_pairs(std::vector<Contact>& contacts) {
+  std::vector<int> bodies;
+  for (const model::GeomPair& pair : pairs_) {
+    for (const int geom : {pair.first, pair.second}) {
+      if (const int body = model_->geoms[geom].body; body != model::no_body) bodies.push_back(body);
+    }
+  }
+  packed_.lend(bodies, *pack_);
+  pack_->collide_pairs(0, pairs_, contacts);
+}
+
+geometry::Box SorSpaceStepper::space_box(int space) const {
+  return bodies_.space_box(space, packed_.poses());
+}
+
+void SorSpaceStepper::collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
+                                     std::vector<Contact>& contacts) {
+  contacts.clear();
+  if (sleepers_ && sleepers_->all_asleep()) return;
+  cross_.find_pairs(owner, boxes, packed_.poses(), pairs_);
+  std::erase_if(pairs_, [&](const model::GeomPair& pair) {
+    return !is_awake(model_->geoms[pair.first].body) && !is_awake(model_->geoms[pair.second].body);
+  });
+  collide_pairs(contacts);
+  if (fast_bodies_) fast_bodies_->add_across(state(), owner, contacts);
+}
+
+void SorSpaceStepper::activate(std::span<const int> units) {
+  if (!active_.set(units, sleepers(), sleepers_ && breakage_)) return;
+  pack_->set_active(0, active_.bodies());
+  packed_.activate(active_.bodies());
+}
+
+void SorSpaceStepper::focus(std::span<const Contact> contacts) {
+  if (field_) field_->sort(active_.bodies(), state().position, contacts);
+  bodies_inside_ = field_ ? static_cast<int>(field_->inside().size()) : 0;
+  const FocusedWorld world = {model_.get(), field(), contacts};
+  focused_.begin(std::span(&world, 1), settings_.iterations);
+}
+
+void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
+                            core::PhaseTimes& times) {
+  core::LapTimer timer(times);
+  show_sleepers();
+  activate(units);
+  focus(contacts);
+  if (sleepers_ && active_.bodies().empty()) return;
+  packed_.load(active_.bodies(), *pack_);
+  timer.lap(core::Phase::rows);
+  StepParameters parameters = step_parameters(settings_, step);
+  if (focused_.is_cut()) focused_.step_outside(*pack_, parameters, std::nullopt, times);
+  parameters.iterations = focused_.iterations();
+  pack_->step(focused_.contacts(), parameters, times);
+  core::LapTimer after(times);
+  last_step_ = step;
+  if (breakage_) strain(step);
+  packed_.store(active_.bodies(), *pack_,
+                sleepers_.has_value());  // a pack with sleepers puts back the others
+  if (focused_.is_cut()) pack_->set_active(0, active_.bodies());
+  after.lap(core::Phase::integrate);
+}
+
+stepping::IslandCounts SorSpaceStepper::count(std::span<const int> units,
+                                              std::span<const Contact> contacts) const {
+  const auto joint_rows = [&](int joint) -> std::optional<int> {
+    if (!state().acted_in(last_step_, static_cast<std::size_t>(joint))) return std::nullopt;
+    return focused_.joint_rows(*pack_, 0, joint);
+  };
+  stepping::IslandCounts counts = count_islands(*model_, map_, articulations_, units, contacts, joint_rows,
+                                                sleepers_ ? &*sleepers_ : nullptr);
+  counts.bodies_inside = bodies_inside_;
+  return counts;
+}
+
+}  // namespace
+
+std::unique_ptr<stepping::SpaceStepper> make_sor_space_stepper(
+    const stepping::StepperSettings& settings, const model::MakeNarrowPhase& make_narrow_phase,
+    std::shared_ptr<const model::Model> model) {
+  require_valid(settings);
+  return std::make_unique<SorSpaceStepper>(settings, make_narrow_phase, std::move(model));
+}
+
+}  // namespace pbmpi::solver

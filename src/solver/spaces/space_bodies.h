@@ -1,0 +1,31 @@
+/// What is in a space, for tests of boxes that need not be tight.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geometry/box.h"
+#include "model/contact.h"
+#include "model/space_map.h"
+
+namespace pbmpi::solver {
+
+class SpaceBodies {
+ public:
+  SpaceBodies(const model::Model& model, const model::SpaceMap& map);
+
+  std::span<const int> bodies(int space) const { return bodies_of_space_[space]; }  ///< that have a geom
+  std::span<const int> geoms(int body) const { return geoms_of_body_[body]; }
+  /// About a ball, about the body's centre of mass, that holds its geoms: wider than their boxes by up to the
+  /// body's own size, and a tenth of their cost.
+  geometry::Box ball_box(int body, const model::BodyPose& pose) const;
+  /// Holds the ball boxes of a space's bodies, and so the boxes of its geoms. `poses` [num_bodies]
+  geometry::Box space_box(int space, std::span<const model::BodyPose> poses) const;
+
+ private:
+  std::vector<std::vector<int>> bodies_of_space_;
+  std::vector<std::vector<int>> geoms_of_body_;
+  std::vector<double> radius_;  ///< [num_bodies] m
+};
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,43 @@
+/// Contacts ahead of fast bodies in a world that is cut into spaces, as one rank looks for them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "effects/fast_bodies.h"
+#include "model/space_map.h"
+
+namespace pbmpi::solver {
+
+/// Own bodies among each other and against static geoms; and, on root, all bodies across owners.
+class SpaceFastBodies {
+ public:
+  /// Both are borrowed.
+  SpaceFastBodies(const model::Model& model, const model::SpaceMap& map, double dt_s);
+
+  /// From now on these bodies [num_bodies] are this rank's own.
+  void own(std::span<const char> is_own) { own_.emplace(*model_, is_own); }
+  /// Of the joints, as State::broken_in; after own().
+  void set_broken(std::span<const std::int32_t> broken_in) {
+    own_->set_broken(broken_in);
+    all_.set_broken(broken_in);
+  }
+  /// Own bodies that are fast, ascending.
+  std::vector<int> find_own(const model::State& state);
+  void add_own(const model::State& state, std::vector<model::Contact>& contacts);
+  /// `owner` [num_spaces]
+  void add_across(const model::State& state, std::span<const int> owner,
+                  std::vector<model::Contact>& contacts);
+
+ private:
+  const model::Model* model_;
+  const model::SpaceMap* map_;
+  double dt_s_;
+  std::optional<effects::FastBodies> own_;
+  effects::FastBodies all_;
+  std::vector<int> owner_of_body_;  ///< scratch
+};
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,287 @@
+#include "solver/worlds/sor_stepper.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "solver/layout/articulation.h"
+#include "solver/pack/step_settings.h"
+#include "solver/worlds/sor_world.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using core::LapTimer;
+using core::Phase;
+
+/// Bytes of velocities and rows that a pack may have for each body, about: what a sweep reads again and again
+/// should stay in a core's second cache (measured on 100CrSk: 500 to 2,000 bodies in float are alike, twice
+/// as many cost a tenth; in double half as many).
+constexpr int bytes_a_number(stepping::Precision precision) {
+  return precision == stepping::Precision::single ? 4 : 8;
+}
+constexpr int bodies_times_bytes_a_pack = 7200;
+
+/// What the worlds of a pack must have in common.
+bool same_laws(const SorWorld& one, const SorWorld& other) {
+  const model::Model &a = one.model(), &b = other.model();
+  return one.passes().turning_contacts == other.passes().turning_contacts && a.erp == b.erp &&
+         a.cfm == b.cfm && a.contact_law.soft_erp == b.contact_law.soft_erp &&
+         a.contact_law.soft_cfm == b.contact_law.soft_cfm &&
+         a.contact_law.bounce_velocity == b.contact_law.bounce_velocity &&
+         a.linear_damping == b.linear_damping && a.angular_damping == b.angular_damping &&
+         a.interest.has_value() == b.interest.has_value() &&
+         (!a.interest || a.interest->outside_iterations == b.interest->outside_iterations);
+}
+
+/// Worlds that are stepped together.
+struct Group {
+  std::vector<SorWorld*> worlds;
+  std::unique_ptr<Pack> pack;
+  std::vector<std::vector<model::Contact>> contacts;  ///< [worlds] of this step
+  std::vector<FocusedWorld> focused_worlds;           ///< [worlds] for the step at hand
+  FocusedStep focused;
+  bool sleeps = false;              ///< in the step at hand nothing moves
+  std::vector<model::State> looks;  ///< [worlds] of the step that was begun
+  double begun_s = 0;               ///< seconds spent on it
+};
+
+class SorStepper final : public stepping::AnytimeStepper {
+ public:
+  SorStepper(const stepping::StepperSettings& settings, model::MakeNarrowPhase make_narrow_phase)
+      : settings_(settings), make_narrow_phase_(std::move(make_narrow_phase)) {}
+
+  void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
+           std::int64_t step) override {
+    worlds_.emplace(world, std::make_unique<SorWorld>(world, std::move(model), state, step, settings_,
+                                                      make_narrow_phase_));
+    drop_groups();
+  }
+  void remove(int world) override {
+    worlds_.erase(world);
+    drop_groups();
+  }
+  void set_state(int world, const model::State& state, std::int64_t step) override;
+  const model::State& state(int world) const override { return worlds_.at(world)->state(); }
+  const model::Model& model(int world) const override { return worlds_.at(world)->model(); }
+  const stepping::Observables& observables(int world) const override {
+    return worlds_.at(world)->observables();
+  }
+  double cost_s(int world) const override { return worlds_.at(world)->cost_s; }
+
+  void advance(int num_steps, core::PhaseTimes& times) override {
+    if (groups_.empty()) make_groups();
+    for (Group& group : groups_) {
+      const double start_s = core::now_s() - group.begun_s;
+      for (int i = 0; i < num_steps; ++i) {
+        if (i > 0 || !begun_) begin(group, std::nullopt, times);
+        finish(group, times);
+      }
+      observe(group, times);
+      share_cost(group, core::now_s() - start_s);
+      group.begun_s = 0;
+    }
+    begun_ = begun_ && num_steps == 0;
+  }
+
+  void begin_step(int iterations, core::PhaseTimes& times) override;
+  const model::State& look(int world) const override {
+    const auto [group, index] = places_.at(world);
+    return groups_[group].looks[static_cast<std::size_t>(index)];
+  }
+
+ private:
+  /// They are made anew from the states before the next step.
+  void drop_groups() {
+    groups_.clear();
+    begun_ = false;
+  }
+  void make_groups();
+  static void look(Group& group, core::PhaseTimes& times);
+  /// Up to the iterations of the last substep; `look_after`: they will be looked at after so many.
+  void begin(Group& group, std::optional<int> look_after, core::PhaseTimes& times);
+  void collide(Group& group) const;
+  void focus(Group& group) const;
+  static void finish(Group& group, core::PhaseTimes& times);
+  void observe(Group& group, core::PhaseTimes& times) const;
+  static void share_cost(Group& group, double seconds);
+
+  stepping::StepperSettings settings_;
+  model::MakeNarrowPhase make_narrow_phase_;
+  std::map<int, std::unique_ptr<SorWorld>> worlds_;
+  std::vector<Group> groups_;                          ///< empty: to be made anew
+  std::map<int, std::pair<std::size_t, int>> places_;  ///< world -> its group, and its index there
+  bool begun_ = false;                                 ///< is every group in mid-step?
+};
+
+void SorStepper::set_state(int world, const model::State& state, std::int64_t step) {
+  SorWorld& changed = *worlds_.at(world);
+  const bool fits_pack = changed.step() == step && !changed.mends(state);
+  changed.set_state(state, step);
+  if (groups_.empty()) return;
+  if (fits_pack && !begun_) {
+    const auto [group, index] = places_.at(world);
+    changed.load(*groups_[group].pack, index);
+  } else {
+    drop_groups();  // the joints' settings of another step, or joints that hold again
+  }
+}
+
+/// As many packs as the cache asks for, of about equal size, and all but the last with whole batches of
+/// lanes.
+void SorStepper::make_groups() {
+  places_.clear();
+  int num_bodies = 0;
+  for (const auto& [id, world] : worlds_) num_bodies += world->model().num_bodies();
+  const int most_bodies = bodies_times_bytes_a_pack / bytes_a_number(settings_.precision);
+  const int num_packs = std::max(1, (num_bodies + most_bodies / 2) / most_bodies);
+  const int lanes = num_lanes(settings_.simd, settings_.precision);
+  const int num_worlds = static_cast<int>(worlds_.size());
+  const int worlds_a_pack = std::max(1, num_worlds / num_packs / lanes) * lanes;
+  for (const auto& [id, world] : worlds_) {
+    const int packed = groups_.empty() ? 0 : static_cast<int>(groups_.back().worlds.size());
+    const bool full = packed >= worlds_a_pack && static_cast<int>(groups_.size()) < num_packs;
+    if (groups_.empty() || full || !same_laws(*groups_.back().worlds.front(), *world)) groups_.emplace_back();
+    groups_.back().worlds.push_back(world.get());
+  }
+  for (Group& group : groups_) {
+    std::vector<PackedWorld> packed;
+    for (const SorWorld* world : group.worlds)
+      packed.push_back({&world->model(), find_articulations(world->model()), &world->narrow_phase(),
+                        settings_.colliders == stepping::Colliders::lanes});
+    group.pack = make_pack(packed, settings_.simd, settings_.precision);
+    for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+      group.worlds[i]->enter(*group.pack, static_cast<int>(i));
+      places_[group.worlds[i]->id()] = {static_cast<std::size_t>(&group - groups_.data()),
+                                        static_cast<int>(i)};
+    }
+    group.contacts.resize(group.worlds.size());
+  }
+}
+
+/// All groups stop before any goes on, so that the estimates of all worlds are there at once.
+void SorStepper::begin_step(int iterations, core::PhaseTimes& times) {
+  core::require_invariant(!begun_, "begin_step: the step before is finished");
+  core::require_invariant(iterations >= 0 && iterations <= settings_.iterations,
+                          "begin_step: no more iterations than a step has");
+  if (groups_.empty()) make_groups();
+  for (Group& group : groups_) {
+    const double start_s = core::now_s();
+    begin(group, iterations, times);
+    if (!group.sleeps) group.pack->iterate(iterations, times);
+    look(group, times);
+    group.begun_s = core::now_s() - start_s;
+  }
+  begun_ = true;
+}
+
+void SorStepper::look(Group& group, core::PhaseTimes& times) {
+  LapTimer timer(times);
+  if (group.looks.empty()) {  // room for them, kept from step to step
+    for (const SorWorld* world : group.worlds) group.looks.push_back(world->state());
+  }
+  if (!group.sleeps) {
+    group.pack->look(group.looks);
+    group.focused.merge_looks(group.looks);
+  }
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+    group.worlds[i]->keep_sleepers(group.looks[i]);
+    group.looks[i].broken_in = group.worlds[i]->state().broken_in;
+  }
+  timer.lap(Phase::integrate);
+}
+
+void SorStepper::begin(Group& group, std::optional<int> look_after, core::PhaseTimes& times) {
+  LapTimer timer(times);
+  for (std::size_t i = 0; i < group.worlds.size(); ++i)
+    group.worlds[i]->fire_events(*group.pack, static_cast<int>(i));
+  group.sleeps = std::none_of(group.worlds.begin(), group.worlds.end(),
+                              [](const SorWorld* world) { return world->moves(); });
+  if (group.sleeps) {
+    for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+      group.contacts[i].clear();
+      group.worlds[i]->focus(*group.pack, static_cast<int>(i), {});
+    }
+    return;
+  }
+  collide(group);
+  timer.lap(Phase::collide);
+  focus(group);
+  timer.lap(Phase::islands);
+  // Worlds of a pack may stand at different steps only if they came to this stepper at different times; the
+  // order of the rows then follows each world's own step, so it is the key of the first that all must share.
+  StepParameters parameters = step_parameters(settings_, group.worlds.front()->step());
+  if (group.focused.is_cut()) group.focused.step_outside(*group.pack, parameters, look_after, times);
+  parameters.iterations = group.focused.iterations();
+  group.pack->begin_step(group.focused.contacts(), parameters, times);
+}
+
+void SorStepper::focus(Group& group) const {
+  group.focused_worlds.clear();
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+    SorWorld& world = *group.worlds[i];
+    world.focus(*group.pack, static_cast<int>(i), group.contacts[i]);
+    group.focused_worlds.push_back({&world.model(), world.field(), group.contacts[i]});
+  }
+  group.focused.begin(group.focused_worlds, settings_.iterations);
+}
+
+/// Again while contacts wake what slept in any world of the group, since its own contacts are then to be
+/// found, too.
+void SorStepper::collide(Group& group) const {
+  bool woke = true;
+  while (woke) {
+    woke = false;
+    group.pack->collide(group.contacts);
+    for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+      group.worlds[i]->look_ahead(*group.pack, static_cast<int>(i), settings_.dt_s, group.contacts[i]);
+      woke |= group.worlds[i]->wake_touched(*group.pack, static_cast<int>(i), group.contacts[i]);
+    }
+  }
+}
+
+void SorStepper::finish(Group& group, core::PhaseTimes& times) {
+  if (!group.sleeps) group.pack->finish_step(times);
+  LapTimer timer(times);
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+    if (!group.sleeps) group.worlds[i]->strain(*group.pack, static_cast<int>(i), group.focused);
+    group.worlds[i]->finish_step();
+    if (group.sleeps) continue;
+    if (group.focused.is_cut()) group.worlds[i]->activate(*group.pack, static_cast<int>(i));
+    group.worlds[i]->settle(*group.pack, static_cast<int>(i), group.contacts[i]);
+  }
+  timer.lap(Phase::islands);
+}
+
+void SorStepper::observe(Group& group, core::PhaseTimes& times) const {
+  LapTimer timer(times);
+  for (std::size_t i = 0; i < group.worlds.size(); ++i) {
+    group.worlds[i]->observe(*group.pack, static_cast<int>(i), group.focused, group.contacts[i]);
+    if (settings_.residuals)
+      group.worlds[i]->observe_residuals(*group.pack, static_cast<int>(i), group.focused);
+  }
+  timer.lap(Phase::islands);
+}
+
+/// A pack is timed as a whole; its worlds share the time by their rows, which predict it well.
+void SorStepper::share_cost(Group& group, double seconds) {
+  double weights = 0;
+  const auto weight = [](const SorWorld& world) {
+    return world.observables().rows + std::max(1, world.num_awake());
+  };
+  for (const SorWorld* world : group.worlds) weights += weight(*world);
+  for (SorWorld* world : group.worlds) world->cost_s = seconds * weight(*world) / weights;
+}
+
+}  // namespace
+
+std::unique_ptr<stepping::AnytimeStepper> make_sor_stepper(const stepping::StepperSettings& settings,
+                                                           model::MakeNarrowPhase make_narrow_phase) {
+  require_valid(settings);
+  return std::make_unique<SorStepper>(settings, std::move(make_narrow_phase));
+}
+
+}  // namespace pbmpi::solver

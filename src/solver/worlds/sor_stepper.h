@@ -1,0 +1,18 @@
+/// Steps worlds with pbmpi's own projected SOR.
+#pragma once
+
+#include <memory>
+
+#include "model/contact.h"
+#include "solver/pack/simd.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::solver {
+
+/// Worlds lie side by side in lanes; a world's result depends neither on its neighbours nor on the number of
+/// lanes. Throws core::InputError for dt <= 0, iterations or substeps < 1, a warm start outside 0 to 1, or an
+/// instruction set that this machine lacks.
+std::unique_ptr<stepping::AnytimeStepper> make_sor_stepper(const stepping::StepperSettings& settings,
+                                                           model::MakeNarrowPhase make_narrow_phase);
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,97 @@
+/// What a rank knows of a finished frame, and who wants to know it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "stepping/observables.h"
+#include "stepping/step_profile.h"
+
+namespace pbmpi::stepping {
+
+/// Where the bodies of each world stand in the global (world, body) order. Known to every rank.
+struct WorldTable {
+  std::vector<std::int64_t> body_offset{0};  ///< [num_worlds + 1]; the last entry is the number of bodies
+
+  int num_worlds() const { return static_cast<int>(body_offset.size()) - 1; }
+  std::int64_t num_bodies() const { return body_offset.back(); }
+};
+
+/// One world that this rank owns.
+struct LocalWorld {
+  int id = 0;
+  const model::Model* model = nullptr;
+  const model::State* state = nullptr;
+  const Observables* observables = nullptr;
+  const StepProfile* profile = nullptr;  ///< null unless the run profiles its frames
+};
+
+/// The estimate of a frame, which was there before the precise result (FEEC).
+struct EstimateRecord {
+  std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id: estimated states, no observables
+  double delivered_s = 0;  ///< start of the frame until root had all poses: the same on every rank
+  double compute_s = 0;    ///< time that this rank took for it
+};
+
+/// Messages that a rank sent to others inside the steps of a frame.
+struct Traffic {
+  std::int64_t messages = 0;
+  std::int64_t bytes = 0;
+};
+
+/// A finished frame as its rank saw it. Spans and pointers hold until the observer returns.
+struct FrameRecord {
+  std::int64_t frame = 0;              ///< 0-based, warm-up frames included
+  std::int64_t step = 0;               ///< steps done since the start of the simulation
+  double time_s = 0;                   ///< simulated time = step x dt
+  bool measured = false;               ///< false in a warm-up frame
+  std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id
+  core::PhaseTimes phases;    ///< of this rank; `output` is the time that observers took in the frame before
+  Traffic traffic;            ///< of this rank; none where each rank owns whole worlds
+  double wall_s = 0;          ///< start of the frame to the end of its gather: the same on every rank
+  bool deadline_met = false;  ///< wall_s within the frame budget: the same on every rank
+  const EstimateRecord* estimate = nullptr;  ///< none without FEEC
+};
+
+/// RunEvent::kind of a joint that broke.
+inline constexpr const char* joint_broken = "joint_broken";
+
+/// Something that happened to the run, for the file's /events.
+struct RunEvent {
+  std::int64_t frame = 0;
+  std::string kind;    ///< "rebalance", "signal", "time_limit", "checkpoint", joint_broken
+  std::string detail;  ///< one line for people
+};
+
+/// Called on every rank in lock step, so that an implementation may do collective work.
+class FrameObserver {
+ public:
+  virtual ~FrameObserver() = default;
+  virtual void frame_done(const FrameRecord& frame) = 0;
+  /// Before the run is saved after this frame: what an observer holds back of the frames so far must outlive
+  /// a kill, because the run would go on behind them.
+  virtual void secure() {}
+  /// The same event on every rank.
+  virtual void event(const RunEvent& event) { static_cast<void>(event); }
+};
+
+/// FEEC's two results of a frame. The precise one follows from precise ones alone; an estimate is never
+/// stepped on from.
+enum class PoseKind { estimate, precise };
+
+/// Called on root only, with all bodies' poses gathered in (world, body) order: with FEEC twice a frame, for
+/// the estimate as soon as it is there, while the other ranks work on the precise result. Root's own precise
+/// work waits for it to return.
+class PoseConsumer {
+ public:
+  virtual ~PoseConsumer() = default;
+  virtual void poses(std::int64_t frame, PoseKind kind, std::span<const core::Vec3> position,
+                     std::span<const core::Quat> orientation) = 0;
+};
+
+}  // namespace pbmpi::stepping

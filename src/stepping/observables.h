@@ -1,0 +1,50 @@
+/// What is measured of a world each frame.
+#pragma once
+
+#include "model/model.h"
+#include "model/state.h"
+
+namespace pbmpi::stepping {
+
+/// How far the impulses and velocities of a step are from the solution of its constraint system. Each is the
+/// largest over the rows of a world, a number that no order of summing can change. With w = J v + cfm p - rhs
+/// of a row with impulse p in [low, high], the natural map is the change of velocity that a projected step
+/// along w still asks for: |p - clamp(p - w / d, low, high)| d, d being the row's diagonal; |w| where
+/// nothing bounds p.
+struct Residuals {
+  double joint_speed = 0;        ///< [m/s] |w| of the joints' rows without bounds that act along a line
+  double joint_turn = 0;         ///< [rad/s] the same of those about an axis
+  double complementarity_j = 0;  ///< [J] |p w| of the contacts' normal rows
+  double natural_speed = 0;      ///< [m/s] natural map of all rows along lines: joints and contacts
+  double natural_turn = 0;       ///< [rad/s] of all rows about axes
+};
+
+/// Of the last step of a frame, except where it says otherwise. With the effect "sleeping" contacts, rows and
+/// penetration are those of what is awake; islands are all.
+struct Observables {
+  int contacts = 0;              ///< contact points
+  int rows = 0;                  ///< scalar constraint rows of joints and contacts
+  int islands = 0;               ///< sets of connected bodies
+  int max_island_rows = 0;       ///< rows of the island that has most
+  int bodies_inside = 0;         ///< awake ones in the field of interest; 0 without that effect
+  double energy_j = 0;           ///< kinetic + potential (height above z = 0 against gravity)
+  double max_penetration_m = 0;  ///< deepest contact
+  double joint_gap_m = 0;  ///< largest distance between the two anchors of a joint that holds, after the step
+  int nonfinite = 0;       ///< bodies with a NaN or an infinity
+  Residuals residuals;     ///< all 0 unless they are asked for (StepperSettings::residuals)
+};
+
+/// Kinetic and potential energy of one body [J].
+double body_energy(const model::Model& model, const model::State& state, int body);
+
+/// Kinetic and potential energy [J]; bodies are summed in order.
+double mechanical_energy(const model::Model& model, const model::State& state);
+
+/// Distance [m] between the two anchors of one joint: along the constrained directions only, i.e. across the
+/// axis for hinge2 with suspension; 0 for a slider's sliding direction.
+double joint_gap(const model::Model& model, const model::State& state, const model::Joint& joint);
+
+/// The largest joint_gap of the world's joints that hold [m]; 0 without any.
+double max_joint_gap(const model::Model& model, const model::State& state);
+
+}  // namespace pbmpi::stepping

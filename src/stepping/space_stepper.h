@@ -1,0 +1,108 @@
+/// The interface through which one world is stepped by several ranks, each of which owns some of its spaces,
+/// whatever the engine.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/clock.h"
+#include "effects/field_of_interest.h"
+#include "effects/space_sleepers.h"
+#include "geometry/box.h"
+#include "model/contact.h"
+#include "model/model.h"
+#include "model/space_map.h"
+#include "model/state.h"
+
+namespace pbmpi::stepping {
+
+/// What is counted of the islands that one rank has solved.
+struct IslandCounts {
+  int contacts = 0;
+  int rows = 0;
+  int islands = 0;
+  int max_island_rows = 0;
+  int bodies_inside = 0;  ///< with the effect "field_of_interest"
+  double max_penetration_m = 0;
+};
+
+/// One rank's view of the world. It knows all bodies; the rows of state() that belong to its own spaces are
+/// current, others are as the rank last heard of them. The result of a step depends neither on who owns what
+/// nor on where an island is solved.
+///
+/// A step is fire_events(), collide(), perhaps collide_across(), solve(). Units, spaces: model/space_map.h.
+class SpaceStepper {
+ public:
+  virtual ~SpaceStepper() = default;
+
+  virtual const model::Model& model() const = 0;
+  virtual const model::SpaceMap& map() const = 0;
+  virtual const model::State& state() const = 0;
+  /// Null without the effect "sleeping". With it collide() and collide_across() find the contacts of which a
+  /// body is awake, and solve() moves the units that are.
+  virtual effects::SpaceSleepers* sleepers() { return nullptr; }
+  /// Null without the effect "field_of_interest". With it solve() sorts the islands that it is given, once
+  /// the field has been told where the body is that it follows.
+  virtual effects::FieldOfInterest* field() { return nullptr; }
+  /// Units of one shape that are solved at the cost of one.
+  virtual int num_lanes() const = 0;
+
+  /// From now on these spaces (ascending) are this rank's own. `state`: of all bodies at the start of step
+  /// `step`.
+  virtual void own(std::span<const int> spaces, const model::State& state, std::int64_t step) = 0;
+
+  /// Takes in rows of state() that were computed elsewhere: of each body position, orientation, velocity and
+  /// angular velocity, 13 numbers.
+  virtual void put_states(std::span<const int> bodies, std::span<const double> rows) = 0;
+  /// The same for position and orientation only, 7 numbers: enough to collide, not to solve. The velocity
+  /// becomes 0 where collide_across() would look at it.
+  virtual void put_poses(std::span<const int> bodies, std::span<const double> rows) = 0;
+
+  /// State::broken_in of the joints of these units, unit by unit, and what takes it in from elsewhere; none
+  /// without the effect "breakable_joints". The joints of units that this rank owns or solves are current.
+  virtual std::vector<std::int32_t> broken_rows(std::span<const int> units) const {
+    static_cast<void>(units);
+    return {};
+  }
+  virtual void put_broken(std::span<const int> units, std::span<const std::int32_t> rows) {
+    static_cast<void>(units);
+    static_cast<void>(rows);
+  }
+
+  /// Own bodies that are fast at the state of now (model/fast_bodies.h), ascending: collide_across() must
+  /// have their whole states, and takes all others for slow. None without the pass.
+  virtual std::vector<int> fast_bodies() = 0;
+
+  /// The events of this step: all settings of joints, and the launches of own bodies.
+  virtual void fire_events(std::int64_t step) = 0;
+  /// The launches of the other bodies, for a rank that has their poses; adds their boxes to those of their
+  /// spaces, `boxes` [num_spaces].
+  virtual void launch_others(std::int64_t step, std::span<geometry::Box> boxes) = 0;
+
+  /// Contacts between bodies of own spaces, and of these with static geoms, in canonical order (sorted by
+  /// Contact::geoms). None if a pose is not finite: the world is lost, and colliders must not see it.
+  virtual void collide(std::vector<model::Contact>& contacts) = 0;
+  /// A box that holds the geoms of an own space at the poses of state(); it need not be tight.
+  virtual geometry::Box space_box(int space) const = 0;
+  /// Contacts between bodies of spaces that different ranks own, in canonical order. `owner`, `boxes`:
+  /// [num_spaces]. Only geoms in the box of a space of another owner are looked at, and what is ahead of
+  /// fast bodies.
+  virtual void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
+                              std::vector<model::Contact>& contacts) = 0;
+
+  /// Moves the bodies of these units (ascending) by a step. `contacts`: all that touch them, in canonical
+  /// order; both bodies of a contact belong to these units. Adds the seconds spent to rows, solve, integrate.
+  virtual void solve(std::span<const int> units, std::span<const model::Contact> contacts, std::int64_t step,
+                     core::PhaseTimes& times) = 0;
+  /// Counts of the last solve(), whose arguments are given again.
+  virtual IslandCounts count(std::span<const int> units, std::span<const model::Contact> contacts) const = 0;
+};
+
+/// Makes the engine of one world.
+using MakeSpaceStepper =
+    std::function<std::unique_ptr<SpaceStepper>(std::shared_ptr<const model::Model> model)>;
+
+}  // namespace pbmpi::stepping

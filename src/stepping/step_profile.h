@@ -1,0 +1,27 @@
+/// One step taken apart: what its islands and its collision spaces cost each by itself.
+#pragma once
+
+#include <vector>
+
+namespace pbmpi::stepping {
+
+/// What one island had to solve, and the time that it took alone.
+struct IslandCost {
+  int first_body = 0;  ///< the island's lowest body
+  int bodies = 0;
+  int contacts = 0;  ///< contact points
+  int rows = 0;      ///< scalar constraint rows of joints and contacts
+  double solve_s = 0;
+};
+
+/// The step that ended the last advance(), measured again after it.
+struct StepProfile {
+  std::vector<IslandCost> islands;  ///< in order of their lowest body
+  double collide_s = 0;             ///< collision detection as one piece
+  /// The longest collision space, and after it what lies between two spaces: collision detection if each
+  /// space had a core. The broad phase counts for a space by its share of the geoms.
+  double collide_spaces_s = 0;
+  int cross_contacts = 0;  ///< contact points between bodies of different spaces
+};
+
+}  // namespace pbmpi::stepping

@@ -1,0 +1,98 @@
+/// The interface through which worlds are stepped, whatever the engine.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "core/clock.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "stepping/observables.h"
+#include "stepping/step_profile.h"
+
+namespace pbmpi::stepping {
+
+enum class StepperKind { quick, direct, sor };
+
+/// Number type of the sor stepper; ODE's steppers are double.
+enum class Precision { double_, single };
+
+/// Vector instructions of the sor stepper; all give the same bits. automatic = the widest that the machine
+/// has.
+enum class Simd { automatic, sse2, avx2, avx512, off };
+
+/// What collides pairs of geoms in the sor stepper: kernels over vector lanes (ODE's dCollide for the shapes
+/// that they lack), or dCollide for all.
+enum class Colliders { lanes, ode };
+
+/// The order of the joints' rows in the sweeps of the sor stepper: anew every 8 iterations, by the step's
+/// key (as ODE's quickstep does), or that of the model in all.
+enum class RowOrder { shuffled, fixed };
+
+/// What a run chooses about the step; the rest is in the Model.
+struct StepperSettings {
+  StepperKind kind = StepperKind::quick;
+  double dt_s = 0.01;
+  int iterations = 20;      ///< sweeps of an iterative solver, in each substep
+  int substeps = 1;         ///< sor: parts of a step without new collision detection
+  double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
+  double warm_start = 0;    ///< sor: share of the impulses that a substep takes over from the one before
+  RowOrder row_order = RowOrder::shuffled;
+  Precision precision = Precision::double_;
+  Simd simd = Simd::automatic;
+  Colliders colliders = Colliders::lanes;
+  bool profile = false;    ///< ODE's: keep what profile_last_step() needs
+  bool residuals = false;  ///< sor: measure Observables::residuals
+  std::uint64_t seed = 1;  ///< of the run; a step's random numbers come from (seed, world, step)
+};
+
+/// Steps the worlds that one rank owns. A world's result depends on nothing but its model, its state, the
+/// step number and the settings: not on the other worlds, nor on the order of the calls.
+class WorldStepper {
+ public:
+  virtual ~WorldStepper() = default;
+
+  /// Takes in a world whose state is that at the start of step `step` (0 = initial_state(model)). A world may
+  /// come from another rank at any step boundary: the state restores it bit for bit.
+  virtual void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
+                   std::int64_t step) = 0;
+  virtual void remove(int world) = 0;
+  /// Puts a world into another state, that at the start of step `step`: what follows is the same, bit for
+  /// bit, as after remove() and add(), and cheap if the world stands at that step.
+  virtual void set_state(int world, const model::State& state, std::int64_t step) = 0;
+
+  /// Steps every world `num_steps` times and refreshes state(), observables() and cost_s(). Adds the seconds
+  /// spent to `times`. 0 steps only get ready for the next, after worlds have come, gone or changed.
+  virtual void advance(int num_steps, core::PhaseTimes& times) = 0;
+
+  virtual const model::State& state(int world) const = 0;
+  virtual const model::Model& model(int world) const = 0;
+  virtual const Observables& observables(int world) const = 0;
+  /// Seconds that the last advance() spent on this world.
+  virtual double cost_s(int world) const = 0;
+
+  /// Measures the last step of the last advance() again, island by island; no state changes by a bit. For
+  /// steppers made with StepperSettings::profile, others do nothing.
+  virtual void profile_last_step() {}
+  /// What it found, until the next call; null if nothing was measured.
+  virtual const StepProfile* profile(int world) const {
+    static_cast<void>(world);
+    return nullptr;
+  }
+};
+
+/// A stepper that can stop in mid-solve, show its state as it would be if the step ended there, and go on as
+/// if nobody had looked.
+class AnytimeStepper : public WorldStepper {
+ public:
+  /// Does the next step of every world up to this many iterations of its last substep (0 or more, at most
+  /// all of them). The next advance() counts this step as its first, and finishes it: its result is the same,
+  /// bit for bit. Until then state() is that before the step; add(), remove() and set_state() drop what was
+  /// begun. Adds the seconds spent to `times`.
+  virtual void begin_step(int iterations, core::PhaseTimes& times) = 0;
+  /// The state of a world as it would be if the step ended where the last begin_step() stopped.
+  virtual const model::State& look(int world) const = 0;
+};
+
+}  // namespace pbmpi::stepping

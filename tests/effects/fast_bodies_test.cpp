@@ -1,0 +1,288 @@
+#include "effects/fast_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "geometry/geometry.h"
+#include "support/models.h"
+
+namespace pbmpi::effects {
+namespace {
+
+constexpr double dt_s = 0.01;
+constexpr double rounding = 1e-12;  // of a few operations on lengths of some metres
+
+int add_ball(model::Model& model, const std::string& name, const core::Vec3& position,
+             const core::Vec3& velocity) {
+  const int actor = support::add_actor(model, name);
+  const int body = support::add_solid(model, actor, name, model::Shape::sphere, {0.1, 0, 0}, 1, position);
+  model.bodies[body].velocity = velocity;
+  return body;
+}
+
+int add_wall(model::Model& model, double x, double thickness) {
+  const int actor = support::add_actor(model, "wall");
+  return support::add_solid(model, actor, "wall", model::Shape::box, {thickness, 2, 2}, 50, {x, 0, 1});
+}
+
+const FastBodies::Filter all = [](int, int) { return true; };
+
+std::vector<model::Contact> contacts_of(const model::Model& model, const FastBodies::Filter& filter = all) {
+  FastBodies fast(model);
+  const model::State state = model::initial_state(model);
+  std::vector<model::Contact> contacts;
+  if (fast.look(state, dt_s)) fast.add(state, filter, contacts);
+  return contacts;
+}
+
+TEST(FastBodies, start_with_what_moves_further_than_half_its_extent_along_its_way) {
+  model::Model model;
+  add_ball(model, "ball", {0, 0, 1}, {9.9, 0, 0});
+  EXPECT_EQ(count_fast_starts(model), 0);
+  model.bodies[0].velocity.x() = 10.1;
+  EXPECT_EQ(count_fast_starts(model), 1);
+  // A plate of 2 m by 5 cm that flies along itself passes nothing by; one that flies flat does.
+  const int plate = support::add_solid(model, support::add_actor(model, "plate"), "plate", model::Shape::box,
+                                       {2, 2, 0.05}, 1, {0, 5, 1});
+  model.bodies[plate].velocity = {50, 0, 0};
+  EXPECT_EQ(count_fast_starts(model), 1);
+  model.bodies[plate].velocity = {0, 0, 50};
+  EXPECT_EQ(count_fast_starts(model), 2);
+}
+
+TEST(FastBodies, start_with_launches_at_their_poses) {
+  model::Model model;
+  const int rod = support::add_solid(model, support::add_actor(model, "rod"), "rod", model::Shape::cylinder,
+                                     {0.05, 1, 0}, 1, {0, 0, 1});
+  model::Event launch;
+  launch.body = rod;
+  launch.velocity = {0, 0, 20};
+  model.events.push_back(launch);
+  EXPECT_EQ(count_fast_starts(model), 0) << "along its length";
+  model.events[0].pose = core::Pose{{0, 0, 1}, support::rotation(core::Vec3::UnitX(), std::numbers::pi / 2)};
+  EXPECT_EQ(count_fast_starts(model), 1) << "across";
+}
+
+// The ball's centre is 0.5 m before the wall's face, its surface 0.4 m.
+TEST(FastBodies, leave_a_gap_that_the_surfaces_may_close) {
+  model::Model model;
+  add_ball(model, "ball", {-0.55, 0.2, 1}, {89.4, 0, 0});
+  add_wall(model, 0, 0.1);
+  const auto contacts = contacts_of(model);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts[0].body_a, 0);
+  EXPECT_EQ(contacts[0].body_b, 1);
+  EXPECT_NEAR(contacts[0].depth, -0.4, rounding);
+  EXPECT_LT((contacts[0].normal - core::Vec3(-1, 0, 0)).norm(), rounding);
+  EXPECT_LT((contacts[0].position - core::Vec3(-0.05, 0.2, 1)).norm(), rounding);
+  EXPECT_EQ(contacts[0].mu, 0);
+  EXPECT_EQ(contacts[0].restitution, 0);
+}
+
+// The face is 0.99 m or 1 m away: the centre moves 0.894 m, the front 0.1 m ahead of it.
+TEST(FastBodies, find_what_their_front_reaches_in_a_step) {
+  model::Model model;
+  add_ball(model, "ball", {-1.04, 0, 1}, {89.4, 0, 0});
+  add_wall(model, 0, 0.1);
+  EXPECT_EQ(contacts_of(model).size(), 1u);
+  model.bodies[0].pose.position.x() = -1.05;
+  EXPECT_TRUE(contacts_of(model).empty());
+}
+
+TEST(FastBodies, find_nothing_far_ahead_or_behind) {
+  for (const double x : {-2.0, 0.3}) {
+    model::Model model;
+    add_ball(model, "ball", {x, 0, 1}, {89.4, 0, 0});
+    add_wall(model, 0, 0.1);
+    EXPECT_TRUE(contacts_of(model).empty()) << x;
+  }
+}
+
+TEST(FastBodies, on_static_ground_act_below_their_centre) {
+  model::Model model;
+  support::add_ground(model);
+  add_ball(model, "ball", {0, 0, 0.4}, {60, 0, -60});
+  const auto contacts = contacts_of(model);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts[0].body_a, 0);
+  EXPECT_EQ(contacts[0].body_b, model::no_body);
+  EXPECT_LT((contacts[0].normal - core::Vec3::UnitZ()).norm(), rounding);
+  EXPECT_NEAR(contacts[0].depth, -0.3, rounding);
+  EXPECT_LT(contacts[0].position.norm(), rounding) << "not where the way ends, 0.4 m ahead";
+}
+
+// Towards each other at 80 m/s each they meet halfway, 0.3 m apart; neither way alone reaches the other.
+TEST(FastBodies, see_each_other_once_by_their_relative_way) {
+  model::Model model;
+  add_ball(model, "left", {-0.7, 0, 1}, {80, 0, 0});
+  add_ball(model, "right", {0.7, 0, 1}, {-80, 0, 0});
+  const auto contacts = contacts_of(model);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_NEAR(contacts[0].depth, -1.2, rounding);
+  model.bodies[1].velocity = {80, 0, 0};
+  EXPECT_TRUE(contacts_of(model).empty()) << "side by side";
+}
+
+// Its centre is 0.15 m above the ground, its end 0.02 m deep in it.
+TEST(FastBodies, keep_the_middle_of_a_rod_that_touches_with_its_end) {
+  model::Model model;
+  support::add_ground(model);
+  const int rod =
+      support::add_solid(model, support::add_actor(model, "rod"), "rod", model::Shape::capsule,
+                         {0.02, 0.3, 0}, 1, {0, 0, 0.15}, support::rotation(core::Vec3::UnitY(), 0.0));
+  model.bodies[rod].velocity = {0, 0, -60};
+  FastBodies fast(model);
+  const model::State state = model::initial_state(model);
+  ASSERT_TRUE(fast.look(state, dt_s));
+  model::Contact touching;
+  touching.geoms = {0, 1};
+  touching.position = touching.normal = core::Vec3::UnitX();
+  touching.depth = 0.02;
+  std::vector<model::Contact> contacts = {touching};
+  fast.add(state, all, contacts);
+  ASSERT_EQ(contacts.size(), 2u);
+  EXPECT_EQ(contacts[0].depth, 0.02) << "the touch comes first";
+  EXPECT_EQ(contacts[1].geoms, touching.geoms);
+  EXPECT_EQ(contacts[1].depth, 0) << "no gap is left";
+}
+
+TEST(FastBodies, pass_what_they_may_not_touch) {
+  model::Model model;
+  add_ball(model, "ball", {-0.55, 0, 1}, {89.4, 0, 0});
+  add_wall(model, 0, 0.1);
+  ASSERT_EQ(contacts_of(model).size(), 1u);
+  model.geoms[1].actor = model.geoms[0].actor;
+  EXPECT_TRUE(contacts_of(model).empty()) << "one actor's geoms do not touch each other";
+}
+
+/// Twelve fast balls on their way to each other over static ground, a wall in the middle.
+model::Model converging_balls() {
+  model::Model model;
+  support::add_ground(model);
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 0.5 * i;
+    add_ball(model, "ball" + std::to_string(i),
+             {0.5 * std::cos(angle), 0.5 * std::sin(angle), 0.3 + 0.05 * i},
+             {-70 * std::cos(angle), -70 * std::sin(angle), -30});
+  }
+  add_wall(model, 0, 0.1);
+  return model;
+}
+
+void expect_same(const std::vector<model::Contact>& a, const std::vector<model::Contact>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].geoms, b[i].geoms);
+    EXPECT_EQ(a[i].position, b[i].position);
+    EXPECT_EQ(a[i].depth, b[i].depth);
+  }
+}
+
+// What each pair gets depends on the two alone: any cut by a filter gives the same contacts as no cut.
+TEST(FastBodies, find_the_same_in_any_parts) {
+  const model::Model model = converging_balls();
+  const auto whole = contacts_of(model);
+  ASSERT_GT(whole.size(), 12u);
+  const auto of_part = [](int geom) { return geom * 7 % 3; };
+  auto parts = contacts_of(model, [&](int a, int b) { return of_part(a) == of_part(b); });
+  const auto across = contacts_of(model, [&](int a, int b) { return of_part(a) != of_part(b); });
+  parts.insert(parts.end(), across.begin(), across.end());
+  std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.geoms < b.geoms; });
+  expect_same(parts, whole);
+  for (std::size_t i = 1; i < whole.size(); ++i)
+    EXPECT_LT(whole[i - 1].geoms, whole[i].geoms) << "canonical order, one contact a pair";
+}
+
+TEST(FastBodies, find_across_groups_what_a_filter_would_let_through) {
+  const model::Model model = converging_balls();
+  const model::State state = model::initial_state(model);
+  for (const int num_groups : {1, 2, 3}) {
+    std::vector<int> group;
+    for (int body = 0; body < model.num_bodies(); ++body) group.push_back(body % num_groups);
+    const auto across = [&](int a, int b) {
+      const int body_a = model.geoms[a].body, body_b = model.geoms[b].body;
+      return body_a >= 0 && body_b >= 0 && group[body_a] != group[body_b];
+    };
+    FastBodies fast(model);
+    std::vector<model::Contact> found;
+    ASSERT_TRUE(fast.look(state, dt_s));
+    fast.add_across(state, group, found);
+    expect_same(found, contacts_of(model, across));
+    EXPECT_EQ(found.empty(), num_groups == 1);
+  }
+  // All that is fast is of one group: only the wall is of another.
+  std::vector<int> group(model.bodies.size(), 0);
+  group.back() = 1;
+  FastBodies fast(model);
+  std::vector<model::Contact> found;
+  ASSERT_TRUE(fast.look(state, dt_s));
+  fast.add_across(state, group, found);
+  const int wall = static_cast<int>(model.geoms.size()) - 1;
+  expect_same(found, contacts_of(model, [&](int, int other) { return other == wall; }));
+  EXPECT_FALSE(found.empty());
+}
+
+TEST(FastBodies, of_some_bodies_see_these_and_static_geoms_only) {
+  const model::Model model = converging_balls();
+  const model::State state = model::initial_state(model);
+  std::vector<char> some(model.bodies.size(), 0);
+  for (std::size_t body = 0; body < some.size(); body += 2) some[body] = 1;
+  const auto is_seen = [&](int geom) {
+    return model.geoms[geom].body == model::no_body || some[model.geoms[geom].body] != 0;
+  };
+  FastBodies fast(model, some);
+  std::vector<model::Contact> found;
+  ASSERT_TRUE(fast.look(state, dt_s));
+  for (const int body : fast.bodies()) EXPECT_EQ(some[body], 1);
+  fast.add(state, all, found);
+  expect_same(found, contacts_of(model, [&](int a, int b) { return is_seen(a) && is_seen(b); }));
+  EXPECT_FALSE(found.empty());
+}
+
+TEST(FastBodies, are_none_in_a_world_that_does_not_call_for_them) {
+  model::Model model;
+  add_ball(model, "ball", {-0.55, 0, 1}, {9, 0, 0});
+  add_wall(model, 0, 0.1);
+  FastBodies fast(model);
+  model::State state = model::initial_state(model);
+  state.velocity[0] = {89.4, 0, 0};  // as if something had hit it
+  EXPECT_FALSE(fast.look(state, dt_s));
+}
+
+TEST(FastBodies, tell_their_bodies_and_slow_ones_not) {
+  model::Model model;
+  add_ball(model, "slow", {0, 0, 1}, {1, 0, 0});
+  add_ball(model, "fast", {0, 5, 1}, {50, 0, 0});
+  FastBodies fast(model);
+  ASSERT_TRUE(fast.look(model::initial_state(model), dt_s));
+  EXPECT_EQ(fast.bodies(), std::vector<int>{1});
+  EXPECT_FALSE(fast.look(model::initial_state(model), dt_s / 10)) << "of a shorter step it is no more";
+}
+
+TEST(HalfExtent, is_known_along_the_axes_and_between_them) {
+  double turned[9], straight[9];
+  const core::Quat q =
+      support::rotation(core::Vec3::UnitY(), std::numbers::pi / 4);  // z leans towards x by 45 degrees
+  geometry::to_rotation(q.w, q.x, q.y, q.z, turned);
+  geometry::to_rotation(1, 0, 0, 0, straight);
+  const auto extent = [](model::Shape shape, const std::array<double, 3>& size, const double rotation[9],
+                         const core::Vec3& direction) {
+    model::Geom geom;
+    geom.shape = shape;
+    geom.size = size;
+    return half_extent(geom, rotation, direction);
+  };
+  const double root = std::sqrt(0.5);
+  EXPECT_NEAR(extent(model::Shape::sphere, {0.3, 0, 0}, turned, core::Vec3::UnitX()), 0.3, rounding);
+  EXPECT_NEAR(extent(model::Shape::box, {1, 2, 3}, straight, core::Vec3::UnitY()), 1, rounding);
+  EXPECT_NEAR(extent(model::Shape::box, {1, 2, 3}, turned, core::Vec3::UnitX()), 2 * root, rounding);
+  EXPECT_NEAR(extent(model::Shape::capsule, {0.3, 2, 0}, turned, core::Vec3::UnitX()), 0.3 + root, rounding);
+  EXPECT_NEAR(extent(model::Shape::cylinder, {0.3, 2, 0}, turned, core::Vec3::UnitX()), 1.3 * root, rounding);
+  EXPECT_NEAR(extent(model::Shape::cylinder, {0.3, 2, 0}, turned, core::Vec3::UnitY()), 0.3, rounding);
+}
+
+}  // namespace
+}  // namespace pbmpi::effects

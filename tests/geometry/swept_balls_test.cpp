@@ -1,0 +1,79 @@
+#include "geometry/swept_balls.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/random.h"
+
+namespace pbmpi::geometry {
+namespace {
+
+double number(int i, std::uint64_t k) {
+  return core::to_unit(core::mix_key(7, static_cast<std::uint64_t>(i), k));
+}
+
+core::Vec3 point(int i, std::uint64_t k, double side) {
+  return {side * number(i, k), side * number(i, k + 1), side * number(i, k + 2)};
+}
+
+std::vector<int> near(const SweptBalls& balls, const Box& box) {
+  std::vector<int> found;
+  balls.for_each_near(box, [&](int index) { found.push_back(index); });
+  return found;
+}
+
+// Of a ball in 100 places of its way, wherever it then overlaps the box.
+TEST(SweptBalls, are_found_where_they_come_near_on_their_way) {
+  SweptBalls balls;
+  const int count = 50;  // three groups and a part of one
+  std::vector<core::Vec3> centre, way;
+  for (int i = 0; i < count; ++i) {
+    centre.push_back(point(i, 0, 10));
+    way.push_back(i % 3 == 0 ? core::Vec3(point(i, 3, 4) - core::Vec3(2, 2, 2))
+                             : core::Vec3(core::Vec3::Zero()));
+    balls.add(centre.back(), 0.2, way.back());
+  }
+  std::size_t num_found = 0;
+  for (int query = 0; query < 40; ++query) {
+    const Box box = swept_box(point(query, 10, 10), 0.3, point(query, 13, 2));
+    const std::vector<int> found = near(balls, box);
+    num_found += found.size();
+    EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+    for (int i = 0; i < count; ++i) {
+      bool meets = false;
+      for (int share = 0; share <= 100; ++share) {
+        const core::Vec3 at = centre[i] + 0.01 * share * way[i];
+        Box ball;
+        for (std::size_t k = 0; k < 3; ++k) {
+          ball.min[k] = at[static_cast<int>(k)] - 0.2;
+          ball.max[k] = at[static_cast<int>(k)] + 0.2;
+        }
+        meets = meets || ball.overlaps(box);
+      }
+      EXPECT_TRUE(!meets || std::binary_search(found.begin(), found.end(), i)) << query << ", ball " << i;
+    }
+  }
+  EXPECT_GT(num_found, 0u);
+  EXPECT_LT(num_found, 40u * count / 2) << "most balls are far from a small box";
+}
+
+TEST(SweptBalls, are_forgotten_when_cleared) {
+  SweptBalls balls;
+  balls.add({0, 0, 0}, 1, core::Vec3::Zero());
+  balls.clear();
+  balls.add({5, 0, 0}, 1, core::Vec3::Zero());
+  EXPECT_TRUE(near(balls, swept_box({0, 0, 0}, 1, core::Vec3::Zero())).empty());
+  EXPECT_EQ(near(balls, swept_box({5, 0, 0}, 1, core::Vec3::Zero())), std::vector<int>{0});
+}
+
+TEST(SweptBalls, are_everywhere_if_endless_and_nowhere_if_not_finite) {
+  SweptBalls balls;
+  balls.add({0, 0, 0}, std::numeric_limits<double>::infinity(), core::Vec3::Zero());
+  balls.add(core::Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), 1, core::Vec3::Zero());
+  EXPECT_EQ(near(balls, swept_box({5, 100, 0}, 1, core::Vec3::Zero())), std::vector<int>{0});
+}
+
+}  // namespace
+}  // namespace pbmpi::geometry

@@ -1,0 +1,85 @@
+#include "mpi/frame/whole_state.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "core/error.h"
+
+namespace pbmpi::mpi {
+namespace {
+
+/// A NaN that carries something.
+double odd_nan() {
+  const std::uint64_t bits = 0x7ff8'0000'dead'beefULL;
+  double number = 0;
+  std::memcpy(&number, &bits, sizeof number);
+  return number;
+}
+
+model::State sample(bool rests, int num_joints) {
+  model::State state;
+  state.resize(3);
+  for (int i = 0; i < 3; ++i) {
+    state.position[i] = {0.1 * i, -0.0, std::numeric_limits<double>::denorm_min()};
+    state.orientation[i] = {0.5, 0.1 * i, -0.3, odd_nan()};
+    state.velocity[i] = {1.0 / 3, 1e300, -1e-300};
+    state.angular_velocity[i] = {std::numeric_limits<double>::infinity(), 2.0 * i, 7};
+  }
+  if (rests) {
+    state.rest.resize(3);
+    state.rest[1] = {{0.7, 0.8, 0.9}, {0.1, 0.2, 0.3, 0.4}, -2};
+    state.rest[2].idle_steps = 29;
+  }
+  for (int joint = 0; joint < num_joints; ++joint) state.broken_in.push_back(joint == 1 ? 40000 : -1);
+  return state;
+}
+
+template <class Row>
+bool same_bytes(const std::vector<Row>& a, const std::vector<Row>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Row)) == 0;
+}
+
+TEST(WholeState, comes_back_bit_for_bit_with_and_without_rest_and_joints) {
+  for (const bool rests : {false, true}) {
+    for (const int num_joints : {0, 5}) {
+      const model::State state = sample(rests, num_joints);
+      const std::vector<double> packed = pack(state);
+      EXPECT_EQ(packed_size(state), std::ssize(packed));
+      const model::State found = unpack(packed);
+      EXPECT_TRUE(same_bytes(found.position, state.position));
+      EXPECT_TRUE(same_bytes(found.orientation, state.orientation));
+      EXPECT_TRUE(same_bytes(found.velocity, state.velocity));
+      EXPECT_TRUE(same_bytes(found.angular_velocity, state.angular_velocity));
+      EXPECT_EQ(found.broken_in, state.broken_in);
+      ASSERT_EQ(found.rest.size(), state.rest.size());
+      for (std::size_t i = 0; i < state.rest.size(); ++i) {
+        EXPECT_EQ(found.rest[i].position, state.rest[i].position);
+        EXPECT_EQ(found.rest[i].orientation, state.rest[i].orientation);
+        EXPECT_EQ(found.rest[i].idle_steps, state.rest[i].idle_steps);
+      }
+    }
+  }
+}
+
+TEST(WholeState, lengths_that_do_not_fit_are_refused) {
+  std::vector<double> packed = pack(sample(true, 5));
+  packed.pop_back();
+  EXPECT_THROW(unpack(packed), core::RunError);
+  EXPECT_THROW(unpack(std::span(packed).first(2)), core::RunError);
+}
+
+TEST(WholeState, a_state_of_another_model_is_refused) {
+  model::Model model;
+  model.bodies.resize(3);
+  model.joints.resize(5);
+  EXPECT_NO_THROW(require_fit(0, sample(true, 5), model));
+  EXPECT_NO_THROW(require_fit(0, sample(false, 0), model)) << "a state says of effects only what it has";
+  EXPECT_THROW(require_fit(0, sample(false, 4), model), core::RunError);
+  model.bodies.resize(2);
+  EXPECT_THROW(require_fit(0, sample(false, 5), model), core::RunError);
+}
+
+}  // namespace
+}  // namespace pbmpi::mpi

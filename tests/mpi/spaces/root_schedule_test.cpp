@@ -1,0 +1,76 @@
+#include "mpi/spaces/root_schedule.h"
+
+#include <gtest/gtest.h>
+
+namespace pbmpi::mpi {
+namespace {
+
+// Times in seconds that doubles hold exactly, so that nothing here is rounded.
+
+/// Root has just solved at time 100; the others' verdict left at 0.
+RootSchedule after_a_step(const StepPace& own, const StepPace& other, double across_s, int num_ranks = 2) {
+  RootSchedule schedule(num_ranks);
+  schedule.start_all(-other.collide_s);
+  schedule.told(0, across_s);
+  for (int rank = 1; rank < num_ranks; ++rank) schedule.arrived(rank, -1000, -other.collide_s, other);
+  schedule.start_all(-other.collide_s);
+  schedule.note_own(own);
+  return schedule;
+}
+
+TEST(RootSchedule, expects_poses_a_solve_after_the_verdict_or_after_a_late_collision) {
+  RootSchedule schedule(2);
+  schedule.arrived(1, 0, 0, {20, 100});
+  schedule.start_all(0);
+  schedule.told(10, 5);
+  EXPECT_EQ(schedule.expected_s(), 120) << "the rank collides until 20";
+  schedule.told(30, 5);
+  EXPECT_EQ(schedule.expected_s(), 130);
+}
+
+TEST(RootSchedule, takes_the_time_it_expected_for_that_of_an_arrival_it_did_not_see) {
+  RootSchedule schedule(2);
+  schedule.arrived(1, 0, 0, {20, 100});
+  schedule.start_all(0);
+  schedule.told(30, 5);
+  schedule.arrived(1, 125, 150, {20, 100});  // expected at 130
+  schedule.told(131, 5);
+  EXPECT_EQ(schedule.expected_s(), 130 + 20 + 100);
+  schedule.arrived(1, 190, 200, {20, 100});  // by then they were there
+  schedule.told(201, 5);
+  EXPECT_EQ(schedule.expected_s(), 200 + 20 + 100);
+}
+
+TEST(RootSchedule, expects_the_last_of_all_ranks) {
+  RootSchedule schedule(3);
+  schedule.arrived(1, 0, 0, {20, 100});
+  schedule.arrived(2, 0, 0, {20, 300});
+  schedule.start_all(0);
+  schedule.told(30, 5);
+  EXPECT_EQ(schedule.expected_s(), 330);
+}
+
+TEST(RootSchedule, waits_for_poses_that_are_due) {
+  const RootSchedule schedule = after_a_step({25, 80}, {25, 104}, 20);
+  EXPECT_TRUE(schedule.should_wait(100)) << "4 to go; colliding first would hold the other up by 21";
+  EXPECT_FALSE(schedule.should_wait(70)) << "34 to go: root's collision takes 25";
+}
+
+TEST(RootSchedule, gives_up_waiting_for_poses_that_do_not_come) {
+  const RootSchedule schedule = after_a_step({25, 80}, {25, 104}, 20);
+  EXPECT_TRUE(schedule.should_wait(104 + 20));
+  EXPECT_FALSE(schedule.should_wait(104 + 26)) << "by now root could have collided";
+}
+
+TEST(RootSchedule, collides_first_if_root_is_the_last_to_finish) {
+  const RootSchedule schedule = after_a_step({25, 200}, {25, 104}, 20);
+  EXPECT_FALSE(schedule.should_wait(100)) << "each second of waiting ends the step a second later";
+}
+
+TEST(RootSchedule, does_not_wait_before_it_knows_its_own_pace) {
+  const RootSchedule schedule = after_a_step({}, {25, 104}, 20);
+  EXPECT_FALSE(schedule.should_wait(100));
+}
+
+}  // namespace
+}  // namespace pbmpi::mpi

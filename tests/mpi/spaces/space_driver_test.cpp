@@ -1,0 +1,281 @@
+#include "mpi/spaces/space_driver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+#include "space_run.h"
+#include "support/models.h"
+
+namespace pbmpi::mpi {
+namespace {
+
+using testing_support::neighbours;
+using testing_support::Oracle;
+using testing_support::placements_of_four_spaces;
+using testing_support::run_spaces;
+using testing_support::share;
+using testing_support::SharedModel;
+using testing_support::space_settings;
+using testing_support::SpaceRun;
+using testing_support::whole_hash;
+using testing_support::world;
+
+/// Runs with the oracle and expects the bits of the undecomposed world.
+SpaceRun expect_whole(const SharedModel& model, const WorldRunSettings& settings = space_settings(),
+                      const stepping::StepperSettings& stepper = {}) {
+  SpaceRun run = run_spaces(world(), model, settings, stepper);
+  EXPECT_EQ(run.result.state_hash, whole_hash(model, settings, stepper));
+  EXPECT_EQ(run.result.failure, "");
+  EXPECT_EQ(run.result.frames_done, settings.warmup + settings.frames);
+  return run;
+}
+
+TEST(SpaceDriver, has_the_bits_of_the_undecomposed_world) {
+  const SpaceRun run = expect_whole(share(neighbours()), space_settings(40));
+  EXPECT_TRUE(run.contacts_checked > 1000 || !world().is_root()) << "the scene must have contacts to find";
+  EXPECT_EQ(run.messages > 0, world().size() > 1);
+}
+
+TEST(SpaceDriver, has_the_same_bits_for_every_ownership) {
+  const SharedModel model = share(neighbours());
+  const std::uint64_t expected = whole_hash(model);
+  WorldRunSettings settings = space_settings();
+  settings.rebalance_threshold = model::infinity;
+  for (const Placement& placement : placements_of_four_spaces(world().size(), 5)) {
+    settings.placement = placement;
+    const SpaceRun run = run_spaces(world(), model, settings);
+    ASSERT_EQ(run.result.state_hash, expected) << testing::PrintToString(placement);
+    ASSERT_EQ(run.owners, settings.placement) << "with an infinite threshold nothing moves";
+  }
+}
+
+// Two balls that would pass through each other are of one space, those that are shot at the piles meet other
+// spaces' boxes: at 4 owners contacts ahead are found by each rank and by root.
+TEST(SpaceDriver, sees_ahead_of_fast_bodies_across_spaces) {
+  stepping::StepperSettings single;
+  single.precision = stepping::Precision::single;
+  for (const stepping::StepperSettings& stepper : {stepping::StepperSettings{}, single}) {
+    const SpaceRun run = expect_whole(share(testing_support::shoot_out()), space_settings(), stepper);
+    EXPECT_TRUE(run.contacts_ahead_checked >= 4 || !world().is_root()) << run.contacts_ahead_checked;
+  }
+}
+
+TEST(SpaceDriver, has_the_same_bits_with_one_lane_with_substeps_and_in_single_precision) {
+  stepping::StepperSettings one_lane, substeps, single;
+  one_lane.simd = stepping::Simd::off;
+  substeps.substeps = 3;
+  single.precision = stepping::Precision::single;
+  for (const stepping::StepperSettings& stepper : {one_lane, substeps, single})
+    expect_whole(share(neighbours()), space_settings(), stepper);
+}
+
+TEST(SpaceDriver, moves_spaces_when_the_work_is_uneven_and_keeps_the_bits) {
+  WorldRunSettings settings = space_settings(30);
+  settings.placement = {0, 0, 0, 0};
+  settings.rebalance_threshold = 1.02;
+  const SpaceRun run = expect_whole(share(neighbours()), settings);
+  if (world().size() == 1) {
+    EXPECT_TRUE(run.events.empty());
+    return;
+  }
+  ASSERT_FALSE(run.events.empty()) << "all work on one rank must move";
+  EXPECT_EQ(run.events.front().kind, "rebalance");
+  EXPECT_NE(run.events.front().detail.find("moved: busiest rank"), std::string::npos);
+  EXPECT_NE(run.owners, settings.placement);
+  EXPECT_EQ(run.result.num_rebalances, std::ssize(run.events));
+}
+
+TEST(SpaceDriver, sends_no_message_inside_a_step_if_there_is_one_space) {
+  const SpaceRun run = expect_whole(share(support::crash()));
+  const std::int64_t frames = run.result.frames_done;
+  // The one message a frame in which each rank but root gives its account.
+  EXPECT_EQ(run.messages, world().is_root() ? 0 : frames);
+  std::vector<int> idle;
+  for (int rank = 1; rank < world().size(); ++rank) idle.push_back(rank);
+  EXPECT_EQ(run.idle_ranks, idle);
+}
+
+TEST(SpaceDriver, builds_no_machinery_for_spaces_that_never_meet) {
+  model::Model model = neighbours();
+  model.events.clear();
+  model.spaces_meet = false;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    model.bodies[i].pose.position.y() += 50.0 * model.geoms[i + 1].space;
+  const SpaceRun run = expect_whole(share(model));
+  EXPECT_EQ(run.messages, world().is_root() ? 0 : run.result.frames_done) << "one account a frame";
+}
+
+TEST(SpaceDriver, fails_if_spaces_touch_that_are_said_never_to_meet) {
+  model::Model model = neighbours();
+  model.spaces_meet = false;
+  WorldRunSettings settings = space_settings();
+  settings.placement = {0, 0, 0, world().size() - 1};
+  std::string message;
+  try {
+    run_spaces(world(), share(model), settings, {}, Oracle::none);
+  } catch (const core::RunError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(message.find("inter_space = \"none\"") != std::string::npos, world().size() > 1) << message;
+}
+
+TEST(SpaceDriver, runs_with_an_empty_space_and_with_more_ranks_than_spaces) {
+  model::Model model = neighbours();
+  model.spaces = {"left", "middle", "right", "balls", "empty", "empty too"};
+  WorldRunSettings settings = space_settings(10);
+  settings.rebalance_threshold = model::infinity;
+  const int last = world().size() - 1;
+  settings.placement = {0, 0, 0, 0, last, last};  // the last rank owns nothing but empty spaces
+  const SpaceRun run = expect_whole(share(model), settings);
+  const auto idle = std::find(run.idle_ranks.begin(), run.idle_ranks.end(), last);
+  EXPECT_EQ(idle != run.idle_ranks.end(), last > 0);
+
+  model::Model two = neighbours();
+  two.spaces = {"some", "others"};
+  for (model::Geom& geom : two.geoms) geom.space /= 2;
+  const SpaceRun few = expect_whole(share(two), space_settings(10));
+  EXPECT_GE(std::ssize(few.idle_ranks), world().size() - 2);
+}
+
+TEST(SpaceDriver, merges_all_spaces_into_one_island_when_they_pile_up) {
+  // Boxes of a pile, one a space: from the first contact on all are one island, which one rank solves.
+  model::Model model = support::pile(8);
+  model.spaces.clear();
+  for (model::Geom& geom : model.geoms) {
+    if (geom.body == model::no_body) continue;
+    geom.space = static_cast<int>(model.spaces.size());
+    model.spaces.push_back("box" + std::to_string(geom.body));
+  }
+  WorldRunSettings settings = space_settings(40);
+  settings.rebalance_threshold = model::infinity;
+  expect_whole(share(model), settings);
+  settings.rebalance_threshold = 1.1;
+  expect_whole(share(model), settings);
+}
+
+TEST(SpaceDriver, follows_a_body_that_leaves_the_reach_of_all_spaces) {
+  model::Model model = neighbours();
+  model::Event event;
+  event.step = 5;
+  event.kind = model::EventKind::launch;
+  event.body = 0;
+  event.velocity = {4000, 0, 3000};
+  event.pose = model::Pose{{1e5, -2e5, 50}, {}};
+  model.events.insert(model.events.begin(), event);
+  expect_whole(share(model));
+}
+
+TEST(SpaceDriver, follows_a_body_that_an_event_puts_among_another_spaces_bodies) {
+  model::Model model = neighbours();
+  model.events.clear();
+  model::Event event;
+  event.step = 7;
+  event.kind = model::EventKind::launch;
+  event.body = model.num_bodies() - 1;  // a ball
+  event.velocity = {0, 0, -1};
+  event.pose = model::Pose{{0.1, 0.3, 3.9}, {}};  // onto the left pile
+  model.events = {event};
+  for (int owner_of_balls = 0; owner_of_balls < world().size(); ++owner_of_balls) {
+    WorldRunSettings settings = space_settings();
+    settings.rebalance_threshold = model::infinity;
+    settings.placement = {0, 0, 0, owner_of_balls};
+    expect_whole(share(model), settings);
+  }
+}
+
+TEST(SpaceDriver, solves_a_joint_between_bodies_of_two_spaces) {
+  model::Model model = neighbours();
+  const int first = 0, last = 11;  // a box of the left pile, and one of the right pile
+  support::add_joint(model, model::JointKind::ball, first, last, {1, 0, 1});
+  expect_whole(share(model));
+}
+
+TEST(SpaceDriver, ends_on_every_rank_when_a_body_becomes_non_finite) {
+  model::Model model = neighbours();
+  model.bodies[3].velocity.x() = std::numeric_limits<double>::quiet_NaN();
+  const SpaceRun run = run_spaces(world(), share(model), space_settings(), {}, Oracle::none);
+  EXPECT_NE(run.result.failure.find("world 0 has "), std::string::npos) << run.result.failure;
+  EXPECT_NE(run.result.failure.find(" non-finite bod"), std::string::npos) << run.result.failure;
+  EXPECT_EQ(run.result.frames_done, 1);
+}
+
+/// Throws in step 20 on one rank, in the middle of what the others wait for.
+class FailingStepper final : public stepping::SpaceStepper {
+ public:
+  FailingStepper(std::unique_ptr<stepping::SpaceStepper> inner, bool collide, bool here)
+      : inner_(std::move(inner)), collide_(collide), here_(here) {}
+  const model::Model& model() const override { return inner_->model(); }
+  const model::SpaceMap& map() const override { return inner_->map(); }
+  const model::State& state() const override { return inner_->state(); }
+  int num_lanes() const override { return inner_->num_lanes(); }
+  void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override {
+    inner_->own(spaces, state, step);
+  }
+  void put_states(std::span<const int> bodies, std::span<const double> rows) override {
+    inner_->put_states(bodies, rows);
+  }
+  void put_poses(std::span<const int> bodies, std::span<const double> rows) override {
+    inner_->put_poses(bodies, rows);
+  }
+  std::vector<int> fast_bodies() override { return inner_->fast_bodies(); }
+  void fire_events(std::int64_t step) override {
+    step_ = step;
+    inner_->fire_events(step);
+  }
+  void launch_others(std::int64_t step, std::span<geometry::Box> boxes) override {
+    inner_->launch_others(step, boxes);
+  }
+  void collide(std::vector<model::Contact>& contacts) override {
+    if (here_ && collide_ && step_ == 20) throw core::RunError("collider lost");
+    inner_->collide(contacts);
+  }
+  geometry::Box space_box(int space) const override { return inner_->space_box(space); }
+  void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
+                      std::vector<model::Contact>& contacts) override {
+    inner_->collide_across(owner, boxes, contacts);
+  }
+  void solve(std::span<const int> units, std::span<const model::Contact> contacts, std::int64_t step,
+             core::PhaseTimes& times) override {
+    if (here_ && !collide_ && step_ == 20) throw core::RunError("solver lost");
+    inner_->solve(units, contacts, step, times);
+  }
+  stepping::IslandCounts count(std::span<const int> units,
+                               std::span<const model::Contact> contacts) const override {
+    return inner_->count(units, contacts);
+  }
+
+ private:
+  std::unique_ptr<stepping::SpaceStepper> inner_;
+  bool collide_, here_;
+  std::int64_t step_ = -1;
+};
+
+TEST(SpaceDriver, ends_all_ranks_with_the_error_of_one) {
+  for (const bool collide : {true, false}) {
+    for (int rank = 0; rank < world().size(); ++rank) {
+      FailingStepper stepper(testing_support::make_space_stepper(share(neighbours())), collide,
+                             rank == world().rank());
+      SpaceDriver driver(world(), stepper, space_settings());
+      std::string message;
+      try {
+        driver.run();
+      } catch (const core::RunError& error) {
+        message = error.what();
+      }
+      const std::string what = collide ? "collider lost" : "solver lost";
+      EXPECT_EQ(message, world().size() == 1 ? what : "rank " + std::to_string(rank) + ": " + what);
+    }
+  }
+}
+
+TEST(SpaceDriver, refuses_a_placement_on_a_rank_that_does_not_exist) {
+  WorldRunSettings settings = space_settings();
+  settings.placement = {0, 0, 0, world().size()};
+  EXPECT_THROW(run_spaces(world(), share(neighbours()), settings), core::InputError);
+}
+
+}  // namespace
+}  // namespace pbmpi::mpi

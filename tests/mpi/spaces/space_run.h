@@ -1,0 +1,64 @@
+/// One world cut into spaces, run on the ranks of a test, and the same world in one piece.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "mpi/spaces/space_driver.h"
+#include "mpi/worlds/world_driver.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::testing_support {
+
+using SharedModel = std::shared_ptr<const model::Model>;
+
+SharedModel share(model::Model model);
+
+/// All ranks of the test.
+const mpi::Communicator& world();
+
+/// Puts the geoms of a body into a space; returns the body.
+int add_to_space(model::Model& model, int body, int space);
+
+/// 2 warm-up and `frames` measured frames of 3 steps.
+mpi::WorldRunSettings space_settings(int frames = 20);
+
+/// Ways to give four spaces to ranks, each once: of the 256 for four ranks every `stride`-th, ranks beyond
+/// the last one wrapped round.
+std::vector<mpi::Placement> placements_of_four_spaces(int num_ranks, int stride);
+
+struct SpaceRun {
+  mpi::WorldRunResult result;
+  std::vector<stepping::RunEvent> events;
+  std::vector<int> idle_ranks;
+  std::vector<int> owners;                  ///< at the end
+  std::int64_t contacts_checked = 0;        ///< on root
+  std::int64_t contacts_ahead_checked = 0;  ///< of them ahead of fast bodies
+  std::int64_t messages = 0;                ///< of this rank
+};
+
+enum class Oracle { each_step, none };
+
+/// A sor world with ODE's colliders.
+std::unique_ptr<stepping::SpaceStepper> make_space_stepper(const SharedModel& model,
+                                                           const stepping::StepperSettings& stepper = {});
+
+/// Runs, with the brute-force oracle unless told otherwise.
+SpaceRun run_spaces(const mpi::Communicator& comm, const SharedModel& model,
+                    const mpi::WorldRunSettings& settings = space_settings(),
+                    const stepping::StepperSettings& stepper = {}, Oracle oracle = Oracle::each_step);
+
+/// The state hash of the same run in one piece on one rank. Steps like the above.
+std::uint64_t whole_hash(const SharedModel& model, const mpi::WorldRunSettings& settings = space_settings(),
+                         const stepping::StepperSettings& stepper = {});
+
+/// Four spaces in a row, 1 m apart: a pile of boxes, a chain that falls on its neighbours, a pile, loose
+/// balls that roll from one end to the other and are launched into other spaces.
+model::Model neighbours();
+
+/// The same where two balls are shot at each other above the piles, and two through the piles, at 60 to 90
+/// m/s.
+model::Model shoot_out();
+
+}  // namespace pbmpi::testing_support

@@ -1,0 +1,37 @@
+#include "every_stepper.h"
+
+#include "ode/collide/narrow_phase.h"
+#include "ode/ode_stepper.h"
+#include "scenes/scene.h"
+#include "solver/worlds/sor_stepper.h"
+
+namespace pbmpi::scenes {
+
+using stepping::StepperKind;
+using stepping::StepperSettings;
+
+std::vector<SteppedBy> every_stepper() {
+  StepperSettings quick, direct, sor, single, substeps;
+  direct.kind = StepperKind::direct;
+  sor.kind = single.kind = substeps.kind = StepperKind::sor;
+  single.precision = stepping::Precision::single;
+  substeps.substeps = 3;
+  return {{"quick", quick},
+          {"direct", direct},
+          {"sor", sor},
+          {"sor_single", single},
+          {"sor_with_substeps", substeps}};
+}
+
+model::State state_after(const std::string& toml, const StepperSettings& settings, int num_steps) {
+  const auto model = parse_scene({"test", "test.toml", toml})->build(0, 1);
+  const auto stepper = settings.kind == StepperKind::sor
+                           ? solver::make_sor_stepper(settings, ode::make_narrow_phase)
+                           : ode::make_ode_stepper(settings, [](const std::string&) {});
+  stepper->add(0, model, model::initial_state(*model), 0);
+  core::PhaseTimes times;
+  stepper->advance(num_steps, times);
+  return stepper->state(0);
+}
+
+}  // namespace pbmpi::scenes

@@ -1,0 +1,26 @@
+/// A world in each of the steppers.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "stepping/stepper.h"
+
+namespace pbmpi::scenes {
+
+struct SteppedBy {
+  std::string name;  ///< of a test
+  stepping::StepperSettings settings;
+};
+
+/// In a test's name.
+inline std::ostream& operator<<(std::ostream& out, const SteppedBy& by) { return out << by.name; }
+
+/// quick, direct, and sor in double, in single precision and with substeps.
+std::vector<SteppedBy> every_stepper();
+
+/// The state after `num_steps` steps of world 0 of the scene with this text.
+model::State state_after(const std::string& toml, const stepping::StepperSettings& settings, int num_steps);
+
+}  // namespace pbmpi::scenes
