@@ -12,7 +12,7 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "jobs"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "jobs"))
 import figure3  # noqa: E402
 
 AS_IS, EXTRA = sys.argv[1:3]
