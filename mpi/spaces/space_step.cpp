@@ -24,8 +24,8 @@ SpaceStep::SpaceStep(const Communicator& comm, stepping::SpaceStepper& stepper, 
 void SpaceStep::own(const SpaceOwnership& ownership, const model::State& state, std::int64_t step) {
   ownership_ = ownership;
   const effects::StepPlan plan(stepper_->model());
-  has_fast_bodies_ = plan.has("fast_bodies");
-  joints_break_ = plan.has("breakable_joints");
+  has_fast_bodies_ = plan.has(effects::EffectId::fast_bodies);
+  joints_break_ = plan.has(effects::EffectId::breakable_joints);
   crosses_ = ownership.is_divided() && stepper_->model().spaces_meet;
   active_units_ = own_units();
   guard([&] { stepper_->own(ownership.spaces[comm_->rank()], state, step); });

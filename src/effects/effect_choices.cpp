@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
-#include <string_view>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -12,18 +11,17 @@
 namespace pbmpi::effects {
 namespace {
 
-/// Effects of contacts, which there are none of without collision.
-constexpr std::array<std::string_view, 4> needs_collision = {"friction", "restitution", "cross_space",
-                                                             "fast_bodies"};
+/// Effects that act on contacts, which do not exist without collision.
+constexpr std::array<EffectId, 4> needs_collision = {EffectId::friction, EffectId::restitution,
+                                                     EffectId::cross_space, EffectId::fast_bodies};
 
-void require_collision_for_its_parts(const model::EffectChoices& choices) {
-  const auto collision = choices.find("collision");
-  if (collision == choices.end() || collision->second) return;
-  for (const std::string_view name : needs_collision) {
-    const auto choice = choices.find(name);
+void require_collision_for_its_parts(const model::Model& model) {
+  if (!is_left_out(model, EffectId::collision)) return;
+  for (const EffectId part : needs_collision) {
+    const std::string name(effect_registry()[static_cast<std::size_t>(part)].name);
     core::require_input(
-        choice == choices.end() || !choice->second,
-        "effect '" + std::string(name) +
+        choice_of(model, part) != std::optional<bool>(true),
+        "effect '" + name +
             "' is demanded and 'collision', which it needs, is left out; drop one of the two");
   }
 }
@@ -63,10 +61,9 @@ std::string to_text(const model::EffectChoices& choices) {
 }
 
 void leave_out_effects(model::Model& model) {
-  require_collision_for_its_parts(model.effects);
+  require_collision_for_its_parts(model);
   for (const Effect& effect : effect_registry()) {
-    const auto choice = model.effects.find(effect.name);
-    if (choice != model.effects.end() && !choice->second) effect.leave_out(model);
+    if (is_left_out(model, effect.id)) effect.leave_out(model);
   }
 }
 

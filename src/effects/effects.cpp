@@ -36,8 +36,7 @@ std::optional<Reason> gravity(const model::Model& model) {
 }
 
 std::optional<Reason> collision(const model::Model& model) {
-  if (const auto choice = model.effects.find("collision"); choice != model.effects.end() && !choice->second)
-    return std::nullopt;
+  if (is_left_out(model, EffectId::collision)) return std::nullopt;
   const bool moving = std::any_of(model.geoms.begin(), model.geoms.end(),
                                   [](const model::Geom& g) { return g.body != model::no_body; });
   if (!moving || model.geoms.size() < 2) return std::nullopt;
@@ -136,10 +135,9 @@ std::optional<Reason> damping(const model::Model& model) {
   return counted(model.num_bodies(), what.str());
 }
 
-/// An approximation, so that a model calls for it in so many words only.
+/// An approximation, so that a model has it only on explicit request.
 std::optional<Reason> sleeping(const model::Model& model) {
-  const auto choice = model.effects.find("sleeping");
-  if (choice == model.effects.end() || !choice->second) return std::nullopt;
+  if (choice_of(model, EffectId::sleeping) != std::optional<bool>(true)) return std::nullopt;
   char text[96];
   std::snprintf(text, sizeof text, "after %g s below %g m/s and %g rad/s", model.sleep.after_s,
                 model.sleep.speed, model.sleep.angular_speed);
@@ -188,29 +186,33 @@ void refuse_without_joints(model::Model& model) {
 
 const std::vector<Effect>& effect_registry() {
   static const std::vector<Effect> effects = {
-      {"events", "bodies are launched at given steps", Phase::integrate, launches,
+      {EffectId::events, "events", "bodies are launched at given steps", Phase::integrate, launches,
        drop_events<model::EventKind::launch>},
-      {"steering", "joint axes are pinned to angles at given steps", Phase::integrate, steering,
-       drop_events<model::EventKind::steer>},
-      {"collision", "geoms that touch get contacts", Phase::collide, collision, keep},
-      {"cross_space", "contacts between collision spaces are told apart", Phase::collide, cross_space,
-       drop_spaces},
-      {"fast_bodies", "contacts ahead keep fast geoms from passing through others", Phase::collide,
-       fast_bodies, keep},
-      {"field_of_interest", "islands get all iterations only near a point", Phase::islands, field_of_interest,
-       drop_interest},
-      {"friction", "contacts resist sliding (Coulomb, box friction)", Phase::rows, friction, drop_friction},
-      {"restitution", "contacts bounce", Phase::rows, restitution, drop_restitution},
-      {"joints", "bodies are held together", Phase::rows, joints, refuse_without_joints},
-      {"limits", "joint angles stay in their range", Phase::rows, limits, drop_limits},
-      {"motors", "joint axes are driven or held", Phase::rows, motors, drop_motors},
-      {"suspension", "wheels spring along the steering axis", Phase::rows, suspension, drop_suspension},
-      {"breakable_joints", "joints give way under load", Phase::solve, breakable_joints, drop_strengths},
-      {"gyroscopic_torque", "spinning bodies precess", Phase::integrate, gyroscopic_torque, keep},
-      {"gravity", "bodies fall", Phase::integrate, gravity, drop_gravity},
-      {"damping", "velocities die away", Phase::integrate, damping, drop_damping},
-      {"sleeping", "islands at rest are not stepped until something touches them", Phase::islands, sleeping,
-       keep},
+      {EffectId::steering, "steering", "joint axes are pinned to angles at given steps", Phase::integrate,
+       steering, drop_events<model::EventKind::steer>},
+      {EffectId::collision, "collision", "geoms that touch get contacts", Phase::collide, collision, keep},
+      {EffectId::cross_space, "cross_space", "contacts between collision spaces are told apart",
+       Phase::collide, cross_space, drop_spaces},
+      {EffectId::fast_bodies, "fast_bodies", "contacts ahead keep fast geoms from passing through others",
+       Phase::collide, fast_bodies, keep},
+      {EffectId::field_of_interest, "field_of_interest", "islands get all iterations only near a point",
+       Phase::islands, field_of_interest, drop_interest},
+      {EffectId::friction, "friction", "contacts resist sliding (Coulomb, box friction)", Phase::rows,
+       friction, drop_friction},
+      {EffectId::restitution, "restitution", "contacts bounce", Phase::rows, restitution, drop_restitution},
+      {EffectId::joints, "joints", "bodies are held together", Phase::rows, joints, refuse_without_joints},
+      {EffectId::limits, "limits", "joint angles stay in their range", Phase::rows, limits, drop_limits},
+      {EffectId::motors, "motors", "joint axes are driven or held", Phase::rows, motors, drop_motors},
+      {EffectId::suspension, "suspension", "wheels spring along the steering axis", Phase::rows, suspension,
+       drop_suspension},
+      {EffectId::breakable_joints, "breakable_joints", "joints give way under load", Phase::solve,
+       breakable_joints, drop_strengths},
+      {EffectId::gyroscopic_torque, "gyroscopic_torque", "spinning bodies precess", Phase::integrate,
+       gyroscopic_torque, keep},
+      {EffectId::gravity, "gravity", "bodies fall", Phase::integrate, gravity, drop_gravity},
+      {EffectId::damping, "damping", "velocities die away", Phase::integrate, damping, drop_damping},
+      {EffectId::sleeping, "sleeping", "islands at rest are not stepped until something touches them",
+       Phase::islands, sleeping, keep},
   };
   return effects;
 }

@@ -14,13 +14,35 @@ namespace pbmpi::effects {
 
 /// Why a model calls for an effect.
 struct Reason {
-  std::int64_t count = 0;  ///< of what calls for it; 0 where nothing is counted
+  std::int64_t count = 0;  ///< how many things call for it; 0 where nothing is counted
   std::string what;        ///< what is counted ("geoms with mu > 0"), or all there is to say
   std::string text() const { return count == 0 ? what : std::to_string(count) + " " + what; }
 };
 
+/// Names an effect in code; texts for people (scene files, --effects, reports) have Effect::name.
+enum class EffectId {
+  events,
+  steering,
+  collision,
+  cross_space,
+  fast_bodies,
+  field_of_interest,
+  friction,
+  restitution,
+  joints,
+  limits,
+  motors,
+  suspension,
+  breakable_joints,
+  gyroscopic_torque,
+  gravity,
+  damping,
+  sleeping,
+};
+
 /// One effect of the registry.
 struct Effect {
+  EffectId id;
   std::string_view name;     ///< as in --effects and in scene files
   std::string_view meaning;  ///< one line
   core::Phase phase;         ///< the phase of the step that its pass joins
@@ -31,8 +53,14 @@ struct Effect {
   void (*leave_out)(model::Model& model);
 };
 
-/// All effects, in the order of the step.
+/// All effects, in the order of the step: that of EffectId, which is the index.
 const std::vector<Effect>& effect_registry();
+
+/// True: the model demands the effect; false: it leaves it out; nothing: the rest of the model decides.
+std::optional<bool> choice_of(const model::Model& model, EffectId effect);
+inline bool is_left_out(const model::Model& model, EffectId effect) {
+  return choice_of(model, effect) == std::optional<bool>(false);
+}
 
 /// A pass of the step: an effect that the model calls for.
 struct Pass {
@@ -50,13 +78,13 @@ bool has_gyroscopic_torque(const model::Body& body);
 class StepPlan {
  public:
   explicit StepPlan(const model::Model& model);
-  bool has(std::string_view effect) const { return find(effect) != nullptr; }
+  bool has(EffectId effect) const { return find(effect) != nullptr; }
   /// Is the pass there only because it is demanded?
-  bool is_idle(std::string_view effect) const;
+  bool is_idle(EffectId effect) const;
   const std::vector<Pass>& passes() const { return passes_; }
 
  private:
-  const Pass* find(std::string_view effect) const;
+  const Pass* find(EffectId effect) const;
 
   std::vector<Pass> passes_;
 };

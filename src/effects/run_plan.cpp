@@ -22,7 +22,7 @@ void RunPlan::add(const model::Model& world) {
   ++num_worlds;
   const StepPlan plan(world);
   for (const Pass& pass : plan.passes()) {
-    PassTally& tally = tallies[static_cast<std::size_t>(pass.effect - effect_registry().data())];
+    PassTally& tally = tallies[static_cast<std::size_t>(pass.effect->id)];
     ++tally.worlds;
     if (pass.idle) {
       ++tally.idle_worlds;

@@ -44,16 +44,17 @@ World::World(int id, const model::Model& model, const model::State& state, std::
       joints_(make_joints(world_.get(), bodies_, model, settings.dt_s)),
       held_poses_(model, joints_),
       events_(model, bodies_, joints_, held_poses_),
-      breaking_(model, joints_, plan_.has("breakable_joints")),
+      breaking_(model, joints_, plan_.has(effects::EffectId::breakable_joints)),
       contacts_(model, plan_, bodies_),
       row_counter_(model, joints_),
       step_(step) {
-  if (plan_.has("collision")) broad_phase_.emplace(model, bodies_, best_space(model.geoms.size()));
-  if (plan_.has("fast_bodies")) fast_bodies_.emplace(model);
-  if (plan_.has("field_of_interest") && settings.kind == stepping::StepperKind::quick)
+  if (plan_.has(effects::EffectId::collision))
+    broad_phase_.emplace(model, bodies_, best_space(model.geoms.size()));
+  if (plan_.has(effects::EffectId::fast_bodies)) fast_bodies_.emplace(model);
+  if (plan_.has(effects::EffectId::field_of_interest) && settings.kind == stepping::StepperKind::quick)
     focus_.emplace(model, bodies_, settings.iterations);
   if (fast_bodies_ || focus_) before_step_.resize(model.num_bodies());
-  if (plan_.has("sleeping")) {
+  if (plan_.has(effects::EffectId::sleeping)) {
     core::require_input(!settings.profile,
                         "the islands of a step are timed one by one, and with the effect 'sleeping' some are "
                         "not stepped; leave one of the two out");

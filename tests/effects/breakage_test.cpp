@@ -123,14 +123,15 @@ TEST(Breakage, takes_the_gap_of_joints_that_hold_only) {
 TEST(Breakage, is_called_for_by_strengths_and_can_be_left_out) {
   model::Model model = weak_chain();
   const StepPlan plan(model);
-  const auto pass = std::find_if(plan.passes().begin(), plan.passes().end(),
-                                 [](const Pass& one) { return one.effect->name == "breakable_joints"; });
+  const auto pass = std::find_if(plan.passes().begin(), plan.passes().end(), [](const Pass& one) {
+    return one.effect->id == EffectId::breakable_joints;
+  });
   ASSERT_NE(pass, plan.passes().end());
   EXPECT_EQ(pass->reason.text(), "2 joints with a strength");
   model.effects["breakable_joints"] = false;
   leave_out_effects(model);
   EXPECT_FALSE(model.joints[1].breakable() || model.joints[2].breakable());
-  EXPECT_FALSE(StepPlan(support::chain(3)).has("breakable_joints"));
+  EXPECT_FALSE(StepPlan(support::chain(3)).has(EffectId::breakable_joints));
 }
 
 }  // namespace

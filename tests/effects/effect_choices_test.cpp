@@ -38,7 +38,7 @@ TEST(EffectChoices, refuse_what_is_no_choice) {
 /// Every effect but joints can be left out of a model that calls for nearly all.
 TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
   for (const Effect& effect : effect_registry()) {
-    if (effect.name == "joints") continue;
+    if (effect.id == EffectId::joints) continue;
     model::Model model = support::crash();
     model.spaces = {"left", "right"};
     model.geoms.front().space = 1;  // the last one is the ground
@@ -53,15 +53,16 @@ TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
       event.kind = kind;
       event.body = event.joint = 0;
     }
-    model.effects["sleeping"] = true;  // called for in so many words only
-    ASSERT_TRUE(StepPlan(model).has(effect.name)) << effect.name;
+    model.effects["sleeping"] = true;  // only on explicit request
+    ASSERT_TRUE(StepPlan(model).has(effect.id)) << effect.name;
     model.effects[std::string(effect.name)] = false;
     leave_out_effects(model);
-    EXPECT_FALSE(StepPlan(model).has(effect.name)) << effect.name;
+    EXPECT_FALSE(StepPlan(model).has(effect.id)) << effect.name;
     // Collision, fast bodies and gyroscopic torque are left out of the plan, the others of the model itself.
     model.effects.clear();
-    EXPECT_EQ(StepPlan(model).has(effect.name), effect.name == "collision" || effect.name == "fast_bodies" ||
-                                                    effect.name == "gyroscopic_torque")
+    EXPECT_EQ(StepPlan(model).has(effect.id), effect.id == EffectId::collision ||
+                                                  effect.id == EffectId::fast_bodies ||
+                                                  effect.id == EffectId::gyroscopic_torque)
         << effect.name;
   }
 }

@@ -43,22 +43,22 @@ TEST(StepPlan, of_a_box_on_the_ground_collides_with_friction) {
 
 TEST(StepPlan, has_joints_and_each_thing_that_a_joint_asks_for) {
   model::Model model = support::pendulum(1, 0.1);
-  EXPECT_TRUE(StepPlan(model).has("joints"));
-  EXPECT_FALSE(StepPlan(model).has("limits"));
-  EXPECT_FALSE(StepPlan(model).has("motors"));
-  EXPECT_FALSE(StepPlan(model).has("suspension"));
+  EXPECT_TRUE(StepPlan(model).has(EffectId::joints));
+  EXPECT_FALSE(StepPlan(model).has(EffectId::limits));
+  EXPECT_FALSE(StepPlan(model).has(EffectId::motors));
+  EXPECT_FALSE(StepPlan(model).has(EffectId::suspension));
   model.joints[0].limits[1].high = 1;
   model.joints[0].motors[0].max_force = 1;
   model.joints[0].suspension.stiffness = 1;
-  EXPECT_TRUE(StepPlan(model).has("limits"));
-  EXPECT_TRUE(StepPlan(model).has("motors"));
-  EXPECT_TRUE(StepPlan(model).has("suspension"));
+  EXPECT_TRUE(StepPlan(model).has(EffectId::limits));
+  EXPECT_TRUE(StepPlan(model).has(EffectId::motors));
+  EXPECT_TRUE(StepPlan(model).has(EffectId::suspension));
 }
 
 TEST(StepPlan, has_a_pass_for_each_kind_of_event) {
-  for (const auto& [kind, effect] : {std::pair{model::EventKind::launch, "events"},
-                                     {model::EventKind::steer, "steering"},
-                                     {model::EventKind::motor, "motors"}}) {
+  for (const auto& [kind, effect] : {std::pair{model::EventKind::launch, EffectId::events},
+                                     {model::EventKind::steer, EffectId::steering},
+                                     {model::EventKind::motor, EffectId::motors}}) {
     model::Model model = support::pendulum(1, 0.1);
     EXPECT_FALSE(StepPlan(model).has(effect));
     model::Event event;
@@ -79,34 +79,34 @@ TEST(StepPlan, keeps_the_order_of_the_registry) {
 }
 
 TEST(StepPlan, has_gyroscopic_torque_only_for_bodies_whose_inertia_differs_by_axis) {
-  EXPECT_TRUE(StepPlan(support::free_box()).has("gyroscopic_torque"));
-  EXPECT_FALSE(StepPlan(support::box_over_ground(1)).has("gyroscopic_torque"));  // a cube
-  EXPECT_FALSE(StepPlan(support::pendulum(1, 0)).has("gyroscopic_torque"));      // a ball
+  EXPECT_TRUE(StepPlan(support::free_box()).has(EffectId::gyroscopic_torque));
+  EXPECT_FALSE(StepPlan(support::box_over_ground(1)).has(EffectId::gyroscopic_torque));  // a cube
+  EXPECT_FALSE(StepPlan(support::pendulum(1, 0)).has(EffectId::gyroscopic_torque));      // a ball
 }
 
 TEST(StepPlan, sees_ahead_only_of_bodies_that_start_fast_and_can_collide) {
   model::Model model = support::box_over_ground(1);
-  EXPECT_FALSE(StepPlan(model).has("fast_bodies"));
+  EXPECT_FALSE(StepPlan(model).has(EffectId::fast_bodies));
   model.bodies[0].velocity = {0, 0, -51};  // 0.51 m in a step: its half extent is 0.5 m
-  EXPECT_TRUE(StepPlan(model).has("fast_bodies"));
+  EXPECT_TRUE(StepPlan(model).has(EffectId::fast_bodies));
   model.effects = {{"collision", false}};
-  EXPECT_FALSE(StepPlan(model).has("fast_bodies"));
+  EXPECT_FALSE(StepPlan(model).has(EffectId::fast_bodies));
 }
 
 TEST(StepPlan, damps_only_by_damping) {
   model::Model model = support::box_over_ground(1);
-  EXPECT_FALSE(StepPlan(model).has("damping"));
+  EXPECT_FALSE(StepPlan(model).has(EffectId::damping));
   model.angular_damping = 0.1;
-  EXPECT_TRUE(StepPlan(model).has("damping"));
+  EXPECT_TRUE(StepPlan(model).has(EffectId::damping));
 }
 
 TEST(StepPlan, crosses_spaces_only_if_bodies_move_in_two) {
   model::Model model = support::pile(2);
   model.spaces = {"ground", "pile", "empty"};
   for (model::Geom& geom : model.geoms) geom.space = geom.body == model::no_body ? 0 : 1;
-  EXPECT_FALSE(StepPlan(model).has("cross_space"));
+  EXPECT_FALSE(StepPlan(model).has(EffectId::cross_space));
   model.geoms.back().space = 2;
-  EXPECT_TRUE(StepPlan(model).has("cross_space"));
+  EXPECT_TRUE(StepPlan(model).has(EffectId::cross_space));
 }
 
 TEST(StepPlan, has_what_is_demanded_and_lacks_what_is_left_out) {
@@ -114,22 +114,22 @@ TEST(StepPlan, has_what_is_demanded_and_lacks_what_is_left_out) {
   model.effects = {{"restitution", true}, {"gravity", false}, {"friction", true}};
   EXPECT_EQ(pass_names(model), (Names{"collision", "friction", "restitution"}));
   const StepPlan plan(model);
-  EXPECT_TRUE(plan.is_idle("restitution"));
-  EXPECT_FALSE(plan.is_idle("friction"));  // the model calls for it
-  EXPECT_FALSE(plan.is_idle("gravity"));
+  EXPECT_TRUE(plan.is_idle(EffectId::restitution));
+  EXPECT_FALSE(plan.is_idle(EffectId::friction));  // the model calls for it
+  EXPECT_FALSE(plan.is_idle(EffectId::gravity));
 }
 
 TEST(StepPlan, has_a_field_of_interest_where_the_model_has) {
   model::Model model = support::pile(3);
-  EXPECT_FALSE(StepPlan(model).has("field_of_interest"));
+  EXPECT_FALSE(StepPlan(model).has(EffectId::field_of_interest));
   model.effects["field_of_interest"] = true;
-  EXPECT_TRUE(StepPlan(model).is_idle("field_of_interest"));
+  EXPECT_TRUE(StepPlan(model).is_idle(EffectId::field_of_interest));
   model.effects.clear();
   model.interest = model::Interest{{1, 2, 0.5}, model::no_body, 7, 3};
   const auto reason = [&] {
     const StepPlan plan(model);
     for (const Pass& pass : plan.passes()) {
-      if (pass.effect->name == "field_of_interest") return pass.reason.text();
+      if (pass.effect->id == EffectId::field_of_interest) return pass.reason.text();
     }
     return std::string();
   };
@@ -144,13 +144,13 @@ TEST(StepPlan, has_a_field_of_interest_where_the_model_has) {
 
 TEST(StepPlan, lets_islands_sleep_only_where_a_model_says_so) {
   model::Model model = support::pile(3);
-  EXPECT_FALSE(StepPlan(model).has("sleeping"));
+  EXPECT_FALSE(StepPlan(model).has(EffectId::sleeping));
   model.effects["sleeping"] = false;
-  EXPECT_FALSE(StepPlan(model).has("sleeping"));
+  EXPECT_FALSE(StepPlan(model).has(EffectId::sleeping));
   model.effects["sleeping"] = true;
   model.sleep.after_s = 2;
   const StepPlan plan(model);
-  EXPECT_FALSE(plan.is_idle("sleeping"));
+  EXPECT_FALSE(plan.is_idle(EffectId::sleeping));
   EXPECT_EQ(plan.passes().back().reason.text(), "after 2 s below 0.05 m/s and 0.1 rad/s");
 }
 
@@ -164,13 +164,14 @@ TEST(StepPlan, says_why) {
   const StepPlan plan(support::crash());
   for (const Pass& pass : plan.passes()) EXPECT_FALSE(pass.reason.text().empty()) << pass.effect->name;
   const auto joints = std::find_if(plan.passes().begin(), plan.passes().end(),
-                                   [](const Pass& pass) { return pass.effect->name == "joints"; });
+                                   [](const Pass& pass) { return pass.effect->id == EffectId::joints; });
   ASSERT_NE(joints, plan.passes().end());
   EXPECT_EQ(joints->reason.text(), "34 joints");
 }
 
-TEST(StepPlan, refuses_the_name_of_no_effect) {
-  EXPECT_THROW(StepPlan(support::free_box()).has("telepathy"), std::logic_error);
+TEST(EffectRegistry, is_indexed_by_effect_id) {
+  for (std::size_t i = 0; i < effect_registry().size(); ++i)
+    EXPECT_EQ(static_cast<std::size_t>(effect_registry()[i].id), i) << effect_registry()[i].name;
 }
 
 }  // namespace

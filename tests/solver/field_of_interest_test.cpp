@@ -177,7 +177,7 @@ TEST_P(FieldOfInterest, changes_no_bit_where_it_is_demanded_of_a_model_without) 
   plain.interest.reset();
   Model demanded = plain;
   demanded.effects["field_of_interest"] = true;
-  ASSERT_TRUE(effects::StepPlan(demanded).is_idle("field_of_interest"));
+  ASSERT_TRUE(effects::StepPlan(demanded).is_idle(effects::EffectId::field_of_interest));
   EXPECT_EQ(hash_after(60, demanded), hash_after(60, plain));
 }
 

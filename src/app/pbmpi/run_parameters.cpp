@@ -18,7 +18,7 @@ using io::Parameter;
 std::optional<std::string> interest_of(const model::Model& model) {
   const effects::StepPlan plan(model);
   for (const effects::Pass& pass : plan.passes()) {
-    if (pass.effect->name == "field_of_interest") return pass.reason.text();
+    if (pass.effect->id == effects::EffectId::field_of_interest) return pass.reason.text();
   }
   return std::nullopt;
 }

@@ -8,9 +8,9 @@ Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan,
                    const std::vector<dBodyID>& bodies)
     : model_(&model),
       bodies_(bodies),
-      friction_(plan.has("friction")),
-      restitution_(plan.has("restitution")),
-      cross_space_(plan.has("cross_space")),
+      friction_(plan.has(effects::EffectId::friction)),
+      restitution_(plan.has(effects::EffectId::restitution)),
+      cross_space_(plan.has(effects::EffectId::cross_space)),
       joints_(dJointGroupCreate(0)) {
   constexpr int most_of_dcollide = 0xffff;  // the flags of dCollide hold the count in 16 bits
   found_.resize(static_cast<std::size_t>(std::min(model.contact_law.max_per_pair, most_of_dcollide)));

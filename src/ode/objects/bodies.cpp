@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "effects/effects.h"
+
 namespace pbmpi::ode {
 namespace {
 
@@ -25,8 +27,7 @@ void set_orientation_bits(dBodyID body, const model::Quat& orientation) {
 }  // namespace
 
 std::vector<dBodyID> make_bodies(dWorldID world, const model::Model& model) {
-  const auto choice = model.effects.find("gyroscopic_torque");
-  const bool gyroscopic = choice == model.effects.end() || choice->second;
+  const bool gyroscopic = !effects::is_left_out(model, effects::EffectId::gyroscopic_torque);
   std::vector<dBodyID> bodies;
   bodies.reserve(model.bodies.size());
   for (const model::Body& body : model.bodies) {

@@ -12,8 +12,7 @@ namespace pbmpi::ode {
 /// One ODE body a model body, at its initial pose, in the model's order. Gyroscopic torque (without it a free
 /// body that spins about a middle axis does not tumble) is on unless it is left out by choice: for a sphere
 /// or a cube it is rounding alone, but without it dWorldStep was seen to let a cube at rest creep at 12 mm/s.
-/// Auto-disable is off (a disabled body would carry a
-/// counter that the state does not hold).
+/// Auto-disable is off (a disabled body would carry a counter that the state does not hold).
 std::vector<dBodyID> make_bodies(dWorldID world, const model::Model& model);
 
 /// Puts the bodies into `state` bit for bit. dBodySetQuaternion alone would normalise again, so that a

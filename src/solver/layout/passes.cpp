@@ -18,13 +18,13 @@ bool all_bodies_are_balls(const model::Model& model) {
 
 Passes passes_of(const model::Model& model) {
   const effects::StepPlan plan(model);
-  const bool rubs = plan.has("friction") && !plan.is_idle("friction");
-  return {plan.has("collision"),    rubs || !all_bodies_are_balls(model),
-          plan.has("restitution"),  plan.has("gyroscopic_torque"),
-          plan.has("gravity"),      plan.has("damping"),
-          plan.has("sleeping"),     plan.has("field_of_interest"),
-          plan.is_idle("friction"), plan.is_idle("limits"),
-          plan.is_idle("motors"),   plan.is_idle("gyroscopic_torque")};
+  const bool rubs = plan.has(effects::EffectId::friction) && !plan.is_idle(effects::EffectId::friction);
+  return {plan.has(effects::EffectId::collision),    rubs || !all_bodies_are_balls(model),
+          plan.has(effects::EffectId::restitution),  plan.has(effects::EffectId::gyroscopic_torque),
+          plan.has(effects::EffectId::gravity),      plan.has(effects::EffectId::damping),
+          plan.has(effects::EffectId::sleeping),     plan.has(effects::EffectId::field_of_interest),
+          plan.is_idle(effects::EffectId::friction), plan.is_idle(effects::EffectId::limits),
+          plan.is_idle(effects::EffectId::motors),   plan.is_idle(effects::EffectId::gyroscopic_torque)};
 }
 
 Passes shared_passes(std::span<const PackedWorld> worlds) {

@@ -104,10 +104,10 @@ SorSpaceStepper::SorSpaceStepper(const stepping::StepperSettings& settings,
       packed_(*model_),
       active_(map_) {
   const effects::StepPlan plan(*model_);
-  if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_, map_, settings.dt_s);
-  if (plan.has("field_of_interest")) field_.emplace(*model_, settings.iterations);
-  if (plan.has("breakable_joints")) breakage_.emplace(*model_);
-  if (!plan.has("sleeping")) return;
+  if (plan.has(effects::EffectId::fast_bodies)) fast_bodies_.emplace(*model_, map_, settings.dt_s);
+  if (plan.has(effects::EffectId::field_of_interest)) field_.emplace(*model_, settings.iterations);
+  if (plan.has(effects::EffectId::breakable_joints)) breakage_.emplace(*model_);
+  if (!plan.has(effects::EffectId::sleeping)) return;
   sleepers_.emplace(*model_, settings.dt_s, packed_.state());
   sleepers_->start();
 }

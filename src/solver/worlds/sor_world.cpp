@@ -21,11 +21,11 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
   const effects::StepPlan plan(*model_);
   all_bodies_.resize(model_->bodies.size());
   std::iota(all_bodies_.begin(), all_bodies_.end(), 0);
-  if (plan.has("fast_bodies")) fast_bodies_.emplace(*model_);
-  if (plan.has("field_of_interest")) field_.emplace(*model_, settings.iterations);
+  if (plan.has(effects::EffectId::fast_bodies)) fast_bodies_.emplace(*model_);
+  if (plan.has(effects::EffectId::field_of_interest)) field_.emplace(*model_, settings.iterations);
   if (fast_bodies_ || field_) before_step_ = state;
-  if (plan.has("sleeping")) sleepers_.emplace(*model_, settings.dt_s);
-  if (plan.has("breakable_joints")) breakage_.emplace(*model_);
+  if (plan.has(effects::EffectId::sleeping)) sleepers_.emplace(*model_, settings.dt_s);
+  if (plan.has(effects::EffectId::breakable_joints)) breakage_.emplace(*model_);
   set_state(state, step);
 }
 

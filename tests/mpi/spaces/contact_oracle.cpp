@@ -24,7 +24,7 @@ bool equal_bits(const mpi::WireContact& a, const mpi::WireContact& b) {
 ContactOracle::ContactOracle(const mpi::Communicator& comm, std::shared_ptr<const model::Model> model,
                              const stepping::StepperSettings& settings)
     : comm_(&comm), model_(std::move(model)), dt_s_(settings.dt_s), rule_(*model_) {
-  if (effects::StepPlan(*model_).has("fast_bodies")) fast_bodies_.emplace(*model_);
+  if (effects::StepPlan(*model_).has(effects::EffectId::fast_bodies)) fast_bodies_.emplace(*model_);
   whole_ = solver::make_sor_stepper(settings, ode::make_narrow_phase);
   whole_->add(0, model_, model::initial_state(*model_), 0);
   narrow_phase_ = ode::make_narrow_phase(*model_);

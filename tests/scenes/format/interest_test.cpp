@@ -39,7 +39,7 @@ TEST(Interest, is_none_without_the_table_and_where_the_effect_is_left_out) {
   EXPECT_FALSE(build(scene_with("car"))->interest.has_value());
   const std::string text = with_interest("follows = \"car\"\nradius = 1\n");
   EXPECT_FALSE(build(text + "[effects]\nfield_of_interest = false\n")->interest.has_value());
-  EXPECT_TRUE(effects::StepPlan(*build(text)).has("field_of_interest"));
+  EXPECT_TRUE(effects::StepPlan(*build(text)).has(effects::EffectId::field_of_interest));
 }
 
 TEST(Interest, tells_the_place_of_each_mistake) {

@@ -74,7 +74,7 @@ std::vector<std::string> unneeded(const SceneSource& source) {
   const effects::StepPlan plan(*parse_scene(source)->build(0, 1));
   std::vector<std::string> names;
   for (const effects::Effect& effect : effects::effect_registry()) {
-    if (!plan.has(effect.name)) names.emplace_back(effect.name);
+    if (!plan.has(effect.id)) names.emplace_back(effect.name);
   }
   return names;
 }
