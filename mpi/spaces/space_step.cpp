@@ -108,7 +108,7 @@ void SpaceStep::find_local_islands() {
   std::vector<std::int32_t> weight(static_cast<std::size_t>(map.num_units()), 0);
   for (const Contact& contact : contacts_) {
     const int unit = map.unit_of_body[contact.body_a];
-    weight[unit] += contact.mu > 0 ? 3 : 1;
+    weight[unit] += model::contact_rows(contact.mu);
     if (contact.body_b != model::no_body) sets.unite(unit, map.unit_of_body[contact.body_b]);
   }
   std::vector<std::int32_t> island(static_cast<std::size_t>(map.num_units()), -1);

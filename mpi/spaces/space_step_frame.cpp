@@ -148,7 +148,7 @@ void SpaceStep::join_findings(std::span<const std::vector<std::int32_t>> islands
     for (const Contact& contact : crossing_) {
       const int unit = map.unit_of_body[contact.body_a];
       sets.unite(unit, map.unit_of_body[contact.body_b]);
-      findings_.weight[unit] += contact.mu > 0 ? 3 : 1;
+      findings_.weight[unit] += model::contact_rows(contact.mu);
     }
   }
   for (int unit = 0; unit < map.num_units(); ++unit) findings_.island.push_back(sets.find(unit));

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "model/joint_traits.h"
 #include "model/names.h"
 #include "scenes/parts/parts.h"
 
@@ -37,10 +38,6 @@ JointKind read_kind(TableReader& table) {
              "unknown kind " + core::in_quotes(name) + core::suggestion(name, {names.begin(), names.end()}));
 }
 
-bool has_anchor(JointKind kind) { return kind != JointKind::slider && kind != JointKind::fixed; }
-bool has_axis1(JointKind kind) { return kind != JointKind::ball && kind != JointKind::fixed; }
-bool has_axis2(JointKind kind) { return kind == JointKind::universal || kind == JointKind::hinge2; }
-
 void read_bodies(TableReader& table, JointSpec& joint) {
   joint.bodies = table.texts("bodies");
   joint.bodies_where = table.where("bodies");
@@ -50,8 +47,8 @@ void read_bodies(TableReader& table, JointSpec& joint) {
                "it joins the body " + core::in_quotes(joint.bodies[0]) + " to itself; name two bodies");
   }
   if (joint.bodies[0] == world_name) table.fail("bodies", "\"world\" must be the second of 'bodies'");
-  if (joint.kind == JointKind::hinge2 && joint.bodies[1] == world_name) {
-    table.fail("bodies", "a hinge2 needs two bodies, not \"world\"");
+  if (model::traits_of(joint.kind).needs_two_bodies && joint.bodies[1] == world_name) {
+    table.fail("bodies", "a " + std::string(model::name_of(joint.kind)) + " needs two bodies, not \"world\"");
   }
 }
 
@@ -60,7 +57,7 @@ model::AxisLimit read_limit(TableReader& table, const char* key, JointKind kind)
   const auto [low, high] = table.pair(key);
   if (low > high) table.fail(key, "the low limit is above the high one; swap them");
   // Angles are known within one turn only (ODE manual, "Stops and motor parameters").
-  const bool is_angle = kind != JointKind::slider;
+  const bool is_angle = !model::traits_of(kind).slides;
   if (is_angle && (low < -180 || high > 180)) table.fail(key, "limits must lie in -180 to 180 degrees");
   return is_angle ? model::AxisLimit{radians(low), radians(high)} : model::AxisLimit{low, high};
 }
@@ -75,23 +72,30 @@ model::AxisMotor read_motor(TableReader& table, const char* key) {
   return {velocity, max_force, hold_rate};
 }
 
+void require_axes_apart(TableReader& table, const JointSpec& joint) {
+  const double cosine = std::abs(joint.axis1.dot(joint.axis2));
+  constexpr double rounding = 1e-6;  // of a user's digits
+  if (model::traits_of(joint.kind).turn == model::HeldTurn::right_angle && cosine > rounding) {
+    table.fail("axis2",
+               "the axes of a " + std::string(model::name_of(joint.kind)) + " joint must be at right angles");
+  }
+  if (cosine > 0.999) table.fail("axis2", "the two axes are parallel; turn one");
+}
+
 void read_axes(TableReader& table, JointSpec& joint) {
-  if (has_axis1(joint.kind)) {
-    joint.axis1 = table.direction("axis");
-    joint.limits[0] = read_limit(table, "limits", joint.kind);
-    joint.motors[0] = read_motor(table, "motor");
-  }
-  if (has_axis2(joint.kind)) {
+  const model::JointTraits& traits = model::traits_of(joint.kind);
+  constexpr const char* limit_keys[] = {"limits", "limits2"};
+  constexpr const char* motor_keys[] = {"motor", "motor2"};
+  if (traits.num_axes > 0) joint.axis1 = table.direction("axis");
+  if (traits.num_axes > 1) {
     joint.axis2 = table.direction("axis2");
-    joint.motors[1] = read_motor(table, "motor2");
-    const double cosine = std::abs(joint.axis1.dot(joint.axis2));
-    if (joint.kind == JointKind::universal && cosine > 1e-6) {  // rounding of a user's digits
-      table.fail("axis2", "the axes of a universal joint must be at right angles");
-    }
-    if (cosine > 0.999) table.fail("axis2", "the two axes are parallel; turn one");
+    require_axes_apart(table, joint);
   }
-  if (joint.kind == JointKind::universal) joint.limits[1] = read_limit(table, "limits2", joint.kind);
-  if (joint.kind == JointKind::hinge2) {
+  for (std::size_t axis = 0; axis < traits.axes.size(); ++axis) {
+    if (traits.axes[axis].has_limit) joint.limits[axis] = read_limit(table, limit_keys[axis], joint.kind);
+    if (traits.axes[axis].has_motor) joint.motors[axis] = read_motor(table, motor_keys[axis]);
+  }
+  if (traits.has_suspension()) {
     joint.suspension.stiffness = table.number("stiffness", Sign::non_negative, 0.0);
     joint.suspension.damping = table.number("damping", Sign::non_negative, 0.0);
   }
@@ -101,8 +105,9 @@ void read_axes(TableReader& table, JointSpec& joint) {
 void read_strength(TableReader& table, JointSpec& joint) {
   joint.break_force = table.number("break_force", Sign::non_negative, 0.0);
   joint.break_torque = table.number("break_torque", Sign::non_negative, 0.0);
-  const bool is_weld = joint.kind == JointKind::fixed && joint.break_torque > 0;
-  if (has_anchor(joint.kind) || is_weld) joint.anchor = table.vector("anchor", Sign::any);
+  const model::JointTraits& traits = model::traits_of(joint.kind);
+  const bool is_weld = traits.place == model::HeldPlace::offset && joint.break_torque > 0;
+  if (traits.has_anchor() || is_weld) joint.anchor = table.vector("anchor", Sign::any);
 }
 
 int resolve(const JointSpec& joint, const model::Model& model, const std::string& name) {

@@ -24,7 +24,8 @@ struct InnerBox {
   Vec3 low, high;  ///< of its axis-parallel hull
 };
 
-Vec3 half_extents(const model::Geom& geom) {
+/// Half sides of a box inside the geom, in its own frame.
+Vec3 inner_half_sides(const model::Geom& geom) {
   const auto& size = geom.size;
   const double in_circle = size[0] / std::numbers::sqrt2;
   switch (geom.shape) {
@@ -52,7 +53,7 @@ InnerBox inner_box(const model::Geom& geom, const model::Model& model) {
   box.is_static = geom.body == model::no_body;
   box.centre = pose.position;
   box.axes = pose.orientation.to_eigen().toRotationMatrix();
-  box.half = half_extents(geom);
+  box.half = inner_half_sides(geom);
   const Vec3 reach = box.axes.cwiseAbs() * box.half;
   box.low = box.centre - reach;
   box.high = box.centre + reach;

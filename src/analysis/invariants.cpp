@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "model/joint_traits.h"
+
 namespace pbmpi::analysis {
 
 using core::Pose;
@@ -25,10 +27,9 @@ Vec3 anchor_of_neighbour(const Joint& joint, int body, PoseView poses) {
   return Pose{poses.position[i], poses.orientation[i]}.point_to_outer(anchor_in(joint, other));
 }
 
-/// Slider and fixed joints have no anchors.
 bool joins_segments(const Joint& joint, int body) {
-  const bool anchored = joint.kind != model::JointKind::slider && joint.kind != model::JointKind::fixed;
-  return anchored && joint.body_b != model::no_body && (joint.body_a == body || joint.body_b == body);
+  return model::traits_of(joint.kind).has_anchor() && joint.body_b != model::no_body &&
+         (joint.body_a == body || joint.body_b == body);
 }
 
 }  // namespace

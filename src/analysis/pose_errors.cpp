@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "model/joint_traits.h"
+
 namespace pbmpi::analysis {
 
 using core::Pose;
@@ -81,19 +83,18 @@ double joint_axis_angle(const Model& model, const Joint& joint, PoseView poses) 
   const Pose a = pose_of(poses, joint.body_a), b = pose_of(poses, joint.body_b);
   const Vec3 axis1 = a.direction_to_outer(joint.axis1_a);
   const double spoilt = poison(a) + poison(b);
-  switch (joint.kind) {
-    case JointKind::ball:
+  switch (model::traits_of(joint.kind).turn) {
+    case model::HeldTurn::nothing:
       return spoilt;
-    case JointKind::hinge:
+    case model::HeldTurn::axis:
       return spoilt + angle_between(axis1, b.direction_to_outer(at_start_in_b(model, joint, joint.axis1_a)));
-    case JointKind::universal:
-    case JointKind::hinge2: {
+    case model::HeldTurn::right_angle:
+    case model::HeldTurn::start_angle: {
       const double now = angle_between(axis1, b.direction_to_outer(joint.axis2_b));
       const double start = angle_between(at_start_in_b(model, joint, joint.axis1_a), joint.axis2_b);
       return spoilt + std::abs(now - start);
     }
-    case JointKind::slider:
-    case JointKind::fixed: {
+    case model::HeldTurn::orientation: {
       const auto start = start_of(model, joint.body_a).orientation.to_eigen().conjugate() *
                          start_of(model, joint.body_b).orientation.to_eigen();
       const auto now = a.orientation.to_eigen().conjugate() * b.orientation.to_eigen();

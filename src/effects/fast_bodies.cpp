@@ -10,21 +10,6 @@
 namespace pbmpi::effects {
 namespace {
 
-double least_half_extent(const model::Geom& geom) {
-  switch (geom.shape) {
-    case model::Shape::sphere:
-    case model::Shape::capsule:
-      return geom.size[0];
-    case model::Shape::box:
-      return std::min({geom.size[0], geom.size[1], geom.size[2]}) / 2;
-    case model::Shape::cylinder:
-      return std::min(geom.size[0], geom.size[1] / 2);
-    case model::Shape::plane:
-      break;
-  }
-  return model::infinity;
-}
-
 model::BodyPose body_pose(const core::Vec3& position, const core::Quat& q) {
   model::BodyPose pose;
   std::memcpy(pose.position, position.data(), sizeof pose.position);
@@ -46,15 +31,15 @@ core::Vec3 velocity_of_centre(const model::BodyPose& geom_at, const core::Vec3& 
 
 bool moves_past_half(const model::Geom& geom, const model::BodyPose& geom_at, const core::Vec3& way) {
   const double length = way.norm();
-  return std::isfinite(length) && length > least_half_extent(geom) &&
-         length > half_extent(geom, geom_at.rotation, way / length);
+  return std::isfinite(length) && length > geometry::least_half_extent(geom) &&
+         length > geometry::half_extent(geom, geom_at.rotation, way / length);
 }
 
 /// A way of the geom's centre, longer by what the geom reaches ahead of it.
 core::Vec3 with_front(const model::Geom& geom, const model::BodyPose& geom_at, const core::Vec3& way) {
   const double length = way.norm();
   if (length == 0) return way;
-  return way + half_extent(geom, geom_at.rotation, way / length) / length * way;
+  return way + geometry::half_extent(geom, geom_at.rotation, way / length) / length * way;
 }
 
 bool starts_fast(const model::Geom& geom, const core::Pose& pose, const core::Vec3& velocity,
@@ -67,28 +52,6 @@ bool starts_fast(const model::Geom& geom, const core::Pose& pose, const core::Ve
 bool by_geoms(const model::Contact& a, const model::Contact& b) { return a.geoms < b.geoms; }
 
 }  // namespace
-
-double half_extent(const model::Geom& geom, const double rotation[9], const core::Vec3& direction) {
-  double along[3];  // the direction in the geom's frame
-  for (int k = 0; k < 3; ++k) {
-    along[k] =
-        rotation[k] * direction.x() + rotation[3 + k] * direction.y() + rotation[6 + k] * direction.z();
-  }
-  switch (geom.shape) {
-    case model::Shape::sphere:
-      return geom.size[0];
-    case model::Shape::box:
-      return 0.5 * (std::abs(along[0]) * geom.size[0] + std::abs(along[1]) * geom.size[1] +
-                    std::abs(along[2]) * geom.size[2]);
-    case model::Shape::capsule:
-      return geom.size[0] + 0.5 * geom.size[1] * std::abs(along[2]);
-    case model::Shape::cylinder:
-      return 0.5 * geom.size[1] * std::abs(along[2]) + geom.size[0] * std::hypot(along[0], along[1]);
-    case model::Shape::plane:
-      break;
-  }
-  return model::infinity;
-}
 
 int count_fast_starts(const model::Model& model) {
   std::vector<char> is_fast(model.bodies.size(), 0);
@@ -125,7 +88,7 @@ FastBodies::FastBodies(const model::Model& model, std::span<const char> of_bodie
       balls_.push_back({index, model::no_body, geom.local.position, geometry::bounding_radius(geom)});
     } else if (of_bodies.empty() || of_bodies[geom.body] != 0) {
       balls_.push_back({index, geom.body, core::Vec3::Zero(), radius});
-      watched_.push_back({index, geom.body, least_half_extent(geom), arm, radius});
+      watched_.push_back({index, geom.body, geometry::least_half_extent(geom), arm, radius});
     }
   }
   for (const model::Body& body : model.bodies) ease_of_turning_.push_back(3 / body.inertia.trace());
@@ -193,7 +156,7 @@ void FastBodies::meet(const model::State& state, const Fast& fast, const core::V
   contact.normal = fast_is_a ? entry->normal : core::Vec3(-entry->normal);
   contact.position =
       (own_ease * (centre - height * entry->normal) + other_ease * hit) / (own_ease + other_ease);
-  contact.depth = std::min(0.0, half_extent(geom, fast.pose.rotation, entry->normal) - height);
+  contact.depth = std::min(0.0, geometry::half_extent(geom, fast.pose.rotation, entry->normal) - height);
   found_.push_back(contact);
 }
 

@@ -16,9 +16,6 @@ namespace pbmpi::effects {
 /// The step [s] by which a model is judged, whatever step a run takes: a plan follows from the model alone.
 inline constexpr double nominal_step_s = 0.01;
 
-/// Half of a geom's extent [m] along the unit `direction`; `rotation`: of the geom, by rows. Not for planes.
-double half_extent(const model::Geom& geom, const double rotation[9], const core::Vec3& direction);
-
 /// Bodies that start, or are launched, at more than half the extent along their way of one of their geoms in
 /// a nominal step.
 int count_fast_starts(const model::Model& model);

@@ -1,10 +1,24 @@
 #include "geometry/geometry.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
+#include "model/shape_traits.h"
 
 namespace pbmpi::geometry {
+namespace {
+
+/// Half the extent [m] of a geom's box along a unit direction of the geom's frame. Sides of 0 are left out.
+double reach_of_box(const Extent& extent, const double direction[3]) {
+  double reach = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (extent.half[k] > 0) reach += std::abs(direction[k]) * extent.half[k];
+  }
+  return reach;
+}
+
+}  // namespace
 
 bool is_ball(const model::Geom& geom) {
   return geom.shape == model::Shape::sphere && geom.local.position.isZero(0);
@@ -41,47 +55,52 @@ model::BodyPose geom_pose(const model::Geom& geom, const model::BodyPose& body) 
   return pose;
 }
 
+Extent extent_of(const model::Geom& geom) {
+  const model::ShapeTraits& traits = model::traits_of(geom.shape);
+  const auto size = [&](int index) {
+    return index == model::no_size ? 0 : geom.size[static_cast<std::size_t>(index)];
+  };
+  const double radius = size(traits.radius);
+  return {{size(traits.length[0]) / 2, size(traits.length[1]) / 2, size(traits.length[2]) / 2},
+          traits.is_round ? radius : 0,
+          traits.is_round ? 0 : radius};
+}
+
 std::array<double, 3> half_extents(const model::Geom& geom, const double r[9]) {
+  core::require_invariant(geom.shape != model::Shape::plane, "half_extents() of a plane, which has no end");
+  const Extent extent = extent_of(geom);
   std::array<double, 3> half{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double* row = r + 3 * k;
-    switch (geom.shape) {
-      case model::Shape::sphere:
-        half[k] = geom.size[0];
-        break;
-      case model::Shape::box:
-        half[k] = 0.5 * (std::abs(row[0]) * geom.size[0] + std::abs(row[1]) * geom.size[1] +
-                         std::abs(row[2]) * geom.size[2]);
-        break;
-      case model::Shape::capsule:
-        half[k] = geom.size[0] + 0.5 * geom.size[1] * std::abs(row[2]);
-        break;
-      case model::Shape::cylinder:  // two discs of radius r at +-length/2 along z
-        half[k] = 0.5 * geom.size[1] * std::abs(row[2]) +
-                  geom.size[0] * std::sqrt(std::max(0.0, 1 - row[2] * row[2]));
-        break;
-      case model::Shape::plane:
-        core::require_invariant(false, "half_extents() of a plane, which has no end");
-    }
+    half[k] = reach_of_box(extent, row) + extent.ball;
+    if (extent.disc > 0) half[k] += extent.disc * std::sqrt(std::max(0.0, 1 - row[2] * row[2]));
   }
   return half;
 }
 
-double bounding_radius(const model::Geom& geom) {
-  const double half_length = geom.size[1] / 2;
-  switch (geom.shape) {
-    case model::Shape::sphere:
-      return geom.size[0];
-    case model::Shape::capsule:
-      return geom.size[0] + half_length;
-    case model::Shape::box:
-      return core::Vec3(geom.size[0], geom.size[1], geom.size[2]).norm() / 2;
-    case model::Shape::cylinder:
-      return std::hypot(geom.size[0], half_length);
-    case model::Shape::plane:
-      break;
+double half_extent(const model::Geom& geom, const double rotation[9], const core::Vec3& direction) {
+  if (geom.shape == model::Shape::plane) return model::infinity;
+  double along[3];  // the direction in the geom's frame
+  for (int k = 0; k < 3; ++k) {
+    along[k] =
+        rotation[k] * direction.x() + rotation[3 + k] * direction.y() + rotation[6 + k] * direction.z();
   }
-  return model::infinity;
+  const Extent extent = extent_of(geom);
+  const double rim = extent.disc > 0 ? extent.disc * std::hypot(along[0], along[1]) : 0;
+  return reach_of_box(extent, along) + extent.ball + rim;
+}
+
+double least_half_extent(const model::Geom& geom) {
+  if (geom.shape == model::Shape::plane) return model::infinity;
+  const auto& [half, ball, disc] = extent_of(geom);
+  if (ball > 0) return ball;
+  return disc > 0 ? std::min(disc, half[2]) : std::min({half[0], half[1], half[2]});
+}
+
+double bounding_radius(const model::Geom& geom) {
+  if (geom.shape == model::Shape::plane) return model::infinity;
+  const auto& [half, ball, disc] = extent_of(geom);
+  return std::hypot(core::Vec3(half[0], half[1], half[2]).norm(), disc) + ball;
 }
 
 }  // namespace pbmpi::geometry

@@ -17,8 +17,25 @@ model::BodyPose static_pose();
 /// The geom's pose in the world, from its body's.
 model::BodyPose geom_pose(const model::Geom& geom, const model::BodyPose& body);
 
-/// Half sides [m] of the smallest world-aligned box about the geom's centre that holds it.
+/// What a solid geom consists of: the points within a radius of a box about its centre, in its own frame [m].
+struct Extent {
+  std::array<double, 3> half{};  ///< half sides of the box; a side may be 0
+  double ball = 0;               ///< sphere, capsule: the radius in all directions
+  double disc = 0;               ///< cylinder: the radius across z
+};
+
+/// All zero for a plane.
+Extent extent_of(const model::Geom& geom);
+
+/// Half sides [m] of the smallest world-aligned box about the geom's centre that holds it. Not for planes.
 std::array<double, 3> half_extents(const model::Geom& geom, const double rotation[9]);
+
+/// Half of a geom's extent [m] along the unit `direction`; `rotation`: of the geom, by rows. Infinite for a
+/// plane.
+double half_extent(const model::Geom& geom, const double rotation[9], const core::Vec3& direction);
+
+/// The least of a geom's half extents [m] over all directions; infinite for a plane.
+double least_half_extent(const model::Geom& geom);
 
 /// Is it a sphere round its body's centre of mass? Such a one has no orientation, and no normal turns it.
 bool is_ball(const model::Geom& geom);

@@ -32,7 +32,7 @@ struct Contact {
   int body_b = no_body;  ///< no_body: a is in contact with the static environment
   Vec3 position;         ///< [m] world frame
   Vec3 normal;           ///< unit, world frame
-  double depth = 0;      ///< [m]; below 0: a gap that may close in this step (model/fast_bodies.h)
+  double depth = 0;      ///< [m]; below 0: a gap that may close in this step (effects/fast_bodies.h)
   double mu = 0;
   double restitution = 0;
   GeomPair geoms;  ///< that touch: contacts are in canonical order if sorted by them
@@ -42,6 +42,9 @@ struct Contact {
 inline Material combined(const Material& a, const Material& b) {
   return {std::sqrt(a.mu * b.mu), std::max(a.restitution, b.restitution)};
 }
+
+/// Rows of a contact with this friction coefficient: a normal row, and two of friction if there is any.
+constexpr int contact_rows(double mu) { return mu > 0 ? 3 : 1; }
 
 /// Contact points of pairs of geoms.
 class NarrowPhase {

@@ -2,23 +2,32 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
+#include "model/joint_traits.h"
 #include "model/model.h"
+#include "model/shape_traits.h"
 
 namespace pbmpi::model {
 
 inline constexpr std::array<std::string_view, num_actor_kinds> actor_kind_names = {
     "ground", "ramp", "wall", "car", "tank", "human", "centipede", "projectile", "prop"};
-inline constexpr std::array<std::string_view, num_shapes> shape_names = {"sphere", "box", "capsule",
-                                                                         "cylinder", "plane"};
-inline constexpr std::array<std::string_view, num_joint_kinds> joint_kind_names = {
-    "ball", "hinge", "slider", "universal", "fixed", "hinge2"};
+
+/// The names of a table of traits, in its order.
+template <class Traits, std::size_t N>
+constexpr std::array<std::string_view, N> names_in(const std::array<Traits, N>& table) {
+  std::array<std::string_view, N> names;
+  for (std::size_t i = 0; i < N; ++i) names[i] = table[i].name;
+  return names;
+}
+inline constexpr auto shape_names = names_in(shape_traits);
+inline constexpr auto joint_kind_names = names_in(joint_traits);
 
 constexpr std::string_view name_of(ActorKind kind) { return actor_kind_names[static_cast<int>(kind)]; }
-constexpr std::string_view name_of(Shape shape) { return shape_names[static_cast<int>(shape)]; }
-constexpr std::string_view name_of(JointKind kind) { return joint_kind_names[static_cast<int>(kind)]; }
+constexpr std::string_view name_of(Shape shape) { return traits_of(shape).name; }
+constexpr std::string_view name_of(JointKind kind) { return traits_of(kind).name; }
 
 /// The enumerator whose name stands in `names`, or nothing.
 template <class Enum, std::size_t N>

@@ -6,28 +6,13 @@
 #include <utility>
 
 #include "model/islands.h"
+#include "model/joint_traits.h"
 
 namespace pbmpi::model {
 namespace {
 
 int num_rows(const Joint& joint) {
-  int rows = 0;
-  switch (joint.kind) {
-    case JointKind::ball:
-      rows = 3;
-      break;
-    case JointKind::universal:
-    case JointKind::hinge2:
-      rows = 4;
-      break;
-    case JointKind::hinge:
-    case JointKind::slider:
-      rows = 5;
-      break;
-    case JointKind::fixed:
-      rows = 6;
-      break;
-  }
+  int rows = traits_of(joint.kind).held_rows();
   for (const AxisMotor& motor : joint.motors) rows += motor.active() ? 1 : 0;
   return rows;
 }

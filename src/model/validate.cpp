@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/error.h"
+#include "model/joint_traits.h"
+#include "model/shape_traits.h"
 
 namespace pbmpi::model {
 namespace {
@@ -51,8 +53,7 @@ void validate_geom(const Model& model, const Geom& geom, const std::string& who)
   require_index(geom.actor, model.actors.size(), who, "actor");
   require_index(geom.space, model.spaces.size(), who, "space");
   require_pose(geom.local, who);
-  constexpr int num_sizes[num_shapes] = {1, 3, 2, 2, 0};
-  for (int i = 0; i < num_sizes[static_cast<int>(geom.shape)]; ++i) {
+  for (int i = 0; i < traits_of(geom.shape).num_sizes; ++i) {
     require_input(std::isfinite(geom.size[i]) && geom.size[i] > 0,
                   who + ": size " + std::to_string(geom.size[i]) + " m must be finite and above 0");
   }
@@ -62,12 +63,12 @@ void validate_geom(const Model& model, const Geom& geom, const std::string& who)
                 who + ": mu must be at least 0 and restitution in [0, 1]");
 }
 
-/// `is_axle`: of a hinge2's axis 2.
-void require_motor(const AxisMotor& motor, bool is_axle, const std::string& who) {
+void require_motor(const AxisMotor& motor, const AxisTraits& axis, const std::string& who) {
   require_input(std::isfinite(motor.velocity) && motor.max_force >= 0,
                 who + ": a motor needs a finite velocity and max_force >= 0");
   require_input(std::isfinite(motor.hold_rate) && motor.hold_rate >= 0,
                 who + ": a motor needs a finite hold_rate >= 0");
+  const bool is_axle = axis.has_motor && !axis.has_limit;
   require_input(!is_axle || motor.hold_rate == 0,
                 who + ": a hinge2's axle turns without end and has no pose to hold; remove hold_rate");
 }
@@ -85,8 +86,8 @@ void validate_joint(const Model& model, const Joint& joint, const std::string& w
                                                " is above high = " + std::to_string(limit.high) +
                                                "; swap them");
   }
-  for (int axis = 0; axis < 2; ++axis) {
-    require_motor(joint.motors[axis], joint.kind == JointKind::hinge2 && axis == 1, who);
+  for (std::size_t axis = 0; axis < joint.motors.size(); ++axis) {
+    require_motor(joint.motors[axis], traits_of(joint.kind).axes[axis], who);
   }
   require_input(joint.suspension.stiffness >= 0 && joint.suspension.damping >= 0,
                 who + ": a spring needs stiffness and damping >= 0");
@@ -108,8 +109,8 @@ void validate_event(const Model& model, const Event& event, const std::string& w
   } else {
     require_index(event.joint, model.joints.size(), who, "joint");
     require_index(event.axis, 2, who, "axis");
-    const bool is_axle = model.joints[event.joint].kind == JointKind::hinge2 && event.axis == 1;
-    require_motor(event.motor, is_axle, who);
+    const JointTraits& joint = traits_of(model.joints[event.joint].kind);
+    require_motor(event.motor, joint.axes[static_cast<std::size_t>(event.axis)], who);
   }
 }
 

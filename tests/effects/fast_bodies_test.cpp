@@ -262,27 +262,5 @@ TEST(FastBodies, tell_their_bodies_and_slow_ones_not) {
   EXPECT_FALSE(fast.look(model::initial_state(model), dt_s / 10)) << "of a shorter step it is no more";
 }
 
-TEST(HalfExtent, is_known_along_the_axes_and_between_them) {
-  double turned[9], straight[9];
-  const core::Quat q =
-      support::rotation(core::Vec3::UnitY(), std::numbers::pi / 4);  // z leans towards x by 45 degrees
-  geometry::to_rotation(q.w, q.x, q.y, q.z, turned);
-  geometry::to_rotation(1, 0, 0, 0, straight);
-  const auto extent = [](model::Shape shape, const std::array<double, 3>& size, const double rotation[9],
-                         const core::Vec3& direction) {
-    model::Geom geom;
-    geom.shape = shape;
-    geom.size = size;
-    return half_extent(geom, rotation, direction);
-  };
-  const double root = std::sqrt(0.5);
-  EXPECT_NEAR(extent(model::Shape::sphere, {0.3, 0, 0}, turned, core::Vec3::UnitX()), 0.3, rounding);
-  EXPECT_NEAR(extent(model::Shape::box, {1, 2, 3}, straight, core::Vec3::UnitY()), 1, rounding);
-  EXPECT_NEAR(extent(model::Shape::box, {1, 2, 3}, turned, core::Vec3::UnitX()), 2 * root, rounding);
-  EXPECT_NEAR(extent(model::Shape::capsule, {0.3, 2, 0}, turned, core::Vec3::UnitX()), 0.3 + root, rounding);
-  EXPECT_NEAR(extent(model::Shape::cylinder, {0.3, 2, 0}, turned, core::Vec3::UnitX()), 1.3 * root, rounding);
-  EXPECT_NEAR(extent(model::Shape::cylinder, {0.3, 2, 0}, turned, core::Vec3::UnitY()), 0.3, rounding);
-}
-
 }  // namespace
 }  // namespace pbmpi::effects

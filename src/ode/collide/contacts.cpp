@@ -80,7 +80,7 @@ int Contacts::set_surface(const GeomPair& pair) {
   if (surface.mu > 0 && surface.mu < model::infinity) surface.mode |= dContactApprox1;
   surface.bounce = material.restitution;
   if (restitution_) surface.mode |= dContactBounce;
-  return surface.mu > 0 ? 3 : 1;
+  return model::contact_rows(surface.mu);
 }
 
 }  // namespace pbmpi::ode

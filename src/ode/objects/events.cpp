@@ -1,25 +1,11 @@
 #include "ode/objects/events.h"
 
 #include "core/error.h"
+#include "model/joint_traits.h"
 #include "ode/objects/joints.h"
 
 namespace pbmpi::ode {
 namespace {
-
-bool can_drive(model::JointKind kind, int axis) {
-  switch (kind) {
-    case model::JointKind::hinge:
-    case model::JointKind::slider:
-      return axis == 0;
-    case model::JointKind::universal:
-    case model::JointKind::hinge2:
-      return true;
-    case model::JointKind::ball:
-    case model::JointKind::fixed:
-      return false;
-  }
-  return false;
-}
 
 /// ODE normalises the quaternion: the same each time, so that a restart before or after the launch changes
 /// nothing.
@@ -34,7 +20,7 @@ void require_drivable(const model::Model& model) {
     if (event.kind == model::EventKind::launch) continue;
     const model::Joint& joint = model.joints[event.joint];
     const int axis = event.kind == model::EventKind::steer ? 0 : event.axis;
-    core::require_input(can_drive(joint.kind, axis),
+    core::require_input(model::traits_of(joint.kind).axes[axis].has_motor,
                         "event of step " + std::to_string(event.step) + ": joint '" + joint.name +
                             "' has no axis " + std::to_string(axis + 1) + " to drive; name another joint");
   }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "model/joint_traits.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -22,8 +23,6 @@ struct KindApi {
   void (*set_param)(dJointID, int, dReal);
   dReal (*get_param)(dJointID, int);
   std::array<dReal (*)(dJointID), 2> coordinate;  ///< angle or length along the axis, if it can have a limit
-  int rows;                                       ///< degrees of freedom removed
-  int num_axes;                                   ///< that can have a motor
 };
 
 template <void (*set)(dJointID, dReal, dReal, dReal)>
@@ -54,40 +53,32 @@ void set_fixed(dJointID joint, const Vec3&, const Vec3&) { dJointSetFixed(joint)
 
 /// In the order of JointKind.
 constexpr std::array<KindApi, model::num_joint_kinds> kind_apis = {{
-    {dJointCreateBall, dJointSetBallAnchor, nullptr, nullptr, nullptr, {}, 3, 0},
+    {dJointCreateBall, dJointSetBallAnchor, nullptr, nullptr, nullptr, {}},
     {dJointCreateHinge,
      dJointSetHingeAnchor,
      set_axis1<dJointSetHingeAxis>,
      dJointSetHingeParam,
      dJointGetHingeParam,
-     {dJointGetHingeAngle},
-     5,
-     1},
+     {dJointGetHingeAngle}},
     {dJointCreateSlider,
      nullptr,
      set_axis1<dJointSetSliderAxis>,
      dJointSetSliderParam,
      dJointGetSliderParam,
-     {dJointGetSliderPosition},
-     5,
-     1},
+     {dJointGetSliderPosition}},
     {dJointCreateUniversal,
      dJointSetUniversalAnchor,
      set_universal_axes,
      dJointSetUniversalParam,
      dJointGetUniversalParam,
-     {dJointGetUniversalAngle1, dJointGetUniversalAngle2},
-     4,
-     2},
-    {dJointCreateFixed, nullptr, set_fixed, nullptr, nullptr, {}, 6, 0},
+     {dJointGetUniversalAngle1, dJointGetUniversalAngle2}},
+    {dJointCreateFixed, nullptr, set_fixed, nullptr, nullptr, {}},
     {dJointCreateHinge2,
      dJointSetHinge2Anchor,
      set_hinge2_axes,
      dJointSetHinge2Param,
      dJointGetHinge2Param,
-     {dJointGetHinge2Angle1},
-     4,
-     2},
+     {dJointGetHinge2Angle1}},
 }};
 
 const KindApi& api_of(JointKind kind) { return kind_apis[static_cast<int>(kind)]; }
@@ -96,16 +87,16 @@ const KindApi& api_of(JointKind kind) { return kind_apis[static_cast<int>(kind)]
 int param_of(int axis, int param) { return axis == 0 ? param : param + dParamGroup2; }
 
 void require_expressible(const model::Joint& joint) {
-  const KindApi& api = api_of(joint.kind);
+  const model::JointTraits& traits = model::traits_of(joint.kind);
   for (int axis = 0; axis < 2; ++axis) {
-    core::require_input(axis < api.num_axes || !joint.motors[axis].active(),
+    core::require_input(traits.axes[axis].has_motor || !joint.motors[axis].active(),
                         "joint '" + joint.name + "': it has a motor on axis " + std::to_string(axis + 1) +
                             ", which its kind does not have; remove the motor");
-    core::require_input(api.coordinate[axis] != nullptr || !joint.limits[axis].active(),
+    core::require_input(traits.axes[axis].has_limit || !joint.limits[axis].active(),
                         "joint '" + joint.name + "': it has a limit on axis " + std::to_string(axis + 1) +
                             ", which its kind cannot limit; remove the limit");
   }
-  core::require_input(joint.kind != JointKind::hinge2 || joint.body_b != model::no_body,
+  core::require_input(!traits.needs_two_bodies || joint.body_b != model::no_body,
                       "joint '" + joint.name + "': a hinge2 needs two bodies; name the wheel");
 }
 
@@ -137,14 +128,14 @@ void set_axes(dJointID id, const model::Model& model, const model::Joint& joint)
   const Vec3 axis2 = joint.body_b == model::no_body
                          ? joint.axis2_b
                          : model.bodies[joint.body_b].pose.direction_to_outer(joint.axis2_b);
-  const bool has_two = joint.kind == JointKind::universal || joint.kind == JointKind::hinge2;
+  const bool has_two = model::traits_of(joint.kind).num_axes == 2;
   core::require_input(!has_two || axis1.cross(axis2).norm() > least_sine_between_axes,
                       "joint '" + joint.name + "': its two axes are parallel; turn one of them");
   set(id, axis1, axis2);
 }
 
 void set_suspension(dJointID id, const model::Joint& joint, double dt_s) {
-  if (joint.kind != JointKind::hinge2 || !(joint.suspension.stiffness > 0)) return;
+  if (!model::traits_of(joint.kind).has_suspension() || !(joint.suspension.stiffness > 0)) return;
   const double pull = dt_s * joint.suspension.stiffness;
   const double total = pull + joint.suspension.damping;
   dJointSetHinge2Param(id, dParamSuspensionERP, pull / total);
@@ -215,10 +206,11 @@ void set_limit(dJointID joint, JointKind kind, int axis, const model::AxisLimit&
 
 int count_rows(dJointID joint, JointKind kind) {
   const KindApi& api = api_of(kind);
-  int rows = api.rows;
-  for (int axis = 0; axis < api.num_axes; ++axis) {
+  const model::JointTraits& traits = model::traits_of(kind);
+  int rows = traits.held_rows();
+  for (int axis = 0; axis < traits.num_axes; ++axis) {
     const bool driven = api.get_param(joint, param_of(axis, dParamFMax)) > 0;
-    rows += driven || at_limit(joint, api, kind != JointKind::slider, axis) ? 1 : 0;
+    rows += driven || at_limit(joint, api, !traits.slides, axis) ? 1 : 0;
   }
   return rows;
 }

@@ -81,7 +81,7 @@ GeomLanes<T>::GeomLanes(int num_geoms) : chunks_(static_cast<std::size_t>(num_ge
   for (Column& column : box_min) column.resize(num_chunks);
   for (Column& column : box_max) column.resize(num_chunks);
   radius.resize(num_chunks);
-  for (Chunk& chunk : chunks_) {  // what no geom fills lies nowhere
+  for (Chunk& chunk : chunks_) {  // unused lanes get empty boxes
     chunk = Chunk{};
     chunk.infinite = T::broadcast(1);
   }
@@ -89,7 +89,6 @@ GeomLanes<T>::GeomLanes(int num_geoms) : chunks_(static_cast<std::size_t>(num_ge
 
 template <class T>
 void GeomLanes<T>::set(int index, const model::Geom& geom, LanePlace body) {
-  using model::Shape;
   Chunk& chunk = chunks_[static_cast<std::size_t>(index / T::num_lanes)];
   const int lane = index % T::num_lanes;
   chunk.body[lane] = BodyLanes<T>::body_index(body.slot, body.lane);
@@ -103,16 +102,12 @@ void GeomLanes<T>::set(int index, const model::Geom& geom, LanePlace body) {
   geometry::to_rotation(q.w, q.x, q.y, q.z, r);
   V* rotation_rows = &chunk.local_rotation.row0.x;
   for (int i = 0; i < 9; ++i) T::set(rotation_rows[i], lane, scalar(r[i]));
-  const bool box = geom.shape == Shape::box;
-  const bool round = geom.shape == Shape::sphere || geom.shape == Shape::capsule;
-  const bool bar = geom.shape == Shape::capsule || geom.shape == Shape::cylinder;
-  half[0].data()[index] = scalar(box ? geom.size[0] / 2 : 0);
-  half[1].data()[index] = scalar(box ? geom.size[1] / 2 : 0);
-  half[2].data()[index] = scalar(box ? geom.size[2] / 2 : (bar ? geom.size[1] / 2 : 0));
-  radius.data()[index] = scalar(round || bar ? geom.size[0] : 0);
-  T::set(chunk.ball, lane, scalar(round ? geom.size[0] : 0));
-  T::set(chunk.disc, lane, scalar(geom.shape == Shape::cylinder ? geom.size[0] : 0));
-  T::set(chunk.infinite, lane, scalar(geom.shape == Shape::plane ? 1 : 0));
+  const geometry::Extent extent = geometry::extent_of(geom);
+  for (std::size_t k = 0; k < 3; ++k) half[k].data()[index] = scalar(extent.half.data()[k]);
+  radius.data()[index] = scalar(extent.ball + extent.disc);
+  T::set(chunk.ball, lane, scalar(extent.ball));
+  T::set(chunk.disc, lane, scalar(extent.disc));
+  T::set(chunk.infinite, lane, scalar(geom.shape == model::Shape::plane ? 1 : 0));
 }
 
 template <class T>

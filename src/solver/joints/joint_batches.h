@@ -242,7 +242,7 @@ int JointBatches<T>::num_rows(int shape, int joint, int lane) const {
   const RowsAt at = shapes_[static_cast<std::size_t>(shape)].rows[static_cast<std::size_t>(joint)];
   return with_kind(at.kind, [&](auto kind) {
     const auto& rows = rows_of<kind.value>()[static_cast<std::size_t>(at.index)];
-    int count = rows.counts.fixed_rows();
+    int count = model::traits_of(kind.value).held_rows();
     const auto add = [&](const auto& controls) {
       for (std::size_t i = 0; i < controls.size(); ++i) {
         if (rows.control_on[i] && T::get(controls[i].low, lane) < T::get(controls[i].high, lane)) ++count;

@@ -1,7 +1,8 @@
 /// The rows of one joint of up to `num_lanes` articulations: one block a kind, so that the sweep knows at
 /// compile time what it solves.
 ///
-/// Which rows each kind has, with signs and right-hand sides as in ODE 0.16's joints (ode/src/joints/*.cpp):
+/// Which rows each kind has (model/joint_traits.h), with signs and right-hand sides as in ODE 0.16's joints
+/// (ode/src/joints/*.cpp):
 ///   ball       3 point                      hinge   3 point + 2 axis + limit/motor
 ///   universal  3 point + 1 axis + 2 l/m     fixed   3 point + 3 axis
 ///   hinge2     3 line (along axis 1 with the suspension's ERP and CFM, and across) + 1 axis + 2 l/m
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "model/joint_traits.h"
 #include "solver/layout/body_lanes.h"
 
 namespace pbmpi::solver {
@@ -21,26 +23,16 @@ struct RowCounts {
   int points = 0;  ///< blocks of three rows
   int lines = 0, axes = 0;
   int axis_controls = 0, line_controls = 0;  ///< limits and motors, in rows of their own
-
-  constexpr int fixed_rows() const { return 3 * points + lines + axes; }
 };
 
 constexpr RowCounts row_counts(model::JointKind kind) {
-  switch (kind) {
-    case model::JointKind::ball:
-      return {.points = 1};
-    case model::JointKind::hinge:
-      return {.points = 1, .axes = 2, .axis_controls = 1};
-    case model::JointKind::universal:
-      return {.points = 1, .axes = 1, .axis_controls = 2};
-    case model::JointKind::fixed:
-      return {.points = 1, .axes = 3};
-    case model::JointKind::hinge2:
-      return {.lines = 3, .axes = 1, .axis_controls = 2};
-    case model::JointKind::slider:
-      return {.lines = 2, .axes = 3, .line_controls = 1};
-  }
-  return {};
+  const model::JointTraits& traits = model::traits_of(kind);
+  const bool as_points = traits.place == model::HeldPlace::anchor || traits.place == model::HeldPlace::offset;
+  return {.points = as_points ? 1 : 0,
+          .lines = as_points ? 0 : traits.place_rows(),
+          .axes = traits.turn_rows(),
+          .axis_controls = traits.slides ? 0 : traits.num_axes,
+          .line_controls = traits.slides ? traits.num_axes : 0};
 }
 
 /// A row with bounds on its impulse [N s or N m s].

@@ -4,12 +4,13 @@
 #include <utility>
 
 #include "model/islands.h"
+#include "model/joint_traits.h"
 
 namespace pbmpi::solver {
 namespace {
 
+using model::HeldPlace;
 using model::Joint;
-using model::JointKind;
 using model::Model;
 using model::Pose;
 using model::Quat;
@@ -31,14 +32,14 @@ Vec3 across(const Vec3& direction, const Vec3& axis) {
 JointTerms make_terms(const Model& model, const Joint& joint) {
   const Pose a = start_pose(model, joint.body_a);
   const Pose b = start_pose(model, joint.body_b);
+  const model::JointTraits& traits = model::traits_of(joint.kind);
   JointTerms terms;
   terms.anchor_a = joint.anchor_a;
   terms.anchor_b = joint.anchor_b;
-  if (joint.kind == JointKind::fixed) {  // holds b's centre where it was, as seen from a
+  if (traits.place == HeldPlace::offset) {  // of b's centre from a's
     terms.anchor_a = joint.body_b == model::no_body ? Vec3::Zero() : to_local(a, b.position - a.position);
     terms.anchor_b = joint.body_b == model::no_body ? a.position : Vec3::Zero();
-  } else if (joint.kind ==
-             JointKind::slider) {  // holds a's centre on a line through this point, as seen from b
+  } else if (traits.place == HeldPlace::line) {  // which goes through this point of b's frame
     terms.anchor_a = Vec3::Zero();
     terms.anchor_b = to_local(b, a.position - b.position);
   }
@@ -47,7 +48,7 @@ JointTerms make_terms(const Model& model, const Joint& joint) {
   terms.axis1_a = joint.axis1_a;
   terms.axis1_b = to_local(b, axis1);
   terms.axis2_b = joint.axis2_b;
-  if (joint.kind == JointKind::universal || joint.kind == JointKind::hinge2) {
+  if (traits.num_axes == 2) {
     terms.normal1_a = across(to_local(a, axis2), terms.axis1_a);
     terms.normal2_b = across(terms.axis1_b, terms.axis2_b);
     terms.cos0 = axis1.dot(axis2);

@@ -25,6 +25,8 @@
 #include "core/random.h"
 #include "effects/breakage.h"
 #include "geometry/geometry.h"
+#include "model/joint_traits.h"
+#include "model/shape_traits.h"
 #include "model/state.h"
 #include "solver/collide/broad_phase.h"
 #include "solver/collide/may_touch_table.h"

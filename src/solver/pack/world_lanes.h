@@ -197,17 +197,14 @@ void WorldLanes<T>::find_gyroscopic(bool all_slots) {
 /// Their limits are out of reach and their motors have no force, so that their rows push nothing.
 template <class T>
 void WorldLanes<T>::allow_idle_controls(const Passes& passes) {
-  using model::JointKind;
   for (int world = 0; world < num_worlds(); ++world) {
     for (int joint = 0; joint < model(world).num_joints(); ++joint) {
-      const JointKind kind = model(world).joints[joint].kind;
-      if (kind == JointKind::ball || kind == JointKind::fixed) continue;
-      const bool two_motors = kind == JointKind::universal || kind == JointKind::hinge2;
+      const model::JointTraits& traits = model::traits_of(model(world).joints[joint].kind);
       AxisControl<V>* controls = joint_at(world, joint).controls;
-      controls[0].has_limit |= passes.idle_limits;
-      controls[1].has_limit |= passes.idle_limits && kind == JointKind::universal;
-      controls[0].has_motor |= passes.idle_motors;
-      controls[1].has_motor |= passes.idle_motors && two_motors;
+      for (std::size_t axis = 0; axis < traits.axes.size(); ++axis) {
+        controls[axis].has_limit |= passes.idle_limits && traits.axes[axis].has_limit;
+        controls[axis].has_motor |= passes.idle_motors && traits.axes[axis].has_motor;
+      }
     }
   }
 }

@@ -18,7 +18,7 @@ stepping::IslandCounts count_islands(const model::Model& model, const model::Spa
   std::vector<int> rows(model.bodies.size(), 0);
   for (const model::Contact& contact : contacts) {
     if (contact.body_b != model::no_body) sets.unite(contact.body_a, contact.body_b);
-    rows[contact.body_a] += contact.mu > 0 ? 3 : 1;
+    rows[contact.body_a] += model::contact_rows(contact.mu);
     counts.max_penetration_m = std::max(counts.max_penetration_m, contact.depth);
   }
   for (const int unit : units) {

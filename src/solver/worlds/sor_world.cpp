@@ -151,7 +151,7 @@ void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
   }
   for (const model::Contact& contact : contacts) {
     links.emplace_back(contact.body_a, contact.body_b);
-    rows.push_back(contact.mu > 0 ? 3 : 1);
+    rows.push_back(model::contact_rows(contact.mu));
   }
   const model::Islands islands = model::find_islands(model_->num_bodies(), links);
   std::vector<int> island_rows(static_cast<std::size_t>(islands.count), 0);

@@ -1,0 +1,47 @@
+/// What follows from the shape of a geom alone, in one table.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "model/model.h"
+
+namespace pbmpi::model {
+
+/// Which size of a geom is not there.
+inline constexpr int no_size = -1;
+
+/// A shape is a box, of which any side may be 0, and all points within a radius of it: of a ball round each
+/// of its points (`is_round`), or of a disc across z. A plane is none of these.
+struct ShapeTraits {
+  Shape shape;
+  std::string_view name;
+  int num_sizes;  ///< that Geom::size has for it
+  /// Which size is the full length along x, y and z.
+  std::array<int, 3> length = {no_size, no_size, no_size};
+  int radius = no_size;   ///< which size is the radius
+  bool is_round = false;  ///< does the radius reach in all directions?
+};
+
+/// In the order of Shape.
+inline constexpr std::array<ShapeTraits, num_shapes> shape_traits = {{
+    {.shape = Shape::sphere, .name = "sphere", .num_sizes = 1, .radius = 0, .is_round = true},
+    {.shape = Shape::box, .name = "box", .num_sizes = 3, .length = {0, 1, 2}},
+    {.shape = Shape::capsule,
+     .name = "capsule",
+     .num_sizes = 2,
+     .length = {no_size, no_size, 1},
+     .radius = 0,
+     .is_round = true},
+    {.shape = Shape::cylinder,
+     .name = "cylinder",
+     .num_sizes = 2,
+     .length = {no_size, no_size, 1},
+     .radius = 0},
+    {.shape = Shape::plane, .name = "plane", .num_sizes = 0},
+}};
+
+constexpr const ShapeTraits& traits_of(Shape shape) { return shape_traits[static_cast<std::size_t>(shape)]; }
+
+}  // namespace pbmpi::model
