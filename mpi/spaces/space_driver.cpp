@@ -127,17 +127,10 @@ std::vector<core::PhaseTimes> SpaceDriver::quiet_times() const {
 
 void SpaceDriver::observe() {
   const FrameFindings& found = step_.findings();
-  const stepping::IslandCounts& counts = found.counts;
-  observables_.contacts = counts.contacts;
-  observables_.rows = counts.rows;
-  observables_.islands = counts.islands;
-  observables_.max_island_rows = counts.max_island_rows;
-  observables_.bodies_inside = counts.bodies_inside;
-  observables_.max_penetration_m = counts.max_penetration_m;
-  // In the order of the bodies, so that the sum is that of stepping::mechanical_energy(), bit for bit.
+  observables_ = found.seen;
+  // In the order of the bodies, so that the sum is that of model::mechanical_energy(), bit for bit.
   observables_.energy_j = std::accumulate(found.energy_j.begin(), found.energy_j.end(), 0.0);
-  observables_.joint_gap_m = found.joint_gap_m;
-  observables_.nonfinite = model::count_nonfinite(stepper_->state());
+  stepping::observe_bodies(stepper_->model(), stepper_->state(), observables_);
 }
 
 int SpaceDriver::lowest_nonfinite_world() const {

@@ -23,12 +23,11 @@ namespace pbmpi::mpi {
 
 /// What root learns of the last step of a frame.
 struct FrameFindings {
-  stepping::IslandCounts counts;  ///< over all ranks
-  std::vector<int> island;        ///< [num_units] lowest unit of its island
-  std::vector<double> weight;     ///< [num_units] rows of joints and contacts, and bodies
-  std::vector<char> near;         ///< [num_units] with a field of interest: has it a body of the island?
-  std::vector<double> energy_j;   ///< [num_bodies]
-  double joint_gap_m = 0;         ///< the largest
+  stepping::Observables seen;    ///< joined over all ranks; not what root measures of all bodies
+  std::vector<int> island;       ///< [num_units] lowest unit of its island
+  std::vector<double> weight;    ///< [num_units] rows of joints and contacts, and bodies
+  std::vector<char> near;        ///< [num_units] with a field of interest: has it a body of the island?
+  std::vector<double> energy_j;  ///< [num_bodies]
   std::vector<core::PhaseTimes> times;  ///< [num_ranks] of this frame so far
   std::int64_t bodies_shipped = 0;      ///< in this frame, from any rank to another, step by step
 };
@@ -117,15 +116,14 @@ class SpaceStep {
   void post_poses();
   /// What a rank measures of its own bodies at the end of a frame.
   struct Measures {
-    stepping::IslandCounts counts;
+    stepping::Observables seen;
     std::vector<double> energy_j;  ///< [own bodies]
-    double joint_gap_m = 0;
   };
   Measures measure();
   void finish_frame(core::PhaseTimes& times);
   void post_frame(const Measures& own, const core::PhaseTimes& times);
   void receive_frame(const Measures& own, const core::PhaseTimes& times, core::LapTimer& timer);
-  void note_measures(int rank, std::span<const double> energy_j, double joint_gap_m);
+  void note_measures(int rank, const stepping::Observables& seen, std::span<const double> energy_j);
   void require_apart();
   void take_frame(int rank, MessageReader& message);
   void note_weights(int rank, std::span<const std::int32_t> weights);

@@ -5,7 +5,9 @@
 
 #include "core/error.h"
 #include "model/islands.h"
-#include "stepping/observables.h"
+#include "model/joint_gap.h"
+#include "model/mechanics.h"
+#include "stepping/observable_table.h"
 
 namespace pbmpi::mpi {
 
@@ -28,14 +30,14 @@ void SpaceStep::finish_frame(core::PhaseTimes& times) {
 
 SpaceStep::Measures SpaceStep::measure() {
   Measures own;
-  guard([&] { own.counts = stepper_->count(active_units_, contacts_); });
+  guard([&] { own.seen = stepper_->count(active_units_, contacts_); });
   const model::Model& model = stepper_->model();
   const model::State& state = stepper_->state();
   for (const int body : ownership_->bodies[comm_->rank()])
-    own.energy_j.push_back(stepping::body_energy(model, state, body));
+    own.energy_j.push_back(model::body_energy(model, state, body));
   for (const model::Joint& joint : model.joints) {
     if (ownership_->owner[stepper_->map().space_of_body(joint.body_a)] == comm_->rank())
-      own.joint_gap_m = std::max(own.joint_gap_m, stepping::joint_gap(model, state, joint));
+      own.seen.joint_gap_m = std::max(own.seen.joint_gap_m, model::joint_gap(model, state, joint));
   }
   return own;
 }
@@ -47,9 +49,8 @@ void SpaceStep::post_frame(const Measures& own, const core::PhaseTimes& times) {
   if (sleepers_) message.put(sleepers_->rest_rows(ownership_->bodies[comm_->rank()]));
   if (joints_break_) message.put(stepper_->broken_rows(own_units()));
   message.put(own_boxes());
-  message.put_value(own.counts);
+  message.put_value(own.seen);
   message.put(own.energy_j);
-  message.put_value(own.joint_gap_m);
   message.put_value(times);
   message.put_value(bodies_shipped_);
   message.put(islands_.of_unit);
@@ -60,9 +61,8 @@ void SpaceStep::post_frame(const Measures& own, const core::PhaseTimes& times) {
 
 void SpaceStep::receive_frame(const Measures& own, const core::PhaseTimes& times, core::LapTimer& timer) {
   findings_ = {};
-  findings_.counts = own.counts;
   findings_.energy_j.resize(stepper_->model().bodies.size());
-  note_measures(Communicator::root, own.energy_j, own.joint_gap_m);
+  note_measures(Communicator::root, own.seen, own.energy_j);
   findings_.weight.resize(static_cast<std::size_t>(stepper_->map().num_units()));
   if (field_ != nullptr) findings_.near.resize(findings_.weight.size());
   findings_.times.resize(static_cast<std::size_t>(comm_->size()));
@@ -108,24 +108,16 @@ void SpaceStep::take_frame(int rank, MessageReader& message) {
   if (joints_break_) stepper_->put_broken(ownership_->units[rank], message.get<std::int32_t>());
   const auto boxes = message.get<geometry::Box>();
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes_[ownership_->spaces[rank][i]] = boxes[i];
-  const auto counts = message.get_value<stepping::IslandCounts>();
-  stepping::IslandCounts& all = findings_.counts;
-  all.contacts += counts.contacts;
-  all.rows += counts.rows;
-  all.islands += counts.islands;
-  all.max_island_rows = std::max(all.max_island_rows, counts.max_island_rows);
-  all.bodies_inside += counts.bodies_inside;
-  all.max_penetration_m = std::max(all.max_penetration_m, counts.max_penetration_m);
-  const auto energy_j = message.get<double>();
-  note_measures(rank, energy_j, message.get_value<double>());
+  const auto seen = message.get_value<stepping::Observables>();
+  note_measures(rank, seen, message.get<double>());
   findings_.times[rank] = message.get_value<core::PhaseTimes>();
   findings_.bodies_shipped += message.get_value<std::int64_t>();
 }
 
-void SpaceStep::note_measures(int rank, std::span<const double> energy_j, double joint_gap_m) {
+void SpaceStep::note_measures(int rank, const stepping::Observables& seen, std::span<const double> energy_j) {
+  stepping::join(findings_.seen, seen);
   for (std::size_t i = 0; i < energy_j.size(); ++i)
     findings_.energy_j[ownership_->bodies[rank][i]] = energy_j[i];
-  findings_.joint_gap_m = std::max(findings_.joint_gap_m, joint_gap_m);
 }
 
 void SpaceStep::note_weights(int rank, std::span<const std::int32_t> weights) {

@@ -34,22 +34,6 @@ bool joins_segments(const Joint& joint, int body) {
 
 }  // namespace
 
-Vec3 linear_momentum(const Model& model, const model::State& state) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) sum += model.bodies[i].mass_kg * state.velocity[i];
-  return sum;
-}
-
-Vec3 angular_momentum(const Model& model, const model::State& state) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const auto q = state.orientation[i].to_eigen();
-    const Vec3 spin = q * (model.bodies[i].inertia * (q.conjugate() * state.angular_velocity[i]));
-    sum += spin + model.bodies[i].mass_kg * state.position[i].cross(state.velocity[i]);
-  }
-  return sum;
-}
-
 std::vector<Segment> human_segments(const Model& model) {
   constexpr double least_length_m = 0.01;  // two joints at one point have no segment between them
   std::vector<Segment> segments;

@@ -1,4 +1,4 @@
-/// What a world must keep, whatever it is compared with: its momentum, and the length of human segments.
+/// What a world must keep, whatever it is compared with: the length of human segments.
 #pragma once
 
 #include <array>
@@ -9,12 +9,6 @@
 #include "model/state.h"
 
 namespace pbmpi::analysis {
-
-/// Sum of mass times velocity [kg m/s]; bodies in order. (Energy: stepping::mechanical_energy.)
-model::Vec3 linear_momentum(const model::Model& model, const model::State& state);
-
-/// Angular momentum about the origin of the world frame [kg m^2/s].
-model::Vec3 angular_momentum(const model::Model& model, const model::State& state);
 
 /// A part of a human between two joints: a body of an actor of kind human, and two joints that it has with
 /// other bodies.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "model/joint_traits.h"
+#include "model/joint_gap.h"
 
 namespace pbmpi::analysis {
 
@@ -38,9 +39,9 @@ Vec3 at_start_in_b(const Model& model, const Joint& joint, const Vec3& direction
   return b.orientation.to_eigen().conjugate() * a.direction_to_outer(direction);
 }
 
-bool slides(const Joint& joint) {
-  return joint.kind == JointKind::slider ||
-         (joint.kind == JointKind::hinge2 && joint.suspension.stiffness > 0);
+Vec3 joint_gap(const Model& model, const Joint& joint, PoseView poses) {
+  return model::joint_gap_vector_in_a(model, joint, pose_of(poses, joint.body_a),
+                                      pose_of(poses, joint.body_b));
 }
 
 /// What must be zero in every finite result, so that a NaN is never hidden by a comparison that it does not
@@ -61,22 +62,6 @@ double rotation_angle(const Quat& a, const Quat& b) {
   const Eigen::Quaterniond turn = a.to_eigen().conjugate() * b.to_eigen();
   const double angle = 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
   return std::isfinite(turn.coeffs().sum()) ? angle : nan;
-}
-
-Vec3 joint_gap_vector(const Model& model, const Joint& joint, PoseView poses) {
-  const Pose a = pose_of(poses, joint.body_a), b = pose_of(poses, joint.body_b);
-  const Eigen::Quaterniond to_a = a.orientation.to_eigen().conjugate();
-  Vec3 gap;
-  if (joint.kind == JointKind::slider || joint.kind == JointKind::fixed) {
-    const Pose start_a = start_of(model, joint.body_a), start_b = start_of(model, joint.body_b);
-    const Vec3 offset = start_a.orientation.to_eigen().conjugate() * (start_b.position - start_a.position);
-    gap = joint.body_b == model::no_body ? Vec3(to_a * (a.position - start_a.position))
-                                         : Vec3(offset - to_a * (b.position - a.position));
-  } else {
-    gap = joint.anchor_a - to_a * (b.point_to_outer(joint.anchor_b) - a.position);
-  }
-  if (slides(joint)) gap -= joint.axis1_a * joint.axis1_a.dot(gap);
-  return gap;
 }
 
 double joint_axis_angle(const Model& model, const Joint& joint, PoseView poses) {
@@ -129,7 +114,7 @@ PoseErrors compare(const Model& model, PoseView poses, PoseView reference) {
     if (!poses.holds(i) || !reference.holds(i)) continue;
     const Joint& joint = model.joints[i];
     errors.joint_position_m.push_back(
-        distance(joint_gap_vector(model, joint, poses), joint_gap_vector(model, joint, reference)));
+        distance(joint_gap(model, joint, poses), joint_gap(model, joint, reference)));
     errors.joint_orientation_rad.push_back(
         std::abs(joint_axis_angle(model, joint, poses) - joint_axis_angle(model, joint, reference)));
   }

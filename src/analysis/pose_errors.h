@@ -23,11 +23,6 @@ struct PoseView {
 /// a number is.
 double rotation_angle(const model::Quat& a, const model::Quat& b);
 
-/// The gap of a joint [m]: from the anchor of b to the anchor of a, in the frame of a. Directions in which
-/// the joint is free to move (a slider's, a suspension's) are left out. Slider and fixed joints hold the
-/// offset that the bodies had at the start.
-model::Vec3 joint_gap_vector(const model::Model& model, const model::Joint& joint, PoseView poses);
-
 /// The angle [rad] by which a joint is bent where it must not bend. ball: 0 (nothing is held). hinge: between
 /// the two bodies' hinge axes. universal, hinge2: change of the angle between axis 1 and axis 2. slider,
 /// fixed: rotation against the start.

@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "ode/objects/bodies.h"
 #include "ode/objects/joints.h"
+#include "stepping/observable_table.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -180,11 +181,7 @@ void World::solve_enabled(int iterations) {
 }
 
 void World::read(model::State& state, stepping::Observables& observables) {
-  if (!std::exchange(moved_, false)) {  // only poses and what follows from them are as before
-    observables.contacts = observables.rows = observables.max_island_rows = observables.bodies_inside = 0;
-    observables.max_penetration_m = 0;
-    return;
-  }
+  if (!std::exchange(moved_, false)) return stepping::observe_sleep(observables);
   copy_out(bodies_, state);
   if (sleeping_) state.rest = sleeping_->rest();
   state.broken_in = broken_in();
@@ -192,9 +189,7 @@ void World::read(model::State& state, stepping::Observables& observables) {
   observables.contacts = contacts_.count();
   observables.bodies_inside = focus_ ? static_cast<int>(focus_->field().inside().size()) : 0;
   observables.max_penetration_m = contacts_.deepest_m();
-  observables.energy_j = stepping::mechanical_energy(*model_, state);
-  observables.joint_gap_m = stepping::max_joint_gap(*model_, state);
-  observables.nonfinite = model::count_nonfinite(state);
+  stepping::observe_state(*model_, state, observables);
 }
 
 }  // namespace pbmpi::ode

@@ -1,4 +1,4 @@
-/// What is measured of a world each frame.
+/// What is measured of a world each frame. observable_table.h lists the columns that follow from it.
 #pragma once
 
 #include "model/model.h"
@@ -19,8 +19,8 @@ struct Residuals {
   double natural_turn = 0;       ///< [rad/s] of all rows about axes
 };
 
-/// Of the last step of a frame, except where it says otherwise. With the effect "sleeping" contacts, rows and
-/// penetration are those of what is awake; islands are all.
+/// Numbers of the last step of a frame, except where it says otherwise. With the effect "sleeping" contacts,
+/// rows and penetration count what is awake; islands count all bodies.
 struct Observables {
   int contacts = 0;              ///< contact points
   int rows = 0;                  ///< scalar constraint rows of joints and contacts
@@ -34,17 +34,12 @@ struct Observables {
   Residuals residuals;     ///< all 0 unless they are asked for (StepperSettings::residuals)
 };
 
-/// Kinetic and potential energy of one body [J].
-double body_energy(const model::Model& model, const model::State& state, int body);
+/// Measures what follows from the state after a step, whatever the engine: all of observe_bodies(), energy
+/// and joint gap.
+void observe_state(const model::Model& model, const model::State& state, Observables& seen);
 
-/// Kinetic and potential energy [J]; bodies are summed in order.
-double mechanical_energy(const model::Model& model, const model::State& state);
-
-/// Distance [m] between the two anchors of one joint: along the constrained directions only, i.e. across the
-/// axis for hinge2 with suspension; 0 for a slider's sliding direction.
-double joint_gap(const model::Model& model, const model::State& state, const model::Joint& joint);
-
-/// The largest joint_gap of the world's joints that hold [m]; 0 without any.
-double max_joint_gap(const model::Model& model, const model::State& state);
+/// The part of observe_state() that one pass over the bodies gives. Where a world is cut into spaces root
+/// does it, whereas the spaces' owners share energy and joint gap.
+void observe_bodies(const model::Model& model, const model::State& state, Observables& seen);
 
 }  // namespace pbmpi::stepping

@@ -16,18 +16,9 @@
 #include "model/model.h"
 #include "model/space_map.h"
 #include "model/state.h"
+#include "stepping/observables.h"
 
 namespace pbmpi::stepping {
-
-/// What is counted of the islands that one rank has solved.
-struct IslandCounts {
-  int contacts = 0;
-  int rows = 0;
-  int islands = 0;
-  int max_island_rows = 0;
-  int bodies_inside = 0;  ///< with the effect "field_of_interest"
-  double max_penetration_m = 0;
-};
 
 /// One rank's view of the world. It knows all bodies; the rows of state() that belong to its own spaces are
 /// current, others are as the rank last heard of them. The result of a step depends neither on who owns what
@@ -97,8 +88,9 @@ class SpaceStepper {
   /// order; both bodies of a contact belong to these units. Adds the seconds spent to rows, solve, integrate.
   virtual void solve(std::span<const int> units, std::span<const model::Contact> contacts, std::int64_t step,
                      core::PhaseTimes& times) = 0;
-  /// Counts of the last solve(), whose arguments are given again.
-  virtual IslandCounts count(std::span<const int> units, std::span<const model::Contact> contacts) const = 0;
+  /// What the last solve(), whose arguments are given again, shows of contacts, rows and islands. The rest is
+  /// zero; join() of stepping/observable_table.h makes those of the world.
+  virtual Observables count(std::span<const int> units, std::span<const model::Contact> contacts) const = 0;
 };
 
 /// Makes the engine of one world.

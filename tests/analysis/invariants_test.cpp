@@ -52,18 +52,5 @@ TEST(Segments, stretch_falls_into_bands) {
   EXPECT_EQ(count_stretch({0, 0.029, 0.03, 0.19, 0.2, 3, nan}), (StretchBands{2, 2, 2, 1}));
 }
 
-TEST(Momentum, a_free_box_has_that_of_its_mass_and_spin) {
-  const model::Model model = support::free_box();
-  State state = model::initial_state(model);
-  state.position[0] = Vec3(1, 0, 0);
-  state.orientation[0] = {};
-  state.velocity[0] = Vec3(0, 2, 0);
-  state.angular_velocity[0] = Vec3(0, 0, 4);
-  const model::Body& box = model.bodies[0];
-  EXPECT_EQ(linear_momentum(model, state), Vec3(0, 2 * box.mass_kg, 0));
-  const Vec3 expected = box.inertia * Vec3(0, 0, 4) + Vec3(0, 0, 2 * box.mass_kg);
-  EXPECT_NEAR((angular_momentum(model, state) - expected).norm(), 0, 1e-13);  // numbers of size 10
-}
-
 }  // namespace
 }  // namespace pbmpi::analysis

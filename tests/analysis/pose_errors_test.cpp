@@ -8,7 +8,6 @@
 
 #include "analysis/error_bands.h"
 #include "model/state.h"
-#include "stepping/observables.h"
 #include "support/models.h"
 
 namespace pbmpi::analysis {
@@ -114,20 +113,6 @@ TEST(PoseErrors, a_joint_pulled_2_cm_apart_is_2_cm_off_wherever_it_is_carried) {
   const PoseErrors errors = compare(model, view(pulled), view(reference));
   EXPECT_GT(errors.body_position_m[0], 1);
   EXPECT_NEAR(errors.joint_position_m[0], 0.02, rounding);
-}
-
-TEST(PoseErrors, the_gap_vector_is_as_long_as_the_observed_joint_gap) {
-  const model::Model model = support::crash();
-  State state = model::initial_state(model);
-  for (int i = 0; i < state.num_bodies(); ++i) {
-    state.position[i] += 0.01 * i * Vec3(0.3, -0.2, 0.1 * (i % 3));
-    state.orientation[i] = times(support::rotation(Vec3(1, 2, -2) / 3, 0.02 * i), state.orientation[i]);
-  }
-  for (const model::Joint& joint : model.joints) {
-    EXPECT_NEAR(joint_gap_vector(model, joint, view(state)).norm(), stepping::joint_gap(model, state, joint),
-                1e-12)
-        << joint.name;  // metres, through two rotations
-  }
 }
 
 TEST(PoseErrors, a_hinge_bent_across_its_axis_shows_the_angle_and_turning_about_it_does_not) {

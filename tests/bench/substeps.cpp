@@ -7,10 +7,10 @@
 
 #include "core/clock.h"
 #include "core/hash.h"
+#include "model/joint_gap.h"
 #include "ode/collide/narrow_phase.h"
 #include "ode/objects/engine.h"
 #include "solver/worlds/sor_stepper.h"
-#include "stepping/observables.h"
 
 namespace pbmpi::bench {
 namespace {
@@ -72,7 +72,7 @@ class Side {
   void measure(int world) {
     const model::Model& model = *subject_->models[static_cast<std::size_t>(world)];
     for (const model::Joint& joint : model.joints) {
-      const double gap_m = stepping::joint_gap(model, stepper_->state(world), joint);
+      const double gap_m = model::joint_gap(model, stepper_->state(world), joint);
       square_sum_ += gap_m * gap_m;
       ++num_gaps_;
     }

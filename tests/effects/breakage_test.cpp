@@ -5,8 +5,8 @@
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
 #include "effects/sleepers.h"
+#include "model/joint_gap.h"
 #include "model/touch_rule.h"
-#include "stepping/observables.h"
 #include "support/models.h"
 
 namespace pbmpi::effects {
@@ -115,9 +115,9 @@ TEST(Breakage, takes_the_gap_of_joints_that_hold_only) {
   const model::Model model = weak_chain();
   model::State state = whole(model);
   state.position[2].z() += 3;
-  EXPECT_NEAR(stepping::max_joint_gap(model, state), 3, 1e-12);  // rounding at 5 m
+  EXPECT_NEAR(model::max_joint_gap(model, state), 3, 1e-12);  // rounding at 5 m
   state.broken_in[2] = 9;
-  EXPECT_NEAR(stepping::max_joint_gap(model, state), 0, 1e-12);
+  EXPECT_NEAR(model::max_joint_gap(model, state), 0, 1e-12);
 }
 
 TEST(Breakage, is_called_for_by_strengths_and_can_be_left_out) {

@@ -1,6 +1,7 @@
 /// Rows, islands and the other numbers that a stepper reports.
 #include <gtest/gtest.h>
 
+#include "model/mechanics.h"
 #include "simulation.h"
 #include "support/models.h"
 
@@ -75,9 +76,9 @@ TEST(Observables, follow_the_crash_from_three_islands_to_one) {
 TEST(Observables, give_the_energy_of_the_last_state) {
   Simulation simulation(support::free_box(), plain);
   simulation.advance(7);
-  EXPECT_EQ(simulation.energy(), stepping::mechanical_energy(simulation.model(), simulation.state()));
+  EXPECT_EQ(simulation.energy(), model::mechanical_energy(simulation.model(), simulation.state()));
   simulation.advance(1);
-  EXPECT_EQ(simulation.energy(), stepping::mechanical_energy(simulation.model(), simulation.state()));
+  EXPECT_EQ(simulation.energy(), model::mechanical_energy(simulation.model(), simulation.state()));
 }
 
 }  // namespace

@@ -7,13 +7,13 @@
 
 namespace pbmpi::solver {
 
-stepping::IslandCounts count_islands(const model::Model& model, const model::SpaceMap& map,
-                                     std::span<const Articulation> articulations, std::span<const int> units,
-                                     std::span<const model::Contact> contacts,
-                                     const std::function<std::optional<int>(int joint)>& joint_rows,
-                                     const effects::SpaceSleepers* sleepers) {
+stepping::Observables count_islands(const model::Model& model, const model::SpaceMap& map,
+                                    std::span<const Articulation> articulations, std::span<const int> units,
+                                    std::span<const model::Contact> contacts,
+                                    const std::function<std::optional<int>(int joint)>& joint_rows,
+                                    const effects::SpaceSleepers* sleepers) {
   const auto asleep = [&](int body) { return sleepers != nullptr && sleepers->asleep(body); };
-  stepping::IslandCounts counts;
+  stepping::Observables counts;
   model::DisjointSets sets(model.num_bodies());
   std::vector<int> rows(model.bodies.size(), 0);
   for (const model::Contact& contact : contacts) {

@@ -51,7 +51,7 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
                       std::vector<Contact>& contacts) override;
   void solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
              core::PhaseTimes& times) override;
-  stepping::IslandCounts count(std::span<const int> units, std::span<const Contact> contacts) const override;
+  stepping::Observables count(std::span<const int> units, std::span<const Contact> contacts) const override;
 
  private:
   stepping::Simd simd() const {
@@ -292,14 +292,14 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   after.lap(core::Phase::integrate);
 }
 
-stepping::IslandCounts SorSpaceStepper::count(std::span<const int> units,
-                                              std::span<const Contact> contacts) const {
+stepping::Observables SorSpaceStepper::count(std::span<const int> units,
+                                             std::span<const Contact> contacts) const {
   const auto joint_rows = [&](int joint) -> std::optional<int> {
     if (!state().acted_in(last_step_, static_cast<std::size_t>(joint))) return std::nullopt;
     return focused_.joint_rows(*pack_, 0, joint);
   };
-  stepping::IslandCounts counts = count_islands(*model_, map_, articulations_, units, contacts, joint_rows,
-                                                sleepers_ ? &*sleepers_ : nullptr);
+  stepping::Observables counts = count_islands(*model_, map_, articulations_, units, contacts, joint_rows,
+                                               sleepers_ ? &*sleepers_ : nullptr);
   counts.bodies_inside = bodies_inside_;
   return counts;
 }

@@ -8,6 +8,7 @@
 #include "effects/effects.h"
 #include "model/islands.h"
 #include "solver/pack/step_settings.h"
+#include "stepping/observable_table.h"
 
 namespace pbmpi::solver {
 
@@ -128,12 +129,6 @@ void SorWorld::keep_sleepers(model::State& state) const {
   }
 }
 
-/// Of a world that slept since it was last looked at: what its poses say is known.
-void SorWorld::observe_sleep() {
-  observables_.contacts = observables_.rows = observables_.max_island_rows = observables_.bodies_inside = 0;
-  observables_.max_penetration_m = 0;
-}
-
 void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
                           std::span<const model::Contact> contacts) {
   std::vector<std::pair<int, int>> links;
@@ -167,10 +162,7 @@ void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
 
 void SorWorld::observe(const Pack& pack, int index, const FocusedStep& step,
                        std::span<const model::Contact> contacts) {
-  if (!std::exchange(moved_, false)) {
-    observe_sleep();
-    return;
-  }
+  if (!std::exchange(moved_, false)) return stepping::observe_sleep(observables_);
   pack.store(index, state_);
   count_rows(pack, index, step, contacts);
   observables_.contacts = static_cast<int>(contacts.size());
@@ -179,9 +171,7 @@ void SorWorld::observe(const Pack& pack, int index, const FocusedStep& step,
   for (const model::Contact& contact : contacts) {
     observables_.max_penetration_m = std::max(observables_.max_penetration_m, contact.depth);
   }
-  observables_.energy_j = stepping::mechanical_energy(*model_, state_);
-  observables_.joint_gap_m = stepping::max_joint_gap(*model_, state_);
-  observables_.nonfinite = model::count_nonfinite(state_);
+  stepping::observe_state(*model_, state_, observables_);
 }
 
 }  // namespace pbmpi::solver

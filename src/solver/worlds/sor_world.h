@@ -85,7 +85,6 @@ class SorWorld {
   void let_go();
   std::span<const int> awake() const { return sleepers_ ? sleepers_->awake() : all_bodies_; }
   void show_awake(Pack& pack, int index) const;
-  void observe_sleep();
   void count_rows(const Pack& pack, int index, const FocusedStep& step,
                   std::span<const model::Contact> contacts);
 

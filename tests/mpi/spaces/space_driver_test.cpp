@@ -242,8 +242,8 @@ class FailingStepper final : public stepping::SpaceStepper {
     if (here_ && !collide_ && step_ == 20) throw core::RunError("solver lost");
     inner_->solve(units, contacts, step, times);
   }
-  stepping::IslandCounts count(std::span<const int> units,
-                               std::span<const model::Contact> contacts) const override {
+  stepping::Observables count(std::span<const int> units,
+                              std::span<const model::Contact> contacts) const override {
     return inner_->count(units, contacts);
   }
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "../helpers.h"
-#include "stepping/observables.h"
+#include "model/joint_gap.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -59,8 +59,7 @@ TEST(Human, stands_with_flat_feet_that_just_touch_the_ground) {
 TEST(Human, joins_segments_without_a_gap_wherever_he_stands) {
   for (const char* keys : {"", "heading = 37\nposition = [3, -2, 0.1]\n", "stance = 12\nheading = -100\n"}) {
     const auto model = build(scene_with("human", keys));
-    EXPECT_LT(stepping::max_joint_gap(*model, model::initial_state(*model)), 1e-14)
-        << keys;  // rounding at 4 m
+    EXPECT_LT(model::max_joint_gap(*model, model::initial_state(*model)), 1e-14) << keys;  // rounding at 4 m
   }
 }
 

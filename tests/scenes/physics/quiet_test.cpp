@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "../simulation.h"
-#include "stepping/observables.h"
+#include "model/mechanics.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -28,7 +28,7 @@ model::Model quiet_model(const Scene& scene) {
 double kinetic_energy(const model::Model& model, const model::State& state) {
   model::Model weightless = model;
   weightless.gravity.setZero();
-  return stepping::mechanical_energy(weightless, state);
+  return model::mechanical_energy(weightless, state);
 }
 
 constexpr double most_gap_m = 5e-3;  // a thickness of clothes: no gap that a viewer sees

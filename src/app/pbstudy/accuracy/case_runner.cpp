@@ -5,6 +5,7 @@
 
 #include "analysis/invariants.h"
 #include "core/statistics.h"
+#include "model/mechanics.h"
 
 namespace pbmpi::app {
 namespace {
@@ -28,9 +29,9 @@ void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector
     raise(result.max_joint_gap_m, seen.joint_gap_m);
     raise(result.max_penetration_m, seen.max_penetration_m);
     raise(result.energy_change_j,
-          std::abs(seen.energy_j - stepping::mechanical_energy(*worlds[i], reference[i])));
+          std::abs(seen.energy_j - model::mechanical_energy(*worlds[i], reference[i])));
     raise(result.momentum_change_ns,
-          (analysis::linear_momentum(*worlds[i], state) - analysis::linear_momentum(*worlds[i], reference[i]))
+          (model::linear_momentum(*worlds[i], state) - model::linear_momentum(*worlds[i], reference[i]))
               .norm());
     const auto segments = analysis::human_segments(*worlds[i]);
     for (const double stretch : analysis::segment_stretch(*worlds[i], segments, view(state))) {

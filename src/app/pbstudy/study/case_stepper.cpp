@@ -69,8 +69,7 @@ const State& CaseStepper::shown(int world) const {
 stepping::Observables CaseStepper::observables(int world) const {
   stepping::Observables seen = stepper_->observables(world);
   if (anytime_ == nullptr) return seen;
-  seen.joint_gap_m = stepping::max_joint_gap(stepper_->model(world), shown(world));
-  seen.energy_j = stepping::mechanical_energy(stepper_->model(world), shown(world));
+  stepping::observe_state(stepper_->model(world), shown(world), seen);
   return seen;
 }
 
