@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "io/hdf5/read_columns.h"
 #include "io/run/run_data.h"
+#include "stepping/observable_table.h"
 
 namespace pbmpi::io {
 namespace {
@@ -44,6 +45,15 @@ Table read_table(hid_t file, const std::string& path, std::int64_t rows, int ite
   const std::vector<double> values = read_doubles(file, path, rows, static_cast<hsize_t>(items));
   Table table;
   for (auto row = values.begin(); row != values.end(); row += items) table.emplace_back(row, row + items);
+  return table;
+}
+
+VectorTable read_vector_table(hid_t file, const std::string& path, std::int64_t rows, int items) {
+  const auto count = static_cast<std::size_t>(items);
+  const std::vector<double> values = read_doubles(file, path, rows, 3 * count);
+  VectorTable table;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row)
+    table.push_back(to_vectors(&values[row * 3 * count], count));
   return table;
 }
 
@@ -116,12 +126,22 @@ std::vector<bool> to_flags(const std::vector<std::int64_t>& values) {
   return flags;
 }
 
+/// A file of an older layout has no column for what was not measured then.
+void read_observables(hid_t file, RunData& run) {
+  for (const stepping::WorldColumn& column : stepping::world_observables) {
+    const std::string name(column.name), path = "/observables/world/" + name;
+    if (!has_object(file, path)) continue;
+    if (column.is_vector()) {
+      run.vector_observables[name] = read_vector_table(file, path, run.frames_committed, run.num_worlds);
+    } else {
+      run.observables[name] = read_table(file, path, run.frames_committed, run.num_worlds);
+    }
+  }
+}
+
 void read_frames(hid_t file, RunData& run) {
   const std::int64_t rows = run.frames_committed;
-  for (const char* name : {"contacts", "rows", "islands", "max_island_rows", "energy", "max_penetration",
-                           "joint_gap", "nonfinite"}) {
-    run.observables[name] = read_table(file, std::string("/observables/world/") + name, rows, run.num_worlds);
-  }
+  read_observables(file, run);
   run.frame_wall_s = read_doubles(file, "/timings/frame/wall", rows, 1);
   run.frame_measured = to_flags(read_integers(file, "/timings/frame/measured", rows));
   run.deadline_met = to_flags(read_integers(file, "/timings/frame/deadline_met", rows));

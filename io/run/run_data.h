@@ -43,6 +43,7 @@ struct IslandRow {
 
 /// Per-frame columns of one observable: [T][W], frame first.
 using Table = std::vector<std::vector<double>>;
+using VectorTable = std::vector<std::vector<core::Vec3>>;
 
 /// What FEEC adds to a run. Empty without it.
 struct EstimateData {
@@ -65,11 +66,13 @@ struct RunData {
   std::vector<double> recorded_time_s;               ///< [P]
   std::vector<std::vector<core::Vec3>> position;     ///< [P][N] m
   std::vector<std::vector<core::Quat>> orientation;  ///< [P][N]
-  std::map<std::string, Table> observables;          ///< name -> [T][W]
-  std::vector<double> frame_wall_s;                  ///< [T]
-  std::vector<bool> frame_measured;                  ///< [T]
-  std::vector<bool> deadline_met;                    ///< [T]
-  std::map<std::string, Table> rank_times;           ///< phase, "useful" -> [T][R] s; "messages", "bytes"
+  /// Columns of stepping::world_observables that the file has: name -> [T][W].
+  std::map<std::string, Table> observables;
+  std::map<std::string, VectorTable> vector_observables;
+  std::vector<double> frame_wall_s;             ///< [T]
+  std::vector<bool> frame_measured;             ///< [T]
+  std::vector<bool> deadline_met;               ///< [T]
+  std::map<std::string, Table> rank_times;      ///< phase, "useful" -> [T][R] s; "messages", "bytes"
   std::vector<std::vector<IslandRow>> islands;  ///< [T] of all worlds; empty unless the run recorded them
   std::map<std::string, Table> space_times;     ///< cross_contacts, collide, collide_spaces; as islands
   EstimateData estimate;

@@ -7,34 +7,25 @@
 namespace pbmpi::app {
 
 void LiveSummary::frame_done(const stepping::FrameRecord& frame) {
-  double islands = 0, contacts = 0, rows = 0, largest = 0;
-  energy_j_ = 0;
-  nonfinite_ = 0;
-  for (const stepping::LocalWorld& world : frame.worlds) {
-    const stepping::Observables& seen = *world.observables;
-    islands += seen.islands;
-    contacts += seen.contacts;
-    rows += seen.rows;
-    largest = std::max(largest, static_cast<double>(seen.max_island_rows));
-    energy_j_ += seen.energy_j;
-    nonfinite_ += seen.nonfinite;
-    if (frame.measured) {
-      max_joint_gap_m_ = std::max(max_joint_gap_m_, seen.joint_gap_m);
-      max_penetration_m_ = std::max(max_penetration_m_, seen.max_penetration_m);
-    }
+  observed_.measured.push_back(frame.measured);
+  std::vector<double> numbers(frame.worlds.size());
+  for (std::size_t i = 0; i < stepping::world_observables.size(); ++i) {
+    const stepping::WorldColumn& column = stepping::world_observables[i];
+    if (column.is_vector()) continue;
+    std::transform(frame.worlds.begin(), frame.worlds.end(), numbers.begin(),
+                   [&](const auto& world) { return stepping::number_of(*world.observables, column); });
+    observed_.joined[i].push_back(stepping::join(column.join, numbers));
   }
-  if (!frame.measured) return;
-  islands_.push_back(islands);
-  contacts_.push_back(contacts);
-  rows_.push_back(rows);
-  max_island_rows_.push_back(largest);
 }
 
 namespace {
 
-std::vector<double> reduced(const mpi::Communicator& comm, std::vector<double> values, mpi::Reduce op) {
-  comm.allreduce(std::span<double>(values), op);
-  return values;
+ObservedFrames join_ranks(const mpi::Communicator& comm, ObservedFrames observed) {
+  for (std::size_t i = 0; i < observed.joined.size(); ++i) {
+    const bool is_sum = stepping::world_observables[i].join == stepping::Join::sum;
+    comm.allreduce(std::span<double>(observed.joined[i]), is_sum ? mpi::Reduce::sum : mpi::Reduce::max);
+  }
+  return observed;
 }
 
 MeasuredFrames gather_times(const mpi::Communicator& comm, const mpi::WorldRunResult& result) {
@@ -47,8 +38,8 @@ MeasuredFrames gather_times(const mpi::Communicator& comm, const mpi::WorldRunRe
     frames.bytes.push_back(static_cast<double>(times.traffic.bytes));
     own.insert(own.end(), times.phases.seconds.begin(), times.phases.seconds.end());
   }
-  frames.messages = reduced(comm, frames.messages, mpi::Reduce::sum);
-  frames.bytes = reduced(comm, frames.bytes, mpi::Reduce::sum);
+  comm.allreduce(std::span<double>(frames.messages), mpi::Reduce::sum);
+  comm.allreduce(std::span<double>(frames.bytes), mpi::Reduce::sum);
   const std::vector<double> all = comm.allgatherv(std::span<const double>(own));
   frames.phases.resize(static_cast<std::size_t>(comm.size()));
   auto next = all.begin();
@@ -67,16 +58,9 @@ MeasuredFrames gather_times(const mpi::Communicator& comm, const mpi::WorldRunRe
 void LiveSummary::finish(const mpi::Communicator& comm, const mpi::WorldRunResult& result,
                          RunSummary& summary) const {
   MeasuredFrames frames = gather_times(comm, result);
-  frames.islands = reduced(comm, islands_, mpi::Reduce::sum);
-  frames.contacts = reduced(comm, contacts_, mpi::Reduce::sum);
-  frames.rows = reduced(comm, rows_, mpi::Reduce::sum);
-  frames.max_island_rows = reduced(comm, max_island_rows_, mpi::Reduce::max);
-  const std::vector<double> last = reduced(comm, {energy_j_, nonfinite_}, mpi::Reduce::sum);
-  const std::vector<double> largest = reduced(comm, {max_joint_gap_m_, max_penetration_m_}, mpi::Reduce::max);
-  summary.energy_j = last[0];
-  summary.nonfinite_bodies = static_cast<std::int64_t>(last[1]);
-  summary.max_joint_gap_m = largest[0];
-  summary.max_penetration_m = largest[1];
+  const ObservedFrames observed = join_ranks(comm, observed_);
+  take_counts(observed, frames);
+  take_invariants(observed, summary);
   summary.complete = !result.stopped && result.failure.empty();
   summary.state_hash = core::to_hex(result.state_hash);
   summary.joints_broken = joints_broken_;

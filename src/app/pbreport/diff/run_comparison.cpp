@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/pbreport/run/summary_from_file.h"
+
 namespace pbmpi::app {
 namespace {
+
+using stepping::column_of;
+using stepping::Observables;
 
 RecordedPoses precise(const io::RunData& run, std::size_t row) {
   return {&run.position[row], &run.orientation[row]};
@@ -33,30 +38,13 @@ analysis::ErrorTable summarize_all(const std::vector<analysis::PoseErrors>& fram
   return analysis::summarize(all);
 }
 
-double largest(const io::Table& table, const std::vector<bool>& measured) {
-  double value = 0;
-  for (std::size_t frame = 0; frame < table.size(); ++frame) {
-    if (!measured[frame]) continue;
-    for (const double of_world : table[frame]) value = std::max(value, of_world);
-  }
-  return value;
-}
-
-double sum(const std::vector<double>& values) {
-  double total = 0;
-  for (const double value : values) total += value;
-  return total;
-}
-
 RunInvariants invariants_of(const RunModels& models, const io::RunData& run) {
   RunInvariants kept;
-  kept.max_penetration_m = largest(run.observables.at("max_penetration"), run.frame_measured);
-  kept.max_joint_gap_m = largest(run.observables.at("joint_gap"), run.frame_measured);
-  const io::Table& energy = run.observables.at("energy");
-  if (!energy.empty()) {
-    kept.energy_first_j = sum(energy.front());
-    kept.energy_last_j = sum(energy.back());
-  }
+  const ObservedFrames observed = observed_frames(run);
+  kept.max_penetration_m = observed.largest_measured(column_of(&Observables::max_penetration_m));
+  kept.max_joint_gap_m = observed.largest_measured(column_of(&Observables::joint_gap_m));
+  kept.energy_first_j = observed.first(column_of(&Observables::energy_j));
+  kept.energy_last_j = observed.last(column_of(&Observables::energy_j));
   std::vector<double> stretch;
   for (const std::size_t row : measured_rows(run, run.position.size())) {
     const std::vector<double> more = recorded_stretch(models, precise(run, row));

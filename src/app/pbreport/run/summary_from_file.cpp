@@ -31,15 +31,6 @@ Number number_of(const io::RunData& run, const std::string& name, const std::str
   return number;
 }
 
-/// An observable summed over the worlds, of every frame (not only the measured ones).
-std::vector<double> sum_over_worlds(const io::RunData& run, const std::string& name) {
-  std::vector<double> sums;
-  const auto found = run.observables.find(name);
-  if (found == run.observables.end()) return sums;
-  for (const auto& worlds : found->second) sums.push_back(std::accumulate(worlds.begin(), worlds.end(), 0.0));
-  return sums;
-}
-
 /// A column of /timings/rank summed over the ranks, of every frame.
 std::vector<double> sum_over_ranks(const io::RunData& run, const std::string& name) {
   std::vector<double> sums(run.frame_measured.size(), 0);
@@ -48,27 +39,6 @@ std::vector<double> sum_over_ranks(const io::RunData& run, const std::string& na
   for (std::size_t frame = 0; frame < sums.size(); ++frame)
     sums[frame] = std::accumulate(found->second[frame].begin(), found->second[frame].end(), 0.0);
   return sums;
-}
-
-/// Rows of the largest island of any world, of every frame.
-std::vector<double> largest_islands(const io::RunData& run) {
-  std::vector<double> rows;
-  const auto found = run.observables.find("max_island_rows");
-  if (found == run.observables.end()) return std::vector<double>(run.frame_measured.size(), 0);
-  for (const auto& worlds : found->second) rows.push_back(*std::max_element(worlds.begin(), worlds.end()));
-  return rows;
-}
-
-/// The largest value in any world in the measured frames.
-double largest_measured(const io::RunData& run, const std::string& name) {
-  double largest = 0;
-  const auto found = run.observables.find(name);
-  if (found == run.observables.end()) return largest;
-  for (std::size_t frame = 0; frame < found->second.size(); ++frame) {
-    if (!run.frame_measured[frame]) continue;
-    for (double value : found->second[frame]) largest = std::max(largest, value);
-  }
-  return largest;
 }
 
 std::vector<double> only_measured(const std::vector<double>& values, const std::vector<bool>& measured) {
@@ -178,14 +148,23 @@ EstimateSummary estimate_of(const io::RunData& run, const std::string& path, dou
 
 }  // namespace
 
+ObservedFrames observed_frames(const io::RunData& run) {
+  ObservedFrames observed;
+  observed.measured = run.frame_measured;
+  for (std::size_t i = 0; i < stepping::world_observables.size(); ++i) {
+    const auto found = run.observables.find(std::string(stepping::world_observables[i].name));
+    if (found == run.observables.end()) continue;
+    for (const std::vector<double>& worlds : found->second)
+      observed.joined[i].push_back(stepping::join(stepping::world_observables[i].join, worlds));
+  }
+  return observed;
+}
+
 MeasuredFrames measured_frames(const io::RunData& run) {
   MeasuredFrames frames;
   frames.wall_s = only_measured(run.frame_wall_s, run.frame_measured);
   frames.phases = phases_by_rank(run);
-  frames.islands = only_measured(sum_over_worlds(run, "islands"), run.frame_measured);
-  frames.contacts = only_measured(sum_over_worlds(run, "contacts"), run.frame_measured);
-  frames.rows = only_measured(sum_over_worlds(run, "rows"), run.frame_measured);
-  frames.max_island_rows = only_measured(largest_islands(run), run.frame_measured);
+  take_counts(observed_frames(run), frames);
   frames.messages = only_measured(sum_over_ranks(run, "messages"), run.frame_measured);
   frames.bytes = only_measured(sum_over_ranks(run, "bytes"), run.frame_measured);
   return frames;
@@ -214,13 +193,8 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
       std::find(run.frame_measured.begin(), run.frame_measured.end(), true) - run.frame_measured.begin();
   compute_performance(measured_frames(run), summary);
 
-  const std::vector<double> energy = sum_over_worlds(run, "energy");
-  const std::vector<double> nonfinite = sum_over_worlds(run, "nonfinite");
   summary.first_frame = std::atoll(text_of(run.attributes, "first_frame").c_str());  // files of 1.0 have none
-  summary.energy_j = energy.empty() ? 0 : energy.back();
-  summary.nonfinite_bodies = nonfinite.empty() ? 0 : static_cast<std::int64_t>(nonfinite.back());
-  summary.max_joint_gap_m = largest_measured(run, "joint_gap");
-  summary.max_penetration_m = largest_measured(run, "max_penetration");
+  take_invariants(observed_frames(run), summary);
   summary.effects = effects_of(run, summary.seed);
   summary.effects_chosen = text_of(run.parameters, "effects");
   for (const std::string& event : run.events) count_rebalance(event, summary);

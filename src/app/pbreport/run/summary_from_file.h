@@ -3,10 +3,13 @@
 
 #include <string>
 
-#include "app/summary/run_summary.h"
+#include "app/summary/observed_frames.h"
 #include "io/run/run_data.h"
 
 namespace pbmpi::app {
+
+/// The file's observables, joined over the worlds.
+ObservedFrames observed_frames(const io::RunData& run);
 
 /// The measured frames' rows of the run's columns. Frames before the first measured one are warm-up.
 MeasuredFrames measured_frames(const io::RunData& run);

@@ -1,0 +1,64 @@
+#include "io/run/frame_table.h"
+
+#include "io/hdf5/rows.h"
+
+namespace pbmpi::io {
+namespace {
+
+std::vector<Range> own_items(Items items, const FrameSource& source) {
+  std::vector<Range> ranges;
+  switch (items) {
+    case Items::run:
+      if (source.rank == 0) ranges.push_back({0, 1});
+      break;
+    case Items::ranks:
+      ranges.push_back({source.own_rank(), 1});
+      break;
+    case Items::worlds:
+      for (const stepping::LocalWorld& world : source.frame.worlds)
+        append_range(ranges, static_cast<hsize_t>(world.id), 1);
+      break;
+    case Items::bodies:
+      for (const stepping::LocalWorld& world : source.frame.worlds)
+        append_range(ranges, source.first_body(world), world.state->position.size());
+      break;
+  }
+  return ranges;
+}
+
+}  // namespace
+
+std::int64_t num_items(const FrameTable& table, const RunShape& shape) {
+  switch (table.items) {
+    case Items::run:
+      return 0;
+    case Items::ranks:
+      return shape.num_ranks;
+    case Items::worlds:
+      return shape.num_worlds;
+    case Items::bodies:
+      return shape.num_bodies;
+  }
+  return 0;
+}
+
+std::size_t row_bytes(const FrameTable& table, const RunShape& shape) {
+  const std::int64_t items = table.items == Items::run ? 1 : num_items(table, shape);
+  return GrowingTable::row_bytes(table.columns, static_cast<hsize_t>(items));
+}
+
+void begin_row(const FrameTable& table, const FrameSource& source, GrowingTable& row) {
+  row.begin_row(own_items(table.items, source));
+}
+
+std::vector<FrameTable> frame_tables(const OptionalColumns& optional) {
+  std::vector<FrameTable> tables;
+  // The largest optional one last: only space at the end of the file goes when a run is cut.
+  for (const auto& group :
+       {body_tables(), observable_tables(optional), timing_tables(optional), estimate_tables(optional)}) {
+    tables.insert(tables.end(), group.begin(), group.end());
+  }
+  return tables;
+}
+
+}  // namespace pbmpi::io

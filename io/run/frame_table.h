@@ -1,0 +1,73 @@
+/// The groups of a run's file that grow with its frames, each as one table: its columns, and what puts a
+/// frame's row into them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/hdf5/growing_columns.h"
+#include "io/run/run_file.h"
+
+namespace pbmpi::io {
+
+/// Numbers of rows and items of a run's file.
+struct RunShape {
+  std::int64_t num_bodies = 0;
+  int num_worlds = 0;
+  int num_ranks = 1;
+  std::int64_t num_frames = 0;
+  int record_every = 1;
+  OptionalColumns optional;
+  std::int64_t first_frame = 0;  ///< number of the file's first frame
+
+  std::int64_t num_recorded() const { return num_frames / record_every; }
+};
+
+/// What the items of a row belong to; `run`: a row has one, and the columns are one-dimensional.
+enum class Items { run, ranks, worlds, bodies };
+
+/// Which frames have a row: all, or those in which the bodies are stored.
+enum class Rows { frames, recorded };
+
+/// A finished frame, and where its items stand in a row.
+struct FrameSource {
+  const stepping::FrameRecord& frame;
+  const stepping::WorldTable& table;
+  int rank = 0;
+
+  hsize_t own_rank() const { return static_cast<hsize_t>(rank); }
+  hsize_t first_body(const stepping::LocalWorld& world) const {
+    return static_cast<hsize_t>(table.body_offset[world.id]);
+  }
+};
+
+struct FrameTable {
+  std::string group;
+  std::vector<ColumnSpec> columns;
+  Items items;
+  Rows rows;
+  /// Puts this rank's items into the row that begin_row() has begun, columns in the order of `columns`. Of a
+  /// table with Items::run root alone is called.
+  void (*put)(const FrameSource& source, GrowingTable& row);
+};
+
+/// Items of a row; 0 for Items::run.
+std::int64_t num_items(const FrameTable& table, const RunShape& shape);
+
+/// Bytes of a row, all ranks together.
+std::size_t row_bytes(const FrameTable& table, const RunShape& shape);
+
+/// Begins the next row with the items that this rank has in this frame.
+void begin_row(const FrameTable& table, const FrameSource& source, GrowingTable& row);
+
+/// Groups of the file, in the order in which they are made.
+std::vector<FrameTable> body_tables();
+std::vector<FrameTable> observable_tables(const OptionalColumns& optional);
+std::vector<FrameTable> timing_tables(const OptionalColumns& optional);
+std::vector<FrameTable> estimate_tables(const OptionalColumns& optional);
+
+/// All of them for this run.
+std::vector<FrameTable> frame_tables(const OptionalColumns& optional);
+
+}  // namespace pbmpi::io
