@@ -35,7 +35,9 @@ SpaceStep::Measures SpaceStep::measure() {
   const model::State& state = stepper_->state();
   for (const int body : ownership_->bodies[comm_->rank()])
     own.energy_j.push_back(model::body_energy(model, state, body));
-  for (const model::Joint& joint : model.joints) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const model::Joint& joint = model.joints[i];
+    if (state.is_broken(i)) continue;
     if (ownership_->owner[stepper_->map().space_of_body(joint.body_a)] == comm_->rank())
       own.seen.joint_gap_m = std::max(own.seen.joint_gap_m, model::joint_gap(model, state, joint));
   }

@@ -103,7 +103,7 @@ class Breakage(ProgramTest):
                 self.assertEqual(cut["state_hash"], whole["state_hash"], ranks)
                 self.assertEqual(self.broken("cut.h5"), self.broken("whole.h5"))
                 with h5py.File(self.path("cut.h5")) as a, h5py.File(self.path("whole.h5")) as b:
-                    for column in ("islands", "rows", "max_island_rows"):
+                    for column in ("islands", "rows", "max_island_rows", "joint_gap"):
                         name = "observables/world/" + column
                         self.assertEqual(a[name][:].tolist(), b[name][:].tolist(), column)
 
