@@ -44,6 +44,8 @@ inline constexpr auto world_observables = std::to_array<WorldColumn>({
     {"max_penetration", "m", &Observables::max_penetration_m, Join::max, Asleep::zero},
     {"joint_gap", "m", &Observables::joint_gap_m, Join::max, Asleep::as_before},
     {"nonfinite", "", &Observables::nonfinite, Join::sum, Asleep::as_before},
+    {"linear_momentum", "kg m s-1", &Observables::linear_momentum, Join::sum, Asleep::as_before},
+    {"angular_momentum", "kg m2 s-1", &Observables::angular_momentum, Join::sum, Asleep::as_before},
 });
 
 /// Group /observables/interest, with the effect "field_of_interest".

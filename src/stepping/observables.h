@@ -1,6 +1,8 @@
 /// What is measured of a world each frame. observable_table.h lists the columns that follow from it.
 #pragma once
 
+#include <array>
+
 #include "model/model.h"
 #include "model/state.h"
 
@@ -31,7 +33,9 @@ struct Observables {
   double max_penetration_m = 0;  ///< deepest contact
   double joint_gap_m = 0;  ///< largest distance between the two anchors of a joint that holds, after the step
   int nonfinite = 0;       ///< bodies with a NaN or an infinity
-  Residuals residuals;     ///< all 0 unless they are asked for (StepperSettings::residuals)
+  std::array<double, 3> linear_momentum{};   ///< [kg m/s] of all bodies
+  std::array<double, 3> angular_momentum{};  ///< [kg m^2/s] of all bodies, about the world's origin
+  Residuals residuals;                       ///< all 0 unless they are asked for (StepperSettings::residuals)
 };
 
 /// Measures what follows from the state after a step, whatever the engine: all of observe_bodies(), energy

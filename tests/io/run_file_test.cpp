@@ -67,6 +67,10 @@ void expect_sample(const RunData& run, const Sample& sample, std::int64_t num_fr
       EXPECT_EQ(run.observables.at("contacts")[k][w], seen.contacts);
       EXPECT_EQ(run.observables.at("energy")[k][w], seen.energy_j);
       EXPECT_EQ(run.observables.at("joint_gap")[k][w], seen.joint_gap_m);
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(run.vector_observables.at("linear_momentum")[k][w][axis], seen.linear_momentum[axis]);
+        EXPECT_EQ(run.vector_observables.at("angular_momentum")[k][w][axis], seen.angular_momentum[axis]);
+      }
     }
     for (int r = 0; r < sample.num_ranks; ++r) {
       EXPECT_EQ(run.rank_times.at("collide")[k][r], sample_phase_s(r, 0, k));
@@ -92,7 +96,7 @@ TEST(RunFile, reads_back_every_number_of_a_complete_run) {
   EXPECT_EQ(run.attributes.at("state_hash"), "0123456789abcdef");
   EXPECT_EQ(run.attributes.at("scene"), "Sample");
   EXPECT_EQ(run.attributes.at("seed"), "7");
-  EXPECT_EQ(run.attributes.at("version"), "1.1");
+  EXPECT_EQ(run.attributes.at("version"), "1.2");
   EXPECT_EQ(run.parameters.at("dt_s"), "0.01");
   EXPECT_EQ(run.parameters.at("scene_text"), "[[actor]]\nkind = \"human\"\n");
   EXPECT_EQ(run.parameters.at("empty"), "");

@@ -55,6 +55,8 @@ stepping::Observables sample_observables(int world, std::int64_t frame) {
           .max_penetration_m = 1e-3 * (world + 1),
           .joint_gap_m = 1e-4 * (k + 1),
           .nonfinite = 0,
+          .linear_momentum = {0.5 * world, 0.25 * k, -1.0},
+          .angular_momentum = {1.0 * world, -0.5 * k, 2.0},
           .residuals = {1e-3 * (k + 1), 2e-3 * k, 1e-4 * world, 3e-3 * (k + 1), 4e-3 * k}};
 }
 

@@ -44,6 +44,14 @@ TEST(ObservableTable, joins_what_ranks_have_seen_of_one_world) {
   EXPECT_EQ(all.bodies_inside, 2);
 }
 
+TEST(ObservableTable, joins_vectors_by_component) {
+  Observables all, part;
+  all.linear_momentum = {1, 2, 3};
+  part.linear_momentum = {10, -20, 30};
+  join(all, part);
+  EXPECT_EQ(all.linear_momentum, (std::array<double, 3>{11, -18, 33}));
+}
+
 TEST(ObservableTable, joins_no_numbers_to_zero) {
   EXPECT_EQ(join(Join::sum, {}), 0);
   EXPECT_EQ(join(Join::max, {}), 0);
