@@ -21,12 +21,11 @@ void rewrite(const File& file, const char* object, const std::string& name, std:
 
 }  // namespace
 
-void create_commit_attributes(hid_t root, hid_t events) {
+void create_commit_attributes(hid_t root, hid_t events, const EventCounts& counts) {
   write_attribute(root, "frames_committed", std::int64_t{0});
   write_attribute(root, "complete", std::int64_t{0});
   write_attribute(root, "state_hash", std::string(hash_digits, ' '));
-  write_attribute(events, "num_events", std::int64_t{0});
-  write_attribute(events, "num_dropped", std::int64_t{0});
+  for (const auto& [name, count] : counts) write_attribute(events, name, count);
 }
 
 CommitRecord::CommitRecord(const std::string& path) {
@@ -37,19 +36,23 @@ CommitRecord::CommitRecord(const std::string& path) {
   file_ = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "H5Fopen");
 }
 
-void CommitRecord::commit(std::int64_t num_frames, std::int64_t num_events) {
-  rewrite(file_, "/events", "num_events", num_events);
+void CommitRecord::commit(std::int64_t num_frames, const EventCounts& events) {
+  rewrite_counts(events);
   rewrite(file_, "/", "frames_committed", num_frames);
   flush();
 }
 
-void CommitRecord::finish(bool complete, const std::string& state_hash, std::int64_t events_dropped) {
+void CommitRecord::finish(bool complete, const std::string& state_hash, const EventCounts& events) {
   std::string padded = state_hash;
   padded.resize(hash_digits, ' ');
   rewrite(file_, "/", "state_hash", text_type(hash_digits), padded.data());
-  rewrite(file_, "/events", "num_dropped", events_dropped);
+  rewrite_counts(events);
   rewrite(file_, "/", "complete", complete ? 1 : 0);
   flush();
+}
+
+void CommitRecord::rewrite_counts(const EventCounts& events) {
+  for (const auto& [name, count] : events) rewrite(file_, "/events", name, count);
 }
 
 void CommitRecord::flush() { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush"); }

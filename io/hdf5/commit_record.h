@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "io/hdf5/hdf5_handle.h"
@@ -11,9 +12,12 @@ namespace pbmpi::io {
 /// Digits of state_hash.
 inline constexpr std::size_t hash_digits = 16;
 
+/// Attributes of /events that count: name -> number.
+using EventCounts = std::map<std::string, std::int64_t>;
+
 /// Makes the attributes that a CommitRecord overwrites, at their final size: a change later is a few bytes in
 /// place. Part of the skeleton: collective.
-void create_commit_attributes(hid_t root, hid_t events);
+void create_commit_attributes(hid_t root, hid_t events, const EventCounts& counts);
 
 /// Root's own handle of the file beside the one through which all ranks write data. With it no rank changes
 /// metadata through the common handle once the skeleton stands: there an error on one rank (a full disk)
@@ -24,13 +28,14 @@ class CommitRecord {
   explicit CommitRecord(const std::string& path);
 
   /// Vouches for the first rows; the caller has seen to it that they are in the file.
-  void commit(std::int64_t num_frames, std::int64_t num_events);
+  void commit(std::int64_t num_frames, const EventCounts& events);
   /// What is known at the end of the run.
-  void finish(bool complete, const std::string& state_hash, std::int64_t events_dropped);
+  void finish(bool complete, const std::string& state_hash, const EventCounts& events);
   /// False if HDF5 could not write all of it.
   bool close() { return file_.close(); }
 
  private:
+  void rewrite_counts(const EventCounts& events);
   void flush();
 
   File file_;

@@ -19,6 +19,18 @@ std::string text_or(const std::map<std::string, std::string>& texts, const std::
   return found == texts.end() || found->second.empty() ? fallback : found->second;
 }
 
+/// "frame 12: rebalance: 3 worlds moved", and how many more there were.
+std::vector<std::string> event_lines(const RunData& run) {
+  std::vector<std::string> lines;
+  for (const stepping::RunEvent& event : run.events)
+    lines.push_back("frame " + std::to_string(event.frame) + ": " + event.kind + ": " + event.detail);
+  std::int64_t all = 0;
+  for (const auto& [kind, count] : run.num_events) all += count;
+  const std::int64_t more = all - std::ssize(lines);
+  if (more > 0) lines.push_back("and " + std::to_string(more) + " more, for which the file has no room");
+  return lines;
+}
+
 std::string about_json(const RunData& run, const PageOptions& options) {
   json about;
   about["scene"] = text_or(run.attributes, "scene", "run");
@@ -26,7 +38,7 @@ std::string about_json(const RunData& run, const PageOptions& options) {
   about["frames_committed"] = run.frames_committed;
   about["attributes"] = run.attributes;
   about["parameters"] = run.parameters;
-  about["events"] = run.events;
+  about["events"] = event_lines(run);
   about["facts"] = json::array();
   for (const Fact& fact : options.facts) {
     about["facts"].push_back({{"label", fact.label}, {"value", fact.value}, {"note", fact.note}});

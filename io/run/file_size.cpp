@@ -13,8 +13,8 @@ std::int64_t estimate_file_bytes(std::int64_t num_bodies, int num_worlds, int nu
   constexpr std::int64_t metadata_bytes = std::int64_t{128} * 1024;
   return num_frames * static_cast<std::int64_t>(frame.every_frame) +
          shape.num_recorded() * static_cast<std::int64_t>(frame.recorded) + num_bodies * body_bytes +
-         num_worlds * world_bytes + num_ranks * rank_bytes + static_cast<std::int64_t>(event_bytes()) +
-         metadata_bytes;
+         num_worlds * world_bytes + num_ranks * rank_bytes +
+         static_cast<std::int64_t>(EventColumns::bytes()) + metadata_bytes;
 }
 
 }  // namespace pbmpi::io

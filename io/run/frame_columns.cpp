@@ -7,12 +7,6 @@
 namespace pbmpi::io {
 namespace {
 
-const std::vector<ColumnSpec>& event_columns() {
-  static const std::vector<ColumnSpec> columns = {
-      {"frame", H5T_NATIVE_INT64}, {"kind", 0, 1, "", 24}, {"detail", 0, 1, "", 160}};
-  return columns;
-}
-
 /// Frames that wait at most: what all ranks together hold of them stays below 32 MiB, unless one is larger.
 std::int64_t frames_to_hold(const RunShape& shape) {
   constexpr std::size_t most_bytes = std::size_t{32} << 20;
@@ -50,8 +44,6 @@ FrameBytes frame_bytes(const RunShape& shape) {
   return bytes;
 }
 
-std::size_t event_bytes() { return max_events * GrowingTable::row_bytes(event_columns(), 1); }
-
 FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const stepping::WorldTable& table,
                            const RunShape& shape)
     : ranks_(ranks),
@@ -60,7 +52,7 @@ FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const stepping::W
       first_frame_(shape.first_frame),
       frames_held_(frames_to_hold(shape)),
       groups_(frame_tables(shape.optional)),
-      events_(file, ranks, "/events", event_columns(), {max_events, 0, max_events}) {
+      events_(file, ranks) {
   for (const FrameTable& group : groups_)
     rows_.emplace_back(file, ranks, group.group, group.columns, table_shape(group, shape));
   link_step_and_time(file);
@@ -77,19 +69,8 @@ void FrameColumns::add(const stepping::FrameRecord& frame) {
   }
 }
 
-void FrameColumns::add(const stepping::RunEvent& event) {
-  if (events_.num_rows() + events_.num_waiting() == max_events) {
-    ++events_dropped_;
-    return;
-  }
-  events_.begin_row(ranks_.is_root() ? std::vector<Range>{{0, 1}} : std::vector<Range>{});
-  events_.put(0, 0, event.frame);
-  events_.put_text(1, event.kind);
-  events_.put_text(2, event.detail);
-}
-
 std::vector<GrowingTable*> FrameColumns::tables() {
-  std::vector<GrowingTable*> all = {&events_};
+  std::vector<GrowingTable*> all = {&events_.rows()};
   for (GrowingTable& rows : rows_) all.push_back(&rows);
   return all;
 }

@@ -8,6 +8,7 @@
 
 #include "io/hdf5/growing_columns.h"
 #include "io/hdf5/parallel_file.h"
+#include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
 
 namespace pbmpi::io {
@@ -19,10 +20,6 @@ struct FrameBytes {
 };
 FrameBytes frame_bytes(const RunShape& shape);
 
-/// Events that a file can hold, and the bytes of their preallocated rows.
-inline constexpr int max_events = 512;
-std::size_t event_bytes();
-
 /// Makes the growing datasets, takes in frames and events, and writes what waits.
 class FrameColumns {
  public:
@@ -30,13 +27,12 @@ class FrameColumns {
   FrameColumns(hid_t file, const FileRanks& ranks, const stepping::WorldTable& table, const RunShape& shape);
 
   void add(const stepping::FrameRecord& frame);
-  void add(const stepping::RunEvent& event);
+  void add(const stepping::RunEvent& event) { events_.add(event); }
   /// No room for another frame: write() first.
   bool full() const { return frames_added_ - frames_written_ == frames_held_; }
-  bool empty() const { return frames_added_ == frames_written_ && events_.num_waiting() == 0; }
+  bool empty() const { return frames_added_ == frames_written_ && events_.rows().num_waiting() == 0; }
   std::int64_t frames_written() const { return frames_written_; }
-  std::int64_t events_written() const { return static_cast<std::int64_t>(events_.num_rows()); }
-  std::int64_t events_dropped() const { return events_dropped_; }
+  EventCounts event_counts() const { return events_.counts(); }
 
   /// Collective. The first error of this rank, empty if there was none.
   std::string write(const PropertyList& transfer);
@@ -60,11 +56,10 @@ class FrameColumns {
   std::int64_t first_frame_;
   std::int64_t frames_held_;  ///< frames that can wait
   std::int64_t frames_added_ = 0, frames_written_ = 0;
-  std::int64_t events_dropped_ = 0;
   bool wrote_collectively_ = false;
   std::vector<FrameTable> groups_;
   std::deque<GrowingTable> rows_;  ///< [groups]
-  GrowingTable events_;
+  EventColumns events_;
 };
 
 }  // namespace pbmpi::io

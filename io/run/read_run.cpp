@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "io/hdf5/read_columns.h"
+#include "io/run/event_columns.h"
 #include "io/run/run_data.h"
 #include "stepping/observable_table.h"
 
@@ -176,18 +177,6 @@ void read_profiles(hid_t file, RunData& run) {
   }
 }
 
-std::vector<std::string> read_events(hid_t file) {
-  const std::int64_t count = integer_attribute(file, "/events", "num_events");
-  const auto frame = read_integers(file, "/events/frame", count);
-  const auto kind = read_texts(file, "/events/kind", count);
-  const auto detail = read_texts(file, "/events/detail", count);
-  std::vector<std::string> events;
-  for (std::size_t i = 0; i < frame.size(); ++i) {
-    events.push_back("frame " + std::to_string(frame[i]) + ": " + kind[i] + ": " + detail[i]);
-  }
-  return events;
-}
-
 RunData read_all(hid_t file) {
   RunData run;
   run.attributes = attributes_as_text(file, "/");
@@ -207,7 +196,7 @@ RunData read_all(hid_t file) {
   read_frames(file, run);
   read_profiles(file, run);
   read_estimate(file, run.frames_committed / record_every, run);
-  run.events = read_events(file);
+  read_events(file, run);
   return run;
 }
 

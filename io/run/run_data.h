@@ -10,6 +10,7 @@
 #include "core/clock.h"
 #include "core/vector.h"
 #include "model/model.h"
+#include "stepping/run_event.h"
 
 namespace pbmpi::io {
 
@@ -76,8 +77,10 @@ struct RunData {
   std::vector<std::vector<IslandRow>> islands;  ///< [T] of all worlds; empty unless the run recorded them
   std::map<std::string, Table> space_times;     ///< cross_contacts, collide, collide_spaces; as islands
   EstimateData estimate;
-  std::vector<std::string> hosts;   ///< [R]
-  std::vector<std::string> events;  ///< "frame 12: rebalance: ..."
+  std::vector<std::string> hosts;                  ///< [R]
+  std::vector<stepping::RunEvent> events;          ///< that have a row in the file, as they came
+  std::map<std::string, std::int64_t> num_events;  ///< kind -> number, those without a row included
+  std::int64_t worlds_moved = 0;                   ///< in all rebalances: worlds, or spaces
 };
 
 /// Reads the committed frames of a pbmpi-run file (also one that was cut off by a kill). Throws

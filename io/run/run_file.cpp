@@ -120,7 +120,7 @@ void RunFile::Impl::flush() {
     // The data of all ranks are in the file before the number that vouches for them. They may still be on
     // their way to the disk: a kill does not lose them, and waiting would cost some percent of the run.
     write_together([this] {
-      if (ranks_.is_root()) record_.commit(columns_->frames_written(), columns_->events_written());
+      if (ranks_.is_root()) record_.commit(columns_->frames_written(), columns_->event_counts());
     });
   }
   last_flush_s_ = core::now_s();
@@ -141,7 +141,7 @@ void RunFile::Impl::close(bool complete, const std::string& state_hash) {
 }
 
 void RunFile::Impl::finish(bool complete, const std::string& state_hash) {
-  record_.finish(complete, state_hash, columns_->events_dropped());
+  record_.finish(complete, state_hash, columns_->event_counts());
   if (!record_.close()) check(-1, "H5Fclose");
   File file = open_alone(target_.path());
   const std::vector<ByteRange> unused = columns_->cut(file.id());

@@ -6,6 +6,7 @@
 #include "io/hdf5/columns.h"
 #include "io/hdf5/commit_record.h"
 #include "io/hdf5/file_types.h"
+#include "io/run/event_columns.h"
 #include "io/run/static_columns.h"
 
 namespace pbmpi::io {
@@ -58,7 +59,7 @@ void write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   write_attribute(root.id(), "record_every", std::int64_t{setup.record_every});
   write_attribute(root.id(), "first_frame", setup.first_frame);
   const Group events = create_group(file, "/events");
-  create_commit_attributes(root.id(), events.id());
+  create_commit_attributes(root.id(), events.id(), EventColumns::no_counts());
 }
 
 void write_parameters(const FileRanks& ranks, hid_t file, const std::vector<Parameter>& parameters) {

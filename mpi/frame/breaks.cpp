@@ -7,7 +7,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// As it travels. Longer names are cut.
+/// A broken joint as it travels. Longer names are cut.
 struct Break {
   std::int32_t step = 0, world = 0, joint = 0;
   std::array<char, 100> name{};
@@ -43,9 +43,15 @@ std::vector<stepping::RunEvent> find_breaks(const Communicator& comm,
   std::sort(breaks.begin(), breaks.end(), [&](const Break& a, const Break& b) { return key(a) < key(b); });
   std::vector<stepping::RunEvent> events;
   for (const Break& one : breaks) {
-    events.push_back({frame, stepping::joint_broken,
-                      "world " + std::to_string(one.world) + ": '" + one.name.data() + "' broke in step " +
-                          std::to_string(one.step)});
+    const std::string name = one.name.data();
+    events.push_back({.frame = frame,
+                      .kind = stepping::event_kind::joint_broken,
+                      .detail = "world " + std::to_string(one.world) + ": '" + name + "' broke in step " +
+                                std::to_string(one.step),
+                      .step = one.step,
+                      .world = one.world,
+                      .joint = one.joint,
+                      .name = name});
   }
   return events;
 }

@@ -9,6 +9,9 @@
 #include "mpi/frame/breaks.h"
 
 namespace pbmpi::mpi {
+
+namespace event_kind = stepping::event_kind;
+
 namespace {
 
 /// Throws core::InputError unless a driver of `num_ranks` ranks can run these settings.
@@ -121,9 +124,10 @@ void FrameDriver::run_frame() {
   if (status.nonfinite_world >= 0) note_failure(status.nonfinite_world);
   if (frame_ + 1 < num_frames()) {
     if (status.stop != 0) {
-      end_early("signal", "stop requested (signal " + std::to_string(status.stop) + ")");
+      end_early(event_kind::signal, "stop requested (signal " + std::to_string(status.stop) + ")",
+                status.stop);
     } else if (verdict.time_is_up != 0) {
-      end_early("time_limit", "the time that the run was given is up");
+      end_early(event_kind::time_limit, "the time that the run was given is up");
     }
   }
   if (verdict.saves != 0) save(record.step);
@@ -168,9 +172,9 @@ FrameDriver::Verdict FrameDriver::decide(double frame_start_s, double delivered_
   return verdict;
 }
 
-void FrameDriver::end_early(const std::string& kind, const std::string& why) {
+void FrameDriver::end_early(const std::string& kind, const std::string& why, int value) {
   result_.stopped = true;
-  announce({frame_, kind, why});
+  announce({.frame = frame_, .kind = kind, .detail = why, .value = static_cast<double>(value)});
 }
 
 void FrameDriver::save(std::int64_t step) {
@@ -196,7 +200,10 @@ void FrameDriver::save(std::int64_t step) {
   comm_.bcast_string(detail);
   if (ends_run) result_.save_failure = failure;
   last_output_s_ += core::now_s() - start_s;
-  announce({frame_, "checkpoint", detail});
+  announce({.frame = frame_,
+            .kind = event_kind::checkpoint,
+            .detail = detail,
+            .value = failure.empty() ? 1.0 : 0.0});
 }
 
 void FrameDriver::publish(const stepping::FrameRecord& frame) {
@@ -227,7 +234,10 @@ void FrameDriver::rebalance(std::int64_t num_moves, std::int64_t step) {
   ++result_.num_rebalances;
   result_.worlds_moved += num_moves;
   result_.rebalance_s += core::now_s() - start_s;
-  announce({frame_, "rebalance", detail});
+  announce({.frame = frame_,
+            .kind = event_kind::rebalance,
+            .detail = detail,
+            .value = static_cast<double>(num_moves)});
 }
 
 void FrameDriver::note_failure(int world) {

@@ -155,7 +155,7 @@ class FrameDriver {
   void run_frame();
   Status agree_on_status();
   Verdict decide(double frame_start_s, double delivered_s, const Status& status);
-  void end_early(const std::string& kind, const std::string& why);
+  void end_early(const std::string& kind, const std::string& why, int value = 0);
   void save(std::int64_t step);
   void publish(const stepping::FrameRecord& frame);
   void rebalance(std::int64_t num_moves, std::int64_t step);

@@ -10,6 +10,7 @@
 #include "model/model.h"
 #include "model/state.h"
 #include "stepping/observables.h"
+#include "stepping/run_event.h"
 #include "stepping/step_profile.h"
 
 namespace pbmpi::stepping {
@@ -56,16 +57,6 @@ struct FrameRecord {
   double wall_s = 0;          ///< start of the frame to the end of its gather: the same on every rank
   bool deadline_met = false;  ///< wall_s within the frame budget: the same on every rank
   const EstimateRecord* estimate = nullptr;  ///< none without FEEC
-};
-
-/// RunEvent::kind of a joint that broke.
-inline constexpr const char* joint_broken = "joint_broken";
-
-/// Something that happened to the run, for the file's /events.
-struct RunEvent {
-  std::int64_t frame = 0;
-  std::string kind;    ///< "rebalance", "signal", "time_limit", "checkpoint", joint_broken
-  std::string detail;  ///< one line for people
 };
 
 /// Called on every rank in lock step, so that an implementation may do collective work.

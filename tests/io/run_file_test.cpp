@@ -86,7 +86,8 @@ TEST(RunFile, reads_back_every_number_of_a_complete_run) {
   const Sample sample = sample_on(world());
   const std::string path = folder.file("run.h5");
   const auto file = begin_run(world(), sample, path, sample.num_frames);
-  file->event({4, "rebalance", "moved 2 worlds"});
+  file->event({.frame = 4, .kind = "rebalance", .detail = "moved 2 worlds", .value = 2});
+  file->event({5, "joint_broken", "a hinge", 17, 1, 3, "door.hinge"});
   file->close(true, "0123456789abcdef");
   if (!world().is_root()) return;
 
@@ -100,7 +101,16 @@ TEST(RunFile, reads_back_every_number_of_a_complete_run) {
   EXPECT_EQ(run.parameters.at("dt_s"), "0.01");
   EXPECT_EQ(run.parameters.at("scene_text"), "[[actor]]\nkind = \"human\"\n");
   EXPECT_EQ(run.parameters.at("empty"), "");
-  EXPECT_EQ(run.events, std::vector<std::string>{"frame 4: rebalance: moved 2 worlds"});
+  ASSERT_EQ(run.events.size(), 2u);
+  EXPECT_EQ(run.events[0].frame, 4);
+  EXPECT_EQ(run.events[0].kind, "rebalance");
+  EXPECT_EQ(run.events[0].detail, "moved 2 worlds");
+  EXPECT_EQ(run.events[0].value, 2);
+  EXPECT_EQ(run.events[0].world, -1);
+  EXPECT_EQ(run.events[1].step, 17);
+  EXPECT_EQ(run.events[1].world, 1);
+  EXPECT_EQ(run.events[1].joint, 3);
+  EXPECT_EQ(run.events[1].name, "door.hinge");
   EXPECT_EQ(folder.num_files(), 1u) << "only the file itself is left in the folder";
 }
 
@@ -267,13 +277,17 @@ TEST(RunFile, counts_the_events_for_which_it_has_no_room) {
   const Sample sample = sample_on(world());
   const std::string path = folder.file("run.h5");
   const auto file = begin_run(world(), sample, path, 0);
-  for (int i = 0; i < 520; ++i) file->event({i, "signal", "é" + std::string(200, 'x')});
+  for (int i = 0; i < 510; ++i) file->event({i, "joint_broken", "é" + std::string(200, 'x')});
+  for (int i = 510; i < 520; ++i) file->event({.frame = i, .kind = "rebalance", .value = 3});
   file->close(false, "");
   if (!world().is_root()) return;
   const RunData run = read_run(path);
   ASSERT_EQ(run.events.size(), 512u) << "the preallocated rows (io/SCHEMA.md)";
-  EXPECT_EQ(run.events[511], "frame 511: signal: é" + std::string(158, 'x'))
-      << "cut to the column's 160 bytes";
+  EXPECT_EQ(run.events[509].detail, "é" + std::string(158, 'x')) << "cut to the column's 160 bytes";
+  EXPECT_EQ(run.num_events.at("joint_broken"), 510);
+  EXPECT_EQ(run.num_events.at("rebalance"), 10) << "of which two have a row";
+  EXPECT_EQ(run.num_events.at("signal"), 0);
+  EXPECT_EQ(run.worlds_moved, 30);
 }
 
 TEST(RunFile, replaces_an_older_file_and_follows_a_link_to_it) {

@@ -13,7 +13,7 @@ class LiveSummary final : public stepping::FrameObserver {
  public:
   void frame_done(const stepping::FrameRecord& frame) override;
   void event(const stepping::RunEvent& event) override {
-    joints_broken_ += event.kind == stepping::joint_broken ? 1 : 0;
+    joints_broken_ += event.kind == stepping::event_kind::joint_broken ? 1 : 0;
   }
 
   /// Collective. Fills what is measured into `summary`, whose settings (worlds, bodies, ranks,

@@ -36,7 +36,9 @@ io::RunData small_run() {
   run.rank_times["collide"] = {{5, 5}, {0.001, 0.0005}, {0.003, 0.0015}};
   run.rank_times["wait"] = {{5, 5}, {0, 0.0005}, {0.001, 0.0005}};
   run.rank_times["useful"] = {{5, 5}, {0.001, 0.0005}, {0.003, 0.0015}};
-  run.events = {"frame 1: rebalance: 3 worlds moved", "frame 2: signal: TERM"};
+  run.events = {{1, "rebalance", "3 worlds moved"}, {2, "signal", "TERM"}};
+  run.num_events = {{"rebalance", 2}, {"signal", 1}, {"joint_broken", 700}};  // more than there are rows
+  run.worlds_moved = 5;
   return run;
 }
 
@@ -97,8 +99,13 @@ TEST(SummaryFromFile, carries_settings_and_hosts_once) {
   EXPECT_EQ(summary.hosts, std::vector<std::string>{"a"});
   EXPECT_EQ(summary.output, "x.h5");
   EXPECT_EQ(summary.state_hash, "00000000000000ff");
-  EXPECT_EQ(summary.rebalances, 1);
-  EXPECT_EQ(summary.worlds_moved, 3);
+}
+
+TEST(SummaryFromFile, counts_events_for_which_the_file_had_no_row) {
+  const RunSummary summary = summary_from_file(small_run(), "x.h5");
+  EXPECT_EQ(summary.rebalances, 2);
+  EXPECT_EQ(summary.worlds_moved, 5);
+  EXPECT_EQ(summary.joints_broken, 700);
 }
 
 TEST(SummaryFromFile, a_rank_without_work_is_idle) {

@@ -184,7 +184,8 @@ RunData sample_run(const SampleSize& size) {
   run.num_worlds = size.num_worlds;
   run.num_ranks = size.num_ranks;
   run.hosts.assign(static_cast<std::size_t>(size.num_ranks), "node1");
-  run.events = {"frame 2: rebalance: 1 world moved"};
+  run.events = {{2, "rebalance", "1 world moved"}};
+  run.num_events = {{"rebalance", 1}};
   Builder builder(run);
   for (int world = 0; world < size.num_worlds; ++world) {
     builder.begin_world(world);

@@ -107,7 +107,7 @@ TEST_P(SpaceBreakage, tells_of_each_joint_once_on_every_rank) {
                     std::to_string(whole->state(0).broken_in[joint]));
   }
   for (const stepping::RunEvent& event : run_spaces(world(), model, settings, {}, Oracle::none).events) {
-    EXPECT_EQ(event.kind, stepping::joint_broken);
+    EXPECT_EQ(event.kind, stepping::event_kind::joint_broken);
     told.insert(event.detail);
   }
   EXPECT_EQ(told, expected);

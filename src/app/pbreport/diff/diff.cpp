@@ -78,7 +78,9 @@ std::string to_json(const DiffOptions& options, const RunComparison& c, bool sam
   json["invariants"] = {{"run", invariants_json(c.run)}, {"reference", invariants_json(c.reference)}};
   json["joints_broken"] = {{"in_both", c.breaks.in_both},
                            {"in_run_only", breaks_json(c.breaks.in_run_only)},
-                           {"in_reference_only", breaks_json(c.breaks.in_reference_only)}};
+                           {"in_reference_only", breaks_json(c.breaks.in_reference_only)},
+                           {"unknown_in_run", c.breaks.unknown_in_run},
+                           {"unknown_in_reference", c.breaks.unknown_in_reference}};
   return json.dump(2) + "\n";
 }
 
@@ -140,10 +142,17 @@ std::string breaks_text(const char* where, const std::vector<BrokenJoint>& broke
 /// Nothing if none broke.
 std::string breaks_text(const BreakComparison& breaks) {
   const std::size_t apart = breaks.in_run_only.size() + breaks.in_reference_only.size();
-  if (breaks.in_both == 0 && apart == 0) return "";
+  std::string text;
+  if (breaks.unknown_in_run + breaks.unknown_in_reference > 0) {
+    text = format(
+        "joints_broken: %lld more in the run and %lld in the reference, of which the files do not say "
+        "which they are\n",
+        static_cast<long long>(breaks.unknown_in_run), static_cast<long long>(breaks.unknown_in_reference));
+  }
+  if (breaks.in_both == 0 && apart == 0) return text;
   return format("joints_broken: %lld in both, %zu in one of the two\n",
                 static_cast<long long>(breaks.in_both), apart) +
-         breaks_text("run", breaks.in_run_only) + breaks_text("reference", breaks.in_reference_only);
+         text + breaks_text("run", breaks.in_run_only) + breaks_text("reference", breaks.in_reference_only);
 }
 
 std::string to_text(const DiffOptions& options, const RunComparison& c, bool same_hash) {

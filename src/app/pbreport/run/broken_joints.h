@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,13 +14,15 @@ struct BrokenJoint {
   std::string joint;  ///< "world 0: 'car.front_left_suspension'"
 };
 
-/// What an event ("frame 6: joint_broken: world 0: 'x' broke in step 19") tells; nothing if it is another.
-std::optional<BrokenJoint> broken_joint(const std::string& event);
+/// In the order in which they broke. Left out are those for which the file had no row, and all of a file
+/// before layout 1.2: it is not known which they are.
+std::vector<BrokenJoint> broken_joints(const io::RunData& run);
 
 /// In the frames that both runs have, in the order in which they broke.
 struct BreakComparison {
   std::int64_t in_both = 0;  ///< in the same step or not
   std::vector<BrokenJoint> in_run_only, in_reference_only;
+  std::int64_t unknown_in_run = 0, unknown_in_reference = 0;  ///< in any frame
 };
 BreakComparison compare_breaks(const io::RunData& run, const io::RunData& reference);
 

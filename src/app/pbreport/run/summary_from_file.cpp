@@ -5,11 +5,10 @@
 #include <sstream>
 
 #include "analysis/pose_errors.h"
-#include "app/pbreport/run/broken_joints.h"
 #include "core/error.h"
 #include "effects/effect_choices.h"
 #include "scenes/scene.h"
-#include "stepping/frame.h"
+#include "stepping/run_event.h"
 
 namespace pbmpi::app {
 namespace {
@@ -95,15 +94,10 @@ std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed
   }
 }
 
-/// An event reads "frame 6: rebalance: 8 worlds moved: ...".
-void count_rebalance(const std::string& event, RunSummary& summary) {
-  static constexpr std::string_view word = ": rebalance: ";
-  const std::size_t at = event.find(word);
-  if (at == std::string::npos) return;
-  ++summary.rebalances;
-  std::istringstream detail(event.substr(at + word.size()));
-  std::int64_t moved = 0;
-  if (detail >> moved) summary.worlds_moved += moved;
+/// Events of a kind in the whole run, those included for which the file had no row.
+std::int64_t num_events(const io::RunData& run, const char* kind) {
+  const auto found = run.num_events.find(kind);
+  return found == run.num_events.end() ? 0 : found->second;
 }
 
 void read_settings(const io::RunData& run, const std::string& path, RunSummary& summary) {
@@ -197,9 +191,9 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   take_invariants(observed_frames(run), summary);
   summary.effects = effects_of(run, summary.seed);
   summary.effects_chosen = text_of(run.parameters, "effects");
-  for (const std::string& event : run.events) count_rebalance(event, summary);
-  summary.joints_broken = std::count_if(run.events.begin(), run.events.end(),
-                                        [](const std::string& e) { return broken_joint(e).has_value(); });
+  summary.rebalances = num_events(run, stepping::event_kind::rebalance);
+  summary.worlds_moved = run.worlds_moved;
+  summary.joints_broken = num_events(run, stepping::event_kind::joint_broken);
   if (!run.estimate.delivered_s.empty()) summary.estimate = estimate_of(run, path, summary.budget_s);
   return summary;
 }

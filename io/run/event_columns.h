@@ -1,0 +1,45 @@
+/// Group /events of a run's file: what happened beside the frames, a row each, and how often in all.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "io/hdf5/commit_record.h"
+#include "io/hdf5/growing_columns.h"
+#include "io/hdf5/parallel_file.h"
+#include "io/run/run_data.h"
+#include "stepping/run_event.h"
+
+namespace pbmpi::io {
+
+class EventColumns {
+ public:
+  static constexpr int max_rows = 512;
+  /// Bytes of the preallocated rows.
+  static std::size_t bytes();
+
+  /// Makes the datasets. Collective.
+  EventColumns(hid_t file, const FileRanks& ranks);
+
+  /// The same event on every rank. Without room for its row it is counted all the same. Throws
+  /// std::logic_error for a kind that event_kind does not list.
+  void add(const stepping::RunEvent& event);
+
+  GrowingTable& rows() { return rows_; }
+  const GrowingTable& rows() const { return rows_; }
+  /// Rows written, rows for which there was no room, and events told of each kind.
+  EventCounts counts() const;
+  /// Names of all counts, each zero: for the attributes of a file that begins.
+  static EventCounts no_counts();
+
+ private:
+  bool is_root_;
+  GrowingTable rows_;
+  EventCounts told_ = no_counts();
+};
+
+/// Events and their counts; those of a layout before 1.2 have neither step, world, joint, name nor value, and
+/// only rows are counted.
+void read_events(hid_t file, RunData& run);
+
+}  // namespace pbmpi::io

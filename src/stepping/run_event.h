@@ -1,0 +1,33 @@
+/// What happens to a run beside its frames: for the file's /events, and for those who count.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace pbmpi::stepping {
+
+/// RunEvent::kind, which says what RunEvent::value is. The file counts each kind.
+namespace event_kind {
+
+inline constexpr const char* rebalance = "rebalance";        ///< value: worlds (or spaces) moved
+inline constexpr const char* signal = "signal";              ///< the run ends early; value: its number
+inline constexpr const char* time_limit = "time_limit";      ///< the run ends early
+inline constexpr const char* checkpoint = "checkpoint";      ///< value: 1 if it was written, 0 if that failed
+inline constexpr const char* joint_broken = "joint_broken";  ///< step, world, joint and name tell which
+inline constexpr std::array all = {rebalance, signal, time_limit, checkpoint, joint_broken};
+
+}  // namespace event_kind
+
+struct RunEvent {
+  std::int64_t frame = 0;
+  std::string kind;         ///< one of event_kind
+  std::string detail;       ///< one line for people
+  std::int64_t step = -1;   ///< in which it happened, counted from 0; -1: at the end of the frame
+  std::int32_t world = -1;  ///< -1: of no world
+  std::int32_t joint = -1;  ///< index in the world's model; -1: of no joint
+  std::string name = {};    ///< of the joint
+  double value = 0;         ///< see event_kind
+};
+
+}  // namespace pbmpi::stepping
