@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <numeric>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "io/hdf5/file_types.h"
 
 namespace pbmpi::io {
 namespace {
-
-/// A number with as many digits as it takes to read it back.
-template <class Number>
-std::string to_text(Number value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
 
 std::string trimmed(const char* text, std::size_t bytes) {
   const std::string all(text, bytes);
@@ -40,13 +33,13 @@ std::string values_as_text(const Datatype& type, hsize_t count, Read&& read) {
     case H5T_INTEGER: {
       std::vector<std::int64_t> buffer(count);
       read(H5T_NATIVE_INT64, buffer.data());
-      for (const std::int64_t value : buffer) parts.push_back(to_text(value));
+      for (const std::int64_t value : buffer) parts.push_back(core::number_text(value));
       break;
     }
     case H5T_FLOAT: {
       std::vector<double> buffer(count);
       read(H5T_NATIVE_DOUBLE, buffer.data());
-      for (const double value : buffer) parts.push_back(to_text(value));
+      for (const double value : buffer) parts.push_back(core::number_text(value));
       break;
     }
     default:
@@ -118,7 +111,7 @@ void require_type(const std::string& path, hid_t file, const std::string& type, 
   const std::int64_t major = version == attributes.end() ? 0 : std::atoll(version->second.c_str());
   core::require_input(major == layout, path + ": its layout has version " +
                                            (major == 0 ? "unknown" : version->second) +
-                                           ", this program reads version " + to_text(layout) +
+                                           ", this program reads version " + core::number_text(layout) +
                                            ".x; use the pbmpi that wrote it");
 }
 

@@ -1,16 +1,9 @@
 #include "app/pbreport/run/facts.h"
 
-#include <cstdio>
+#include "app/common/format.h"
 
 namespace pbmpi::app {
 namespace {
-
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-  char text[128];
-  std::snprintf(text, sizeof text, pattern, args...);
-  return text;
-}
 
 /// "37,000" for 37000.
 std::string with_commas(std::int64_t number) {

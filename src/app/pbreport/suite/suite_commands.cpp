@@ -1,6 +1,5 @@
 #include "app/pbreport/suite/suite_commands.h"
 
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "app/common/format.h"
 #include "app/common/options.h"
 #include "app/pbreport/suite/characterise.h"
 #include "app/pbreport/suite/suite_json.h"
@@ -60,13 +60,6 @@ SuiteOptions parse(const std::vector<std::string>& args, bool page) {
 
 void print_help(std::ostream& out, const char* command, const char* meaning, bool page) {
   out << "Usage: pbreport " << command << " FILE... [options]\n\n" << meaning << "\n\n" << described(page);
-}
-
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, args...);
-  return text;
 }
 
 std::string percent(double ours, double papers) {
