@@ -1,4 +1,4 @@
-/// The few bytes of a run's file that say what it holds: written by root alone, after the data.
+/// Attributes of a run's file that change while it grows: root alone writes them, after the data.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,9 @@ class CommitRecord {
   CommitRecord() = default;
   explicit CommitRecord(const std::string& path);
 
-  /// Vouches for the first rows; the caller has seen to it that they are in the file.
+  /// Declares the first frames committed; the caller has seen to it that their rows are in the file.
   void commit(std::int64_t num_frames, const EventCounts& events);
-  /// What is known at the end of the run.
+  /// Stores what is known only at the end of the run.
   void finish(bool complete, const std::string& state_hash, const EventCounts& events);
   /// False if HDF5 could not write all of it.
   bool close() { return file_.close(); }

@@ -92,7 +92,8 @@ class GrowingTable {
   }
   /// Completes the rows that this rank writes.
   void exchange_items();
-  /// This rank's items of a waiting row, behind what `message` has; and the same back.
+  /// Appends this rank's items of a waiting row to `message`; unpack() puts such items into the row, and
+  /// returns where the next ones begin.
   void pack(hsize_t row, std::vector<std::byte>& message);
   const std::byte* unpack(hsize_t row, const std::byte* message);
   void write(Column& column, Range rows, const PropertyList& transfer);

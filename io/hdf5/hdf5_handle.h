@@ -55,7 +55,7 @@ void prepare_hdf5();
 /// Throws core::RunError with `call` and what the HDF5 error stack says if `status` is negative.
 void check(herr_t status, const std::string& call);
 
-/// The same for calls that return an id, wrapped into its owner.
+/// check() for calls that return an id, which gets its owner.
 template <class Owner>
 Owner owned(hid_t id, const std::string& call) {
   if (id < 0) check(-1, call);

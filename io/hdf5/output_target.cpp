@@ -53,7 +53,7 @@ rlim_t largest_file() {
 /// errno of reserving `bytes` for the file, 0 if all went well. A file system that cannot reserve is only
 /// asked for its free space.
 int reserve(const Descriptor& file, const std::string& path, std::int64_t bytes) {
-  // Asked first, because passing the limit raises SIGXFSZ.
+  // The limit is asked for first: a write beyond it raises SIGXFSZ.
   if (largest_file() < static_cast<rlim_t>(bytes)) return EFBIG;
   while (fallocate(file.get(), 0, 0, bytes) != 0) {
     if (errno == EOPNOTSUPP || errno == ENOSYS) return has_free(path, bytes) ? 0 : ENOSPC;

@@ -15,7 +15,7 @@ namespace pbmpi::io {
 /// core::InputError.
 File open_run(const std::string& path);
 
-/// The same for a file of another type and major version of its layout.
+/// open_run() for a file of type `type`, whose layout has the version `major`.
 File open_file(const std::string& path, const std::string& type, std::int64_t major);
 
 /// Is there a group or dataset of this path, whose parent exists?

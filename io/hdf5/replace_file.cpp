@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 0 or errno.
+/// Returns 0, or the errno of what failed.
 int write_all(int fd, std::span<const std::byte> bytes) {
   rlimit limit{};
-  // Asked first, because passing the limit raises SIGXFSZ.
+  // The limit is asked for first: a write beyond it raises SIGXFSZ.
   if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur < bytes.size()) return EFBIG;
   while (!bytes.empty()) {
     const ssize_t written = write(fd, bytes.data(), bytes.size());
@@ -37,7 +37,8 @@ int write_new(const std::string& path, std::span<const std::byte> bytes) {
   return close(fd) != 0 && error == 0 ? errno : error;
 }
 
-/// So that the new name outlives a power failure, too. Some file systems cannot do it, and need not.
+/// Flushes a folder, so that a new name in it outlives a power failure. File systems that cannot do it need
+/// not.
 void sync_folder(const fs::path& folder) {
   const int fd = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return;

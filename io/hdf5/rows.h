@@ -15,7 +15,8 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
-/// Adds a run behind the others; neighbours become one. Empty ranges are dropped.
+/// Adds a range behind the others; if it begins where the last one ends the two become one. Empty ranges are
+/// dropped.
 void append_range(std::vector<Range>& ranges, hsize_t first, hsize_t count);
 
 /// Items in all ranges.

@@ -1,4 +1,4 @@
-/// The files that the page is made of. They are part of the program since its build.
+/// Files that the page is made of, embedded in the program.
 #pragma once
 
 #include <string_view>

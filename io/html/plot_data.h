@@ -13,7 +13,7 @@ namespace pbmpi::io::html {
 inline constexpr std::size_t max_plot_points = 2000;
 
 /// One observable over the frames: the sum over the worlds, and the least, mean and largest world.
-/// In a bin of several frames: of `min` the least, of `max` the largest, of the others the mean.
+/// A bin of several frames has the least `min`, the largest `max`, and the means of the others.
 struct Band {
   std::vector<double> sum, min, mean, max;  ///< [bins]
 };

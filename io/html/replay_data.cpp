@@ -25,7 +25,7 @@ std::vector<std::size_t> every_kth(std::size_t count, std::size_t k) {
   return records;
 }
 
-/// As few as needed of `count` records are left out that at most `most` remain.
+/// At most `most` of `count` records, as many as a fixed stride allows.
 std::vector<std::size_t> at_most(std::size_t count, std::size_t most) {
   return every_kth(count, std::max<std::size_t>(1, (count + most - 1) / std::max<std::size_t>(1, most)));
 }
@@ -84,8 +84,8 @@ void add_times(json& replay, const RunData& run, const Selection& selection) {
   replay["step"] = step;
 }
 
-/// One column a property; `local` is [G][7]: position, then orientation. Of names that a newer minor version
-/// of the file brings, a kind counts as prop, and a shape is not drawn.
+/// One column a property; `local` is [G][7]: position, then orientation. An unknown kind, of a file of a
+/// newer minor version, counts as prop; a geom of unknown shape is not drawn.
 void add_geoms(json& replay, const RunData& run, const Selection& selection) {
   std::vector<std::uint8_t> kind, shape;
   std::vector<std::int32_t> world, body;

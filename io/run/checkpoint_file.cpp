@@ -15,7 +15,7 @@
 namespace pbmpi::io {
 namespace {
 
-/// Of the layout; the first number changes when old programs would be misled.
+/// Version of the layout; the first number changes when old programs would be misled.
 constexpr std::array<std::int64_t, 2> version = {1, 0};
 
 using core::Quat;
@@ -159,7 +159,7 @@ std::string attribute(const TableFile& file, const std::string& name) {
 }
 
 std::int64_t count(const TableFile& file, const std::string& name) {
-  const std::string& text = parameter(file, name).text;  // of a file that was read all are text
+  const std::string& text = parameter(file, name).text;  // parameters that were read from a file are text
   char* end = nullptr;
   const long long value = std::strtoll(text.c_str(), &end, 10);
   if (end == text.c_str() || *end != '\0' || value < 1)

@@ -13,7 +13,7 @@
 
 namespace pbmpi::io {
 
-/// What a file holds only if the run makes it.
+/// Groups that a file has only if the run measures what they hold.
 struct OptionalColumns {
   bool profile = false;    ///< every frame has step profiles: /timings/island and /timings/space
   bool estimate = false;   ///< every frame has an EstimateRecord: /estimate

@@ -22,7 +22,7 @@ class Estimator {
   virtual void estimate(std::span<const LocalWorld> worlds, std::int64_t step, int num_steps,
                         core::PhaseTimes& times) = 0;
 
-  /// The estimate of a world of the last estimate(). A blown-up one is as it is.
+  /// The estimate of a world of the last estimate(). One that blew up is returned as it is.
   virtual const model::State& state(int world) const = 0;
 };
 

@@ -18,8 +18,8 @@ struct IslandCost {
 struct StepProfile {
   std::vector<IslandCost> islands;  ///< in order of their lowest body
   double collide_s = 0;             ///< collision detection as one piece
-  /// The longest collision space, and after it what lies between two spaces: collision detection if each
-  /// space had a core. The broad phase counts for a space by its share of the geoms.
+  /// Collision detection if each space had a core: the longest space, then what lies between two spaces. The
+  /// broad phase is shared among the spaces by their numbers of geoms.
   double collide_spaces_s = 0;
   int cross_contacts = 0;  ///< contact points between bodies of different spaces
 };

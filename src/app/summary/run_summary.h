@@ -73,13 +73,14 @@ struct RunSummary {
   core::Summary islands;
   double contacts_mean = 0, contacts_max = 0, rows_mean = 0, rows_max = 0;
   std::int64_t nonfinite_bodies = 0;
-  double max_joint_gap_m = 0, max_penetration_m = 0, energy_j = 0;  ///< energy: at the end
+  double max_joint_gap_m = 0, max_penetration_m = 0;  ///< largest of the measured frames
+  double energy_j = 0;                                ///< of all worlds, at the end
   std::vector<EffectSummary> effects;
   std::string effects_chosen;  ///< "+friction,-gravity": demanded and left out; empty: as the scene calls for
-  std::int64_t joints_broken = 0;                 ///< in the whole run, as the file's events tell
+  std::int64_t joints_broken = 0;                 ///< in the whole run
   std::int64_t rebalances = 0, worlds_moved = 0;  ///< moved: worlds, or spaces
   std::string decomposition = "worlds";
-  SpacesSummary spaces;                     ///< counts if decomposition is "spaces"
+  SpacesSummary spaces;                     ///< only if decomposition is "spaces"
   std::optional<EstimateSummary> estimate;  ///< with FEEC
 };
 
@@ -104,7 +105,7 @@ void compute_performance(const MeasuredFrames& frames, RunSummary& summary);
 void compute_delivery(const std::vector<double>& delivered_s, const std::vector<double>& precise_s,
                       double budget_s, EstimateSummary& estimate);
 
-/// One line each, grep-able ("state_hash: ...").
+/// The summary as text, one line a number or group ("state_hash: ...").
 std::string to_text(const RunSummary& summary);
 
 /// The JSON document of --report json, with a newline at the end.

@@ -139,7 +139,7 @@ std::string breaks_text(const char* where, const std::vector<BrokenJoint>& broke
   return text;
 }
 
-/// Nothing if none broke.
+/// Empty if no joint broke.
 std::string breaks_text(const BreakComparison& breaks) {
   const std::size_t apart = breaks.in_run_only.size() + breaks.in_reference_only.size();
   std::string text;

@@ -14,15 +14,15 @@ struct BrokenJoint {
   std::string joint;  ///< "world 0: 'car.front_left_suspension'"
 };
 
-/// In the order in which they broke. Left out are those for which the file had no row, and all of a file
+/// The joints that broke, in order. Left out are those for which the file had no row, and all of a file
 /// before layout 1.2: it is not known which they are.
 std::vector<BrokenJoint> broken_joints(const io::RunData& run);
 
-/// In the frames that both runs have, in the order in which they broke.
+/// Joints that broke in the frames that both runs have, in the order in which they broke.
 struct BreakComparison {
   std::int64_t in_both = 0;  ///< in the same step or not
   std::vector<BrokenJoint> in_run_only, in_reference_only;
-  std::int64_t unknown_in_run = 0, unknown_in_reference = 0;  ///< in any frame
+  std::int64_t unknown_in_run = 0, unknown_in_reference = 0;  ///< in any frame: see above
 };
 BreakComparison compare_breaks(const io::RunData& run, const io::RunData& reference);
 

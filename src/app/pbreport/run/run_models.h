@@ -24,7 +24,7 @@ struct RecordedPoses {
   const std::vector<core::Vec3>* position = nullptr;
   const std::vector<core::Quat>* orientation = nullptr;
 
-  /// Those of one world.
+  /// The poses of one world.
   analysis::PoseView world(const RunModels& models, std::size_t world) const;
 };
 
