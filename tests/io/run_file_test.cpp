@@ -278,7 +278,7 @@ TEST(RunFile, counts_the_events_for_which_it_has_no_room) {
   const std::string path = folder.file("run.h5");
   const auto file = begin_run(world(), sample, path, 0);
   for (int i = 0; i < 510; ++i) file->event({i, "joint_broken", "é" + std::string(200, 'x')});
-  for (int i = 510; i < 520; ++i) file->event({.frame = i, .kind = "rebalance", .value = 3});
+  for (int i = 510; i < 520; ++i) file->event({.frame = i, .kind = "rebalance", .detail = "", .value = 3});
   file->close(false, "");
   if (!world().is_root()) return;
   const RunData run = read_run(path);
