@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/run/run_data.h"
+#include "stepping/frame_budget.h"
 
 namespace pbmpi::io::html {
 
@@ -21,7 +22,7 @@ struct PageOptions {
   /// Room for the recorded poses; the rest of a page takes about 1.5 MB. Where a run needs more, the page
   /// shows fewer worlds or every k-th frame, and says so.
   std::int64_t max_pose_bytes = 28'000'000;
-  double budget_s = 0.1 / 30;  ///< deadline of a frame: 10 % of 1/30 s (paper, section 4.1)
+  double budget_s = stepping::default_frame_budget_s;  ///< deadline of a frame
 };
 
 /// The page's text.

@@ -14,6 +14,7 @@
 #include "mpi/comm/communicator.h"
 #include "mpi/frame/checkpoint_schedule.h"
 #include "stepping/frame.h"
+#include "stepping/frame_budget.h"
 
 namespace pbmpi::mpi {
 
@@ -23,7 +24,7 @@ struct WorldRunSettings {
   int frames = 5;  ///< measured frames
   int steps_per_frame = 3;
   double dt_s = 0.01;
-  double budget_s = 0.1 / 30;        ///< a frame's deadline: 10 % of 1/30 s (paper, section 4.1)
+  double budget_s = stepping::default_frame_budget_s;  ///< a frame's deadline
   double rebalance_threshold = 1.1;  ///< work moves when max/avg useful time passes this; infinity = never
   bool profile = false;  ///< measure the last step of each frame again, after the frame's time is taken
   std::int64_t first_frame = 0;  ///< frames done before: the run goes on from a checkpoint

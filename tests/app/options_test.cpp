@@ -163,6 +163,19 @@ TEST(Options, a_slip_of_the_pen_gets_a_suggestion) {
   EXPECT_NE(refusal({"--scene", "Fake", "stray"}).find("without a dash"), std::string::npos);
 }
 
+TEST(Options, a_frame_may_take_a_tenth_of_one_at_30_Hz_unless_told_otherwise) {
+  const auto budget_s = [](const std::vector<std::string>& more) {
+    std::vector<std::string> args = {"--scene", "Fake"};
+    args.insert(args.end(), more.begin(), more.end());
+    return resolve(parse_options(args), FakeScene({})).budget_s;
+  };
+  EXPECT_EQ(budget_s({}), 0.1 / 30);
+  EXPECT_EQ(budget_s({"--budget", "0.002"}), 0.002);
+  EXPECT_EQ(budget_s({"--budget", "2ms"}), 0.002);
+  EXPECT_NE(refusal({"--scene", "Fake", "--budget", "0"}).find("--budget 0: it must be a number above 0"),
+            std::string::npos);
+}
+
 TEST(Options, help_names_every_group_and_exit_code) {
   const std::string help = help_text();
   for (const char* words :

@@ -44,7 +44,8 @@ TEST(SavedOptions, give_the_same_run_when_they_are_read_again) {
       {"--scene", "Fake", "--stepper", "quick", "--dt", "0.1", "--replicas", "7"},
       {"--scene", "Fake", "--substeps", "4", "--warm-start", "0.3", "--row-order", "fixed", "--precision",
        "single", "--simd", "sse2", "--decompose", "worlds", "--spaces", "one"},
-      {"--scene", "Fake", "--seed", "18446744073709551615", "--solver-seed", "3", "--record-every", "5"},
+      {"--scene", "Fake", "--seed", "18446744073709551615", "--solver-seed", "3", "--record-every", "5",
+       "--budget", "2ms"},
       {"--scene", "Fake", "--feec", "--estimate-stepper", "quick", "--estimate-iterations", "3"},
       {"--scene", "Fake", "--feec", "--estimate-precision", "single", "--dt", "0.012345678901234567"}};
   for (const auto& args : runs) {
@@ -79,7 +80,7 @@ TEST(SavedOptions, each_that_decides_the_bits_is_refused_if_it_changes) {
 TEST(SavedOptions, others_may_change) {
   const std::string before = saved({"--scene", "Fake"});
   EXPECT_EQ(refusal({"--scene", "Fake", "--frames", "99", "--warmup", "0", "--record-every", "2", "--simd",
-                     "off", "--decompose", "worlds", "--spaces", "one", "--feec"},
+                     "off", "--decompose", "worlds", "--spaces", "one", "--feec", "--budget", "1ms"},
                     before),
             "");
 }

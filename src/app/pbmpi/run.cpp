@@ -51,13 +51,14 @@ mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
   settings.frames = spec.frames;
   settings.steps_per_frame = spec.steps_per_frame;
   settings.dt_s = spec.stepper.dt_s;
+  settings.budget_s = spec.budget_s;
   settings.profile = spec.record_islands;
   settings.first_frame = spec.checkpoint.first_frame;
   return settings;
 }
 
 RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, const Provenance& provenance,
-                            std::int64_t num_bodies, double budget_s) {
+                            std::int64_t num_bodies) {
   RunSummary summary;
   summary.version = program_version;
   summary.scene = scene.name();
@@ -75,7 +76,7 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.bodies = num_bodies;
   summary.seed = spec.scene_seed;
   summary.dt_s = spec.stepper.dt_s;
-  summary.budget_s = budget_s;
+  summary.budget_s = spec.budget_s;
   summary.first_frame = spec.checkpoint.first_frame;
   summary.warmup_frames = std::max<std::int64_t>(0, spec.warmup - summary.first_frame);
   summary.effects_chosen = effects::to_text(spec.effects);
@@ -83,7 +84,7 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
 }
 
 EstimateSummary estimate_summary(const RunSpec& spec, const mpi::WorldRunResult& result,
-                                 const EstimateMonitor& monitor, double budget_s) {
+                                 const EstimateMonitor& monitor) {
   EstimateSummary summary;
   const stepping::StepperSettings& settings = *spec.estimate;
   summary.stepper = name_of(settings.kind);
@@ -96,7 +97,7 @@ EstimateSummary estimate_summary(const RunSpec& spec, const mpi::WorldRunResult&
     delivered_s.push_back(times.delivered_s);
     precise_s.push_back(times.wall_s);
   }
-  compute_delivery(delivered_s, precise_s, budget_s, summary);
+  compute_delivery(delivered_s, precise_s, spec.budget_s, summary);
   summary.position_defect = monitor.position_defect();
   summary.orientation_defect = monitor.orientation_defect();
   return summary;
@@ -233,12 +234,11 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   const mpi::WorldRunResult result = run_to_end(driver, file.get());
 
   progress.reset();
-  RunSummary summary =
-      settings_summary(scene, spec, provenance, driver.table().num_bodies(), driver_settings(spec).budget_s);
+  RunSummary summary = settings_summary(scene, spec, provenance, driver.table().num_bodies());
   summary.effects = effect_summaries(gather_plan(comm, driver.local_worlds()));
   summary.idle_ranks = driver.idle_ranks();
   live.finish(comm, result, summary);
-  if (spec.estimate) summary.estimate = estimate_summary(spec, result, monitor, summary.budget_s);
+  if (spec.estimate) summary.estimate = estimate_summary(spec, result, monitor);
   if (file) {
     file->close(summary.complete, summary.state_hash);
     write_sidecar(comm, *spec.output);

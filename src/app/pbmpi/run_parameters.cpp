@@ -71,6 +71,7 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("spaces", spec.spaces == scenes::SpacesForm::one ? "one" : "many"),
       Parameter::of("effects", effects::to_text(spec.effects)),
       Parameter::of("num_spaces", static_cast<std::int64_t>(scene.build(0, spec.scene_seed)->spaces.size())),
+      Parameter::of("budget", spec.budget_s),
       Parameter::of("record_every", std::int64_t{spec.record_every}),
       Parameter::of("record_islands", std::int64_t{spec.record_islands ? 1 : 0}),
       Parameter::of("ranks", static_cast<std::int64_t>(provenance.hosts.size())),

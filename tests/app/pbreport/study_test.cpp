@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "app/common/quantities.h"
 #include "app/pbreport/accuracy/study_data.h"
 #include "app/pbreport/accuracy/study_options.h"
 #include "app/pbreport/accuracy/study_text.h"

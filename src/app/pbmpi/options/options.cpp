@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "app/common/quantities.h"
 #include "core/error.h"
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
@@ -113,7 +114,9 @@ po::options_description options_description() {
       ("record-residuals",
        "sor: store how far the last step of each frame is from the solution of its constraints")  //
       ("report", po::value<std::string>()->default_value("text")->value_name("text|json"),
-       "the summary; json: exactly one JSON document on stdout");
+       "the summary; json: exactly one JSON document on stdout")  //
+      ("budget", po::value<std::string>()->value_name("SECONDS"),
+       "time that a frame may take, e.g. 3.33ms (us, ms, s); default: a tenth of 1/30 s");
 
   po::options_description stop("When to stop, and how to go on");
   stop.add_options()  //
@@ -252,6 +255,8 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   options.checkpoint_every_s = seconds(values, "checkpoint-every");
   options.max_time_s = seconds(values, "max-time");
   options.resume = given<std::string>(values, "resume");
+  if (values.count("budget") != 0)
+    options.budget_s = parse_time_or_seconds(values["budget"].as<std::string>(), "--budget");
   const bool needs_scene = options.action == Action::run || options.action == Action::describe;
   require_input(!needs_scene || !options.scene.empty() || options.resume,
                 "no scene given; name one with --scene (see --list-scenes)");

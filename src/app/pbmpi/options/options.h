@@ -10,6 +10,7 @@
 
 #include "app/common/options.h"
 #include "scenes/scene.h"
+#include "stepping/frame_budget.h"
 #include "stepping/stepper.h"
 
 namespace pbmpi::app {
@@ -50,6 +51,7 @@ struct Options {
   ReportFormat report = ReportFormat::text;
   std::optional<std::string> checkpoint, resume;
   std::optional<double> checkpoint_every_s, max_time_s;
+  double budget_s = stepping::default_frame_budget_s;
   CommonOptions common;
   std::string command_line;
 };
@@ -94,7 +96,8 @@ struct RunSpec {
   stepping::StepperSettings stepper;
   std::optional<stepping::StepperSettings> estimate;  ///< FEEC: what estimates each frame first
   EstimateSource estimate_source = EstimateSource::short_run;
-  std::optional<std::string> output;  ///< path of the HDF5 file, or nothing with --no-output
+  std::optional<std::string> output;                   ///< path of the HDF5 file, or nothing with --no-output
+  double budget_s = stepping::default_frame_budget_s;  ///< for a frame; changes no result
   int record_every = 1;
   bool record_islands = false;
   scenes::SpacesForm spaces = scenes::SpacesForm::many;

@@ -128,6 +128,7 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   spec.stepper.simd = options.simd;
   spec.stepper.colliders = options.colliders;
   spec.record_every = options.record_every;
+  spec.budget_s = options.budget_s;
   spec.decomposition = options.decomposition;
   spec.output = resolve_output(options, scene, from);
   spec.checkpoint = resolve_checkpoint(options, scene, from, spec.output);

@@ -103,6 +103,7 @@ std::string saved_options(const RunSpec& spec, Decomposition asked) {
   lines.add("warmup", spec.warmup);
   lines.add("frames", spec.frames);
   lines.add("record-every", spec.record_every);
+  lines.add("budget", spec.budget_s);
   lines.add("decompose", decomposition_names[static_cast<std::size_t>(asked)]);
   lines.add("spaces", spaces_names[static_cast<std::size_t>(spec.spaces)]);
   if (spec.estimate) add_estimate(*spec.estimate, lines);

@@ -1,12 +1,10 @@
 #include "app/pbreport/accuracy/study_options.h"
 
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <sstream>
-#include <utility>
 
 #include "app/common/options.h"
+#include "app/common/quantities.h"
 #include "core/error.h"
 #include "model/names.h"
 
@@ -15,7 +13,6 @@ namespace {
 
 namespace po = boost::program_options;
 using core::require_input;
-using Units = std::vector<std::pair<std::string, double>>;
 
 constexpr std::array<std::string_view, 4> measure_names = {"rms", "p99", "max", "joint"};
 
@@ -48,30 +45,7 @@ po::options_description visible_options() {
   return all;
 }
 
-double with_unit(const std::string& text, const char* option, const Units& units) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  std::string known;
-  for (const auto& [unit, factor] : units) {
-    if (error == std::errc{} && text.substr(static_cast<std::size_t>(end - text.data())) == unit &&
-        number > 0 && std::isfinite(number)) {
-      return number * factor;
-    }
-    known += (known.empty() ? "" : ", ") + unit;
-  }
-  throw core::InputError(std::string(option) + " " + text + ": it must be a number above 0 and a unit (" +
-                         known + "), e.g. " + (option == std::string("--budget") ? "3.33ms" : "1cm"));
-}
-
 }  // namespace
-
-double parse_time_s(const std::string& text, const char* option) {
-  return with_unit(text, option, {{"us", 1e-6}, {"ms", 1e-3}, {"s", 1}});
-}
-
-double parse_length_m(const std::string& text, const char* option) {
-  return with_unit(text, option, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}});
-}
 
 std::string study_help_text() {
   std::ostringstream text;

@@ -26,8 +26,4 @@ StudyOptions parse_study_options(const std::vector<std::string>& args);
 
 std::string study_help_text();
 
-/// "3.33ms" -> 0.00333: a number and a unit. Throws core::InputError naming `option`.
-double parse_time_s(const std::string& text, const char* option);
-double parse_length_m(const std::string& text, const char* option);
-
 }  // namespace pbmpi::app

@@ -5,14 +5,13 @@
 
 #include "app/pbreport/diff/run_comparison.h"
 #include "core/error.h"
+#include "stepping/frame_budget.h"
 
 namespace pbmpi::app {
 namespace {
 
 constexpr const char* reference_label = "Iter20";
 constexpr const char* floor_label = "seed";
-/// 10 % of 1/30 s (paper, section 4.1).
-constexpr double budget_s = 0.1 / 30;
 
 struct Recorded {
   std::string path;
@@ -67,7 +66,7 @@ void fill_times(const std::vector<const Recorded*>& runs, FigureMethod& method) 
   for (const std::vector<double>& repeats : by_frame) {
     const double time_s = *std::min_element(repeats.begin(), repeats.end());
     sum += time_s;
-    satisfied += time_s <= budget_s ? 1 : 0;
+    satisfied += time_s <= stepping::default_frame_budget_s ? 1 : 0;
   }
   const auto num_frames = static_cast<double>(by_frame.size());
   method.mean_frame_s = sum / num_frames;

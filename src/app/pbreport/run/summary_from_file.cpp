@@ -8,13 +8,11 @@
 #include "core/error.h"
 #include "effects/effect_choices.h"
 #include "scenes/scene.h"
+#include "stepping/frame_budget.h"
 #include "stepping/run_event.h"
 
 namespace pbmpi::app {
 namespace {
-
-/// 10 % of 1/30 s (paper, section 4.1): what deadline_met was measured against.
-constexpr double frame_budget_s = 0.1 / 30;
 
 std::string text_of(const std::map<std::string, std::string>& texts, const std::string& name) {
   const auto found = texts.find(name);
@@ -112,7 +110,9 @@ void read_settings(const io::RunData& run, const std::string& path, RunSummary& 
   summary.steps_per_frame = number_of<int>(run, "steps_per_frame", path);
   summary.dt_s = number_of<double>(run, "dt", path);
   summary.seed = number_of<std::uint64_t>(run, "seed", path);
-  summary.budget_s = frame_budget_s;
+  // Older files do not name their budget.
+  summary.budget_s = run.parameters.contains("budget") ? number_of<double>(run, "budget", path)
+                                                       : stepping::default_frame_budget_s;
 }
 
 /// The run's estimates against its precise poses; those of recorded, measured frames.

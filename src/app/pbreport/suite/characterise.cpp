@@ -5,11 +5,10 @@
 
 #include "analysis/schedule.h"
 #include "core/error.h"
+#include "stepping/frame_budget.h"
 
 namespace pbmpi::app {
 namespace {
-
-constexpr double budget_s = 0.1 / 30;
 
 std::string text_of(const std::map<std::string, std::string>& texts, const std::string& name) {
   const auto found = texts.find(name);
@@ -56,9 +55,10 @@ Rate rate_of(const std::vector<double>& frame_s) {
   if (frame_s.empty()) return rate;
   const auto count = static_cast<double>(frame_s.size());
   rate.harmonic_mean_hz = count / total(frame_s);
-  rate.satisfied_fraction = static_cast<double>(std::count_if(frame_s.begin(), frame_s.end(),
-                                                              [](double s) { return s <= budget_s; })) /
-                            count;
+  rate.satisfied_fraction =
+      static_cast<double>(std::count_if(frame_s.begin(), frame_s.end(),
+                                        [](double s) { return s <= stepping::default_frame_budget_s; })) /
+      count;
   return rate;
 }
 
