@@ -29,7 +29,7 @@ std::string saved(const std::vector<std::string>& args) {
 
 std::string refusal(const std::vector<std::string>& args, const std::string& before) {
   try {
-    require_same_stepper("ck.h5", before, parse_options(args, before).stepper);
+    require_same_stepper("ck.h5", before, parse_options(args, before).step.settings.kind);
     const Resolved run = resolved(args, before);
     require_same_physics("ck.h5", before, saved_options(run.spec, run.options.decomposition));
   } catch (const core::InputError& error) {
@@ -61,7 +61,7 @@ TEST(SavedOptions, keep_every_bit_of_a_real_number) {
   const double dt_s = 0.1 + 0.2;  // 0.30000000000000004
   RunSpec spec = resolved({"--scene", "Fake"}).spec;
   spec.stepper.dt_s = dt_s;
-  EXPECT_EQ(parse_options({"--scene", "Fake"}, saved_options(spec, Decomposition::automatic)).dt_s, dt_s);
+  EXPECT_EQ(parse_options({"--scene", "Fake"}, saved_options(spec, Decomposition::automatic)).dt_s(), dt_s);
 }
 
 TEST(SavedOptions, each_that_decides_the_bits_is_refused_if_it_changes) {

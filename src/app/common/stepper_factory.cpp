@@ -9,12 +9,13 @@
 #include "solver/spaces/sor_space_stepper.h"
 #include "solver/worlds/sor_stepper.h"
 #include "stepping/names.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::app {
 
 std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings,
                                                      const std::string& warning_prefix) {
-  if (settings.kind == stepping::StepperKind::sor) return make_anytime_stepper(settings);
+  if (traits_of(settings.kind).is_anytime) return make_anytime_stepper(settings);
   return ode::make_ode_stepper(
       settings, [warning_prefix](const std::string& line) { ode::warn_on_stderr(warning_prefix + line); });
 }
@@ -29,7 +30,7 @@ std::unique_ptr<stepping::SpaceStepper> make_space_stepper(const stepping::Stepp
 }
 
 std::string simd_text(const stepping::StepperSettings& settings) {
-  if (settings.kind != stepping::StepperKind::sor) return "";
+  if (!traits_of(settings.kind).has_lanes) return "";
   const stepping::Simd simd =
       settings.simd == stepping::Simd::automatic ? solver::best_simd() : settings.simd;
   const int lanes = solver::num_lanes(simd, settings.precision);

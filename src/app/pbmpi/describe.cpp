@@ -17,6 +17,7 @@
 #include "mpi/spaces/space_driver.h"
 #include "stepping/frame.h"
 #include "stepping/names.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::app {
 namespace {
@@ -31,8 +32,8 @@ struct Census {
 
 /// What of a pass the stepper leaves undone.
 std::string idle_note(const effects::RunPass& pass, stepping::StepperKind stepper) {
-  if (pass.effect->name != "field_of_interest" || stepper != stepping::StepperKind::direct) return "";
-  return "; idle, since direct solves without iterations";
+  if (pass.effect->name != "field_of_interest" || traits_of(stepper).iterates) return "";
+  return "; idle, since " + std::string(name_of(stepper)) + " solves without iterations";
 }
 
 Census take_census(const scenes::Scene& scene, const RunSpec& spec) {

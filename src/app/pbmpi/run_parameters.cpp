@@ -1,13 +1,15 @@
 #include "app/pbmpi/run_parameters.h"
 
 #include <optional>
+#include <utility>
+#include <variant>
 
 #include "app/common/stepper_factory.h"
 #include "app/common/version.h"
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
 #include "mpi/comm/session.h"
-#include "stepping/names.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -23,6 +25,12 @@ std::optional<std::string> interest_of(const model::Model& model) {
   return std::nullopt;
 }
 
+Parameter step_parameter(const std::string& prefix, const stepping::StepOption& option,
+                         const stepping::StepperSettings& settings) {
+  return std::visit([&](auto value) { return Parameter::of(prefix + file_name(option), std::move(value)); },
+                    value_of(option, settings));
+}
+
 }  // namespace
 
 io::OptionalColumns optional_columns(const scenes::Scene& scene, const RunSpec& spec) {
@@ -30,8 +38,8 @@ io::OptionalColumns optional_columns(const scenes::Scene& scene, const RunSpec& 
   columns.profile = spec.record_islands;
   columns.estimate = spec.estimate.has_value();
   columns.residuals = spec.stepper.residuals;
-  columns.interest = spec.stepper.kind != stepping::StepperKind::direct &&
-                     interest_of(*scene.build(0, spec.scene_seed)).has_value();
+  columns.interest =
+      traits_of(spec.stepper.kind).iterates && interest_of(*scene.build(0, spec.scene_seed)).has_value();
   return columns;
 }
 
@@ -54,18 +62,7 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("warmup", std::int64_t{spec.warmup}),
       Parameter::of("frames", std::int64_t{spec.frames}),
       Parameter::of("steps_per_frame", std::int64_t{spec.steps_per_frame}),
-      Parameter::of("dt", spec.stepper.dt_s),
-      Parameter::of("stepper", std::string(name_of(spec.stepper.kind))),
-      Parameter::of("iterations", std::int64_t{spec.stepper.iterations}),
-      Parameter::of("substeps", std::int64_t{spec.stepper.substeps}),
-      Parameter::of("sor_factor", spec.stepper.sor_factor),
-      Parameter::of("warm_start", spec.stepper.warm_start),
-      Parameter::of("row_order", std::string(name_of(spec.stepper.row_order))),
-      Parameter::of("precision", std::string(name_of(spec.stepper.precision))),
-      Parameter::of("simd", simd_text(spec.stepper)),
-      Parameter::of("colliders", std::string(name_of(spec.stepper.colliders))),
       Parameter::of("seed", static_cast<std::int64_t>(spec.scene_seed)),
-      Parameter::of("solver_seed", static_cast<std::int64_t>(spec.stepper.seed)),
       Parameter::of("feec", std::int64_t{spec.estimate ? 1 : 0}),
       Parameter::of("decompose", spec.decomposition == Decomposition::spaces ? "spaces" : "worlds"),
       Parameter::of("spaces", spec.spaces == scenes::SpacesForm::one ? "one" : "many"),
@@ -80,12 +77,16 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("library_hdf5", hdf5_version),
       Parameter::of("library_ode", ode_version),
   };
+  for (const stepping::StepOption& option : stepping::step_options()) {
+    const bool is_simd = option.name == "simd";  // the file says what was used, not what was asked for
+    parameters.push_back(is_simd ? Parameter::of("simd", simd_text(spec.stepper))
+                                 : step_parameter("", option, spec.stepper));
+  }
   if (const auto interest = interest_of(*scene.build(0, spec.scene_seed)))
     parameters.push_back(Parameter::of("field_of_interest", *interest));
   if (spec.estimate) {
-    parameters.push_back(Parameter::of("estimate_stepper", std::string(name_of(spec.estimate->kind))));
-    parameters.push_back(Parameter::of("estimate_iterations", std::int64_t{spec.estimate->iterations}));
-    parameters.push_back(Parameter::of("estimate_precision", std::string(name_of(spec.estimate->precision))));
+    for (const std::string_view name : estimate_options)
+      parameters.push_back(step_parameter("estimate_", stepping::step_option(name), *spec.estimate));
     const auto source = static_cast<std::size_t>(spec.estimate_source);
     parameters.push_back(Parameter::of("estimate_source", std::string(estimate_source_names[source])));
   }

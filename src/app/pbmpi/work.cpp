@@ -15,7 +15,7 @@ namespace pbmpi::app {
 Work new_work(const mpi::Communicator& comm, const Options& options) {
   Work work;
   work.source = share_scene(comm, options.scene);
-  work.scene = scenes::parse_scene(work.source, options.dt_s, options.spaces, options.effects);
+  work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces, options.effects);
   work.spec = resolve(options, *work.scene);
   return work;
 }
@@ -26,8 +26,8 @@ Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>&
   Work work;
   work.source = scene_of(comm, checkpoint, path, options.scene);
   options = parse_options(args, checkpoint.options);
-  require_same_stepper(path, checkpoint.options, options.stepper);
-  work.scene = scenes::parse_scene(work.source, options.dt_s, options.spaces, options.effects);
+  require_same_stepper(path, checkpoint.options, options.step.settings.kind);
+  work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces, options.effects);
   work.spec = resolve(options, *work.scene, {path, checkpoint.frames, checkpoint.output});
   require_same_physics(path, checkpoint.options, saved_options(work.spec, options.decomposition));
   core::require_input(checkpoint.steps == checkpoint.frames * work.spec.steps_per_frame,

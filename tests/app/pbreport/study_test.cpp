@@ -13,12 +13,10 @@ StudyCase setting(double time_ms, double error_mm) {
   StudyCase one;
   one.scene = "Fake";
   one.kind = "setting";
-  one.stepper = "sor";
-  one.precision = "single";
-  one.substeps = 2;
-  one.iterations = 3;
-  one.sor_factor = 1.3;
-  one.dt_s = 0.01;
+  one.stepper.kind = stepping::StepperKind::sor;
+  one.stepper.precision = stepping::Precision::single;
+  one.stepper.substeps = 2;
+  one.stepper.iterations = 3;
   one.steps_per_frame = 3;
   one.frames = 5;
   one.time_s = 1e-3 * time_ms;
@@ -69,8 +67,21 @@ TEST(Study, a_setting_becomes_the_options_that_give_it) {
     EXPECT_NE(preset.find(line), std::string::npos) << line;
   }
   StudyCase quick = setting(1, 10);
-  quick.stepper = "quick";
+  quick.stepper.kind = stepping::StepperKind::quick;
   EXPECT_EQ(preset_text(quick).find("substeps ="), std::string::npos) << "ODE's steppers refuse it";
+}
+
+TEST(Study, the_text_of_a_setting_leaves_out_what_all_have_in_common) {
+  StudyCase one = setting(1, 10);
+  EXPECT_EQ(setting_text(one), "sor single, 2 x 3, dt 0.01 s");
+  one.stepper.sor_factor = 1.5;
+  one.stepper.warm_start = 0.9;
+  one.stepper.row_order = stepping::RowOrder::fixed;
+  one.estimate_iterations = 2;
+  EXPECT_EQ(setting_text(one), "sor single, 2 x 3, factor 1.5, warm 0.9, fixed order, look at 2, dt 0.01 s");
+  one.stepper = {.kind = stepping::StepperKind::direct, .dt_s = 0.01};
+  one.estimate_iterations = 0;
+  EXPECT_EQ(setting_text(one), "direct, dt 0.01 s");
 }
 
 TEST(StudyOptions, times_and_lengths_have_units) {

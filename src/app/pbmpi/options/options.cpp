@@ -10,7 +10,7 @@
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
 #include "model/names.h"
-#include "stepping/names.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 
@@ -39,9 +39,9 @@ po::options_description options_description() {
       ("warmup", po::value<int>()->value_name("N"),
        "frames before the measured ones; default: the scene's, 3")  //
       ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"),
-       "of the solver's row order and of the scene's variation")  //
-      ("solver-seed", po::value<std::uint64_t>()->value_name("N"),
-       "of the solver's row order alone: runs that differ in it show the noise floor; default: --seed")  //
+       "of the solver's row order and of the scene's variation");
+  add_step_option(stepping::step_option("solver-seed"), what);
+  what.add_options()  //
       ("effects", po::value<std::string>()->value_name("+NAME,-NAME"),
        ("for an experiment: + demands an effect that the scene does not call for, - leaves one out; they "
         "are " +
@@ -49,31 +49,14 @@ po::options_description options_description() {
            .c_str());
 
   po::options_description how("How to step");
-  how.add_options()  //
-      ("stepper", po::value<std::string>()->default_value("sor")->value_name("sor|quick|direct"),
-       "sor: pbmpi's own projected SOR, worlds side by side in vector lanes; quick: ODE's iterative "
-       "dWorldQuickStep; direct: ODE's big-matrix dWorldStep")  //
-      ("dt", po::value<double>()->value_name("SECONDS"),
-       "length of a step [s]; default: the scene's, 0.01")                                                 //
-      ("steps-per-frame", po::value<int>()->value_name("N"), "steps in a frame; default: the scene's, 3")  //
-      ("iterations", po::value<int>()->value_name("N"),
-       "sweeps of the iterative solver, in each substep; default: the scene's, 20")  //
-      ("substeps", po::value<int>()->default_value(1)->value_name("N"),
-       "sor: parts of a step that share its collision detection")  //
-      ("sor-factor", po::value<double>()->value_name("X"),
-       "sor: over-relaxation, above 0 and below 2; default: 1.3, as in ODE")  //
-      ("warm-start", po::value<double>()->value_name("X"),
-       "sor: share of their impulses with which joints and contacts start a substep after the first, 0 to 1; "
-       "default: 0, none; needs --substeps")  //
-      ("row-order", po::value<std::string>()->default_value("shuffled")->value_name("shuffled|fixed"),
-       "sor: the joints' order in the sweeps: another every 8 iterations, or always the model's")  //
-      ("precision", po::value<std::string>()->default_value("double")->value_name("double|single"),
-       "sor: number type of the solver")  //
-      ("simd", po::value<std::string>()->default_value("auto")->value_name("auto|sse2|avx2|avx512|off"),
-       "sor: vector instructions; the result is the same with all")  //
-      ("colliders", po::value<std::string>()->default_value("lanes")->value_name("lanes|ode"),
-       "sor: what collides pairs of geoms; lanes: kernels over vector lanes, ode: dCollide");
-
+  for (const stepping::StepOption& option : stepping::step_options()) {
+    if (option.name == "solver-seed") continue;  // stands beside --seed
+    add_step_option(option, how);
+    if (option.name == "dt") {
+      how.add_options()("steps-per-frame", po::value<int>()->value_name("N"),
+                        "steps in a frame; default: the scene's, 3");
+    }
+  }
   how.add_options()(
       "preset", po::value<std::string>()->value_name("FILE"),
       "a setting that pbreport has chosen from a study (pbreport --write-preset); other options win");
@@ -84,8 +67,9 @@ po::options_description options_description() {
        "estimate every frame from the precise state before it is computed: the estimate goes to root at "
        "once, and is dropped when the precise result is there. It is a short run of its own; with sor and "
        "one "
-       "step of one substep a frame it is the state after the first iterations of the precise solve")   //
-      ("estimate-iterations", po::value<int>()->value_name("N"), "sweeps of the estimate; default: 1")  //
+       "step of one substep a frame it is the state after the first iterations of the precise solve")  //
+      ("estimate-iterations", po::value<std::string>()->value_name("N"),
+       "sweeps of the estimate; default: 1")  //
       ("estimate-stepper", po::value<std::string>()->value_name("quick|direct|sor"),
        "what estimates; default: that of --stepper")  //
       ("estimate-precision", po::value<std::string>()->value_name("double|single"),
@@ -162,14 +146,6 @@ model::EffectChoices effect_choices(const std::string& text) {
   }
 }
 
-/// The same for an option that has no default.
-template <class Enum, std::size_t N>
-std::optional<Enum> choice_if_given(const po::variables_map& values, const std::string& name,
-                                    const std::array<std::string_view, N>& names) {
-  if (values.count(name) == 0) return std::nullopt;
-  return choice<Enum>(values, name, names);
-}
-
 constexpr std::array<std::string_view, 2> report_format_names = {"text", "json"};
 
 /// A time that is above 0, if it is given.
@@ -215,33 +191,14 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   options.frames = given<int>(values, "frames");
   options.warmup = given<int>(values, "warmup");
   options.steps_per_frame = given<int>(values, "steps-per-frame");
-  options.iterations = given<int>(values, "iterations");
-  options.dt_s = given<double>(values, "dt");
-  require_input(!options.dt_s || (std::isfinite(*options.dt_s) && *options.dt_s > 0),
-                "--dt " + std::to_string(options.dt_s.value_or(0)) + " s: a step must be finite and above 0");
-  options.stepper = choice<stepping::StepperKind>(values, "stepper", stepping::stepper_kind_names);
-  options.substeps = values["substeps"].as<int>();
-  options.sor_factor = given<double>(values, "sor-factor");
-  require_input(!options.sor_factor || (*options.sor_factor > 0 && *options.sor_factor < 2),
-                "--sor-factor " + std::to_string(options.sor_factor.value_or(0)) +
-                    ": the iteration converges above 0 and below 2 only");
-  options.warm_start = given<double>(values, "warm-start");
-  require_input(!options.warm_start || (*options.warm_start >= 0 && *options.warm_start <= 1),
-                "--warm-start " + std::to_string(options.warm_start.value_or(0)) +
-                    ": the share of the impulses to take over is 0 to 1");
-  options.row_order = choice<stepping::RowOrder>(values, "row-order", stepping::row_order_names);
-  options.precision = choice<stepping::Precision>(values, "precision", stepping::precision_names);
-  options.simd = choice<stepping::Simd>(values, "simd", stepping::simd_names);
-  options.colliders = choice<stepping::Colliders>(values, "colliders", stepping::colliders_names);
+  options.step = step_arguments(values);
   options.decomposition = choice<Decomposition>(values, "decompose", decomposition_names);
   options.seed = values["seed"].as<std::uint64_t>();
-  options.solver_seed = given<std::uint64_t>(values, "solver-seed");
   options.feec = values.count("feec") != 0;
-  options.estimate_iterations = given<int>(values, "estimate-iterations");
-  options.estimate_stepper =
-      choice_if_given<stepping::StepperKind>(values, "estimate-stepper", stepping::stepper_kind_names);
-  options.estimate_precision =
-      choice_if_given<stepping::Precision>(values, "estimate-precision", stepping::precision_names);
+  for (const std::string_view name : estimate_options) {
+    const std::string option = "estimate-" + std::string(name);
+    if (values.count(option) != 0) options.estimate.emplace(name, values[option].as<std::string>());
+  }
   options.output = given<std::string>(values, "output");
   options.no_output = values.count("no-output") != 0;
   options.record_every = values["record-every"].as<int>();

@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/common/options.h"
+#include "app/common/step_arguments.h"
 #include "scenes/scene.h"
 #include "stepping/frame_budget.h"
 #include "stepping/stepper.h"
@@ -25,22 +27,12 @@ inline constexpr std::array<std::string_view, 2> spaces_names = {"one", "many"};
 struct Options {
   Action action = Action::run;
   std::string scene;
-  std::optional<int> replicas, frames, warmup, steps_per_frame, iterations;
-  std::optional<double> dt_s;
-  int substeps = 1;
-  std::optional<double> sor_factor, warm_start;
-  stepping::RowOrder row_order = stepping::RowOrder::shuffled;
-  stepping::Precision precision = stepping::Precision::double_;
-  stepping::Simd simd = stepping::Simd::automatic;
-  stepping::Colliders colliders = stepping::Colliders::lanes;
-  stepping::StepperKind stepper = stepping::StepperKind::quick;
+  std::optional<int> replicas, frames, warmup, steps_per_frame;
+  StepArguments step;
   Decomposition decomposition = Decomposition::automatic;
   std::uint64_t seed = 1;
-  std::optional<std::uint64_t> solver_seed;
   bool feec = false;
-  std::optional<int> estimate_iterations;
-  std::optional<stepping::StepperKind> estimate_stepper;
-  std::optional<stepping::Precision> estimate_precision;
+  std::map<std::string, std::string, std::less<>> estimate;  ///< step options of the estimate, as given
   std::optional<std::string> output;
   bool no_output = false;
   bool record_islands = false;
@@ -54,7 +46,15 @@ struct Options {
   double budget_s = stepping::default_frame_budget_s;
   CommonOptions common;
   std::string command_line;
+
+  /// The step's length, unless it is left to the scene.
+  std::optional<double> dt_s() const {
+    return step.has("dt") ? std::optional<double>(step.settings.dt_s) : std::nullopt;
+  }
 };
+
+/// The step options of which FEEC's estimate has its own: "estimate-stepper" and so on.
+inline constexpr std::array<std::string_view, 3> estimate_options = {"stepper", "iterations", "precision"};
 
 /// `saved`: further options of lower rank, one "name = value" a line. Throws core::InputError with one clear
 /// message.

@@ -21,30 +21,29 @@ void require_at_least(int value, int least, const char* option) {
 /// The estimate's own settings over those of the precise stepper, whose step and seed it shares.
 std::optional<stepping::StepperSettings> resolve_estimate(const Options& options,
                                                           const stepping::StepperSettings& precise) {
-  const bool asked = options.estimate_iterations || options.estimate_stepper || options.estimate_precision;
   require_input(
-      options.feec || !asked,
+      options.feec || options.estimate.empty(),
       "--estimate-iterations, --estimate-stepper and --estimate-precision say how --feec estimates; "
       "give --feec too");
   if (!options.feec) return std::nullopt;
   stepping::StepperSettings estimate = precise;
-  estimate.kind = options.estimate_stepper.value_or(precise.kind);
-  estimate.iterations = options.estimate_iterations.value_or(1);
-  estimate.precision = options.estimate_precision.value_or(precise.precision);
+  estimate.iterations = 1;
   estimate.substeps = 1;
   estimate.warm_start = 0;
   estimate.residuals = false;
-  require_at_least(estimate.iterations, 1, "--estimate-iterations");
-  require_input(estimate.kind == stepping::StepperKind::sor || !options.estimate_precision,
+  for (const auto& [name, text] : options.estimate)
+    set(stepping::step_option(name), text, "--estimate-" + name, estimate);
+  const bool has_precision = traits_of(estimate.kind).has_precision;
+  require_input(has_precision || !options.estimate.contains("precision"),
                 "--estimate-precision is an option of an estimate by sor; give --estimate-stepper sor");
-  if (estimate.kind != stepping::StepperKind::sor) estimate.precision = stepping::Precision::double_;
+  if (!has_precision) estimate.precision = stepping::Precision::double_;
   return estimate;
 }
 
 /// The precise solve can be looked at where it is the frame's only one, and passes the wanted iteration.
 EstimateSource estimate_source(const RunSpec& spec) {
-  const bool one_solve = spec.stepper.kind == stepping::StepperKind::sor && spec.steps_per_frame == 1 &&
-                         spec.stepper.substeps == 1;
+  const bool one_solve =
+      traits_of(spec.stepper.kind).is_anytime && spec.steps_per_frame == 1 && spec.stepper.substeps == 1;
   const bool passes = spec.estimate && spec.estimate->kind == spec.stepper.kind &&
                       spec.estimate->precision == spec.stepper.precision &&
                       spec.estimate->iterations <= spec.stepper.iterations;
@@ -106,6 +105,38 @@ CheckpointSpec resolve_checkpoint(const Options& options, const scenes::Scene& s
   return spec;
 }
 
+stepping::StepperSettings resolve_step(const Options& options, const scenes::RunDefaults& defaults) {
+  stepping::StepperSettings step = options.step.settings;
+  if (!options.step.has("dt")) step.dt_s = defaults.dt_s;
+  if (!options.step.has("iterations")) {
+    step.iterations = defaults.iterations;
+    require_at_least(step.iterations, 1, "--iterations");
+  }
+  if (!options.step.has("solver-seed")) step.seed = options.seed;
+  step.profile = options.record_islands;
+  step.residuals = options.record_residuals;
+  require_fitting(step);
+  require_input(
+      step.warm_start == 0 || step.substeps > 1,
+      "--warm-start carries impulses from one substep to the next, and there is one; give --substeps "
+      "2 or more");
+  return step;
+}
+
+/// Throws core::InputError for what this kind of stepper cannot record, or has no file for.
+void require_recordable(const Options& options, stepping::StepperKind kind) {
+  const stepping::StepperTraits& traits = traits_of(kind);
+  require_input(!options.record_islands || traits.profiles_islands,
+                "--record-islands: --stepper sor solves many islands in one vector and has no time of one; "
+                "use quick or direct");
+  require_input(!options.record_islands || !options.no_output,
+                "--record-islands writes into the run's file; drop --no-output");
+  require_input(!options.record_residuals || traits.shows_residuals,
+                "--record-residuals: ODE's steppers do not show their rows; use --stepper sor");
+  require_input(!options.record_residuals || !options.no_output,
+                "--record-residuals writes into the run's file; drop --no-output");
+}
+
 }  // namespace
 
 RunSpec resolve(const Options& options, const scenes::Scene& scene, const ResumePoint& from) {
@@ -115,18 +146,8 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   spec.warmup = options.warmup.value_or(defaults.warmup);
   spec.frames = options.frames.value_or(defaults.frames);
   spec.steps_per_frame = options.steps_per_frame.value_or(defaults.steps_per_frame);
-  spec.stepper.kind = options.stepper;
-  spec.stepper.dt_s = options.dt_s.value_or(defaults.dt_s);
-  spec.stepper.iterations = options.iterations.value_or(defaults.iterations);
   spec.scene_seed = options.seed;
-  spec.stepper.seed = options.solver_seed.value_or(options.seed);
-  spec.stepper.substeps = options.substeps;
-  spec.stepper.sor_factor = options.sor_factor.value_or(spec.stepper.sor_factor);
-  spec.stepper.warm_start = options.warm_start.value_or(0);
-  spec.stepper.row_order = options.row_order;
-  spec.stepper.precision = options.precision;
-  spec.stepper.simd = options.simd;
-  spec.stepper.colliders = options.colliders;
+  spec.stepper = resolve_step(options, defaults);
   spec.record_every = options.record_every;
   spec.budget_s = options.budget_s;
   spec.decomposition = options.decomposition;
@@ -140,36 +161,11 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
                 "--resume " + from.path + ": all " + std::to_string(spec.total_frames()) + " frames (" +
                     std::to_string(spec.warmup) + " of warm-up) are done; give --frames above " +
                     std::to_string(from.frames - spec.warmup) + " to go on");
-  require_at_least(spec.stepper.iterations, 1, "--iterations");
-  require_at_least(spec.stepper.substeps, 1, "--substeps");
-  const bool own_options = spec.stepper.substeps != 1 || options.sor_factor || options.warm_start ||
-                           options.row_order != stepping::RowOrder::shuffled ||
-                           options.precision != stepping::Precision::double_ ||
-                           options.simd != stepping::Simd::automatic ||
-                           options.colliders != stepping::Colliders::lanes;
-  require_input(
-      options.stepper == stepping::StepperKind::sor || !own_options,
-      "--substeps, --sor-factor, --warm-start, --row-order, --precision, --simd and --colliders are "
-      "options of --stepper sor; ODE's steppers have none of them");
-  require_input(
-      spec.stepper.warm_start == 0 || spec.stepper.substeps > 1,
-      "--warm-start carries impulses from one substep to the next, and there is one; give --substeps "
-      "2 or more");
   require_at_least(spec.record_every, 1, "--record-every");
   spec.spaces = scene.defaults().spaces;
   spec.effects = scene.defaults().effects;
   spec.record_islands = options.record_islands;
-  spec.stepper.profile = options.record_islands;
-  require_input(!options.record_islands || options.stepper != stepping::StepperKind::sor,
-                "--record-islands: --stepper sor solves many islands in one vector and has no time of one; "
-                "use quick or direct");
-  require_input(!options.record_islands || !options.no_output,
-                "--record-islands writes into the run's file; drop --no-output");
-  spec.stepper.residuals = options.record_residuals;
-  require_input(!options.record_residuals || options.stepper == stepping::StepperKind::sor,
-                "--record-residuals: ODE's steppers do not show their rows; use --stepper sor");
-  require_input(!options.record_residuals || !options.no_output,
-                "--record-residuals writes into the run's file; drop --no-output");
+  require_recordable(options, spec.stepper.kind);
   spec.estimate = resolve_estimate(options, spec.stepper);
   spec.estimate_source = estimate_source(spec);
   return spec;
@@ -179,7 +175,7 @@ namespace {
 
 /// Why this run's worlds stay whole, and what to do about it; nothing if one may be cut.
 std::optional<std::string> why_whole(const RunSpec& spec) {
-  if (spec.stepper.kind != stepping::StepperKind::sor) {
+  if (!traits_of(spec.stepper.kind).cuts_spaces) {
     return "--decompose spaces needs --stepper sor (ODE's solvers give no access to single islands, and quick"
            " draws from one random seed for the whole world); add --stepper sor, or use --decompose worlds";
   }

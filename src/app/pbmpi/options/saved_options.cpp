@@ -6,19 +6,29 @@
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 #include "core/error.h"
 #include "effects/effect_choices.h"
 #include "model/names.h"
 #include "stepping/names.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
 
-/// With these the run is another one. In this order they are compared.
-constexpr std::array<std::string_view, 13> physics = {
-    "stepper",   "precision",  "replicas",  "dt",   "steps-per-frame", "iterations", "substeps", "sor-factor",
-    "row-order", "warm-start", "colliders", "seed", "solver-seed"};
+/// Options beside those of the step with which the run is another one.
+constexpr std::array<std::string_view, 3> physics_of_the_run = {"replicas", "steps-per-frame", "seed"};
+
+/// In this order they are compared.
+std::vector<std::string> physics() {
+  std::vector<std::string> names;
+  for (const stepping::StepOption& option : stepping::step_options()) {
+    if (option.is_physics) names.emplace_back(option.name);
+  }
+  names.insert(names.end(), physics_of_the_run.begin(), physics_of_the_run.end());
+  return names;
+}
 
 class Lines {
  public:
@@ -54,22 +64,12 @@ std::map<std::string, std::string, std::less<>> parse(const std::string& options
   return values;
 }
 
-void add_sor(const stepping::StepperSettings& stepper, Lines& lines) {
-  lines.add("substeps", stepper.substeps);
-  lines.add("sor-factor", stepper.sor_factor);
-  lines.add("warm-start", stepper.warm_start);
-  lines.add("row-order", name_of(stepper.row_order));
-  lines.add("precision", name_of(stepper.precision));
-  lines.add("colliders", name_of(stepper.colliders));
-  lines.add("simd", name_of(stepper.simd));
-}
-
 void add_estimate(const stepping::StepperSettings& estimate, Lines& lines) {
   lines.add("feec", "");
-  lines.add("estimate-stepper", name_of(estimate.kind));
-  lines.add("estimate-iterations", estimate.iterations);
-  if (estimate.kind == stepping::StepperKind::sor)
-    lines.add("estimate-precision", name_of(estimate.precision));
+  for (const std::string_view name : estimate_options) {
+    const stepping::StepOption& option = stepping::step_option(name);
+    if (fits(option, estimate.kind)) lines.add("estimate-" + std::string(name), text_of(option, estimate));
+  }
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& name, const std::string& before,
@@ -91,15 +91,13 @@ std::set<std::string> chosen(const std::string& effects) {
 
 std::string saved_options(const RunSpec& spec, Decomposition asked) {
   Lines lines;
-  lines.add("stepper", name_of(spec.stepper.kind));
+  for (const stepping::StepOption& option : stepping::step_options()) {
+    if (fits(option, spec.stepper.kind)) lines.add(option.name, text_of(option, spec.stepper));
+  }
   lines.add("replicas", spec.num_worlds);
-  lines.add("dt", spec.stepper.dt_s);
   lines.add("steps-per-frame", spec.steps_per_frame);
-  lines.add("iterations", spec.stepper.iterations);
   lines.add("seed", spec.scene_seed);
-  lines.add("solver-seed", spec.stepper.seed);
   if (!spec.effects.empty()) lines.add("effects", effects::to_text(spec.effects));
-  if (spec.stepper.kind == stepping::StepperKind::sor) add_sor(spec.stepper, lines);
   lines.add("warmup", spec.warmup);
   lines.add("frames", spec.frames);
   lines.add("record-every", spec.record_every);
@@ -117,8 +115,7 @@ void require_same_stepper(const std::string& path, const std::string& saved, ste
 
 void require_same_physics(const std::string& path, const std::string& saved, const std::string& now) {
   auto before = parse(saved), after = parse(now);
-  for (const std::string_view physical : physics) {
-    const std::string name(physical);
+  for (const std::string& name : physics()) {
     if (before[name] != after[name]) refuse(path, name, before[name], after[name]);
   }
   if (chosen(before["effects"]) != chosen(after["effects"]))

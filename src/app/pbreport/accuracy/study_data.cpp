@@ -7,6 +7,7 @@
 #include "app/common/format.h"
 #include "app/pbreport/study/case_row.h"
 #include "core/error.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -15,21 +16,13 @@ StudyCase read_case(const CaseRow& row) {
   StudyCase one;
   one.scene = row.text("scene");
   one.kind = row.text("kind");
-  one.stepper = row.text("stepper");
-  one.precision = row.text("precision");
-  one.iterations = row.integer("iterations");
-  one.substeps = row.integer("substeps");
+  one.stepper = row.step_settings();
   one.steps_per_frame = row.integer("steps_per_frame");
   one.worlds = row.integer("worlds");
   one.warmup = row.integer("warmup");
   one.frames = row.integer("frames");
-  one.sor_factor = row.real("sor_factor");
-  if (row.has("warm_start")) {  // since version 1.1 of the file
-    one.warm_start = row.real("warm_start");
-    one.row_order = row.text("row_order");
+  if (row.has("estimate_iterations"))  // since version 1.1 of the file
     one.estimate_iterations = row.integer("estimate_iterations");
-  }
-  one.dt_s = row.real("dt");
   one.time_s = row.real("frame_time_worst");
   one.median_time_s = row.real("frame_time_median");
   one.row_visits = row.real("row_visits");
@@ -39,6 +32,13 @@ StudyCase read_case(const CaseRow& row) {
   one.defect = row.errors("defect");
   one.drift = row.errors("drift");
   return one;
+}
+
+/// As a setting's short text has it: six digits are enough there.
+std::string short_value(const stepping::StepOption& option, const stepping::StepperSettings& settings) {
+  const stepping::StepValue value = value_of(option, settings);
+  const auto* real = std::get_if<double>(&value);
+  return real != nullptr ? format("%g", *real) : text_of(option, settings);
 }
 
 void add_case(StudyCase one, SceneCases& scene) {
@@ -79,35 +79,28 @@ double StudyCase::error_m(ErrorMeasure measure) const {
 }
 
 std::string setting_text(const StudyCase& one) {
-  if (one.stepper == "direct") return format("direct, dt %g s", one.dt_s);
-  std::string text = one.stepper;
-  if (one.stepper == "sor") text += " " + one.precision;
-  text += format(", %d x %d", one.substeps, one.iterations);
-  if (one.stepper == "sor" && one.sor_factor != 1.3) text += format(", factor %g", one.sor_factor);
-  if (one.warm_start > 0) text += format(", warm %g", one.warm_start);
-  if (one.row_order != "shuffled") text += ", " + one.row_order + " order";
+  const stepping::StepperSettings& settings = one.stepper;
+  std::string text = stepper_text(settings);
+  if (traits_of(settings.kind).iterates) text += format(", %d x %d", settings.substeps, settings.iterations);
+  for (const stepping::StepOption& option : stepping::step_options()) {
+    if (option.in_short.empty() || !fits(option, settings.kind) || is_default(option, settings)) continue;
+    std::string words(option.in_short);
+    text += ", " + words.replace(words.find('*'), 1, short_value(option, settings));
+  }
   if (one.estimate_iterations > 0) text += format(", look at %d", one.estimate_iterations);
-  return text + format(", dt %g s", one.dt_s);
+  return text + format(", dt %g s", settings.dt_s);
 }
 
 std::vector<std::pair<std::string, std::string>> setting_options(const StudyCase& one) {
-  std::vector<std::pair<std::string, std::string>> options = {
-      {"scene", one.scene},
-      {"stepper", one.stepper},
-      {"iterations", std::to_string(one.iterations)},
-      {"dt", format("%.17g", one.dt_s)},
-      {"steps-per-frame", std::to_string(one.steps_per_frame)},
-      {"replicas", std::to_string(one.worlds)},
-      {"warmup", std::to_string(one.warmup)},
-      {"frames", std::to_string(one.frames)},
-  };
-  if (one.stepper == "sor") {
-    options.emplace_back("substeps", std::to_string(one.substeps));
-    options.emplace_back("precision", one.precision);
-    options.emplace_back("sor-factor", format("%.17g", one.sor_factor));
-    options.emplace_back("warm-start", format("%.17g", one.warm_start));
-    options.emplace_back("row-order", one.row_order);
+  std::vector<std::pair<std::string, std::string>> options = {{"scene", one.scene}};
+  for (const stepping::StepOption& option : stepping::step_options()) {
+    if (option.in_studies && fits(option, one.stepper.kind))
+      options.emplace_back(option.name, text_of(option, one.stepper));
   }
+  options.insert(options.end(), {{"steps-per-frame", std::to_string(one.steps_per_frame)},
+                                 {"replicas", std::to_string(one.worlds)},
+                                 {"warmup", std::to_string(one.warmup)},
+                                 {"frames", std::to_string(one.frames)}});
   return options;
 }
 

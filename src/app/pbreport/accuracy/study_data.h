@@ -9,17 +9,18 @@
 #include "analysis/error_table.h"
 #include "app/pbreport/accuracy/study_options.h"
 #include "io/table/table_file.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::app {
 
 /// A row of /cases.
 struct StudyCase {
-  std::string scene, kind, stepper, precision, row_order = "shuffled";
-  int iterations = 0, substeps = 1, steps_per_frame = 0, worlds = 1, warmup = 0, frames = 0;
+  std::string scene, kind;
+  stepping::StepperSettings stepper;
+  int steps_per_frame = 0, worlds = 1, warmup = 0, frames = 0;
   int estimate_iterations = 0;  ///< of a look into the frame's last solve; 0: the frame's end
-  double sor_factor = 0, warm_start = 0, dt_s = 0;
-  double time_s = 0;         ///< of the worst measured frame: what a budget must hold
-  double median_time_s = 0;  ///< of the measured frames
+  double time_s = 0;            ///< of the worst measured frame: what a budget must hold
+  double median_time_s = 0;     ///< of the measured frames
   double row_visits = 0;
   double joint_gap_m = 0, penetration_m = 0, energy_change_j = 0;
   analysis::ErrorTable defect, drift;

@@ -6,6 +6,7 @@
 #include "app/common/format.h"
 #include "app/pbreport/accuracy/study_text.h"
 #include "io/html/chart_page.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -17,10 +18,6 @@ const std::map<std::string, std::string>& stepper_colours() {
   static const std::map<std::string, std::string> colours = {
       {"quick", "#0072b2"}, {"direct", "#cc79a7"}, {"sor double", "#e69f00"}, {"sor single", "#009e73"}};
   return colours;
-}
-
-std::string stepper_of(const StudyCase& one) {
-  return one.stepper == "sor" ? "sor " + one.precision : one.stepper;
 }
 
 json point(const StudyCase& one, double y) {
@@ -55,7 +52,8 @@ json bands_of(const SceneCases& scene, ErrorOf error) {
 io::html::Chart diagram(const SceneCases& scene, const char* title, const char* axis, ErrorOf error) {
   std::map<std::string, json> by_stepper;
   for (const StudyCase& one : scene.settings) {
-    if (one.finite()) by_stepper[stepper_of(one)].push_back(point(one, std::max(error(one), least_shown)));
+    if (one.finite())
+      by_stepper[stepper_text(one.stepper)].push_back(point(one, std::max(error(one), least_shown)));
   }
   json datasets = json::array();
   json front = json::array();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/pbreport/study/case_row.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -22,13 +23,11 @@ EffectRow read_effect(const CaseRow& row, bool counted) {
   one.kind = row.text("kind");
   one.effect = row.text("effect");
   one.reason = row.text("reason");
-  one.stepper = row.text("stepper");
-  one.precision = row.text("precision");
+  one.stepper = row.step_settings();
   one.hash_baseline = row.text("hash_baseline");
   one.hash_variant = row.text("hash_variant");
   one.called_for = row.integer("called_for") == 1;
   if (const int same = row.integer("same_bits"); same >= 0) one.same_bits = same == 1;
-  one.iterations = row.integer("iterations");
   one.worlds = row.integer("worlds");
   one.time_with_s = read_spread(row, "time_with");
   one.time_without_s = read_spread(row, "time_without");
@@ -41,10 +40,6 @@ EffectRow read_effect(const CaseRow& row, bool counted) {
   one.defect = row.errors("defect");
   one.drift = row.errors("drift");
   return one;
-}
-
-std::string stepper_of(const EffectRow& one) {
-  return one.stepper == "sor" ? "sor " + one.precision : one.stepper;
 }
 
 template <class Get>
@@ -80,10 +75,10 @@ std::vector<EffectScene> effect_scenes(const io::TableFile& file, const std::vec
   for (std::size_t i = 0; i < num_cases; ++i) {
     EffectRow one = read_effect(CaseRow(file, i), counted);
     auto scene = std::find_if(scenes.begin(), scenes.end(), [&](const EffectScene& s) {
-      return s.name == one.scene && s.stepper == stepper_of(one);
+      return s.name == one.scene && s.stepper == stepper_text(one.stepper);
     });
     if (scene == scenes.end())
-      scene = scenes.insert(scenes.end(), EffectScene{one.scene, stepper_of(one), {}, {}});
+      scene = scenes.insert(scenes.end(), EffectScene{one.scene, stepper_text(one.stepper), {}, {}});
     (one.kind == "floor" ? scene->floor : scene->effects).push_back(std::move(one));
   }
   return chosen_scenes(scenes, names);

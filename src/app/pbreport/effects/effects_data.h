@@ -7,6 +7,7 @@
 
 #include "analysis/error_table.h"
 #include "io/table/table_file.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::app {
 
@@ -17,10 +18,11 @@ struct ReadSpread {
 
 /// A row of /cases. Numbers are NaN where nothing was measured.
 struct EffectRow {
-  std::string scene, kind, effect, reason, stepper, precision, hash_baseline, hash_variant;
+  std::string scene, kind, effect, reason, hash_baseline, hash_variant;
+  stepping::StepperSettings stepper;
   bool called_for = false;
   std::optional<bool> same_bits;  ///< none: nothing was measured
-  int iterations = 0, worlds = 1;
+  int worlds = 1;
   ReadSpread time_with_s, time_without_s, cost_s;  ///< of a step of all worlds
   ReadSpread share;                                ///< of the step with the effect
   std::optional<double> instructions_with, instructions_without;

@@ -37,8 +37,8 @@ std::string scene_text(const EffectScene& scene) {
   std::string text = format("\nscene: %s, %s", scene.name.c_str(), scene.stepper.c_str());
   if (!scene.effects.empty()) {
     const EffectRow& any = scene.effects.front();
-    text +=
-        format(", %d iterations, %d %s", any.iterations, any.worlds, any.worlds == 1 ? "world" : "worlds");
+    text += format(", %d iterations, %d %s", any.stepper.iterations, any.worlds,
+                   any.worlds == 1 ? "world" : "worlds");
   }
   text += format("; a step takes %.1f us as the scene is\n", 1e6 * scene.step_s());
   text += format(

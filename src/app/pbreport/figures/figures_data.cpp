@@ -6,6 +6,8 @@
 #include "app/pbreport/diff/run_comparison.h"
 #include "core/error.h"
 #include "stepping/frame_budget.h"
+#include "stepping/names.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -24,15 +26,28 @@ std::string parameter(const io::RunData& run, const std::string& name) {
   return found == run.parameters.end() ? "" : found->second;
 }
 
+/// Stepper and precision that the file names with this prefix.
+stepping::StepperSettings step_settings(const io::RunData& run, const std::string& prefix) {
+  stepping::StepperSettings settings;
+  for (const char* name : {"stepper", "precision"}) {
+    const stepping::StepOption& option = stepping::step_option(name);
+    const std::string in_file = prefix + file_name(option);
+    const std::string text = parameter(run, in_file);
+    if (!text.empty()) set(option, text, "parameter " + in_file, settings);
+  }
+  return settings;
+}
+
 std::string label_of(const io::RunData& run) {
   if (parameter(run, "feec") == "1") {
-    const std::string stepper = parameter(run, "estimate_stepper");
-    return "FEEC " + stepper + (stepper == "sor" ? " " + parameter(run, "estimate_precision") : "") + " x " +
+    return "FEEC " + stepper_text(step_settings(run, "estimate_")) + " x " +
            parameter(run, "estimate_iterations");
   }
   if (parameter(run, "solver_seed") != parameter(run, "seed")) return floor_label;
-  const std::string stepper = parameter(run, "stepper");
-  return (stepper == "quick" ? "Iter" : stepper + " x ") + parameter(run, "iterations");
+  const stepping::StepperKind kind = step_settings(run, "").kind;
+  const std::string paper_label = "Iter";  // the paper has quick alone
+  return (kind == stepping::StepperKind::quick ? paper_label : std::string(name_of(kind)) + " x ") +
+         parameter(run, "iterations");
 }
 
 Recorded read(const std::string& path) {

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "analysis/error_table.h"
 #include "core/error.h"
 #include "io/table/table_file.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 
@@ -23,6 +25,19 @@ class CaseRow {
   }
   std::string text(const std::string& name) const {
     return file_->column<std::string>("cases", name)[index_];
+  }
+  /// The settings of a step, as far as the file has columns of them.
+  stepping::StepperSettings step_settings() const {
+    stepping::StepperSettings settings;
+    for (const stepping::StepOption& option : stepping::step_options()) {
+      const std::string name = file_name(option);
+      if (!has(name)) continue;
+      const auto of_type = [&]<class Value>(const Value&) -> stepping::StepValue {
+        return file_->column<Value>("cases", name)[index_];
+      };
+      restore(option, std::visit(of_type, value_of(option, settings)), settings);
+    }
+    return settings;
   }
   analysis::BandCounts bands(const std::string& name) const {
     analysis::BandCounts counts{};

@@ -1,6 +1,8 @@
 #include "app/pbstudy/accuracy/accuracy_cases.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/error.h"
 #include "mpi/balance/partition.h"
@@ -8,7 +10,6 @@
 namespace pbmpi::app {
 namespace {
 
-using stepping::StepperKind;
 using stepping::StepperSettings;
 
 /// Steps of dt in a frame; they must fill it to within rounding.
@@ -20,70 +21,46 @@ int steps_in_frame(const StudyScene& scene, double dt_s) {
   return static_cast<int>(std::round(steps));
 }
 
-/// One substep has nothing to take over from another.
-void add_solver_settings(AccuracyCase base, const AccuracyOptions& options,
-                         std::vector<AccuracyCase>& cases) {
-  const bool several = base.stepper.substeps > 1;
-  for (const double share : several ? options.warm_starts : std::vector<double>{0}) {
-    base.stepper.warm_start = share;
-    for (const stepping::RowOrder order : options.row_orders) {
-      base.stepper.row_order = order;
-      cases.push_back(base);
-    }
-  }
-}
-
-/// Looks at the solve of the scene's own iterations.
+/// Looks at the solve of the scene's own iterations, in each precision of the study.
 void add_estimates(AccuracyCase base, const StudyScene& scene, const AccuracyOptions& options,
                    std::vector<AccuracyCase>& cases) {
   base.kind = CaseKind::estimate;
-  base.stepper.kind = StepperKind::sor;
   base.stepper.iterations = scene.iterations;
-  for (const stepping::Precision precision : options.precisions) {
-    base.stepper.precision = precision;
+  const auto precisions =
+      std::ranges::find(options.settings, &stepping::step_option("precision"), &SettingList::option);
+  cross_settings(base.stepper, {precisions, 1}, [&](const StepperSettings& stepper) {
+    base.stepper = stepper;
     for (const int iterations : options.estimates) {
       base.estimate_iterations = iterations;
       if (iterations > 0 && iterations <= scene.iterations) cases.push_back(base);
     }
-  }
+  });
 }
 
-/// ODE's steppers have neither substeps nor a precision nor a factor to choose.
-void add_settings(AccuracyCase base, const AccuracyOptions& options, std::vector<AccuracyCase>& cases) {
-  if (base.stepper.kind != StepperKind::sor) {
-    cases.push_back(base);
-    return;
-  }
-  for (const int substeps : options.substeps) {
-    base.stepper.substeps = substeps;
-    if (base.sweeps() > options.max_sweeps) continue;
-    for (const stepping::Precision precision : options.precisions) {
-      base.stepper.precision = precision;
-      for (const double factor : options.sor_factors) {
-        base.stepper.sor_factor = factor;
-        add_solver_settings(base, options, cases);
-      }
-    }
-  }
+/// All settings of one kind of stepper, and its estimates. `base` has the kind and dt.
+void add_settings(AccuracyCase base, const StudyScene& scene, const AccuracyOptions& options,
+                  std::vector<AccuracyCase>& cases) {
+  const stepping::StepperTraits& traits = traits_of(base.stepper.kind);
+  const std::span<const SettingList> lists = options.settings;
+  AccuracyCase one = base;
+  cross_settings(base.stepper, lists.subspan(1), [&](const StepperSettings& stepper) {
+    one.stepper = stepper;
+    if (!traits.has_substeps || one.sweeps() <= options.max_sweeps) cases.push_back(one);
+  });
+  if (traits.is_anytime) add_estimates(base, scene, options, cases);
 }
 
 void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& options,
                 std::vector<AccuracyCase>& cases) {
-  const std::vector<double> dts_s = options.dts_s.empty() ? std::vector<double>{scene.dt_s} : options.dts_s;
-  for (const double dt_s : dts_s) {
-    AccuracyCase base{index, CaseKind::setting, {}, steps_in_frame(scene, dt_s)};
-    base.stepper.seed = options.seed;
-    base.stepper.dt_s = dt_s;
-    for (const StepperKind kind : options.steppers) {
-      base.stepper.kind = kind;
-      for (const int iterations : options.iterations) {
-        base.stepper.iterations = iterations;
-        add_settings(base, options, cases);
-        if (kind == StepperKind::direct) break;  // it has no iterations
-      }
-      if (kind == StepperKind::sor) add_estimates(base, scene, options, cases);
-    }
-  }
+  StepperSettings base;
+  base.seed = options.seed;
+  base.dt_s = scene.dt_s;
+  cross_settings(base, {&options.dts, 1}, [&](const StepperSettings& with_dt) {
+    const int steps = steps_in_frame(scene, with_dt.dt_s);
+    cross_settings(with_dt, {&options.settings.front(), 1}, [&](const StepperSettings& with_kind) {
+      add_settings({index, CaseKind::setting, with_kind, steps}, scene, options, cases);
+    });
+  });
 }
 
 void add_yardsticks(int index, const StudyScene& scene, const AccuracyOptions& options,
@@ -116,7 +93,7 @@ StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions&
 
 StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options) {
   StepperSettings reference;
-  reference.kind = StepperKind::sor;
+  reference.kind = stepping::StepperKind::sor;
   reference.dt_s = scene.dt_s;
   reference.iterations = options.reference_iterations;
   reference.substeps = options.reference_substeps;
@@ -135,10 +112,10 @@ std::vector<AccuracyCase> make_cases(const std::vector<StudyScene>& scenes, cons
 
 std::vector<int> deal_out(const std::vector<AccuracyCase>& cases, const std::vector<StudyScene>& scenes,
                           int num_ranks) {
-  // Sweeps of a step, a fixed part of about five more, and quick at about five times the cost of sor.
+  // A step costs its sweeps and a fixed part of about five more.
   std::vector<double> cost;
   for (const AccuracyCase& one : cases) {
-    const double per_sweep = one.stepper.kind == StepperKind::sor ? 1 : 5;
+    const double per_sweep = traits_of(one.stepper.kind).relative_cost;
     const StudyScene& scene = scenes[static_cast<std::size_t>(one.scene)];
     cost.push_back(per_sweep * (one.sweeps() + 5) * one.steps_per_frame * scene.num_worlds);
   }

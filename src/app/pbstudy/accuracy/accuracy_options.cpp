@@ -1,35 +1,39 @@
 #include "app/pbstudy/accuracy/accuracy_options.h"
 
-#include <cmath>
+#include <array>
 #include <sstream>
 
 #include "app/pbstudy/study/option_lists.h"
-#include "core/error.h"
-#include "stepping/names.h"
 
 namespace pbmpi::app {
 namespace {
 
 namespace po = boost::program_options;
-using core::require_input;
+
+/// In the order in which cases are crossed, the last varying fastest.
+constexpr std::array<VariedOption, 7> varied = {{
+    {"stepper", "quick, direct, sor; default: quick sor", "quick sor"},
+    {"iterations", "default: 1 2 3 5 10 15 19 20 40 80", "1 2 3 5 10 15 19 20 40 80"},
+    {"substeps", "sor; default: 1 2 4 8 16", "1 2 4 8 16"},
+    {"precision", "sor: double, single; default: both", "double single"},
+    {"sor-factor", "sor: over-relaxation; default: 1.3", "1.3"},
+    {"warm-start",
+     "sor, with several substeps: share of the impulses that a substep takes over; default: 0 0.9", "0 0.9"},
+    {"row-order", "sor: shuffled (anew every 8 iterations), fixed; default: shuffled", "shuffled"},
+}};
+constexpr VariedOption varied_dt = {
+    "dt", "step [s], a whole number of which fills a frame; default: the scene's", ""};
 
 po::options_description options_description() {
   po::options_description what("What to vary (lists, separated by blanks; all are crossed)");
   add_scene_option(what);
-  what.add_options()                                                                 //
-      ("stepper", list_of<std::string>(), "quick, direct, sor; default: quick sor")  //
-      ("iterations", list_of<int>(), "default: 1 2 3 5 10 15 19 20 40 80")           //
-      ("substeps", list_of<int>(), "sor; default: 1 2 4 8 16")                       //
-      ("precision", list_of<std::string>(), "sor: double, single; default: both")    //
-      ("sor-factor", list_of<double>(), "sor: over-relaxation; default: 1.3")        //
-      ("warm-start", list_of<double>(),
-       "sor, with several substeps: share of the impulses that a substep takes over; default: 0 0.9")  //
-      ("row-order", list_of<std::string>(),
-       "sor: shuffled (anew every 8 iterations), fixed; default: shuffled")  //
+  for (const VariedOption& one : varied) add_setting_list(one, what);
+  what.add_options()  //
       ("estimates", list_of<int>(),
        "sor: FEEC cases, not crossed with the others: the state after so many iterations of a frame's last "
-       "solve, which has the scene's iterations; 0: none; default: 1 5")                                  //
-      ("dt", list_of<double>(), "step [s], a whole number of which fills a frame; default: the scene's")  //
+       "solve, which has the scene's iterations; 0: none; default: 1 5");
+  add_setting_list(varied_dt, what);
+  what.add_options()  //
       ("max-sweeps", po::value<int>()->default_value(320)->value_name("N"),
        "leave out cases with more iterations x substeps");
   po::options_description how =
@@ -49,24 +53,10 @@ po::options_description options_description() {
 }
 
 void require_possible(const AccuracyOptions& options) {
-  require_at_least(options.iterations, 1, "--iterations");
-  require_at_least(options.substeps, 1, "--substeps");
   require_at_least({options.max_sweeps}, 1, "--max-sweeps");
   require_at_least({options.reference_iterations}, 2, "--reference-iterations");
   require_at_least({options.reference_substeps}, 1, "--reference-substeps");
-  for (const double factor : options.sor_factors) {
-    require_input(factor > 0 && factor < 2, "--sor-factor " + std::to_string(factor) +
-                                                ": the iteration converges above 0 and below 2 only");
-  }
-  for (const double share : options.warm_starts) {
-    require_input(share >= 0 && share <= 1, "--warm-start " + std::to_string(share) +
-                                                ": the share of the impulses to take over is 0 to 1");
-  }
   require_at_least(options.estimates, 0, "--estimates");
-  for (const double dt_s : options.dts_s) {
-    require_input(std::isfinite(dt_s) && dt_s > 0,
-                  "--dt " + std::to_string(dt_s) + " s: a step must be finite and above 0");
-  }
 }
 
 }  // namespace
@@ -90,18 +80,9 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   const po::variables_map values = parse_command_line(args, options_description());
   AccuracyOptions options;
   static_cast<StudyOptions&>(options) = study_options(values, "pbstudy accuracy", args);
-  options.steppers =
-      choices<stepping::StepperKind>(values, "stepper", stepping::stepper_kind_names, {"quick", "sor"});
-  options.iterations = list<int>(values, "iterations", {1, 2, 3, 5, 10, 15, 19, 20, 40, 80});
-  options.substeps = list<int>(values, "substeps", {1, 2, 4, 8, 16});
-  options.precisions =
-      choices<stepping::Precision>(values, "precision", stepping::precision_names, {"double", "single"});
-  options.sor_factors = list<double>(values, "sor-factor", {1.3});
-  options.warm_starts = list<double>(values, "warm-start", {0, 0.9});
-  options.row_orders =
-      choices<stepping::RowOrder>(values, "row-order", stepping::row_order_names, {"shuffled"});
+  options.settings = setting_lists(varied, values);
+  options.dts = setting_list(varied_dt, values);
   options.estimates = list<int>(values, "estimates", {1, 5});
-  options.dts_s = list<double>(values, "dt", {});
   options.max_sweeps = values["max-sweeps"].as<int>();
   options.reference_iterations = values["reference-iterations"].as<int>();
   options.reference_substeps = values["reference-substeps"].as<int>();

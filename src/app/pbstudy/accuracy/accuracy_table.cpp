@@ -1,10 +1,9 @@
 #include "app/pbstudy/accuracy/accuracy_table.h"
 
 #include "app/pbstudy/study/table_columns.h"
-#include "model/names.h"
-#include "stepping/names.h"
 
 namespace pbmpi::app {
+
 std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
                                           const std::vector<AccuracyCase>& cases,
                                           const std::vector<CaseResult>& results) {
@@ -17,17 +16,8 @@ std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
       column<std::string>("scene", "", cases, [&](Case c) { return scene_of(c).source.name; }),
       column<std::string>("kind", "", cases,
                           [](Case c) { return case_kind_names[static_cast<std::size_t>(c.kind)]; }),
-      column<std::string>("stepper", "", cases, [](Case c) { return name_of(c.stepper.kind); }),
-      column<std::int64_t>("iterations", "", cases, [](Case c) { return c.stepper.iterations; }),
-      column<std::int64_t>("substeps", "", cases, [](Case c) { return c.stepper.substeps; }),
-      column<std::string>("precision", "", cases, [](Case c) { return name_of(c.stepper.precision); }),
-      column<double>("sor_factor", "", cases, [](Case c) { return c.stepper.sor_factor; }),
-      column<double>("warm_start", "", cases, [](Case c) { return c.stepper.warm_start; }),
-      column<std::string>("row_order", "", cases, [](Case c) { return name_of(c.stepper.row_order); }),
       column<std::int64_t>("estimate_iterations", "", cases, [](Case c) { return c.estimate_iterations; }),
-      column<double>("dt", "s", cases, [](Case c) { return c.stepper.dt_s; }),
       column<std::int64_t>("steps_per_frame", "", cases, [](Case c) { return c.steps_per_frame; }),
-      column<std::int64_t>("solver_seed", "", cases, [](Case c) { return c.stepper.seed; }),
       column<std::int64_t>("worlds", "", cases, [&](Case c) { return scene_of(c).num_worlds; }),
       column<std::int64_t>("warmup", "", cases, [&](Case c) { return scene_of(c).warmup; }),
       column<std::int64_t>("frames", "", cases, [&](Case c) { return scene_of(c).frames; }),
@@ -43,6 +33,7 @@ std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
       column<double>("momentum_change", "kg m s-1", results, [](Result r) { return r.momentum_change_ns; }),
       column<double>("stretch", "", results, [](Result r) { return r.max_stretch; }),
   };
+  add_step_columns(cases, columns);
   add_errors("defect", &CaseResult::defect, results, columns);
   add_errors("drift", &CaseResult::drift, results, columns);
   return columns;

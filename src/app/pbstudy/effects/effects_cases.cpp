@@ -9,7 +9,6 @@
 namespace pbmpi::app {
 namespace {
 
-using stepping::StepperKind;
 using stepping::StepperSettings;
 
 /// The plan of all worlds of the scene with some effects chosen.
@@ -62,18 +61,7 @@ std::vector<StepperSettings> steppers_of(const StudyScene& scene, const EffectsO
   one.dt_s = scene.dt_s;
   one.iterations = options.iterations.value_or(scene.iterations);
   one.seed = options.seed;
-  for (const StepperKind kind : options.steppers) {
-    one.kind = kind;
-    one.precision = stepping::Precision::double_;
-    if (kind != StepperKind::sor) {
-      all.push_back(one);
-      continue;
-    }
-    for (const stepping::Precision precision : options.precisions) {
-      one.precision = precision;
-      all.push_back(one);
-    }
-  }
+  cross_settings(one, options.settings, [&](const StepperSettings& stepper) { all.push_back(stepper); });
   return all;
 }
 
@@ -124,7 +112,7 @@ std::vector<int> deal_out(const std::vector<EffectCase>& cases, const std::vecto
   }
   std::vector<double> cost;
   for (const EffectCase& one : cases) {
-    const double share = one.stepper.kind == StepperKind::sor ? 1 : 5;  // quick is about five times as dear
+    const double share = traits_of(one.stepper.kind).relative_cost;
     const double nothing_to_do = one.kind == EffectCaseKind::refused ? 1e-6 : 1;
     cost.push_back(share * nothing_to_do * bodies[static_cast<std::size_t>(one.scene)]);
   }

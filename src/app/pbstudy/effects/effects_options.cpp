@@ -1,27 +1,31 @@
 #include "app/pbstudy/effects/effects_options.h"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "app/pbstudy/study/option_lists.h"
 #include "core/error.h"
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
-#include "stepping/names.h"
 
 namespace pbmpi::app {
 namespace {
 
 namespace po = boost::program_options;
 
+/// In the order in which cases are crossed, the last varying fastest.
+constexpr std::array<VariedOption, 2> varied = {{
+    {"stepper", "quick, direct, sor; default: quick sor", "quick sor"},
+    {"precision", "sor: double, single; default: double", "double"},
+}};
+
 po::options_description options_description() {
   po::options_description what("What to measure (lists, separated by blanks)");
   add_scene_option(what);
-  what.add_options()                                                                  //
-      ("effect", list_of<std::string>(), "effects; default: all (pbmpi --describe)")  //
-      ("stepper", list_of<std::string>(), "quick, direct, sor; default: quick sor")   //
-      ("precision", list_of<std::string>(), "sor: double, single; default: double")   //
-      ("iterations", po::value<int>()->value_name("N"), "default: the scene's");
+  what.add_options()("effect", list_of<std::string>(), "effects; default: all (pbmpi --describe)");
+  for (const VariedOption& one : varied) add_setting_list(one, what);
+  what.add_options()("iterations", po::value<int>()->value_name("N"), "default: the scene's");
   po::options_description how =
       how_to_measure({"of the scene's variation and of the solver",
                       "how often each frame is timed with and without the effect, in turn", 15,
@@ -71,10 +75,7 @@ EffectsOptions parse_effects_options(const std::vector<std::string>& args) {
   EffectsOptions options;
   static_cast<StudyOptions&>(options) = study_options(values, "pbstudy effects", args);
   options.effects = known_effects(list<std::string>(values, "effect", {}));
-  options.steppers =
-      choices<stepping::StepperKind>(values, "stepper", stepping::stepper_kind_names, {"quick", "sor"});
-  options.precisions =
-      choices<stepping::Precision>(values, "precision", stepping::precision_names, {"double"});
+  options.settings = setting_lists(varied, values);
   options.iterations = given(values, "iterations", 1);
   options.instructions_from = output_path(values, "instructions-from");
   core::require_input(options.instructions_from != options.output,

@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "app/pbstudy/study/setting_lists.h"
 #include "app/pbstudy/study/study_options.h"
-#include "stepping/stepper.h"
 
 namespace pbmpi::app {
 
 struct EffectsOptions : StudyOptions {
-  std::vector<std::string> effects;  ///< of the registry, in its order
-  std::vector<stepping::StepperKind> steppers;
-  std::vector<stepping::Precision> precisions;   ///< sor
+  std::vector<std::string> effects;              ///< of the registry, in its order
+  std::vector<SettingList> settings;             ///< of the steppers that are measured
   std::optional<int> iterations;                 ///< else the scene's
   std::optional<std::string> instructions_from;  ///< a file of the same cases, counted
 };

@@ -2,8 +2,6 @@
 
 #include "app/pbstudy/study/table_columns.h"
 #include "core/hash.h"
-#include "model/names.h"
-#include "stepping/names.h"
 
 namespace pbmpi::app {
 namespace {
@@ -44,11 +42,6 @@ std::vector<io::TableColumn> effect_columns(const std::vector<StudyScene>& scene
       column<std::string>("effect", "", cases, [](Case c) { return c.effect; }),
       column<std::int64_t>("called_for", "", cases, [](Case c) { return c.called_for ? 1 : 0; }),
       column<std::string>("reason", "", cases, [](Case c) { return c.reason; }),
-      column<std::string>("stepper", "", cases, [](Case c) { return name_of(c.stepper.kind); }),
-      column<std::string>("precision", "", cases, [](Case c) { return name_of(c.stepper.precision); }),
-      column<std::int64_t>("iterations", "", cases, [](Case c) { return c.stepper.iterations; }),
-      column<double>("dt", "s", cases, [](Case c) { return c.stepper.dt_s; }),
-      column<std::int64_t>("solver_seed", "", cases, [](Case c) { return c.stepper.seed; }),
       column<std::int64_t>("steps_per_frame", "", cases,
                            [&](Case c) { return scene_of(c).steps_per_frame(); }),
       column<std::int64_t>("worlds", "", cases, [&](Case c) { return scene_of(c).num_worlds; }),
@@ -58,6 +51,8 @@ std::vector<io::TableColumn> effect_columns(const std::vector<StudyScene>& scene
       column<std::string>("hash_baseline", "", results, [](Result r) { return hash_text(r.hash_baseline); }),
       column<std::string>("hash_variant", "", results, [](Result r) { return hash_text(r.hash_variant); }),
   };
+  for (const char* name : {"stepper", "precision", "iterations", "dt", "solver-seed"})
+    columns.push_back(step_column(stepping::step_option(name), cases));
   add_spread("time_with", "s", &EffectResult::time_with_s, results, columns);
   add_spread("time_without", "s", &EffectResult::time_without_s, results, columns);
   add_spread("time_cost", "s", &EffectResult::cost_s, results, columns);

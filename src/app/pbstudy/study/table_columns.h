@@ -3,10 +3,12 @@
 
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "analysis/error_table.h"
 #include "io/table/table_file.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 
@@ -15,6 +17,25 @@ io::TableColumn column(const std::string& name, const std::string& unit, const R
   std::vector<Value> values;
   for (const auto& row : rows) values.push_back(static_cast<Value>(get(row)));
   return {name, unit, std::move(values)};
+}
+
+/// The value of a step option in the settings of each case.
+template <class Case>
+io::TableColumn step_column(const stepping::StepOption& option, const std::vector<Case>& cases) {
+  const auto of_type = [&](auto type) {
+    using Value = decltype(type);
+    return column<Value>(file_name(option), option.unit, cases,
+                         [&](const Case& one) { return std::get<Value>(value_of(option, one.stepper)); });
+  };
+  return std::visit(of_type, value_of(option, stepping::StepperSettings{}));
+}
+
+/// A column a step option that is part of a setting (and the solver's seed), of the settings of each case.
+template <class Case>
+void add_step_columns(const std::vector<Case>& cases, std::vector<io::TableColumn>& columns) {
+  for (const stepping::StepOption& option : stepping::step_options()) {
+    if (option.in_studies || option.name == "solver-seed") columns.push_back(step_column(option, cases));
+  }
 }
 
 /// Columns "PREFIX_body_position_rms" and so on, of the ErrorTable that `table` points to in each result.

@@ -1,0 +1,216 @@
+#include "stepping/step_options.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <type_traits>
+
+#include "core/error.h"
+#include "stepping/names.h"
+
+namespace pbmpi::stepping {
+namespace {
+
+using Settings = StepperSettings;
+using Traits = StepperTraits;
+
+bool at_least_1(double value) { return value >= 1; }
+bool is_length(double value) { return std::isfinite(value) && value > 0; }
+bool converges(double factor) { return factor > 0 && factor < 2; }
+bool is_share(double value) { return value >= 0 && value <= 1; }
+
+constexpr std::array<StepOption, 11> options = {{
+    {.name = "stepper",
+     .member = &Settings::kind,
+     .placeholder = "sor|quick|direct",
+     .meaning = "sor: pbmpi's own projected SOR, worlds side by side in vector lanes; quick: ODE's iterative "
+                "dWorldQuickStep; direct: ODE's big-matrix dWorldStep",
+     .shown_default = "sor"},
+    {.name = "dt",
+     .member = &Settings::dt_s,
+     .placeholder = "SECONDS",
+     .meaning = "length of a step [s]; default: the scene's, 0.01",
+     .allows = is_length,
+     .limit = "a step must be finite and above 0 s",
+     .unit = "s"},
+    {.name = "iterations",
+     .member = &Settings::iterations,
+     .placeholder = "N",
+     .meaning = "sweeps of the iterative solver, in each substep; default: the scene's, 20",
+     .allows = at_least_1,
+     .limit = "it must be at least 1"},
+    {.name = "substeps",
+     .member = &Settings::substeps,
+     .placeholder = "N",
+     .meaning = "sor: parts of a step that share its collision detection",
+     .shown_default = "1",
+     .needs = &Traits::has_substeps,
+     .allows = at_least_1,
+     .limit = "it must be at least 1"},
+    {.name = "sor-factor",
+     .member = &Settings::sor_factor,
+     .placeholder = "X",
+     .meaning = "sor: over-relaxation, above 0 and below 2; default: 1.3, as in ODE",
+     .needs = &Traits::tunes_sweeps,
+     .allows = converges,
+     .limit = "the iteration converges above 0 and below 2 only",
+     .in_short = "factor *"},
+    {.name = "warm-start",
+     .member = &Settings::warm_start,
+     .placeholder = "X",
+     .meaning = "sor: share of their impulses with which joints and contacts start a substep after the "
+                "first, 0 to 1; default: 0, none; needs --substeps",
+     .needs = &Traits::tunes_sweeps,
+     .allows = is_share,
+     .limit = "the share of the impulses to take over is 0 to 1",
+     .in_short = "warm *"},
+    {.name = "row-order",
+     .member = &Settings::row_order,
+     .placeholder = "shuffled|fixed",
+     .meaning = "sor: the joints' order in the sweeps: another every 8 iterations, or always the model's",
+     .shown_default = "shuffled",
+     .needs = &Traits::tunes_sweeps,
+     .in_short = "* order"},
+    {.name = "precision",
+     .member = &Settings::precision,
+     .placeholder = "double|single",
+     .meaning = "sor: number type of the solver",
+     .shown_default = "double",
+     .needs = &Traits::has_precision},
+    {.name = "simd",
+     .member = &Settings::simd,
+     .placeholder = "auto|sse2|avx2|avx512|off",
+     .meaning = "sor: vector instructions; the result is the same with all",
+     .shown_default = "auto",
+     .needs = &Traits::has_lanes,
+     .is_physics = false,
+     .in_studies = false},
+    {.name = "colliders",
+     .member = &Settings::colliders,
+     .placeholder = "lanes|ode",
+     .meaning = "sor: what collides pairs of geoms; lanes: kernels over vector lanes, ode: dCollide",
+     .shown_default = "lanes",
+     .needs = &Traits::has_lanes,
+     .in_studies = false},
+    {.name = "solver-seed",
+     .member = &Settings::seed,
+     .placeholder = "N",
+     .meaning = "of the solver's row order alone: runs that differ in it show the noise floor; default: "
+                "--seed",
+     .in_studies = false},
+}};
+
+constexpr const auto& names_of(StepperKind) { return stepper_kind_names; }
+constexpr const auto& names_of(RowOrder) { return row_order_names; }
+constexpr const auto& names_of(Precision) { return precision_names; }
+constexpr const auto& names_of(Simd) { return simd_names; }
+constexpr const auto& names_of(Colliders) { return colliders_names; }
+
+template <class Enum>
+requires std::is_enum_v<Enum> Enum parse(std::string_view text, const std::string& what, const StepOption&,
+                                         Enum) {
+  const auto& names = names_of(Enum{});
+  if (const auto value = model::enum_from_name<Enum>(text, names)) return *value;
+  std::string known;
+  for (const std::string_view name : names) known.append(known.empty() ? "" : ", ").append(name);
+  throw core::InputError(what + " " + std::string(text) + ": it must be one of " + known);
+}
+
+template <class Number>
+requires std::is_arithmetic_v<Number> Number parse(std::string_view text, const std::string& what,
+                                                   const StepOption& option, Number) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc{} && end == text.data() + text.size();
+  core::require_input(is_number, what + " " + std::string(text) + ": it must be a " +
+                                     (std::is_integral_v<Number> ? "whole " : "") + "number");
+  core::require_input(option.allows == nullptr || option.allows(static_cast<double>(value)),
+                      what + " " + std::string(text) + ": " + std::string(option.limit));
+  return value;
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return std::string(digits.data(), end);
+}
+
+}  // namespace
+
+std::span<const StepOption> step_options() { return options; }
+
+const StepOption& step_option(std::string_view name) {
+  const auto found = std::ranges::find(options, name, &StepOption::name);
+  core::require_invariant(found != options.end(), "a step option has a row in the table");
+  return *found;
+}
+
+std::string file_name(const StepOption& option) {
+  std::string name(option.name);
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
+bool fits(const StepOption& option, StepperKind kind) {
+  return option.needs == nullptr || traits_of(kind).*option.needs;
+}
+
+StepValue value_of(const StepOption& option, const StepperSettings& settings) {
+  return std::visit(
+      [&](auto member) -> StepValue {
+        const auto value = settings.*member;
+        if constexpr (std::is_enum_v<std::remove_const_t<decltype(value)>>)
+          return std::string(name_of(value));
+        else if constexpr (std::is_integral_v<std::remove_const_t<decltype(value)>>)
+          return static_cast<std::int64_t>(value);
+        else
+          return value;
+      },
+      option.member);
+}
+
+std::string text_of(const StepOption& option, const StepperSettings& settings) {
+  return std::visit(
+      [&](auto member) -> std::string {
+        const auto value = settings.*member;
+        if constexpr (std::is_enum_v<std::remove_const_t<decltype(value)>>)
+          return std::string(name_of(value));
+        else if constexpr (std::is_integral_v<std::remove_const_t<decltype(value)>>)
+          return std::to_string(value);
+        else
+          return shortest(value);
+      },
+      option.member);
+}
+
+bool is_default(const StepOption& option, const StepperSettings& settings) {
+  return text_of(option, settings) == text_of(option, StepperSettings{});
+}
+
+void set(const StepOption& option, std::string_view text, const std::string& what,
+         StepperSettings& settings) {
+  std::visit([&](auto member) { settings.*member = parse(text, what, option, settings.*member); },
+             option.member);
+}
+
+void restore(const StepOption& option, const StepValue& value, StepperSettings& settings) {
+  const auto put = [&](auto member) {
+    using Member = std::remove_reference_t<decltype(settings.*member)>;
+    if constexpr (std::is_enum_v<Member>)
+      settings.*member = parse(std::get<std::string>(value), std::string(option.name), option, Member{});
+    else if constexpr (std::is_integral_v<Member>)
+      settings.*member = static_cast<Member>(std::get<std::int64_t>(value));
+    else
+      settings.*member = std::get<double>(value);
+  };
+  std::visit(put, option.member);
+}
+
+std::string stepper_text(const StepperSettings& settings) {
+  std::string text(name_of(settings.kind));
+  if (traits_of(settings.kind).has_precision) text += " " + std::string(name_of(settings.precision));
+  return text;
+}
+
+}  // namespace pbmpi::stepping

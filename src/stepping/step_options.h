@@ -1,0 +1,71 @@
+/// The options of a step, one row each. Command lines, files, checkpoints, presets and studies follow from
+/// the rows: a new option is a member of StepperSettings, its row, and what the solver makes of it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "stepping/stepper.h"
+#include "stepping/stepper_traits.h"
+
+namespace pbmpi::stepping {
+
+/// The member of StepperSettings that an option sets.
+using StepMember =
+    std::variant<int StepperSettings::*, double StepperSettings::*, std::uint64_t StepperSettings::*,
+                 StepperKind StepperSettings::*, RowOrder StepperSettings::*, Precision StepperSettings::*,
+                 Simd StepperSettings::*, Colliders StepperSettings::*>;
+
+/// A value as HDF5 files keep it.
+using StepValue = std::variant<std::int64_t, double, std::string>;
+
+struct StepOption {
+  std::string_view name = {};  ///< on the command line, e.g. "warm-start"
+  StepMember member = &StepperSettings::iterations;
+  std::string_view placeholder = {};  ///< for --help: "N", "double|single"
+  std::string_view meaning = {};      ///< for --help
+  std::string_view shown_default =
+      {};  ///< applied and shown by --help; empty: the scene's or StepperSettings'
+
+  bool StepperTraits::*needs = nullptr;  ///< for steppers that have it; null: for all
+  bool (*allows)(double) = nullptr;      ///< which numbers; null: all
+  std::string_view limit = {};           ///< what allows() wants, for messages
+
+  bool is_physics = true;  ///< decides the bits of a result: a run that goes on must keep it
+  bool in_studies = true;  ///< pbstudy's settings have it: a column of the file, a line of a preset
+  /// How a setting's short text names a value that is not the default: '*' stands for the value. Empty: the
+  /// text has a place of its own for it, or leaves it out.
+  std::string_view in_short = {};
+  const char* unit = "";  ///< of the value in files
+};
+
+std::span<const StepOption> step_options();
+/// The row with this name, which must be there.
+const StepOption& step_option(std::string_view name);
+
+/// The option's name in files: with '_' for '-'.
+std::string file_name(const StepOption& option);
+
+/// Is the option of use to this kind of stepper?
+bool fits(const StepOption& option, StepperKind kind);
+
+/// The value as text that set() reads back bit for bit.
+std::string text_of(const StepOption& option, const StepperSettings& settings);
+StepValue value_of(const StepOption& option, const StepperSettings& settings);
+/// Does the option have the value that StepperSettings starts with?
+bool is_default(const StepOption& option, const StepperSettings& settings);
+
+/// Sets the value that `text` names. Throws core::InputError, opening with `what` (e.g. "--warm-start"), if
+/// there is no such value.
+void set(const StepOption& option, std::string_view text, const std::string& what, StepperSettings& settings);
+
+/// Takes in what value_of() gave. Throws core::InputError for a name that no enumerator has.
+void restore(const StepOption& option, const StepValue& value, StepperSettings& settings);
+
+/// The stepper's name, and its precision where it has a choice: "quick", "sor single".
+std::string stepper_text(const StepperSettings& settings);
+
+}  // namespace pbmpi::stepping

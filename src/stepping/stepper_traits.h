@@ -1,0 +1,42 @@
+/// What each kind of stepper can do.
+#pragma once
+
+#include <array>
+
+#include "stepping/stepper.h"
+
+namespace pbmpi::stepping {
+
+struct StepperTraits {
+  bool iterates = false;          ///< sweeps over rows: StepperSettings::iterations counts
+  bool tunes_sweeps = false;      ///< factor, order and warm start of the sweeps can be chosen
+  bool has_substeps = false;      ///< can share one collision detection among parts of a step
+  bool has_precision = false;     ///< can compute in another number type than double
+  bool has_lanes = false;         ///< works in vector lanes: instructions and colliders can be chosen
+  bool is_anytime = false;        ///< an AnytimeStepper: can be looked at in mid-solve
+  bool cuts_spaces = false;       ///< has a SpaceStepper: one world can be cut over ranks
+  bool shows_residuals = false;   ///< measures Observables::residuals
+  bool profiles_islands = false;  ///< WorldStepper::profile_last_step() measures single islands
+  /// Time of a sweep (of a solve, for a stepper without sweeps) over that of sor: roughly, to deal out work.
+  double relative_cost = 1;
+};
+
+/// In the order of StepperKind.
+inline constexpr std::array<StepperTraits, 3> stepper_traits = {{
+    {.iterates = true, .profiles_islands = true, .relative_cost = 5},
+    {.profiles_islands = true, .relative_cost = 5},
+    {.iterates = true,
+     .tunes_sweeps = true,
+     .has_substeps = true,
+     .has_precision = true,
+     .has_lanes = true,
+     .is_anytime = true,
+     .cuts_spaces = true,
+     .shows_residuals = true},
+}};
+
+constexpr const StepperTraits& traits_of(StepperKind kind) {
+  return stepper_traits[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace pbmpi::stepping

@@ -1,0 +1,101 @@
+#include "stepping/step_options.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/error.h"
+#include "stepping/names.h"
+
+namespace pbmpi::stepping {
+namespace {
+
+std::string refusal(const char* name, const char* text) {
+  try {
+    StepperSettings settings;
+    set(step_option(name), text, "--" + std::string(name), settings);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StepOptions, every_name_stands_once) {
+  std::set<std::string_view> names;
+  for (const StepOption& option : step_options()) EXPECT_TRUE(names.insert(option.name).second);
+}
+
+TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
+  StepperSettings settings;
+  settings.kind = StepperKind::direct;
+  settings.dt_s = 0.1 + 0.2;  // 0.30000000000000004
+  settings.iterations = 7;
+  settings.substeps = 3;
+  settings.sor_factor = 1.0 / 3;
+  settings.warm_start = 0.3;
+  settings.row_order = RowOrder::fixed;
+  settings.precision = Precision::single;
+  settings.simd = Simd::avx2;
+  settings.colliders = Colliders::ode;
+  settings.seed = 18446744073709551615u;
+  StepperSettings again;
+  for (const StepOption& option : step_options()) {
+    EXPECT_FALSE(is_default(option, settings)) << option.name;
+    set(option, text_of(option, settings), "", again);
+    EXPECT_EQ(text_of(option, again), text_of(option, settings));
+  }
+  EXPECT_EQ(again.dt_s, settings.dt_s);
+  EXPECT_EQ(again.sor_factor, settings.sor_factor);
+  EXPECT_EQ(again.seed, settings.seed);
+}
+
+TEST(StepOptions, shown_defaults_are_values) {
+  StepperSettings settings;
+  for (const StepOption& option : step_options()) {
+    if (option.shown_default.empty()) continue;
+    EXPECT_NO_THROW(set(option, option.shown_default, "", settings)) << option.name;
+  }
+}
+
+TEST(StepOptions, impossible_values_are_refused_by_name) {
+  EXPECT_EQ(refusal("iterations", "0"), "--iterations 0: it must be at least 1");
+  EXPECT_EQ(refusal("iterations", "1.5"), "--iterations 1.5: it must be a whole number");
+  EXPECT_EQ(refusal("substeps", ""), "--substeps : it must be a whole number");
+  EXPECT_EQ(refusal("dt", "nan"), "--dt nan: a step must be finite and above 0 s");
+  EXPECT_EQ(refusal("dt", "1e-2x"), "--dt 1e-2x: it must be a number");
+  EXPECT_EQ(refusal("warm-start", "nan"),
+            "--warm-start nan: the share of the impulses to take over is 0 to 1");
+  EXPECT_EQ(refusal("precision", "half"), "--precision half: it must be one of double, single");
+  EXPECT_EQ(refusal("solver-seed", "-1"), "--solver-seed -1: it must be a whole number");
+}
+
+TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
+  for (const char* name :
+       {"substeps", "sor-factor", "warm-start", "row-order", "precision", "simd", "colliders"}) {
+    EXPECT_TRUE(fits(step_option(name), StepperKind::sor));
+    EXPECT_FALSE(fits(step_option(name), StepperKind::quick));
+    EXPECT_FALSE(fits(step_option(name), StepperKind::direct));
+  }
+  for (const char* name : {"stepper", "dt", "iterations", "solver-seed"})
+    EXPECT_TRUE(fits(step_option(name), StepperKind::quick));
+}
+
+TEST(StepOptions, files_write_names_with_underscores) {
+  EXPECT_EQ(file_name(step_option("warm-start")), "warm_start");
+  EXPECT_EQ(std::get<std::int64_t>(value_of(step_option("iterations"), {})), 20);
+  EXPECT_EQ(std::get<double>(value_of(step_option("sor-factor"), {})), 1.3);
+  EXPECT_EQ(std::get<std::string>(value_of(step_option("row-order"), {})), "shuffled");
+}
+
+TEST(StepperTraits, follow_the_order_of_the_kinds) {
+  EXPECT_TRUE(traits_of(StepperKind::sor).is_anytime);
+  EXPECT_TRUE(traits_of(StepperKind::quick).iterates);
+  EXPECT_FALSE(traits_of(StepperKind::direct).iterates);
+  StepperSettings sor;
+  sor.kind = StepperKind::sor;
+  EXPECT_EQ(stepper_text(sor), "sor double");
+  EXPECT_EQ(stepper_text({}), "quick");
+}
+
+}  // namespace
+}  // namespace pbmpi::stepping
