@@ -226,7 +226,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   driver.add_observer(live);
   if (file) driver.add_observer(*file);
   std::unique_ptr<ProgressBar> progress;
-  if (comm.is_root() && wants_progress(options.common.progress, options.common.quiet)) {
+  if (comm.is_root() && wants_progress(options.common)) {
     progress = std::make_unique<ProgressBar>(std::cerr, spec.total_frames(), spec.checkpoint.first_frame);
     driver.add_observer(*progress);
   }
