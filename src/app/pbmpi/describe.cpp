@@ -36,10 +36,10 @@ std::string idle_note(const effects::RunPass& pass, stepping::StepperKind steppe
   return "; idle, since " + std::string(name_of(stepper)) + " solves without iterations";
 }
 
-Census take_census(const scenes::Scene& scene, const RunSpec& spec) {
+Census take_census(const Work& work) {
   Census census;
-  for (int world = 0; world < spec.num_worlds; ++world) {
-    const auto model = scene.build(world, spec.scene_seed);
+  for (int world = 0; world < work.spec.num_worlds; ++world) {
+    const auto model = build_world(work, world);
     census.table.body_offset.push_back(census.table.num_bodies() + model->num_bodies());
     census.geoms += model->geoms.size();
     census.joints += model->joints.size();
@@ -63,7 +63,7 @@ std::string in_units(double bytes) {
   return text.str();
 }
 
-/// Heap bytes of world 0 in its stepper, model included.
+/// Heap bytes of world 0 in its stepper, model included, which is built anew for that.
 std::size_t measure_world_bytes(const scenes::Scene& scene, const RunSpec& spec) {
   const auto stepper = make_stepper(spec.stepper);
   const std::size_t before = mallinfo2().uordblks;
@@ -124,8 +124,10 @@ void print_plan(std::ostream& out, const effects::RunPlan& plan, stepping::Stepp
 
 }  // namespace
 
-std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ranks) {
-  const Census census = take_census(scene, spec);
+std::string describe(const Work& work, int num_ranks) {
+  const scenes::Scene& scene = *work.scene;
+  const RunSpec& spec = work.spec;
+  const Census census = take_census(work);
   const auto world_bytes = static_cast<double>(measure_world_bytes(scene, spec));
   std::ostringstream out;
   out << "scene: " << scene.name() << " - " << scene.title() << '\n'
@@ -152,7 +154,7 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
   out << "decomposition: " << (spaces ? "spaces" : "worlds") << " over " << num_ranks
       << (num_ranks == 1 ? " rank\n" : " ranks\n");
   if (spaces) {
-    print_spaces(out, *scene.build(0, spec.scene_seed), num_ranks);
+    print_spaces(out, *work.first_world, num_ranks);
   } else {
     print_distribution(out, census, num_ranks, world_bytes);
   }
@@ -160,7 +162,7 @@ std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ra
   if (spec.output) {
     const auto bytes =
         io::estimate_file_bytes(census.table.num_bodies(), spec.num_worlds, num_ranks, spec.frames_to_do(),
-                                spec.record_every, optional_columns(scene, spec));
+                                spec.record_every, optional_columns(work));
     out << "output: " << *spec.output << ", about " << in_units(static_cast<double>(bytes)) << '\n';
   } else {
     out << "output: none\n";

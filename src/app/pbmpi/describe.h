@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "app/pbmpi/options/options.h"
+#include "app/pbmpi/work.h"
 
 namespace pbmpi::app {
 
 /// The resolved scene, the step plan with the reason of each pass, who owns what over `num_ranks` ranks, and
 /// estimates of memory (measured on world 0) and file size. Builds every world once, one at a time.
-std::string describe(const scenes::Scene& scene, const RunSpec& spec, int num_ranks);
+std::string describe(const Work& work, int num_ranks);
 
 }  // namespace pbmpi::app

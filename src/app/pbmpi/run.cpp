@@ -17,17 +17,14 @@
 #include "app/pbmpi/progress.h"
 #include "app/pbmpi/run_parameters.h"
 #include "app/pbmpi/signals.h"
+#include "app/pbmpi/simulation.h"
 #include "app/pbmpi/work.h"
 #include "core/hash.h"
 #include "effects/effect_choices.h"
-#include "estimate/same_solve.h"
-#include "estimate/short_run.h"
 #include "io/run/run_file.h"
 #include "io/run/xdmf.h"
 #include "model/names.h"
 #include "mpi/comm/agreement.h"
-#include "mpi/spaces/space_driver.h"
-#include "mpi/worlds/world_driver.h"
 #include "stepping/names.h"
 
 namespace pbmpi::app {
@@ -42,19 +39,6 @@ std::string scene_list() {
             "\n";
   }
   return text;
-}
-
-mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
-  mpi::WorldRunSettings settings;
-  settings.num_worlds = spec.num_worlds;
-  settings.warmup = spec.warmup;
-  settings.frames = spec.frames;
-  settings.steps_per_frame = spec.steps_per_frame;
-  settings.dt_s = spec.stepper.dt_s;
-  settings.budget_s = spec.budget_s;
-  settings.profile = spec.record_islands;
-  settings.first_frame = spec.checkpoint.first_frame;
-  return settings;
 }
 
 RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, const Provenance& provenance,
@@ -104,20 +88,20 @@ EstimateSummary estimate_summary(const RunSpec& spec, const mpi::WorldRunResult&
 }
 
 std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const mpi::FrameDriver& driver,
-                                           const scenes::Scene& scene, const RunSpec& spec,
-                                           const Provenance& provenance) {
+                                           const Work& work, const Provenance& provenance) {
+  const RunSpec& spec = work.spec;
   if (!spec.output) return nullptr;
   io::RunSetup setup;
   setup.path = *spec.output;
-  setup.attributes = run_attributes(scene, spec, provenance);
-  setup.parameters = run_parameters(scene, spec, provenance);
+  setup.attributes = run_attributes(work, provenance);
+  setup.parameters = run_parameters(work, provenance);
   setup.table = driver.table();
   setup.worlds = driver.local_worlds();
   setup.hosts = provenance.hosts;
   setup.first_frame = spec.checkpoint.first_frame;
   setup.num_frames = spec.frames_to_do();
   setup.record_every = spec.record_every;
-  setup.optional = optional_columns(scene, spec);
+  setup.optional = optional_columns(work);
   return std::make_unique<io::RunFile>(io::FileGroup{comm.fortran_handle(), comm.rank(), comm.size()},
                                        std::move(setup));
 }
@@ -154,43 +138,6 @@ mpi::WorldRunResult run_to_end(mpi::FrameDriver& driver, io::RunFile* file) {
   }
 }
 
-/// A driver and what it borrows.
-struct Simulation {
-  std::unique_ptr<stepping::WorldStepper> worlds;
-  std::unique_ptr<stepping::SpaceStepper> spaces;
-  std::unique_ptr<stepping::Estimator> estimator;  ///< with FEEC
-  std::unique_ptr<mpi::FrameDriver> driver;
-};
-
-/// `states`: on root, those to go on from.
-Simulation make_simulation(const mpi::Communicator& comm, const scenes::Scene& scene, const RunSpec& spec,
-                           std::span<const model::State> states) {
-  Simulation simulation;
-  const auto build = [&](int world) { return scene.build(world, spec.scene_seed); };
-  if (spec.decomposition == Decomposition::spaces) {
-    simulation.spaces =
-        mpi::agree_on_errors(comm, [&] { return make_space_stepper(spec.stepper, build(0)); });
-    simulation.driver =
-        std::make_unique<mpi::SpaceDriver>(comm, *simulation.spaces, driver_settings(spec), states);
-  } else {
-    if (spec.estimate && spec.estimate_source == EstimateSource::same_solve) {
-      auto stepper = make_anytime_stepper(spec.stepper);
-      simulation.estimator = std::make_unique<estimate::SameSolve>(*stepper, spec.estimate->iterations);
-      simulation.worlds = std::move(stepper);
-    } else {
-      simulation.worlds = make_stepper(spec.stepper);
-      if (spec.estimate)
-        simulation.estimator =
-            std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
-    }
-    auto driver =
-        std::make_unique<mpi::WorldDriver>(comm, *simulation.worlds, build, driver_settings(spec), states);
-    if (simulation.estimator) driver->set_estimator(*simulation.estimator);
-    simulation.driver = std::move(driver);
-  }
-  return simulation;
-}
-
 /// A place for checkpoints that was asked for is tried before the run, not after hours of it.
 void require_writable(const mpi::Communicator& comm, const CheckpointSpec& spec, std::int64_t num_bodies) {
   constexpr std::int64_t about_bytes_each = 256, about_bytes = std::int64_t{1} << 17;
@@ -204,7 +151,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   const scenes::Scene& scene = *work.scene;
   const RunSpec& spec = work.spec;
   const SignalRequests signals;
-  const Simulation simulation = make_simulation(comm, scene, spec, work.states);
+  const Simulation simulation = make_simulation(comm, work);
   work.states = {};
   mpi::FrameDriver& driver = *simulation.driver;
   driver.set_stop_flag(signals.stop());
@@ -219,7 +166,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   if (spec.checkpoint.max_time_s) driver.set_time_limit(start_s + *spec.checkpoint.max_time_s);
 
   const Provenance provenance = collect_provenance(comm, options.command_line);
-  const auto file = create_output(comm, driver, scene, spec, provenance);
+  const auto file = create_output(comm, driver, work, provenance);
   EstimateMonitor monitor(spec.warmup);
   if (spec.estimate) driver.add_consumer(monitor);
   LiveSummary live;
@@ -272,11 +219,11 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
       break;
   }
   Work work = options.resume ? resumed_work(comm, args, options) : new_work(comm, options);
-  const auto num_spaces = static_cast<int>(work.scene->build(0, work.spec.scene_seed)->spaces.size());
-  work.spec.decomposition = decompose(work.spec, num_spaces, comm.size());
+  work.spec.decomposition =
+      decompose(work.spec, static_cast<int>(work.first_world->spaces.size()), comm.size());
   if (options.action == Action::run) return simulate(comm, options, std::move(work), start_s);
   mpi::agree_on_errors(comm, [&] {
-    if (comm.is_root()) say(describe(*work.scene, work.spec, comm.size()));
+    if (comm.is_root()) say(describe(work, comm.size()));
   });
   return ExitCode::done;
 }

@@ -33,31 +33,30 @@ Parameter step_parameter(const std::string& prefix, const stepping::StepOption& 
 
 }  // namespace
 
-io::OptionalColumns optional_columns(const scenes::Scene& scene, const RunSpec& spec) {
+io::OptionalColumns optional_columns(const Work& work) {
+  const RunSpec& spec = work.spec;
   io::OptionalColumns columns;
   columns.profile = spec.record_islands;
   columns.estimate = spec.estimate.has_value();
   columns.residuals = spec.stepper.residuals;
-  columns.interest =
-      traits_of(spec.stepper.kind).iterates && interest_of(*scene.build(0, spec.scene_seed)).has_value();
+  columns.interest = traits_of(spec.stepper.kind).iterates && interest_of(*work.first_world).has_value();
   return columns;
 }
 
-std::vector<Parameter> run_attributes(const scenes::Scene& scene, const RunSpec& spec,
-                                      const Provenance& provenance) {
+std::vector<Parameter> run_attributes(const Work& work, const Provenance& provenance) {
   return {Parameter::of("pbmpi_version", program_version),
           Parameter::of("git_revision", git_revision),
           Parameter::of("created", provenance.created),
-          Parameter::of("seed", static_cast<std::int64_t>(spec.scene_seed)),
-          Parameter::of("scene", scene.name()),
+          Parameter::of("seed", static_cast<std::int64_t>(work.spec.scene_seed)),
+          Parameter::of("scene", work.scene->name()),
           Parameter::of("command_line", provenance.command_line)};
 }
 
-std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec& spec,
-                                      const Provenance& provenance) {
+std::vector<Parameter> run_parameters(const Work& work, const Provenance& provenance) {
+  const RunSpec& spec = work.spec;
   std::vector<Parameter> parameters = {
-      Parameter::of("scene", scene.name()),
-      Parameter::of("scene_text", scene.text()),
+      Parameter::of("scene", work.scene->name()),
+      Parameter::of("scene_text", work.scene->text()),
       Parameter::of("replicas", std::int64_t{spec.num_worlds}),
       Parameter::of("warmup", std::int64_t{spec.warmup}),
       Parameter::of("frames", std::int64_t{spec.frames}),
@@ -67,7 +66,7 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
       Parameter::of("decompose", spec.decomposition == Decomposition::spaces ? "spaces" : "worlds"),
       Parameter::of("spaces", spec.spaces == scenes::SpacesForm::one ? "one" : "many"),
       Parameter::of("effects", effects::to_text(spec.effects)),
-      Parameter::of("num_spaces", static_cast<std::int64_t>(scene.build(0, spec.scene_seed)->spaces.size())),
+      Parameter::of("num_spaces", static_cast<std::int64_t>(work.first_world->spaces.size())),
       Parameter::of("budget", spec.budget_s),
       Parameter::of("record_every", std::int64_t{spec.record_every}),
       Parameter::of("record_islands", std::int64_t{spec.record_islands ? 1 : 0}),
@@ -82,7 +81,7 @@ std::vector<Parameter> run_parameters(const scenes::Scene& scene, const RunSpec&
     parameters.push_back(is_simd ? Parameter::of("simd", simd_text(spec.stepper))
                                  : step_parameter("", option, spec.stepper));
   }
-  if (const auto interest = interest_of(*scene.build(0, spec.scene_seed)))
+  if (const auto interest = interest_of(*work.first_world))
     parameters.push_back(Parameter::of("field_of_interest", *interest));
   if (spec.estimate) {
     for (const std::string_view name : estimate_options)

@@ -16,7 +16,8 @@ namespace pbmpi::app {
 struct Work {
   scenes::SceneSource source;
   std::unique_ptr<scenes::Scene> scene;
-  RunSpec spec;  ///< as resolve() leaves it
+  RunSpec spec;                                     ///< as resolve() leaves it
+  std::shared_ptr<const model::Model> first_world;  ///< built once: much of a run depends on world 0
   /// [num_worlds] of a run that goes on, where it stands: on root
   std::vector<model::State> states;
 };
@@ -27,6 +28,9 @@ Work new_work(const mpi::Communicator& comm, const Options& options);
 /// Collective. Of options.resume: scene and physics are those of the checkpoint. `options` become what the
 /// command line, `args`, and the checkpoint say together. Throws core::InputError.
 Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>& args, Options& options);
+
+/// World `world` as the run starts with it.
+std::shared_ptr<const model::Model> build_world(const Work& work, int world);
 
 /// What a checkpoint of this run says beside its states. `asked`: how the work was to be cut.
 io::Checkpoint checkpoint_without_states(const Work& work, Decomposition asked);

@@ -1,0 +1,58 @@
+#include "app/pbmpi/simulation.h"
+
+#include <utility>
+
+#include "app/common/stepper_factory.h"
+#include "estimate/same_solve.h"
+#include "estimate/short_run.h"
+#include "mpi/comm/agreement.h"
+#include "mpi/spaces/space_driver.h"
+#include "mpi/worlds/world_driver.h"
+
+namespace pbmpi::app {
+namespace {
+
+mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
+  mpi::WorldRunSettings settings;
+  settings.num_worlds = spec.num_worlds;
+  settings.warmup = spec.warmup;
+  settings.frames = spec.frames;
+  settings.steps_per_frame = spec.steps_per_frame;
+  settings.dt_s = spec.stepper.dt_s;
+  settings.budget_s = spec.budget_s;
+  settings.profile = spec.record_islands;
+  settings.first_frame = spec.checkpoint.first_frame;
+  return settings;
+}
+
+}  // namespace
+
+Simulation make_simulation(const mpi::Communicator& comm, const Work& work) {
+  const RunSpec& spec = work.spec;
+  Simulation simulation;
+  const auto build = [&work](int world) { return build_world(work, world); };
+  if (spec.decomposition == Decomposition::spaces) {
+    simulation.spaces =
+        mpi::agree_on_errors(comm, [&] { return make_space_stepper(spec.stepper, build(0)); });
+    simulation.driver =
+        std::make_unique<mpi::SpaceDriver>(comm, *simulation.spaces, driver_settings(spec), work.states);
+  } else {
+    if (spec.estimate && spec.estimate_source == EstimateSource::same_solve) {
+      auto stepper = make_anytime_stepper(spec.stepper);
+      simulation.estimator = std::make_unique<estimate::SameSolve>(*stepper, spec.estimate->iterations);
+      simulation.worlds = std::move(stepper);
+    } else {
+      simulation.worlds = make_stepper(spec.stepper);
+      if (spec.estimate)
+        simulation.estimator =
+            std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
+    }
+    auto driver = std::make_unique<mpi::WorldDriver>(comm, *simulation.worlds, build, driver_settings(spec),
+                                                     work.states);
+    if (simulation.estimator) driver->set_estimator(*simulation.estimator);
+    simulation.driver = std::move(driver);
+  }
+  return simulation;
+}
+
+}  // namespace pbmpi::app

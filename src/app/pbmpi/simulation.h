@@ -1,0 +1,27 @@
+/// What steps a run: driver, steppers, estimator.
+#pragma once
+
+#include <memory>
+
+#include "app/pbmpi/work.h"
+#include "mpi/comm/communicator.h"
+#include "mpi/frame/frame_driver.h"
+#include "stepping/estimator.h"
+#include "stepping/space_stepper.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::app {
+
+/// A driver and what it borrows.
+struct Simulation {
+  std::unique_ptr<stepping::WorldStepper> worlds;
+  std::unique_ptr<stepping::SpaceStepper> spaces;
+  std::unique_ptr<stepping::Estimator> estimator;  ///< with FEEC
+  std::unique_ptr<mpi::FrameDriver> driver;
+};
+
+/// Collective. `work` is borrowed for as long as the driver lives, but for its states, of which the driver
+/// has copies. Throws core::InputError for settings that a stepper refuses.
+Simulation make_simulation(const mpi::Communicator& comm, const Work& work);
+
+}  // namespace pbmpi::app
