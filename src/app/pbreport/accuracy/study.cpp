@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "app/common/text_output.h"
 #include "app/pbreport/accuracy/study_page.h"
 #include "app/pbreport/accuracy/study_text.h"
 #include "app/pbreport/study/study_file.h"
@@ -9,7 +10,7 @@
 namespace pbmpi::app {
 namespace {
 
-void write_preset(const std::vector<SceneCases>& scenes, const StudyOptions& options) {
+void write_preset(const std::vector<SceneCases>& scenes, const AccuracyReportOptions& options) {
   core::require_input(scenes.size() == 1, "--write-preset holds one scene, the study has " +
                                               std::to_string(scenes.size()) + "; name one with --scene");
   const auto chosen = chosen_setting(scenes.front(), options);
@@ -21,7 +22,7 @@ void write_preset(const std::vector<SceneCases>& scenes, const StudyOptions& opt
 }  // namespace
 
 core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out) {
-  const StudyOptions options = parse_study_options(args);
+  const AccuracyReportOptions options = parse_study_options(args);
   if (options.help) {
     out << study_help_text();
     return core::ExitCode::done;
@@ -36,8 +37,7 @@ core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out
   } else if (!options.quiet) {
     out << study_to_text(file, scenes, options);
   }
-  out.flush();
-  if (!out) throw core::RunError("the report cannot be written to standard output; is the disk full?");
+  require_printed(out, "the report");
   return core::ExitCode::done;
 }
 

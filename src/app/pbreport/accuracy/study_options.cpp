@@ -24,22 +24,16 @@ po::options_description visible_options() {
       ("tolerance", po::value<std::string>()->value_name("LENGTH"),
        "name, per scene, the cheapest setting that keeps its defect within this length (mm, cm, m)")  //
       ("measure", po::value<std::string>()->default_value("rms")->value_name("rms|p99|max|joint"),
-       "the defect that counts: rms, p99 or max of all body positions, or the rms of all joint gaps")  //
-      ("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME..."),
-       "these scenes of the study only");
+       "the defect that counts: rms, p99 or max of all body positions, or the rms of all joint gaps");
+  add_scene_choice(choose);
   po::options_description write("What to write");
+  add_output_options("work-precision diagrams, Pareto fronts, categories", write);
   write.add_options()  //
-      ("html", po::value<std::string>()->value_name("OUT"),
-       "one self-contained page: work-precision diagrams, Pareto fronts, categories")              //
-      ("csv", po::value<std::string>()->value_name("OUT"), "all cases as comma-separated values")  //
       ("write-preset", po::value<std::string>()->value_name("OUT"),
        "the setting chosen for one scene, for pbmpi --preset")  //
       ("json", "print the fronts and the choices as one JSON document");
   po::options_description general("General");
-  general.add_options()("help,h", "print this help")  //
-      ("config", po::value<std::string>()->value_name("FILE"),
-       "read options from FILE, one 'name = value' a line; the command line wins")  //
-      ("quiet,q", "print nothing but errors and what --json asks for");
+  add_general_options("--json", general);
   po::options_description all;
   all.add(choose).add(write).add(general);
   return all;
@@ -59,14 +53,10 @@ std::string study_help_text() {
   return text.str();
 }
 
-StudyOptions parse_study_options(const std::vector<std::string>& args) {
-  po::options_description all = visible_options();
-  all.add_options()("file", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("file", -1);
-  const po::variables_map values = parse_command_line(args, all, positional);
-  StudyOptions options;
-  options.help = values.count("help") != 0;
+AccuracyReportOptions parse_study_options(const std::vector<std::string>& args) {
+  const po::variables_map values = parse_study_report(args, visible_options());
+  AccuracyReportOptions options;
+  static_cast<ReportOfStudyOptions&>(options) = report_of_study_options(values, "a study", "accuracy.h5");
   if (options.help) return options;
   const std::string measure = values["measure"].as<std::string>();
   const auto known = model::enum_from_name<ErrorMeasure>(measure, measure_names);
@@ -77,20 +67,8 @@ StudyOptions parse_study_options(const std::vector<std::string>& args) {
   if (values.count("tolerance") != 0) {
     options.tolerance_m = parse_length_m(values["tolerance"].as<std::string>(), "--tolerance");
   }
-  if (values.count("scene") != 0) options.scenes = values["scene"].as<std::vector<std::string>>();
-  options.html = output_path(values, "html");
-  options.csv = output_path(values, "csv");
   options.preset = output_path(values, "write-preset");
-  options.json = values.count("json") != 0;
-  options.quiet = values.count("quiet") != 0;
-  require_input(values.count("file") != 0,
-                "no file given; name the file of a study, e.g. pbreport accuracy.h5");
-  const auto files = values["file"].as<std::vector<std::string>>();
-  require_input(files.size() == 1, "'" + files.back() + "' follows '" + files.front() + "': give one study");
-  options.file = files.front();
-  for (const auto& output : {options.html, options.csv, options.preset}) {
-    require_input(output != options.file, options.file + ": this file is to be read, not written over");
-  }
+  require_not_the_study(options.file, {options.preset});
   require_input(!options.preset || options.budget_s || options.tolerance_m,
                 "--write-preset writes the setting that --budget or --tolerance chooses; give one of them");
   require_input(!options.budget_s || !options.tolerance_m,

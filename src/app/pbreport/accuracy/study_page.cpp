@@ -82,7 +82,7 @@ io::html::Chart diagram(const SceneCases& scene, const char* title, const char* 
   return {title, "Each point is a setting; down and left is better.", config.dump()};
 }
 
-io::html::TextTable front_table(const SceneCases& scene, const StudyOptions& options) {
+io::html::TextTable front_table(const SceneCases& scene, const AccuracyReportOptions& options) {
   io::html::TextTable table;
   table.title = "Pareto front";
   table.header = {"setting (substeps x iterations)",
@@ -112,7 +112,7 @@ io::html::TextTable front_table(const SceneCases& scene, const StudyOptions& opt
   return table;
 }
 
-io::html::PageSection section_of(const SceneCases& scene, const StudyOptions& options) {
+io::html::PageSection section_of(const SceneCases& scene, const AccuracyReportOptions& options) {
   io::html::PageSection section;
   section.title = scene.name;
   section.text = format(
@@ -142,7 +142,7 @@ io::html::PageSection section_of(const SceneCases& scene, const StudyOptions& op
 }  // namespace
 
 void write_study_page(const std::string& path, const std::vector<SceneCases>& scenes,
-                      const StudyOptions& options) {
+                      const AccuracyReportOptions& options) {
   io::html::ChartPage page;
   page.title = "What accuracy costs in time";
   page.subtitle = options.file;

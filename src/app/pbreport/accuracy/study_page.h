@@ -10,6 +10,6 @@ namespace pbmpi::app {
 
 /// Throws core::InputError if the page cannot be written.
 void write_study_page(const std::string& path, const std::vector<SceneCases>& scenes,
-                      const StudyOptions& options);
+                      const AccuracyReportOptions& options);
 
 }  // namespace pbmpi::app

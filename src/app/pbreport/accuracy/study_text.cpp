@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/common/format.h"
+#include "app/pbreport/study/error_text.h"
+#include "app/pbreport/study/study_file.h"
 
 namespace pbmpi::app {
 namespace {
@@ -18,13 +20,6 @@ std::string run_command(const StudyCase& one) {
   for (const auto& [name, value] : setting_options(one))
     text += format(" --%s %s", name.c_str(), value.c_str());
   return text;
-}
-
-std::string parameter(const io::TableFile& file, const std::string& name) {
-  for (const io::Parameter& parameter : file.parameters) {
-    if (parameter.name == name) return parameter.text;
-  }
-  return "?";
 }
 
 constexpr const char* yardstick_format =
@@ -46,12 +41,6 @@ std::string floor_text(const SceneCases& scene) {
                 format(" (largest of %zu seeds)", scene.floor.size()).c_str());
 }
 
-std::string bands_text(const analysis::BandCounts& bands) {
-  std::string text;
-  for (const std::int64_t count : bands) text += (text.empty() ? "" : "/") + std::to_string(count);
-  return text;
-}
-
 std::string row_text(const StudyCase& one, bool at_floor) {
   const analysis::ErrorSummary& error = one.defect.body_position;
   return format("  %9.3f %9.3f %10.3g  %-32s %9.4g %9.4g %9.4g %9.4g %9.4g  %s%s\n", 1e3 * one.time_s,
@@ -60,7 +49,7 @@ std::string row_text(const StudyCase& one, bool at_floor) {
                 bands_text(error.bands).c_str(), at_floor ? "  (at the noise floor)" : "");
 }
 
-std::string choice_text(const SceneCases& scene, const StudyOptions& options) {
+std::string choice_text(const SceneCases& scene, const AccuracyReportOptions& options) {
   if (!options.budget_s && !options.tolerance_m) return "";
   const auto chosen = chosen_setting(scene, options);
   const std::string asked = options.budget_s ? format("budget %g ms", 1e3 * *options.budget_s)
@@ -71,23 +60,19 @@ std::string choice_text(const SceneCases& scene, const StudyOptions& options) {
                 1e3 * one.time_s, 1e3 * one.error_m(options.measure), run_command(one).c_str());
 }
 
-Json case_json(const StudyCase& one, double floor_m, const StudyOptions& options) {
+Json case_json(const StudyCase& one, double floor_m, const AccuracyReportOptions& options) {
   Json json;
   for (const auto& [name, value] : setting_options(one)) json["options"][name] = value;
   json["frame_time_s"] = {{"worst", one.time_s}, {"median", one.median_time_s}};
   json["row_visits"] = one.row_visits;
-  for (const analysis::NamedSummary& named : analysis::error_columns) {
-    const analysis::ErrorSummary& error = one.defect.*named.summary;
-    json["defect"][std::string(named.name) + "_" + named.unit] = {
-        {"rms", error.rms}, {"p99", error.p99}, {"max", error.max}, {"bands", error.bands}};
-  }
+  json["defect"] = errors_json(one.defect);
   json["joint_gap_m"] = one.joint_gap_m;
   json["error_m"] = one.error_m(options.measure);
   json["at_noise_floor"] = one.error_m(options.measure) <= floor_m;
   return json;
 }
 
-std::string scene_text(const SceneCases& scene, const StudyOptions& options) {
+std::string scene_text(const SceneCases& scene, const AccuracyReportOptions& options) {
   std::string text = "\nscene: " + scene.name + "\n" + floor_text(scene) +
                      yardstick_text("reference with half the iterations:", scene.halved_iterations) +
                      yardstick_text("reference with half the substeps:", scene.halved_substeps) +
@@ -111,24 +96,25 @@ std::string scene_text(const SceneCases& scene, const StudyOptions& options) {
 
 }  // namespace
 
-std::optional<std::size_t> chosen_setting(const SceneCases& scene, const StudyOptions& options) {
+std::optional<std::size_t> chosen_setting(const SceneCases& scene, const AccuracyReportOptions& options) {
   if (options.budget_s) return scene.best_within(*options.budget_s, options.measure);
   if (options.tolerance_m) return scene.cheapest_within(*options.tolerance_m, options.measure);
   return std::nullopt;
 }
 
 std::string study_to_text(const io::TableFile& file, const std::vector<SceneCases>& scenes,
-                          const StudyOptions& options) {
+                          const AccuracyReportOptions& options) {
   std::string text = format(
       "study: accuracy; defect after one frame from the reference's state, ranked by the %s\n"
       "reference: sor double, %s x %s (substeps x iterations), solver seed %s\n",
-      measure_texts[static_cast<std::size_t>(options.measure)], parameter(file, "reference_substeps").c_str(),
-      parameter(file, "reference_iterations").c_str(), parameter(file, "seed").c_str());
+      measure_texts[static_cast<std::size_t>(options.measure)],
+      text_parameter(file, "reference_substeps", "?").c_str(),
+      text_parameter(file, "reference_iterations", "?").c_str(), text_parameter(file, "seed", "?").c_str());
   for (const SceneCases& scene : scenes) text += scene_text(scene, options);
   return text;
 }
 
-std::string study_to_json(const std::vector<SceneCases>& scenes, const StudyOptions& options) {
+std::string study_to_json(const std::vector<SceneCases>& scenes, const AccuracyReportOptions& options) {
   Json json;
   json["scenes"] = Json::array();
   for (const SceneCases& scene : scenes) {

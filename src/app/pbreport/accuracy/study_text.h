@@ -8,11 +8,11 @@
 namespace pbmpi::app {
 
 /// The setting that the options ask for, or nothing.
-std::optional<std::size_t> chosen_setting(const SceneCases& scene, const StudyOptions& options);
+std::optional<std::size_t> chosen_setting(const SceneCases& scene, const AccuracyReportOptions& options);
 
 std::string study_to_text(const io::TableFile& file, const std::vector<SceneCases>& scenes,
-                          const StudyOptions& options);
-std::string study_to_json(const std::vector<SceneCases>& scenes, const StudyOptions& options);
+                          const AccuracyReportOptions& options);
+std::string study_to_json(const std::vector<SceneCases>& scenes, const AccuracyReportOptions& options);
 /// Lines "name = value" for pbmpi --preset.
 std::string preset_text(const StudyCase& one);
 

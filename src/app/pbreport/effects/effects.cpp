@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "app/common/text_output.h"
 #include "app/pbreport/effects/effects_markdown.h"
 #include "app/pbreport/effects/effects_page.h"
 #include "app/pbreport/effects/effects_text.h"
@@ -26,8 +27,7 @@ core::ExitCode run_effects_report(const std::vector<std::string>& args, std::ost
   } else if (!options.quiet) {
     out << effects_to_text(file, scenes);
   }
-  out.flush();
-  if (!out) throw core::RunError("the report cannot be written to standard output; is the disk full?");
+  require_printed(out, "the report");
   return core::ExitCode::done;
 }
 

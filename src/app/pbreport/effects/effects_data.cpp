@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/pbreport/study/case_row.h"
+#include "app/pbreport/study/study_file.h"
 #include "stepping/step_options.h"
 
 namespace pbmpi::app {
@@ -85,10 +86,7 @@ std::vector<EffectScene> effect_scenes(const io::TableFile& file, const std::vec
 }
 
 std::string instructions_by(const io::TableFile& file) {
-  for (const io::Parameter& parameter : file.parameters) {
-    if (parameter.name == "instructions_by") return parameter.text;
-  }
-  return "none";
+  return text_parameter(file, "instructions_by", "none");
 }
 
 }  // namespace pbmpi::app

@@ -1,18 +1,15 @@
 /// The command line of "pbreport effects".
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/pbreport/study/report_options.h"
+
 namespace pbmpi::app {
 
-struct EffectsReportOptions {
-  bool help = false;
-  std::string file;
-  std::vector<std::string> scenes;  ///< empty: all in the file
-  std::optional<std::string> html, csv;
-  bool json = false, markdown = false, quiet = false;
+struct EffectsReportOptions : ReportOfStudyOptions {
+  bool markdown = false;
 };
 
 /// Throws core::InputError with one clear message.

@@ -7,6 +7,7 @@
 
 #include "app/common/format.h"
 #include "app/pbreport/effects/effects_text.h"
+#include "app/pbreport/study/error_text.h"
 #include "io/html/chart_page.h"
 
 namespace pbmpi::app {
@@ -162,9 +163,6 @@ io::html::PageSection overview(const std::string& stepper, const std::vector<Eff
 std::vector<std::string> detail(const EffectRow& row) {
   if (!row.measured()) return {row.effect, "", "", "", "", "", "", "", note_of(row)};
   const auto counted = row.instruction_share();
-  std::string bands;
-  for (const std::int64_t count : row.drift.body_position.bands)
-    bands += (bands.empty() ? "" : " / ") + std::to_string(count);
   return {row.effect,
           format("%.1f", 1e6 * row.time_with_s.median),
           format("%.2f", 1e6 * row.cost_s.median),
@@ -173,7 +171,7 @@ std::vector<std::string> detail(const EffectRow& row) {
           counted ? percent_text(*counted) : "-",
           format("%.4g", 1e3 * row.defect.body_position.rms),
           format("%.4g", 1e3 * row.drift.body_position.rms),
-          bands,
+          bands_text(row.drift.body_position.bands, " / "),
           note_of(row)};
 }
 

@@ -4,17 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/common/format.h"
+#include "app/pbreport/study/error_text.h"
 
 namespace pbmpi::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string bands_text(const analysis::BandCounts& bands) {
-  std::string text;
-  for (const std::int64_t count : bands) text += (text.empty() ? "" : "/") + std::to_string(count);
-  return text;
-}
 
 std::string row_text(const EffectRow& row) {
   if (!row.measured()) return format("  %-18s %s\n", row.effect.c_str(), note_of(row).c_str());
@@ -54,16 +49,6 @@ std::string scene_text(const EffectScene& scene) {
 
 Json spread_json(const ReadSpread& spread) {
   return {{"median", spread.median}, {"p10", spread.p10}, {"p90", spread.p90}};
-}
-
-Json errors_json(const analysis::ErrorTable& table) {
-  Json json;
-  for (const analysis::NamedSummary& named : analysis::error_columns) {
-    const analysis::ErrorSummary& error = table.*named.summary;
-    json[std::string(named.name) + "_" + named.unit] = {
-        {"rms", error.rms}, {"p99", error.p99}, {"max", error.max}, {"bands", error.bands}};
-  }
-  return json;
 }
 
 Json row_json(const EffectRow& row) {

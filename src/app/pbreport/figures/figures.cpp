@@ -5,6 +5,7 @@
 
 #include "app/common/format.h"
 #include "app/common/options.h"
+#include "app/common/text_output.h"
 #include "app/pbreport/figures/figures_page.h"
 
 namespace pbmpi::app {
@@ -85,8 +86,7 @@ core::ExitCode run_figures(const std::vector<std::string>& args, std::ostream& o
   if (values.count("html") != 0)
     io::html::write_chart_page(values["html"].as<std::string>(), figures_page(scenes));
   if (values.count("quiet") == 0) out << to_text(scenes);
-  out.flush();
-  if (!out) throw core::RunError("the table cannot be written to standard output; is the disk full?");
+  require_printed(out, "the table");
   return core::ExitCode::done;
 }
 

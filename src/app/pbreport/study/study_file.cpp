@@ -1,7 +1,5 @@
 #include "app/pbreport/study/study_file.h"
 
-#include <fstream>
-
 #include "app/common/format.h"
 #include "core/error.h"
 
@@ -75,10 +73,11 @@ std::string study_to_csv(const io::TableFile& file) {
   return text;
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text << std::flush;
-  core::require_input(file.good(), path + ": it cannot be written; choose another place");
+std::string text_parameter(const io::TableFile& file, const std::string& name, const std::string& absent) {
+  for (const io::Parameter& parameter : file.parameters) {
+    if (parameter.name == name) return parameter.text;
+  }
+  return absent;
 }
 
 }  // namespace pbmpi::app

@@ -22,7 +22,7 @@ io::TableFile read_study(const std::string& path, const std::string& kind);
 /// All rows and one-dimensional columns of /cases, with a header; a column of several values becomes several.
 std::string study_to_csv(const io::TableFile& file);
 
-/// Throws core::InputError if `path` cannot be written.
-void write_text(const std::string& path, const std::string& text);
+/// The text of a value of /parameters, or `absent`.
+std::string text_parameter(const io::TableFile& file, const std::string& name, const std::string& absent);
 
 }  // namespace pbmpi::app

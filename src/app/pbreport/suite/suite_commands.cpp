@@ -9,6 +9,7 @@
 
 #include "app/common/format.h"
 #include "app/common/options.h"
+#include "app/common/text_output.h"
 #include "app/pbreport/suite/characterise.h"
 #include "app/pbreport/suite/suite_json.h"
 #include "io/html/suite_page.h"
@@ -95,8 +96,7 @@ std::string cores_text(const CoreSummary& s) {
 }
 
 core::ExitCode finish(std::ostream& out) {
-  out.flush();
-  if (!out) throw core::RunError("the table cannot be written to standard output; is the disk full?");
+  require_printed(out, "the table");
   return core::ExitCode::done;
 }
 

@@ -1,0 +1,62 @@
+#include "app/pbreport/study/report_options.h"
+
+#include "app/common/options.h"
+#include "core/error.h"
+
+namespace pbmpi::app {
+
+namespace po = boost::program_options;
+using core::require_input;
+
+void add_general_options(const std::string& printed, po::options_description& description) {
+  description.add_options()("help,h", "print this help")  //
+      ("config", po::value<std::string>()->value_name("FILE"),
+       "read options from FILE, one 'name = value' a line; the command line wins")  //
+      ("quiet,q", ("print nothing but errors and what " + printed + " asks for").c_str());
+}
+
+void add_output_options(const std::string& page, po::options_description& description) {
+  description.add_options()                                                                                //
+      ("html", po::value<std::string>()->value_name("OUT"), ("one self-contained page: " + page).c_str())  //
+      ("csv", po::value<std::string>()->value_name("OUT"), "all cases as comma-separated values");
+}
+
+void add_scene_choice(po::options_description& description) {
+  description.add_options()("scene",
+                            po::value<std::vector<std::string>>()->multitoken()->value_name("NAME..."),
+                            "these scenes of the study only");
+}
+
+po::variables_map parse_study_report(const std::vector<std::string>& args, po::options_description visible) {
+  visible.add_options()("file", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("file", -1);
+  return parse_command_line(args, visible, positional);
+}
+
+ReportOfStudyOptions report_of_study_options(const po::variables_map& values, const std::string& what,
+                                             const std::string& example) {
+  ReportOfStudyOptions options;
+  options.help = values.count("help") != 0;
+  if (options.help) return options;
+  if (values.count("scene") != 0) options.scenes = values["scene"].as<std::vector<std::string>>();
+  options.html = output_path(values, "html");
+  options.csv = output_path(values, "csv");
+  options.json = values.count("json") != 0;
+  options.quiet = values.count("quiet") != 0;
+  require_input(values.count("file") != 0,
+                "no file given; name the file of " + what + ", e.g. pbreport " + example);
+  const auto files = values["file"].as<std::vector<std::string>>();
+  require_input(files.size() == 1, "'" + files.back() + "' follows '" + files.front() + "': give one study");
+  options.file = files.front();
+  require_not_the_study(options.file, {options.html, options.csv});
+  return options;
+}
+
+void require_not_the_study(const std::string& file,
+                           std::initializer_list<std::optional<std::string>> outputs) {
+  for (const auto& output : outputs)
+    require_input(output != file, file + ": this file is to be read, not written over");
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,42 @@
+/// What the command lines of the reports of all studies have in common.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boost/program_options.hpp>
+
+namespace pbmpi::app {
+
+struct ReportOfStudyOptions {
+  bool help = false;
+  std::string file;
+  std::vector<std::string> scenes;  ///< empty: all in the file
+  std::optional<std::string> html, csv;
+  bool json = false, quiet = false;
+};
+
+/// --config and --quiet. `printed`: what --quiet lets through.
+void add_general_options(const std::string& printed,
+                         boost::program_options::options_description& description);
+/// --html and --csv. `page`: what the page shows.
+void add_output_options(const std::string& page, boost::program_options::options_description& description);
+/// --scene.
+void add_scene_choice(boost::program_options::options_description& description);
+
+/// Parses `args`, of which the one word without a dash is the file.
+boost::program_options::variables_map parse_study_report(const std::vector<std::string>& args,
+                                                         boost::program_options::options_description visible);
+
+/// Throws core::InputError unless one file is named. `what`: e.g. "a study of effects", `example`: a file's
+/// name. With --help nothing else is read.
+ReportOfStudyOptions report_of_study_options(const boost::program_options::variables_map& values,
+                                             const std::string& what, const std::string& example);
+
+/// Throws core::InputError if one of the outputs is the study itself.
+void require_not_the_study(const std::string& file,
+                           std::initializer_list<std::optional<std::string>> outputs);
+
+}  // namespace pbmpi::app
