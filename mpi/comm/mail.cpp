@@ -20,7 +20,7 @@ Mail::Mail(const Communicator& comm) : comm_(&comm), posted_(std::make_unique<Po
   posted_->comm = MPI_Comm_f2c(comm.fortran_handle());
 }
 
-// What has not left when an error unwinds is given up: nobody may be there to receive it.
+// Messages that have not left when an error unwinds are abandoned: nobody may be there to receive them.
 Mail::~Mail() {
   if (std::uncaught_exceptions() == 0) {
     MPI_Waitall(static_cast<int>(posted_->requests.size()), posted_->requests.data(), MPI_STATUSES_IGNORE);
@@ -71,6 +71,6 @@ void Mail::finish() {
   posted_->messages.clear();
 }
 
-stepping::Traffic Mail::take_traffic() { return std::exchange(traffic_, {}); }
+core::Traffic Mail::take_traffic() { return std::exchange(traffic_, {}); }
 
 }  // namespace pbmpi::mpi

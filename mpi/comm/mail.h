@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/traffic.h"
 #include "mpi/comm/communicator.h"
-#include "stepping/frame.h"
 
 namespace pbmpi::mpi {
 
@@ -28,14 +28,14 @@ class Mail {
   /// Waits until all posted messages have left.
   void finish();
 
-  /// What was posted since the last call.
-  stepping::Traffic take_traffic();
+  /// Messages and bytes posted since the last call.
+  core::Traffic take_traffic();
 
  private:
   struct Posted;
   const Communicator* comm_;
   std::unique_ptr<Posted> posted_;
-  stepping::Traffic traffic_;
+  core::Traffic traffic_;
 };
 
 }  // namespace pbmpi::mpi

@@ -38,8 +38,8 @@ struct FrameTimes {
   double wall_s = 0;       ///< root's time from the start of the frame to the end of its gather
   double delivered_s = 0;  ///< with FEEC: until root had the estimate; 0 without
   bool measured = false;
-  core::PhaseTimes phases;      ///< as in stepping::FrameRecord: `output` is that of the frame before
-  stepping::Traffic traffic{};  ///< of this rank
+  core::PhaseTimes phases;  ///< as in stepping::FrameRecord: `output` is that of the frame before
+  core::Traffic traffic{};  ///< of this rank
 };
 
 /// The same on every rank, except `times` (phases are this rank's own) and `rebalance_s`.
@@ -136,7 +136,7 @@ class FrameDriver {
   virtual std::uint64_t state_hash() const = 0;  ///< collective
   /// Collective. On root the states of all worlds after the frame, [num_worlds].
   virtual std::vector<model::State> gather_states() const = 0;
-  virtual stepping::Traffic take_traffic() { return {}; }  ///< since the last call
+  virtual core::Traffic take_traffic() { return {}; }  ///< since the last call
 
   /// What the ranks agree on after they advanced.
   struct Status {

@@ -54,7 +54,7 @@ class SpaceDriver final : public FrameDriver {
   std::string make_moves(std::int64_t num_moves, std::int64_t step) override;
   std::uint64_t state_hash() const override;
   std::vector<model::State> gather_states() const override;
-  stepping::Traffic take_traffic() override { return step_.take_traffic(); }
+  core::Traffic take_traffic() override { return step_.take_traffic(); }
 
   void observe();
   void note_times();

@@ -65,7 +65,7 @@ class SpaceStep {
   const FrameFindings& findings() const { return findings_; }  ///< on root
   /// The contacts that this rank solved in the last step, in canonical order.
   std::span<const model::Contact> contacts() const { return contacts_; }
-  stepping::Traffic take_traffic() { return mail_ ? mail_->take_traffic() : stepping::Traffic{}; }
+  core::Traffic take_traffic() { return mail_ ? mail_->take_traffic() : core::Traffic{}; }
 
  private:
   enum Tag { poses_tag = 1, verdict_tag, report_tag, orders_tag, ship_tag, back_tag, frame_tag, center_tag };

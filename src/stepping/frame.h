@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/clock.h"
+#include "core/traffic.h"
 #include "model/model.h"
 #include "model/state.h"
 #include "stepping/observables.h"
@@ -39,12 +40,6 @@ struct EstimateRecord {
   double compute_s = 0;    ///< time that this rank took for it
 };
 
-/// Messages that a rank sent to others inside the steps of a frame.
-struct Traffic {
-  std::int64_t messages = 0;
-  std::int64_t bytes = 0;
-};
-
 /// A finished frame as its rank saw it. Spans and pointers hold until the observer returns.
 struct FrameRecord {
   std::int64_t frame = 0;              ///< 0-based, warm-up frames included
@@ -53,7 +48,7 @@ struct FrameRecord {
   bool measured = false;               ///< false in a warm-up frame
   std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id
   core::PhaseTimes phases;    ///< of this rank; `output` is the time that observers took in the frame before
-  Traffic traffic;            ///< of this rank; none where each rank owns whole worlds
+  core::Traffic traffic;      ///< of this rank; none where each rank owns whole worlds
   double wall_s = 0;          ///< start of the frame to the end of its gather: the same on every rank
   bool deadline_met = false;  ///< wall_s within the frame budget: the same on every rank
   const EstimateRecord* estimate = nullptr;  ///< none without FEEC

@@ -96,7 +96,7 @@ TEST(Mail, brings_messages_of_any_length_in_order_and_counts_them) {
     for (const std::byte value : message) ASSERT_EQ(value, static_cast<std::byte>(previous));
   }
   mail.finish();
-  const stepping::Traffic traffic = mail.take_traffic();
+  const core::Traffic traffic = mail.take_traffic();
   EXPECT_EQ(traffic.messages, 4);
   EXPECT_EQ(traffic.bytes, 200008);
   EXPECT_EQ(mail.take_traffic().messages, 0);
