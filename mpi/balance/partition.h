@@ -1,4 +1,4 @@
-/// Which rank owns which world: pure data, known to no communicator. Every function is deterministic (ties go
+/// Which rank owns which world: pure data, without communication. Every function is deterministic (ties go
 /// to the lower world and the lower rank), so that all ranks may compute the same placement.
 #pragma once
 
@@ -24,27 +24,10 @@ std::vector<double> rank_loads(std::span<const int> placement, std::span<const d
 /// Largest over average load; 1 if nothing costs anything.
 double imbalance(std::span<const double> loads);
 
-/// One world that changes its owner.
+/// What changes its owner: a world, or a space of a world that is cut into spaces.
 struct Move {
-  int world = 0;
-  int to = 0;
+  int part = 0;  ///< the world or space
+  int to = 0;    ///< rank
 };
-
-/// What rebalance() found.
-struct Rebalancing {
-  std::vector<Move> moves;      ///< by ascending world; empty = stay
-  double imbalance_before = 1;  ///< max/avg load
-  double imbalance_after = 1;   ///< max/avg load that the moves promise
-};
-
-/// Moves few worlds so that the loads become even, or none: if max/avg does not pass `threshold` (>= 1), or
-/// if no placement within reach takes off the makespan at least half of what the threshold tolerates (so
-/// that noise in the costs does not send worlds to and fro).
-///
-/// From the most loaded rank a world moves to the least loaded one, that which best evens out the two; where
-/// no world does, two worlds of unlike cost are swapped. This goes on until max/avg lies in the lower half of
-/// what the threshold tolerates, or nothing helps. The makespan is never worse than before.
-Rebalancing rebalance(std::span<const int> placement, std::span<const double> cost, int num_ranks,
-                      double threshold);
 
 }  // namespace pbmpi::mpi

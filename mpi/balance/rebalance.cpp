@@ -1,9 +1,10 @@
+#include "mpi/balance/rebalance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "core/error.h"
-#include "mpi/balance/partition.h"
 
 namespace pbmpi::mpi {
 namespace {
@@ -53,9 +54,8 @@ class Balancer {
     return ranks;
   }
 
-  /// Whether passing `amount` across the gap between two ranks leaves both below the higher one. Sums of
-  /// doubles round, so what is within rounding of no gain is none: otherwise equal worlds could be passed on
-  /// for ever.
+  /// True if passing `amount` across the gap between two ranks leaves both below the higher one. Gains
+  /// within rounding error count as none; otherwise worlds of equal cost could be passed on for ever.
   static bool gains(double amount, double gap) { return amount > 1e-9 * gap && amount < gap * (1 - 1e-9); }
 
   /// The world of `from` whose move to the least loaded rank leaves the two most alike.

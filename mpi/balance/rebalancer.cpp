@@ -24,7 +24,7 @@ std::vector<double> Rebalancer::smoothed() const {
   static_assert(window == 3);
   for (std::size_t world = 0; world < median.size() && recent_.size() > 1; ++world) {
     const auto [low, high] = std::minmax({recent_[0][world], recent_[1][world]});
-    // Of two frames the cheaper: noise only adds time.
+    // With two frames the cheaper one counts: noise only adds time.
     median[world] = recent_.size() == 2 ? low : std::clamp(recent_[2][world], low, high);
   }
   return median;

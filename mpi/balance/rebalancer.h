@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mpi/balance/partition.h"
+#include "mpi/balance/rebalance.h"
 
 namespace pbmpi::mpi {
 

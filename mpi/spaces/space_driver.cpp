@@ -249,7 +249,7 @@ std::string SpaceDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
   if (comm().is_root()) rows = state_rows(stepper_->state(), bodies);
   comm().bcast(std::span(rows));
   std::vector<int> owner = ownership_.owner;
-  for (const Move& move : planned_.moves) owner[move.world] = move.to;
+  for (const Move& move : planned_.moves) owner[move.part] = move.to;
   ownership_ = SpaceOwnership(stepper_->map(), std::move(owner), comm().size());
   stepper_->put_states(bodies, rows);
   if (effects::SpaceSleepers* sleepers = stepper_->sleepers()) {

@@ -72,7 +72,7 @@ PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner
 SolverCosts fit_costs(std::span<const RankSample> ranks);
 
 struct Reassignment {
-  std::vector<Move> moves;  ///< Move::world is a space; by ascending space; empty = stay
+  std::vector<Move> moves;  ///< by ascending space; empty = stay
   double makespan_before_s = 0;
   double makespan_after_s = 0;
 };

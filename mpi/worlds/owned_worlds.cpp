@@ -19,7 +19,7 @@ OwnedWorlds::OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepp
     : comm_(&comm), stepper_(&stepper), build_(std::move(build)), placement_(std::move(placement)) {
   find_own();
   std::map<int, model::State> states;
-  if (start.step > 0) states = deal_out(start.states);
+  if (start.step > 0) states = scatter_states(start.states);
   agree_on_errors(comm, [&] {
     for (const int world : ids_) {
       const std::shared_ptr<const model::Model> model = build_(world);
@@ -32,11 +32,11 @@ OwnedWorlds::OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepp
   exchange_sizes();
 }
 
-std::map<int, model::State> OwnedWorlds::deal_out(std::span<const model::State> states) const {
+std::map<int, model::State> OwnedWorlds::scatter_states(std::span<const model::State> states) const {
   agree_on_errors(*comm_, [&] {
     if (comm_->is_root() && states.size() != placement_.size())
       throw core::RunError("there are " + std::to_string(states.size()) + " states to start from, and " +
-                           std::to_string(placement_.size()) + " worlds");
+                           std::to_string(placement_.size()) + " worlds; resume with as many worlds");
   });
   std::map<int, model::State> own;
   for (int world = 0; world < std::ssize(placement_); ++world) {
@@ -106,20 +106,20 @@ std::vector<stepping::LocalWorld> OwnedWorlds::views() const {
 }
 
 void OwnedWorlds::move(std::span<const Move> moves, std::int64_t step) {
-  // Every rank goes through the moves in the same order, so that blocking calls cannot wait in a circle.
+  // Every rank goes through the moves in the same order, so that blocking calls cannot deadlock.
   std::vector<std::pair<int, model::State>> arrivals;
   for (const Move& move : moves) {
-    if (placement_[move.world] == comm_->rank()) {
-      comm_->send(std::span<const double>(pack(stepper_->state(move.world))), move.to, state_tag);
+    if (placement_[move.part] == comm_->rank()) {
+      comm_->send(std::span<const double>(pack(stepper_->state(move.part))), move.to, state_tag);
     } else if (move.to == comm_->rank()) {
-      std::vector<double> packed(state_doubles_[move.world]);
-      comm_->recv(std::span(packed), placement_[move.world], state_tag);
-      arrivals.emplace_back(move.world, unpack(packed));
+      std::vector<double> packed(state_doubles_[move.part]);
+      comm_->recv(std::span(packed), placement_[move.part], state_tag);
+      arrivals.emplace_back(move.part, unpack(packed));
     }
   }
   agree_on_errors(*comm_, [&] {
     for (const Move& move : moves) {
-      if (placement_[move.world] == comm_->rank()) stepper_->remove(move.world);
+      if (placement_[move.part] == comm_->rank()) stepper_->remove(move.part);
     }
     for (const auto& [world, state] : arrivals) {
       std::shared_ptr<const model::Model> model = build_(world);
@@ -127,7 +127,7 @@ void OwnedWorlds::move(std::span<const Move> moves, std::int64_t step) {
       stepper_->add(world, std::move(model), state, step);
     }
   });
-  for (const Move& move : moves) placement_[move.world] = move.to;
+  for (const Move& move : moves) placement_[move.part] = move.to;
   find_own();
 }
 

@@ -21,7 +21,7 @@ using BuildWorld = std::function<std::shared_ptr<const model::Model>(int world)>
 /// Where a run begins. `step` is the same on every rank.
 struct Start {
   std::int64_t step = 0;                   ///< steps done; 0 = the worlds start as their models say
-  std::span<const model::State> states{};  ///< after them, on root: [num_worlds]
+  std::span<const model::State> states{};  ///< after those steps, on root: [num_worlds]
 };
 
 /// Knows every world's owner; the worlds of this rank live in the stepper. Communicator and stepper are
@@ -46,8 +46,8 @@ class OwnedWorlds {
   std::vector<model::State> gather_states() const;
 
  private:
-  /// Collective. Root's states reach the owners of their worlds.
-  std::map<int, model::State> deal_out(std::span<const model::State> states) const;
+  /// Collective. Sends root's states to the owners of their worlds; returns this rank's.
+  std::map<int, model::State> scatter_states(std::span<const model::State> states) const;
   void exchange_sizes();
   void find_own();
 
@@ -56,7 +56,7 @@ class OwnedWorlds {
   BuildWorld build_;
   Placement placement_;
   stepping::WorldTable table_;
-  std::vector<std::int64_t> state_doubles_;  ///< [worlds] numbers of a state that moves
+  std::vector<std::int64_t> state_doubles_;  ///< [num_worlds] length of each packed state
   std::vector<int> ids_;
 };
 

@@ -5,13 +5,13 @@
 #include <limits>
 #include <random>
 
-#include "mpi/balance/partition.h"
+#include "mpi/balance/rebalance.h"
 
 namespace pbmpi::mpi {
 namespace {
 
 Placement moved(Placement placement, const std::vector<Move>& moves) {
-  for (const Move& move : moves) placement[move.world] = move.to;
+  for (const Move& move : moves) placement[move.part] = move.to;
   return placement;
 }
 
@@ -47,7 +47,7 @@ TEST(Rebalance, moves_one_world_where_one_is_enough) {
   const std::vector<double> cost = {5, 5, 1, 1, 2};
   const Rebalancing found = rebalance(Placement{0, 0, 0, 0, 1}, cost, 2, 1.1);
   ASSERT_EQ(found.moves.size(), 1u);
-  EXPECT_EQ(found.moves[0].world, 0);
+  EXPECT_EQ(found.moves[0].part, 0);
   EXPECT_EQ(found.moves[0].to, 1);
   EXPECT_DOUBLE_EQ(found.imbalance_before, 12.0 / 7);
   EXPECT_DOUBLE_EQ(found.imbalance_after, 1.0);
@@ -112,7 +112,8 @@ TEST(Rebalance, evens_out_many_unequal_worlds_and_moves_fewer_than_a_fresh_place
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<double> cost(100);
     for (double& c : cost) c = whole(random);
-    for (int world = 0; world < 25; ++world) cost[world] *= 3;  // the first rank's worlds have grown dear
+    for (int world = 0; world < 25; ++world)
+      cost[world] *= 3;  // the first rank's worlds have become expensive
     const Placement placement = equal_placement(100, 4);
     const Rebalancing found = rebalance(placement, cost, 4, 1.1);
     EXPECT_GT(found.imbalance_before, 1.5);

@@ -22,7 +22,7 @@ SpaceLoads spaces_of(const std::vector<int>& units, int lanes = 1) {
 std::vector<int> owners_after(const SpaceLoads& loads, std::vector<int> owner, int num_ranks,
                               double threshold = 1.1) {
   for (const Move& move : reassign_spaces(loads, owner, num_ranks, threshold).moves)
-    owner[move.world] = move.to;
+    owner[move.part] = move.to;
   return owner;
 }
 
