@@ -1,7 +1,6 @@
 #include "mpi/frame/frame_driver.h"
 
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "core/error.h"
@@ -12,51 +11,6 @@ namespace pbmpi::mpi {
 
 namespace event_kind = stepping::event_kind;
 
-namespace {
-
-/// Throws core::InputError unless a driver of `num_ranks` ranks can run these settings.
-void require_valid(const WorldRunSettings& settings, int num_parts, int num_ranks) {
-  core::require_input(settings.num_worlds >= 1, "worlds: at least 1 is needed");
-  core::require_input(settings.warmup >= 0, "warm-up: the number of frames is negative");
-  core::require_input(settings.frames >= 1, "frames: at least 1 measured frame is needed");
-  core::require_input(settings.first_frame >= 0, "first frame: the number of frames done is negative");
-  core::require_input(settings.first_frame < settings.warmup + settings.frames,
-                      "frames: " + std::to_string(settings.first_frame) + " are done and none is left");
-  core::require_input(settings.steps_per_frame >= 1, "steps per frame: at least 1 is needed");
-  core::require_input(std::isfinite(settings.dt_s) && settings.dt_s > 0,
-                      "dt: a time step is finite and above 0 s");
-  core::require_input(settings.rebalance_threshold >= 1, "rebalance threshold: max/avg is never below 1");
-  core::require_input(settings.placement.empty() || std::ssize(settings.placement) == num_parts,
-                      "placement: one rank a world (or space) is needed");
-  for (const int rank : settings.placement) {
-    core::require_input(rank >= 0 && rank < num_ranks, "placement: there is no rank " + std::to_string(rank));
-  }
-}
-
-std::uint64_t hash_of(const WorldRunSettings& settings) {
-  core::Hash64 hash;
-  for (const int number : {settings.num_worlds, settings.warmup, settings.frames, settings.steps_per_frame}) {
-    hash.add(static_cast<std::uint64_t>(number));
-  }
-  for (const double number : {settings.dt_s, settings.budget_s, settings.rebalance_threshold})
-    hash.add(&number, 1);
-  hash.add(static_cast<std::uint64_t>(settings.first_frame));
-  for (const int rank : settings.placement) hash.add(static_cast<std::uint64_t>(rank));
-  return hash.value();
-}
-
-/// The settings, once every rank has found them valid and the same as every other rank's.
-WorldRunSettings checked(const Communicator& comm, WorldRunSettings settings, int num_parts) {
-  agree_on_errors(comm, [&] { require_valid(settings, num_parts, comm.size()); });
-  const std::uint64_t mine = hash_of(settings);
-  std::array<std::uint64_t, 2> extremes = {mine, ~mine};
-  comm.allreduce(extremes, Reduce::max);
-  core::require_invariant(extremes[0] == ~extremes[1], "WorldRunSettings are the same on every rank");
-  return settings;
-}
-
-}  // namespace
-
 std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes) {
   core::Hash64 hash;
   for (const std::uint64_t world : world_hashes) hash.add(world);
@@ -65,7 +19,7 @@ std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes) 
 
 FrameDriver::FrameDriver(const Communicator& comm, WorldRunSettings settings, int num_parts)
     : comm_(comm.dup()),
-      settings_(checked(comm_, std::move(settings), num_parts)),
+      settings_(checked_settings(comm_, std::move(settings), num_parts)),
       frame_(settings_.first_frame) {}
 
 void FrameDriver::add_observer(stepping::FrameObserver& observer) { observers_.push_back(&observer); }
@@ -83,7 +37,7 @@ WorldRunResult FrameDriver::run() {
   result_.times.reserve(num_frames() - frame_);
   joints_break_ = any_breakage(comm_, local_worlds());
   while (frame_ < num_frames() && !result_.stopped && result_.failure.empty()) run_frame();
-  agree(comm_, errors_);  // what the observers of the last frame threw
+  agree(comm_, errors_);  // errors of observers in the last frame
   result_.frames_done = frame_;
   result_.state_hash = state_hash();
   return std::move(result_);
@@ -135,8 +89,8 @@ void FrameDriver::run_frame() {
 }
 
 FrameDriver::Status FrameDriver::agree_on_status() {
-  // One maximum over the ranks carries all five: who is lowest counts down from the number of ranks or
-  // worlds.
+  // One maximum over the ranks agrees on all five numbers. The lowest rank that failed, and the lowest world,
+  // are sent as their distance from the number of ranks or worlds, so that they win the maximum.
   enum { stop, save_requests, failed, all_failed, nonfinite, count };
   const bool failed_here = errors_.failed();
   std::array<std::int64_t, count> agreed{};

@@ -1,4 +1,4 @@
-/// The frame loop: what all ways of cutting the work over ranks have in common.
+/// The frame loop, which all decompositions of the work over ranks share.
 #pragma once
 
 #include <atomic>
@@ -13,25 +13,10 @@
 #include "mpi/comm/agreement.h"
 #include "mpi/comm/communicator.h"
 #include "mpi/frame/checkpoint_schedule.h"
+#include "mpi/frame/run_settings.h"
 #include "stepping/frame.h"
-#include "stepping/frame_budget.h"
 
 namespace pbmpi::mpi {
-
-struct WorldRunSettings {
-  int num_worlds = 1;
-  int warmup = 3;  ///< frames before the measured ones
-  int frames = 5;  ///< measured frames
-  int steps_per_frame = 3;
-  double dt_s = 0.01;
-  double budget_s = stepping::default_frame_budget_s;  ///< a frame's deadline
-  double rebalance_threshold = 1.1;  ///< work moves when max/avg useful time passes this; infinity = never
-  bool profile = false;  ///< measure the last step of each frame again, after the frame's time is taken
-  std::int64_t first_frame = 0;  ///< frames done before: the run goes on from a checkpoint
-  std::vector<int> placement;  ///< owner at the start of each world (or space); empty = as the driver chooses
-
-  std::int64_t first_step() const { return first_frame * steps_per_frame; }
-};
 
 /// Times of one frame: equal on every rank for wall_s, this rank's for the rest.
 struct FrameTimes {
@@ -42,24 +27,25 @@ struct FrameTimes {
   core::Traffic traffic{};  ///< of this rank
 };
 
-/// The same on every rank, except `times` (phases are this rank's own) and `rebalance_s`.
+/// Result of a run. Equal on every rank, except `times` (phases are this rank's own) and `rebalance_s`.
 struct WorldRunResult {
-  std::int64_t frames_done = 0;  ///< warm-up included, and what was done before the run went on
+  std::int64_t frames_done = 0;  ///< warm-up included, and those before the run was resumed
   bool stopped = false;          ///< a stop was requested, or the time was up, before the last frame
   std::string failure;  ///< empty, or why the run failed (e.g. "world 17 has 3 non-finite bodies in frame 4")
   std::uint64_t state_hash = 0;   ///< over all bodies in (world, body) order
   std::vector<FrameTimes> times;  ///< [frames_done - first_frame]
-  std::string save_failure;       ///< why the snapshot that ends the run could not be kept; else empty
+  std::string save_failure;       ///< why the snapshot that ends the run could not be stored; else empty
   int num_rebalances = 0;
   std::int64_t worlds_moved = 0;  ///< worlds, or spaces of the one world
-  double rebalance_s = 0;         ///< time that this rank spent moving work, between frames: in no wall_s
+  double rebalance_s = 0;         ///< time that this rank spent moving work between frames; part of no wall_s
 };
 
-/// The state hash of a run from the hashes of its worlds [num_worlds], in order of world: independent of who
-/// owned which.
+/// The state hash of a run from the hashes of its worlds [num_worlds], in order of world: independent of
+/// their owners.
 std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes);
 
-/// All ranks construct and run it together. The communicator is duplicated.
+/// Runs the frames of a run on all ranks, which construct and run it together. The communicator is
+/// duplicated. How a frame is stepped is up to the derived class, one for each decomposition.
 ///
 /// A frame is: perhaps estimate -> advance -> agree (one allreduce of 5 numbers: stop, save, error,
 /// non-finite) -> gather -> verdict (one bcast of 32 bytes: the frame's times, whether work moves, whether
@@ -79,48 +65,48 @@ class FrameDriver {
   /// frame's own collective.
   void set_stop_flag(const std::atomic<int>& flag);
 
-  /// Gives snapshots of the run to `keeper` (borrowed), between frames. On every rank or on none.
+  /// Has snapshots of the run stored by `keeper` (borrowed), between frames. On every rank or on none.
   void save_to(SnapshotKeeper& keeper, const CheckpointPlan& plan);
-  /// The frame in which root's core::now_s() passes this is the last.
+  /// Ends the run after the frame in which root's core::now_s() passes this.
   void set_time_limit(double until_s) { until_s_ = until_s; }
 
   virtual const stepping::WorldTable& table() const = 0;
   /// The worlds that this rank reports, by ascending id.
   virtual std::vector<stepping::LocalWorld> local_worlds() const = 0;
 
-  /// Ranks that own nothing that moves, ascending; the same on every rank.
+  /// Ranks that own no bodies, ascending; the same on every rank.
   virtual std::vector<int> idle_ranks() const = 0;
 
-  /// Once a driver. What a stepper or observer throws on one rank is thrown on every rank: a stepper's in the
-  /// same frame, an observer's in the next one or at the end.
+  /// To be called once. What a stepper or observer throws on one rank is thrown on every rank: a stepper's in
+  /// the same frame, an observer's in the next one or at the end.
   WorldRunResult run();
 
  protected:
-  /// Throws core::InputError for settings that make no sense; `num_parts`: of what a placement places.
+  /// Throws core::InputError for settings that make no sense; `num_parts`: worlds, or spaces, to place.
   FrameDriver(const Communicator& comm, WorldRunSettings settings, int num_parts);
 
   const Communicator& comm() const { return comm_; }
   const WorldRunSettings& settings() const { return settings_; }
-  /// What this rank threw and the others do not know of yet.
+  /// The first error of this rank that the others do not know of yet.
   ErrorHold& errors() { return errors_; }
   void hand_to_consumers(std::int64_t frame, stepping::PoseKind kind, std::span<const core::Vec3> position,
                          std::span<const core::Quat> orientation);
 
  private:
   /// Estimates the frame to come (FEEC) and hands the estimate to root's consumers. Returns, on root, the
-  /// time from the frame's start until it was there.
+  /// time from the frame's start until the estimate had arrived.
   virtual double make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) {
     static_cast<void>(frame), static_cast<void>(frame_start_s), static_cast<void>(times);
     return 0;
   }
-  /// The record of that estimate, or none; `delivered_s` is root's.
+  /// The record of make_estimate()'s estimate, or none; `delivered_s` is root's.
   virtual const stepping::EstimateRecord* estimate(double delivered_s) {
     static_cast<void>(delivered_s);
     return nullptr;
   }
   /// This rank's worlds with their profiles (settings().profile); outside of the frame's time.
   virtual std::vector<stepping::LocalWorld> profiled_worlds() { return local_worlds(); }
-  /// Steps a frame. An error goes to errors(); a part that communicates does so all the same.
+  /// Does the steps of a frame. Errors are held in errors(), and messages are exchanged all the same.
   virtual void advance(core::PhaseTimes& times) = 0;
   /// Lowest world that this rank reports with a non-finite body; num_worlds if there is none.
   virtual int lowest_nonfinite_world() const = 0;
@@ -129,9 +115,10 @@ class FrameDriver {
   virtual void gather(core::PhaseTimes& times) = 0;
   virtual std::span<const core::Vec3> position() const = 0;  ///< gathered, on root: all bodies'
   virtual std::span<const core::Quat> orientation() const = 0;
-  /// On root, after gather(): how much work is to move. `last`: no frame follows.
+  /// On root, after gather(): plans what is to move, and returns the number of moves. `last`: no frame
+  /// follows.
   virtual std::int64_t plan_moves(bool last) = 0;
-  /// Collective. Makes the moves planned on root, between two frames, and says what was done in one line.
+  /// Collective. Makes the moves planned on root, between two frames; returns one line on what was done.
   virtual std::string make_moves(std::int64_t num_moves, std::int64_t step) = 0;
   virtual std::uint64_t state_hash() const = 0;  ///< collective
   /// Collective. On root the states of all worlds after the frame, [num_worlds].
@@ -144,7 +131,7 @@ class FrameDriver {
     std::int64_t save_requests = 0;  ///< so far
     int nonfinite_world = -1;        ///< lowest world with a non-finite body
   };
-  /// What root decides once it has everything.
+  /// What root decides after gather().
   struct Verdict {
     double wall_s = 0;
     double delivered_s = 0;
@@ -175,7 +162,7 @@ class FrameDriver {
   std::optional<CheckpointSchedule> schedule_;  ///< with a keeper; used on root
   double until_s_ = std::numeric_limits<double>::infinity();
   ErrorHold errors_;
-  std::int64_t frame_ = 0;     ///< frames done, those before the run went on included
+  std::int64_t frame_ = 0;     ///< frames done, including those before the run was resumed
   bool joints_break_ = false;  ///< the effect "breakable_joints", in any world
   double last_output_s_ = 0;   ///< time that observers and consumers took in the frame before
   WorldRunResult result_;

@@ -1,0 +1,33 @@
+/// Settings of a run: how many frames, how long a step, when work moves.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mpi/comm/communicator.h"
+#include "stepping/frame_budget.h"
+
+namespace pbmpi::mpi {
+
+/// Settings of a run of worlds, or of one world cut into spaces (num_worlds is 1). The same on every rank.
+struct WorldRunSettings {
+  int num_worlds = 1;
+  int warmup = 3;  ///< frames before the measured ones
+  int frames = 5;  ///< measured frames
+  int steps_per_frame = 3;
+  double dt_s = 0.01;
+  double budget_s = stepping::default_frame_budget_s;  ///< deadline of a frame
+  double rebalance_threshold = 1.1;  ///< work moves when max/avg useful time passes this; infinity = never
+  bool profile = false;  ///< measure the last step of each frame again, after the frame's time is taken
+  std::int64_t first_frame = 0;  ///< frames done before: the run is resumed from a checkpoint
+  std::vector<int> placement;  ///< owner at the start of each world (or space); empty = as the driver chooses
+
+  std::int64_t first_step() const { return first_frame * steps_per_frame; }
+};
+
+/// Collective. Returns the settings once every rank has found them valid. `num_parts`: worlds, or spaces of
+/// the one world, that a placement places. Throws core::InputError for settings that make no sense, and
+/// std::logic_error if they differ between ranks.
+WorldRunSettings checked_settings(const Communicator& comm, WorldRunSettings settings, int num_parts);
+
+}  // namespace pbmpi::mpi
