@@ -8,23 +8,23 @@
 #include <vector>
 
 #include "mpi/frame/frame_driver.h"
-#include "mpi/spaces/space_loads.h"
-#include "mpi/spaces/space_step.h"
+#include "mpi/spaces/plan/space_loads.h"
+#include "mpi/spaces/space_rebalancer.h"
+#include "mpi/spaces/step/space_step.h"
 #include "stepping/space_stepper.h"
 
 namespace pbmpi::mpi {
 
-/// The frame loop of the spaces decomposition (mpi/space_step.h says what a step is). Root has the whole
+/// The frame loop of the spaces decomposition (step/space_step.h says what a step is). Root has the whole
 /// state after each frame and reports it; other ranks report no world. The result is that of the undecomposed
 /// world, bit for bit.
 ///
-/// Spaces change their owner between two frames when the islands of the last step let expect that the busiest
-/// rank then has less to do: settings.rebalance_threshold, and SpaceLoads for what is weighed. Decisions are
-/// made after the first frames, then at most every 4 frames.
+/// Between two frames spaces change their owner if the last frames predict that the busiest rank then has
+/// less to do: settings.rebalance_threshold; SpaceRebalancer decides when, SpaceLoads says what is weighed.
 class SpaceDriver final : public FrameDriver {
  public:
   /// `stepper` is borrowed and holds the world; settings.num_worlds is 1, and settings.placement of its
-  /// spaces. `states`: on root, that after settings.first_frame frames, if that is above 0.
+  /// spaces. `states`: on root, the one state after settings.first_frame frames, if that is above 0.
   SpaceDriver(const Communicator& comm, stepping::SpaceStepper& stepper, const WorldRunSettings& settings,
               std::span<const model::State> states = {});
 
@@ -34,15 +34,11 @@ class SpaceDriver final : public FrameDriver {
   /// [num_spaces] owner of each space now
   const std::vector<int>& placement() const { return ownership_.owner; }
 
-  /// Told of each step on every rank, after it: what this rank solved. For tests; borrowed.
+  /// Called after each step, on every rank, with the contacts that this rank solved. For tests.
   using StepHook = std::function<void(std::int64_t step, std::span<const model::Contact> contacts)>;
   void set_step_hook(StepHook hook) { hook_ = std::move(hook); }
 
  private:
-  static constexpr int frames_between_decisions = 4;
-  static constexpr int frames_before_decisions = 2;  ///< the first frame meets cold caches
-  static constexpr std::size_t frames_looked_at = 3;
-
   void advance(core::PhaseTimes& times) override;
   int lowest_nonfinite_world() const override;
   std::int64_t count_nonfinite(int world) const override;
@@ -57,11 +53,7 @@ class SpaceDriver final : public FrameDriver {
   core::Traffic take_traffic() override { return step_.take_traffic(); }
 
   void observe();
-  void note_times();
-  /// [num_ranks] Seconds a frame by phase, the least of each of the last frames.
-  std::vector<core::PhaseTimes> quiet_times() const;
-  SpaceLoads loads() const;
-  void scale_to_seconds(SpaceLoads& loads, std::span<const core::PhaseTimes> times) const;
+  void broadcast_state();
 
   stepping::SpaceStepper* stepper_;
   SpaceOwnership ownership_;
@@ -69,11 +61,8 @@ class SpaceDriver final : public FrameDriver {
   stepping::WorldTable table_;
   stepping::Observables observables_;  ///< on root
   std::int64_t steps_done_ = 0;
-  /// On root: [frames][num_ranks] with the present owners, the last ones. A rank that the machine keeps
-  /// waiting in one frame has not more to do.
-  std::vector<std::vector<core::PhaseTimes>> last_times_;
-  int frames_until_decision_ = frames_before_decisions;
-  Reassignment planned_;  ///< root: of the last verdict
+  SpaceRebalancer rebalancer_;  ///< used on root
+  Reassignment planned_;        ///< root: what rebalancer_ decided after the last frame
   StepHook hook_;
 };
 

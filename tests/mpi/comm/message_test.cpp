@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "mpi/comm/mail.h"
-#include "mpi/spaces/wire.h"
+#include "mpi/spaces/step/wire.h"
 
 namespace pbmpi::mpi {
 namespace {

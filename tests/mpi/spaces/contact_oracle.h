@@ -1,4 +1,4 @@
-/// What the contacts of one world must be, found without spaces on one rank.
+/// The contacts of a world as they must be, found by brute force, without spaces, on one rank.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include "model/contact.h"
 #include "model/touch_rule.h"
 #include "mpi/comm/communicator.h"
-#include "mpi/spaces/wire.h"
+#include "mpi/spaces/step/wire.h"
 #include "solver/pack/pack.h"
 #include "stepping/stepper.h"
 
@@ -23,9 +23,9 @@ class ContactOracle {
   ContactOracle(const mpi::Communicator& comm, std::shared_ptr<const model::Model> model,
                 const stepping::StepperSettings& settings);
 
-  /// Collective, once a step: the contacts that this rank solved. Fails the test on root if those of all
-  /// ranks together are not, bit for bit and each once, those of the undecomposed world at the start of the
-  /// step.
+  /// Collective, once a step. `contacts`: those that this rank solved. Fails the test on root unless the
+  /// contacts of all ranks together are those of the undecomposed world at the start of the step, every bit,
+  /// each once.
   void check(std::int64_t step, std::span<const model::Contact> contacts);
 
   std::int64_t contacts_checked() const { return contacts_checked_; }  ///< on root

@@ -1,4 +1,4 @@
-/// Contacts and rows of a state as they travel.
+/// Contacts and rows of a state as messages hold them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace pbmpi::mpi {
 
-/// model::Contact, bit for bit.
+/// A model::Contact as messages hold it, every bit kept.
 struct WireContact {
   std::int32_t first = 0, second = 0;  ///< geoms
   std::int32_t body_a = 0, body_b = 0;
@@ -24,7 +24,7 @@ model::Contact from_wire(const WireContact& contact);
 /// Merges `from` into `to`, both in canonical order.
 void merge_contacts(std::span<const WireContact> from, std::vector<model::Contact>& to);
 
-/// [bodies][13] and [bodies][7], as stepping::SpaceStepper takes them.
+/// Rows of the state, [bodies][13], and poses only, [bodies][7], as stepping::SpaceStepper takes them.
 std::vector<double> state_rows(const model::State& state, std::span<const int> bodies);
 std::vector<double> pose_rows(const model::State& state, std::span<const int> bodies);
 

@@ -1,4 +1,4 @@
-#include "mpi/spaces/space_loads.h"
+#include "mpi/spaces/plan/space_loads.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,15 +6,16 @@
 namespace pbmpi::mpi {
 namespace {
 
+/// Seconds of a frame under an ownership, lower is better.
 double rating(const SpaceLoads& loads, std::span<const int> owner, int num_ranks) {
   const PredictedLoads load = predict_loads(loads, owner, num_ranks);
-  // Of two equal makespans the one with less work in all is better: it ships less.
+  // Among equal makespans less total work is better: it ships less.
   double sum = 0;
   for (const RankLoad& rank : load.ranks) sum += rank.collide_s + rank.solve_s;
   return load.makespan_s() + 1e-3 * sum;
 }
 
-/// Tries changed ownerships and keeps the best.
+/// Local search over ownerships.
 class Search {
  public:
   Search(const SpaceLoads& loads, std::span<const int> owner, int num_ranks)
@@ -53,7 +54,7 @@ class Search {
     }
   }
   void try_swaps() {
-    constexpr std::size_t most_spaces = 64;  // their number goes with the square
+    constexpr std::size_t most_spaces = 64;  // the number of swaps grows with the square of this
     if (owner_.size() > most_spaces) return;
     for (std::size_t a = 0; a < owner_.size(); ++a) {
       for (std::size_t b = a + 1; b < owner_.size(); ++b) {
@@ -64,7 +65,7 @@ class Search {
       }
     }
   }
-  /// Two ranks change places: root may have taken the part that leaves least time for its section.
+  /// Swaps all spaces of two ranks: root may own the busiest ones, which leaves no time for its section.
   void try_mirrors() {
     for (int a = 0; a < num_ranks_; ++a) {
       for (int b = a + 1; b < num_ranks_; ++b) {
@@ -129,7 +130,7 @@ void SpaceLoads::scale(const SolverCosts& costs) {
 
 namespace {
 
-/// The rank that has most bodies of the island, and what each other has of it is shipped there.
+/// Adds an island of several spaces to the rank that has most of its bodies, to which the others ship theirs.
 void add_island(const SpaceLoads& loads, const std::vector<SpacePart>& island, std::span<const int> owner,
                 std::vector<SolverWork>& work, PredictedLoads& load) {
   std::vector<int> bodies(work.size(), 0);
@@ -177,8 +178,8 @@ SolverCosts fit_costs(std::span<const RankSample> ranks) {
   const double determinant = bb * cc - bc * bc;
   constexpr double least_independence = 0.02;  // of the squared sine between the two columns
   if (determinant <= least_independence * bb * cc) return {common, common};
-  // Lanes make the rows of joints cheaper than those of contacts, by their number at most; whatever a noisy
-  // frame says, neither is for nothing.
+  // Lanes make the rows of joints cheaper than those of contacts, by their number at most; and
+  // neither is free, whatever a noisy frame suggests.
   constexpr double most = 4;
   const double batch = std::clamp((bt * cc - ct * bc) / determinant, common / most, common * most);
   const double contact = std::clamp((ct * bb - bt * bc) / determinant, common / most, common * most);
@@ -187,7 +188,7 @@ SolverCosts fit_costs(std::span<const RankSample> ranks) {
 
 Reassignment reassign_spaces(const SpaceLoads& loads, std::span<const int> owner, int num_ranks,
                              double threshold) {
-  constexpr int most_changes = 1000;  // each makes it better, so that this is never reached
+  constexpr int most_changes = 1000;  // a bound that is never reached, since each change lowers the rating
   Search search(loads, owner, num_ranks);
   for (int change = 0; change < most_changes && search.improve(); ++change) {
   }

@@ -1,4 +1,4 @@
-#include "mpi/spaces/island_plan.h"
+#include "mpi/spaces/plan/island_plan.h"
 
 #include <algorithm>
 #include <numeric>
@@ -9,7 +9,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// Islands of several ranks that are one, with each rank's part.
+/// Islands of several ranks that links join to one.
 struct Joined {
   std::vector<IslandRef> parts;  ///< by (rank, island)
   std::vector<double> weight;    ///< [ranks]
@@ -27,8 +27,8 @@ class Planner {
     for (const IslandLink& link : links) sets_.unite(index(link.a), index(link.b));
   }
 
-  IslandPlan plan(std::span<const double> head_start) {
-    std::vector<double> load(head_start.begin(), head_start.end());
+  IslandPlan plan() {
+    std::vector<double> load(ranks_.size(), 0);
     std::vector<Joined> joined = find_joined(load);
     std::stable_sort(joined.begin(), joined.end(),
                      [](const Joined& a, const Joined& b) { return a.total > b.total; });
@@ -42,7 +42,7 @@ class Planner {
  private:
   int index(const IslandRef& island) const { return first_[island.rank] + island.island; }
 
-  /// Adds what stays where it is to `load`.
+  /// Finds the islands that links join; adds the weights of all others to the `load` of their ranks.
   std::vector<Joined> find_joined(std::vector<double>& load) {
     std::vector<int> joined_of(static_cast<std::size_t>(first_.back()), -1);
     std::vector<Joined> joined;
@@ -104,10 +104,9 @@ class Planner {
 
 }  // namespace
 
-IslandPlan plan_islands(std::span<const LocalIslands> ranks, std::span<const IslandLink> links,
-                        std::span<const double> head_start) {
+IslandPlan plan_islands(std::span<const LocalIslands> ranks, std::span<const IslandLink> links) {
   if (links.empty()) return {};
-  return Planner(ranks, links).plan(head_start);
+  return Planner(ranks, links).plan();
 }
 
 }  // namespace pbmpi::mpi

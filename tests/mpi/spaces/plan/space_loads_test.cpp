@@ -1,4 +1,4 @@
-#include "mpi/spaces/space_loads.h"
+#include "mpi/spaces/plan/space_loads.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// Spaces with so many equal units each, a second a batch of `lanes`; nothing to collide.
+/// Spaces with these numbers of equal units; a batch of `lanes` units takes a second, collision none.
 SpaceLoads spaces_of(const std::vector<int>& units, int lanes = 1) {
   SpaceLoads loads;
   loads.num_lanes = lanes;

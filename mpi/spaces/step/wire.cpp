@@ -1,4 +1,4 @@
-#include "mpi/spaces/wire.h"
+#include "mpi/spaces/step/wire.h"
 
 #include <algorithm>
 #include <cstring>

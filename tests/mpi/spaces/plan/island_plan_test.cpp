@@ -1,4 +1,4 @@
-#include "mpi/spaces/island_plan.h"
+#include "mpi/spaces/plan/island_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ std::vector<LocalIslands> ranks_of(const std::vector<std::vector<int>>& weights)
 }
 
 IslandPlan plan_of(const std::vector<std::vector<int>>& weights, const std::vector<IslandLink>& links) {
-  return plan_islands(ranks_of(weights), links, std::vector<double>(weights.size(), 0));
+  return plan_islands(ranks_of(weights), links);
 }
 
 TEST(IslandPlan, leaves_islands_where_they_are_if_nothing_links_them) {
@@ -38,14 +38,6 @@ TEST(IslandPlan, gives_an_island_to_the_rank_that_is_done_sooner_if_its_home_wou
   const IslandPlan plan = plan_of({{10, 100}, {8, 20}}, {{{0, 0}, {1, 0}}});
   EXPECT_EQ(plan.transfers, (std::vector<Transfer>{{{0, 0}, 1}}));
   EXPECT_EQ(plan.solver_of_link, std::vector<int>{1});
-}
-
-TEST(IslandPlan, counts_what_a_rank_has_to_do_besides) {
-  const std::vector<LocalIslands> ranks = ranks_of({{10}, {9}});
-  const std::vector<IslandLink> links = {{{0, 0}, {1, 0}}};
-  const std::vector<double> busy_root = {50, 0}, idle = {0, 0};
-  EXPECT_EQ(plan_islands(ranks, links, busy_root).solver_of_link, std::vector<int>{1});
-  EXPECT_EQ(plan_islands(ranks, links, idle).solver_of_link, std::vector<int>{0});
 }
 
 TEST(IslandPlan, joins_through_several_ranks_and_gives_all_parts_and_links_to_one) {

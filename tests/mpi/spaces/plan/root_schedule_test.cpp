@@ -1,4 +1,4 @@
-#include "mpi/spaces/root_schedule.h"
+#include "mpi/spaces/plan/root_schedule.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@ namespace {
 
 // Times in seconds that doubles hold exactly, so that nothing here is rounded.
 
-/// Root has just solved at time 100; the others' verdict left at 0.
-RootSchedule after_a_step(const StepPace& own, const StepPace& other, double across_s, int num_ranks = 2) {
+/// Root sent its verdict at 0 and has solved at 100.
+RootSchedule after_a_step(const StepPace& own, const StepPace& other, double search_s, int num_ranks = 2) {
   RootSchedule schedule(num_ranks);
   schedule.start_all(-other.collide_s);
-  schedule.told(0, across_s);
-  for (int rank = 1; rank < num_ranks; ++rank) schedule.arrived(rank, -1000, -other.collide_s, other);
+  schedule.note_verdict(0, search_s);
+  for (int rank = 1; rank < num_ranks; ++rank) schedule.note_arrival(rank, -1000, -other.collide_s, other);
   schedule.start_all(-other.collide_s);
   schedule.note_own(own);
   return schedule;
@@ -20,33 +20,33 @@ RootSchedule after_a_step(const StepPace& own, const StepPace& other, double acr
 
 TEST(RootSchedule, expects_poses_a_solve_after_the_verdict_or_after_a_late_collision) {
   RootSchedule schedule(2);
-  schedule.arrived(1, 0, 0, {20, 100});
+  schedule.note_arrival(1, 0, 0, {20, 100});
   schedule.start_all(0);
-  schedule.told(10, 5);
+  schedule.note_verdict(10, 5);
   EXPECT_EQ(schedule.expected_s(), 120) << "the rank collides until 20";
-  schedule.told(30, 5);
+  schedule.note_verdict(30, 5);
   EXPECT_EQ(schedule.expected_s(), 130);
 }
 
 TEST(RootSchedule, takes_the_time_it_expected_for_that_of_an_arrival_it_did_not_see) {
   RootSchedule schedule(2);
-  schedule.arrived(1, 0, 0, {20, 100});
+  schedule.note_arrival(1, 0, 0, {20, 100});
   schedule.start_all(0);
-  schedule.told(30, 5);
-  schedule.arrived(1, 125, 150, {20, 100});  // expected at 130
-  schedule.told(131, 5);
+  schedule.note_verdict(30, 5);
+  schedule.note_arrival(1, 125, 150, {20, 100});  // expected at 130
+  schedule.note_verdict(131, 5);
   EXPECT_EQ(schedule.expected_s(), 130 + 20 + 100);
-  schedule.arrived(1, 190, 200, {20, 100});  // by then they were there
-  schedule.told(201, 5);
+  schedule.note_arrival(1, 190, 200, {20, 100});  // by then they were there
+  schedule.note_verdict(201, 5);
   EXPECT_EQ(schedule.expected_s(), 200 + 20 + 100);
 }
 
 TEST(RootSchedule, expects_the_last_of_all_ranks) {
   RootSchedule schedule(3);
-  schedule.arrived(1, 0, 0, {20, 100});
-  schedule.arrived(2, 0, 0, {20, 300});
+  schedule.note_arrival(1, 0, 0, {20, 100});
+  schedule.note_arrival(2, 0, 0, {20, 300});
   schedule.start_all(0);
-  schedule.told(30, 5);
+  schedule.note_verdict(30, 5);
   EXPECT_EQ(schedule.expected_s(), 330);
 }
 

@@ -1,4 +1,4 @@
-/// Which rank solves which island in a step: pure data, known to no communicator.
+/// Which rank solves which island in a step: pure data, without communication.
 #pragma once
 
 #include <cstdint>
@@ -37,11 +37,9 @@ struct IslandPlan {
   std::vector<int> solver_of_link;  ///< [links] rank that gets the contact
 };
 
-/// Islands that no link touches stay where they are. Those that links join are solved on one of their ranks:
-/// on the one with the largest part, unless that would make it the last to finish and another of them would
-/// be done sooner. Heaviest first; ties go to the lower rank. `head_start` [ranks]: weight of what else a
-/// rank has to do in the step (root's section). Deterministic.
-IslandPlan plan_islands(std::span<const LocalIslands> ranks, std::span<const IslandLink> links,
-                        std::span<const double> head_start);
+/// Islands that no link touches stay where they are. Islands that links join are solved on one of their
+/// ranks: on the one with the largest part, unless that would make it the last to finish and another of them
+/// would be done sooner. Heaviest first; ties go to the lower rank. Deterministic.
+IslandPlan plan_islands(std::span<const LocalIslands> ranks, std::span<const IslandLink> links);
 
 }  // namespace pbmpi::mpi

@@ -1,4 +1,4 @@
-#include "mpi/spaces/space_ownership.h"
+#include "mpi/spaces/plan/space_ownership.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,0 +1,152 @@
+#include "mpi/spaces/step/frame_report.h"
+
+#include <algorithm>
+
+#include "model/joint_gap.h"
+#include "model/mechanics.h"
+#include "mpi/spaces/step/wire.h"
+#include "stepping/observable_table.h"
+
+namespace pbmpi::mpi {
+
+using core::Phase;
+
+void FrameReport::send(const StepWork& work, std::int64_t bodies_shipped, core::PhaseTimes& times) {
+  core::LapTimer timer(times);
+  islands_->form(work.contacts);
+  Account own;
+  shared_->guard([&] { own.seen = shared_->stepper->count(work.units, work.contacts); });
+  const std::vector<double> energy_j = own_energies();
+  own.energy_j = energy_j;
+  own.seen.joint_gap_m = own_joint_gap();
+  timer.lap(Phase::islands);
+  own.times = times;
+  own.bodies_shipped = bodies_shipped;
+  own.island_of_unit = islands_->islands().of_unit;
+  own.unit_weight = islands_->unit_weight();
+  own.unit_near = islands_->unit_near();
+  if (shared_->is_root()) return receive(own, timer);
+  post(own);
+  timer.lap(Phase::gather);
+}
+
+std::vector<double> FrameReport::own_energies() const {
+  std::vector<double> energy_j;
+  for (const int body : shared_->own_bodies())
+    energy_j.push_back(model::body_energy(shared_->stepper->model(), shared_->stepper->state(), body));
+  return energy_j;
+}
+
+double FrameReport::own_joint_gap() const {
+  const model::Model& model = shared_->stepper->model();
+  double largest_m = 0;
+  const model::State& state = shared_->stepper->state();
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const model::Joint& joint = model.joints[i];
+    if (state.is_broken(i)) continue;
+    if (shared_->ownership->owner[shared_->stepper->map().space_of_body(joint.body_a)] ==
+        shared_->comm->rank())
+      largest_m = std::max(largest_m, model::joint_gap(model, state, joint));
+  }
+  return largest_m;
+}
+
+void FrameReport::post(const Account& own) {
+  if (!shared_->crosses) shared_->mail->finish();  // returns at once: root has the account of the last frame
+  MessageWriter message;
+  message.put(state_rows(shared_->stepper->state(), shared_->own_bodies()));
+  if (shared_->sleepers) message.put(shared_->sleepers->rest_rows(shared_->own_bodies()));
+  if (shared_->joints_break) message.put(shared_->stepper->broken_rows(shared_->own_units()));
+  message.put(crossing_->own_boxes());
+  message.put_value(own.seen);
+  message.put(own.energy_j);
+  message.put_value(own.times);
+  message.put_value(own.bodies_shipped);
+  message.put(own.island_of_unit);
+  message.put(own.unit_weight);
+  if (shared_->field != nullptr) message.put(own.unit_near);
+  shared_->mail->post(message.take(), Communicator::root, frame_tag);
+}
+
+void FrameReport::take_rows(int rank, MessageReader& message) {
+  const SpaceOwnership& ownership = *shared_->ownership;
+  shared_->stepper->put_states(ownership.bodies[rank], message.get<double>());
+  if (shared_->sleepers) shared_->sleepers->put(ownership.bodies[rank], message.get<double>());
+  if (shared_->joints_break) shared_->stepper->put_broken(ownership.units[rank], message.get<std::int32_t>());
+  crossing_->put_boxes(rank, message.get<geometry::Box>());
+}
+
+FrameReport::Account FrameReport::read_account(MessageReader& message) const {
+  Account account;
+  account.seen = message.get_value<stepping::Observables>();
+  account.energy_j = message.get<double>();
+  account.times = message.get_value<core::PhaseTimes>();
+  account.bodies_shipped = message.get_value<std::int64_t>();
+  account.island_of_unit = message.get<std::int32_t>();
+  account.unit_weight = message.get<std::int32_t>();
+  if (shared_->field != nullptr) account.unit_near = message.get<char>();
+  return account;
+}
+
+void FrameReport::receive(const Account& own, core::LapTimer& timer) {
+  clear();
+  model::DisjointSets islands(shared_->stepper->map().num_units());
+  add(Communicator::root, own, islands);
+  for (int rank = 1; rank < shared_->comm->size(); ++rank) {
+    MessageReader message(shared_->mail->take(rank, frame_tag));
+    timer.lap(Phase::wait);
+    take_rows(rank, message);
+    add(rank, read_account(message), islands);
+    timer.lap(Phase::gather);
+  }
+  crossing_->note_whole_state();
+  // The scene's word that spaces never meet is taken for each step, and checked once a frame.
+  if (!shared_->crosses && shared_->ownership->is_divided())
+    shared_->guard([&] { crossing_->require_apart(); });
+  join_islands(islands);
+  timer.lap(Phase::islands);
+}
+
+void FrameReport::clear() {
+  findings_ = {};
+  findings_.energy_j.resize(shared_->stepper->model().bodies.size());
+  findings_.weight.resize(static_cast<std::size_t>(shared_->stepper->map().num_units()));
+  if (shared_->field != nullptr) findings_.near.resize(findings_.weight.size());
+  findings_.times.resize(static_cast<std::size_t>(shared_->comm->size()));
+}
+
+void FrameReport::add(int rank, const Account& account, model::DisjointSets& islands) {
+  const std::vector<int>& bodies = shared_->ownership->bodies[rank];
+  const std::vector<int>& units = shared_->ownership->units[rank];
+  stepping::join(findings_.seen, account.seen);
+  for (std::size_t i = 0; i < bodies.size(); ++i) findings_.energy_j[bodies[i]] = account.energy_j[i];
+  findings_.times[rank] = account.times;
+  findings_.bodies_shipped += account.bodies_shipped;
+  std::vector<int> lowest_unit(units.size(), -1);  // [islands of the rank], of which there are no more
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    findings_.weight[units[i]] = account.unit_weight[i];
+    if (shared_->field != nullptr) findings_.near[units[i]] = account.unit_near[i];
+    int& lowest = lowest_unit[account.island_of_unit[i]];
+    if (lowest < 0) lowest = units[i];
+    islands.unite(lowest, units[i]);
+  }
+}
+
+/// Joins the ranks' islands by the contacts across spaces. Where nothing can cross, contacts are what
+/// require_apart() found, and end the run.
+void FrameReport::join_islands(model::DisjointSets& islands) {
+  const model::SpaceMap& map = shared_->stepper->map();
+  if (shared_->crosses) {
+    for (const model::Contact& contact : crossing_->contacts()) {
+      const int unit = map.unit_of_body[contact.body_a];
+      islands.unite(unit, map.unit_of_body[contact.body_b]);
+      findings_.weight[unit] += model::contact_rows(contact.mu);
+    }
+  }
+  for (int unit = 0; unit < map.num_units(); ++unit) findings_.island.push_back(islands.find(unit));
+  std::vector<char> near(findings_.near.size(), 0);  // at the lowest unit of an island
+  for (std::size_t unit = 0; unit < near.size(); ++unit) near[findings_.island[unit]] |= findings_.near[unit];
+  for (std::size_t unit = 0; unit < near.size(); ++unit) findings_.near[unit] = near[findings_.island[unit]];
+}
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,71 @@
+/// The end of a frame: all states, counts and times to root.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/clock.h"
+#include "model/islands.h"
+#include "mpi/comm/message.h"
+#include "mpi/spaces/step/crossing_search.h"
+#include "mpi/spaces/step/rank_islands.h"
+#include "mpi/spaces/step/step_context.h"
+
+namespace pbmpi::mpi {
+
+/// Root's measurements of the last step of a frame, over all ranks.
+struct FrameFindings {
+  stepping::Observables seen;     ///< joined over all ranks; not what root measures of all bodies
+  std::vector<int> island;        ///< [num_units] lowest unit of its island
+  std::vector<double> weight;     ///< [num_units] rows of joints and contacts, and bodies
+  std::vector<char> near;  ///< [num_units] has its island a body inside the field? empty without a field
+  std::vector<double> energy_j;         ///< [num_bodies]
+  std::vector<core::PhaseTimes> times;  ///< [num_ranks] of this frame so far
+  std::int64_t bodies_shipped = 0;      ///< in this frame, from any rank to another, step by step
+};
+
+/// Each rank measures its own bodies and sends root one message: the rows of its bodies, its boxes, counts,
+/// energies, times and islands. Root then has the whole state and the findings of the frame.
+///
+/// SpaceStep calls send() on every rank at the end of the last step of a frame, also where all bodies sleep
+/// or are on one rank.
+class FrameReport {
+ public:
+  /// All borrowed.
+  FrameReport(StepContext& shared, RankIslands& islands, CrossingSearch& crossing)
+      : shared_(&shared), islands_(&islands), crossing_(&crossing) {}
+
+  /// Collective. `work`: what this rank solved in the last step; `bodies_shipped`: by it in this frame.
+  void send(const StepWork& work, std::int64_t bodies_shipped, core::PhaseTimes& times);
+
+  const FrameFindings& findings() const { return findings_; }  ///< on root, of the last frame
+
+ private:
+  /// One rank's part of the findings.
+  struct Account {
+    stepping::Observables seen;
+    std::span<const double> energy_j;  ///< [bodies of the rank]
+    core::PhaseTimes times;
+    std::int64_t bodies_shipped = 0;
+    std::span<const std::int32_t> island_of_unit;  ///< [units of the rank] as in LocalIslands
+    std::span<const std::int32_t> unit_weight;     ///< [units of the rank]
+    std::span<const char> unit_near;               ///< [units of the rank] with a field of interest
+  };
+  std::vector<double> own_energies() const;
+  double own_joint_gap() const;
+  void post(const Account& own);
+  void receive(const Account& own, core::LapTimer& timer);
+  void take_rows(int rank, MessageReader& message);
+  Account read_account(MessageReader& message) const;
+  void clear();
+  void add(int rank, const Account& account, model::DisjointSets& islands);
+  void join_islands(model::DisjointSets& islands);
+
+  StepContext* shared_;
+  RankIslands* islands_;
+  CrossingSearch* crossing_;
+  FrameFindings findings_;
+};
+
+}  // namespace pbmpi::mpi

@@ -1,0 +1,74 @@
+/// One step of one world over the ranks that own its spaces.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/clock.h"
+#include "core/traffic.h"
+#include "mpi/comm/agreement.h"
+#include "mpi/comm/communicator.h"
+#include "mpi/spaces/step/crossing_search.h"
+#include "mpi/spaces/step/field_center.h"
+#include "mpi/spaces/step/frame_report.h"
+#include "mpi/spaces/step/island_dispatch.h"
+#include "mpi/spaces/step/island_shipping.h"
+#include "mpi/spaces/step/rank_islands.h"
+#include "mpi/spaces/step/sleep_agreement.h"
+#include "mpi/spaces/step/step_context.h"
+#include "stepping/space_stepper.h"
+
+namespace pbmpi::mpi {
+
+/// The phases of a step, of which each has a class of its own. Collective calls, one step a call. On a rank
+/// of its own, and where nothing can cross (all bodies on one rank, or spaces that the scene says never
+/// meet), a step sends no message and builds no island.
+///
+/// Otherwise a step is, on every rank: events; collision in own spaces. Root, which has the poses and boxes
+/// that the ranks sent at the end of the step before, finds the contacts across spaces, before its own
+/// collision if all has arrived by then, and tells the ranks whether there are any (CrossingSearch). If so,
+/// each rank forms its islands from joints and own contacts (RankIslands) and reports them; root joins them
+/// and orders the ranks which to ship, which to expect, and which contacts across spaces to solve
+/// (IslandDispatch); islands are shipped, and shipped back when they are solved (IslandShipping). Where
+/// nothing crosses, a rank thus waits for nothing but root's verdict.
+///
+/// The effects "sleeping" (SleepAgreement) and "field_of_interest" (FieldCenter) add messages of their own.
+/// With the effect "breakable_joints" what is broken travels with the states of the bodies that it held.
+/// The last step of a frame ends with an account to root (FrameReport).
+///
+/// Errors of the stepper are held in `errors`; the messages of the step are exchanged all the same.
+class SpaceStep {
+ public:
+  /// All borrowed.
+  SpaceStep(const Communicator& comm, stepping::SpaceStepper& stepper, ErrorHold& errors);
+  SpaceStep(const SpaceStep&) = delete;
+  SpaceStep& operator=(const SpaceStep&) = delete;
+
+  /// The spaces have these owners from now on. `state`: of all bodies, on every rank.
+  void own(const SpaceOwnership& ownership, const model::State& state, std::int64_t step);
+
+  /// `last` of a frame: root then has all rows of the state, and findings().
+  void run(std::int64_t step, bool last, core::PhaseTimes& times);
+
+  const FrameFindings& findings() const { return report_.findings(); }  ///< on root
+  /// The contacts that this rank solved in the last step, in canonical order.
+  std::span<const model::Contact> contacts() const { return work_.contacts; }
+  core::Traffic take_traffic() { return shared_.mail ? shared_.mail->take_traffic() : core::Traffic{}; }
+
+ private:
+  void exchange(std::int64_t step, core::LapTimer& timer);
+  void sleep_through(bool last, core::PhaseTimes& times);
+  void report_frame(core::PhaseTimes& times);
+
+  StepContext shared_;
+  StepWork work_;
+  RankIslands islands_{shared_};
+  CrossingSearch crossing_{shared_};
+  IslandDispatch dispatch_{shared_};
+  IslandShipping shipping_{shared_};
+  SleepAgreement sleep_{shared_, crossing_};
+  FieldCenter center_{shared_};
+  FrameReport report_{shared_, islands_, crossing_};
+};
+
+}  // namespace pbmpi::mpi

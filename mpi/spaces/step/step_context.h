@@ -1,0 +1,64 @@
+/// What all parts of a step of a divided world share.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "effects/field_of_interest.h"
+#include "effects/space_sleepers.h"
+#include "model/contact.h"
+#include "mpi/comm/agreement.h"
+#include "mpi/comm/communicator.h"
+#include "mpi/comm/mail.h"
+#include "mpi/spaces/plan/space_ownership.h"
+#include "stepping/space_stepper.h"
+
+namespace pbmpi::mpi {
+
+/// Tags of the messages of a step, one for each kind of message.
+enum StepTag : int {
+  poses_tag = 1,  ///< CrossingSearch: to root
+  verdict_tag,    ///< CrossingSearch: from root
+  report_tag,     ///< IslandDispatch: to root
+  orders_tag,     ///< IslandDispatch: from root
+  ship_tag,       ///< IslandShipping: to the rank that solves
+  back_tag,       ///< IslandShipping: to the rank that owns
+  frame_tag,      ///< FrameReport: to root
+  center_tag,     ///< FieldCenter: from the owner of the followed body to all
+};
+
+/// Owned by SpaceStep, borrowed by its parts.
+struct StepContext {
+  const Communicator* comm = nullptr;          ///< borrowed, as are the next four
+  stepping::SpaceStepper* stepper = nullptr;   ///< the engine, which holds this rank's copy of the world
+  ErrorHold* errors = nullptr;                 ///< what the engine throws, until the ranks agree on it
+  effects::SpaceSleepers* sleepers = nullptr;  ///< null without the effect "sleeping"
+  effects::FieldOfInterest* field = nullptr;   ///< null without the effect "field_of_interest"
+  std::unique_ptr<Mail> mail;                  ///< none for a single rank, which sends nothing
+  std::optional<SpaceOwnership> ownership;     ///< set by SpaceStep::own()
+  bool crosses = false;          ///< Can bodies of two ranks touch? Otherwise steps exchange no islands.
+  bool has_fast_bodies = false;  ///< the effect "fast_bodies"
+  bool joints_break = false;     ///< the effect "breakable_joints"
+
+  bool is_root() const { return comm->is_root(); }
+  const std::vector<int>& own_spaces() const { return ownership->spaces[comm->rank()]; }
+  const std::vector<int>& own_units() const { return ownership->units[comm->rank()]; }
+  const std::vector<int>& own_bodies() const { return ownership->bodies[comm->rank()]; }
+
+  /// Calls `function` unless an error is held already; holds what it throws. The messages of the step are
+  /// exchanged all the same, so that no rank waits for another in vain.
+  template <class Function>
+  void guard(Function&& function) {
+    if (!errors->failed()) errors->guard(std::forward<Function>(function));
+  }
+};
+
+/// Contacts and units that this rank solves in a step: its own ones, until islands are shipped.
+struct StepWork {
+  std::vector<model::Contact> contacts;  ///< in canonical order
+  std::vector<int> units;                ///< ascending
+};
+
+}  // namespace pbmpi::mpi
