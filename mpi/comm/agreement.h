@@ -19,7 +19,7 @@ enum class ErrorKind : std::int8_t {
   other,  ///< anything else; thrown again as std::runtime_error
 };
 
-/// Keeps the first error of this rank until the ranks next talk about it.
+/// Keeps the first error of this rank until the ranks next agree on errors.
 class ErrorHold {
  public:
   /// Calls `function`; what it throws is kept, unless an earlier error is.
@@ -52,8 +52,8 @@ class ErrorHold {
 void agree(const Communicator& comm, const ErrorHold& mine);
 
 /// Collective. Calls `function` on every rank and returns what it returns; if it throws on any rank, every
-/// rank throws the same error (see agree). It may communicate only if it cannot throw before that on one rank
-/// alone.
+/// rank throws the same error (see agree). It may communicate only if it cannot throw on one rank
+/// alone before that.
 template <class Function>
 auto agree_on_errors(const Communicator& comm, Function&& function) {
   using Result = std::invoke_result_t<Function>;

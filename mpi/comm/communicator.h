@@ -11,11 +11,11 @@
 
 namespace pbmpi::mpi {
 
-/// What travels between ranks as its bytes; all ranks run the same build on the same kind of machine.
+/// A type whose values are sent as their bytes; all ranks run the same build on the same kind of machine.
 template <class T>
 concept Sendable = std::is_trivially_copyable_v<T>;
 
-/// How values of several ranks become one.
+/// Operation that reduces the values of several ranks to one.
 enum class Reduce { sum, min, max };
 
 /// Where each rank's elements stand in the gathered array: counts[r] of them from displacements[r] on.
@@ -30,8 +30,8 @@ struct GatherLayout {
 /// Owns a communicator (dup) or borrows one (world). Move-only. Every call is collective unless it says
 /// otherwise, and throws core::RunError with the name of the MPI call, MPI's message and the rank.
 ///
-/// The null communicator (default constructed) acts as one rank and never calls MPI, so that what is written
-/// for ranks also runs without a Session.
+/// The null communicator (default constructed) acts as one rank and never calls MPI, so that code for several
+/// ranks also runs without a Session.
 class Communicator {
  public:
   static constexpr int root = 0;
@@ -43,7 +43,7 @@ class Communicator {
 
   /// All ranks of the program; borrowed. Not collective.
   static Communicator world();
-  /// A communicator of the same ranks whose messages meet no others; owned. Null stays null.
+  /// A communicator of the same ranks, whose messages never match those of another; owned. Null stays null.
   Communicator dup() const;
 
   bool is_null() const { return handle_ == nullptr; }
@@ -64,10 +64,10 @@ class Communicator {
   void bcast_value(T& value, int from = root) const {
     bcast(std::span<T>(&value, 1), from);
   }
-  /// The text of `from`, whatever its length; what others pass in does not count.
+  /// The text of `from`, of any length, replaces that of every other rank.
   void bcast_string(std::string& text, int from = root) const;
 
-  /// Every rank's `value`, by rank.
+  /// The `value` of every rank, [num_ranks].
   template <Sendable T>
   std::vector<T> allgather(const T& value) const {
     std::vector<T> all(size());
@@ -83,7 +83,7 @@ class Communicator {
     allgatherv_bytes(mine.data(), mine.size(), all.data(), layout, sizeof(T));
     return all;
   }
-  /// Every rank's values at `to`, placed by `layout`; `all` and `layout` count there only.
+  /// Every rank's values at `to`, placed by `layout`; `all` and `layout` are read there only.
   template <Sendable T>
   void gatherv(std::span<const T> mine, std::span<T> all, const GatherLayout& layout, int to = root) const {
     gatherv_bytes(mine.data(), mine.size(), all.data(), layout, sizeof(T), to);

@@ -47,7 +47,7 @@ class MessageReader {
  public:
   explicit MessageReader(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
 
-  /// Holds as long as the reader.
+  /// The span is valid as long as the reader lives.
   template <Sendable T>
   std::span<const T> get() {
     static_assert(alignof(T) <= 8);

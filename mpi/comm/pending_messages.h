@@ -8,23 +8,23 @@
 
 namespace pbmpi::mpi {
 
-/// Non-blocking messages of one rank. The memory that they use must stay until wait(). The communicator is
-/// borrowed.
+/// Non-blocking messages of one rank. The memory that they use must stay valid until wait(). The communicator
+/// is borrowed.
 ///
 /// A message goes in pieces of 3.5 KiB: MPI sends what is that short at once ("eagerly"), while a longer
-/// message waits until both ranks are inside MPI, which a rank that computes is not. Each of both sides must
-/// give the same length.
+/// message waits until both ranks are inside MPI, which a rank that computes is not. Sender and receiver
+/// must give the same length.
 class PendingMessages {
  public:
   explicit PendingMessages(const Communicator& comm);
-  /// Gives up what has not arrived: nobody waits while an error unwinds.
+  /// Cancels messages that have not arrived: nobody waits while an error unwinds.
   ~PendingMessages();
   PendingMessages(const PendingMessages&) = delete;
   PendingMessages& operator=(const PendingMessages&) = delete;
 
   void send(std::span<const double> values, int to, int tag);
   void receive(std::span<double> values, int from, int tag);
-  /// Until all of them are done. Throws core::RunError if one failed.
+  /// Waits until all messages are done. Throws core::RunError if one failed.
   void wait();
 
  private:

@@ -11,7 +11,7 @@
 
 namespace pbmpi::mpi {
 
-/// A run between two frames: all that its worlds need to go on.
+/// A run as it stands between two frames: all that is needed to resume it.
 struct Snapshot {
   std::int64_t frames = 0;  ///< done, warm-up included
   std::int64_t steps = 0;   ///< done
@@ -20,15 +20,15 @@ struct Snapshot {
   std::vector<model::State> worlds;  ///< [num_worlds]
 };
 
-/// Who keeps snapshots.
+/// Stores snapshots.
 class SnapshotKeeper {
  public:
   virtual ~SnapshotKeeper() = default;
-  /// Called on root only. Says what was done in one line; throws core::RunError if it could not be.
+  /// Called on root only. Returns one line on what was done; throws core::RunError if it failed.
   virtual std::string keep(Snapshot snapshot) = 0;
 };
 
-/// When to save. The same on every rank, but for the clock and the requests.
+/// When to save. Equal on every rank, but for the clock and the requests.
 struct CheckpointPlan {
   const std::atomic<int>* requests = nullptr;  ///< rises with each request from outside; borrowed
   double every_s = std::numeric_limits<double>::infinity();  ///< since the start or the last time
@@ -36,15 +36,15 @@ struct CheckpointPlan {
   bool at_end = false;                                       ///< after the last frame
 };
 
-/// Root's decision after each frame. Communicates nothing.
+/// Decides after each frame, on root, if the run is saved. Sends nothing.
 class CheckpointSchedule {
  public:
   enum class Then { next_frame, stop, end };  ///< what follows the frame
 
   CheckpointSchedule(const CheckpointPlan& plan, double start_s) : plan_(plan), last_s_(start_s) {}
 
-  /// Is the run to be saved now? `requests`: so far, the most that any rank has seen (a signal that reaches
-  /// all of them is one request, though they see it in different frames).
+  /// Is the run to be saved now? `requests`: the largest number of requests that any rank has seen so far (a
+  /// signal that reaches all ranks is one request, though they see it in different frames).
   bool due(Then then, std::int64_t requests, double now_s);
 
  private:

@@ -23,14 +23,14 @@ class PoseGather {
   /// Collective. `worlds`: this rank's, by ascending id; `cost_s` [worlds.size()].
   void gather(std::span<const stepping::LocalWorld> worlds, std::span<const double> cost_s);
 
-  /// The same without holding up the other ranks: root calls expect() before its own share, every rank calls
-  /// start() with its share, root deliver() when it wants the poses, and the others deliver() before the next
-  /// start(). Throws core::RunError on the rank whose message failed.
+  /// Gathers without holding up the other ranks: root calls expect() before its own share, every rank calls
+  /// start() with its share, root calls deliver() when it wants the poses, and the others call it before the
+  /// next start(). Throws core::RunError on the rank whose message failed.
   void expect();
   void start(std::span<const stepping::LocalWorld> worlds, std::span<const double> cost_s);
   void deliver();
 
-  /// What the last gather() brought, on root; empty elsewhere.
+  /// Result of the last gather() or deliver(), on root; empty elsewhere.
   std::span<const core::Vec3> position() const { return position_; }  ///< [num_bodies] m, (world, body) order
   std::span<const core::Quat> orientation() const { return orientation_; }  ///< [num_bodies] (w, x, y, z)
   std::span<const double> cost_s() const { return cost_s_; }                ///< [num_worlds]
@@ -50,7 +50,7 @@ class PoseGather {
   std::vector<core::Vec3> position_;
   std::vector<core::Quat> orientation_;
   std::vector<double> cost_s_;
-  PendingMessages messages_;  ///< last, so that it gives up before the memory that its messages use is gone
+  PendingMessages messages_;  ///< last member: cancels its messages before their memory is freed
 };
 
 }  // namespace pbmpi::mpi

@@ -57,8 +57,10 @@ std::vector<double> pack(const model::State& state) {
 
 model::State unpack(std::span<const double> packed) {
   model::State state;
-  const auto refuse_unless = [](bool fits) {
-    if (!fits) throw core::RunError("a state came with lengths that do not fit it");
+  const auto refuse_unless = [&](bool fits) {
+    if (fits) return;
+    throw core::RunError("a packed state of " + std::to_string(packed.size()) +
+                         " numbers has not the length that it begins with; run the same build on all ranks");
   };
   refuse_unless(packed.size() >= num_lengths);
   const auto bodies = static_cast<std::size_t>(packed[0]);
@@ -89,7 +91,8 @@ void require_rows(int world, const model::State& state, const model::Model& mode
   }
   throw core::RunError("world " + std::to_string(world) + " was built with " +
                        std::to_string(model.num_bodies()) + " bodies where it had " +
-                       std::to_string(state.num_bodies()) + " before");
+                       std::to_string(state.num_bodies()) +
+                       " before; a scene must build the same world each time");
 }
 
 void require_fit(int world, const model::State& state, const model::Model& model) {
@@ -97,7 +100,8 @@ void require_fit(int world, const model::State& state, const model::Model& model
   if (state.broken_in.empty() || state.broken_in.size() == model.joints.size()) return;
   throw core::RunError("world " + std::to_string(world) + " was built with " +
                        std::to_string(model.joints.size()) + " joints where it had " +
-                       std::to_string(state.broken_in.size()) + " before");
+                       std::to_string(state.broken_in.size()) +
+                       " before; a scene must build the same world each time");
 }
 
 }  // namespace pbmpi::mpi

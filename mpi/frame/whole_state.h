@@ -1,4 +1,4 @@
-/// A world's state as it travels whole: one run of numbers that says its own lengths.
+/// A world's whole state as one array of numbers, which begins with its own lengths.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,19 @@
 
 namespace pbmpi::mpi {
 
-/// Numbers of a packed state with as many rows as this one.
+/// Length of pack(state).
 std::int64_t packed_size(const model::State& state);
 
-/// Bit for bit: what a NaN carries survives, too.
+/// Every bit is kept, also the payload of a NaN.
 std::vector<double> pack(const model::State& state);
 
-/// Throws core::RunError if the lengths do not fit.
+/// Inverse of pack(). Throws core::RunError unless `packed` is as long as its lengths say.
 model::State unpack(std::span<const double> packed);
 
 /// Throws core::RunError unless a state of `world` has a row for each body of its model.
 void require_rows(int world, const model::State& state, const model::Model& model);
-/// The same for the joints, too.
+/// Throws what require_rows() throws, and core::RunError unless State::broken_in, if there is one, has an
+/// entry for each joint of the model.
 void require_fit(int world, const model::State& state, const model::Model& model);
 
 }  // namespace pbmpi::mpi

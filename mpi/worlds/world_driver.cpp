@@ -42,7 +42,7 @@ void WorldDriver::set_estimator(stepping::Estimator& estimator) {
   estimates_ = std::make_unique<PoseGather>(comm(), worlds_.table(), worlds_.placement());
 }
 
-/// Messages go out whatever fails here, so that root never waits for one in vain.
+/// Messages are sent whatever fails here, so that root never waits for one in vain.
 double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) {
   if (estimator_ == nullptr) return 0;
   const double start_s = core::now_s();
@@ -79,7 +79,7 @@ const stepping::EstimateRecord* WorldDriver::estimate(double delivered_s) {
 
 std::vector<stepping::LocalWorld> WorldDriver::profiled_worlds() {
   errors().guard([&] { stepper_->profile_last_step(); });
-  comm().barrier();  // else the slowest rank's measuring would be the others' wait in the next frame
+  comm().barrier();  // otherwise the other ranks would wait for the slowest measurement in the next frame
   return worlds_.views();
 }
 
@@ -125,7 +125,7 @@ std::string WorldDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
 std::uint64_t WorldDriver::state_hash() const {
   std::vector<std::uint64_t> hashes(settings().num_worlds, 0);
   for (const int world : worlds_.ids()) hashes[world] = model::hash(stepper_->state(world));
-  comm().allreduce(hashes, Reduce::max);  // every world's hash against the zeros of those who do not own it
+  comm().allreduce(hashes, Reduce::max);  // ranks that do not own a world have 0 for its hash
   return combine_world_hashes(hashes);
 }
 

@@ -32,7 +32,7 @@ inline std::shared_ptr<const model::Model> synthetic_model(int world) {
 
 class SyntheticStepper final : public stepping::WorldStepper {
  public:
-  /// What a test wants of it. Each function is asked for a (world, step about to be done).
+  /// Behaviour that a test asks for. Each function is called with (world, step about to be done).
   struct Behaviour {
     std::function<double(int world)> cost_s = [](int) { return 1e-3; };
     std::function<void(int world, std::int64_t step)> before_step = [](int, std::int64_t) {};  ///< may throw
@@ -83,7 +83,7 @@ class SyntheticStepper final : public stepping::WorldStepper {
     std::int64_t step = 0;
   };
 
-  /// Every number of the state enters the next, and so does the step's number: a bit lost anywhere shows.
+  /// The next state depends on every number of the state and on the step's number, so that a lost bit shows.
   void step(int id, World& world) {
     behaviour_.before_step(id, world.step);
     for (int i = 0; i < world.state.num_bodies(); ++i) {

@@ -1,4 +1,4 @@
-/// What the tests of the frame loop share.
+/// Helpers of the tests of the frame loop.
 #pragma once
 
 #include <cstdint>
@@ -34,14 +34,14 @@ inline WorldRunResult run(const Communicator& comm, const WorldRunSettings& sett
   return driver.run();
 }
 
-/// The hash of the same run on one rank without MPI.
+/// Hash of a run with the settings on one rank without MPI.
 inline std::uint64_t reference_hash(const WorldRunSettings& settings) {
   WorldRunSettings alone = settings;
   alone.placement.clear();
   return run(Communicator(), alone).state_hash;
 }
 
-/// Keeps what it was told.
+/// Records what an observer gets.
 class Recorder : public stepping::FrameObserver {
  public:
   struct Frame {

@@ -32,8 +32,8 @@ class CrossingSearch {
   /// are due so soon that waiting for them makes the step shorter (RootSchedule). Does nothing on other
   /// ranks, where nothing can cross, and with sleepers.
   void search_early(std::int64_t step, core::LapTimer& timer);
-  /// On root: finds the contacts across spaces, having received the poses if they are still to come. Again
-  /// where more bodies are awake than in the search before.
+  /// On root: finds the contacts across spaces; receives the poses first if they are still to come. To be
+  /// called again in a step in which more bodies have woken.
   void search(std::int64_t step, core::LapTimer& timer);
   /// On every rank: does anything touch across spaces? Root searches unless it has, and sends the verdict;
   /// the others wait for it.

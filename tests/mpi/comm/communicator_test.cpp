@@ -11,13 +11,13 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// 12 bytes: travels as bytes, not as words.
+/// 12 bytes: sent as bytes, not as words.
 struct Odd {
   int a = 0, b = 0, c = 0;
   bool operator==(const Odd&) const = default;
 };
 
-/// What holds for any communicator, the null one (of one rank) included.
+/// Checks that hold for any communicator, also for the null one (of one rank).
 void expect_collectives_work(const Communicator& comm) {
   const int rank = comm.rank();
   const int size = comm.size();

@@ -38,8 +38,8 @@ TEST(PendingMessages, every_piece_arrives_in_its_place) {
 }
 
 TEST(PendingMessages, a_frame_of_poses_leaves_before_the_receiver_asks_for_it) {
-  // Were the messages not sent at once, wait() on the sender would last until root receives, and root
-  // receives only after the barrier that the sender reaches after wait(): the test would hang.
+  // Root receives after a barrier that the sender reaches after wait(): if the messages were not sent at
+  // once, the test would hang.
   const Communicator comm = Communicator::world();
   const int length = 7 * 185;  // five worlds of CrashSk
   PendingMessages pending(comm);

@@ -1,5 +1,5 @@
-/// What the frame loop itself costs: worlds whose step is next to nothing, so that agreeing, gathering and
-/// booking remain. Prints the seconds of a frame (median and p99 of root), per rank count of the launch:
+/// Cost of the frame loop itself: the worlds' steps cost next to nothing, so that agreement, gather and
+/// bookkeeping remain. Prints the seconds of a frame (median and p99 of root), per rank count of the launch:
 ///   mpirun -n 2 frame_loop_bench [worlds] [frames]
 
 #include <cstdio>

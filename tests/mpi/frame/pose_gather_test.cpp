@@ -13,7 +13,7 @@ using testing_support::SyntheticStepper;
 
 constexpr int num_worlds = 11;
 
-/// What root must see, from all worlds stepped in one place.
+/// The poses that root must get: those of all worlds, stepped in one place.
 void expect_gathered(const PoseGather& gather, const SyntheticStepper& reference,
                      const stepping::WorldTable& table) {
   ASSERT_EQ(std::ssize(gather.position()), table.num_bodies());
@@ -49,7 +49,7 @@ TEST(PoseGather, brings_poses_and_costs_to_root_in_order_of_world_and_body_for_a
     } else {
       EXPECT_TRUE(gather.position().empty());
     }
-    // All worlds to one rank, another in each frame: also none at all for root.
+    // Each frame gives all worlds to another rank, so that root has none in some frames.
     std::vector<Move> moves;
     for (int world = 0; world < num_worlds; ++world) {
       const int to = (frame + 1) % comm.size();

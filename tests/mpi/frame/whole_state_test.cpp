@@ -10,7 +10,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// A NaN that carries something.
+/// A NaN with a payload.
 double odd_nan() {
   const std::uint64_t bits = 0x7ff8'0000'dead'beefULL;
   double number = 0;

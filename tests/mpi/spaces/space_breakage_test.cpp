@@ -50,8 +50,8 @@ void add_row(model::Model& model, int row, double break_force, double break_torq
                3);
 }
 
-/// Three rows in spaces of their own; what they fall on is in a fourth, so that the islands in which they
-/// break go across ranks.
+/// Three rows in spaces of their own; they fall on cubes of a fourth, so that the islands in which they break
+/// lie on several ranks.
 SharedModel falling_rows(bool sleeping) {
   model::Model model;
   model.spaces = {"first", "second", "third", "blocks"};
@@ -113,7 +113,7 @@ TEST_P(SpaceBreakage, tells_of_each_joint_once_on_every_rank) {
   EXPECT_EQ(told, expected);
 }
 
-/// What the tests stand on: joints break in several steps, and some hold.
+/// Makes sure that the scene tests what it should: joints break in several steps, and some hold.
 TEST_P(SpaceBreakage, is_tried_where_joints_break_at_several_times) {
   const SharedModel model = falling_rows(GetParam());
   const auto worlds = solver::make_sor_stepper({}, ode::make_narrow_phase);

@@ -52,8 +52,8 @@ TEST(SpaceDriver, has_the_same_bits_for_every_ownership) {
   }
 }
 
-// Two balls that would pass through each other are of one space, those that are shot at the piles meet other
-// spaces' boxes: at 4 owners contacts ahead are found by each rank and by root.
+// Speculative contacts: two balls that would pass through each other are in one space, others are shot at
+// boxes of other spaces, so that with 4 owners both the ranks and root find contacts ahead.
 TEST(SpaceDriver, sees_ahead_of_fast_bodies_across_spaces) {
   stepping::StepperSettings single;
   single.precision = stepping::Precision::single;
@@ -91,7 +91,7 @@ TEST(SpaceDriver, moves_spaces_when_the_work_is_uneven_and_keeps_the_bits) {
 TEST(SpaceDriver, sends_no_message_inside_a_step_if_there_is_one_space) {
   const SpaceRun run = expect_whole(share(support::crash()));
   const std::int64_t frames = run.result.frames_done;
-  // The one message a frame in which each rank but root gives its account.
+  // One message a frame: the account of each rank but root.
   EXPECT_EQ(run.messages, world().is_root() ? 0 : frames);
   std::vector<int> idle;
   for (int rank = 1; rank < world().size(); ++rank) idle.push_back(rank);
@@ -202,7 +202,7 @@ TEST(SpaceDriver, ends_on_every_rank_when_a_body_becomes_non_finite) {
   EXPECT_EQ(run.result.frames_done, 1);
 }
 
-/// Throws in step 20 on one rank, in the middle of what the others wait for.
+/// Throws in step 20 on one rank, while the others wait for its messages.
 class FailingStepper final : public stepping::SpaceStepper {
  public:
   FailingStepper(std::unique_ptr<stepping::SpaceStepper> inner, bool collide, bool here)

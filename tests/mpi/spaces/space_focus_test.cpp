@@ -24,21 +24,21 @@ using testing_support::SpaceRun;
 using testing_support::whole_hash;
 using testing_support::world;
 
-/// Round the last ball, which rolls, is launched into the middle, and falls on a pile.
+/// A field of interest round the last ball, which rolls, is launched into the middle, and falls on a pile.
 model::Model followed_ball() {
   model::Model model = neighbours();
   model.interest = model::Interest{{0, 0, 0}, model.num_bodies() - 1, 1.2, 3};
   return model;
 }
 
-/// Round a place in the middle.
+/// A field of interest round a place in the middle.
 model::Model watched_place() {
   model::Model model = neighbours();
   model.interest = model::Interest{{1, 0, 3}, model::no_body, 1, 3};
   return model;
 }
 
-/// Keeps how many bodies were inside, on the ranks that have worlds.
+/// Records how many bodies were inside, on the ranks that report worlds.
 class InsideRecorder : public stepping::FrameObserver {
  public:
   void frame_done(const stepping::FrameRecord& frame) override {
@@ -134,7 +134,7 @@ TEST(SpaceFocus, counts_the_bodies_inside_as_the_whole_world_does) {
   }
 }
 
-// That a center stands needs no message; one that moves needs one to each other rank in a step.
+// A field that stands still needs no message; one that moves needs one a step to each other rank.
 TEST(SpaceFocus, sends_no_message_for_a_center_that_stands) {
   WorldRunSettings settings = space_settings();
   settings.rebalance_threshold = model::infinity;

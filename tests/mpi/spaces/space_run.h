@@ -24,8 +24,7 @@ int add_to_space(model::Model& model, int body, int space);
 /// 2 warm-up and `frames` measured frames of 3 steps.
 mpi::WorldRunSettings space_settings(int frames = 20);
 
-/// Ways to give four spaces to ranks, each once: of the 256 for four ranks every `stride`-th, ranks beyond
-/// the last one wrapped round.
+/// Distinct placements of four spaces: every `stride`-th of the 256 on four ranks, modulo `num_ranks`.
 std::vector<mpi::Placement> placements_of_four_spaces(int num_ranks, int stride);
 
 struct SpaceRun {
@@ -44,12 +43,12 @@ enum class Oracle { each_step, none };
 std::unique_ptr<stepping::SpaceStepper> make_space_stepper(const SharedModel& model,
                                                            const stepping::StepperSettings& stepper = {});
 
-/// Runs, with the brute-force oracle unless told otherwise.
+/// Runs the world cut into spaces; compares the contacts of each step with the oracle's unless told not to.
 SpaceRun run_spaces(const mpi::Communicator& comm, const SharedModel& model,
                     const mpi::WorldRunSettings& settings = space_settings(),
                     const stepping::StepperSettings& stepper = {}, Oracle oracle = Oracle::each_step);
 
-/// The state hash of the same run in one piece on one rank. Steps like the above.
+/// State hash of the undecomposed world after as many steps on one rank.
 std::uint64_t whole_hash(const SharedModel& model, const mpi::WorldRunSettings& settings = space_settings(),
                          const stepping::StepperSettings& stepper = {});
 
@@ -57,8 +56,8 @@ std::uint64_t whole_hash(const SharedModel& model, const mpi::WorldRunSettings& 
 /// balls that roll from one end to the other and are launched into other spaces.
 model::Model neighbours();
 
-/// The same where two balls are shot at each other above the piles, and two through the piles, at 60 to 90
-/// m/s.
+/// neighbours(), where two balls are shot at each other above the piles, and two through the piles, at 60 to
+/// 90 m/s.
 model::Model shoot_out();
 
 }  // namespace pbmpi::testing_support

@@ -1,4 +1,4 @@
-/// Every scene of several spaces that pbmpi brings, over 60 frames, with the brute-force oracle on each step.
+/// Every built-in scene of several spaces, over 60 frames, with the brute-force oracle on each step.
 
 #include <gtest/gtest.h>
 

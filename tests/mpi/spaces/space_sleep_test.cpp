@@ -97,7 +97,7 @@ TEST(SpaceSleep, sends_nothing_in_the_steps_in_which_all_sleep) {
   const auto shared = std::make_shared<const model::Model>(model);
   const auto sleeping = run_spaces(world(), shared, settings, {}, Oracle::none);
   if (world().size() == 1) return;
-  // Asleep after 50 of 126 steps; then a frame costs each rank but root one message, that of its end.
+  // Asleep after 50 of 126 steps; then each rank but root sends one message a frame, its account.
   const auto& frames = sleeping.result.times;
   for (std::size_t frame = 18; frame < frames.size(); ++frame)
     EXPECT_LE(frames[frame].traffic.messages, 1) << "frame " << frame;
@@ -106,8 +106,8 @@ TEST(SpaceSleep, sends_nothing_in_the_steps_in_which_all_sleep) {
   EXPECT_GT(awake, 15) << "before that islands go across";
 }
 
-/// What the test stands on: there are steps in which all sleep, in which the first stack is awake, and the
-/// second.
+/// Makes sure that the scene tests what it should: there are steps in which all sleep, in which the first
+/// stack is awake, and the second.
 TEST(SpaceSleep, is_tried_where_islands_sleep_and_wake) {
   const SharedModel model = shared_stacks();
   const auto worlds = solver::make_sor_stepper({}, ode::make_narrow_phase);

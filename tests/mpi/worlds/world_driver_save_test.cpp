@@ -1,4 +1,4 @@
-/// Snapshots of a run between its frames, and runs that go on from one.
+/// Snapshots of a run between its frames, and runs that are resumed from one.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ class Shelf : public SnapshotKeeper {
   std::vector<Snapshot> snapshots;
 };
 
-/// Asks for a snapshot, on this rank, in one frame.
+/// Requests a snapshot on this rank in one frame.
 class Asker : public stepping::FrameObserver {
  public:
   Asker(std::atomic<int>& requests, std::int64_t frame) : requests_(&requests), frame_(frame) {}
@@ -50,7 +50,7 @@ class Asker : public stepping::FrameObserver {
   std::int64_t frame_;
 };
 
-/// Notes how many snapshots there were whenever it was told to write what it holds.
+/// Records the number of snapshots at each call of secure().
 class Holder : public stepping::FrameObserver {
  public:
   explicit Holder(const Shelf& shelf) : shelf_(&shelf) {}

@@ -22,7 +22,7 @@ using testing_support::settings_of;
 using testing_support::synthetic_model;
 using testing_support::SyntheticStepper;
 
-/// Costs by which the worlds of the first rank are three times as dear as the others.
+/// Costs by which the worlds of the first rank are three times as expensive as the others.
 SyntheticStepper::Behaviour dear_first_quarter(int num_worlds) {
   SyntheticStepper::Behaviour behaviour;
   behaviour.cost_s = [num_worlds](int world) { return world < num_worlds / 4 ? 3e-3 : 1e-3; };
