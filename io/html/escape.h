@@ -7,8 +7,8 @@
 
 namespace pbmpi::io::html {
 
-/// Compact JSON in which '<' is written \u003c, so that no text of the user's can end the script element.
-/// Invalid UTF-8 is replaced; a NaN becomes null.
+/// Compact JSON in which '<' is written as its Unicode escape, so that no text of the user's can end the
+/// script element. Invalid UTF-8 is replaced; a NaN becomes null.
 std::string dump(const nlohmann::json& value);
 
 /// Text with the five characters escaped that mean something in HTML.
