@@ -1,5 +1,5 @@
-# To be sourced by the job scripts, with source_dir set: finds the programs, and runs one scene in such a way that a
-# request to stop ends it in good order.
+# To be sourced by the job scripts, with source_dir set: finds the programs, and runs one scene such that a request to
+# stop closes its file and saves it.
 . "$source_dir/jobs/mpi_environment.sh"
 if [[ -n ${SLURM_JOB_ID:-} ]]; then
   unset OMPI_MCA_rmaps_base_oversubscribe  # in an allocation, more ranks than cores are a mistake
@@ -66,10 +66,10 @@ output_among() {
   values_of -o "$@"
 }
 
-# run_until_stopped COMMAND...: its exit code. TERM, INT or USR2 to this shell become USR2 to mpirun, which passes it
-# to every rank: pbmpi ends the frame, saves the run, closes its file and exits with 75. USR1 saves the run, which goes on. TERM itself would not do: mpirun kills its
-# ranks a second after it, and exits with 1. On a terminal, job control gives mpirun a process group of its own, so that
-# Ctrl-C comes here only.
+# run_until_stopped COMMAND...: its exit code. TERM, INT or USR2 to this shell become USR2 to mpirun, which passes it to
+# every rank: pbmpi ends the frame, saves the run, closes its file and exits with 75. USR1 saves the run, which goes on.
+# TERM must not reach mpirun: it would kill its ranks a second later, and exit with 1. On a terminal, job control gives
+# mpirun a process group of its own, so that Ctrl-C comes here only.
 run_until_stopped() {
   local child code stopped=
   [[ ! -t 2 ]] || set -m

@@ -7,8 +7,8 @@ usage() {
 Usage: jobs/effects.sh [--quick-look] [--instructions] [OUTDIR [pbstudy options]]
 
 Writes OUTDIR/effects.h5, .html, .txt and .md (default: ./effects), and prints the last two: .md has the table of
-the README, one for each stepper. RANKS ranks (2); times want a core for each, and nothing else on the
-machine. Minutes.
+docs/effects.md, one for each stepper. RANKS ranks (2); times need a core for each rank, and nothing else on the
+machine. Takes minutes.
 
   --quick-look     2-Cars and CrashSk only
   --instructions   count instructions, too: the same cases first under callgrind (valgrind), with --repeats 2;

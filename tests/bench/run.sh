@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Prints the ratios that the README quotes, each a median over alternated runs: `tests/bench/run.sh`, after
-# jobs/build.sh. Nothing else should run on the machine.
+# Prints the ratios of all benchmarks, each a median over alternated runs: `tests/bench/run.sh`, after jobs/build.sh.
+# Nothing else should run on the machine. The tables of the documents are made by docs/figures.py.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 . jobs/mpi_environment.sh
