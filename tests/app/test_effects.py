@@ -89,11 +89,11 @@ class Effects(ProgramTest):
                       "demanded; nothing calls for it"):
             self.assertIn(words, text)
 
-    def test_the_table_in_the_readme_is_what_describe_says(self):
-        with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as file:
+    def test_the_plans_in_the_documents_are_what_describe_says(self):
+        with open(os.path.join(SOURCE, "docs", "effects.md"), encoding="utf-8") as file:
             rows = [[cell.strip() for cell in line.strip().strip("|").split("|")]
-                    for line in file.read().split("## Effects")[1].split("## Steppers")[0].splitlines()
-                    if line.startswith("|") and not line.startswith("|--")]
+                    for line in file.read().split("<!-- figures: plans -->")[1].split("<!-- end figures -->")[0].splitlines()
+                    if line.startswith("|") and not line.startswith("| ---")]
         self.assertGreaterEqual(len(rows), 12)
         for column, scene in enumerate(rows[0][1:], 1):
             told = {row[0].split("`")[1]: row[column] for row in rows[1:] if row[column]}

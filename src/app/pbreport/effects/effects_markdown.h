@@ -1,4 +1,4 @@
-/// A study of effects as tables in Markdown, as the README has one.
+/// A study of effects as tables in Markdown, as docs/effects.md has one.
 #pragma once
 
 #include <string>

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Writes the tables of figures in the documents: what stands between `<!-- figures: NAME -->` and `<!-- end figures -->`.
+
+Usage: docs/figures.py [--check] [NAME ...], after jobs/build.sh (PBMPI_BIN: another folder of the programs); default: all
+tables. Below each table stand its commands, the revision and, of a table with a clock, the machine and the day. --check
+recomputes the tables without a clock, and fails with the names of those that differ from their page.
+"""
+import argparse
+import collections
+import os
+import pathlib
+import re
+import sys
+
+from tables import accuracy, effects, programs, scenes, speed, stability
+
+# page: below the root. make: computes the lines of the table. has_clock: whether times are among its figures. commands: for
+# a reader who wants to measure it by hand.
+Entry = collections.namedtuple("Entry", "page make has_clock commands")
+
+ENTRIES = {
+    "islands": Entry("docs/scenes.md", scenes.islands, False,
+                     ["pbmpi --scene SCENE --stepper quick", "pbreport islands SCENE.h5"]),
+    "plans": Entry("docs/effects.md", scenes.plans, False, ["pbmpi --scene SCENE --describe"]),
+    "effects": Entry("docs/effects.md", effects.costs, True,
+                     ["pbstudy effects --stepper sor --repeats 5", "pbreport effects.h5 --markdown"]),
+    "interest": Entry("docs/effects.md", effects.interest, True, ["tests/bench/interest.py 5"]),
+    "crashwa": Entry("docs/accuracy.md", accuracy.crashwa, False,
+                     ["pbstudy accuracy --scene CrashWa --precision double --iterations 1 10 20 80 --substeps 1 2 4"]),
+    "reference": Entry("docs/accuracy.md", accuracy.reference, False, ["pbstudy accuracy --floor-seeds 4"]),
+    "least_defect": Entry("docs/accuracy.md", accuracy.least_defect, True,
+                          ["pbstudy accuracy --iterations 1 2 3 5 10 20 40 80 --substeps 1 2 4 8 --warm-start 0 --repeats 3"]),
+    "substeps": Entry("docs/accuracy.md", accuracy.substeps, False, ["bench_worlds --substeps 100CrSk 0 8",
+                                                                     "bench_worlds --substeps 100CrSk 0 100"]),
+    "rest": Entry("docs/stability.md", stability.rest, False, ["docs/tables/stability.py: scenes without events and speeds"]),
+    "hard": Entry("docs/stability.md", stability.hard, False, ["docs/tables/stability.py: scenes written there"]),
+    "speed": Entry("docs/speed.md", speed.against_bare, True,
+                   ["bench_worlds SCENE 0 10 3", "pbstudy accuracy --scene SCENE"]),
+    "spaces": Entry("docs/spaces.md", speed.spaces, True, ["tests/bench/decompose.py 3"]),
+}
+
+
+def block(name):
+    """The pattern of a table's place: its opening marker, what stands between, its closing marker."""
+    return re.compile(rf"(<!-- figures: {name} -->\n)(.*?)(<!-- end figures -->)", re.DOTALL)
+
+
+def written(name):
+    """The lines of the table as the page has it."""
+    found = block(name).search((programs.SOURCE / ENTRIES[name].page).read_text(encoding="utf-8"))
+    if not found:
+        sys.exit(f"figures.py: {ENTRIES[name].page} has no place for '{name}'; write <!-- figures: {name} --> and "
+                 "<!-- end figures --> there, on a line each")
+    return [line for line in found[2].splitlines() if line.startswith("|")]
+
+
+def caption(entry):
+    commands = ", ".join(f"`{command}`" for command in entry.commands)
+    if not entry.has_clock:
+        return f"*{commands}; revision {programs.revision()}.*"
+    busy = os.getloadavg()[0]
+    return (f"*{commands}; revision {programs.revision()}, {programs.machine()}, {programs.today()}, "
+            f"load of the machine {busy:.1f}.*")
+
+
+def write(name):
+    entry = ENTRIES[name]
+    lines = entry.make()
+    if not entry.has_clock and lines == written(name):
+        return
+    path = programs.SOURCE / entry.page
+    text = "\n".join([*lines, "", caption(entry)]) + "\n"
+    page = path.read_text(encoding="utf-8")
+    path.write_text(block(name).sub(lambda found: found[1] + text + found[3], page), encoding="utf-8")
+
+
+def differs(name):
+    """Whether the page has another table than the programs give now; shows the lines."""
+    old, new = written(name), ENTRIES[name].make()
+    if old == new:
+        return False
+    print(f"{ENTRIES[name].page}: table '{name}' differs; run docs/figures.py {name}")
+    for line in old:
+        if line not in new:
+            print(f"- {line}")
+    for line in new:
+        if line not in old:
+            print(f"+ {line}")
+    return True
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(ENTRIES))
+    arguments = parser.parse_args()
+    unknown = [name for name in arguments.names if name not in ENTRIES]
+    if unknown:
+        parser.error(f"no table {', '.join(unknown)}; known: {', '.join(ENTRIES)}")
+    names = arguments.names or list(ENTRIES)
+    if arguments.check:
+        names = [name for name in names if not ENTRIES[name].has_clock]
+        return int(any([differs(name) for name in names]))
+    for name in names:
+        print(name, flush=True)
+        write(name)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

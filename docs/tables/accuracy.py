@@ -1,0 +1,75 @@
+"""Tables of what accuracy costs: defects from `pbstudy accuracy`, and joint gaps from `bench_worlds --substeps`."""
+import re
+
+from tables import programs
+
+ONLY_SETTINGS = ("--estimates", "0", "--warm-start", "0")
+QUICK_TO_MEASURE = ("--repeats", "1", "--floor-seeds", "4")
+
+
+def defect(case):
+    return [programs.millimetres(case[f"defect_body_position_{what}"]) for what in ("rms", "p99", "max")]
+
+
+def crashwa():
+    """Defects of some settings in CrashWa, and what they cost without a clock: visits of rows."""
+    wanted = (("quick", 1, 1), ("quick", 1, 20), ("quick", 1, 80), ("sor", 1, 1), ("sor", 1, 10), ("sor", 1, 20),
+              ("sor", 1, 80), ("sor", 2, 10), ("sor", 4, 20))
+    with programs.Folder() as folder:
+        cases, _ = programs.accuracy_cases(folder, ["CrashWa"], "--precision", "double", "--iterations", "1", "10", "20",
+                                                "80", "--substeps", "1", "2", "4", *ONLY_SETTINGS, *QUICK_TO_MEASURE)
+    found = {(case["stepper"], case["substeps"], case["iterations"]): case for case in cases
+             if case["kind"] == "setting" and case["dt"] == 0.01}
+    rows = [[programs.setting_name(found[key]), f"{found[key]['row_visits'] / 1000:,.0f}", *defect(found[key]),
+             programs.millimetres(found[key]["joint_gap"])] for key in wanted]
+    return programs.table(["substeps x iterations", "row visits a frame [1000]", "defect rms [mm]", "p99 [mm]", "most [mm]",
+                           "joint gap [mm]"], rows)
+
+
+def reference():
+    """How far the reference itself is to be trusted, in each scene."""
+    with programs.Folder() as folder:
+        _, floors = programs.accuracy_cases(folder, programs.SCENES, "--stepper", "sor", "--precision", "double", "--iterations",
+                                            "1", "--substeps", "1", *ONLY_SETTINGS, *QUICK_TO_MEASURE)
+    lines = (("another solver seed (the noise floor)", "noise_floor_m"), ("half the iterations", "halved_iterations_m"),
+             ("half the step", "halved_dt_m"))
+    rows = [[name, *(programs.millimetres(floors[scene][key]) for scene in programs.SCENES)] for name, key in lines]
+    return programs.table(["defect rms [mm] of the reference with", *programs.SCENES], rows)
+
+
+def least_defect():
+    """The least defect of each kind of setting within the time of the paper's estimate, quick with one iteration."""
+    with programs.Folder() as folder:
+        cases, _ = programs.accuracy_cases(folder, programs.SCENES, "--iterations", "1", "2", "3", "5", "10", "20", "40", "80",
+                                           "--substeps", "1", "2", "4", "8", *ONLY_SETTINGS, "--repeats", "3", "--floor-seeds",
+                                           "1")
+    columns = [least_defects([case for case in cases if case["scene"] == scene and case["kind"] == "setting"])
+               for scene in programs.SCENES]
+    return programs.table(["defect rms [mm]", *programs.SCENES],
+                          [[name, *(column[name] for column in columns)] for name in columns[0]])
+
+
+def least_defects(cases):
+    quick = next(case for case in cases if case["stepper"] == "quick" and case["iterations"] == 1)
+    in_time = [case for case in cases if case["frame_time_median"] <= quick["frame_time_median"]]
+    found = {"`quick`, 1 x 1": programs.millimetres(quick["defect_body_position_rms"])}
+    for precision in ("double", "single"):
+        for name, several in (("1 x N", False), ("M x N", True)):
+            fitting = [case["defect_body_position_rms"] for case in in_time if case["stepper"] == "sor"
+                       and case["precision"] == precision and (case["substeps"] > 1) == several]
+            found[f"`sor` {precision}, {name}"] = programs.millimetres(min(fitting)) if fitting else "-"
+    return found
+
+
+def substeps():
+    """Joint gaps in 100CrSk by the number of substeps."""
+    pattern = re.compile(r"^ *(\d+ x \d+) +warm ([\d.]+) .*joint gap rms +([\d.]+) mm.*deepest contact: mean ([\d.]+) mm", re.M)
+    found = {}
+    for frames in (8, 100):
+        text = programs.run([programs.BENCH, "--substeps", "100CrSk", "0", str(frames)]).split("100CrSk, sor single")[0]
+        for setting, warm, gap, depth in pattern.findall(text):
+            name = setting + (f", warm start {warm}" if float(warm) else "")
+            found.setdefault(name, []).extend((gap, depth))
+    rows = [[name, *cells] for name, cells in found.items()]
+    return programs.table(["100CrSk, `sor` double", "8 frames: joint gap rms [mm]", "deepest contact, mean [mm]",
+                           "100 frames: joint gap rms [mm]", "deepest contact, mean [mm]"], rows)

@@ -1,0 +1,63 @@
+"""Tables with a clock: steppers against the bare loop over ODE, and one world over ranks."""
+import os
+import re
+import sys
+
+from tables import programs, stability
+
+SCENES = ("CrashWa", "100CrSk")
+# (stepper, precision, iterations) of each setting -> what a run with it is asked for.
+SETTINGS = {
+    ("quick", "double", 20): "--stepper quick",
+    ("sor", "double", 80): "--stepper sor --iterations 80",
+    ("sor", "single", 80): "--stepper sor --precision single --iterations 80",
+}
+
+
+def quick_against_bare(scene):
+    """CPU time of `quick` against the bare loop: the median of the ratios of frames."""
+    text = programs.run([programs.BENCH, scene, "0", "10", "3"])
+    return float(re.search(r"^  quick  .*time x +([\d.]+)", text, re.MULTILINE)[1])
+
+
+def measure(scene):
+    """{setting: case} of the scene; each frame is timed alone on its core."""
+    with programs.Folder() as folder:
+        cases, _ = programs.accuracy_cases(folder, [scene], "--precision", "double", "single", "--iterations", "20", "80",
+                                           "--substeps", "1", "--warm-start", "0", "--estimates", "0", "--repeats", "5",
+                                           "--floor-seeds", "1")
+    return {(case["stepper"], case["precision"], case["iterations"]): case for case in cases if case["kind"] == "setting"}
+
+
+def against_bare():
+    """Time and defect beside each other. A setting of `sor` with which anything falls in the scenes at rest has no figures."""
+    holds = {setting: setting[0] == "quick" or stability.holds(options) for setting, options in SETTINGS.items()}
+    rows = {}
+    for scene in SCENES:
+        bare, cases = quick_against_bare(scene), measure(scene)
+        quick_s = cases["quick", "double", 20]["frame_time_median"]
+        for setting in SETTINGS:
+            case = cases[setting]
+            figures = [f"x {bare * case['frame_time_median'] / quick_s:.2f}",
+                       *(programs.millimetres(case[f"defect_body_position_{what}"]) for what in ("rms", "p99"))]
+            rows.setdefault(programs.setting_name(case), []).extend(figures if holds[setting] else ["does not hold", "", ""])
+    head = ["substeps x iterations"]
+    for scene in SCENES:
+        head += [f"{scene}: time", "defect rms [mm]", "p99 [mm]"]
+    return programs.table(head, [[name, *cells] for name, cells in rows.items()])
+
+
+def spaces():
+    """Two ranks against one, the world cut into spaces. On a busy machine ranks wait for each other's processor, and a ratio of
+    their frame rates says nothing: then it is left out, and what remains is the bound of the same runs."""
+    is_busy = os.getloadavg()[0] > os.cpu_count() / 4
+    pattern = re.compile(r"^(\S+) +two ranks against one ([\d.]+) \(min ([\d.]+), max ([\d.]+),.*bound ([\d.]+) ", re.MULTILINE)
+    rows = {}
+    for simd in ("off", "auto"):
+        text = programs.run([sys.executable, programs.SOURCE / "tests/bench/decompose.py", "3",
+                             "CrashWa,Environ,Battle,Fight,Battle2", "--simd", simd])
+        for scene, ratio, least, most, bound in pattern.findall(text):
+            measured = "machine busy" if is_busy else f"{float(ratio):.2f} ({float(least):.2f} to {float(most):.2f})"
+            rows.setdefault(scene, [scene]).extend((measured, bound))
+    head = ["scene", "one lane: two ranks against one", "one lane: allowed", "widest: two ranks against one", "widest: allowed"]
+    return programs.table(head, list(rows.values()))
