@@ -1,4 +1,4 @@
-/// How the ranks come by one scene.
+/// Reads a scene on root and gives it to all ranks.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace pbmpi::app {
 /// read is no special case. Throws core::InputError on every rank.
 scenes::SceneSource share_scene(const mpi::Communicator& comm, const std::string& name_or_path);
 
-/// Collective. The same, parsed.
+/// Collective. The scene of share_scene(), parsed.
 std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const std::string& name_or_path,
                                           std::optional<double> dt_s,
                                           std::optional<scenes::SpacesForm> spaces = std::nullopt,

@@ -54,7 +54,7 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
                   .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
                   .run(),
               values);
-    for (const std::string option : {"config", "preset"}) {  // what was stored first wins
+    for (const std::string option : {"config", "preset"}) {  // boost keeps the value that is stored first
       if (values.count(option) == 0) continue;
       const std::string path = values[option].as<std::string>();
       std::ifstream file(path);

@@ -8,7 +8,7 @@
 
 namespace pbmpi::app {
 
-/// The same on every rank.
+/// Equal on every rank.
 struct Provenance {
   std::string created;  ///< UTC, ISO 8601
   std::string command_line;
@@ -16,7 +16,7 @@ struct Provenance {
   std::vector<std::string> environment;  ///< root's "NAME=value" of SLURM_* and OMPI_*
 };
 
-/// Collective.
+/// Collective. Root's clock and environment, and the hosts of all ranks.
 Provenance collect_provenance(const mpi::Communicator& comm, const std::string& command_line);
 
 /// Each value once, in order of first appearance.

@@ -11,8 +11,8 @@ namespace pbmpi::app {
 
 /// Runs `program` on all ranks; lives inside an mpi::Session. core::InputError and core::RunError are the
 /// same on every rank (whoever throws one on a rank of its own has agreed on it before): root prints the
-/// message, all return its exit code. Any other exception is a mistake of ours on some rank: it is printed
-/// and the whole run is aborted, so that nobody waits.
+/// message, all return its exit code. Any other exception is a mistake in the program, on some rank: it is
+/// printed and the whole run is aborted, so that nobody waits.
 int run_program(const std::string& name,
                 const std::function<core::ExitCode(const mpi::Communicator&)>& program);
 

@@ -1,4 +1,4 @@
-/// The stepper that a run asks for.
+/// Makes the stepper that a run asks for.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,10 @@ namespace pbmpi::app {
 std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings,
                                                      const std::string& warning_prefix = "");
 
-/// sor alone, which can be looked at in mid-solve.
+/// A stepper that can be looked at in mid-solve: sor.
 std::unique_ptr<stepping::AnytimeStepper> make_anytime_stepper(const stepping::StepperSettings& settings);
 
-/// The same for one world that is cut into spaces; sor only.
+/// A stepper of one world that is cut into spaces: sor.
 std::unique_ptr<stepping::SpaceStepper> make_space_stepper(const stepping::StepperSettings& settings,
                                                            std::shared_ptr<const model::Model> model);
 

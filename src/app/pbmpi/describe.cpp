@@ -30,7 +30,7 @@ struct Census {
   effects::RunPlan plan;
 };
 
-/// What of a pass the stepper leaves undone.
+/// Says that the stepper skips the pass, where it does.
 std::string idle_note(const effects::RunPass& pass, stepping::StepperKind stepper) {
   if (pass.effect->name != "field_of_interest" || traits_of(stepper).iterates) return "";
   return "; idle, since " + std::string(name_of(stepper)) + " solves without iterations";

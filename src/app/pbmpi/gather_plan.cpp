@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A line.
+/// One line of text for the message to the other ranks.
 std::string to_line(const effects::RunPlan& plan) {
   Json tallies = Json::array();
   for (const effects::PassTally& tally : plan.tallies)

@@ -1,4 +1,4 @@
-/// What the file of a run says of its options, and what it holds.
+/// Parameters, attributes and optional columns of a run's file.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace pbmpi::app {
 
-/// What the run's file holds that not every file does.
+/// The columns that only some runs' files have.
 io::OptionalColumns optional_columns(const Work& work);
 
 /// Attributes of the file's root.

@@ -18,15 +18,15 @@ struct Work {
   std::unique_ptr<scenes::Scene> scene;
   RunSpec spec;                                     ///< as resolve() leaves it
   std::shared_ptr<const model::Model> first_world;  ///< built once: much of a run depends on world 0
-  /// [num_worlds] of a run that goes on, where it stands: on root
+  /// [num_worlds] on root: the states from which a resumed run goes on; else empty
   std::vector<model::State> states;
 };
 
 /// Collective. Throws core::InputError.
 Work new_work(const mpi::Communicator& comm, const Options& options);
 
-/// Collective. Of options.resume: scene and physics are those of the checkpoint. `options` become what the
-/// command line, `args`, and the checkpoint say together. Throws core::InputError.
+/// Collective. The run that options.resume saved: scene and physics are those of the checkpoint. `options`
+/// become what the command line, `args`, and the checkpoint say together. Throws core::InputError.
 Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>& args, Options& options);
 
 /// World `world` as the run starts with it.

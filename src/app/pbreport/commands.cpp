@@ -37,7 +37,7 @@ core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostr
 
 using Run = core::ExitCode (*)(const std::vector<std::string>& args, std::ostream& out);
 
-/// Files say what they are.
+/// The command for the kind of file that the arguments name.
 Run command_for_the_files_of(const std::vector<std::string>& args) {
   const std::string study = study_named_in(args);
   if (study == "effects") return run_effects_report;

@@ -67,7 +67,7 @@ std::string stem(const std::string& path) {
 std::string output_after(const ResumePoint& from) {
   const std::string first = std::regex_replace(stem(from.output), std::regex("\\.from[0-9]+$"), "");
   const std::string path = first + ".from" + std::to_string(from.frames) + ".h5";
-  // Below the current folder names are shorter without it.
+  // A file below the current folder has a shorter name relative to it.
   const std::string near = fs::proximate(path).string();
   return near.starts_with("..") ? path : near;
 }

@@ -17,10 +17,10 @@
 namespace pbmpi::app {
 namespace {
 
-/// Options beside those of the step with which the run is another one.
+/// Options of the run, beside those of the step, that decide the bits of its result.
 constexpr std::array<std::string_view, 3> physics_of_the_run = {"replicas", "steps-per-frame", "seed"};
 
-/// In this order they are compared.
+/// All options that decide the bits of a result, in the order in which they are compared.
 std::vector<std::string> physics() {
   std::vector<std::string> names;
   for (const stepping::StepOption& option : stepping::step_options()) {

@@ -34,7 +34,7 @@ StudyCase read_case(const CaseRow& row) {
   return one;
 }
 
-/// As a setting's short text has it: six digits are enough there.
+/// The value in a setting's short text, where six digits are enough.
 std::string short_value(const stepping::StepOption& option, const stepping::StepperSettings& settings) {
   const stepping::StepValue value = value_of(option, settings);
   const auto* real = std::get_if<double>(&value);

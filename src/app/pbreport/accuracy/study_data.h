@@ -27,7 +27,7 @@ struct StudyCase {
 
   /// Did every body and joint stay finite?
   bool finite() const;
-  /// What ranks it [m].
+  /// The error by which settings are ranked [m].
   double error_m(ErrorMeasure measure) const;
 };
 
@@ -50,7 +50,7 @@ struct SceneCases {
   /// from each to the next. Settings that blew up are never among them.
   std::vector<std::size_t> pareto_front(ErrorMeasure measure) const;
   std::vector<std::size_t> pareto_front(const std::function<double(const StudyCase&)>& error) const;
-  /// Of the front: the least error within the time; the least time within the error.
+  /// The setting on the front with the least error within the time, or the least time within the error.
   std::optional<std::size_t> best_within(double budget_s, ErrorMeasure measure) const;
   std::optional<std::size_t> cheapest_within(double tolerance_m, ErrorMeasure measure) const;
 };

@@ -29,7 +29,7 @@ struct EffectRow {
   analysis::ErrorTable defect, drift;
 
   bool measured() const { return same_bits.has_value(); }
-  /// Of the step with the effect; none if nothing counted.
+  /// Share of the instructions of the step with the effect; none if nothing counted them.
   std::optional<double> instruction_share() const;
   /// The study adds the effect to the scene: nothing calls for it, or the scene leaves it out.
   bool demanded() const { return kind == "demanded"; }

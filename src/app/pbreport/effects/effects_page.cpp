@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// One a scene: Okabe and Ito, "Color Universal Design" (2008), and a grey.
+/// A colour for each scene: Okabe and Ito, "Color Universal Design" (2008), and a grey.
 constexpr std::array<const char*, 9> colours = {"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00",
                                                 "#56b4e9", "#f0e442", "#000000", "#999999"};
 
@@ -58,7 +58,7 @@ std::vector<std::string> effects_with(const std::vector<EffectScene>& scenes, Va
   return names;
 }
 
-/// What lies in it may be the clock's noise.
+/// The band of shares that another solver seed alone seems to cost: the clock's noise.
 json time_noise(const std::vector<EffectScene>& scenes) {
   double share = 0;
   for (const EffectScene& scene : scenes) share = std::max(share, 100 * scene.floor_share());

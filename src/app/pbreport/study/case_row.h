@@ -65,7 +65,7 @@ class CaseRow {
   std::size_t index_;
 };
 
-/// Those of `scenes` (each with a `name`) that `names` names, in its order; all for none. Throws
+/// The scenes (each has a `name`) that `names` names, in its order; all if it is empty. Throws
 /// core::InputError for a scene that is not in the study.
 template <class Scene>
 std::vector<Scene> chosen_scenes(const std::vector<Scene>& scenes, const std::vector<std::string>& names) {

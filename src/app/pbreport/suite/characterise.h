@@ -24,7 +24,7 @@ const std::vector<PaperRow>& paper_rows();
 /// Null for a scene that is not the paper's.
 const PaperRow* paper_row(const std::string& scene);
 
-/// Of the measured frames of one run.
+/// Islands and spaces over the measured frames of one run.
 struct IslandSummary {
   std::string scene;
   core::Summary islands;      ///< at the end of each frame, over all worlds

@@ -15,7 +15,7 @@ Spread spread_of(const std::vector<double>& values) {
   return {core::quantile(values, 0.5), core::quantile(values, 0.1), core::quantile(values, 0.9)};
 }
 
-/// As the state hash of a run.
+/// Joins the hashes of the worlds as the state hash of a run does.
 std::uint64_t hash_of(const std::vector<State>& states) {
   std::vector<std::uint64_t> hashes;
   for (const State& state : states) hashes.push_back(model::hash(state));

@@ -21,8 +21,8 @@ struct Spread {
 /// instructions that nothing counts).
 struct EffectResult {
   int index = 0;  ///< into the cases
-  // Of a step of all worlds; processor time, since other processes on the core spoil it less than elapsed
-  // time. In a floor's case "without" is the other seed.
+  // Times are of one step of all worlds; processor time, since other processes on the core spoil it less than
+  // elapsed time. In a floor's case "without" is the other seed.
   Spread time_with_s, time_without_s;
   Spread cost_s;  ///< with - without, frame by frame and repeat by repeat
   Spread share;   ///< of the step with the effect: cost / time with it

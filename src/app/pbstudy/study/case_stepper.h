@@ -1,4 +1,4 @@
-/// What the runners of all studies step worlds with.
+/// Steps the worlds of one case of a study.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ class CaseStepper {
   /// Seconds of processor time that one frame takes; of an estimate those until it is there.
   double advance_frame();
 
-  /// As the last frame showed it: its end, or its estimate.
+  /// The state that the last frame showed: its end, or its estimate.
   const model::State& shown(int world) const;
   stepping::Observables observables(int world) const;
   const stepping::WorldStepper& worlds() const { return *stepper_; }
@@ -44,11 +44,11 @@ class CaseStepper {
   int estimate_iterations_;
 };
 
-/// Of all bodies and joints of all worlds, as they are shown, against `reference` [num_worlds].
+/// Errors of all bodies and joints of all worlds, as they are shown, against `reference` [num_worlds].
 analysis::PoseErrors errors_of(const CaseStepper& stepper, const Worlds& worlds,
                                const std::vector<model::State>& reference);
 
-/// The run that cases are held against.
+/// The run that cases are compared with.
 struct Reference {
   Worlds worlds;
   std::vector<std::vector<model::State>>

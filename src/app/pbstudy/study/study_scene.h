@@ -1,4 +1,4 @@
-/// What of a scene a study's cases have in common.
+/// The part of a scene that all cases of a study share.
 #pragma once
 
 #include <cmath>
