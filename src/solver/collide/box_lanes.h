@@ -1,7 +1,8 @@
 /// Boxes against boxes: the separating axes in lanes, then the points of those that touch one pair at a time.
 #pragma once
 
-#include "solver/collide/geom_side.h"
+#include "solver/collide/geom_lanes.h"
+#include "solver/collide/pair_table.h"
 
 namespace pbmpi::solver {
 

@@ -1,7 +1,7 @@
 /// A capsule's segment against a box, in lanes.
 #pragma once
 
-#include "solver/collide/geom_side.h"
+#include "solver/collide/geom_lanes.h"
 
 namespace pbmpi::solver {
 

@@ -1,4 +1,4 @@
-/// Which joints of a pack's worlds are broken.
+/// Which joints of a pack's worlds are broken (see also broken_lanes.h).
 #pragma once
 
 #include <cstdint>

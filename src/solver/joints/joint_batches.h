@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/random.h"
+#include "solver/joints/broken_lanes.h"
 #include "solver/joints/joint_advancer.h"
 #include "solver/joints/joint_builder.h"
-#include "solver/joints/loose_joints.h"
 
 namespace pbmpi::solver {
 
@@ -49,14 +49,14 @@ class JointBatches {
     }
   }
 
-  /// A joint that has broken in this lane.
-  void loosen(int shape, int joint, int lane) { loose_.add(shape, joint, lane); }
+  /// A joint has broken in this lane.
+  void set_broken(int shape, int joint, int lane) { broken_.add(shape, joint, lane); }
   /// The rows of a step's first substep.
   void build(const Batch& batch, const JointBuilder<T>& builder, BodyLanes<T>& bodies) {
     for_each_rows(batch, [&](auto& joint, auto& rows) { builder.build(joint, bodies, rows); });
   }
-  /// After it, in all active batches: broken joints push nothing, in no substep of the step.
-  void loosen_broken();
+  /// After build(), in all active batches: broken joints push nothing, in no substep of the step.
+  void stop_broken_joints();
   /// Before and after the bodies move on to the next substep; `carries`: the rows start with impulses, which
   /// act on the bodies.
   void advance(const Batch& batch, const JointAdvancer<T>& advancer, const BodyLanes<T>& bodies) {
@@ -136,7 +136,7 @@ class JointBatches {
   void for_each_rows(const Batch& batch, Visit visit);
 
   std::vector<Shape> shapes_;
-  LooseJoints<T> loose_;
+  BrokenLanes<T> broken_;
   std::tuple<RowsOf<Kind::ball>, RowsOf<Kind::hinge>, RowsOf<Kind::slider>, RowsOf<Kind::universal>,
              RowsOf<Kind::fixed>, RowsOf<Kind::hinge2>>
       rows_;
@@ -193,13 +193,13 @@ void JointBatches<T>::for_each_rows(const Batch& batch, Visit visit) {
 }
 
 template <class T>
-void JointBatches<T>::loosen_broken() {
-  loose_.for_each([&](int shape, int joint, const V& holds) {
+void JointBatches<T>::stop_broken_joints() {
+  broken_.for_each([&](int shape, int joint, const V& holds) {
     const Shape& batches = shapes_[static_cast<std::size_t>(shape)];
     const RowsAt at = batches.rows[static_cast<std::size_t>(joint)];
     if (!batches.active[static_cast<std::size_t>(joint) / batches.num_joints]) return;
     with_kind(at.kind, [&](auto kind) {
-      solver::loosen(rows_of<kind.value>()[static_cast<std::size_t>(at.index)], holds);
+      stop_broken(rows_of<kind.value>()[static_cast<std::size_t>(at.index)], holds);
     });
   });
 }

@@ -33,7 +33,6 @@
 #include "solver/collide/pair_table.h"
 #include "solver/contacts/manifold_order.h"
 #include "solver/joints/broken_joints.h"
-#include "solver/joints/joint_load.h"
 #include "solver/layout/active_bodies.h"
 #include "solver/layout/articulation.h"
 #include "solver/layout/awake_geoms.h"

@@ -1,4 +1,5 @@
-/// The worlds of a pack in their lanes, and all that goes in and out.
+/// The worlds of a pack in their lanes, and all that goes in and out. (Longer than other files: its many
+/// small functions are all of the one interface between models and lanes.)
 #pragma once
 
 #include <span>
@@ -7,11 +8,13 @@
 #include "geometry/geometry.h"
 #include "solver/joints/broken_joints.h"
 #include "solver/joints/joint_batches.h"
-#include "solver/joints/load_meter.h"
+#include "solver/joints/joint_load.h"
 #include "solver/layout/active_bodies.h"
 #include "solver/layout/held_lanes.h"
 #include "solver/layout/lane_places.h"
 #include "solver/layout/passes.h"
+#include "solver/pack/gyroscopic_slots.h"
+#include "solver/pack/idle_lanes.h"
 #include "solver/pack/set_lanes.h"
 
 namespace pbmpi::solver {
@@ -21,12 +24,6 @@ class WorldLanes {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
-
-  /// A slot of bodies with gyroscopic torque, and 1 in the lanes that have it, else 0.
-  struct alignas(sizeof(V)) GyroscopicSlot {
-    V has_torque;
-    int slot = 0;
-  };
 
   WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes);
 
@@ -91,8 +88,8 @@ class WorldLanes {
   LanePlaces places;  ///< which body and joint lies where
   BodyLanes<T> bodies;
   JointBatches<T> joints;
-  std::vector<Vec3L<V>> gravity;           ///< [slots] worlds may differ
-  std::vector<GyroscopicSlot> gyroscopic;  ///< in the order of slots; none without the pass
+  std::vector<Vec3L<V>> gravity;              ///< [slots] worlds may differ
+  std::vector<GyroscopicSlot<V>> gyroscopic;  ///< in the order of slots; none without the pass
 
  private:
   using Set = SetLanes<T>;
@@ -106,8 +103,6 @@ class WorldLanes {
   void set_control(int world, int joint, int axis, const Setting& setting);
   void set_pose(LanePlace at, const model::Pose& pose);
   void set_twist(LanePlace at, const model::Vec3& linear, const model::Vec3& angular);
-  void fill_idle_lanes();
-  void find_gyroscopic(bool all_slots);
   void allow_idle_controls(const Passes& passes);
   JointLane<V>& joint_at(int world, int joint) {
     const JointPlace& at = places.joint(world, joint);
@@ -145,8 +140,9 @@ WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& pas
     load(w, model::initial_state(*world.model));
   }
   allow_idle_controls(passes);
-  if (passes.gyroscopic_torque) find_gyroscopic(passes.idle_gyroscopic_torque);
-  fill_idle_lanes();
+  if (passes.gyroscopic_torque)
+    gyroscopic = find_gyroscopic_slots<T>(places, models_, passes.idle_gyroscopic_torque);
+  fill_idle_lanes(places, bodies, joints);
   for (BodyLane<V>& body : bodies.bodies) refresh(body);
 }
 
@@ -176,24 +172,6 @@ void WorldLanes<T>::set_masses(int world, int body) {
            falls ? model(world).gravity : model::Vec3(model::Vec3::Constant(-0.0)));
 }
 
-template <class T>
-void WorldLanes<T>::find_gyroscopic(bool all_slots) {
-  std::vector<GyroscopicSlot> slots(static_cast<std::size_t>(bodies.static_slot), {T::broadcast(0), 0});
-  std::vector<bool> used(slots.size(), all_slots);
-  for (int world = 0; world < num_worlds(); ++world) {
-    for (int body = 0; body < model(world).num_bodies(); ++body) {
-      if (!effects::has_gyroscopic_torque(model(world).bodies[body])) continue;
-      const LanePlace at = places.body(world, body);
-      T::set(slots[static_cast<std::size_t>(at.slot)].has_torque, at.lane, 1);
-      used[static_cast<std::size_t>(at.slot)] = true;
-    }
-  }
-  for (std::size_t slot = 0; slot < used.size(); ++slot) {
-    slots[slot].slot = static_cast<int>(slot);
-    if (used[slot]) gyroscopic.push_back(slots[slot]);
-  }
-}
-
 /// Their limits are out of reach and their motors have no force, so that their rows push nothing.
 template <class T>
 void WorldLanes<T>::allow_idle_controls(const Passes& passes) {
@@ -204,33 +182,6 @@ void WorldLanes<T>::allow_idle_controls(const Passes& passes) {
       for (std::size_t axis = 0; axis < traits.axes.size(); ++axis) {
         controls[axis].has_limit |= passes.idle_limits && traits.axes[axis].has_limit;
         controls[axis].has_motor |= passes.idle_motors && traits.axes[axis].has_motor;
-      }
-    }
-  }
-}
-
-/// Idle lanes of the last batch of a shape repeat lane 0, so that they compute something harmless.
-template <class T>
-void WorldLanes<T>::fill_idle_lanes() {
-  const auto repeat = [](auto& lanes, int from) {
-    auto* values = reinterpret_cast<V*>(&lanes);
-    for (std::size_t i = 0; i < sizeof lanes / sizeof(V); ++i) {
-      for (int lane = from; lane < T::num_lanes; ++lane) T::set(values[i], lane, T::get(values[i], 0));
-    }
-  };
-  for (int slot = 0; slot < places.num_slots(); ++slot) {
-    repeat(bodies.bodies[slot], places.num_used(slot));
-    repeat(bodies.twists[slot], places.num_used(slot));
-  }
-  for (int shape = 0; shape < joints.num_shapes(); ++shape) {
-    for (JointLane<V>& joint : joints.joints(shape)) {
-      const int from = places.num_used(joint.slot_a);
-      repeat(joint.terms, from);
-      for (AxisControl<V>& control : joint.controls) {
-        for (V* v : {&control.low, &control.high, &control.sin_low, &control.cos_low, &control.sin_high,
-                     &control.cos_high, &control.velocity, &control.max_force, &control.hold_rate}) {
-          repeat(*v, from);
-        }
       }
     }
   }
@@ -307,7 +258,7 @@ bool WorldLanes<T>::set_broken(int world, std::span<const std::int32_t> broken_i
       set_limit(world, joint, axis, {});
     }
     const JointPlace& at = places.joint(world, joint);
-    joints.loosen(at.shape, at.joint, at.lane);
+    joints.set_broken(at.shape, at.joint, at.lane);
   }
   broken_.set(world, broken_in);
   return true;

@@ -1,0 +1,50 @@
+/// Broken joints as the rows see them: in which lanes of their batch they push nothing. (broken_joints.h
+/// knows them by world; it is plain code, which no instruction set may have for itself.)
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "solver/joints/joint_rows.h"
+
+namespace pbmpi::solver {
+
+template <class T>
+class BrokenLanes {
+ public:
+  using V = typename T::V;
+
+  /// A joint of a shape's batches pushes nothing in this lane from now on.
+  void add(int shape, int joint, int lane) {
+    for (BrokenJoint& broken : joints_) {
+      if (broken.shape == shape && broken.joint == joint) return T::set(broken.holds, lane, 0);
+    }
+    BrokenJoint& broken = joints_.emplace_back();
+    broken.holds = T::broadcast(1);
+    broken.shape = shape;
+    broken.joint = joint;
+    T::set(broken.holds, lane, 0);
+  }
+  /// visit(shape, joint, holds) with 1 in the lanes in which the joint holds, else 0.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (const BrokenJoint& broken : joints_) visit(broken.shape, broken.joint, broken.holds);
+  }
+
+ private:
+  struct alignas(sizeof(V)) BrokenJoint {
+    V holds;
+    int shape = 0, joint = 0;
+  };
+  std::vector<BrokenJoint> joints_;
+};
+
+/// Stops rows that have just been built where `holds` is 0: an impulse starts at 0 in a step, and without a
+/// scale it stays there.
+template <class T, model::JointKind kind>
+PBMPI_LANES void stop_broken(JointRows<T, kind>& rows, const typename T::V& holds) {
+  for (auto& row : rows.points) row.scale = row.scale * holds;
+  for_each_single_row(rows, [&](auto& row) { row.scale = row.scale * holds; });
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,89 @@
+/// Builds single rows of joints from the poses of their two bodies.
+#pragma once
+
+#include "solver/joints/joint_rows.h"
+#include "solver/joints/joint_terms.h"
+
+namespace pbmpi::solver {
+
+/// Both bodies of the joint at hand.
+template <class V>
+struct JointBodies {
+  const BodyLane<V>&a, &b;
+  Twist<V>&twist_a, &twist_b;
+};
+
+/// (q_a^-1 q_b) relative^-1: how b has turned against a since the start.
+template <class V>
+struct alignas(sizeof(V)) RelativeRotation {
+  V w;
+  Vec3L<V> vector;  ///< a's frame
+};
+
+template <class V>
+PBMPI_LANES RelativeRotation<V> relative_rotation(const JointTermsLane<V>& terms,
+                                                  const JointBodies<V>& pair) {
+  const auto& [a, b, twist_a, twist_b] = pair;
+  const V rw = a.qw * b.qw + a.qx * b.qx + a.qy * b.qy + a.qz * b.qz;
+  const V rx = a.qw * b.qx - a.qx * b.qw - a.qy * b.qz + a.qz * b.qy;
+  const V ry = a.qw * b.qy - a.qy * b.qw - a.qz * b.qx + a.qx * b.qz;
+  const V rz = a.qw * b.qz - a.qz * b.qw - a.qx * b.qy + a.qy * b.qx;
+  const V &sw = terms.relative_w, &sx = terms.relative_x, &sy = terms.relative_y, &sz = terms.relative_z;
+  return {rw * sw + rx * sx + ry * sy + rz * sz,
+          {rx * sw - rw * sx - ry * sz + rz * sy, ry * sw - rw * sy - rz * sx + rx * sz,
+           rz * sw - rw * sz - rx * sy + ry * sx}};
+}
+
+/// Uniform numbers of the rows of a substep.
+template <class T>
+class RowBuilder {
+ public:
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+  using L3 = Vec3L<V>;
+  using Pair = JointBodies<V>;
+
+  /// k [1/s]: of an error, how much a second is to take away; cfm: divided by the step.
+  RowBuilder(Scalar k, Scalar cfm, Scalar sor_factor) : k_(k), cfm_(cfm), factor_(sor_factor) {}
+
+  Scalar k() const { return k_; }
+  Scalar cfm() const { return cfm_; }
+  Scalar factor() const { return factor_; }
+
+  /// Impulses start at 0.
+  PBMPI_LANES void set_axis(const L3& axis, const V& rhs, const Pair& pair, AxisRow<V>& row) const;
+  PBMPI_LANES void set_line(const L3& direction, const L3& moment_a, const L3& moment_b, const V& rhs,
+                            const V& cfm, const Pair& pair, LineRow<V>& row) const;
+
+ private:
+  Scalar k_, cfm_, factor_;
+};
+
+template <class T>
+PBMPI_LANES void RowBuilder<T>::set_axis(const L3& axis, const V& rhs, const Pair& pair,
+                                         AxisRow<V>& row) const {
+  row.axis = axis;
+  row.turn_a = pair.a.inv_inertia * axis;
+  row.turn_b = pair.b.inv_inertia * axis;
+  row.rhs = rhs;
+  row.scale = factor_ / (dot(axis, row.turn_a) + dot(axis, row.turn_b) + cfm_);
+  row.impulse = T::broadcast(0);
+}
+
+template <class T>
+PBMPI_LANES void RowBuilder<T>::set_line(const L3& direction, const L3& moment_a, const L3& moment_b,
+                                         const V& rhs, const V& cfm, const Pair& pair,
+                                         LineRow<V>& row) const {
+  row.direction = direction;
+  row.moment_a = moment_a;
+  row.moment_b = moment_b;
+  row.turn_a = pair.a.inv_inertia * moment_a;
+  row.turn_b = pair.b.inv_inertia * moment_b;
+  row.rhs = rhs;
+  row.cfm = cfm;
+  row.scale = factor_ / (pair.a.inv_mass + pair.b.inv_mass + dot(moment_a, row.turn_a) +
+                         dot(moment_b, row.turn_b) + cfm);
+  row.impulse = T::broadcast(0);
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,81 @@
+/// Forces on the bodies of a pack, and how their velocities move them.
+#pragma once
+
+#include <cmath>
+
+#include "solver/pack/world_lanes.h"
+
+namespace pbmpi::solver {
+
+/// Batch by batch. h [s]: a substep; dt [s]: the step.
+template <class T>
+class BodyMotion {
+ public:
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+  using Batch = typename JointBatches<T>::Batch;
+
+  /// `worlds` is borrowed.
+  explicit BodyMotion(WorldLanes<T>& worlds) : worlds_(worlds) {}
+
+  void apply_gyroscopic_torques(const Batch& batch, Scalar dt, const GyroscopicSlot<V>*& next);
+  void apply_gravity(const Batch& batch, Scalar h);
+  void move(const Batch& batch, Scalar h);
+  void move_on(const Batch& batch, Scalar h);
+  void damp(const Batch& batch, double h);
+
+ private:
+  WorldLanes<T>& worlds_;
+};
+
+/// `next`: the first slot with the torque that no batch before had; goes on to that of the next batch.
+template <class T>
+void BodyMotion<T>::apply_gyroscopic_torques(const Batch& batch, Scalar dt, const GyroscopicSlot<V>*& next) {
+  const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
+  while (next != end && next->slot < batch.first_slot) ++next;
+  for (; next != end && next->slot < batch.end_slot; ++next)
+    apply_gyroscopic_torque<T>(worlds_.bodies.bodies[next->slot], next->has_torque,
+                               worlds_.bodies.twists[next->slot], dt);
+}
+
+template <class T>
+void BodyMotion<T>::apply_gravity(const Batch& batch, Scalar h) {
+  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
+    Twist<V>& twist = worlds_.bodies.twists[slot];
+    twist.linear = twist.linear + worlds_.gravity[slot] * T::broadcast(h);
+  }
+}
+
+template <class T>
+void BodyMotion<T>::move(const Batch& batch, Scalar h) {
+  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
+    integrate<T, true>(worlds_.bodies.bodies[slot], worlds_.bodies.twists[slot], h);
+    refresh(worlds_.bodies.bodies[slot]);
+  }
+}
+
+/// Between two substeps. Inertia in the world's frame, and with it the gyroscopic torque, stays that of the
+/// step's start, as in a step without substeps.
+template <class T>
+void BodyMotion<T>::move_on(const Batch& batch, Scalar h) {
+  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
+    BodyLane<V>& body = worlds_.bodies.bodies[slot];
+    integrate<T, false>(body, worlds_.bodies.twists[slot], h);
+    body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
+  }
+}
+
+/// As ODE after it has moved a body: v <- (1 - scale) v. The scale of a step of any length is that of an
+/// exponential decay.
+template <class T>
+void BodyMotion<T>::damp(const Batch& batch, double h) {
+  const model::Model& laws = worlds_.model(0);  // the same in all worlds of a pack
+  const V linear = T::broadcast(static_cast<Scalar>(std::exp(-laws.linear_damping * h)));
+  const V angular = T::broadcast(static_cast<Scalar>(std::exp(-laws.angular_damping * h)));
+  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
+    Twist<V>& twist = worlds_.bodies.twists[slot];
+    twist = {twist.linear * linear, twist.angular * angular};
+  }
+}
+
+}  // namespace pbmpi::solver
