@@ -210,7 +210,7 @@ class FileScene final : public Scene {
     }
   }
 
-  /// The readers leave little for validate() to find; what it finds is told at the actor that it names.
+  /// Checks what the readers cannot see; an error is reported at the place of the actor that it names.
   void validate(const model::Model& model, int world) const {
     try {
       model::validate(model, "world " + std::to_string(world));

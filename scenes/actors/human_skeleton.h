@@ -59,7 +59,7 @@ struct Motion {
   double low_deg = 0, high_deg = 0;  ///< of the lower (outer) segment against the upper (inner) one
   double torque_nm = 0;              ///< greatest voluntary torque, the weaker direction's order of magnitude
 
-  /// The same motion, its angles counted from a pose that is already bent by `start_deg`.
+  /// This motion with its angles counted from a pose that is already bent by `start_deg`.
   constexpr Motion from(double start_deg) const {
     return {low_deg - start_deg, high_deg - start_deg, torque_nm};
   }

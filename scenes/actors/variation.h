@@ -27,7 +27,7 @@ struct Offset {
 /// Reads `[variation]` of an actor; all zero without it.
 Variation read_variation(TableReader& actor);
 
-/// The same for the same (seed, world, actor), whatever was drawn before.
+/// Draws from the key (seed, world, actor) alone, whatever was drawn before.
 Offset draw(const Variation& variation, std::uint64_t seed, int world, std::uint64_t actor);
 
 /// A whole number that may change with the world: pairs (first world, number), ascending from world 0.

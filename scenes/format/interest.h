@@ -12,15 +12,15 @@ class InterestPlan {
  public:
   explicit InterestPlan(TableReader& table);
 
-  /// Into a model with all its actors. Throws core::InputError at the name if it has none so called, or one
-  /// without a body.
+  /// Puts it into a model that has all its actors. Throws core::InputError at the name if no actor is called
+  /// so, or if that actor has no body.
   void put_into(model::Model& model) const;
 
  private:
   int followed_body(const model::Model& model) const;
 
   model::Interest interest_;
-  std::string follows_;  ///< an actor; none: the center stands
+  std::string follows_;  ///< an actor; empty: the center is fixed
   std::string where_;    ///< of its name in the file
 };
 

@@ -21,7 +21,7 @@ Quat rotation(double angle_rad, const Vec3& axis);
 
 double radians(double degrees);
 
-/// Both return the index of what they add.
+/// Appends an actor or a body, and returns its index.
 int add_actor(model::Model& model, std::string name, model::ActorKind kind);
 int add_body(model::Model& model, model::Body body);
 

@@ -25,7 +25,7 @@ inline constexpr std::array<std::string_view, num_bands> orientation_band_names 
 
 /// Index of the category of an error [m]; an error on an edge is in the worse one.
 int position_band(double error_m);
-/// The same for an angle [rad]; half a turn is in the category 25-50 %.
+/// Index of the category of an angle [rad]; half a turn is in the category 25-50 %.
 int orientation_band(double angle_rad);
 
 /// A set of errors, every one of which is in one category. rms, p99 and max are over the finite ones, 0 if

@@ -44,8 +44,8 @@ Vec3 joint_gap(const Model& model, const Joint& joint, PoseView poses) {
                                       pose_of(poses, joint.body_b));
 }
 
-/// What must be zero in every finite result, so that a NaN is never hidden by a comparison that it does not
-/// enter.
+/// Zero for a finite pose, else NaN: added to an angle that does not depend on all of the pose, it keeps a
+/// NaN from being hidden.
 double poison(const Pose& pose) {
   const Quat& q = pose.orientation;
   return 0 * (pose.position.sum() + q.w + q.x + q.y + q.z);

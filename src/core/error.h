@@ -25,8 +25,8 @@ class RunError : public std::runtime_error {
 /// Throws InputError(message) unless `condition` holds.
 void require_input(bool condition, const std::string& message);
 
-/// Throws std::logic_error with the place of the call unless `condition` holds: a mistake of ours, never of
-/// the user's.
+/// Throws std::logic_error with the place of the call unless `condition` holds: an error in this program,
+/// never the user's.
 void require_invariant(bool condition, const char* what);
 
 }  // namespace pbmpi::core

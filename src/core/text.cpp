@@ -15,7 +15,8 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// How far a slip is from a name, or nothing if it is none. Both in lower case.
+/// Edit distance of a word from the name that it may be meant for, or nothing if it is too far. Both in lower
+/// case.
 std::optional<int> slip(const std::string& word, const std::string& name) {
   const std::size_t shorter = std::min(word.size(), name.size()), longer = std::max(word.size(), name.size());
   if (shorter >= 3 && (name.starts_with(word) || word.starts_with(name))) return 0;

@@ -11,11 +11,11 @@ namespace pbmpi::core {
 /// distance).
 int edit_distance(std::string_view a, std::string_view b);
 
-/// Those of `names` that a slip may have turned into `word`, nearest first, at most three; upper and lower
+/// The names that a typing error may have turned into `word`, nearest first, at most three; upper and lower
 /// case are equal. A third of the letters may differ, but at least two, or one begins with the other.
 std::vector<std::string> nearest_names(std::string_view word, const std::vector<std::string>& names);
 
-/// The first of them; empty if none is near.
+/// The first of nearest_names(); empty if none is near.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
 /// 'text', in single quotes.

@@ -37,7 +37,8 @@ double half_extent(const model::Geom& geom, const double rotation[9], const core
 /// The least of a geom's half extents [m] over all directions; infinite for a plane.
 double least_half_extent(const model::Geom& geom);
 
-/// Is it a sphere round its body's centre of mass? Such a one has no orientation, and no normal turns it.
+/// Is it a sphere round its body's centre of mass? It needs no orientation, and a normal force does not turn
+/// it.
 bool is_ball(const model::Geom& geom);
 
 /// Radius [m] of the smallest ball about the geom's centre that holds it; infinite for a plane.

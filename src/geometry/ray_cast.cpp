@@ -27,8 +27,7 @@ Inside slab(const core::Vec3& from, const core::Vec3& way, int axis, double half
   return {std::min(low, high), std::max(low, high), core::Vec3::Unit(axis) * (rate > 0 ? -1.0 : 1.0)};
 }
 
-/// Within `radius` of a point or a line: `offset` and `way` are what is left of both without the part along
-/// the line.
+/// Within `radius` of a point or a line; of `offset` and `way` the components along the line are taken out.
 Inside round(const core::Vec3& offset, const core::Vec3& way, double radius) {
   const double a = way.squaredNorm(), b = offset.dot(way), c = offset.squaredNorm() - radius * radius;
   if (a == 0) return c <= 0 ? Inside{} : nowhere();

@@ -26,7 +26,7 @@ struct GeomPair {
   auto operator<=>(const GeomPair&) const = default;
 };
 
-/// One contact point. Body a is a real one; the normal points into it.
+/// One contact point. Body a is never the environment; the normal points into it.
 struct Contact {
   int body_a = 0;
   int body_b = no_body;  ///< no_body: a is in contact with the static environment

@@ -98,9 +98,8 @@ struct Spring {
   double damping = 0;    ///< d [N s/m]
 };
 
-/// A constraint between two bodies, in ODE's sense of each kind. Anchors and axes are body-fixed; those "of
-/// b" are in the world frame if body_b is no_body. Degrees of freedom removed: ball 3, hinge 5, slider 5,
-/// universal 4, fixed 6, hinge2 4.
+/// A constraint between two bodies, in ODE's sense of each kind (joint_traits.h). Anchors and axes are
+/// body-fixed; those "of b" are in the world frame if body_b is no_body.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::ball;
@@ -113,7 +112,7 @@ struct Joint {
   std::array<AxisLimit, 2> limits;  ///< of axis 1 and 2 (hinge2: axis 1 only)
   std::array<AxisMotor, 2> motors;  ///< of axis 1 and 2
   Spring suspension;                ///< hinge2 only
-  double break_force = 0;           ///< [N] above which it breaks (model/breakage.h); 0 = never
+  double break_force = 0;           ///< [N] above which it breaks (effects/breakage.h); 0 = never
   double break_torque = 0;  ///< [N m] likewise, about the anchor; of a slider the middle of its bodies
 
   bool breakable() const { return break_force > 0 || break_torque > 0; }
@@ -148,14 +147,14 @@ struct ContactLaw {
   int max_per_pair = 4;          ///< contacts kept of a pair of geoms
 };
 
-/// When a resting island falls asleep (model/sleepers.h). Box2D's speed, and its and Jolt's time.
+/// When a resting island falls asleep (effects/sleepers.h). Box2D's speed, and its and Jolt's time.
 struct SleepRule {
   double speed = 0.05;         ///< [m/s] that counts as rest, as a mean over after_s
   double angular_speed = 0.1;  ///< [rad/s] likewise
   double after_s = 0.5;        ///< of rest [s]
 };
 
-/// Where a world gets all the work, and how little is enough elsewhere (model/field_of_interest.h).
+/// Where a world gets all iterations, and how few are enough elsewhere (effects/field_of_interest.h).
 struct Interest {
   Vec3 center = Vec3::Zero();  ///< [m], unless it follows a body
   int follows = no_body;       ///< the body in whose centre of mass it lies
@@ -169,7 +168,7 @@ struct Model {
   std::vector<Geom> geoms;
   std::vector<Joint> joints;
   std::vector<std::string> spaces{"world"};  ///< names; Geom::space points here
-  bool spaces_meet = true;    ///< false: by the author's word bodies of two spaces never touch each other
+  bool spaces_meet = true;    ///< false: the author states that bodies of two spaces never touch
   std::vector<Event> events;  ///< sorted by step, stable
   Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
   double erp = 0.2;           ///< of joints

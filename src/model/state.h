@@ -8,7 +8,7 @@
 
 namespace pbmpi::model {
 
-/// How long a body has rested (model/sleepers.h).
+/// How long a body has rested (effects/sleepers.h).
 struct Rest {
   Vec3 position = Vec3::Zero();  ///< the pose near which it has stayed [m], world frame
   Quat orientation;

@@ -9,9 +9,10 @@
 
 namespace pbmpi::model {
 
-/// Not two static geoms, not two of one body, not two of one actor without self_collision, not two of bodies
-/// that share a joint, not two planes. As with ODE's dAreConnectedExcluding a joint that is broken connects
-/// nothing, and one of several that holds is enough; what the actor says of its own geoms stands.
+/// Two geoms may touch, but not two static ones, not two of one body, not two of one actor without
+/// self_collision, not two of bodies that share a joint, not two planes. As with ODE's dAreConnectedExcluding
+/// a joint that is broken connects nothing, and one of several that holds is enough; an actor's
+/// self_collision still decides about its own geoms.
 class TouchRule {
  public:
   /// `model` is borrowed; `broken_in`: as in State.

@@ -55,7 +55,7 @@ BoxAxis<typename T::V> separate_boxes(const GeomSide<T>& a, const GeomSide<T>& b
     look_at(g, g, 3 + k);
   }
   V apart_by = gap;
-  // Edges that are nearly parallel span no axis that the faces do not, but rounding.
+  // Edges that are nearly parallel add no axis to those of the faces, only rounding noise.
   const V least_sine2 = T::broadcast(static_cast<Scalar>(sizeof(Scalar) == 4 ? 1e-4 : 1e-8));
   for (int i = 0; i < 3; ++i) {
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
@@ -80,7 +80,7 @@ struct BoxPose {
   Scalar centre[3], axis[3][3], half[3];
 };
 
-/// The points of two touching boxes. A class of T, so that each instruction set has code of its own.
+/// The points of two touching boxes. A class template of T, so that each instruction set has its own code.
 template <class T>
 class BoxManifold {
  public:

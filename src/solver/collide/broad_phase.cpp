@@ -47,7 +47,7 @@ void BroadPhase::update_boxes(std::span<const BodyPose> poses) {
   }
 }
 
-/// A box reaches below a plane if its corner nearest to the inside does.
+/// A box reaches below a plane if its lowest corner does.
 void BroadPhase::test_planes(std::vector<GeomPair>& pairs) const {
   for (int plane : planes_) {
     const Geom& geom = model_->geoms[static_cast<std::size_t>(plane)];

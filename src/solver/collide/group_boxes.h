@@ -51,7 +51,7 @@ class GroupBoxes {
     for (Column& column : max_) column.resize(most_groups / T::num_lanes);
   }
 
-  /// From the boxes of a world's geoms, which stand in a row. A box that is not a number counts as none.
+  /// From the boxes of a world's geoms, which stand in a row. A box with a NaN counts as empty.
   void update(const GeomLanes<T>& geoms, int first_column, int num_geoms);
 
   /// Bit g: `box` overlaps that of group g, g >= first_group.
@@ -79,7 +79,7 @@ void GroupBoxes<T>::update(const GeomLanes<T>& geoms, int first_column, int num_
       min_[k].data()[group] = least;
       max_[k].data()[group] = greatest;
     }
-    for (int group = num_groups_; group % T::num_lanes != 0; ++group)  // read along, but none
+    for (int group = num_groups_; group % T::num_lanes != 0; ++group)  // padding, which no box overlaps
       min_[k].data()[group] = static_cast<Scalar>(huge_bound);
   }
 }

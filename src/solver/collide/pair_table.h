@@ -75,7 +75,7 @@ class PairTable {
   PairTable(std::span<const PackedWorld> worlds, const GeomOrder& order);
 
   void clear();
-  /// Pairs of this world follow; in any order.
+  /// The pairs to come are of this world, in any order.
   void start_world(int world);
   /// Geoms of the world at hand, by their index in its model.
   void add(int first, int second);

@@ -13,7 +13,7 @@ struct alignas(sizeof(V)) SegmentPlace {
   V distance;       ///< from the box; negative inside
 };
 
-/// Everything in the box's frame but what it returns.
+/// Computes in the box's frame; results are in the world frame.
 template <class T>
 class SegmentAtBox {
  public:
@@ -61,8 +61,8 @@ class SegmentAtBox {
 template <class T>
 PBMPI_LANES typename T::V SegmentAtBox<T>::nearest_t() const {
   const V zero = T::broadcast(0), one = T::broadcast(1), half = T::broadcast(Scalar(0.5));
-  V falls = -length_, falls_or_flat = -length_;  // the last place that does so
-  V rises = length_, rises_or_flat = length_;    // the first
+  V falls = -length_, falls_or_flat = -length_;  // the last place with a negative slope
+  V rises = length_, rises_or_flat = length_;    // the first with a positive one
   const auto look_at = [&](const V& t) {
     const V g = slope(t);
     falls = T::max(falls, g < zero ? t : -length_);
@@ -92,7 +92,7 @@ PBMPI_LANES SegmentPlace<typename T::V> SegmentAtBox<T>::nearest_place() const {
   L3 gap{zero, zero, zero};
   for (int k = 0; k < 3; ++k) gap = gap + axis_[k] * beyond(t, k);
   const V distance = T::sqrt(dot(gap, gap));
-  // Of so short a gap the direction is rounding's.
+  // The direction of so short a gap is rounding noise.
   const V scale = length_ + half_[0] + half_[1] + half_[2];
   const V nothing = scale * T::broadcast(sizeof(Scalar) == 4 ? Scalar(1e-6) : Scalar(1e-14));
   const auto enters = distance <= nothing;
@@ -112,9 +112,9 @@ PBMPI_LANES SegmentPlace<typename T::V> SegmentAtBox<T>::nearest_place() const {
 }
 
 /// A segment that enters the box leaves it through the face which the part inside is least deep under. (ODE
-/// answers the x axis of the world, and a limb that has entered a car stays there.) Of that part the centre
-/// of its depth is taken: an end that is at the face counts for nothing, two that are equally deep count
-/// alike.
+/// takes the x axis of the world as the normal, so that a limb that has entered a car stays there.) The part
+/// inside is represented by the centre of its depth: an end at the face has no weight, two equally deep ends
+/// have equal weights.
 template <class T>
 PBMPI_LANES SegmentPlace<typename T::V> SegmentAtBox<T>::way_out() const {
   const V zero = T::broadcast(0), one = T::broadcast(1), half = T::broadcast(Scalar(0.5));
@@ -126,7 +126,7 @@ PBMPI_LANES SegmentPlace<typename T::V> SegmentAtBox<T>::way_out() const {
     first = level ? first : T::max(first, T::min(low, high));
     last = level ? last : T::min(last, T::max(low, high));
   }
-  const V middle = half * (first + last);  // where rounding says that nothing is inside
+  const V middle = half * (first + last);  // if rounding leaves nothing inside
   const auto crossed = first > last;
   first = crossed ? middle : first;
   last = crossed ? middle : last;

@@ -29,8 +29,8 @@ class ContactBuilder {
 
   /// Next substep, with the velocities as the last sweep left them: the depth that the normal speed has left,
   /// the same directions and arms. What is deeper than the push has planned is taken back at once: that is no
-  /// more than the last sweep's residual. Of the impulses the share to be taken over remains; it has not
-  /// acted on the velocities yet.
+  /// more than the last sweep's residual. Impulses are reduced to the share that is taken over, which has
+  /// not acted on the velocities yet.
   void advance(const ContactSlot<T>& slot, Point* points) const;
 
  private:
@@ -41,7 +41,7 @@ class ContactBuilder {
     Motion motion_a, motion_b;
   };
   /// The point at hand of each lane's manifold; harmless numbers in idle lanes. What rows of this kind do not
-  /// ask for is not read.
+  /// need is not read.
   struct Given {
     L3 position, normal;
     V depth, mu, restitution, factor;

@@ -10,7 +10,7 @@ namespace pbmpi::solver {
 /// of one colour may be solved side by side, in any grouping, with the same bits.
 class ContactColors {
  public:
-  /// Forgets what was painted; bodies are 0 to num_bodies - 1.
+  /// Starts anew; bodies are 0 to num_bodies - 1.
   void start(int num_bodies);
   /// The colour of the next contact, between a body and another one (no_body = the environment, which blocks
   /// nothing).

@@ -29,7 +29,7 @@ class ContactList {
     for (std::size_t i = 0; i < slots_.size(); ++i)
       builder.build(&manifolds[i * T::num_lanes], slots_[i], points_of(slots_[i]));
   }
-  /// For the next substep.
+  /// Leads the rows on to the next substep.
   void advance(const BodyLanes<T>& bodies, const Parameters& parameters) {
     const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
     for (const ContactSlot<T>& slot : slots_) builder.advance(slot, points_of(slot));
@@ -79,7 +79,7 @@ class ContactLists {
  public:
   using Parameters = ContactParameters<typename T::Scalar>;
 
-  /// Of the contacts without friction: rows of which kind?
+  /// Says which kind of rows contacts without friction get.
   explicit ContactLists(ContactKind frictionless) : frictionless_(frictionless) {}
 
   void clear() {

@@ -11,9 +11,9 @@ namespace pbmpi::solver {
 
 /// Uniform numbers of contacts in a substep.
 ///
-/// push_rate [1/s]: of its depth, what a contact is to push out in a second: ERP over the length of the whole
-/// step. Over that of a substep the push would be faster by their number, and what speed a push gives nothing
-/// takes back.
+/// push_rate [1/s]: the share of its depth that a contact is to push out in a second: ERP divided by the
+/// length of the whole step. Divided by that of a substep it would push as many times faster as there are
+/// substeps, and nothing takes away the speed that a push gives.
 template <class Scalar>
 struct ContactParameters {
   Scalar h, push_rate, soft_cfm, cfm, bounce_velocity, sor_factor;
@@ -32,7 +32,7 @@ struct alignas(sizeof(V)) CentralRow {
   Vec3L<V> direction;
   V scale, impulse;
 };
-/// With the angular parts of J, and of M^-1 J^T. Without those of b where b is the environment.
+/// A row with the angular parts of J and of M^-1 J^T, but for those of b where b is the environment.
 template <class V, bool two_bodies>
 struct alignas(sizeof(V)) TurningRow : CentralRow<V> {
   Vec3L<V> moment_a, turn_a;
@@ -52,7 +52,7 @@ struct alignas(sizeof(V)) ContactPoint {
   ContactRow<V, two_bodies, kind> normal;
   V rhs;  ///< of the normal row; friction rows want 0 [m/s]
   V depth;
-  V planned;  ///< [m] the depth that the push was to leave by now
+  V planned;  ///< [m] the depth that should be left by now
 };
 template <class V, bool two_bodies>
 struct alignas(sizeof(V)) ContactPoint<V, two_bodies, ContactKind::rough>

@@ -71,7 +71,7 @@ void ManifoldOrder::put(const Manifold& manifold, int slot) {
   if (moves(manifold.b)) ready_[index_of(manifold.b)] = slot + 1;
 }
 
-/// Lanes that no manifold fills.
+/// Fills the lanes that have no manifold.
 void ManifoldOrder::idle() {
   for (int slot = first_open_; slot < num_slots(); ++slot) {
     for (int lane = slots_[static_cast<std::size_t>(slot)].used; lane < num_lanes_; ++lane)

@@ -71,7 +71,7 @@ class ManifoldOrder {
 
   int num_lanes_ = 1, static_slot_ = 0;  ///< of the pack
   int num_bodies_ = 0;
-  bool started_ = false;  ///< has the painter begun with the world at hand?
+  bool started_ = false;  ///< have manifolds of the world at hand been coloured?
   ContactColors painter_;
   std::vector<Manifold> painted_;  ///< world by world
   std::vector<int> next_;          ///< [colours x most_points] buckets: by colour, the most points first

@@ -6,7 +6,7 @@
 
 namespace pbmpi::solver {
 
-/// Sine and cosine of half an angle, but for a factor; c >= 0.
+/// Sine and cosine of half an angle, both times any positive factor; c >= 0.
 template <class V>
 struct alignas(sizeof(V)) HalfAngle {
   V s, c;

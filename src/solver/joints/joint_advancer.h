@@ -23,15 +23,16 @@ class JointAdvancer {
   /// Before the bodies move on with the twists that they have.
   template <model::JointKind kind>
   PBMPI_LANES void advance(JointLane<V>& joint, const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
-  /// After it. May add to the twists, as JointBuilder::build(); carried impulses have not acted on them yet.
+  /// After the bodies have moved. May add to the twists, as JointBuilder::build(); carried impulses have not
+  /// acted on them yet.
   template <model::JointKind kind>
   PBMPI_LANES void rebuild(JointLane<V>& joint, BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
 
  private:
   V carried(const V& impulse) const { return carry_ > 0 ? impulse * T::broadcast(carry_) : T::broadcast(0); }
-  /// Newton's step from the scale of before towards factor / diagonal, which is near enough: the scale
-  /// decides how fast a row converges, not where to. Up to a diagonal four times that of before it does not
-  /// come out too large.
+  /// One Newton step from the last scale towards factor / diagonal. That is accurate enough: the scale
+  /// decides how fast a row converges, not to what. The result is not too large for a diagonal of up to four
+  /// times the last one.
   V scale_of(const V& diagonal, const V& before) const {
     const V least = T::broadcast(static_cast<Scalar>(0.25));
     return before * T::max(2 - (diagonal + cfm_) * before * inverse_factor_, least);

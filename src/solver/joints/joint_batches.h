@@ -70,7 +70,7 @@ class JointBatches {
   }
   /// Fisher-Yates with keyed numbers: the same order in every batch of a shape, so in every world.
   void shuffle(std::uint64_t key);
-  /// That of the model.
+  /// Sweeps the joints in the order of the model.
   void order_as_given();
   /// places_last: see JointSolver::solve().
   template <bool places_last>
@@ -219,7 +219,8 @@ void JointBatches<T>::shuffle(std::uint64_t key) {
   }
 }
 
-/// The same joint of all batches in turn: they share no body, so that the processor works on several at once.
+/// Joint by joint, each in all batches in turn: batches share no body, so that the processor works on several
+/// at once.
 template <class T>
 template <bool places_last>
 void JointBatches<T>::sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies) {

@@ -23,8 +23,8 @@ PBMPI_LANES V turning(const Vec3L<V>& turn, const Vec3L<V>& arm, int k) {
   return k == 1 ? arm.x * turn.z - arm.z * turn.x : arm.y * turn.x - arm.x * turn.y;
 }
 
-/// All but the impulse. k [1/s]: of the gap, how much a second is to close; scale_of(J M^-1 J^T of a row, its
-/// scale of before).
+/// Sets all but the impulse. k [1/s]: the share of the gap that a second is to close. scale_of(diagonal,
+/// before): the scale of a row, from its J M^-1 J^T and its last scale.
 template <class T, class ScaleOf>
 PBMPI_LANES void build_point(const JointTermsLane<typename T::V>& terms, const BodyLane<typename T::V>& a,
                              const BodyLane<typename T::V>& b, typename T::Scalar k,

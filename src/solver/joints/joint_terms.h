@@ -16,7 +16,7 @@ struct alignas(sizeof(V)) AxisControl {
   bool has_motor = false, has_limit = false, has_hold = false;  ///< in any lane
 
   bool any() const { return has_motor || has_limit; }
-  /// Does anybody look at `place`?
+  /// Does a limit or a motor need `place`?
   bool is_placed() const { return has_limit || has_hold; }
 };
 

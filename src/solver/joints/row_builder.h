@@ -6,7 +6,7 @@
 
 namespace pbmpi::solver {
 
-/// Both bodies of the joint at hand.
+/// The two bodies of the joint at hand.
 template <class V>
 struct JointBodies {
   const BodyLane<V>&a, &b;

@@ -142,7 +142,8 @@ struct TwistTranspose {
       r[i] = _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_load_ps(rows + at[first])),
                                 _mm256_load_ps(rows + at[first + 4]), 1);
     }
-    // Of the bodies 0 to 7 and 8 to 15: linear component c in the even blocks, the angular one in the odd.
+    // q[half][c], bodies 0 to 7 and 8 to 15: linear component c in the even blocks, the angular one in the
+    // odd.
     __m512 q[2][3];
     for (int half = 0; half < 2; ++half) {
       const __m512* s = r + 4 * half;

@@ -6,11 +6,11 @@
 
 namespace pbmpi::solver {
 
-/// At the start all. Revisions tell those who derive something from it when to do so anew.
+/// At the start all bodies do. Whoever derives something from them does so anew when the revision changes.
 class ActiveBodies {
  public:
   void add_world(int num_bodies);
-  /// These of this world from now on, and no others of it.
+  /// From now on exactly these bodies of this world.
   void set(int world, std::span<const int> bodies);
 
   std::span<const int> of(int world) const { return worlds_[static_cast<std::size_t>(world)].bodies; }

@@ -94,7 +94,7 @@ struct alignas(sizeof(V)) PoseLane {
   V qw, qx, qy, qz;
 };
 
-/// 1 / sqrt(square), of a number close to 1 by a few terms of its series: within 4e-6, and next to 1 exact.
+/// 1 / sqrt(square): for numbers close to 1 from a few terms of the series, with an error below 4e-6.
 template <class T>
 PBMPI_LANES typename T::V near_inverse_root(const typename T::V& square) {
   using V = typename T::V;

@@ -29,7 +29,7 @@ class GeomOrder {
 
   /// Which chunks of `num_lanes` columns hold the swept geoms of all worlds, ascending.
   std::vector<int> swept_chunks(int num_lanes) const;
-  /// Which hold the geoms of these pairs of a world, ascending.
+  /// Which chunks hold the geoms of these pairs of a world, ascending.
   void find_chunks(int world, std::span<const model::GeomPair> pairs, int num_lanes,
                    std::vector<int>& chunks) const;
 

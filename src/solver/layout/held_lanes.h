@@ -14,7 +14,7 @@ class HeldLanes {
  public:
   using V = typename T::V;
 
-  /// Holds these from now on; `num_slots` of the pack.
+  /// Holds the bodies at these places from now on; `num_slots` of the pack.
   template <class Places>
   void hold(int num_slots, const Places& places);
 
@@ -41,7 +41,7 @@ class HeldLanes {
   struct alignas(sizeof(V)) Slot {
     BodyLane<V> body;
     Twist<V> twist;
-    V held;  ///< 1 in the lanes that are
+    V held;  ///< 1 in the lanes to be put back, else 0
     int slot = 0;
   };
   PBMPI_LANES static auto is_held(const Slot& held) { return held.held > T::broadcast(0); }

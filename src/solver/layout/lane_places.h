@@ -47,7 +47,7 @@ class LanePlaces {
                ? -1
                : world_at_[static_cast<std::size_t>(place.slot * num_lanes_ + place.lane)];
   }
-  /// Of the articulation that a slot belongs to.
+  /// Does the articulation that a slot belongs to have joints?
   bool has_joints(int slot) const { return slots_[static_cast<std::size_t>(slot)].has_joints; }
   /// How many lanes of a slot have a body: the first ones.
   int num_used(int slot) const { return slots_[static_cast<std::size_t>(slot)].num_used; }

@@ -16,7 +16,7 @@ class SlotList {
   std::vector<int> slots_;
 };
 
-/// Says of each slot whether it came before.
+/// Tells of each slot whether it has been added before.
 class SlotSet {
  public:
   void start(int num_slots);

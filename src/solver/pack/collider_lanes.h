@@ -24,14 +24,14 @@ class ColliderLanes {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// `sleeping`: contacts are looked for of which a body is awake.
+  /// `sleeping`: only contacts with a body that is awake are looked for.
   ColliderLanes(std::span<const PackedWorld> worlds, const WorldLanes<T>& lanes, bool sleeping);
 
   /// Joints of a world are broken from now on: State::broken_in.
   void set_broken(int world, std::span<const std::int32_t> broken_in) {
     find_touchable(worlds_[static_cast<std::size_t>(world)], broken_in);
   }
-  /// Bodies that sleep have moved.
+  /// Call when bodies that sleep have been moved from outside.
   void forget_boxes() { boxes_known_ = false; }
 
   /// The contacts of each world, in canonical order: contacts[num_worlds].
@@ -49,7 +49,7 @@ class ColliderLanes {
     const model::Model* model = nullptr;
     model::NarrowPhase* fallback = nullptr;
     std::span<const int> geoms;                ///< swept
-    int first_column = 0;                      ///< theirs
+    int first_column = 0;                      ///< of the swept geoms
     std::unique_ptr<MayTouchTable> may_touch;  ///< of the swept geoms; none if they are many and sorted
     std::unique_ptr<BroadPhase> sorting;
     std::optional<AwakeGeoms> awake;  ///< none without the pass "sleeping"
@@ -61,10 +61,10 @@ class ColliderLanes {
   void find_pairs(const WorldLanes<T>& lanes, int world);
   /// The i-th swept geom against all that come after it.
   void test_solid(const World& world, int i);
-  /// Against those of [first, last) only; `box` is its own, in all lanes.
+  /// The i-th swept geom against those of [first, last) only; `box` is its own, in all lanes.
   PBMPI_LANES void test_range(const World& world, int i, const BoxLanes<T>& box, int first, int last);
   void test_plane(const World& world, int i);
-  /// The i-th, which sleeps or is static, against those after it that are awake.
+  /// The i-th swept geom, which sleeps or is static, against those after it that are awake.
   void test_sleeper(const World& world, int i);
   PBMPI_LANES void add_pairs(const World& world, int i, int first, unsigned touching);
   void run_kernels();
@@ -79,7 +79,7 @@ class ColliderLanes {
   PairTable table_;
   PoseCache poses_;
   bool sleeping_;
-  bool boxes_known_ = false;       ///< are those of all that sleeps as they are?
+  bool boxes_known_ = false;       ///< are the boxes of all sleeping geoms up to date?
   long awake_revision_ = -1;       ///< of the bodies that World::awake is of
   std::vector<int> awake_chunks_;  ///< of geoms_
 };
@@ -145,7 +145,7 @@ void ColliderLanes<T>::collide_pairs(const WorldLanes<T>& lanes, int world,
   take_contacts(lanes, world, contacts);
 }
 
-/// What sleeps has the boxes that it had.
+/// The boxes of sleeping geoms do not change.
 template <class T>
 void ColliderLanes<T>::update_boxes(const WorldLanes<T>& lanes) {
   if (sleeping_) find_awake(lanes);

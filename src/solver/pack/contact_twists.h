@@ -7,8 +7,8 @@
 
 namespace pbmpi::solver {
 
-/// Those of bodies without joints lie in the rows throughout the solve; those of the others are copied when
-/// the other side asks for them.
+/// The velocities of bodies without joints lie in the rows throughout the solve; those of the others are
+/// copied when the other side needs them.
 template <class T>
 class ContactTwists {
  public:
@@ -40,7 +40,7 @@ class ContactTwists {
     where_ = Where::both;
   }
   void changed_rows() { where_ = Where::rows; }
-  /// The same for joints and the slots of jointed bodies.
+  /// Before and after joints work on the slots of jointed bodies.
   void need_slots(BodyLanes<T>& bodies) {
     if (where_ != Where::rows) return;
     read(jointed_, bodies);

@@ -36,7 +36,7 @@ class Pack {
   virtual ~Pack() = default;
   virtual void load(int world, const model::State& state) = 0;
   virtual void store(int world, model::State& state) const = 0;
-  /// The same for some bodies: the rows of `state` that belong to them.
+  /// Loads or stores some bodies only: the rows of `state` that belong to them.
   virtual void load(int world, std::span<const int> bodies, const model::State& state) = 0;
   virtual void store(int world, std::span<const int> bodies, model::State& state) const = 0;
   /// From now on a step moves these bodies of this world and no others of it (at the start: all). Batches
@@ -69,8 +69,8 @@ class Pack {
     begin_step(contacts, parameters, times);
     finish_step(times);
   }
-  /// The same in parts: all before the iterations of the last substep, then of these as many as are left at
-  /// most, then the rest of the step.
+  /// A step in parts: all before the iterations of the last substep; then some of these iterations, at most
+  /// as many as are left; then the rest of the step.
   virtual void begin_step(std::span<const std::span<const model::Contact>> contacts,
                           const StepParameters& parameters, core::PhaseTimes& times) = 0;
   virtual void iterate(int iterations, core::PhaseTimes& times) = 0;

@@ -9,8 +9,8 @@
 
 namespace pbmpi::solver {
 
-/// Over the rows of one world as the last sweep left them, with the twists of then. What each number means:
-/// stepping::Residuals. One lane at a time: it is called on demand only.
+/// Measures the rows of one world as the last sweep left them, with the twists of that time. For the numbers
+/// see stepping::Residuals. One lane at a time: it is called on demand only.
 template <class T>
 class ResidualMeter {
  public:

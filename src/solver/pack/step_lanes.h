@@ -20,7 +20,7 @@ class StepLanes {
   using Scalar = typename T::Scalar;
   using Contacts = std::span<const std::span<const model::Contact>>;
 
-  /// Both are borrowed.
+  /// `passes` and `worlds` are borrowed.
   StepLanes(const Passes& passes, WorldLanes<T>& worlds)
       : passes_(passes), worlds_(worlds), motion_(worlds), contacts_(frictionless_contacts(passes)) {}
 

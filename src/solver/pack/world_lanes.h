@@ -65,7 +65,7 @@ class WorldLanes {
   void launch(int world, const model::Event& event);
   /// True if more joints are broken than before.
   bool set_broken(int world, std::span<const std::int32_t> broken_in);
-  /// Of the last substep, of h seconds.
+  /// What a joint exerted in the last substep, which took h [s].
   effects::Reaction reaction(int world, int joint, double h) const;
   void poses(int world, std::span<model::BodyPose> poses) const {
     for (std::size_t body = 0; body < poses.size(); ++body) poses[body] = pose(world, static_cast<int>(body));
@@ -146,7 +146,7 @@ WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& pas
   for (BodyLane<V>& body : bodies.bodies) refresh(body);
 }
 
-/// What never changes of a joint, and its limits and motors as at the start.
+/// Sets what never changes of a joint, and its limits and motors as at the start.
 template <class T>
 void WorldLanes<T>::set_joint(int world, const Articulation& articulation, std::size_t index) {
   const int joint = articulation.joints[index];
@@ -172,7 +172,8 @@ void WorldLanes<T>::set_masses(int world, int body) {
            falls ? model(world).gravity : model::Vec3(model::Vec3::Constant(-0.0)));
 }
 
-/// Their limits are out of reach and their motors have no force, so that their rows push nothing.
+/// Makes rows for limits and motors that are demanded though nothing calls for them: their limits are out of
+/// reach and their motors have no force, so that they push nothing.
 template <class T>
 void WorldLanes<T>::allow_idle_controls(const Passes& passes) {
   for (int world = 0; world < num_worlds(); ++world) {
@@ -285,8 +286,8 @@ void WorldLanes<T>::set_twist(LanePlace at, const model::Vec3& linear, const mod
   Set::set(bodies.twists[at.slot].angular, at.lane, angular);
 }
 
-/// In double from the quaternion: a rotation in float makes rounding noise a contact normal in ODE's
-/// colliders.
+/// The rotation is computed in double from the quaternion: with one in float ODE's colliders take rounding
+/// noise for a contact normal.
 template <class T>
 model::BodyPose WorldLanes<T>::pose(int world, int body) const {
   const LanePlace at = places.body(world, body);
