@@ -1,0 +1,62 @@
+#include "app/pbstudy/study/setting_lists.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace pbmpi::app {
+namespace {
+
+using stepping::StepperKind;
+using stepping::StepperSettings;
+
+SettingList list_of_values(const char* option, std::vector<std::string> values) {
+  return {&stepping::step_option(option), std::move(values)};
+}
+
+std::vector<StepperSettings> crossed(const std::vector<SettingList>& lists) {
+  std::vector<StepperSettings> all;
+  cross_settings({}, lists, [&](const StepperSettings& settings) { all.push_back(settings); });
+  return all;
+}
+
+TEST(SettingLists, the_last_list_varies_fastest) {
+  const auto all =
+      crossed({list_of_values("iterations", {"1", "2"}), list_of_values("dt", {"0.01", "0.02"})});
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_EQ(all[1].iterations, 1);
+  EXPECT_EQ(all[1].dt_s, 0.02);
+  EXPECT_EQ(all[2].iterations, 2);
+  EXPECT_EQ(all[2].dt_s, 0.01);
+}
+
+TEST(SettingLists, an_option_that_the_stepper_lacks_keeps_its_default) {
+  const auto all =
+      crossed({list_of_values("stepper", {"quick", "sor"}), list_of_values("substeps", {"2", "4"})});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].kind, StepperKind::quick);
+  EXPECT_EQ(all[0].substeps, 1);
+  EXPECT_EQ(all[2].substeps, 4);
+}
+
+TEST(SettingLists, iterations_are_not_varied_where_nothing_iterates) {
+  EXPECT_EQ(crossed({list_of_values("stepper", {"direct"}), list_of_values("iterations", {"1", "2"})}).size(),
+            1u);
+}
+
+TEST(SettingLists, a_warm_start_needs_a_second_substep) {
+  const auto all = crossed({list_of_values("stepper", {"sor"}), list_of_values("substeps", {"1", "2"}),
+                            list_of_values("warm-start", {"0.5", "0.9"})});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].warm_start, 0);
+  EXPECT_EQ(all[1].warm_start, 0.5);
+}
+
+TEST(SettingLists, a_list_without_values_leaves_the_base_as_it_is) {
+  const auto all = crossed({list_of_values("dt", {})});
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].dt_s, StepperSettings{}.dt_s);
+}
+
+}  // namespace
+}  // namespace pbmpi::app
