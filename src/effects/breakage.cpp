@@ -23,8 +23,8 @@ void Breakage::start(model::State& state) const {
   if (state.broken_in.empty()) state.broken_in.assign(model_->joints.size(), model::unbroken);
 }
 
-bool Breakage::strain(std::int64_t step, std::span<const int> joints, const GetReaction& reaction,
-                      model::State& state) const {
+bool Breakage::break_overloaded_joints(std::int64_t step, std::span<const int> joints,
+                                       const GetReaction& reaction, model::State& state) const {
   bool any = false;
   for (const int joint : joints) {
     const model::Joint& one = model_->joints[joint];

@@ -23,11 +23,11 @@ struct Reaction {
   double torque_nm = 0;  ///< [N m]
 };
 
-/// Of a fixed joint: where the second body's centre of mass belongs, [m] in the first's frame; zero if the
-/// first is fixed to the world. There the rows along lines act.
+/// Where a fixed joint holds the second body's centre of mass, [m] in the first's frame; zero if the first is
+/// fixed to the world. There the rows along lines act.
 core::Vec3 offset_of_second(const model::Model& model, const model::Joint& joint);
 
-/// Is that more than the joint bears?
+/// Is the reaction more than the joint bears?
 bool breaks(const model::Joint& joint, const Reaction& reaction);
 
 /// The rule by which joints break, over State::broken_in alone: what a world does next follows from its
@@ -41,13 +41,13 @@ class Breakage {
   /// `model` is borrowed.
   explicit Breakage(const model::Model& model);
 
-  /// One that has no `broken_in` gets it, with all joints whole.
+  /// Fills in a missing `broken_in`, with all joints whole.
   void start(model::State& state) const;
-  /// After step `step`: breaks what its load was too much for; true if anything broke. `reaction` is asked
-  /// for the joints that can break; `joints` are all of them, or those that took part in the step.
-  bool strain(std::int64_t step, std::span<const int> joints, const GetReaction& reaction,
-              model::State& state) const;
-  std::span<const int> joints() const { return joints_; }  ///< those that can break, ascending
+  /// After step `step`: breaks those of `joints` whose reaction was more than they bear; true if any broke.
+  /// `joints`: all of joints(), or those that took part in the step.
+  bool break_overloaded_joints(std::int64_t step, std::span<const int> joints, const GetReaction& reaction,
+                               model::State& state) const;
+  std::span<const int> joints() const { return joints_; }  ///< that can break, ascending
 
  private:
   const model::Model* model_;

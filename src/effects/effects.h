@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/clock.h"
 #include "model/model.h"
+#include "model/state.h"
 
 namespace pbmpi::effects {
 
@@ -40,6 +43,12 @@ enum class EffectId {
   sleeping,
 };
 
+/// Changes the velocities of some bodies at the start of a step of `dt_s`, after the step's events and before
+/// collision detection: the rows of `state` that belong to `bodies`. What a body gets must depend on nothing
+/// but its own row, and must not make it faster, since ranks that share a world learn of its fast bodies at
+/// the end of the step before. A velocity of zero stays zero.
+using VelocityRule = std::function<void(double dt_s, std::span<const int> bodies, model::State& state)>;
+
 /// One effect of the registry.
 struct Effect {
   EffectId id;
@@ -51,6 +60,8 @@ struct Effect {
   /// Takes out of the model what calls for it; does nothing where only its pass is left out. Throws
   /// core::InputError if the model falls apart without.
   void (*leave_out)(model::Model& model);
+  /// For an effect that changes velocities: the rule of this model, for StepRules.
+  VelocityRule (*make_velocity_rule)(const model::Model& model) = nullptr;
 };
 
 /// All effects, in the order of the step: that of EffectId, which is the index.

@@ -1,4 +1,4 @@
-/// Which islands sleep of a world cut into spaces, as one rank knows it.
+/// Which islands of a world sleep, as one rank knows it: of its own world, or of one cut into spaces.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@
 
 namespace pbmpi::effects {
 
-/// Every rank knows of every body whether it sleeps, and with whom: what falls asleep or wakes is agreed on
-/// each step. How long an awake body has rested only its owner knows.
+/// Sleepers with the state that they are about. Where ranks share a world, every rank knows of every body
+/// whether it sleeps, and with whom: what falls asleep or wakes is agreed on each step. How long an awake
+/// body has rested only its owner knows.
 class SpaceSleepers {
  public:
-  /// Both are borrowed; `state` is the rank's copy, in which only its own rows are current.
+  /// Borrows both; `state` is the rank's copy; in a shared world only its own rows are current.
   SpaceSleepers(const model::Model& model, double dt_s, model::State& state)
       : sleepers_(model, dt_s), state_(&state) {}
 

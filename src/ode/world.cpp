@@ -32,6 +32,11 @@ WorldHandle make_world(const model::Model& model, const stepping::StepperSetting
   return world;
 }
 
+/// dWorldStep has no iterations.
+std::optional<int> iterations_of(const stepping::StepperSettings& settings) {
+  return settings.kind == stepping::StepperKind::quick ? std::optional(settings.iterations) : std::nullopt;
+}
+
 }  // namespace
 
 World::World(int id, const model::Model& model, const model::State& state, std::int64_t step,
@@ -45,22 +50,18 @@ World::World(int id, const model::Model& model, const model::State& state, std::
       joints_(make_joints(world_.get(), bodies_, model, settings.dt_s)),
       held_poses_(model, joints_),
       events_(model, bodies_, joints_, held_poses_),
-      breaking_(model, joints_, plan_.has(effects::EffectId::breakable_joints)),
+      state_(state),
+      rules_(model, settings.dt_s, iterations_of(settings), effects::StepRules::World::whole, state_),
+      loads_(model, joints_, rules_.breakable_joints()),
       contacts_(model, plan_, bodies_),
       row_counter_(model, joints_),
       step_(step) {
+  core::require_input(!settings.profile || rules_.sleepers() == nullptr,
+                      "the islands of a step are timed one by one, and with the effect 'sleeping' some are "
+                      "not stepped; leave one of the two out");
   if (plan_.has(effects::EffectId::collision))
     broad_phase_.emplace(model, bodies_, best_space(model.geoms.size()));
-  if (plan_.has(effects::EffectId::fast_bodies)) fast_bodies_.emplace(model);
-  if (plan_.has(effects::EffectId::field_of_interest) && settings.kind == stepping::StepperKind::quick)
-    focus_.emplace(model, bodies_, settings.iterations);
-  if (fast_bodies_ || focus_) before_step_.resize(model.num_bodies());
-  if (plan_.has(effects::EffectId::sleeping)) {
-    core::require_input(!settings.profile,
-                        "the islands of a step are timed one by one, and with the effect 'sleeping' some are "
-                        "not stepped; leave one of the two out");
-    sleeping_.emplace(model, settings.dt_s, bodies_);
-  }
+  if (rules_.field() != nullptr) focus_.emplace(*rules_.field(), bodies_);
   events_.skip_to(step);
   set_state(state);
 }
@@ -68,15 +69,51 @@ World::World(int id, const model::Model& model, const model::State& state, std::
 void World::set_state(const model::State& state) {
   moved_ = true;
   restore(bodies_, state);
-  if (sleeping_) sleeping_->start(state);
-  if (breaking_.start(state.broken_in)) show_broken();
+  state_ = state;
+  if (rules_.sleepers() == nullptr) state_.rest.clear();
+  const bool other_joints_hold = rules_.start();
+  if (rules_.sleepers() != nullptr) show_awake();
+  if (other_joints_hold) show_broken();
+}
+
+void World::set_broken(const std::vector<std::int32_t>& broken_in) {
+  state_.broken_in = broken_in;
+  if (rules_.start()) show_broken();
 }
 
 void World::show_broken() {
-  if (broad_phase_) broad_phase_->set_broken(*model_, broken_in());
-  if (fast_bodies_) fast_bodies_->set_broken(broken_in());
-  if (sleeping_) sleeping_->set_broken(broken_in());
-  if (focus_) focus_->set_broken(*model_, broken_in());
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint)
+    state_.is_broken(joint) ? dJointDisable(joints_[joint]) : dJointEnable(joints_[joint]);
+  if (broad_phase_) broad_phase_->set_broken(*model_, state_.broken_in);
+}
+
+void World::show_awake() {
+  for (std::size_t body = 0; body < bodies_.size(); ++body)
+    state_.rest[body].asleep() ? dBodyDisable(bodies_[body]) : dBodyEnable(bodies_[body]);
+}
+
+void World::show_asleep(std::span<const int> bodies) {
+  for (const int body : bodies) {
+    dBodySetLinearVel(bodies_[body], 0, 0, 0);
+    dBodySetAngularVel(bodies_[body], 0, 0, 0);
+    dBodyDisable(bodies_[body]);
+  }
+}
+
+void World::store(std::span<const int>, model::State& state) const { copy_out(bodies_, state); }
+
+void World::set_velocities(std::span<const int> bodies, const model::State& state) {
+  for (const int body : bodies) {
+    const model::Vec3 &v = state.velocity[body], &w = state.angular_velocity[body];
+    dBodySetLinearVel(bodies_[body], v.x(), v.y(), v.z());
+    dBodySetAngularVel(bodies_[body], w.x(), w.y(), w.z());
+  }
+}
+
+std::span<const effects::BodyPair> World::touching() {
+  touching_.clear();
+  for (const Touch& touch : contacts_.touches()) touching_.emplace_back(touch.body_a, touch.body_b);
+  return touching_;
 }
 
 void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
@@ -86,23 +123,10 @@ void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
   }
 }
 
-/// A step of a world in which all bodies sleep, and that no event wakes, changes nothing.
-bool World::sleeps_on() {
-  if (!sleeping_) return false;
-  sleeping_->wake_called(step_);
-  return sleeping_->all_asleep();
-}
-
 void World::take_step(bool is_last, core::LapTimer& timer) {
-  if (sleeps_on()) {
-    contacts_.forget();
-    if (focus_) focus_->look({}, before_step_, contacts_.touches());
-    if (is_last && moved_) row_counter_.count(contacts_.touches(), sleeping_->rest(), broken_in(), counts_);
-    ++step_;
-    return;
-  }
+  rules_.begin_step(*this, step_);
+  if (rules_.all_asleep()) return sleep_on(is_last);
   moved_ = true;
-  events_.fire(step_);
   held_poses_.aim(settings_.dt_s);
   if (is_last && settings_.profile) {
     before_last_.resize(model_->num_bodies());
@@ -117,43 +141,53 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
     row_counter_.count(contacts_.touches(), rest(), broken_in(), counts_);
     timer.lap(core::Phase::islands);
   }
-  if (focus_) {
-    copy_out(bodies_, before_step_);
-    focus_->look(sleeping_ ? sleeping_->awake() : focus_->all_bodies(), before_step_, contacts_.touches());
-    timer.lap(core::Phase::islands);
-  }
-  breaking_.note_places();
+  rules_.before_solve(*this);
+  loads_.note_places();
+  timer.lap(core::Phase::islands);
   solve();
-  if (breaking_.strain(step_, rest())) show_broken();
   contacts_.clear();
   timer.lap(core::Phase::solve);
-  if (sleeping_) {
-    sleeping_->settle(contacts_.touches());
-    timer.lap(core::Phase::islands);
-  }
+  rules_.after_solve(*this, step_);
+  timer.lap(core::Phase::islands);
   ++step_;
 }
 
-std::span<const model::Rest> World::rest() const {
-  return sleeping_ ? std::span<const model::Rest>(sleeping_->rest()) : std::span<const model::Rest>();
+/// A step of a world in which all bodies sleep, and that no event wakes, changes nothing.
+void World::sleep_on(bool is_last) {
+  contacts_.forget();
+  rules_.sleep_on();
+  if (is_last && moved_) row_counter_.count(contacts_.touches(), rest(), broken_in(), counts_);
+  ++step_;
 }
 
-/// Again while contacts wake what slept, since its own contacts are then to be found, too.
+std::span<const model::Rest> World::rest() const { return state_.rest; }
+
 void World::collide() {
   const std::vector<GeomPair>& pairs = broad_phase_->find_pairs();
   do {
     contacts_.clear();
-    contacts_.make(world_.get(), sleeping_ ? sleeping_->awake_pairs(pairs) : pairs, broad_phase_->geoms());
-    if (fast_bodies_) look_ahead();
-  } while (sleeping_ && sleeping_->wake_touched(contacts_.touches()));
+    contacts_.make(world_.get(), awake_pairs(pairs), broad_phase_->geoms());
+  } while (rules_.after_collision(*this));
 }
 
-void World::look_ahead() {
-  copy_out(bodies_, before_step_);
-  if (!fast_bodies_->look(before_step_, settings_.dt_s)) return;
+/// The pairs of which a geom is awake.
+const std::vector<GeomPair>& World::awake_pairs(const std::vector<GeomPair>& pairs) {
+  if (rules_.sleepers() == nullptr) return pairs;
+  awake_pairs_.clear();
+  const auto awake = [&](int geom) {
+    const int body = model_->geoms[geom].body;
+    return body != model::no_body && !state_.rest[body].asleep();
+  };
+  for (const GeomPair& pair : pairs) {
+    if (awake(pair.first) || awake(pair.second)) awake_pairs_.push_back(pair);
+  }
+  return awake_pairs_;
+}
+
+void World::add_contacts_ahead(effects::FastBodies& fast, const model::State& before) {
   ahead_.clear();
-  fast_bodies_->add(
-      before_step_, [](int, int) { return true; }, ahead_);
+  fast.add(
+      before, [](int, int) { return true; }, ahead_);
   contacts_.make_ahead(world_.get(), ahead_, settings_.dt_s);
 }
 
@@ -162,7 +196,7 @@ void World::solve() {
   if (!focus_ || !focus_->is_cut())
     return solve_enabled(focus_ ? focus_->iterations() : settings_.iterations);
   focus_->enable_outside();
-  solve_enabled(focus_->field().outside_iterations());
+  solve_enabled(focus_->outside_iterations());
   focus_->enable_inside();
   solve_enabled(settings_.iterations);
   focus_->enable_both();
@@ -183,11 +217,11 @@ void World::solve_enabled(int iterations) {
 void World::read(model::State& state, stepping::Observables& observables) {
   if (!std::exchange(moved_, false)) return stepping::observe_sleep(observables);
   copy_out(bodies_, state);
-  if (sleeping_) state.rest = sleeping_->rest();
+  if (rules_.sleepers() != nullptr) state.rest = state_.rest;
   state.broken_in = broken_in();
   observables = counts_;
   observables.contacts = contacts_.count();
-  observables.bodies_inside = focus_ ? static_cast<int>(focus_->field().inside().size()) : 0;
+  observables.bodies_inside = rules_.num_inside();
   observables.max_penetration_m = contacts_.deepest_m();
   stepping::observe_state(*model_, state, observables);
 }

@@ -8,12 +8,11 @@
 
 #include "core/clock.h"
 #include "effects/effects.h"
-#include "effects/fast_bodies.h"
+#include "effects/step_rules.h"
 #include "ode/collide/broad_phase.h"
 #include "ode/collide/contacts.h"
-#include "ode/effects/breaking.h"
 #include "ode/effects/focus.h"
-#include "ode/effects/sleeping.h"
+#include "ode/effects/joint_loads.h"
 #include "ode/objects/engine.h"
 #include "ode/objects/events.h"
 #include "ode/rows.h"
@@ -24,11 +23,16 @@
 namespace pbmpi::ode {
 
 /// A world that follows from its model, its state and the step number alone. Only the passes of the model's
-/// StepPlan are there.
+/// StepPlan are there; effects::StepRules has those that act round the step.
+///
+/// ODE's own auto-disable is off: bodies are disabled by State::rest. As ODE enables what is connected to an
+/// enabled body by a joint, contacts included, whole islands wake before their contacts take part in a step.
+/// A broken joint is disabled, and keeps its place: attached anew, it would take the pose of that moment for
+/// its zero.
 ///
 /// The collision spaces of the model cut one world over ranks; here the world is whole, and all its geoms
 /// are in one ODE space.
-class World {
+class World final : private effects::RuledWorld {
  public:
   /// `model` is borrowed; `state`: at the start of step `step`.
   World(int id, const model::Model& model, const model::State& state, std::int64_t step,
@@ -40,24 +44,34 @@ class World {
   void advance(int num_steps, core::LapTimer& timer, MessageLog& log);
   /// Puts the bodies into the state at the start of step(), where the world stands.
   void set_state(const model::State& state);
-  /// Reads out the state after the last step, and what was observed in it.
-  /// Both as they were after the last call if all bodies have slept since then.
+  /// Reads out the state after the last step, and what was observed in it: both as they were after the last
+  /// call if all bodies have slept since then.
   void read(model::State& state, stepping::Observables& observables);
   /// Measures the last step again (stepping::StepProfile); the world is then as it was, bit for bit. Needs
   /// the setting `profile` and a step taken before.
   stepping::StepProfile profile_last_step();
   /// As in model::State.
   std::span<const model::Rest> rest() const;
-  const std::vector<std::int32_t>& broken_in() const { return breaking_.broken_in(); }
+  const std::vector<std::int32_t>& broken_in() const { return state_.broken_in; }
   /// The next step.
   std::int64_t step() const { return step_; }
 
  private:
+  void fire_events(std::int64_t step) override { events_.fire(step); }
+  void store(std::span<const int> bodies, model::State& state) const override;
+  void set_velocities(std::span<const int> bodies, const model::State& state) override;
+  void add_contacts_ahead(effects::FastBodies& fast, const model::State& before) override;
+  std::span<const effects::BodyPair> touching() override;
+  effects::Reaction reaction(int joint) const override { return loads_.reaction(joint); }
+  void show_awake() override;
+  void show_asleep(std::span<const int> bodies) override;
+  void show_broken() override;
+
   void take_step(bool is_last, core::LapTimer& timer);
-  bool sleeps_on();
+  void sleep_on(bool is_last);
   void collide();
-  void show_broken();
-  void look_ahead();
+  const std::vector<GeomPair>& awake_pairs(const std::vector<GeomPair>& pairs);
+  void set_broken(const std::vector<std::int32_t>& broken_in);
   void solve();
   void solve_enabled(int iterations);
   void profile_collision(stepping::StepProfile& profile);
@@ -73,14 +87,15 @@ class World {
   std::vector<dJointID> joints_;
   HeldPoses held_poses_;
   Events events_;
-  Breaking breaking_;
+  model::State state_;  ///< its `rest` and `broken_in` are of now, its poses where the rules have stored them
+  effects::StepRules rules_;
+  JointLoads loads_;
   Contacts contacts_;
-  std::optional<BroadPhase> broad_phase_;           ///< none without the effect "collision"
-  std::optional<effects::FastBodies> fast_bodies_;  ///< none without the pass
-  std::optional<Focus> focus_;                      ///< likewise; none for `direct`, which has no iterations
-  model::State before_step_;                        ///< with either: at the start of the step
-  std::vector<model::Contact> ahead_;               ///< contacts with a gap
-  std::optional<Sleeping> sleeping_;                ///< none without the pass
+  std::optional<BroadPhase> broad_phase_;    ///< none without the effect "collision"
+  std::optional<Focus> focus_;               ///< none without the pass
+  std::vector<model::Contact> ahead_;        ///< scratch of add_contacts_ahead()
+  std::vector<GeomPair> awake_pairs_;        ///< scratch
+  std::vector<effects::BodyPair> touching_;  ///< scratch
   RowCounter row_counter_;
   stepping::Observables counts_;  ///< rows and islands of the last step
   model::State before_last_;      ///< with `profile`: before the last step's collision detection, events done

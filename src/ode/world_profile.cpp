@@ -1,4 +1,4 @@
-// A step of one world taken apart. ODE tells no times of islands, so that the step is repeated from its own
+// A step of one world taken apart. ODE has no times of islands, so that the step is repeated from its own
 // start with all bodies disabled but those of one island.
 #include <algorithm>
 #include <functional>
@@ -51,7 +51,7 @@ stepping::StepProfile World::profile_last_step() {
   model::State after = before_last_;
   copy_out(bodies_, after);
   after.broken_in = broken_in();
-  if (breaking_.start(before_last_.broken_in)) show_broken();
+  set_broken(before_last_.broken_in);
   --step_;
   stepping::StepProfile profile;
   restore(bodies_, before_last_);
@@ -61,7 +61,7 @@ stepping::StepProfile World::profile_last_step() {
   contacts_.clear();
   ++step_;
   restore(bodies_, after);
-  if (breaking_.start(after.broken_in)) show_broken();
+  set_broken(after.broken_in);
   return profile;
 }
 
@@ -88,7 +88,7 @@ void World::profile_collision(stepping::StepProfile& profile) {
   }
   contacts_.clear();
   contacts_.make(world_.get(), pairs, broad_phase_->geoms());
-  if (fast_bodies_) look_ahead();
+  static_cast<void>(rules_.after_collision(*this));  // nothing sleeps in a world that is profiled
   for (const Touch& touch : contacts_.touches()) {
     if (touch.cross_space) profile.cross_contacts += touch.num_contacts;
   }
@@ -113,7 +113,7 @@ void World::profile_islands(stepping::StepProfile& profile) {
       state.velocity.push_back(before_last_.velocity[body]);
       state.angular_velocity.push_back(before_last_.angular_velocity[body]);
     }
-    const int iterations = focus_ ? focus_->field().iterations_of(island.first_body) : settings_.iterations;
+    const int iterations = focus_ ? focus_->iterations_of(island.first_body) : settings_.iterations;
     island.solve_s = std::max(0.0, time_solve(bodies, iterations, state) - empty_s);
   }
   for (const dBodyID body : bodies_) dBodyEnable(body);

@@ -45,13 +45,13 @@ TEST(Breakage, asks_for_the_joints_that_can_break_and_hold) {
     asked.push_back(joint);
     return Reaction{};
   };
-  EXPECT_FALSE(breakage.strain(3, breakage.joints(), light, state));
+  EXPECT_FALSE(breakage.break_overloaded_joints(3, breakage.joints(), light, state));
   EXPECT_EQ(asked, (std::vector<int>{1, 2}));
   const auto heavy = [&](int joint) { return Reaction{joint == 1 ? 101.0 : 0.0, 0}; };
-  EXPECT_TRUE(breakage.strain(4, breakage.joints(), heavy, state));
+  EXPECT_TRUE(breakage.break_overloaded_joints(4, breakage.joints(), heavy, state));
   EXPECT_EQ(state.broken_in, (std::vector<std::int32_t>{model::unbroken, 4, model::unbroken}));
   asked.clear();
-  EXPECT_FALSE(breakage.strain(5, breakage.joints(), light, state));
+  EXPECT_FALSE(breakage.break_overloaded_joints(5, breakage.joints(), light, state));
   EXPECT_EQ(asked, std::vector<int>{2});
   EXPECT_TRUE(state.acted_in(4, 1));
   EXPECT_FALSE(state.acted_in(5, 1));
@@ -64,7 +64,7 @@ TEST(Breakage, leaves_joints_of_bodies_that_sleep_alone) {
   state.rest.resize(3);
   state.rest[1].sleep_in(0);
   const auto heavy = [](int) { return Reaction{1e6, 1e6}; };
-  EXPECT_TRUE(breakage.strain(7, breakage.joints(), heavy, state));
+  EXPECT_TRUE(breakage.break_overloaded_joints(7, breakage.joints(), heavy, state));
   EXPECT_FALSE(state.is_broken(1)) << "its first body, link 1, sleeps";
   EXPECT_TRUE(state.is_broken(2));
 }

@@ -44,6 +44,15 @@ void apply_setting(const Event& event, int world, Pack& pack) {
   if (event.kind == EventKind::steer) pack.set_limit(world, event.joint, 0, {event.angle, event.angle});
 }
 
+Event velocity_event(int body, const model::State& state) {
+  Event event;
+  event.kind = EventKind::launch;
+  event.body = body;
+  event.velocity = state.velocity[static_cast<std::size_t>(body)];
+  event.angular_velocity = state.angular_velocity[static_cast<std::size_t>(body)];
+  return event;
+}
+
 void apply_settings_before(const model::Model& model, std::int64_t step, int world, Pack& pack) {
   for (const Event& event : model.events) {
     if (event.step < step) apply_setting(event, world, pack);

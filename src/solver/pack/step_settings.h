@@ -13,14 +13,17 @@ namespace pbmpi::solver {
 /// instruction set that this machine lacks.
 void require_valid(const stepping::StepperSettings& settings);
 
-/// Of this step of a run.
+/// The parameters of a step of a run.
 StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step);
 
 /// The events of a step, in the model's order.
 std::span<const model::Event> events_of(const model::Model& model, std::int64_t step);
 
-/// Puts what an event says of a joint into the pack; a launch says nothing of one.
+/// Puts the joint setting of an event into the pack; a launch has none.
 void apply_setting(const model::Event& event, int world, Pack& pack);
+
+/// A launch from where the body is, with its velocities in `state`: Pack::launch() rounds and places them.
+model::Event velocity_event(int body, const model::State& state);
 
 /// The joint settings of all steps before this one.
 void apply_settings_before(const model::Model& model, std::int64_t step, int world, Pack& pack);

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "effects/breakage.h"
-#include "effects/effects.h"
+#include "effects/step_rules.h"
 #include "solver/layout/articulation.h"
 #include "solver/pack/focused_step.h"
 #include "solver/pack/simd.h"
@@ -32,8 +31,8 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   const model::Model& model() const override { return *model_; }
   const model::SpaceMap& map() const override { return map_; }
   const model::State& state() const override { return packed_.state(); }
-  effects::SpaceSleepers* sleepers() override { return sleepers_ ? &*sleepers_ : nullptr; }
-  effects::FieldOfInterest* field() override { return field_ ? &*field_ : nullptr; }
+  effects::SpaceSleepers* sleepers() override { return rules_.sleepers(); }
+  effects::FieldOfInterest* field() override { return rules_.field(); }
   int num_lanes() const override { return solver::num_lanes(simd(), settings_.precision); }
   void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override;
   void put_states(std::span<const int> bodies, std::span<const double> rows) override {
@@ -62,10 +61,12 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
   void activate(std::span<const int> units);
   void focus(std::span<const Contact> contacts);
-  bool is_awake(int body) const { return !sleepers_ || !sleepers_->asleep(body); }
+  bool is_awake(int body) const { return rules_.sleepers() == nullptr || !rules_.sleepers()->asleep(body); }
+  /// Applies the velocity rules to the awake bodies of own spaces, or to those of other ranks.
+  void change_velocities(bool own);
   void show_sleepers();
   void show_broken();
-  void strain(std::int64_t step);
+  void break_overloaded_joints(std::int64_t step);
   void collide_pairs(std::vector<Contact>& contacts);
 
   stepping::StepperSettings settings_;
@@ -77,18 +78,18 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   CrossBroadPhase cross_;
   std::unique_ptr<Pack> pack_;
   PackedState packed_;
-  std::optional<effects::SpaceSleepers> sleepers_;  ///< none without the effect "sleeping"
-  long shown_revision_ = -1;                        ///< of them, that the pack knows
-  std::vector<char> is_own_;                        ///< [num_spaces]
-  std::vector<int> own_bodies_;                     ///< ascending
-  ActiveUnits active_;                              ///< of the last solve()
+  effects::StepRules rules_;       ///< of a cut world: parts of them, between which the ranks agree
+  long shown_revision_ = -1;       ///< of the sleepers that the pack knows
+  std::vector<char> is_own_;       ///< [num_spaces]
+  std::vector<int> own_bodies_;    ///< ascending
+  std::vector<int> other_bodies_;  ///< ascending
+  ActiveUnits active_;             ///< of the last solve()
   std::vector<model::GeomPair> pairs_;
-  std::optional<SpaceFastBodies> fast_bodies_;     ///< none without the pass
-  std::optional<effects::FieldOfInterest> field_;  ///< likewise
-  FocusedStep focused_;                            ///< of the last solve()
-  int bodies_inside_ = 0;                          ///< likewise
-  std::optional<effects::Breakage> breakage_;      ///< none without the effect "breakable_joints"
-  std::int64_t last_step_ = 0;                     ///< solved
+  std::optional<SpaceFastBodies> fast_bodies_;  ///< none without the pass
+  FocusedStep focused_;                         ///< of the last solve()
+  int bodies_inside_ = 0;                       ///< likewise
+  std::int64_t last_step_ = 0;                  ///< solved
+  std::optional<std::int64_t> launched_step_;   ///< the last one of launch_others()
 };
 
 SorSpaceStepper::SorSpaceStepper(const stepping::StepperSettings& settings,
@@ -102,14 +103,11 @@ SorSpaceStepper::SorSpaceStepper(const stepping::StepperSettings& settings,
       bodies_(*model_, map_),
       cross_(*model_, bodies_),
       packed_(*model_),
+      rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::cut, packed_.state()),
       active_(map_) {
-  const effects::StepPlan plan(*model_);
-  if (plan.has(effects::EffectId::fast_bodies)) fast_bodies_.emplace(*model_, map_, settings.dt_s);
-  if (plan.has(effects::EffectId::field_of_interest)) field_.emplace(*model_, settings.iterations);
-  if (plan.has(effects::EffectId::breakable_joints)) breakage_.emplace(*model_);
-  if (!plan.has(effects::EffectId::sleeping)) return;
-  sleepers_.emplace(*model_, settings.dt_s, packed_.state());
-  sleepers_->start();
+  if (effects::StepPlan(*model_).has(effects::EffectId::fast_bodies))
+    fast_bodies_.emplace(*model_, map_, settings.dt_s);
+  rules_.start();
 }
 
 std::vector<PackedWorld> SorSpaceStepper::packed_own_first() const {
@@ -129,14 +127,14 @@ void SorSpaceStepper::own(std::span<const int> spaces, const model::State& state
   is_own_.assign(static_cast<std::size_t>(map_.num_spaces()), 0);
   for (const int space : spaces) is_own_[space] = 1;
   own_bodies_.clear();
-  for (int body = 0; body < model_->num_bodies(); ++body) {
-    if (is_own(body)) own_bodies_.push_back(body);
-  }
+  other_bodies_.clear();
+  for (int body = 0; body < model_->num_bodies(); ++body)
+    (is_own(body) ? own_bodies_ : other_bodies_).push_back(body);
+  launched_step_.reset();
   if (fast_bodies_) fast_bodies_->own(own_mask());
   pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
   packed_.start(state, *pack_);
-  if (breakage_) breakage_->start(packed_.state());
-  if (sleepers_) sleepers_->start();
+  rules_.start();
   shown_revision_ = -1;
   active_.clear();
   pack_->set_active(0, active_.bodies());
@@ -145,7 +143,7 @@ void SorSpaceStepper::own(std::span<const int> spaces, const model::State& state
 }
 
 void SorSpaceStepper::put_poses(std::span<const int> bodies, std::span<const double> rows) {
-  // Of bodies that are fast, root is given the states too.
+  // Root is given the states of fast bodies too.
   packed_.put_poses(bodies, rows, fast_bodies_ ? PackedState::Velocity::zero : PackedState::Velocity::kept);
 }
 
@@ -153,13 +151,14 @@ std::vector<int> SorSpaceStepper::fast_bodies() {
   return fast_bodies_ ? fast_bodies_->find_own(state()) : std::vector<int>();
 }
 
-/// What sleeps has other velocities than the pack knows.
+/// Bodies that sleep have other velocities than the pack knows.
 void SorSpaceStepper::show_sleepers() {
-  if (!sleepers_ || shown_revision_ == sleepers_->revision()) return;
-  shown_revision_ = sleepers_->revision();
-  pack_->set_awake(0, sleepers_->awake());
+  const effects::SpaceSleepers* sleepers = rules_.sleepers();
+  if (sleepers == nullptr || shown_revision_ == sleepers->revision()) return;
+  shown_revision_ = sleepers->revision();
+  pack_->set_awake(0, sleepers->awake());
   for (int body = 0; body < model_->num_bodies(); ++body) {
-    if (sleepers_->asleep(body)) packed_.touch(body);
+    if (sleepers->asleep(body)) packed_.touch(body);
   }
 }
 
@@ -167,22 +166,21 @@ void SorSpaceStepper::show_broken() {
   const std::vector<std::int32_t>& broken_in = state().broken_in;
   pack_->set_broken(0, broken_in);
   if (fast_bodies_) fast_bodies_->set_broken(broken_in);
-  if (field_) field_->set_broken(*model_, broken_in);
 }
 
-void SorSpaceStepper::strain(std::int64_t step) {
+void SorSpaceStepper::break_overloaded_joints(std::int64_t step) {
   std::vector<int> joints;
-  for (const int joint : breakage_->joints()) {
+  for (const int joint : rules_.breakable_joints()) {
     const int unit = map_.unit_of_body[model_->joints[joint].body_a];
     if (active_.contains(unit)) joints.push_back(joint);
   }
   const auto reaction = [&](int joint) { return focused_.reaction(*pack_, 0, joint); };
-  if (breakage_->strain(step, joints, reaction, packed_.state())) show_broken();
+  if (rules_.break_overloaded_joints(step, joints, reaction)) show_broken();
 }
 
 std::vector<std::int32_t> SorSpaceStepper::broken_rows(std::span<const int> units) const {
   std::vector<std::int32_t> rows;
-  if (!breakage_) return rows;
+  if (!rules_.joints_can_break()) return rows;
   for (const int unit : units) {
     for (const int joint : articulations_[unit].joints) rows.push_back(state().broken_in[joint]);
   }
@@ -199,26 +197,41 @@ void SorSpaceStepper::put_broken(std::span<const int> units, std::span<const std
       broken_in[joint] = *row++;
     }
   }
-  if (changed) show_broken();
+  if (!changed) return;
+  rules_.take_in_broken();
+  show_broken();
+}
+
+void SorSpaceStepper::change_velocities(bool own) {
+  if (!rules_.changes_velocities()) return;
+  std::vector<int> bodies = own ? own_bodies_ : other_bodies_;
+  std::erase_if(bodies, [&](int body) { return !is_awake(body); });
+  rules_.change_velocities(bodies, packed_.state());
+  for (const int body : bodies) packed_.launch(velocity_event(body, state()), *pack_);
 }
 
 void SorSpaceStepper::fire_events(std::int64_t step) {
   bodies_inside_ = 0;  // while all sleep there is no solve()
   show_sleepers();
-  if (sleepers_) sleepers_->wake_called(step);
+  if (rules_.sleepers() != nullptr) rules_.sleepers()->wake_called(step);
   for (const Event& event : events_of(*model_, step)) {
     apply_setting(event, 0, *pack_);
     if (event.kind == EventKind::launch && is_own(event.body)) packed_.launch(event, *pack_);
   }
+  change_velocities(true);
 }
 
+/// Once a step: a second launch would undo what the rules make of the first's velocity.
 void SorSpaceStepper::launch_others(std::int64_t step, std::span<geometry::Box> boxes) {
+  if (launched_step_ == step) return;
+  launched_step_ = step;
   for (const Event& event : events_of(*model_, step)) {
     if (event.kind != EventKind::launch || is_own(event.body)) continue;
     packed_.launch(event, *pack_);
     boxes[map_.space_of_body(event.body)].include(
         bodies_.ball_box(event.body, packed_.poses()[static_cast<std::size_t>(event.body)]));
   }
+  change_velocities(false);
 }
 
 void SorSpaceStepper::collide(std::vector<Contact>& contacts) {
@@ -248,7 +261,7 @@ geometry::Box SorSpaceStepper::space_box(int space) const {
 void SorSpaceStepper::collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
                                      std::vector<Contact>& contacts) {
   contacts.clear();
-  if (sleepers_ && sleepers_->all_asleep()) return;
+  if (rules_.all_asleep()) return;
   cross_.find_pairs(owner, boxes, packed_.poses(), pairs_);
   std::erase_if(pairs_, [&](const model::GeomPair& pair) {
     return !is_awake(model_->geoms[pair.first].body) && !is_awake(model_->geoms[pair.second].body);
@@ -258,15 +271,17 @@ void SorSpaceStepper::collide_across(std::span<const int> owner, std::span<const
 }
 
 void SorSpaceStepper::activate(std::span<const int> units) {
-  if (!active_.set(units, sleepers(), sleepers_ && breakage_)) return;
+  const bool may_sleep_in_part = rules_.sleepers() != nullptr && rules_.joints_can_break();
+  if (!active_.set(units, rules_.sleepers(), may_sleep_in_part)) return;
   pack_->set_active(0, active_.bodies());
   packed_.activate(active_.bodies());
 }
 
 void SorSpaceStepper::focus(std::span<const Contact> contacts) {
-  if (field_) field_->sort(active_.bodies(), state().position, contacts);
-  bodies_inside_ = field_ ? static_cast<int>(field_->inside().size()) : 0;
-  const FocusedWorld world = {model_.get(), field(), contacts};
+  if (rules_.field() != nullptr)
+    rules_.sort_by_interest(active_.bodies(), effects::touching_bodies(contacts));
+  bodies_inside_ = rules_.num_inside();
+  const FocusedWorld world = {model_.get(), rules_.field(), contacts};
   focused_.begin(std::span(&world, 1), settings_.iterations);
 }
 
@@ -276,7 +291,7 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   show_sleepers();
   activate(units);
   focus(contacts);
-  if (sleepers_ && active_.bodies().empty()) return;
+  if (rules_.sleepers() != nullptr && active_.bodies().empty()) return;
   packed_.load(active_.bodies(), *pack_);
   timer.lap(core::Phase::rows);
   StepParameters parameters = step_parameters(settings_, step);
@@ -285,9 +300,9 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   pack_->step(focused_.contacts(), parameters, times);
   core::LapTimer after(times);
   last_step_ = step;
-  if (breakage_) strain(step);
-  packed_.store(active_.bodies(), *pack_,
-                sleepers_.has_value());  // a pack with sleepers puts back the others
+  break_overloaded_joints(step);
+  // A pack with sleepers puts back the others.
+  packed_.store(active_.bodies(), *pack_, rules_.sleepers() != nullptr);
   if (focused_.is_cut()) pack_->set_active(0, active_.bodies());
   after.lap(core::Phase::integrate);
 }
@@ -298,8 +313,8 @@ stepping::Observables SorSpaceStepper::count(std::span<const int> units,
     if (!state().acted_in(last_step_, static_cast<std::size_t>(joint))) return std::nullopt;
     return focused_.joint_rows(*pack_, 0, joint);
   };
-  stepping::Observables counts = count_islands(*model_, map_, articulations_, units, contacts, joint_rows,
-                                               sleepers_ ? &*sleepers_ : nullptr);
+  stepping::Observables counts =
+      count_islands(*model_, map_, articulations_, units, contacts, joint_rows, rules_.sleepers());
   counts.bodies_inside = bodies_inside_;
   return counts;
 }

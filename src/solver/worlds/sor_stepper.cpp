@@ -103,7 +103,7 @@ class SorStepper final : public stepping::AnytimeStepper {
   static void look(Group& group, core::PhaseTimes& times);
   /// Up to the iterations of the last substep; `look_after`: they will be looked at after so many.
   void begin(Group& group, std::optional<int> look_after, core::PhaseTimes& times);
-  void collide(Group& group) const;
+  static void collide(Group& group);
   void focus(Group& group) const;
   static void finish(Group& group, core::PhaseTimes& times);
   void observe(Group& group, core::PhaseTimes& times) const;
@@ -197,14 +197,11 @@ void SorStepper::look(Group& group, core::PhaseTimes& times) {
 void SorStepper::begin(Group& group, std::optional<int> look_after, core::PhaseTimes& times) {
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i)
-    group.worlds[i]->fire_events(*group.pack, static_cast<int>(i));
+    group.worlds[i]->begin_step(*group.pack, static_cast<int>(i));
   group.sleeps = std::none_of(group.worlds.begin(), group.worlds.end(),
                               [](const SorWorld* world) { return world->moves(); });
   if (group.sleeps) {
-    for (std::size_t i = 0; i < group.worlds.size(); ++i) {
-      group.contacts[i].clear();
-      group.worlds[i]->focus(*group.pack, static_cast<int>(i), {});
-    }
+    for (std::vector<model::Contact>& contacts : group.contacts) contacts.clear();
     return;
   }
   collide(group);
@@ -223,23 +220,20 @@ void SorStepper::focus(Group& group) const {
   group.focused_worlds.clear();
   for (std::size_t i = 0; i < group.worlds.size(); ++i) {
     SorWorld& world = *group.worlds[i];
-    world.focus(*group.pack, static_cast<int>(i), group.contacts[i]);
+    world.before_solve(*group.pack, static_cast<int>(i), group.contacts[i]);
     group.focused_worlds.push_back({&world.model(), world.field(), group.contacts[i]});
   }
   group.focused.begin(group.focused_worlds, settings_.iterations);
 }
 
-/// Again while contacts wake what slept in any world of the group, since its own contacts are then to be
-/// found, too.
-void SorStepper::collide(Group& group) const {
+/// All worlds of the group collide again while bodies wake in any of them.
+void SorStepper::collide(Group& group) {
   bool woke = true;
   while (woke) {
     woke = false;
     group.pack->collide(group.contacts);
-    for (std::size_t i = 0; i < group.worlds.size(); ++i) {
-      group.worlds[i]->look_ahead(*group.pack, static_cast<int>(i), settings_.dt_s, group.contacts[i]);
-      woke |= group.worlds[i]->wake_touched(*group.pack, static_cast<int>(i), group.contacts[i]);
-    }
+    for (std::size_t i = 0; i < group.worlds.size(); ++i)
+      woke |= group.worlds[i]->after_collision(*group.pack, static_cast<int>(i), group.contacts[i]);
   }
 }
 
@@ -247,11 +241,11 @@ void SorStepper::finish(Group& group, core::PhaseTimes& times) {
   if (!group.sleeps) group.pack->finish_step(times);
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i) {
-    if (!group.sleeps) group.worlds[i]->strain(*group.pack, static_cast<int>(i), group.focused);
-    group.worlds[i]->finish_step();
-    if (group.sleeps) continue;
-    if (group.focused.is_cut()) group.worlds[i]->activate(*group.pack, static_cast<int>(i));
-    group.worlds[i]->settle(*group.pack, static_cast<int>(i), group.contacts[i]);
+    if (group.sleeps) {
+      group.worlds[i]->sleep_on();
+    } else {
+      group.worlds[i]->after_solve(*group.pack, static_cast<int>(i), group.contacts[i], group.focused);
+    }
   }
   timer.lap(Phase::islands);
 }

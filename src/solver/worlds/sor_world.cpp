@@ -2,15 +2,57 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
-#include "effects/effects.h"
 #include "model/islands.h"
 #include "solver/pack/step_settings.h"
 #include "stepping/observable_table.h"
 
 namespace pbmpi::solver {
+
+/// The world where it lies in a pack, in the step at hand.
+class SorWorld::InPack final : public effects::RuledWorld {
+ public:
+  InPack(SorWorld& world, Pack& pack, int index, std::vector<model::Contact>* contacts,
+         const FocusedStep* solved)
+      : world_(world), pack_(pack), index_(index), contacts_(contacts), solved_(solved) {}
+
+  void fire_events(std::int64_t step) override {
+    for (const model::Event& event : events_of(*world_.model_, step)) {
+      apply_setting(event, index_, pack_);
+      if (event.kind == model::EventKind::launch) pack_.launch(index_, event);
+    }
+  }
+  void store(std::span<const int> bodies, model::State& state) const override {
+    pack_.store(index_, bodies, state);
+  }
+  void set_velocities(std::span<const int> bodies, const model::State& state) override {
+    for (const int body : bodies) pack_.launch(index_, velocity_event(body, state));
+  }
+  void add_contacts_ahead(effects::FastBodies& fast, const model::State& before) override {
+    fast.add(
+        before, [](int, int) { return true; }, *contacts_);
+  }
+  std::span<const effects::BodyPair> touching() override {
+    touching_ = effects::touching_bodies(*contacts_);
+    return touching_;
+  }
+  effects::Reaction reaction(int joint) const override { return solved_->reaction(pack_, index_, joint); }
+  void show_awake() override { world_.show_awake(pack_, index_); }
+  void show_asleep(std::span<const int> bodies) override {
+    pack_.load(index_, bodies, world_.state_);
+    show_awake();
+  }
+  void show_broken() override { pack_.set_broken(index_, world_.state_.broken_in); }
+
+ private:
+  SorWorld& world_;
+  Pack& pack_;
+  int index_;
+  std::vector<model::Contact>* contacts_;  ///< null before collision detection
+  const FocusedStep* solved_;              ///< null before the solve
+  std::vector<effects::BodyPair> touching_;
+};
 
 SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state,
                    std::int64_t step, const stepping::StepperSettings& settings,
@@ -18,37 +60,28 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
     : id_(id),
       model_(std::move(model)),
       passes_(passes_of(*model_)),
+      state_(state),
+      rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::whole, state_),
       narrow_phase_(make_narrow_phase(*model_)) {
-  const effects::StepPlan plan(*model_);
-  all_bodies_.resize(model_->bodies.size());
-  std::iota(all_bodies_.begin(), all_bodies_.end(), 0);
-  if (plan.has(effects::EffectId::fast_bodies)) fast_bodies_.emplace(*model_);
-  if (plan.has(effects::EffectId::field_of_interest)) field_.emplace(*model_, settings.iterations);
-  if (fast_bodies_ || field_) before_step_ = state;
-  if (plan.has(effects::EffectId::sleeping)) sleepers_.emplace(*model_, settings.dt_s);
-  if (plan.has(effects::EffectId::breakable_joints)) breakage_.emplace(*model_);
   set_state(state, step);
 }
 
 void SorWorld::set_state(const model::State& state, std::int64_t step) {
-  const bool other_joints_hold = state.broken_in != state_.broken_in;
   state_ = state;
   step_ = step;
-  if (sleepers_) sleepers_->start(state_);
-  if (breakage_) breakage_->start(state_);
-  if (other_joints_hold) let_go();
+  rules_.start();
   moved_ = true;
 }
 
 void SorWorld::show_awake(Pack& pack, int index) const {
-  pack.set_awake(index, awake());
+  pack.set_awake(index, rules_.awake());
   activate(pack, index);
 }
 
 void SorWorld::load(Pack& pack, int index) const {
   pack.load(index, state_);
   pack.set_broken(index, state_.broken_in);
-  if (sleepers_) show_awake(pack, index);
+  if (rules_.sleepers() != nullptr) show_awake(pack, index);
 }
 
 void SorWorld::enter(Pack& pack, int index) const {
@@ -63,68 +96,37 @@ bool SorWorld::mends(const model::State& state) const {
   return false;
 }
 
-void SorWorld::strain(Pack& pack, int index, const FocusedStep& step) {
-  if (!breakage_) return;
-  const auto reaction = [&](int joint) { return step.reaction(pack, index, joint); };
-  if (!breakage_->strain(step_, breakage_->joints(), reaction, state_)) return;
-  pack.set_broken(index, state_.broken_in);
-  let_go();
+void SorWorld::begin_step(Pack& pack, int index) {
+  InPack world(*this, pack, index, nullptr, nullptr);
+  rules_.begin_step(world, step_);
 }
 
-/// Other joints are broken than before.
-void SorWorld::let_go() {
-  if (fast_bodies_) fast_bodies_->set_broken(state_.broken_in);
-  if (field_) field_->set_broken(*model_, state_.broken_in);
+bool SorWorld::after_collision(Pack& pack, int index, std::vector<model::Contact>& contacts) {
+  InPack world(*this, pack, index, &contacts, nullptr);
+  return rules_.after_collision(world);
 }
 
-void SorWorld::fire_events(Pack& pack, int index) {
-  if (sleepers_ && sleepers_->wake(sleepers_->islands_called(step_, state_), state_)) show_awake(pack, index);
-  for (const model::Event& event : events_of(*model_, step_)) {
-    apply_setting(event, index, pack);
-    if (event.kind == model::EventKind::launch) pack.launch(index, event);
-  }
+void SorWorld::before_solve(Pack& pack, int index, std::vector<model::Contact>& contacts) {
+  InPack world(*this, pack, index, &contacts, nullptr);
+  rules_.before_solve(world);
 }
 
-void SorWorld::look_ahead(const Pack& pack, int index, double dt_s, std::vector<model::Contact>& contacts) {
-  if (!fast_bodies_) return;
-  pack.store(index, before_step_);
-  if (fast_bodies_->look(before_step_, dt_s))
-    fast_bodies_->add(
-        before_step_, [](int, int) { return true; }, contacts);
+void SorWorld::after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts,
+                           const FocusedStep& step) {
+  moved_ = moved_ || moves();
+  if (step.is_cut()) activate(pack, index);
+  InPack world(*this, pack, index, &contacts, &step);
+  rules_.after_solve(world, step_);
+  ++step_;
 }
 
-void SorWorld::focus(const Pack& pack, int index, std::span<const model::Contact> contacts) {
-  if (!field_) return;
-  if (!fast_bodies_ && moves()) pack.store(index, before_step_);  // look_ahead() has it already
-  field_->look(before_step_.position);
-  field_->sort(awake(), before_step_.position, contacts);
-}
-
-bool SorWorld::wake_touched(Pack& pack, int index, std::span<const model::Contact> contacts) {
-  if (!sleepers_ || num_awake() == model_->num_bodies()) return false;
-  if (!sleepers_->wake(effects::Sleepers::islands_touched(effects::touching_bodies(contacts), state_),
-                       state_))
-    return false;
-  show_awake(pack, index);
-  return true;
-}
-
-void SorWorld::settle(Pack& pack, int index, std::span<const model::Contact> contacts) {
-  if (!sleepers_) return;
-  pack.store(index, sleepers_->awake(), state_);
-  sleepers_->count(sleepers_->awake(), state_);
-  const std::vector<effects::Resting> resting =
-      sleepers_->find_resting(sleepers_->awake(), effects::touching_bodies(contacts), state_);
-  if (resting.empty()) return;
-  sleepers_->put_to_sleep(resting, state_);
-  std::vector<int> bodies;
-  for (const effects::Resting& one : resting) bodies.push_back(one.body);
-  pack.load(index, bodies, state_);
-  show_awake(pack, index);
+void SorWorld::sleep_on() {
+  rules_.sleep_on();
+  ++step_;
 }
 
 void SorWorld::keep_sleepers(model::State& state) const {
-  for (int body = 0; sleepers_ && body < model_->num_bodies(); ++body) {
+  for (int body = 0; rules_.sleepers() != nullptr && body < model_->num_bodies(); ++body) {
     if (state_.rest[body].asleep()) model::copy_body(body, state_, state);
   }
 }
@@ -136,10 +138,10 @@ void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     if (!state_.acted_in(step_ - 1, j)) continue;
     links.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
-    const bool asleep = sleepers_ && state_.rest[model_->joints[j].body_a].asleep();
+    const bool asleep = rules_.sleepers() != nullptr && state_.rest[model_->joints[j].body_a].asleep();
     rows.push_back(asleep ? 0 : step.joint_rows(pack, index, static_cast<int>(j)));
   }
-  for (int body = 0; sleepers_ && body < model_->num_bodies(); ++body) {
+  for (int body = 0; rules_.sleepers() != nullptr && body < model_->num_bodies(); ++body) {
     if (!state_.rest[body].asleep()) continue;
     links.emplace_back(body, state_.rest[body].island());
     rows.push_back(0);
@@ -166,7 +168,7 @@ void SorWorld::observe(const Pack& pack, int index, const FocusedStep& step,
   pack.store(index, state_);
   count_rows(pack, index, step, contacts);
   observables_.contacts = static_cast<int>(contacts.size());
-  observables_.bodies_inside = field_ ? static_cast<int>(field_->inside().size()) : 0;
+  observables_.bodies_inside = rules_.num_inside();
   observables_.max_penetration_m = 0;
   for (const model::Contact& contact : contacts) {
     observables_.max_penetration_m = std::max(observables_.max_penetration_m, contact.depth);

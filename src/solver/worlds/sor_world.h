@@ -1,16 +1,12 @@
-/// One world of the sor stepper, apart from its lanes: events and what is measured.
+/// One world of the sor stepper, apart from its lanes: its rules and what is measured.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "effects/breakage.h"
-#include "effects/fast_bodies.h"
-#include "effects/field_of_interest.h"
-#include "effects/sleepers.h"
+#include "effects/step_rules.h"
 #include "model/contact.h"
 #include "model/state.h"
 #include "solver/layout/passes.h"
@@ -21,6 +17,7 @@
 
 namespace pbmpi::solver {
 
+/// Most calls name the pack that holds the world, and its index there.
 class SorWorld {
  public:
   SorWorld(int id, std::shared_ptr<const model::Model> model, const model::State& state, std::int64_t step,
@@ -40,50 +37,44 @@ class SorWorld {
   bool mends(const model::State& state) const;
   /// Puts the state into the pack.
   void load(Pack& pack, int index) const;
-  /// The same, with the joint settings of this step, into a fresh pack.
+  /// Puts the state, with the joint settings of this step, into a fresh pack.
   void enter(Pack& pack, int index) const;
-  /// The events of this step.
-  void fire_events(Pack& pack, int index);
-  /// Adds the contacts of fast bodies to those of this step; nothing without the pass.
-  void look_ahead(const Pack& pack, int index, double dt_s, std::vector<model::Contact>& contacts);
-  /// Finds out which islands matter; nothing without the pass "field_of_interest".
-  void focus(const Pack& pack, int index, std::span<const model::Contact> contacts);
-  /// Null without that pass.
-  const effects::FieldOfInterest* field() const { return field_ ? &*field_ : nullptr; }
+
+  // A step, as effects::StepRules has it.
+  void begin_step(Pack& pack, int index);
+  /// With the contacts of this step, to which those ahead of fast bodies are added; true if bodies woke,
+  /// whose own contacts are still to be found.
+  [[nodiscard]] bool after_collision(Pack& pack, int index, std::vector<model::Contact>& contacts);
+  void before_solve(Pack& pack, int index, std::vector<model::Contact>& contacts);
+  void after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts, const FocusedStep& step);
+  /// Instead of all but begin_step(), if no world of the pack moves.
+  void sleep_on();
+
+  /// Null without the pass "field_of_interest".
+  const effects::FieldOfInterest* field() const { return rules_.field(); }
   /// Lets the steps to come move all that is awake.
-  void activate(Pack& pack, int index) const { pack.set_active(index, awake()); }
+  void activate(Pack& pack, int index) const { pack.set_active(index, rules_.awake()); }
   /// False if all bodies sleep: a step changes nothing.
-  bool moves() const { return !sleepers_ || !sleepers_->awake().empty(); }
-  /// Wakes what these contacts touch; true if it lay asleep, so that its own contacts are still to be found.
-  bool wake_touched(Pack& pack, int index, std::span<const model::Contact> contacts);
-  /// Before finish_step(): breaks what the step's load was too much for.
-  void strain(Pack& pack, int index, const FocusedStep& step);
-  /// After a step with these contacts: lets islands fall asleep.
-  void settle(Pack& pack, int index, std::span<const model::Contact> contacts);
-  /// Puts what sleeps into `state` as it is.
+  bool moves() const { return !rules_.all_asleep(); }
+  /// Copies the bodies that sleep into `state`.
   void keep_sleepers(model::State& state) const;
   /// For the pairs of shapes that the lanes do not collide.
   model::NarrowPhase& narrow_phase() const { return *narrow_phase_; }
-  void finish_step() {
-    moved_ = moved_ || moves();
-    ++step_;
-  }
   /// Reads the state back and measures it; rows and contacts are those of the last step.
   void observe(const Pack& pack, int index, const FocusedStep& step,
                std::span<const model::Contact> contacts);
 
-  /// Of the last step; the state must have come from it.
+  /// Measures the residuals of the last step, from which the state must have come.
   void observe_residuals(const Pack& pack, int index, const FocusedStep& step) {
     observables_.residuals = step.residuals(pack, index);
   }
   /// Bodies that the last step moved.
-  int num_awake() const { return static_cast<int>(awake().size()); }
+  int num_awake() const { return static_cast<int>(rules_.awake().size()); }
 
   double cost_s = 0;  ///< of the last advance()
 
  private:
-  void let_go();
-  std::span<const int> awake() const { return sleepers_ ? sleepers_->awake() : all_bodies_; }
+  class InPack;
   void show_awake(Pack& pack, int index) const;
   void count_rows(const Pack& pack, int index, const FocusedStep& step,
                   std::span<const model::Contact> contacts);
@@ -93,15 +84,10 @@ class SorWorld {
   Passes passes_;  ///< of this world alone
   model::State state_;
   std::int64_t step_;
-  std::vector<int> all_bodies_;
+  effects::StepRules rules_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
-  std::optional<effects::FastBodies> fast_bodies_;  ///< none without the pass
-  std::optional<effects::FieldOfInterest> field_;   ///< likewise
-  model::State before_step_;                        ///< with either: at the start of the step
   stepping::Observables observables_;
-  std::optional<effects::Sleepers> sleepers_;  ///< none without the effect "sleeping"
-  std::optional<effects::Breakage> breakage_;  ///< none without the effect "breakable_joints"
-  bool moved_ = true;                          ///< since the last observe()
+  bool moved_ = true;  ///< since the last observe()
 };
 
 }  // namespace pbmpi::solver

@@ -1,0 +1,123 @@
+/// The rules that act round the step of a world, and their order.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "effects/breakage.h"
+#include "effects/effects.h"
+#include "effects/fast_bodies.h"
+#include "effects/field_of_interest.h"
+#include "effects/space_sleepers.h"
+#include "model/state.h"
+
+namespace pbmpi::effects {
+
+/// What the rules ask of the engine that steps a whole world. Bodies and joints are those of the model.
+class RuledWorld {
+ public:
+  /// Launches bodies, and sets motors and limits.
+  virtual void fire_events(std::int64_t step) = 0;
+  /// Copies poses and velocities of these bodies, or of more, into `state`.
+  virtual void store(std::span<const int> bodies, model::State& state) const = 0;
+  /// The bodies have the velocities of `state` from now on.
+  virtual void set_velocities(std::span<const int> bodies, const model::State& state) = 0;
+  /// Adds the contacts that `fast` finds ahead of fast bodies in `before`, the state at the step's start.
+  virtual void add_contacts_ahead(FastBodies& fast, const model::State& before) = 0;
+  /// The contacts of the step at hand, those ahead included; valid until the next call.
+  virtual std::span<const BodyPair> touching() = 0;
+  /// What a joint exerted in the step that was just solved.
+  virtual Reaction reaction(int joint) const = 0;
+  /// Other bodies are awake than before (StepRules::awake()).
+  virtual void show_awake() = 0;
+  /// These bodies fell asleep; the world's state has their velocities, which are zero.
+  virtual void show_asleep(std::span<const int> bodies) = 0;
+  /// Other joints are broken than before (State::broken_in of the world's state).
+  virtual void show_broken() = 0;
+
+ protected:
+  ~RuledWorld() = default;
+};
+
+/// Holds the rules that a model's StepPlan calls for, and applies them at four points of a step: an engine
+/// that steps a whole world calls begin_step(), collides until after_collision() is false, calls
+/// before_solve(), solves, and calls after_solve(). A rule, or its place in the order, is a matter of this
+/// class alone.
+///
+/// The ranks that share a cut world have to agree between the rules, so that its engine applies the parts
+/// itself, at the same points: change_velocities(), sort_by_interest(), break_overloaded_joints(), and
+/// sleepers(), which the ranks move in common. Contacts ahead are looked for by each rank's SpaceFastBodies.
+class StepRules {
+ public:
+  enum class World { whole, cut };
+
+  /// All are borrowed; `state` is the world's, whose `rest` and `broken_in` the rules keep. `iterations`: of
+  /// the run; none for an engine that has no iterations, and so no field of interest.
+  StepRules(const model::Model& model, double dt_s, std::optional<int> iterations, World world,
+            model::State& state);
+  StepRules(const StepRules&) = delete;
+  StepRules& operator=(const StepRules&) = delete;
+
+  /// The state is another from now on; completes its `rest` and `broken_in`. True if other joints are broken
+  /// than before.
+  bool start();
+
+  void begin_step(RuledWorld& world, std::int64_t step);
+  /// True if bodies woke, whose own contacts are still to be found: collide again.
+  [[nodiscard]] bool after_collision(RuledWorld& world);
+  void before_solve(RuledWorld& world);
+  void after_solve(RuledWorld& world, std::int64_t step);
+  /// Ends a step in which all bodies slept after begin_step().
+  void sleep_on();
+
+  /// The parts for a cut world. `bodies` are awake; `state` has their velocities, and gets others.
+  bool changes_velocities() const { return !velocity_rules_.empty(); }
+  void change_velocities(std::span<const int> bodies, model::State& state) const;
+  void sort_by_interest(std::span<const int> bodies, std::span<const BodyPair> touching);
+  /// True if any of these joints, which took part in the step, broke.
+  bool break_overloaded_joints(std::int64_t step, std::span<const int> joints,
+                               const Breakage::GetReaction& reaction);
+  /// State::broken_in was changed from elsewhere.
+  void take_in_broken();
+
+  std::span<const int> awake() const { return sleepers_ ? sleepers_->awake() : all_bodies_; }
+  bool all_asleep() const { return sleepers_ && sleepers_->all_asleep(); }
+  std::span<const int> breakable_joints() const {
+    return breakage_ ? breakage_->joints() : std::span<const int>();
+  }
+  int num_inside() const { return field_ ? static_cast<int>(field_->inside().size()) : 0; }
+  bool joints_can_break() const { return breakage_.has_value(); }
+
+  /// Null without their effects.
+  SpaceSleepers* sleepers() { return sleepers_ ? &*sleepers_ : nullptr; }
+  const SpaceSleepers* sleepers() const { return sleepers_ ? &*sleepers_ : nullptr; }
+  FieldOfInterest* field() { return field_ ? &*field_ : nullptr; }
+  const FieldOfInterest* field() const { return field_ ? &*field_ : nullptr; }
+
+ private:
+  void wake_called(RuledWorld& world, std::int64_t step);
+  void change_velocities(RuledWorld& world);
+  void look_ahead(RuledWorld& world);
+  bool wake_touched(RuledWorld& world);
+  void sort_by_interest(RuledWorld& world);
+  void break_overloaded_joints(RuledWorld& world, std::int64_t step);
+  void fall_asleep(RuledWorld& world);
+
+  const model::Model* model_;
+  double dt_s_;
+  model::State* state_;
+  std::vector<int> all_bodies_;
+  std::vector<VelocityRule> velocity_rules_;
+  std::optional<FastBodies> fast_bodies_;  ///< none without the pass, or in a cut world
+  std::optional<FieldOfInterest> field_;   ///< none without the pass
+  std::optional<SpaceSleepers> sleepers_;  ///< likewise
+  std::optional<Breakage> breakage_;       ///< likewise
+  model::State before_;          ///< at the start of the step, events done, for rules that look at it
+  bool has_before_ = false;      ///< is it that of the step at hand?
+  std::vector<char> is_broken_;  ///< [joints] as the rules know; empty: none
+};
+
+}  // namespace pbmpi::effects
