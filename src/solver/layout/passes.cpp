@@ -1,12 +1,36 @@
 #include "solver/layout/passes.h"
 
 #include <algorithm>
+#include <array>
 
 #include "geometry/geometry.h"
 #include "solver/layout/packed_world.h"
 
 namespace pbmpi::solver {
 namespace {
+
+using effects::EffectId;
+
+/// A pass that follows from one effect alone.
+struct PassOfEffect {
+  bool Passes::*pass;
+  EffectId effect;
+  bool only_idle;  ///< there only if the effect is demanded and nothing calls for it
+};
+
+constexpr std::array<PassOfEffect, 11> passes_of_effects = {{
+    {&Passes::collision, EffectId::collision, false},
+    {&Passes::restitution, EffectId::restitution, false},
+    {&Passes::gyroscopic_torque, EffectId::gyroscopic_torque, false},
+    {&Passes::gravity, EffectId::gravity, false},
+    {&Passes::damping, EffectId::damping, false},
+    {&Passes::sleeping, EffectId::sleeping, false},
+    {&Passes::field_of_interest, EffectId::field_of_interest, false},
+    {&Passes::idle_friction, EffectId::friction, true},
+    {&Passes::idle_limits, EffectId::limits, true},
+    {&Passes::idle_motors, EffectId::motors, true},
+    {&Passes::idle_gyroscopic_torque, EffectId::gyroscopic_torque, true},
+}};
 
 bool all_bodies_are_balls(const model::Model& model) {
   return std::all_of(model.geoms.begin(), model.geoms.end(), [](const model::Geom& geom) {
@@ -18,33 +42,22 @@ bool all_bodies_are_balls(const model::Model& model) {
 
 Passes passes_of(const model::Model& model) {
   const effects::StepPlan plan(model);
-  const bool rubs = plan.has(effects::EffectId::friction) && !plan.is_idle(effects::EffectId::friction);
-  return {plan.has(effects::EffectId::collision),    rubs || !all_bodies_are_balls(model),
-          plan.has(effects::EffectId::restitution),  plan.has(effects::EffectId::gyroscopic_torque),
-          plan.has(effects::EffectId::gravity),      plan.has(effects::EffectId::damping),
-          plan.has(effects::EffectId::sleeping),     plan.has(effects::EffectId::field_of_interest),
-          plan.is_idle(effects::EffectId::friction), plan.is_idle(effects::EffectId::limits),
-          plan.is_idle(effects::EffectId::motors),   plan.is_idle(effects::EffectId::gyroscopic_torque)};
+  Passes passes;
+  for (const PassOfEffect& one : passes_of_effects)
+    passes.*one.pass = one.only_idle ? plan.is_idle(one.effect) : plan.has(one.effect);
+  const bool rubs = plan.has(EffectId::friction) && !plan.is_idle(EffectId::friction);
+  passes.turning_contacts = rubs || !all_bodies_are_balls(model);
+  return passes;
 }
 
 Passes shared_passes(std::span<const PackedWorld> worlds) {
-  Passes all;
+  Passes shared;
   for (const PackedWorld& world : worlds) {
     const Passes own = passes_of(*world.model);
-    all.collision |= own.collision;
-    all.turning_contacts |= own.turning_contacts;
-    all.restitution |= own.restitution;
-    all.gyroscopic_torque |= own.gyroscopic_torque;
-    all.gravity |= own.gravity;
-    all.damping |= own.damping;
-    all.sleeping |= own.sleeping;
-    all.field_of_interest |= own.field_of_interest;
-    all.idle_friction |= own.idle_friction;
-    all.idle_limits |= own.idle_limits;
-    all.idle_motors |= own.idle_motors;
-    all.idle_gyroscopic_torque |= own.idle_gyroscopic_torque;
+    for (const PassOfEffect& one : passes_of_effects) shared.*one.pass |= own.*one.pass;
+    shared.turning_contacts |= own.turning_contacts;
   }
-  return all;
+  return shared;
 }
 
 }  // namespace pbmpi::solver

@@ -13,8 +13,8 @@ struct PackedWorld;
 /// that the worlds of a pack share the passes of all.
 struct Passes {
   bool collision = false;
-  /// May a contact turn a body? Not where nothing rubs and every body is a ball: all normals go through the
-  /// centres.
+  /// May a contact turn a body? False where nothing rubs and every body is a ball, since all normals go
+  /// through the centres.
   bool turning_contacts = false;
   bool restitution = false;
   bool gyroscopic_torque = false;
@@ -22,9 +22,9 @@ struct Passes {
   bool damping = false;
   bool sleeping = false;
   bool field_of_interest = false;
-  /// Demanded though nothing calls for them: friction rows at mu = 0, rows at all joint axes that could have
-  /// a limit or a motor, gyroscopic torque of spheres and cubes. Where they are called for, they follow from
-  /// the contacts and joints one by one.
+  /// Effects that are demanded though nothing calls for them: friction rows at mu = 0, rows at all joint axes
+  /// that could have a limit or a motor, gyroscopic torque of spheres and cubes. Where an effect is called
+  /// for, its rows follow from the contacts and joints one by one.
   bool idle_friction = false;
   bool idle_limits = false;
   bool idle_motors = false;
@@ -35,7 +35,7 @@ struct Passes {
 };
 
 Passes passes_of(const model::Model& model);
-/// Those of all worlds of a pack together.
+/// The passes that any world of a pack has.
 Passes shared_passes(std::span<const PackedWorld> worlds);
 
 }  // namespace pbmpi::solver

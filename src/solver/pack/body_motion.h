@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "solver/layout/pack_laws.h"
 #include "solver/pack/world_lanes.h"
 
 namespace pbmpi::solver {
@@ -16,7 +17,8 @@ class BodyMotion {
   using Batch = typename JointBatches<T>::Batch;
 
   /// `worlds` is borrowed.
-  explicit BodyMotion(WorldLanes<T>& worlds) : worlds_(worlds) {}
+  BodyMotion(const PackLaws& laws, WorldLanes<T>& worlds)
+      : linear_damping_(laws.linear_damping), angular_damping_(laws.angular_damping), worlds_(worlds) {}
 
   void apply_gyroscopic_torques(const Batch& batch, Scalar dt, const GyroscopicSlot<V>*& next);
   void apply_gravity(const Batch& batch, Scalar h);
@@ -25,6 +27,7 @@ class BodyMotion {
   void damp(const Batch& batch, double h);
 
  private:
+  double linear_damping_, angular_damping_;  ///< [1/s]
   WorldLanes<T>& worlds_;
 };
 
@@ -69,9 +72,8 @@ void BodyMotion<T>::move_on(const Batch& batch, Scalar h) {
 /// exponential decay.
 template <class T>
 void BodyMotion<T>::damp(const Batch& batch, double h) {
-  const model::Model& laws = worlds_.model(0);  // the same in all worlds of a pack
-  const V linear = T::broadcast(static_cast<Scalar>(std::exp(-laws.linear_damping * h)));
-  const V angular = T::broadcast(static_cast<Scalar>(std::exp(-laws.angular_damping * h)));
+  const V linear = T::broadcast(static_cast<Scalar>(std::exp(-linear_damping_ * h)));
+  const V angular = T::broadcast(static_cast<Scalar>(std::exp(-angular_damping_ * h)));
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
     Twist<V>& twist = worlds_.bodies.twists[slot];
     twist = {twist.linear * linear, twist.angular * angular};

@@ -37,6 +37,7 @@
 #include "solver/layout/articulation.h"
 #include "solver/layout/awake_geoms.h"
 #include "solver/layout/lane_places.h"
+#include "solver/layout/pack_laws.h"
 #include "solver/layout/passes.h"
 #include "solver/layout/slot_list.h"
 #include "solver/pack/pack.h"

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "solver/layout/pack_laws.h"
 #include "solver/pack/collider_lanes.h"
 #include "solver/pack/step_lanes.h"
 
@@ -14,7 +15,9 @@ class PackLanes final : public Pack {
   using Contacts = std::span<const std::span<const model::Contact>>;
 
   explicit PackLanes(std::span<const PackedWorld> worlds)
-      : passes_(shared_passes(worlds)), worlds_(worlds, passes_), step_(passes_, worlds_) {
+      : passes_(shared_passes(worlds)),
+        worlds_(worlds, passes_),
+        step_(laws_of(*worlds.front().model), passes_, worlds_) {
     if (passes_.collision) collider_.emplace(worlds, worlds_, passes_.sleeping);
   }
 

@@ -4,6 +4,7 @@
 #include "core/clock.h"
 #include "core/random.h"
 #include "solver/contacts/contact_lists.h"
+#include "solver/layout/pack_laws.h"
 #include "solver/layout/passes.h"
 #include "solver/pack/body_motion.h"
 #include "solver/pack/contact_twists.h"
@@ -21,8 +22,12 @@ class StepLanes {
   using Contacts = std::span<const std::span<const model::Contact>>;
 
   /// `passes` and `worlds` are borrowed.
-  StepLanes(const Passes& passes, WorldLanes<T>& worlds)
-      : passes_(passes), worlds_(worlds), motion_(worlds), contacts_(frictionless_contacts(passes)) {}
+  StepLanes(const PackLaws& laws, const Passes& passes, WorldLanes<T>& worlds)
+      : laws_(laws),
+        passes_(passes),
+        worlds_(worlds),
+        motion_(laws, worlds),
+        contacts_(frictionless_contacts(passes)) {}
 
   void begin(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times);
   void iterate(int iterations, core::PhaseTimes& times);
@@ -52,6 +57,7 @@ class StepLanes {
   ContactParameters<Scalar> contact_parameters() const;
   stepping::Residuals measure_residuals(int world) const;
 
+  PackLaws laws_;
   const Passes& passes_;
   WorldLanes<T>& worlds_;
   BodyMotion<T> motion_;
@@ -79,15 +85,14 @@ void StepLanes<T>::sort_contacts(Contacts contacts) {
 template <class T>
 ContactParameters<typename T::Scalar> StepLanes<T>::contact_parameters() const {
   const auto scalar = [](double value) { return static_cast<Scalar>(value); };
-  const model::Model& laws = worlds_.model(0);  // the same in all worlds of a pack
   return {h_,
-          scalar(laws.contact_law.soft_erp) / scalar(parameters_.dt_s),
-          scalar(laws.contact_law.soft_cfm),
-          scalar(laws.cfm),
-          scalar(laws.contact_law.bounce_velocity),
+          scalar(laws_.contact_erp) / scalar(parameters_.dt_s),
+          scalar(laws_.contact_cfm),
+          scalar(laws_.cfm),
+          scalar(laws_.bounce_velocity),
           scalar(parameters_.sor_factor),
           passes_.restitution,
-          passes_.turning_contacts,
+          laws_.turning_contacts,
           scalar(parameters_.warm_start)};
 }
 
@@ -95,9 +100,8 @@ ContactParameters<typename T::Scalar> StepLanes<T>::contact_parameters() const {
 template <class T>
 void StepLanes<T>::start_step() {
   const auto scalar = [](double value) { return static_cast<Scalar>(value); };
-  const model::Model& laws = worlds_.model(0);
   contacts_.build(worlds_.bodies, contact_parameters());
-  const JointBuilder<T> builder(h_, scalar(laws.erp), scalar(laws.cfm), scalar(parameters_.sor_factor),
+  const JointBuilder<T> builder(h_, scalar(laws_.erp), scalar(laws_.cfm), scalar(parameters_.sor_factor),
                                 parameters_.substeps > 1);
   const GyroscopicSlot<V>* next_turning = worlds_.gyroscopic.data();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
@@ -115,10 +119,9 @@ void StepLanes<T>::start_step() {
 template <class T>
 void StepLanes<T>::start_substep() {
   const auto scalar = [](double value) { return static_cast<Scalar>(value); };
-  const model::Model& laws = worlds_.model(0);
   const bool carries = parameters_.warm_start > 0;
   contacts_.advance(worlds_.bodies, contact_parameters());
-  const JointAdvancer<T> advancer(h_, scalar(laws.erp), scalar(laws.cfm), scalar(parameters_.sor_factor),
+  const JointAdvancer<T> advancer(h_, scalar(laws_.erp), scalar(laws_.cfm), scalar(parameters_.sor_factor),
                                   scalar(parameters_.warm_start));
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     worlds_.joints.advance(batch, advancer, worlds_.bodies);
@@ -162,7 +165,7 @@ void StepLanes<T>::sweep() {
 template <class T>
 void StepLanes<T>::sweep_joints() {
   twists_.need_slots(worlds_.bodies);
-  const JointSolver<T> solver(static_cast<Scalar>(worlds_.model(0).cfm) / h_);
+  const JointSolver<T> solver(static_cast<Scalar>(laws_.cfm) / h_);
   if (parameters_.substeps > 1) {
     worlds_.joints.template sweep<true>(solver, worlds_.bodies);
   } else {
@@ -248,7 +251,7 @@ void StepLanes<T>::look(std::span<model::State> states) {
 
 template <class T>
 stepping::Residuals StepLanes<T>::measure_residuals(int world) const {
-  ResidualMeter<T> meter(h_, worlds_.model(0).cfm, contact_parameters());
+  ResidualMeter<T> meter(h_, laws_.cfm, contact_parameters());
   worlds_.visit_joint_rows(world,
                            [&](const auto& rows, int lane) { meter.add_joint(rows, worlds_.bodies, lane); });
   contacts_.visit_slots([&](const auto& slot, const auto* points, const Manifold* manifolds) {

@@ -25,18 +25,6 @@ constexpr int bytes_a_number(stepping::Precision precision) {
 }
 constexpr int bodies_times_bytes_a_pack = 7200;
 
-/// What the worlds of a pack must have in common.
-bool same_laws(const SorWorld& one, const SorWorld& other) {
-  const model::Model &a = one.model(), &b = other.model();
-  return one.passes().turning_contacts == other.passes().turning_contacts && a.erp == b.erp &&
-         a.cfm == b.cfm && a.contact_law.soft_erp == b.contact_law.soft_erp &&
-         a.contact_law.soft_cfm == b.contact_law.soft_cfm &&
-         a.contact_law.bounce_velocity == b.contact_law.bounce_velocity &&
-         a.linear_damping == b.linear_damping && a.angular_damping == b.angular_damping &&
-         a.interest.has_value() == b.interest.has_value() &&
-         (!a.interest || a.interest->outside_iterations == b.interest->outside_iterations);
-}
-
 /// Worlds that are stepped together.
 struct Group {
   std::vector<SorWorld*> worlds;
@@ -144,7 +132,8 @@ void SorStepper::make_groups() {
   for (const auto& [id, world] : worlds_) {
     const int packed = groups_.empty() ? 0 : static_cast<int>(groups_.back().worlds.size());
     const bool full = packed >= worlds_a_pack && static_cast<int>(groups_.size()) < num_packs;
-    if (groups_.empty() || full || !same_laws(*groups_.back().worlds.front(), *world)) groups_.emplace_back();
+    if (groups_.empty() || full || groups_.back().worlds.front()->laws() != world->laws())
+      groups_.emplace_back();
     groups_.back().worlds.push_back(world.get());
   }
   for (Group& group : groups_) {

@@ -59,7 +59,7 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
                    const model::MakeNarrowPhase& make_narrow_phase)
     : id_(id),
       model_(std::move(model)),
-      passes_(passes_of(*model_)),
+      laws_(laws_of(*model_)),
       state_(state),
       rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::whole, state_),
       narrow_phase_(make_narrow_phase(*model_)) {

@@ -9,7 +9,7 @@
 #include "effects/step_rules.h"
 #include "model/contact.h"
 #include "model/state.h"
-#include "solver/layout/passes.h"
+#include "solver/layout/pack_laws.h"
 #include "solver/pack/focused_step.h"
 #include "solver/pack/pack.h"
 #include "stepping/observables.h"
@@ -26,7 +26,7 @@ class SorWorld {
   int id() const { return id_; }
   std::int64_t step() const { return step_; }
   const model::Model& model() const { return *model_; }
-  const Passes& passes() const { return passes_; }
+  const PackLaws& laws() const { return laws_; }
   const model::State& state() const { return state_; }
   const stepping::Observables& observables() const { return observables_; }
 
@@ -81,7 +81,7 @@ class SorWorld {
 
   int id_;
   std::shared_ptr<const model::Model> model_;
-  Passes passes_;  ///< of this world alone
+  PackLaws laws_;
   model::State state_;
   std::int64_t step_;
   effects::StepRules rules_;
