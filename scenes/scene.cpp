@@ -109,6 +109,10 @@ class FileScene final : public Scene {
     empty_.cfm = scene.number("cfm", Sign::non_negative, empty_.cfm);
     empty_.linear_damping = scene.number("linear_damping", Sign::non_negative, empty_.linear_damping);
     empty_.angular_damping = scene.number("angular_damping", Sign::non_negative, empty_.angular_damping);
+    if (auto air = scene.table("air")) {
+      empty_.air_density = air->number("density", Sign::non_negative, empty_.air_density);
+      air->finish();
+    }
     if (auto contact = scene.table("contact")) {
       model::ContactLaw& law = empty_.contact_law;
       law.soft_erp = contact->number("soft_erp", Sign::non_negative, law.soft_erp);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "effects/drag.h"
 #include "effects/fast_bodies.h"
 
 namespace pbmpi::effects {
@@ -119,6 +120,13 @@ std::optional<Reason> steering(const model::Model& model) {
       model, [](const model::Event& e) { return e.kind == model::EventKind::steer; }, "steering events");
 }
 
+std::optional<Reason> drag(const model::Model& model) {
+  if (model.air_density == 0) return std::nullopt;
+  std::ostringstream what;
+  what << "bodies in air of " << model.air_density << " kg/m^3";
+  return counted(model.num_bodies(), what.str());
+}
+
 std::optional<Reason> launches(const model::Model& model) {
   return counted_events(
       model, [](const model::Event& e) { return e.kind == model::EventKind::launch; }, "launches");
@@ -175,6 +183,7 @@ void drop_suspension(model::Model& model) {
 void drop_strengths(model::Model& model) {
   for (model::Joint& joint : model.joints) joint.break_force = joint.break_torque = 0;
 }
+void drop_air(model::Model& model) { model.air_density = 0; }
 void drop_damping(model::Model& model) { model.linear_damping = model.angular_damping = 0; }
 void refuse_without_joints(model::Model& model) {
   core::require_input(model.joints.empty(),
@@ -190,6 +199,7 @@ const std::vector<Effect>& effect_registry() {
        drop_events<model::EventKind::launch>},
       {EffectId::steering, "steering", "joint axes are pinned to angles at given steps", Phase::integrate,
        steering, drop_events<model::EventKind::steer>},
+      {EffectId::drag, "drag", "the air slows bodies down", Phase::integrate, drag, drop_air, make_drag},
       {EffectId::collision, "collision", "geoms that touch get contacts", Phase::collide, collision, keep},
       {EffectId::cross_space, "cross_space", "contacts between collision spaces are told apart",
        Phase::collide, cross_space, drop_spaces},

@@ -26,6 +26,7 @@ struct Reason {
 enum class EffectId {
   events,
   steering,
+  drag,
   collision,
   cross_space,
   fast_bodies,

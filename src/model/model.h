@@ -176,6 +176,7 @@ struct Model {
   /// Shares of the velocities that are lost in a second, for small ones [1/s]: both die away as exp(-d t).
   double linear_damping = 0;
   double angular_damping = 0;
+  double air_density = 0;  ///< [kg/m^3] of the air that drags on bodies; 0 = none
   ContactLaw contact_law;
   SleepRule sleep;
   std::optional<Interest> interest;  ///< none: all of the world matters

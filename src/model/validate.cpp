@@ -133,6 +133,9 @@ void validate(const Model& model, const std::string& where) {
     require_input(std::isfinite(damping) && damping >= 0,
                   where + ": damping of " + std::to_string(damping) + " 1/s; it must be finite, 0 or above");
   }
+  require_input(std::isfinite(model.air_density) && model.air_density >= 0,
+                where + ": air of " + std::to_string(model.air_density) +
+                    " kg/m^3; its density must be finite, 0 or above");
   require_input(std::isfinite(model.sleep.speed) && model.sleep.speed >= 0 &&
                     std::isfinite(model.sleep.angular_speed) && model.sleep.angular_speed >= 0,
                 where + ": the speeds below which islands fall asleep must be at least 0");

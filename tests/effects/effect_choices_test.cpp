@@ -45,6 +45,7 @@ TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
     model.geoms.front().material.restitution = 0.5;
     model.bodies.front().velocity = {0, 0, -200};
     model.linear_damping = 0.1;
+    model.air_density = 1.2;
     model.interest.emplace();
     model.joints.front().break_force = 100;
     for (const model::EventKind kind :

@@ -37,6 +37,7 @@ const std::vector<Case>& cases() {
       {"mass 0", [](Model& m) { m.bodies[1].mass_kg = 0; }, "body 'car.wheel0': the mass"},
       {"mass NaN", [](Model& m) { m.bodies[1].mass_kg = NAN; }, "the mass"},
       {"mass infinite", [](Model& m) { m.bodies[1].mass_kg = infinity; }, "the mass"},
+      {"air below 0", [](Model& m) { m.air_density = -1; }, "air of -1"},
       {"damping below 0", [](Model& m) { m.linear_damping = -1; }, "damping of -1"},
       {"interest NaN",
        [](Model& m) {

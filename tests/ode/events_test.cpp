@@ -59,7 +59,7 @@ Model steered_wheel() {
   return model;
 }
 
-/// Of the wheel's axle about z, from y [rad].
+/// Angle of the wheel's axle about z, from y [rad].
 double steering_angle(const Simulation& simulation) {
   const Vec3 axle = simulation.direction(1, Vec3::UnitY());
   return std::atan2(-axle.x(), axle.y());

@@ -136,7 +136,7 @@ TEST(UnneededEffect, is_tried_in_one_of_the_nine_for_all_that_not_each_of_them_n
     tried.insert(names.begin(), names.end());
   }
   for (const char* name : {"cross_space", "fast_bodies", "field_of_interest", "breakable_joints", "sleeping",
-                           "events", "steering", "motors", "suspension", "restitution", "damping"})
+                           "events", "steering", "motors", "suspension", "restitution", "damping", "drag"})
     EXPECT_EQ(tried.count(name), 1u) << name;
 }
 
