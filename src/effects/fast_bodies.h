@@ -34,7 +34,7 @@ int count_fast_starts(const model::Model& model);
 /// only demanded changes no bit.
 class FastBodies {
  public:
-  /// False for a pair that is looked at elsewhere.
+  /// False for a pair that another caller looks at.
   using Filter = std::function<bool(int fast_geom, int other_geom)>;
 
   /// `model` is borrowed. `of_bodies` [num_bodies]: looks only at these, and at static geoms; empty: at all.
@@ -43,14 +43,14 @@ class FastBodies {
   /// Joints are broken from now on: State::broken_in.
   void set_broken(std::span<const std::int32_t> broken_in) { rule_ = model::TouchRule(*model_, broken_in); }
 
-  /// Finds the fast geoms at the start of a step of `dt_s`. Is there any?
+  /// Finds the fast geoms at the start of a step of `dt_s`; true if there are any.
   bool look(const model::State& state, double dt_s);
-  /// Those of the last look(), ascending: bodies with a fast geom.
+  /// Bodies that had a fast geom in the last look(), ascending.
   const std::vector<int>& bodies() const { return bodies_; }
   /// Adds to `contacts`, in canonical order (sorted by Contact::geoms), those of the fast geoms of the last
   /// look() with the geoms that `filter` lets through: at most one a pair, after those of its touch.
   void add(const model::State& state, const Filter& filter, std::vector<model::Contact>& contacts);
-  /// The same with the geoms of bodies of other groups only; `group_of_body` [num_bodies], from 0 on.
+  /// As add(), with the geoms of bodies of other groups only; `group_of_body` [num_bodies], from 0 on.
   void add_across(const model::State& state, std::span<const int> group_of_body,
                   std::vector<model::Contact>& contacts);
 

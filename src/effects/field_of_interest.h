@@ -19,22 +19,22 @@ namespace pbmpi::effects {
 /// alone. It is one of whole islands, so that no row couples bodies of both sorts.
 class FieldOfInterest {
  public:
-  /// `iterations`: of the run. Without an Interest all is inside.
+  /// `iterations`: of the run. A model without an Interest has all its islands inside.
   FieldOfInterest(const model::Model& model, int iterations);
 
   /// Joints are broken from now on, and connect no islands: State::broken_in. `model` is that of before.
   void set_broken(const model::Model& model, std::span<const std::int32_t> broken_in);
 
-  /// The body that it follows, whose position is to be told each step; or no_body.
+  /// The body that it follows, whose position set_center() needs each step; or no_body.
   int follows() const { return interest_.follows; }
   void set_center(const core::Vec3& center) { interest_.center = center; }
-  /// The same for one who knows where all bodies are.
+  /// Sets the center, given the positions of all bodies, to that of the body that it follows.
   void look(std::span<const core::Vec3> position) {
     if (follows() != model::no_body) set_center(position[static_cast<std::size_t>(follows())]);
   }
   int iterations() const { return iterations_; }
   int outside_iterations() const { return std::min(iterations_, interest_.outside_iterations); }
-  /// What solving an island outside costs of what it would cost inside, about.
+  /// About what an island costs outside, as a share of its cost inside.
   double outside_share() const;
   /// Is the centre of a body there inside?
   bool is_near(const core::Vec3& position) const {
@@ -46,7 +46,7 @@ class FieldOfInterest {
             std::span<const model::Contact> contacts);
   void sort(std::span<const int> bodies, std::span<const core::Vec3> position,
             std::span<const BodyPair> touching);
-  /// Of the last sort(): bodies in the order in which they were given.
+  /// Bodies of the last sort(), in the order in which they were given.
   std::span<const int> inside() const { return inside_; }
   std::span<const int> outside() const { return outside_; }
   /// Was the body sorted, and is its island inside?

@@ -37,14 +37,14 @@ class Sleepers {
   /// `model` is borrowed. Steps take `dt_s`.
   Sleepers(const model::Model& model, double dt_s);
 
-  /// The state is another from now on. One that has no `rest` gets it, with all bodies awake.
+  /// The state is another from now on; a missing `rest` is filled in, with all bodies awake.
   void start(model::State& state);
   std::span<const int> awake() const { return awake_; }  ///< bodies, ascending
 
   /// The islands that sleep and that the events of this step concern. They are named by their lowest body,
   /// each once, ascending.
   std::vector<int> islands_called(std::int64_t step, const model::State& state) const;
-  /// Those that sleep and that an awake body touches.
+  /// The islands that sleep and that an awake body touches.
   static std::vector<int> islands_touched(std::span<const BodyPair> touching, const model::State& state);
   /// Wakes islands; true if there were any.
   bool wake(std::span<const int> islands, model::State& state);

@@ -13,7 +13,7 @@
 
 namespace pbmpi::ode {
 
-/// ODE tells neither its rows nor its islands; this counts both from the joints and contacts. Between
+/// ODE shows neither its rows nor its islands; this counts both from the joints and contacts. Between
 /// Contacts::make() and the solver, since limits become active by the poses before the step.
 class RowCounter {
  public:

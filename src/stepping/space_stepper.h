@@ -63,7 +63,7 @@ class SpaceStepper {
     static_cast<void>(rows);
   }
 
-  /// Own bodies that are fast at the state of now (model/fast_bodies.h), ascending: collide_across() must
+  /// Own bodies that are fast at the state of now (effects/fast_bodies.h), ascending: collide_across() must
   /// have their whole states, and takes all others for slow. None without the pass.
   virtual std::vector<int> fast_bodies() = 0;
 

@@ -18,8 +18,8 @@ struct Touch {
   bool cross_space = false;  ///< two real bodies whose geoms lie in different collision spaces
 };
 
-/// Makes the contact joints of a step. Friction, restitution and the telling apart of
-/// spaces are there only if the plan has them.
+/// Makes the contact joints of a step. Friction, restitution and the counting of contacts across spaces are
+/// there only if the plan has them.
 class Contacts {
  public:
   /// `model` is borrowed.

@@ -11,13 +11,13 @@
 
 namespace pbmpi::solver {
 
-/// What a world of the pack brings to a step.
+/// A world of the pack as it enters a step.
 struct FocusedWorld {
   const model::Model* model = nullptr;
-  /// Which has sorted the bodies that are to move; null without the effect, and then for all worlds of a
+  /// Has sorted the bodies that are to move; null without the effect, and then for all worlds of a
   /// pack.
   const effects::FieldOfInterest* field = nullptr;
-  std::span<const model::Contact> contacts;  ///< of these, in canonical order
+  std::span<const model::Contact> contacts;  ///< between these bodies, in canonical order
 };
 
 /// Where bodies of both sorts are to move, the step is taken twice, each time with those of one sort
@@ -27,11 +27,11 @@ class FocusedStep {
  public:
   using Contacts = std::span<const std::span<const model::Contact>>;
 
-  /// Of a step at hand, in a run with so many iterations. What the spans show is looked at until it is taken.
+  /// Begins a step in a run with so many iterations. The spans must live until the step is taken.
   void begin(std::span<const FocusedWorld> worlds, int iterations);
   /// Are there bodies of both sorts?
   bool is_cut() const { return cut_; }
-  /// For what step_outside() leaves; for all, if it is not cut.
+  /// For the bodies that step_outside() leaves; for all, if it is not cut.
   int iterations() const { return iterations_; }
   Contacts contacts() const { return contacts_; }
 
@@ -39,10 +39,10 @@ class FocusedStep {
   /// as it would be after so many iterations.
   void step_outside(Pack& pack, const StepParameters& parameters, std::optional<int> look_after,
                     core::PhaseTimes& times);
-  /// Puts what was seen outside into looks at the rest.
+  /// Copies the bodies outside, as step_outside() saw them, into looks at the rest.
   void merge_looks(std::span<model::State> looks) const;
 
-  /// As Pack's, of the whole step; until the next begin().
+  /// As in Pack, but for the whole step; valid until the next begin().
   int joint_rows(const Pack& pack, int world, int joint) const;
   stepping::Residuals residuals(const Pack& pack, int world) const;
   effects::Reaction reaction(const Pack& pack, int world, int joint) const;

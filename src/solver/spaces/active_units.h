@@ -16,11 +16,11 @@ class ActiveUnits {
   explicit ActiveUnits(const model::SpaceMap& map) : map_(&map) {}
 
   void clear();
-  /// Those of `units` (ascending) of which a body is awake; all without sleepers. False if that changes
+  /// Takes those of `units` (ascending) of which a body is awake; all without sleepers. False if that changes
   /// nothing. `may_sleep_in_part`: not all bodies of a unit sleep together, since its joints break.
   bool set(std::span<const int> units, const effects::SpaceSleepers* sleepers, bool may_sleep_in_part);
   bool contains(int unit) const;
-  /// Of these units, unit by unit, those that are awake.
+  /// The awake bodies of these units, unit by unit.
   const std::vector<int>& bodies() const { return bodies_; }
 
  private:

@@ -15,7 +15,7 @@ namespace pbmpi::solver {
 /// geoms in another's box are sorted.
 class CrossBroadPhase {
  public:
-  /// Both are borrowed.
+  /// `model` and `bodies` are borrowed.
   CrossBroadPhase(const model::Model& model, const SpaceBodies& bodies);
 
   /// Pairs (first < second, by geom index) of bodies whose spaces have different owners and whose boxes
@@ -38,7 +38,7 @@ class CrossBroadPhase {
              std::span<const model::BodyPose> poses);
   /// Sorts the entries by owner and, of one owner, by where the axis meets them.
   void sort_along(std::size_t axis);
-  /// Those of `a` whose beginning lies in one of `b`, or at it if `ties`, against that one.
+  /// Pairs each of `a` whose beginning lies in one of `b`, or at it if `ties`, with that one.
   void sweep(std::span<const Entry> a, std::span<const Entry> b, std::size_t axis, bool ties,
              std::vector<model::GeomPair>& pairs) const;
 

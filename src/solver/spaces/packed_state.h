@@ -36,7 +36,7 @@ class PackedState {
 
   /// The pack collides at the poses of the state: what is newer here is loaded, though it is not to move.
   void lend(std::span<const int> bodies, Pack& pack);
-  /// These alone are active from now on: others' lanes may be moved along with their neighbours'.
+  /// Only `bodies` are active from now on: the lanes of others may be moved along with their neighbours'.
   void activate(std::span<const int> bodies);
   /// Before a step of the active bodies.
   void load(std::span<const int> bodies, Pack& pack);

@@ -14,12 +14,12 @@ namespace pbmpi::solver {
 /// Own bodies among each other and against static geoms; and, on root, all bodies across owners.
 class SpaceFastBodies {
  public:
-  /// Both are borrowed.
+  /// `model` and `map` are borrowed.
   SpaceFastBodies(const model::Model& model, const model::SpaceMap& map, double dt_s);
 
   /// From now on these bodies [num_bodies] are this rank's own.
   void own(std::span<const char> is_own) { own_.emplace(*model_, is_own); }
-  /// Of the joints, as State::broken_in; after own().
+  /// Other joints are broken from now on (State::broken_in); after own().
   void set_broken(std::span<const std::int32_t> broken_in) {
     own_->set_broken(broken_in);
     all_.set_broken(broken_in);
