@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "model/joint_traits.h"
 #include "model/joint_gap.h"
+#include "model/joint_traits.h"
 
 namespace pbmpi::analysis {
 

@@ -16,10 +16,10 @@ namespace pbmpi::mpi {
 
 /// Root's measurements of the last step of a frame, over all ranks.
 struct FrameFindings {
-  stepping::Observables seen;     ///< joined over all ranks; not what root measures of all bodies
-  std::vector<int> island;        ///< [num_units] lowest unit of its island
-  std::vector<double> weight;     ///< [num_units] rows of joints and contacts, and bodies
-  std::vector<char> near;  ///< [num_units] has its island a body inside the field? empty without a field
+  stepping::Observables seen;  ///< joined over all ranks; not what root measures of all bodies
+  std::vector<int> island;     ///< [num_units] lowest unit of its island
+  std::vector<double> weight;  ///< [num_units] rows of joints and contacts, and bodies
+  std::vector<char> near;      ///< [num_units] has its island a body inside the field? empty without a field
   std::vector<double> energy_j;         ///< [num_bodies]
   std::vector<core::PhaseTimes> times;  ///< [num_ranks] of this frame so far
   std::int64_t bodies_shipped = 0;      ///< in this frame, from any rank to another, step by step

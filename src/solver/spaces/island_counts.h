@@ -17,9 +17,9 @@ namespace pbmpi::solver {
 /// falls into several islands. `articulations`: of each unit. `joint_rows`: those of a joint in the last
 /// step, or nothing if it has broken. `sleepers` may be null; the islands that sleep count as such.
 stepping::Observables count_islands(const model::Model& model, const model::SpaceMap& map,
-                                     std::span<const Articulation> articulations, std::span<const int> units,
-                                     std::span<const model::Contact> contacts,
-                                     const std::function<std::optional<int>(int joint)>& joint_rows,
-                                     const effects::SpaceSleepers* sleepers);
+                                    std::span<const Articulation> articulations, std::span<const int> units,
+                                    std::span<const model::Contact> contacts,
+                                    const std::function<std::optional<int>(int joint)>& joint_rows,
+                                    const effects::SpaceSleepers* sleepers);
 
 }  // namespace pbmpi::solver
