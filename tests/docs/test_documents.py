@@ -87,7 +87,7 @@ class Documents(unittest.TestCase):
 
     def test_paths_that_pages_name_are_there(self):
         tops = "src|mpi|io|scenes|tests|jobs|docs"
-        for page in PAGES:
+        for page in [*PAGES, SOURCE / "CONTRIBUTING.md"]:
             for path in re.findall(rf"`((?:{tops})/[\w./-]+)`", page.read_text(encoding="utf-8")):
                 self.assertTrue((SOURCE / path).exists(), f"{page.relative_to(SOURCE)}: {path}")
 
