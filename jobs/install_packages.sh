@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what pbmpi needs on Debian 12: `jobs/install_packages.sh` to build and run it, with --tests also what the
-# tests need. Does nothing if all of it is there. Needs root, or sudo.
+# tests need, with --gates what tests/gates.sh needs. Does nothing if all of it is there. Needs root, or sudo.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config git ca-certificates
@@ -9,10 +9,14 @@ packages=(g++ cmake ninja-build pkg-config git ca-certificates
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3 python3-h5py python3-pandas python3-selenium
   chromium chromium-driver hdf5-tools slurm-wlm munge procps valgrind binutils doxygen)
 
+gate_packages=(clang clang-format clang-tidy libclang-rt-14-dev)
+
 if [[ ${1:-} == --tests ]]; then
   packages+=("${test_packages[@]}")
+elif [[ ${1:-} == --gates ]]; then
+  packages+=("${test_packages[@]}" "${gate_packages[@]}")
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [--tests]" >&2
+  echo "usage: $0 [--tests|--gates]" >&2
   exit 2
 fi
 

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 
-#if __has_include(<valgrind/callgrind.h>)
+#if PBMPI_HAS_CALLGRIND
 #include <valgrind/callgrind.h>
 #else  // without Valgrind's header the program cannot ask the tool for its count
 #define RUNNING_ON_VALGRIND 0

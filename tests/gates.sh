@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# The gates that a change passes beside the tests, packages included: `tests/gates.sh` runs all, `tests/gates.sh NAME...` some of
+#   format    clang-format leaves every source as it is
+#   avx       no AVX instruction outside the packs that are compiled for it (needs the build of tests/run.sh)
+#   clang     clang++ builds the programs without a warning, and without headers parsed ahead
+#   tidy      clang-tidy finds nothing in the sources of the programs
+#   sanitize  unit tests and the programs, built with the sanitizers of addresses and of undefined behaviour
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+format() {
+  git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+}
+
+avx() {
+  python3 tests/gates/avx_code.py build/release/bin/pbmpi build/release/bin/pbstudy
+}
+
+clang() {
+  jobs/build.sh clang -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF
+}
+
+tidy() {
+  cmake --preset clang -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF >/dev/null
+  git ls-files 'src/*.cpp' 'mpi/*.cpp' 'io/*.cpp' 'scenes/*.cpp' |
+    xargs -P "$(nproc)" -n 4 clang-tidy -p build/clang --quiet 2> >(grep -v -E '^[0-9]+ warnings? generated\.$' >&2)
+}
+
+# Unit tests (one program a folder, no ranks), then each program on a scene with every kind of joint and contact.
+sanitize() {
+  jobs/build.sh asan-ubsan -DPBMPI_BUILD_TESTS=ON -DPBMPI_BUILD_BENCHMARKS=OFF
+  . jobs/mpi_environment.sh
+  # Open MPI and libfabric keep what they have allocated until the process ends.
+  export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
+  ctest --preset asan-ubsan --parallel "$(nproc)" -LE 'slow|figures|callgrind' \
+    -R '^(core|model|geometry|effects|stepping|analysis|estimate|scenes|app|pbstudy|pbreport|io_html|io_table_file|io_rows|partition|rebalance|rebalancer|space_plan)_test'
+  local bin=$PWD/build/asan-ubsan/bin folder
+  folder=$(mktemp -d)
+  trap 'rm -rf "$folder"' RETURN
+  (
+    cd "$folder"
+    for stepper in quick sor; do
+      mpirun -n 2 --oversubscribe "$bin/pbmpi" --scene CrashSk --stepper "$stepper" --frames 2 --warmup 1 --output "$stepper.h5" --quiet
+    done
+    mpirun -n 2 --oversubscribe "$bin/pbmpi" --scene Fight --decompose spaces --precision single --substeps 2 --iterations 4 \
+      --frames 2 --warmup 1 --output spaces.h5 --quiet
+    "$bin/pbreport" sor.h5 --html sor.html --xdmf sor.xdmf --quiet
+    "$bin/pbreport" diff quick.h5 sor.h5 >/dev/null
+    mpirun -n 2 --oversubscribe "$bin/pbstudy" effects --scene CrashSk --frames 1 --output effects.h5 --quiet
+    "$bin/pbreport" effects.h5 >/dev/null
+  )
+}
+
+gates=("$@")
+[[ ${#gates[@]} -gt 0 ]] || gates=(format avx clang tidy sanitize)
+jobs/install_packages.sh --gates
+for gate in "${gates[@]}"; do
+  case $gate in
+    format | avx | clang | tidy | sanitize) ;;
+    *) echo "$0: there is no gate '$gate'; see its head" >&2; exit 2 ;;
+  esac
+  echo "gate $gate: begins at $(date +%T)"
+  "$gate"
+  echo "gate $gate: passed at $(date +%T)"
+done
