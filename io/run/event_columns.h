@@ -21,7 +21,7 @@ class EventColumns {
   /// Makes the datasets. Collective.
   EventColumns(hid_t file, const FileRanks& ranks);
 
-  /// The same event on every rank. Without room for its row it is counted all the same. Throws
+  /// Every rank is told of the same event. Without room for its row it is counted all the same. Throws
   /// std::logic_error for a kind that event_kind does not list.
   void add(const stepping::RunEvent& event);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/joint_traits.h"
+
 namespace pbmpi::model {
 namespace {
 
@@ -17,16 +19,10 @@ struct HeldPoint {
 };
 
 HeldPoint held_point(const Model& model, const Joint& joint) {
-  if (joint.kind != JointKind::slider && joint.kind != JointKind::fixed)
-    return {joint.anchor_a, joint.anchor_b};
+  if (traits_of(joint.kind).has_anchor()) return {joint.anchor_a, joint.anchor_b};
   const Pose a = start_of(model, joint.body_a), b = start_of(model, joint.body_b);
   if (joint.body_b == no_body) return {Vec3::Zero(), a.position};  // b's frame is the world's
   return {a.orientation.to_eigen().conjugate() * (b.position - a.position), Vec3::Zero()};
-}
-
-bool slides(const Joint& joint) {
-  return joint.kind == JointKind::slider ||
-         (joint.kind == JointKind::hinge2 && joint.suspension.stiffness > 0);
 }
 
 }  // namespace
@@ -34,7 +30,7 @@ bool slides(const Joint& joint) {
 Vec3 joint_gap_vector(const Model& model, const Joint& joint, const Pose& a, const Pose& b) {
   const HeldPoint held = held_point(model, joint);
   Vec3 gap = a.point_to_outer(held.in_a) - b.point_to_outer(held.in_b);
-  if (slides(joint)) {
+  if (moves_along_axis(joint)) {
     const Vec3 axis = a.direction_to_outer(joint.axis1_a);
     gap -= axis * axis.dot(gap);
   }
@@ -44,7 +40,7 @@ Vec3 joint_gap_vector(const Model& model, const Joint& joint, const Pose& a, con
 Vec3 joint_gap_vector_in_a(const Model& model, const Joint& joint, const Pose& a, const Pose& b) {
   const HeldPoint held = held_point(model, joint);
   Vec3 gap = held.in_a - a.orientation.to_eigen().conjugate() * (b.point_to_outer(held.in_b) - a.position);
-  if (slides(joint)) gap -= joint.axis1_a * joint.axis1_a.dot(gap);
+  if (moves_along_axis(joint)) gap -= joint.axis1_a * joint.axis1_a.dot(gap);
   return gap;
 }
 

@@ -12,7 +12,7 @@ namespace pbmpi::model {
 /// slider's axis, that of a suspension) are left out.
 Vec3 joint_gap_vector(const Model& model, const Joint& joint, const Pose& a, const Pose& b);
 
-/// The same vector in the frame of a, worked out there: far from the world's origin it loses fewer digits.
+/// joint_gap_vector() in the frame of a, worked out there: far from the world's origin it loses fewer digits.
 Vec3 joint_gap_vector_in_a(const Model& model, const Joint& joint, const Pose& a, const Pose& b);
 
 /// Length [m] of joint_gap_vector().

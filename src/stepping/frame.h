@@ -62,7 +62,7 @@ class FrameObserver {
   /// Before the run is saved after this frame: what an observer holds back of the frames so far must outlive
   /// a kill, because the run would go on behind them.
   virtual void secure() {}
-  /// The same event on every rank.
+  /// Every rank is told of the same event.
   virtual void event(const RunEvent& event) { static_cast<void>(event); }
 };
 

@@ -48,7 +48,7 @@ class SpaceStepper {
   /// Takes in rows of state() that were computed elsewhere: of each body position, orientation, velocity and
   /// angular velocity, 13 numbers.
   virtual void put_states(std::span<const int> bodies, std::span<const double> rows) = 0;
-  /// The same for position and orientation only, 7 numbers: enough to collide, not to solve. The velocity
+  /// put_states() for position and orientation only, 7 numbers: enough to collide, not to solve. The velocity
   /// becomes 0 where collide_across() would look at it.
   virtual void put_poses(std::span<const int> bodies, std::span<const double> rows) = 0;
 

@@ -1,3 +1,4 @@
+// Long because a file is written and read back once a case, and each case looks at another part of it.
 #include "io/run/run_file.h"
 
 #include <gtest/gtest.h>

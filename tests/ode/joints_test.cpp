@@ -1,3 +1,4 @@
+// Long because every kind of joint is held against its analytic motion, one after the other, with shared models.
 #include "ode/objects/joints.h"
 
 #include <cmath>

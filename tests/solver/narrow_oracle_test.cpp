@@ -1,4 +1,5 @@
 /// The kernels over lanes against ODE's dCollide, on a million random pairs in all.
+/// One file: each pair of shapes has its own degenerate cases, and all share the generator of pairs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

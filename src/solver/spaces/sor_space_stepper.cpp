@@ -1,3 +1,4 @@
+// Long because it is the whole of one interface (stepping::SpaceStepper); what it is made of lies beside it.
 #include "solver/spaces/sor_space_stepper.h"
 
 #include <algorithm>

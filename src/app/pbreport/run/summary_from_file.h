@@ -14,7 +14,7 @@ ObservedFrames observed_frames(const io::RunData& run);
 /// The measured frames' rows of the run's columns. Frames before the first measured one are warm-up.
 MeasuredFrames measured_frames(const io::RunData& run);
 
-/// The same numbers that pbmpi printed at the end of the run; of a run that was cut off, those of the frames
+/// The numbers that pbmpi printed at the end of the run; of a run that was cut off, those of the frames
 /// that its file holds. `path` names the file. Throws core::InputError if a setting is missing or no number.
 RunSummary summary_from_file(const io::RunData& run, const std::string& path);
 
