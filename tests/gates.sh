@@ -28,12 +28,14 @@ tidy() {
 
 # Unit tests (one program a folder, no ranks), then each program on a scene with every kind of joint and contact.
 sanitize() {
-  jobs/build.sh asan-ubsan -DPBMPI_BUILD_TESTS=ON -DPBMPI_BUILD_BENCHMARKS=OFF
+  local tests=(core model geometry effects stepping analysis estimate scenes app pbstudy pbreport io_html io_table_file
+    io_rows partition rebalance rebalancer space_plan)
+  cmake --preset asan-ubsan -DPBMPI_BUILD_TESTS=ON -DPBMPI_BUILD_BENCHMARKS=OFF
+  cmake --build --preset asan-ubsan --target pbmpi pbstudy pbreport "${tests[@]/%/_test}"
   . jobs/mpi_environment.sh
   # Open MPI and libfabric keep what they have allocated until the process ends.
   export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
-  ctest --preset asan-ubsan --parallel "$(nproc)" -LE 'slow|figures|callgrind' \
-    -R '^(core|model|geometry|effects|stepping|analysis|estimate|scenes|app|pbstudy|pbreport|io_html|io_table_file|io_rows|partition|rebalance|rebalancer|space_plan)_test'
+  ctest --preset asan-ubsan --parallel "$(nproc)" -R "^($(IFS='|'; echo "${tests[*]}"))_test[.]"
   local bin=$PWD/build/asan-ubsan/bin folder
   folder=$(mktemp -d)
   trap 'rm -rf "$folder"' RETURN

@@ -16,6 +16,7 @@ ColumnSpec spec_of(const stepping::ObservableColumn<Owner>& column) {
 template <class Columns>
 std::vector<ColumnSpec> specs_of(const Columns& columns) {
   std::vector<ColumnSpec> specs;
+  specs.reserve(columns.size());
   for (const auto& column : columns) specs.push_back(spec_of(column));
   return specs;
 }

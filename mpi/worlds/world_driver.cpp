@@ -21,7 +21,7 @@ std::string describe(const Rebalancing& plan) {
 }  // namespace
 
 WorldDriver::WorldDriver(const Communicator& comm, stepping::WorldStepper& stepper, BuildWorld build,
-                         WorldRunSettings settings, std::span<const model::State> states)
+                         const WorldRunSettings& settings, std::span<const model::State> states)
     : FrameDriver(comm, settings, settings.num_worlds),
       stepper_(&stepper),
       worlds_(this->comm(), stepper, std::move(build), initial_placement(settings, comm.size()),

@@ -28,7 +28,7 @@ class WorldDriver final : public FrameDriver {
   /// Throws core::InputError for settings that make no sense, and what BuildWorld or the stepper throws.
   /// `states`: on root, those after settings.first_frame frames, if that is above 0.
   WorldDriver(const Communicator& comm, stepping::WorldStepper& stepper, BuildWorld build,
-              WorldRunSettings settings, std::span<const model::State> states = {});
+              const WorldRunSettings& settings, std::span<const model::State> states = {});
 
   /// Estimates every frame first. Borrowed; it must outlive run(). On every rank or on none.
   void set_estimator(stepping::Estimator& estimator);

@@ -13,7 +13,6 @@ using core::Pose;
 using core::Quat;
 using core::Vec3;
 using model::Joint;
-using model::JointKind;
 using model::Model;
 
 namespace {

@@ -35,8 +35,10 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
 }
 
 std::span<const Event> events_of(const model::Model& model, std::int64_t step) {
-  const auto events = std::ranges::equal_range(model.events, step, {}, &Event::step);
-  return {events.begin(), events.end()};
+  // Not equal_range(), whose result clang 14 cannot compile with g++ 12's library.
+  const auto first = std::ranges::lower_bound(model.events, step, {}, &Event::step);
+  const auto end = std::ranges::upper_bound(model.events, step, {}, &Event::step);
+  return {first, end};
 }
 
 void apply_setting(const Event& event, int world, Pack& pack) {
