@@ -17,6 +17,7 @@ constexpr std::array<const char*, analysis::num_bands> band_colours = {"#009e73"
 
 std::vector<std::string> scene_names(const std::vector<FigureScene>& scenes) {
   std::vector<std::string> names;
+  names.reserve(scenes.size());
   for (const FigureScene& scene : scenes) names.push_back(scene.name);
   return names;
 }

@@ -18,6 +18,7 @@ Spread spread_of(const std::vector<double>& values) {
 /// Joins the hashes of the worlds as the state hash of a run does.
 std::uint64_t hash_of(const std::vector<State>& states) {
   std::vector<std::uint64_t> hashes;
+  hashes.reserve(states.size());
   for (const State& state : states) hashes.push_back(model::hash(state));
   return mpi::combine_world_hashes(hashes);
 }

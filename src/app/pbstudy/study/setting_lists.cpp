@@ -35,7 +35,7 @@ void add_setting_list(const VariedOption& varied, boost::program_options::option
 }
 
 SettingList setting_list(const VariedOption& varied, const boost::program_options::variables_map& values) {
-  const SettingList given = {
+  SettingList given = {
       &stepping::step_option(varied.name),
       list<std::string>(values, std::string(varied.name).c_str(), words(varied.fallback))};
   stepping::StepperSettings tried;

@@ -15,6 +15,7 @@ namespace pbmpi::app {
 template <class Value, class Rows, class Get>
 io::TableColumn column(const std::string& name, const std::string& unit, const Rows& rows, Get&& get) {
   std::vector<Value> values;
+  values.reserve(rows.size());
   for (const auto& row : rows) values.push_back(static_cast<Value>(get(row)));
   return {name, unit, std::move(values)};
 }
