@@ -1,4 +1,5 @@
-// Long because every kind of joint is held against its analytic motion, one after the other, with shared models.
+// Long because every kind of joint is held against its analytic motion, one after the other, with shared
+// models.
 #include "ode/objects/joints.h"
 
 #include <cmath>

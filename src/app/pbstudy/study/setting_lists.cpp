@@ -35,9 +35,8 @@ void add_setting_list(const VariedOption& varied, boost::program_options::option
 }
 
 SettingList setting_list(const VariedOption& varied, const boost::program_options::variables_map& values) {
-  SettingList given = {
-      &stepping::step_option(varied.name),
-      list<std::string>(values, std::string(varied.name).c_str(), words(varied.fallback))};
+  SettingList given = {&stepping::step_option(varied.name),
+                       list<std::string>(values, std::string(varied.name).c_str(), words(varied.fallback))};
   stepping::StepperSettings tried;
   for (const std::string& value : given.values) set_value(given, value, tried);
   return given;
