@@ -128,6 +128,7 @@ void StepRules::fall_asleep(RuledWorld& world) {
   if (resting.empty()) return;
   sleepers_->put_to_sleep(resting);
   std::vector<int> bodies;
+  bodies.reserve(resting.size());
   for (const Resting& one : resting) bodies.push_back(one.body);
   world.show_asleep(bodies);
 }
