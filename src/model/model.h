@@ -55,6 +55,12 @@ struct Material {
   double restitution = 0;  ///< 0 = inelastic, 1 = elastic
 };
 
+/// Replaces what the geoms of two actors would have as a pair.
+struct PairMaterial {
+  int actor_a = 0, actor_b = 0;  ///< indices into Model::actors, a <= b
+  Material material;
+};
+
 struct Geom {
   int body = no_body;  ///< no_body: static environment
   int actor = 0;       ///< index into Model::actors
@@ -122,6 +128,7 @@ enum class EventKind {
   launch,  ///< sets a body's velocity and angular velocity, and its pose if it has one
   motor,   ///< replaces the motor of a joint's axis
   steer,   ///< pins a joint's axis 1 to an angle (both limits)
+  release  ///< breaks a joint
 };
 
 /// Something that happens at the start of a step. A motor or steer event holds until the next of the same
@@ -130,7 +137,7 @@ struct Event {
   std::int64_t step = 0;
   EventKind kind = EventKind::launch;
   int body = no_body;                    ///< launch
-  int joint = -1;                        ///< motor, steer
+  int joint = -1;                        ///< motor, steer, release
   int axis = 0;                          ///< motor: 0 or 1
   Vec3 velocity = Vec3::Zero();          ///< launch [m/s]
   Vec3 angular_velocity = Vec3::Zero();  ///< launch [rad/s]
@@ -167,6 +174,7 @@ struct Model {
   std::vector<Body> bodies;
   std::vector<Geom> geoms;
   std::vector<Joint> joints;
+  std::vector<PairMaterial> pair_materials;  ///< sorted by (a, b), each pair once
   std::vector<std::string> spaces{"world"};  ///< names; Geom::space points here
   bool spaces_meet = true;    ///< false: the author states that bodies of two spaces never touch
   std::vector<Event> events;  ///< sorted by step, stable

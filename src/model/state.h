@@ -24,6 +24,14 @@ struct Rest {
 /// Stands for the step in which a joint broke where it has not.
 inline constexpr std::int32_t unbroken = -1;
 
+/// What the guards of a run remember of a world (stability/guards.h). It travels with the state, so that they
+/// see the same on any number of ranks.
+struct GuardMemory {
+  double energy_gain_j = 0;      ///< since the lowest energy, beyond what has a cause [J]
+  double largest_kinetic_j = 0;  ///< kinetic energy of any frame so far [J]
+  std::int32_t frozen_in = -1;   ///< the step from which on the world stands still; -1: it moves
+};
+
 /// One row a body, contiguous, world frame.
 struct State {
   std::vector<Vec3> position;          ///< [num_bodies][3] m, centres of mass
@@ -34,6 +42,7 @@ struct State {
   /// [num_joints] the step in which each broke, or unbroken; with the effect "breakable_joints", else none.
   /// What is broken stays so, also where the effect is left out.
   std::vector<std::int32_t> broken_in;
+  GuardMemory guard;
 
   int num_bodies() const { return static_cast<int>(position.size()); }
   void resize(int num_bodies);
