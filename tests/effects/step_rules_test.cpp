@@ -17,6 +17,7 @@ constexpr int steps_of_rest = 50;  // of the sleeping rule's half second
 /// An engine that notes what the rules ask of it. Its bodies stand still.
 class NotingWorld final : public RuledWorld {
  public:
+  explicit NotingWorld(model::Model&&) = delete;  // the model outlives its rules
   explicit NotingWorld(const model::Model& model)
       : state_(model::initial_state(model)), rules_(model, dt_s, 20, StepRules::World::whole, state_) {
     rules_.start();
@@ -68,7 +69,8 @@ class NotingWorld final : public RuledWorld {
 };
 
 TEST(StepRules, ask_for_nothing_but_events_where_no_effect_acts_round_the_step) {
-  NotingWorld world(support::chain(3));
+  const model::Model model = support::chain(3);
+  NotingWorld world(model);
   world.step(4);
   EXPECT_EQ(world.calls, Calls{"events of 4"});
 }
@@ -124,7 +126,8 @@ TEST(StepRules, have_a_world_collide_again_until_nothing_more_wakes) {
 }
 
 TEST(StepRules, tell_whether_a_new_state_has_other_joints_broken) {
-  NotingWorld world(support::chain(3));
+  const model::Model model = support::chain(3);
+  NotingWorld world(model);
   EXPECT_FALSE(world.rules().start());
   world.state().broken_in = {model::unbroken, 7, model::unbroken};
   EXPECT_TRUE(world.rules().start());
