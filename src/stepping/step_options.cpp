@@ -213,4 +213,16 @@ std::string stepper_text(const StepperSettings& settings) {
   return text;
 }
 
+std::string setting_text(const StepperSettings& settings) {
+  std::string text = stepper_text(settings);
+  if (traits_of(settings.kind).iterates)
+    text += ", " + std::to_string(settings.substeps) + " x " + std::to_string(settings.iterations);
+  for (const StepOption& option : options) {
+    if (option.in_short.empty() || !fits(option, settings.kind) || is_default(option, settings)) continue;
+    std::string words(option.in_short);
+    text += ", " + words.replace(words.find('*'), 1, text_of(option, settings));
+  }
+  return text;
+}
+
 }  // namespace pbmpi::stepping

@@ -68,4 +68,7 @@ void restore(const StepOption& option, const StepValue& value, StepperSettings& 
 /// The stepper's name, and its precision where it has a choice: "quick", "sor single".
 std::string stepper_text(const StepperSettings& settings);
 
+/// "sor single, 2 x 3, warm 0.5": the stepper, substeps x iterations, and what differs from the defaults.
+std::string setting_text(const StepperSettings& settings);
+
 }  // namespace pbmpi::stepping

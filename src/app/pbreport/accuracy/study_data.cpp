@@ -34,13 +34,6 @@ StudyCase read_case(const CaseRow& row) {
   return one;
 }
 
-/// The value in a setting's short text, where six digits are enough.
-std::string short_value(const stepping::StepOption& option, const stepping::StepperSettings& settings) {
-  const stepping::StepValue value = value_of(option, settings);
-  const auto* real = std::get_if<double>(&value);
-  return real != nullptr ? format("%g", *real) : text_of(option, settings);
-}
-
 void add_case(StudyCase one, SceneCases& scene) {
   if (one.kind == "setting")
     scene.settings.push_back(std::move(one));
@@ -79,16 +72,9 @@ double StudyCase::error_m(ErrorMeasure measure) const {
 }
 
 std::string setting_text(const StudyCase& one) {
-  const stepping::StepperSettings& settings = one.stepper;
-  std::string text = stepper_text(settings);
-  if (traits_of(settings.kind).iterates) text += format(", %d x %d", settings.substeps, settings.iterations);
-  for (const stepping::StepOption& option : stepping::step_options()) {
-    if (option.in_short.empty() || !fits(option, settings.kind) || is_default(option, settings)) continue;
-    std::string words(option.in_short);
-    text += ", " + words.replace(words.find('*'), 1, short_value(option, settings));
-  }
+  std::string text = stepping::setting_text(one.stepper);
   if (one.estimate_iterations > 0) text += format(", look at %d", one.estimate_iterations);
-  return text + format(", dt %g s", settings.dt_s);
+  return text + format(", dt %g s", one.stepper.dt_s);
 }
 
 std::vector<std::pair<std::string, std::string>> setting_options(const StudyCase& one) {
