@@ -1,4 +1,4 @@
-/// The effect breakable_joints: joints give way under load.
+/// The effect breakable_joints: joints give way under load, or are released by an event.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +34,10 @@ bool breaks(const model::Joint& joint, const Reaction& reaction);
 /// state, whoever steps it. A joint whose reaction in a step is above what it bears acts no more from the
 /// next step on: it has no rows, its limits, motors and suspension are gone with it, it connects no island,
 /// and its bodies may touch (TouchRule). It stays broken. Joints of bodies that sleep are not looked at.
+///
+/// A joint that an event of step s releases breaks in the same way after step s - 1, whatever its load, so
+/// that it acts no more in step s; its bodies are woken for that (Sleepers::islands_called()). One that still
+/// holds later, in a state from elsewhere, breaks after the first step.
 class Breakage {
  public:
   using GetReaction = std::function<Reaction(int joint)>;
@@ -43,15 +47,21 @@ class Breakage {
 
   /// Fills in a missing `broken_in`, with all joints whole.
   void start(model::State& state) const;
-  /// After step `step`: breaks those of `joints` whose reaction was more than they bear; true if any broke.
+  /// After step `step`: breaks those of `joints` whose reaction was more than they bear, or that are released
+  /// in the next; true if any broke. `reaction` is asked for joints with a strength only.
   /// `joints`: all of joints(), or those that took part in the step.
   bool break_overloaded_joints(std::int64_t step, std::span<const int> joints, const GetReaction& reaction,
                                model::State& state) const;
   std::span<const int> joints() const { return joints_; }  ///< that can break, ascending
 
  private:
+  bool is_released(int joint, std::int64_t step) const {
+    return !released_at_.empty() && released_at_[static_cast<std::size_t>(joint)] <= step;
+  }
+
   const model::Model* model_;
   std::vector<int> joints_;
+  std::vector<std::int64_t> released_at_;  ///< [joints] the step of the first release; empty: no releases
 };
 
 }  // namespace pbmpi::effects

@@ -46,15 +46,16 @@ std::optional<Reason> collision(const model::Model& model) {
 
 std::optional<Reason> friction(const model::Model& model) {
   if (!collision(model)) return std::nullopt;
-  return counted_if(
-      model.geoms, [](const model::Geom& g) { return g.material.mu > 0; }, "geoms with mu > 0");
+  const auto rubs = [](const auto& one) { return one.material.mu > 0; };
+  if (auto reason = counted_if(model.geoms, rubs, "geoms with mu > 0")) return reason;
+  return counted_if(model.pair_materials, rubs, "pairs of actors with mu > 0");
 }
 
 std::optional<Reason> restitution(const model::Model& model) {
   if (!collision(model)) return std::nullopt;
-  return counted_if(
-      model.geoms, [](const model::Geom& g) { return g.material.restitution > 0; },
-      "geoms with restitution > 0");
+  const auto bounces = [](const auto& one) { return one.material.restitution > 0; };
+  if (auto reason = counted_if(model.geoms, bounces, "geoms with restitution > 0")) return reason;
+  return counted_if(model.pair_materials, bounces, "pairs of actors with restitution > 0");
 }
 
 /// Spaces in which a body moves.
@@ -111,8 +112,10 @@ std::optional<Reason> suspension(const model::Model& model) {
 }
 
 std::optional<Reason> breakable_joints(const model::Model& model) {
-  return counted_if(
-      model.joints, [](const model::Joint& j) { return j.breakable(); }, "joints with a strength");
+  const auto breakable = [](const model::Joint& j) { return j.breakable(); };
+  if (auto reason = counted_if(model.joints, breakable, "joints with a strength")) return reason;
+  return counted_events(
+      model, [](const model::Event& e) { return e.kind == model::EventKind::release; }, "releases of joints");
 }
 
 std::optional<Reason> steering(const model::Model& model) {
@@ -161,9 +164,11 @@ void keep(model::Model&) {}
 void drop_gravity(model::Model& model) { model.gravity.setZero(); }
 void drop_friction(model::Model& model) {
   for (model::Geom& geom : model.geoms) geom.material.mu = 0;
+  for (model::PairMaterial& pair : model.pair_materials) pair.material.mu = 0;
 }
 void drop_restitution(model::Model& model) {
   for (model::Geom& geom : model.geoms) geom.material.restitution = 0;
+  for (model::PairMaterial& pair : model.pair_materials) pair.material.restitution = 0;
 }
 void drop_interest(model::Model& model) { model.interest.reset(); }
 void drop_spaces(model::Model& model) {
@@ -180,8 +185,9 @@ void drop_motors(model::Model& model) {
 void drop_suspension(model::Model& model) {
   for (model::Joint& joint : model.joints) joint.suspension = {};
 }
-void drop_strengths(model::Model& model) {
+void drop_breaks(model::Model& model) {
   for (model::Joint& joint : model.joints) joint.break_force = joint.break_torque = 0;
+  drop_events<model::EventKind::release>(model);
 }
 void drop_air(model::Model& model) { model.air_density = 0; }
 void drop_damping(model::Model& model) { model.linear_damping = model.angular_damping = 0; }
@@ -215,8 +221,8 @@ const std::vector<Effect>& effect_registry() {
       {EffectId::motors, "motors", "joint axes are driven or held", Phase::rows, motors, drop_motors},
       {EffectId::suspension, "suspension", "wheels spring along the steering axis", Phase::rows, suspension,
        drop_suspension},
-      {EffectId::breakable_joints, "breakable_joints", "joints give way under load", Phase::solve,
-       breakable_joints, drop_strengths},
+      {EffectId::breakable_joints, "breakable_joints", "joints give way under load or are released",
+       Phase::solve, breakable_joints, drop_breaks},
       {EffectId::gyroscopic_torque, "gyroscopic_torque", "spinning bodies precess", Phase::integrate,
        gyroscopic_torque, keep},
       {EffectId::gravity, "gravity", "bodies fall", Phase::integrate, gravity, drop_gravity},

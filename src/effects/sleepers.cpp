@@ -55,8 +55,12 @@ std::vector<int> Sleepers::islands_called(std::int64_t step, const model::State&
     if (body != model::no_body && state.rest[body].asleep()) islands.push_back(state.rest[body].island());
   };
   const auto by_step = [](const auto& a, const auto& b) { return step_of(a) < step_of(b); };
-  const auto [first, last] = std::equal_range(model_->events.begin(), model_->events.end(), step, by_step);
+  const auto first = std::lower_bound(model_->events.begin(), model_->events.end(), step, by_step);
+  const auto last = std::upper_bound(first, model_->events.end(), step + 1, by_step);
   for (auto event = first; event != last; ++event) {
+    // A joint that is released in a step breaks at the end of the one before.
+    const bool is_release = event->kind == model::EventKind::release;
+    if (event->step != (is_release ? step + 1 : step)) continue;
     if (event->kind == model::EventKind::launch) {
       call(event->body);
     } else {

@@ -41,8 +41,8 @@ class Sleepers {
   void start(model::State& state);
   std::span<const int> awake() const { return awake_; }  ///< bodies, ascending
 
-  /// The islands that sleep and that the events of this step concern. They are named by their lowest body,
-  /// each once, ascending.
+  /// The islands that sleep and that the events of this step concern, or a release of the next. They are
+  /// named by their lowest body, each once, ascending.
   std::vector<int> islands_called(std::int64_t step, const model::State& state) const;
   /// The islands that sleep and that an awake body touches.
   static std::vector<int> islands_touched(std::span<const BodyPair> touching, const model::State& state);

@@ -19,7 +19,7 @@ namespace pbmpi::effects {
 /// What the rules ask of the engine that steps a whole world. Bodies and joints are those of the model.
 class RuledWorld {
  public:
-  /// Launches bodies, and sets motors and limits.
+  /// Launches bodies, and sets motors and limits; releases of joints are a rule, and not its matter.
   virtual void fire_events(std::int64_t step) = 0;
   /// Copies poses and velocities of these bodies, or of more, into `state`.
   virtual void store(std::span<const int> bodies, model::State& state) const = 0;

@@ -38,9 +38,21 @@ struct Contact {
   GeomPair geoms;  ///< that touch: contacts are in canonical order if sorted by them
 };
 
-/// The material of a touching pair, as Material says.
+/// As Material says.
 inline Material combined(const Material& a, const Material& b) {
   return {std::sqrt(a.mu * b.mu), std::max(a.restitution, b.restitution)};
+}
+
+/// What Model::pair_materials has for the actors of two geoms; null if nothing.
+const Material* find_pair_material(const Model& model, const GeomPair& pair);
+
+/// The material of a touching pair whose geoms have the materials `first` and `second`.
+inline Material pair_material(const Model& model, const GeomPair& pair, const Material& first,
+                              const Material& second) {
+  if (!model.pair_materials.empty()) {
+    if (const Material* given = find_pair_material(model, pair)) return *given;
+  }
+  return combined(first, second);
 }
 
 /// Rows of a contact with this friction coefficient: a normal row, and two of friction if there is any.

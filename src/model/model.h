@@ -49,7 +49,8 @@ struct Body {
 enum class Shape { sphere, box, capsule, cylinder, plane };
 inline constexpr int num_shapes = 5;
 
-/// What two geoms need to know of each other's surface. A pair has mu = sqrt(mu_a mu_b), restitution = max.
+/// What two geoms need to know of each other's surface. A pair has mu = sqrt(mu_a mu_b), restitution = max,
+/// unless Model::pair_materials says otherwise.
 struct Material {
   double mu = 0.5;         ///< Coulomb friction coefficient; 0 = frictionless
   double restitution = 0;  ///< 0 = inelastic, 1 = elastic
@@ -128,7 +129,7 @@ enum class EventKind {
   launch,  ///< sets a body's velocity and angular velocity, and its pose if it has one
   motor,   ///< replaces the motor of a joint's axis
   steer,   ///< pins a joint's axis 1 to an angle (both limits)
-  release  ///< breaks a joint
+  release  ///< breaks a joint, so that it acts no more from this step on (effects/breakage.h)
 };
 
 /// Something that happens at the start of a step. A motor or steer event holds until the next of the same

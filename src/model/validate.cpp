@@ -1,7 +1,10 @@
 #include "model/validate.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -48,6 +51,11 @@ void validate_body(const Model& model, const Body& body, const std::string& who)
                 who + ": the velocity is not finite");
 }
 
+void require_material(const Material& material, const std::string& who) {
+  require_input(material.mu >= 0 && material.restitution >= 0 && material.restitution <= 1,
+                who + ": mu must be at least 0 and restitution in [0, 1]");
+}
+
 void validate_geom(const Model& model, const Geom& geom, const std::string& who) {
   if (geom.body != no_body) require_index(geom.body, model.bodies.size(), who, "body");
   require_index(geom.actor, model.actors.size(), who, "actor");
@@ -59,8 +67,22 @@ void validate_geom(const Model& model, const Geom& geom, const std::string& who)
   }
   require_input(geom.shape != Shape::plane || geom.body == no_body,
                 who + ": a plane cannot belong to a body");
-  require_input(geom.material.mu >= 0 && geom.material.restitution >= 0 && geom.material.restitution <= 1,
-                who + ": mu must be at least 0 and restitution in [0, 1]");
+  require_material(geom.material, who);
+}
+
+void validate_pair_materials(const Model& model, const std::string& where) {
+  const auto actors_of = [](const PairMaterial& one) { return std::pair(one.actor_a, one.actor_b); };
+  for (const PairMaterial& pair : model.pair_materials) {
+    const std::string who =
+        where + ": pair of actors " + std::to_string(pair.actor_a) + " and " + std::to_string(pair.actor_b);
+    require_index(pair.actor_a, model.actors.size(), who, "actor");
+    require_index(pair.actor_b, model.actors.size(), who, "actor");
+    require_input(pair.actor_a <= pair.actor_b, who + ": the lower actor comes first; swap them");
+    require_material(pair.material, who);
+  }
+  const auto later = std::ranges::adjacent_find(model.pair_materials, std::greater_equal{}, actors_of);
+  require_input(later == model.pair_materials.end(),
+                where + ": the pairs of actors are not in ascending order, each once; sort them");
 }
 
 void require_motor(const AxisMotor& motor, const AxisTraits& axis, const std::string& who) {
@@ -106,8 +128,13 @@ void validate_event(const Model& model, const Event& event, const std::string& w
     require_input(!event.pose || (event.pose->position.allFinite() &&
                                   std::abs(event.pose->orientation.to_eigen().norm() - 1) <= unit_tolerance),
                   who + ": the launch pose is not finite or its quaternion not of unit length");
+    return;
+  }
+  require_index(event.joint, model.joints.size(), who, "joint");
+  if (event.kind == EventKind::release) {
+    require_input(event.step >= 1, who + ": a joint is released at step 1 at the soonest; leave the joint '" +
+                                       model.joints[event.joint].name + "' out instead");
   } else {
-    require_index(event.joint, model.joints.size(), who, "joint");
     require_index(event.axis, 2, who, "axis");
     const JointTraits& joint = traits_of(model.joints[event.joint].kind);
     require_motor(event.motor, joint.axes[static_cast<std::size_t>(event.axis)], who);
@@ -152,6 +179,7 @@ void validate(const Model& model, const std::string& where) {
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
     validate_geom(model, model.geoms[i], where + ": geom " + std::to_string(i));
   }
+  validate_pair_materials(model, where);
   for (const Joint& joint : model.joints)
     validate_joint(model, joint, where + ": joint '" + joint.name + "'");
   for (std::size_t i = 0; i < model.events.size(); ++i) {

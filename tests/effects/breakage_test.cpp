@@ -57,6 +57,38 @@ TEST(Breakage, asks_for_the_joints_that_can_break_and_hold) {
   EXPECT_FALSE(state.acted_in(5, 1));
 }
 
+TEST(Breakage, breaks_a_released_joint_at_the_end_of_the_step_before) {
+  model::Model model = weak_chain();
+  model::Event release;
+  release.kind = model::EventKind::release;
+  release.step = 5;
+  release.joint = 0;
+  model.events.push_back(release);
+  const Breakage breakage(model);
+  EXPECT_EQ(breakage.joints().size(), 3u);
+  model::State state = whole(model);
+  const auto light = [](int joint) {
+    EXPECT_NE(joint, 0) << "it has no strength";
+    return Reaction{};
+  };
+  EXPECT_FALSE(breakage.break_overloaded_joints(3, breakage.joints(), light, state));
+  EXPECT_TRUE(breakage.break_overloaded_joints(4, breakage.joints(), light, state));
+  EXPECT_EQ(state.broken_in, (std::vector<std::int32_t>{4, model::unbroken, model::unbroken}));
+}
+
+TEST(Breakage, is_called_for_by_releases) {
+  model::Model model = support::chain(3);
+  model::Event release;
+  release.kind = model::EventKind::release;
+  release.step = 5;
+  release.joint = 1;
+  model.events.push_back(release);
+  EXPECT_TRUE(StepPlan(model).has(EffectId::breakable_joints));
+  model.effects["breakable_joints"] = false;
+  leave_out_effects(model);
+  EXPECT_TRUE(model.events.empty());
+}
+
 TEST(Breakage, leaves_joints_of_bodies_that_sleep_alone) {
   const model::Model model = weak_chain();
   const Breakage breakage(model);

@@ -197,6 +197,57 @@ TEST_P(EveryStepper, goes_on_with_the_same_bits_wherever_the_state_is_taken_in) 
   }
 }
 
+/// `model` with joint 0 released at this step.
+Model released(Model model, std::int64_t step) {
+  model::Event event;
+  event.kind = model::EventKind::release;
+  event.step = step;
+  event.joint = 0;
+  model.events.push_back(event);
+  return model;
+}
+
+TEST_P(EveryStepper, holds_a_joint_until_it_is_released_and_no_longer) {
+  constexpr int release_step = 7;
+  Model model = hanging(JointKind::hinge);
+  std::swap(model.joints[0], model.joints[1]);
+  const auto stepper = start(settings(), released(model, release_step), model::initial_state(model));
+  advance(*stepper, release_step);
+  const State held = stepper->state(0);
+  EXPECT_LT(held.velocity[1].norm(), 1e-3) << "400 iterations hold its weight";
+  EXPECT_EQ(held.broken_in[0], release_step - 1);
+  EXPECT_EQ(stepper->observables(0).rows, 6 + 5) << "it acted in its last step";
+  advance(*stepper, 10);
+  const State& state = stepper->state(0);
+  const Vec3 expected = held.velocity[1] + Vec3(0, 0, -10 * 0.01 * gravity);
+  EXPECT_LT((state.velocity[1] - expected).norm(), 1e-5);  // single precision: ten sums of numbers of size 1
+  EXPECT_EQ(stepper->observables(0).rows, 6) << "those of the base's joint";
+}
+
+TEST_P(EveryStepper, goes_on_with_the_same_bits_wherever_the_state_is_taken_in_around_a_release) {
+  const Model model = released(swing(0), 40);
+  const State end = state_after(settings(), model, swing_steps);
+  EXPECT_EQ(end.broken_in[0], 39);
+  for (const int step : {38, 39, 40, 41}) {
+    const auto second = start(settings(), model, state_after(settings(), model, step), step);
+    advance(*second, swing_steps - step);
+    EXPECT_EQ(model::hash(second->state(0)), model::hash(end)) << "at step " << step;
+  }
+}
+
+TEST_P(EveryStepper, wakes_what_is_released) {
+  Model model = hanging(JointKind::hinge);
+  std::swap(model.joints[0], model.joints[1]);
+  model = released(model, 200);
+  model.effects["sleeping"] = true;
+  const auto stepper = start(settings(), model, model::initial_state(model));
+  advance(*stepper, 199);
+  ASSERT_TRUE(stepper->state(0).rest[1].asleep());
+  advance(*stepper, 2);
+  EXPECT_EQ(stepper->state(0).broken_in[0], 199);
+  EXPECT_LT(stepper->state(0).velocity[1].z(), -0.9 * 0.01 * gravity) << "it falls in step 200";
+}
+
 TEST_P(EveryStepper, mends_what_an_earlier_state_has_whole) {
   const Model model = swing(swing_strength_n);
   const auto stepper = start(settings(), model, model::initial_state(model));

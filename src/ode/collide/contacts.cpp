@@ -72,8 +72,8 @@ void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
 /// it ODE takes mu as a force [N]. An infinite mu (no slip) must go without: ODE would multiply it by a
 /// normal force of 0.
 int Contacts::set_surface(const GeomPair& pair) {
-  const model::Material material =
-      model::combined(model_->geoms[pair.first].material, model_->geoms[pair.second].material);
+  const model::Material material = model::pair_material(*model_, pair, model_->geoms[pair.first].material,
+                                                        model_->geoms[pair.second].material);
   dSurfaceParameters& surface = contact_.surface;
   surface.mode = dContactSoftERP | dContactSoftCFM;
   surface.mu = friction_ ? material.mu : 0;

@@ -68,7 +68,7 @@ class NarrowPhase final : public model::NarrowPhase {
     contact.position = model::Vec3(found.pos);
     contact.normal = swapped ? model::Vec3(-model::Vec3(found.normal)) : model::Vec3(found.normal);
     contact.depth = found.depth;
-    const model::Material material = model::combined(a.material, b.material);
+    const model::Material material = model::pair_material(*model_, pair, a.material, b.material);
     contact.mu = material.mu;
     contact.restitution = material.restitution;
     contact.geoms = pair;

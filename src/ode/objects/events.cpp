@@ -15,9 +15,14 @@ void place(dBodyID body, const model::Pose& pose) {
   dBodySetQuaternion(body, q);
 }
 
+/// Is it a setting of a joint's axis? Releases are a matter of effects::Breakage.
+bool is_setting(const model::Event& event) {
+  return event.kind == model::EventKind::motor || event.kind == model::EventKind::steer;
+}
+
 void require_drivable(const model::Model& model) {
   for (const model::Event& event : model.events) {
-    if (event.kind == model::EventKind::launch) continue;
+    if (!is_setting(event)) continue;
     const model::Joint& joint = model.joints[event.joint];
     const int axis = event.kind == model::EventKind::steer ? 0 : event.axis;
     core::require_input(model::traits_of(joint.kind).axes[axis].has_motor,
@@ -37,15 +42,13 @@ Events::Events(const model::Model& model, const std::vector<dBodyID>& bodies,
 void Events::skip_to(std::int64_t step) {
   for (; next_ < model_->events.size() && model_->events[next_].step < step; ++next_) {
     const model::Event& event = model_->events[next_];
-    if (event.kind != model::EventKind::launch) set_joint(event);
+    if (is_setting(event)) set_joint(event);
   }
 }
 
 void Events::apply(const model::Event& event) {
-  if (event.kind != model::EventKind::launch) {
-    set_joint(event);
-    return;
-  }
+  if (is_setting(event)) set_joint(event);
+  if (event.kind != model::EventKind::launch) return;
   const dBodyID body = bodies_[event.body];
   if (event.pose) place(body, *event.pose);
   dBodySetLinearVel(body, event.velocity.x(), event.velocity.y(), event.velocity.z());

@@ -86,6 +86,7 @@ bool is_finite(const model::BodyPose& pose) {
 PairTable::PairTable(std::span<const PackedWorld> worlds, const GeomOrder& order) : order_(&order) {
   for (const PackedWorld& world : worlds) {
     World& one = worlds_.emplace_back();
+    one.model = world.model;
     for (const model::Geom& geom : world.model->geoms)
       one.geoms.push_back({geom.shape, geom.body, geom.material});
     one.most_points = world.model->contact_law.max_per_pair;
@@ -160,7 +161,7 @@ void PairTable::append(int world, const model::GeomPair& pair, const Touch& touc
   const GeomFacts& first = one.geoms[static_cast<std::size_t>(pair.first)];
   const GeomFacts& second = one.geoms[static_cast<std::size_t>(pair.second)];
   const bool first_is_a = first.body != model::no_body;  // a must be a real body
-  const model::Material material = model::combined(first.material, second.material);
+  const model::Material material = model::pair_material(*one.model, pair, first.material, second.material);
   model::Contact contact;
   contact.body_a = first_is_a ? first.body : second.body;
   contact.body_b = first_is_a ? second.body : first.body;

@@ -72,6 +72,7 @@ bool is_finite(const model::BodyPose& pose);
 
 class PairTable {
  public:
+  /// The models of `worlds`, and `order`, are borrowed.
   PairTable(std::span<const PackedWorld> worlds, const GeomOrder& order);
 
   void clear();
@@ -118,6 +119,7 @@ class PairTable {
     model::Material material;
   };
   struct World {
+    const model::Model* model = nullptr;
     std::vector<GeomFacts> geoms;
     int most_points = 0;  ///< contacts a pair
   };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "ode/collide/narrow_phase.h"
 #include "solver/worlds/sor_stepper.h"
@@ -59,6 +60,14 @@ SharedModel falling_rows(bool sleeping) {
   add_row(model, 0, 300, 0);
   add_row(model, 1, 400, 150);
   add_row(model, 2, 1200, 0);
+  // In flight; on the blocks, where with sleep the row has fallen asleep.
+  for (const auto& [step, joint] : {std::pair(30, 6), std::pair(190, 7)}) {
+    model::Event event;
+    event.kind = model::EventKind::release;
+    event.step = step;
+    event.joint = joint;
+    model.events.push_back(event);
+  }
   if (sleeping) model.effects["sleeping"] = true;
   return share(std::move(model));
 }
