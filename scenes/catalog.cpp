@@ -24,16 +24,23 @@ SceneSource read_file(const std::string& path) {
   return {std::filesystem::path(path).stem().string(), path, std::move(text)};
 }
 
-}  // namespace
+bool is_hard_case(std::string_view name) { return name.starts_with("hard/"); }
 
-std::vector<SceneInfo> list_scenes() {
+std::vector<SceneInfo> list_embedded(bool hard_cases) {
   std::vector<SceneInfo> list;
   for (const EmbeddedScene& scene : embedded_scenes()) {
+    if (is_hard_case(scene.name) != hard_cases) continue;
     const toml::table table = toml::parse(scene.text);
     list.push_back({std::string(scene.name), table["title"].value_or(std::string())});
   }
   return list;
 }
+
+}  // namespace
+
+std::vector<SceneInfo> list_scenes() { return list_embedded(false); }
+
+std::vector<SceneInfo> list_hard_cases() { return list_embedded(true); }
 
 SceneSource find_scene(const std::string& name_or_path) {
   if (name_or_path.ends_with(".toml")) return read_file(name_or_path);
@@ -42,7 +49,7 @@ SceneSource find_scene(const std::string& name_or_path) {
     if (scene.name == name_or_path) {
       return {name_or_path, name_or_path + ".toml", std::string(scene.text)};
     }
-    names.emplace_back(scene.name);
+    if (is_hard_case(scene.name) == is_hard_case(name_or_path)) names.emplace_back(scene.name);
   }
   throw core::InputError("unknown scene " + core::in_quotes(name_or_path) +
                          core::suggestion(name_or_path, names) +

@@ -11,7 +11,8 @@ struct EmbeddedScene {
   std::string_view text;
 };
 
-/// In the order of the paper's Table 1. The source is generated from scenes/*.toml at build time.
+/// First the paper's, in the order of its Table 1, then the hard cases by name. The source is generated from
+/// scenes/*.toml and scenes/hard/*/*.toml at build time.
 std::span<const EmbeddedScene> embedded_scenes();
 
 }  // namespace pbmpi::scenes

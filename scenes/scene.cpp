@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -13,8 +14,14 @@
 #include "model/validate.h"
 #include "scenes/actors/actor.h"
 #include "scenes/actors/variation.h"
+#include "scenes/format/case_reader.h"
+#include "scenes/format/event_reader.h"
 #include "scenes/format/interest.h"
 #include "scenes/format/joint_reader.h"
+#include "scenes/format/pair_reader.h"
+#include "scenes/format/part_velocities.h"
+#include "scenes/format/world_reader.h"
+#include "scenes/parts/at_rest.h"
 #include "scenes/parts/overlap.h"
 #include "scenes/scene_toml.h"
 
@@ -34,6 +41,7 @@ struct ActorEntry {
   WorldCount copies;
   Vec3 spacing = Vec3::Zero();
   Variation variation;
+  PartVelocities parts;
 };
 
 class FileScene final : public Scene {
@@ -49,9 +57,15 @@ class FileScene final : public Scene {
     if (spaces) defaults_.spaces = *spaces;
     read_effects(scene);
     for (const auto& [name, on] : effects) defaults_.effects[name] = on;
-    read_world(scene);
+    read_world(scene, empty_);
+    if (auto interest = scene.table("interest")) interest_.emplace(*interest);
+    at_rest_ = scene.flag("at_rest", false);
+    most_overlap_m_ = scene.number_or_infinity("overlap", Sign::non_negative, overlap_tolerance_m);
+    read_case(scene);
     for (TableReader& actor : scene.tables("actor")) read_actor(actor);
+    for (TableReader& pair : scene.tables("pair")) pairs_.emplace_back(pair);
     for (TableReader& joint : scene.tables("joint")) read_named_joint(joint);
+    for (TableReader& event : scene.tables("event")) events_.push_back(read_event(event, defaults_.dt_s));
     scene.finish();
     core::require_input(!actors_.empty(), scene.where() + ": the scene has no [[actor]]; place one");
   }
@@ -60,15 +74,20 @@ class FileScene final : public Scene {
   const std::string& title() const override { return title_; }
   const std::string& text() const override { return source_.text; }
   const RunDefaults& defaults() const override { return defaults_; }
+  const std::optional<stability::HardCase>& hard_case() const override { return hard_case_; }
 
   std::shared_ptr<const model::Model> build(int world, std::uint64_t seed) const override {
     auto result = std::make_shared<model::Model>(empty_);
     if (defaults_.spaces == SpacesForm::one) result->spaces.resize(1);
     for (std::size_t i = 0; i < actors_.size(); ++i) place_copies(i, world, seed, *result);
+    for (const PairPlan& pair : pairs_) pair.put_into(*result);
     for (const JointPlan& joint : joints_) joint(*result);
+    for (const EventPlan& event : events_) event(*result);
     std::stable_sort(result->events.begin(), result->events.end(),
                      [](const model::Event& a, const model::Event& b) { return a.step < b.step; });
     if (interest_) interest_->put_into(*result);
+    if (case_reader_) case_reader_->require_bodies(*result);
+    if (at_rest_) *result = at_rest(std::move(*result));
     leave_out_effects(*result);
     validate(*result, world);
     refuse_overlap(*result, world);
@@ -102,47 +121,11 @@ class FileScene final : public Scene {
     table->finish();
   }
 
-  void read_world(TableReader& scene) {
-    empty_.gravity = scene.vector("gravity", Sign::any, empty_.gravity);
-    empty_.erp = scene.number("erp", Sign::non_negative, empty_.erp);
-    if (empty_.erp > 1) scene.fail("erp", "'erp' is a share of the error and must lie in [0, 1]");
-    empty_.cfm = scene.number("cfm", Sign::non_negative, empty_.cfm);
-    empty_.linear_damping = scene.number("linear_damping", Sign::non_negative, empty_.linear_damping);
-    empty_.angular_damping = scene.number("angular_damping", Sign::non_negative, empty_.angular_damping);
-    if (auto air = scene.table("air")) {
-      empty_.air_density = air->number("density", Sign::non_negative, empty_.air_density);
-      air->finish();
-    }
-    if (auto contact = scene.table("contact")) {
-      model::ContactLaw& law = empty_.contact_law;
-      law.soft_erp = contact->number("soft_erp", Sign::non_negative, law.soft_erp);
-      if (law.soft_erp > 1) contact->fail("soft_erp", "'soft_erp' must lie in [0, 1]");
-      law.soft_cfm = contact->number("soft_cfm", Sign::non_negative, law.soft_cfm);
-      law.bounce_velocity = contact->number("bounce_velocity", Sign::non_negative, law.bounce_velocity);
-      law.max_per_pair = contact->integer("max_per_pair", 1, law.max_per_pair);
-      contact->finish();
-    }
-    if (auto sleep = scene.table("sleep")) {
-      model::SleepRule& rule = empty_.sleep;
-      rule.speed = sleep->number("speed", Sign::non_negative, rule.speed);
-      rule.angular_speed = sleep->number("angular_speed", Sign::non_negative, rule.angular_speed);
-      rule.after_s = sleep->number("after", Sign::positive, rule.after_s);
-      sleep->finish();
-    }
-    if (auto interest = scene.table("interest")) interest_.emplace(*interest);
-    if (scene.has("spaces")) read_spaces(scene);
-    const std::string meet = scene.text("inter_space", "any");
-    if (meet != "any" && meet != "none")
-      scene.fail("inter_space", "'inter_space' must be \"any\" or \"none\"");
-    empty_.spaces_meet = meet == "any";
-  }
-
-  void read_spaces(TableReader& scene) {
-    empty_.spaces = scene.texts("spaces");
-    if (empty_.spaces.empty()) scene.fail("spaces", "'spaces' is empty; name at least one");
-    if (std::set<std::string>(empty_.spaces.begin(), empty_.spaces.end()).size() != empty_.spaces.size()) {
-      scene.fail("spaces", "'spaces' names one space twice");
-    }
+  void read_case(TableReader& scene) {
+    auto table = scene.table("case");
+    if (!table) return;
+    case_reader_.emplace(*table);
+    hard_case_ = case_reader_->hard_case();
   }
 
   void read_actor(TableReader& table) {
@@ -161,6 +144,7 @@ class FileScene final : public Scene {
     actor.copies = WorldCount::read(table, "copies");
     if (actor.has_copies) actor.spacing = table.vector("spacing", Sign::any);
     actor.variation = read_variation(table);
+    actor.parts = PartVelocities(table);
     if (type.moves) {
       actor.velocity = table.vector("velocity", Sign::any, Vec3(Vec3::Zero()));
     } else if (!actor.variation.velocity.isZero()) {
@@ -202,6 +186,7 @@ class FileScene final : public Scene {
       place.space = defaults_.spaces == SpacesForm::one ? 0 : actor.space;
       place.copy = copy;
       actor.plan(place, model);
+      actor.parts.put_into(model, place.name);
     }
   }
 
@@ -232,14 +217,15 @@ class FileScene final : public Scene {
   }
 
   void refuse_overlap(const model::Model& model, int world) const {
-    const auto overlap = find_overlap(model);
+    const auto overlap = find_overlap(model, most_overlap_m_);
     if (!overlap) return;
     const std::string& a = model.actors[overlap->actor_a].name;
     const std::string& b = model.actors[overlap->actor_b].name;
-    throw core::InputError(where_of(b) + ": actor " + core::in_quotes(b) + ": in world " +
-                           std::to_string(world) + " it overlaps " + core::in_quotes(a) + " by " +
-                           std::to_string(std::lround(overlap->depth_m * 100)) +
-                           " cm at the start (it would be thrown out in one step); move one of them");
+    throw core::InputError(
+        where_of(b) + ": actor " + core::in_quotes(b) + ": in world " + std::to_string(world) +
+        " it overlaps " + core::in_quotes(a) + " by " + std::to_string(std::lround(overlap->depth_m * 100)) +
+        " cm at the start (it would be thrown out in one step); move one of them, or allow "
+        "it with 'overlap'");
   }
 
   /// The place in the file of an actor or a copy of it.
@@ -255,9 +241,15 @@ class FileScene final : public Scene {
   RunDefaults defaults_;
   model::Model empty_;  ///< what every world has before its actors come
   std::vector<ActorEntry> actors_;
+  std::vector<PairPlan> pairs_;
   std::vector<JointPlan> joints_;
+  std::vector<EventPlan> events_;
   std::set<std::string> names_;
   std::optional<InterestPlan> interest_;
+  bool at_rest_ = false;
+  double most_overlap_m_ = overlap_tolerance_m;
+  std::optional<CaseReader> case_reader_;
+  std::optional<stability::HardCase> hard_case_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "stability/hard_case.h"
 
 namespace pbmpi::scenes {
 
@@ -36,6 +37,8 @@ class Scene {
   virtual const std::string& title() const = 0;  ///< one line for --list-scenes
   virtual const std::string& text() const = 0;   ///< the scene file's TOML
   virtual const RunDefaults& defaults() const = 0;
+  /// What the file's [case] says, if it has one.
+  virtual const std::optional<stability::HardCase>& hard_case() const = 0;
   /// The model of world `world`, validated. Throws core::InputError with file:line:column.
   virtual std::shared_ptr<const model::Model> build(int world, std::uint64_t seed) const = 0;
 };
@@ -45,8 +48,11 @@ struct SceneInfo {
   std::string title;
 };
 
-/// The scenes that pbmpi brings, in the order of the paper's Table 1.
+/// The nine scenes of the paper, in the order of its Table 1.
 std::vector<SceneInfo> list_scenes();
+
+/// The hard cases that pbmpi brings besides, "hard/GROUP/NAME", in alphabetical order.
+std::vector<SceneInfo> list_hard_cases();
 
 /// The text of scene `name_or_path`: a path if it ends in ".toml", else a scene that pbmpi brings (their
 /// texts are part of the program, so that it needs no data folder). Throws core::InputError: unknown name

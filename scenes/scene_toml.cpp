@@ -61,6 +61,12 @@ void lay_over(toml::table& base, toml::table&& over) {
   }
 }
 
+/// What a case expects belongs to its own numbers: a file that expects something replaces all of its base's.
+void drop_replaced_expectations(toml::table& base, const toml::table& over) {
+  toml::table* old = base["case"].as_table();
+  if (old && over["case"]["expect"]) old->erase("expect");
+}
+
 }  // namespace
 
 toml::table parse_with_base(const SceneSource& source) {
@@ -78,6 +84,7 @@ toml::table parse_with_base(const SceneSource& source) {
     throw core::InputError(place + ": base: " + error.what());
   }
   toml::table result = parse_with_base(base_source);
+  drop_replaced_expectations(result, scene);
   scene.erase("base");
   lay_over(result, std::move(scene));
   return result;

@@ -1,10 +1,10 @@
 // One rigid body of one shape, or a static obstacle of that shape.
 #include "core/error.h"
 #include "core/text.h"
-#include "scenes/actors/actor.h"
-#include "scenes/parts/mass_properties.h"
-
 #include "model/names.h"
+#include "scenes/actors/actor.h"
+#include "scenes/format/rotation_reader.h"
+#include "scenes/parts/mass_properties.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -15,6 +15,7 @@ struct GenericBody {
   std::array<double, 3> size{};
   bool is_static = false;
   double mass_kg = 0;
+  model::Mat3 inertia = model::Mat3::Identity();
   Quat orientation;  ///< in the actor's frame
   Vec3 angular_velocity = Vec3::Zero();
   model::Material material;
@@ -37,13 +38,14 @@ double read_mass(TableReader& actor, model::Shape shape, const std::array<double
   return actor.number("density", Sign::positive) * volume(shape, size);
 }
 
-Quat read_rotation(TableReader& actor) {
-  auto table = actor.table("rotation");
-  if (!table) return {};
-  const Vec3 axis = table->direction("axis");
-  const double angle_deg = table->number("angle", Sign::any);
-  table->finish();
-  return rotation(radians(angle_deg), axis);
+/// About the centre, in the body's axes. No mass distribution has a moment above the sum of the other two.
+model::Mat3 read_inertia(TableReader& actor) {
+  const Vec3 moments = actor.vector("inertia", Sign::positive);
+  constexpr double rounding = 1e-9;  // of a flat body's digits, for which the two are equal
+  if (2 * moments.maxCoeff() > (1 + rounding) * moments.sum()) {
+    actor.fail("inertia", "no body has a moment of inertia above the sum of the other two; change one");
+  }
+  return moments.asDiagonal();
 }
 
 void build(const GenericBody& part, const Placement& place, model::Model& model) {
@@ -61,7 +63,7 @@ void build(const GenericBody& part, const Placement& place, model::Model& model)
     body.name = place.name;
     body.actor = geom.actor;
     body.mass_kg = part.mass_kg;
-    body.inertia = solid_inertia(part.shape, part.size, part.mass_kg);
+    body.inertia = part.inertia;
     body.pose = pose;
     body.velocity = place.velocity;
     body.angular_velocity = part.angular_velocity;
@@ -80,6 +82,7 @@ ActorPlan read_generic(TableReader& actor, model::Shape shape, const std::array<
   part.material = read_material(actor, {});
   if (!part.is_static) {
     part.mass_kg = read_mass(actor, shape, size);
+    part.inertia = actor.has("inertia") ? read_inertia(actor) : solid_inertia(shape, size, part.mass_kg);
     part.angular_velocity = actor.vector("angular_velocity", Sign::any, Vec3(Vec3::Zero()));
   }
   return [part](const Placement& place, model::Model& model) { build(part, place, model); };

@@ -1,13 +1,16 @@
 #include "scenes/format/joint_reader.h"
 
+#include <charconv>
 #include <cmath>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "model/joint_traits.h"
 #include "model/names.h"
+#include "scenes/format/lookup.h"
 #include "scenes/parts/parts.h"
 
 namespace pbmpi::scenes {
@@ -27,6 +30,8 @@ struct JointSpec {
   std::array<model::AxisMotor, 2> motors;
   model::Spring suspension;
   double break_force = 0, break_torque = 0;
+  int num_copies = 0;  ///< 0: one joint, whose name bears no number
+  Vec3 spacing = Vec3::Zero();
 };
 
 JointKind read_kind(TableReader& table) {
@@ -110,17 +115,37 @@ void read_strength(TableReader& table, JointSpec& joint) {
   if (traits.has_anchor() || is_weld) joint.anchor = table.vector("anchor", Sign::any);
 }
 
-int resolve(const JointSpec& joint, const model::Model& model, const std::string& name) {
-  if (name == world_name) return model::no_body;
-  const int body = find_body(model, name);
-  if (body != model::no_body) return body;
-  std::vector<std::string> names;
-  for (const model::Body& candidate : model.bodies) names.push_back(candidate.name);
-  throw core::InputError(joint.bodies_where + ": joint " + core::in_quotes(joint.name) + ": unknown body " +
-                         core::in_quotes(name) + core::suggestion(name, names));
+void read_copies(TableReader& table, JointSpec& joint) {
+  if (!table.has("copies")) return;
+  joint.num_copies = table.integer("copies", 1);
+  joint.spacing = table.vector("spacing", Sign::any);
 }
 
-void build(const JointSpec& spec, model::Model& model) {
+int resolve(const JointSpec& joint, const model::Model& model, const std::string& name) {
+  if (name == world_name) return model::no_body;
+  return named_body(model, name, joint.bodies_where + ": joint " + core::in_quotes(joint.name));
+}
+
+/// "link.7" for copy 4 of "link.3"; a name that does not end in a number is that of every copy.
+std::string body_of_copy(const std::string& name, int copy) {
+  const std::size_t dot = name.rfind('.');
+  int number = 0;
+  if (dot == std::string::npos) return name;
+  const char* const end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data() + dot + 1, end, number);
+  if (stop != end || error != std::errc()) return name;
+  return name.substr(0, dot + 1) + std::to_string(number + copy);
+}
+
+JointSpec copy_of(const JointSpec& spec, int copy) {
+  JointSpec result = spec;
+  result.name += "." + std::to_string(copy + 1);
+  for (std::string& body : result.bodies) body = body_of_copy(body, copy);
+  result.anchor += copy * spec.spacing;
+  return result;
+}
+
+void build_one(const JointSpec& spec, model::Model& model) {
   const int a = resolve(spec, model, spec.bodies[0]);
   const int b = resolve(spec, model, spec.bodies[1]);
   model::Joint joint = join(model, spec.name, spec.kind, a, b, spec.anchor, spec.axis1, spec.axis2);
@@ -130,6 +155,11 @@ void build(const JointSpec& spec, model::Model& model) {
   joint.break_force = spec.break_force;
   joint.break_torque = spec.break_torque;
   model.joints.push_back(joint);
+}
+
+void build(const JointSpec& spec, model::Model& model) {
+  if (spec.num_copies == 0) build_one(spec, model);
+  for (int copy = 0; copy < spec.num_copies; ++copy) build_one(copy_of(spec, copy), model);
 }
 
 }  // namespace
@@ -142,6 +172,7 @@ JointPlan read_joint(TableReader& table) {
   read_bodies(table, joint);
   read_strength(table, joint);
   read_axes(table, joint);
+  read_copies(table, joint);
   table.finish();
   return [joint](model::Model& model) { build(joint, model); };
 }

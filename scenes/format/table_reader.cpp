@@ -44,13 +44,14 @@ const toml::array& TableReader::need_array(std::string_view key, std::string_vie
   return *node.as_array();
 }
 
-double TableReader::checked_number(std::string_view key, const toml::node& node, Sign sign) const {
+double TableReader::checked_number(std::string_view key, const toml::node& node, Sign sign,
+                                   Range range) const {
   if (!node.is_number()) fail_at(node, core::in_quotes(key) + " must be a number");
   const double value = node.value<double>().value();
   const auto refuse = [&](const char* rule) {
     fail_at(node, core::in_quotes(key) + " is " + to_text(value) + "; it must be " + rule);
   };
-  if (!std::isfinite(value)) refuse("finite");
+  if (std::isnan(value) || (range == Range::finite && !std::isfinite(value))) refuse("finite");
   if (sign == Sign::positive && value <= 0) refuse("above 0");
   if (sign == Sign::non_negative && value < 0) refuse("at least 0");
   return value;
@@ -66,6 +67,11 @@ bool TableReader::is_array(std::string_view key) {
 double TableReader::number(std::string_view key, Sign sign, std::optional<double> fallback) {
   if (fallback && !has(key)) return *fallback;
   return checked_number(key, need(key), sign);
+}
+
+double TableReader::number_or_infinity(std::string_view key, Sign sign, std::optional<double> fallback) {
+  if (fallback && !has(key)) return *fallback;
+  return checked_number(key, need(key), sign, Range::infinite);
 }
 
 int TableReader::integer(std::string_view key, int least, std::optional<int> fallback) {
@@ -101,6 +107,14 @@ core::Vec3 TableReader::vector(std::string_view key, Sign sign, const std::optio
   if (array.size() != 3) fail_at(array, core::in_quotes(key) + " must have three numbers [x, y, z]");
   core::Vec3 result;
   for (int i = 0; i < 3; ++i) result[i] = checked_number(key, array[i], sign);
+  return result;
+}
+
+core::Vec3 TableReader::vector_or_infinity(std::string_view key) {
+  const toml::array& array = need_array(key, "[x, y, z]");
+  if (array.size() != 3) fail_at(array, core::in_quotes(key) + " must have three numbers [x, y, z]");
+  core::Vec3 result;
+  for (int i = 0; i < 3; ++i) result[i] = checked_number(key, array[i], Sign::any, Range::infinite);
   return result;
 }
 
@@ -161,6 +175,12 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
     if (!entry.is_table()) fail_at(entry, "write [[" + std::string(key) + "]] tables");
     result.emplace_back(*entry.as_table(), std::string(key));
   }
+  return result;
+}
+
+std::vector<std::string> TableReader::keys() const {
+  std::vector<std::string> result;
+  for (const auto& [key, node] : *table_) result.emplace_back(key.str());
   return result;
 }
 

@@ -26,11 +26,14 @@ class TableReader {
   bool has(std::string_view key);
   bool is_array(std::string_view key);
   double number(std::string_view key, Sign sign, std::optional<double> fallback = std::nullopt);
+  /// A number that may also be infinite (`inf` in TOML).
+  double number_or_infinity(std::string_view key, Sign sign, std::optional<double> fallback = std::nullopt);
   int integer(std::string_view key, int least, std::optional<int> fallback = std::nullopt);
   bool flag(std::string_view key, bool fallback);
   std::string text(std::string_view key, const std::optional<std::string>& fallback = std::nullopt);
   core::Vec3 vector(std::string_view key, Sign sign,
                     const std::optional<core::Vec3>& fallback = std::nullopt);
+  core::Vec3 vector_or_infinity(std::string_view key);
   /// A vector scaled to unit length; refuses zero.
   core::Vec3 direction(std::string_view key, const std::optional<core::Vec3>& fallback = std::nullopt);
   std::vector<std::string> texts(std::string_view key);
@@ -43,11 +46,15 @@ class TableReader {
   /// [[key]] tables; empty without the key.
   std::vector<TableReader> tables(std::string_view key);
 
+  /// The table's own keys, whether asked for or not, in alphabetical order.
+  std::vector<std::string> keys() const;
+
   /// Call when all keys have been asked for.
   void finish() const;
 
   /// Renames the table in messages, once its name is known.
   void set_what(std::string what) { what_ = std::move(what); }
+  const std::string& what() const { return what_; }
   /// "file:line:column" of the value of `key`, or of the table if there is no such key.
   std::string where(std::string_view key) const;
   std::string where() const;
@@ -58,7 +65,9 @@ class TableReader {
   const toml::node* find(std::string_view key);
   const toml::node& need(std::string_view key);
   const toml::array& need_array(std::string_view key, std::string_view form);
-  double checked_number(std::string_view key, const toml::node& node, Sign sign) const;
+  enum class Range { finite, infinite };
+  double checked_number(std::string_view key, const toml::node& node, Sign sign,
+                        Range range = Range::finite) const;
   [[noreturn]] void fail_at(const toml::node& node, const std::string& problem) const;
 
   const toml::table* table_;

@@ -100,7 +100,8 @@ std::set<ActorPair> joined_actors(const model::Model& model) {
 
 class Search {
  public:
-  explicit Search(const model::Model& model) : model_(&model), joined_(joined_actors(model)) {
+  Search(const model::Model& model, double tolerance_m)
+      : model_(&model), tolerance_m_(tolerance_m), joined_(joined_actors(model)) {
     for (const model::Geom& geom : model.geoms) {
       if (geom.shape != Shape::plane) boxes_.push_back(inner_box(geom, model));
     }
@@ -114,7 +115,7 @@ class Search {
       for (const InnerBox& box : boxes_) {
         if (box.is_static || geom.actor == box.actor) continue;
         const double deep = depth_in_plane(box, pose_of(geom, *model_));
-        if (deep > overlap_tolerance_m) return overlap(geom.actor, box.actor, deep);
+        if (deep > tolerance_m_) return overlap(geom.actor, box.actor, deep);
       }
     }
     return among_boxes();
@@ -129,7 +130,7 @@ class Search {
         const InnerBox& b = boxes_[j];
         if (!may_clash(a, b)) continue;
         const double deep = depth(a, b);
-        if (deep > overlap_tolerance_m) return overlap(a.actor, b.actor, deep);
+        if (deep > tolerance_m_) return overlap(a.actor, b.actor, deep);
       }
     }
     return std::nullopt;
@@ -145,12 +146,15 @@ class Search {
   static Overlap overlap(int a, int b, double deep) { return {std::min(a, b), std::max(a, b), deep}; }
 
   const model::Model* model_;
+  double tolerance_m_;
   std::set<ActorPair> joined_;
   std::vector<InnerBox> boxes_;
 };
 
 }  // namespace
 
-std::optional<Overlap> find_overlap(const model::Model& model) { return Search(model).run(); }
+std::optional<Overlap> find_overlap(const model::Model& model, double tolerance_m) {
+  return Search(model, tolerance_m).run();
+}
 
 }  // namespace pbmpi::scenes

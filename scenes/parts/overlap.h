@@ -9,8 +9,8 @@
 
 namespace pbmpi::scenes {
 
-/// How deep actors may overlap at the start [m]: soles stand 0.1 mm in the ground, and a blow of a few
-/// centimetres of penetration would throw bodies apart at the first step.
+/// How deep actors may overlap at the start unless the scene allows more [m]: soles stand 0.1 mm in the
+/// ground, and a blow of a few centimetres of penetration would throw bodies apart at the first step.
 inline constexpr double overlap_tolerance_m = 0.02;
 
 struct Overlap {
@@ -18,9 +18,9 @@ struct Overlap {
   double depth_m = 0;            ///< at least so deep
 };
 
-/// The first two actors that overlap by more than the tolerance in their initial poses. Round shapes count
+/// The first two actors that overlap by more than `tolerance_m` in their initial poses. Round shapes count
 /// by a box inside them, so that what is found is real; an overlap at a rounded edge may go unseen. Static
 /// geoms may overlap each other, and so may actors that a joint connects.
-std::optional<Overlap> find_overlap(const model::Model& model);
+std::optional<Overlap> find_overlap(const model::Model& model, double tolerance_m = overlap_tolerance_m);
 
 }  // namespace pbmpi::scenes

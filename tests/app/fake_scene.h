@@ -15,11 +15,13 @@ class FakeScene final : public scenes::Scene {
   const std::string& title() const override { return name_; }
   const std::string& text() const override { return name_; }
   const scenes::RunDefaults& defaults() const override { return defaults_; }
+  const std::optional<stability::HardCase>& hard_case() const override { return hard_case_; }
   std::shared_ptr<const model::Model> build(int, std::uint64_t) const override { return nullptr; }
 
  private:
   std::string name_ = "Fake";
   scenes::RunDefaults defaults_;
+  std::optional<stability::HardCase> hard_case_;
 };
 
 }  // namespace pbmpi::app

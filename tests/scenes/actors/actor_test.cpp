@@ -42,6 +42,20 @@ TEST(GenericBody, refuses_a_mass_for_a_static_obstacle) {
   EXPECT_EQ(message.find("test.toml:10:1: actor 'a': unknown key 'mass'"), 0u) << message;
 }
 
+TEST(GenericBody, takes_moments_of_inertia_of_its_own) {
+  const auto model = build(
+      scene_with("box", "size = [1, 1, 1]\nmass = 1\ninertia = [0.1, 0.2, 0.3]\nposition = [0, 0, 0.5]\n"));
+  EXPECT_EQ(body(*model, "a").inertia.diagonal(), Vec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(body(*model, "a").inertia(0, 1), 0);
+}
+
+TEST(GenericBody, refuses_moments_of_inertia_that_no_body_has) {
+  const std::string message = error_of(
+      scene_with("box", "size = [1, 1, 1]\nmass = 1\nposition = [0, 0, 0.5]\ninertia = [0.1, 0.2, 0.31]\n"));
+  EXPECT_EQ(message.find("test.toml:11:11: actor 'a': no body has a moment of inertia above the sum"), 0u)
+      << message;
+}
+
 TEST(Ramp, rises_along_its_heading_from_the_ground_to_its_height) {
   const auto model =
       build(scene_with("ramp", "length = 4\nwidth = 2\nheight = 0.5\nposition = [10, 0, 0]\nheading = 90\n") +

@@ -144,5 +144,48 @@ TEST(JointReader, refuses_a_second_joint_of_one_name) {
             0u);
 }
 
+/// `num_links` balls in a row, a metre apart.
+std::string row_of_balls(int num_links) {
+  return "title = \"t\"\n[[actor]]\nname = \"link\"\ntype = \"sphere\"\nradius = 0.5\nmass = 1\ncopies = " +
+         std::to_string(num_links) + "\nspacing = [1, 0, 0]\n";
+}
+const std::string chain_joint =
+    "[[joint]]\nname = \"j\"\nkind = \"ball\"\nbodies = [\"link.1\", \"link.2\"]\nanchor = [0.5, 0, 0]\n"
+    "spacing = [1, 0, 0]\n";
+
+TEST(JointReader, copies_count_bodies_and_anchors_up) {
+  const auto model = build(row_of_balls(4) + chain_joint + "copies = 3\n");
+  ASSERT_EQ(model->num_joints(), 3);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(model->joints[i].name, "j." + std::to_string(i + 1));
+    EXPECT_EQ(model->joints[i].body_a, i);
+    EXPECT_EQ(model->joints[i].body_b, i + 1);
+    EXPECT_EQ(model->joints[i].anchor_a, Vec3(0.5, 0, 0));
+    EXPECT_EQ(model->joints[i].anchor_b, Vec3(-0.5, 0, 0));
+  }
+}
+
+TEST(JointReader, copies_keep_the_world_and_names_without_a_number) {
+  const auto model = build(row_of_balls(3) +
+                           "[[joint]]\nname = \"hook\"\nkind = \"ball\"\nbodies = [\"link.1\", \"world\"]\n"
+                           "anchor = [0, 0, 1]\ncopies = 3\nspacing = [1, 0, 0]\n");
+  EXPECT_EQ(model->joints[2].body_a, 2);
+  EXPECT_EQ(model->joints[2].body_b, model::no_body);
+  EXPECT_EQ(model->joints[2].anchor_a, Vec3(0, 0, 1));
+}
+
+TEST(JointReader, refuses_copies_beyond_the_last_body) {
+  const std::string message = error_of(row_of_balls(4) + chain_joint + "copies = 4\n");
+  EXPECT_EQ(message.find("test.toml:12:10: joint 'j.4': unknown body 'link.5'"), 0u) << message;
+}
+
+TEST(JointReader, closes_a_loop) {
+  const auto model = build(row_of_balls(3) + chain_joint +
+                           "copies = 2\n[[joint]]\nname = \"last\"\n"
+                           "kind = \"ball\"\nbodies = [\"link.3\", \"link.1\"]\n"
+                           "anchor = [1, 1, 0]\n");
+  EXPECT_EQ(model->num_joints(), 3);
+}
+
 }  // namespace
 }  // namespace pbmpi::scenes

@@ -19,6 +19,17 @@ TEST(Overlap, of_two_actors_is_refused_at_the_second_ones_place) {
   EXPECT_EQ(message.find("test.toml:11:1: actor 'b': in world 0 it overlaps 'a' by 10 cm"), 0u) << message;
 }
 
+TEST(Overlap, is_allowed_as_deep_as_the_scene_says) {
+  const std::string apart_by_tenth =
+      "\n[[actor]]\nname = \"ground\"\ntype = \"ground\"\n" + two_boxes("position = [0.9, 0, 0.5]\n");
+  EXPECT_EQ(error_of("title = \"t\"\noverlap = 0.11" + apart_by_tenth), "");
+  EXPECT_EQ(error_of("title = \"t\"\noverlap = inf" + apart_by_tenth), "");
+  EXPECT_NE(error_of("title = \"t\"\noverlap = 0.09" + apart_by_tenth).find("or allow it with 'overlap'"),
+            std::string::npos);
+  const std::string negative = error_of("title = \"t\"\noverlap = -1" + apart_by_tenth);
+  EXPECT_EQ(negative.find("test.toml:2:11: scene: 'overlap' is -1; it must be at least 0"), 0u) << negative;
+}
+
 TEST(Overlap, of_a_body_and_the_ground_is_refused) {
   const std::string message = error_after_ground(two_boxes("position = [3, 0, 0.2]\n"));
   EXPECT_NE(message.find("overlaps 'ground' by 30 cm"), std::string::npos) << message;

@@ -1,0 +1,28 @@
+/// Materials of pairs of actors.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "model/model.h"
+#include "scenes/format/table_reader.h"
+
+namespace pbmpi::scenes {
+
+/// A [[pair]] of the file (scenes/FORMAT.md): two actors, or all copies of one, and what they are to each
+/// other.
+class PairPlan {
+ public:
+  explicit PairPlan(TableReader& table);
+
+  /// Puts it into a model that has all its actors, instead of what an earlier [[pair]] said. Throws
+  /// core::InputError at a name that no actor has.
+  void put_into(model::Model& model) const;
+
+ private:
+  std::array<std::string, 2> actors_;
+  std::string where_;
+  model::Material material_;
+};
+
+}  // namespace pbmpi::scenes
