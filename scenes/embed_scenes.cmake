@@ -4,7 +4,7 @@ foreach(scene IN LISTS SCENES)
   file(READ ${FOLDER}/${scene}.toml text)
   string(APPEND entries "    {\"${scene}\", R\"scene_toml(${text})scene_toml\"},\n")
 endforeach()
-file(WRITE ${OUTPUT} "// Generated from scenes/*.toml by embed_scenes.cmake.
+file(WRITE ${OUTPUT} "// Generated from scenes/*.toml and scenes/hard/*/*.toml by embed_scenes.cmake.
 #include \"scenes/embedded.h\"
 
 namespace pbmpi::scenes {

@@ -60,8 +60,10 @@ class Scenes(ProgramTest):
 
     def test_list_scenes_has_a_line_for_each(self):
         result = self.pbmpi(1, "--list-scenes")
-        names = [line.split()[0] for line in result.stdout.splitlines()]
-        self.assertCountEqual(names, SUITE)
+        suite, hard_cases = result.stdout.split("Hard cases", 1)
+        self.assertCountEqual([line.split()[0] for line in suite.splitlines()], SUITE)
+        self.assertIn("hard/rest/", hard_cases)
+        self.assertIn(" column20 ", hard_cases)
 
     def test_version_and_help_exit_with_0(self):
         self.assertIn("pbmpi 0.", self.pbmpi(1, "--version").stdout)

@@ -54,5 +54,20 @@ TEST(Base, the_hundred_crashes_are_the_crash_with_other_poses_of_the_humans) {
   EXPECT_NE(body(*world, "human1.head").pose.position, body(*one, "human1.head").pose.position);
 }
 
+TEST(Base, of_a_hard_case_gives_its_bounds_key_by_key_and_its_expectations_all_or_none) {
+  const auto base = parse_scene(find_scene("hard/free/bounce_half"))->hard_case();
+  ASSERT_GT(base->expectations.size(), 1u);
+  const std::string head = "title = \"t\"\nbase = \"hard/free/bounce_half\"\n";
+  const auto bounded = parse(head + "[case.bounds]\ncreep = [1, 2]\n")->hard_case();
+  EXPECT_EQ(bounded->bounds.size(), base->bounds.size() + 1);
+  EXPECT_EQ(bounded->expectations.size(), base->expectations.size());
+  EXPECT_EQ(bounded->source, base->source);
+  const auto expecting =
+      parse(head + "[[case.expect]]\nbody = \"ball\"\nquantity = \"z\"\nvalue = 0\nwithin = [1, 2]\n")
+          ->hard_case();
+  EXPECT_EQ(expecting->expectations.size(), 1u);
+  EXPECT_EQ(expecting->bounds.size(), base->bounds.size());
+}
+
 }  // namespace
 }  // namespace pbmpi::scenes

@@ -32,13 +32,34 @@ namespace {
 
 using core::ExitCode;
 
+/// The hard cases group by group, on lines of this many characters.
+std::string hard_case_list() {
+  constexpr std::size_t width = 100;
+  std::string text = "Hard cases (docs/stability.md):";
+  std::string group;
+  std::size_t line_begin = 0;
+  for (const scenes::SceneInfo& scene : scenes::list_hard_cases()) {
+    const std::size_t name_begin = scene.name.rfind('/') + 1;
+    const bool is_new_group = group != scene.name.substr(0, name_begin);
+    group = scene.name.substr(0, name_begin);
+    const std::string name = scene.name.substr(name_begin);
+    if (is_new_group) text += "\n  " + group;
+    if (is_new_group || text.size() - line_begin + name.size() > width) {
+      line_begin = text.size() + 1;
+      text += "\n   ";
+    }
+    text += " " + name;
+  }
+  return text + "\n";
+}
+
 std::string scene_list() {
   std::string text;
   for (const scenes::SceneInfo& scene : scenes::list_scenes()) {
     text += scene.name + std::string(scene.name.size() < 12 ? 12 - scene.name.size() : 1, ' ') + scene.title +
             "\n";
   }
-  return text;
+  return text + hard_case_list();
 }
 
 RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, const Provenance& provenance,

@@ -72,6 +72,9 @@ std::string output_after(const ResumePoint& from) {
   return near.starts_with("..") ? path : near;
 }
 
+/// "column20" of "hard/rest/column20".
+std::string file_stem(const scenes::Scene& scene) { return scene.name().substr(scene.name().rfind('/') + 1); }
+
 std::optional<std::string> resolve_output(const Options& options, const scenes::Scene& scene,
                                           const ResumePoint& from) {
   if (options.no_output) return std::nullopt;
@@ -82,7 +85,7 @@ std::optional<std::string> resolve_output(const Options& options, const scenes::
                       "another, or leave the option out");
     return options.output;
   }
-  if (from.path.empty()) return scene.name() + ".h5";
+  if (from.path.empty()) return file_stem(scene) + ".h5";
   if (from.output.empty()) return std::nullopt;
   return output_after(from);
 }
@@ -90,7 +93,7 @@ std::optional<std::string> resolve_output(const Options& options, const scenes::
 CheckpointSpec resolve_checkpoint(const Options& options, const scenes::Scene& scene, const ResumePoint& from,
                                   const std::optional<std::string>& output) {
   CheckpointSpec spec;
-  const std::string beside = stem(output.value_or(scene.name())) + ".checkpoint.h5";
+  const std::string beside = stem(output.value_or(file_stem(scene))) + ".checkpoint.h5";
   spec.path = options.checkpoint.value_or(from.path.empty() ? beside : from.path);
   spec.every_s = options.checkpoint_every_s;
   spec.max_time_s = options.max_time_s;
