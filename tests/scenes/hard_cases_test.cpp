@@ -50,6 +50,17 @@ INSTANTIATE_TEST_SUITE_P(All, EachHardCase, testing::ValuesIn(names_of_cases()),
   return name;
 });
 
+TEST(HardCases, cover_every_row_of_the_list) {
+  std::set<int> rows;
+  for (const std::string& name : names_of_cases())
+    rows.insert(parse_scene(find_scene(name))->hard_case()->row);
+  for (int row = 1; row <= 30; ++row) {
+    const bool is_an_axis = row == 29;  // the length of a step: the study varies it
+    EXPECT_EQ(rows.contains(row), !is_an_axis) << "row " << row;
+  }
+  EXPECT_GE(names_of_cases().size(), 65u);
+}
+
 TEST(HardCases, are_the_files_word_for_word_and_at_most_25_a_folder) {
   std::map<std::string, int> in_folder;
   std::set<std::string> files;
