@@ -83,6 +83,12 @@ std::optional<std::string> output_path(const po::variables_map& values, const ch
   return path;
 }
 
+void require_not_overwritten(const std::string& file,
+                             std::initializer_list<std::optional<std::string>> outputs) {
+  for (const auto& output : outputs)
+    core::require_input(output != file, file + ": this file is to be read, not written over");
+}
+
 CommonOptions common_options(const po::variables_map& values) {
   CommonOptions common;
   common.quiet = values.count("quiet") != 0;

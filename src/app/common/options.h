@@ -1,6 +1,7 @@
 /// What the three programs' command lines have in common.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,10 @@ boost::program_options::variables_map parse_command_line(
 /// The file to write that an option names, if it is given. Throws core::InputError for an empty name.
 std::optional<std::string> output_path(const boost::program_options::variables_map& values,
                                        const char* option);
+
+/// Throws core::InputError if one of the outputs is the file that is to be read.
+void require_not_overwritten(const std::string& file,
+                             std::initializer_list<std::optional<std::string>> outputs);
 
 /// Reads the common options out of a parsed command line. Throws core::InputError.
 CommonOptions common_options(const boost::program_options::variables_map& values);

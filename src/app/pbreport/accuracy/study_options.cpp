@@ -20,9 +20,11 @@ po::options_description visible_options() {
   po::options_description choose("What to choose");
   choose.add_options()  //
       ("budget", po::value<std::string>()->value_name("TIME"),
-       "name, per scene, the setting with the least defect that fits this frame time (us, ms, s)")  //
+       "name, per scene, the setting with the least defect that fits this frame time (us, ms, s); what fells "
+       "bodies that should stand is not chosen")  //
       ("tolerance", po::value<std::string>()->value_name("LENGTH"),
-       "name, per scene, the cheapest setting that keeps its defect within this length (mm, cm, m)")  //
+       "name, per scene, the cheapest setting that keeps its defect within this length (mm, cm, m), with the "
+       "same exception")  //
       ("measure", po::value<std::string>()->default_value("rms")->value_name("rms|p99|max|joint"),
        "the defect that counts: rms, p99 or max of all body positions, or the rms of all joint gaps");
   add_scene_choice(choose);
@@ -68,7 +70,7 @@ AccuracyReportOptions parse_study_options(const std::vector<std::string>& args) 
     options.tolerance_m = parse_length_m(values["tolerance"].as<std::string>(), "--tolerance");
   }
   options.preset = output_path(values, "write-preset");
-  require_not_the_study(options.file, {options.preset});
+  require_not_overwritten(options.file, {options.preset});
   require_input(!options.preset || options.budget_s || options.tolerance_m,
                 "--write-preset writes the setting that --budget or --tolerance chooses; give one of them");
   require_input(!options.budget_s || !options.tolerance_m,

@@ -65,9 +65,7 @@ ReportOptions parse_report_options(const std::vector<std::string>& args) {
   require_input(files.size() == 1, "'" + files.back() + "' follows '" + files.front() +
                                        "': pbreport reads one file; see --help");
   options.file = files.front();
-  for (const auto& output : {options.html, options.xdmf}) {
-    require_input(output != options.file, options.file + ": this file is to be read, not written over");
-  }
+  require_not_overwritten(options.file, {options.html, options.xdmf});
   return options;
 }
 

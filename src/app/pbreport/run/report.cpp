@@ -11,8 +11,7 @@
 
 namespace pbmpi::app {
 
-core::ExitCode run_report(const std::vector<std::string>& args, std::ostream& out) {
-  const ReportOptions options = parse_report_options(args);
+core::ExitCode run_report(const ReportOptions& options, std::ostream& out) {
   if (options.action == ReportAction::version) {
     out << version_line("pbreport") << "\n";
     return core::ExitCode::done;

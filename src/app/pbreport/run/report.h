@@ -2,15 +2,14 @@
 #pragma once
 
 #include <iosfwd>
-#include <string>
-#include <vector>
 
+#include "app/pbreport/run/options.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
 
-/// Prints the summary to `out`. Throws core::InputError: bad usage, a file that is not a run's, an output
-/// that cannot be written.
-core::ExitCode run_report(const std::vector<std::string>& args, std::ostream& out);
+/// Prints the summary (or the version) to `out`. Throws core::InputError: a file that is not a run's, an
+/// output that cannot be written.
+core::ExitCode run_report(const ReportOptions& options, std::ostream& out);
 
 }  // namespace pbmpi::app

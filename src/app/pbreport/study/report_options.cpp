@@ -49,14 +49,8 @@ ReportOfStudyOptions report_of_study_options(const po::variables_map& values, co
   const auto files = values["file"].as<std::vector<std::string>>();
   require_input(files.size() == 1, "'" + files.back() + "' follows '" + files.front() + "': give one study");
   options.file = files.front();
-  require_not_the_study(options.file, {options.html, options.csv});
+  require_not_overwritten(options.file, {options.html, options.csv});
   return options;
-}
-
-void require_not_the_study(const std::string& file,
-                           std::initializer_list<std::optional<std::string>> outputs) {
-  for (const auto& output : outputs)
-    require_input(output != file, file + ": this file is to be read, not written over");
 }
 
 }  // namespace pbmpi::app

@@ -1,7 +1,6 @@
 /// What the command lines of the reports of all studies have in common.
 #pragma once
 
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,9 +33,5 @@ boost::program_options::variables_map parse_study_report(const std::vector<std::
 /// name. With --help nothing else is read.
 ReportOfStudyOptions report_of_study_options(const boost::program_options::variables_map& values,
                                              const std::string& what, const std::string& example);
-
-/// Throws core::InputError if one of the outputs is the study itself.
-void require_not_the_study(const std::string& file,
-                           std::initializer_list<std::optional<std::string>> outputs);
 
 }  // namespace pbmpi::app
