@@ -51,7 +51,7 @@ pb.readAddress = (replay) => {
 pb.start = () => {
   pb.showHeader();
   pb.showPlots();
-  const data = pb.decodeReplay();
+  const data = pb.decodeReplay(pb.json('replay-data'));
   let stage;
   try {
     stage = new pb.Stage(document.getElementById('canvas'), data);

@@ -19,8 +19,7 @@ pb.about = pb.json('about-data');
 // The replay's arrays. Frame 0 is the initial pose.
 //   timeS, step [F]; position [F][N][3] m; orientation [F][N][4] (w, x, y, z); bodyWorld [N]
 //   geoms: kind, shape, world, body (-1 = static) [G]; size [G][3] m; local [G][7] position, orientation
-pb.decodeReplay = () => {
-  const raw = pb.json('replay-data');
+pb.decodeReplay = (raw) => {
   return {
     note: raw.note,
     numWorlds: raw.num_worlds,

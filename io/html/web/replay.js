@@ -17,17 +17,24 @@ pb.gridColumns = (count, aspect) => {
 
 pb.Replay = class {
   constructor(replay, stage) {
-    this.data = replay;
     this.stage = stage;
-    this.poses = new pb.Poses(replay);
     this.byId = (id) => document.getElementById(id);
+    this.lastTick = 0;
+    this.listen();
+    this.show(replay);
+  }
+
+  // Shows this replay from its start, and no longer the one before.
+  show(replay) {
+    this.data = this.stage.replay = replay;
+    this.poses = new pb.Poses(replay);
     this.frame = 0;  // fractional while playing
     this.playing = false;
-    this.lastTick = 0;
+    this.followChosen = false;
     this.holdS = 0;
     this.dirty = true;
     this.fillControls();
-    this.listen();
+    this.showPlaying();
     // All worlds at once say most about a run of many; one world is drawn as it is.
     this.setWorld(replay.numWorlds > 1 ? 'all' : 0);
   }
@@ -38,11 +45,11 @@ pb.Replay = class {
     // So slow that the run lasts some 5 s: a crash is over in a quarter of a second.
     this.speed = [...pb.speeds].reverse().find((speed) => duration / speed >= 5) || pb.speeds[0];
     this.speed = Math.min(1, this.speed);
-    this.byId('speed').append(...pb.speeds.map((speed) => pb.element('option', {
+    this.byId('speed').replaceChildren(...pb.speeds.map((speed) => pb.element('option', {
       value: speed, selected: speed === this.speed, textContent: speed < 1 ? `1/${Math.round(1 / speed)}×` : `${speed}×`,
     })));
     const option = (value, text) => pb.element('option', {value, textContent: text});
-    this.byId('world').append(option('all', `all ${this.data.numWorlds}`),
+    this.byId('world').replaceChildren(option('all', `all ${this.data.numWorlds}`),
                               ...Array.from({length: this.data.numWorlds}, (_, world) => option(world, world)));
     this.byId('world-field').hidden = this.data.numWorlds < 2;
     this.byId('replay-note').textContent = this.data.note;

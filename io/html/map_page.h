@@ -1,0 +1,42 @@
+/// A self-contained HTML page of a map, a row a case and a column a setting, whose fields open curves and a
+/// replay. It loads nothing from anywhere.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/run/run_data.h"
+
+namespace pbmpi::io::html {
+
+struct MapCurve {
+  std::string title, unit;
+  std::vector<double> time_s, value;
+};
+
+struct MapCell {
+  std::string verdict;  ///< "pass", "degraded", "broken", "n/a"
+  std::string label;    ///< a few words; may be empty
+  std::string detail;   ///< a line for those who click
+  double severity = 0;  ///< 0 to 1: how far beyond what is right
+  std::vector<MapCurve> curves;
+  RunData replay;  ///< bodies, geoms and recorded poses of one world; without poses there is no replay
+};
+
+struct MapRow {
+  std::string name, group;
+  std::string oracle;  ///< what should happen
+  std::string source;
+  std::vector<MapCell> cells;  ///< [columns]
+};
+
+struct MapPage {
+  std::string title, subtitle;
+  std::vector<std::string> columns;
+  std::vector<MapRow> rows;
+};
+
+/// By way of a temporary file beside it. Throws core::InputError if it cannot be written.
+void write_map_page(const std::string& path, const MapPage& page);
+
+}  // namespace pbmpi::io::html
