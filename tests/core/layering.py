@@ -15,7 +15,7 @@ STANDS_ON = {
     "src/geometry": ["src/model"],
     "src/effects": ["src/geometry"],
     "src/stepping": ["src/effects"],
-    "src/stability": ["src/stepping"],
+    "src/stability": ["src/stepping", "src/analysis"],
     "src/analysis": ["src/model"],
     "src/estimate": ["src/stepping"],
     "src/ode/objects": ["src/effects"],
@@ -56,12 +56,14 @@ STANDS_ON = {
     "src/app/pbreport/study": ["src/app/common", "src/analysis", "io/table"],
     "src/app/pbreport/accuracy": ["src/app/pbreport/study", "io/html"],
     "src/app/pbreport/effects": ["src/app/pbreport/study", "io/html"],
+    "src/app/pbreport/stability": ["src/app/pbreport/study", "io/html"],
     "src/app/pbreport": ["src/app/pbreport/run", "src/app/pbreport/suite", "src/app/pbreport/figures",
-                         "src/app/pbreport/accuracy", "src/app/pbreport/effects"],
+                         "src/app/pbreport/accuracy", "src/app/pbreport/effects", "src/app/pbreport/stability"],
     "src/app/pbstudy/study": ["src/app/common", "src/analysis", "io/table"],
     "src/app/pbstudy/accuracy": ["src/app/pbstudy/study"],
     "src/app/pbstudy/effects": ["src/app/pbstudy/study"],
-    "src/app/pbstudy": ["src/app/pbstudy/accuracy", "src/app/pbstudy/effects"],
+    "src/app/pbstudy/stability": ["src/app/pbstudy/study"],
+    "src/app/pbstudy": ["src/app/pbstudy/accuracy", "src/app/pbstudy/effects", "src/app/pbstudy/stability"],
 }
 
 # A folder is one part of the program; one with more files than these is more than one.

@@ -1,5 +1,7 @@
 #include "app/common/load_scene.h"
 
+#include <algorithm>
+
 #include "mpi/comm/agreement.h"
 
 namespace pbmpi::app {
@@ -13,6 +15,11 @@ scenes::SceneSource share_scene(const mpi::Communicator& comm, const std::string
   comm.bcast_string(source.file);
   comm.bcast_string(source.text);
   return source;
+}
+
+std::string scene_text_parameter(std::string scene_name) {
+  std::ranges::replace(scene_name, '/', '.');
+  return "scene_text_" + scene_name;
 }
 
 std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const std::string& name_or_path,

@@ -14,6 +14,9 @@ namespace pbmpi::app {
 /// read is no special case. Throws core::InputError on every rank.
 scenes::SceneSource share_scene(const mpi::Communicator& comm, const std::string& name_or_path);
 
+/// The name of a study's parameter that holds a scene's text: '/' would open a group.
+std::string scene_text_parameter(std::string scene_name);
+
 /// Collective. The scene of share_scene(), parsed.
 std::unique_ptr<scenes::Scene> load_scene(const mpi::Communicator& comm, const std::string& name_or_path,
                                           std::optional<double> dt_s,

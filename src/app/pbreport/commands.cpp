@@ -9,6 +9,7 @@
 #include "app/pbreport/figures/figures.h"
 #include "app/pbreport/run/options.h"
 #include "app/pbreport/run/report.h"
+#include "app/pbreport/stability/stability.h"
 #include "app/pbreport/study/study_file.h"
 #include "app/pbreport/suite/suite_commands.h"
 
@@ -30,7 +31,8 @@ void print_help(std::ostream& out) {
 
 /// "pbreport [report] FILE", whose help is that of the program.
 core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostream& out) {
-  if (parse_report_options(args).action != ReportAction::help) return run_report(args, out);
+  const ReportOptions options = parse_report_options(args);
+  if (options.action != ReportAction::help) return run_report(options, out);
   print_help(out);
   return core::ExitCode::done;
 }
@@ -41,6 +43,7 @@ using Run = core::ExitCode (*)(const std::vector<std::string>& args, std::ostrea
 Run command_for_the_files_of(const std::vector<std::string>& args) {
   const std::string study = study_named_in(args);
   if (study == "effects") return run_effects_report;
+  if (study == "stability") return run_stability_report;
   return study.empty() ? report_commands().front().run : run_study;
 }
 
@@ -57,6 +60,8 @@ const std::vector<ReportCommand>& report_commands() {
       {"figures", "figures 8 and 9 of the paper from recorded runs", run_figures},
       {"study", "what accuracy costs in time: the file of pbstudy, and the setting for a budget", run_study},
       {"effects", "what effects cost: the file of pbstudy effects", run_effects_report},
+      {"stability", "which settings hold the hard cases: the file of pbstudy stability",
+       run_stability_report},
   };
   return commands;
 }

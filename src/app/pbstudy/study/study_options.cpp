@@ -41,8 +41,8 @@ StudyOptions study_options(const po::variables_map& values, const std::string& p
   for (const std::string& arg : args) options.command_line += " " + arg;
   options.scenes = study_scene_names(list<std::string>(values, "scene", {}));
   options.overrides = {given(values, "replicas", 1), given(values, "frames", 1), given(values, "warmup", 0)};
-  options.repeats = given(values, "repeats", 1).value();
-  options.floor_seeds = given(values, "floor-seeds", 1).value();
+  options.repeats = given(values, "repeats", 1).value_or(1);
+  options.floor_seeds = given(values, "floor-seeds", 1).value_or(0);
   options.seed = values["seed"].as<std::uint64_t>();
   options.output = values["output"].as<std::string>();
   return options;

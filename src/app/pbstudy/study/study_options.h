@@ -15,7 +15,7 @@ struct StudyOptions {
   std::vector<std::string> scenes;
   SceneOverrides overrides;
   int repeats = 1;      ///< times that each frame is timed
-  int floor_seeds = 1;  ///< other solver seeds, for the noise floor
+  int floor_seeds = 0;  ///< other solver seeds, for the noise floor
   std::uint64_t seed = 1;
   std::string output;
   CommonOptions common;

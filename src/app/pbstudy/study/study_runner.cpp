@@ -50,7 +50,8 @@ io::TableFile StudyRunner::file_with(StudyContent content) const {
   file.parameters.push_back(Parameter::of("ranks", static_cast<std::int64_t>(provenance_.hosts.size())));
   file.parameters.push_back(Parameter::of("build", build_description));
   for (const StudyScene& scene : scenes_)
-    file.parameters.push_back(Parameter::of("scene_text_" + scene.source.name, scene.source.text));
+    file.parameters.push_back(Parameter::of(scene_text_parameter(scene.source.name), scene.source.text));
+  file.tables = std::move(content.tables);
   file.tables["cases"] = std::move(content.cases);
   return file;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,6 +25,7 @@ namespace pbmpi::app {
 struct StudyContent {
   std::vector<io::Parameter> parameters;
   std::vector<io::TableColumn> cases;  ///< a row a case
+  std::map<std::string, std::vector<io::TableColumn>> tables;  ///< others, by name
   std::string note;                    ///< lines for the end of the run
   std::string next;                    ///< options of pbreport to go on with
 };

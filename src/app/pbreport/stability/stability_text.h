@@ -1,0 +1,15 @@
+/// A study of stability as text, JSON and Markdown.
+#pragma once
+
+#include <string>
+
+#include "app/pbreport/stability/stability_data.h"
+
+namespace pbmpi::app {
+
+std::string stability_to_text(const StabilityMap& map);
+std::string stability_to_json(const StabilityMap& map);
+/// A row a case, a column a setting; below them how many cases each setting holds.
+std::string stability_to_markdown(const StabilityMap& map);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,15 @@
+/// "pbstudy stability": which settings hold the hard cases.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "mpi/comm/communicator.h"
+
+namespace pbmpi::app {
+
+/// Collective. Throws core::InputError and core::RunError, the same on every rank.
+core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<std::string>& args);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,45 @@
+/// The cases of "pbstudy stability": pure data, the same on every rank.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/pbstudy/stability/stability_options.h"
+#include "app/pbstudy/study/study_scene.h"
+#include "stability/hard_case.h"
+
+namespace pbmpi::app {
+
+/// A hard case at one step length.
+struct HardScene {
+  std::shared_ptr<const model::Model> model;
+  stability::HardCase hard_case;
+  double dt_s = 0;
+
+  std::int64_t num_steps() const;
+};
+
+/// Throws core::InputError for a scene without [case].
+HardScene build_hard_scene(const StudyScene& scene, double dt_s, std::uint64_t seed);
+
+/// A scene under a setting.
+struct StabilityCase {
+  int scene = 0;    ///< index into the study's scenes
+  int setting = 0;  ///< index into its settings
+  stepping::StepperSettings stepper;
+  bool cut = false;
+  int estimate_iterations = 0;
+  std::int64_t num_steps = 0;
+  int num_bodies = 0;
+  std::string not_applicable;  ///< why the setting cannot run this case; empty: it can
+};
+
+/// All cases, scene by scene.
+std::vector<StabilityCase> make_stability_cases(const std::vector<StudyScene>& scenes,
+                                                const StabilityOptions& options);
+
+/// Which rank works on which case [num_cases]: by expected cost, the dearest first.
+std::vector<int> deal_out(const std::vector<StabilityCase>& cases, int num_ranks);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,94 @@
+#include "app/pbstudy/stability/stability_options.h"
+
+#include <limits>
+#include <sstream>
+
+#include "app/pbstudy/study/option_lists.h"
+#include "core/error.h"
+#include "stepping/step_options.h"
+
+namespace pbmpi::app {
+namespace {
+
+namespace po = boost::program_options;
+
+std::string setting_help() {
+  std::string text =
+      "settings, each in quotes: a stepper, then options of a step as name=value, cut (the world in two "
+      "spaces), estimate=N (FEEC's look at the solve after N iterations); default:";
+  for (const std::string& setting : default_stability_settings()) text += " \"" + setting + "\"";
+  return text;
+}
+
+po::options_description options_description() {
+  po::options_description what("What to measure");
+  what.add_options()  //
+      ("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE.toml..."),
+       "scenes with a [case] (scenes/FORMAT.md); default: all of scenes/hard")           //
+      ("setting", list_of<std::string>(), setting_help().c_str())                        //
+      ("dt", list_of<std::string>(), "take every setting with each of these steps [s]")  //
+      ("most-work", po::value<double>()->value_name("N"),
+       "leave out cases of more than so many bodies x steps; default: none");
+  po::options_description how("How to measure");
+  how.add_options()  //
+      ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"),
+       "of the scene's variation and of the solver")  //
+      ("poses", po::value<int>()->default_value(1200)->value_name("N"),
+       "most poses of a case that the file keeps for the replay; 0: none");
+  po::options_description all;
+  all.add(what).add(how).add(what_to_write("stability.h5")).add(common_options_description());
+  return all;
+}
+
+std::vector<std::string> hard_case_names() {
+  std::vector<std::string> names;
+  for (const scenes::SceneInfo& scene : scenes::list_hard_cases()) names.push_back(scene.name);
+  return names;
+}
+
+/// Each setting with each dt.
+std::vector<StabilitySetting> crossed(const std::vector<std::string>& settings,
+                                      const std::vector<std::string>& dts) {
+  std::vector<StabilitySetting> all;
+  for (const std::string& text : settings) {
+    const StabilitySetting setting = parse_stability_setting(text);
+    if (dts.empty()) all.push_back(setting);
+    for (const std::string& dt : dts) {
+      all.push_back(setting);
+      set(stepping::step_option("dt"), dt, "--dt", all.back().stepper);
+      all.back().own_dt = true;
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string stability_help_text() {
+  std::ostringstream text;
+  text
+      << "pbstudy stability runs scenes that are known to be hard under many settings. Each says in its file "
+         "what should happen, and within which bounds; a run that keeps them passes, one beyond them is "
+         "degraded or broken.\n\n"
+      << "Usage: mpirun -n RANKS pbstudy stability [--scene NAME...] [--setting TEXT...] [options]\n\n"
+      << options_description()
+      << "\nThe cases are dealt out over the ranks; a rank works on one at a time.\n"
+         "Then: pbreport stability.h5 --html stability.html\n";
+  return text.str();
+}
+
+StabilityOptions parse_stability_options(const std::vector<std::string>& args) {
+  const po::variables_map values = parse_command_line(args, options_description());
+  StabilityOptions options;
+  static_cast<StudyOptions&>(options) = study_options(values, "pbstudy stability", args);
+  if (values.count("scene") == 0) options.scenes = hard_case_names();
+  options.settings = crossed(list<std::string>(values, "setting", default_stability_settings()),
+                             list<std::string>(values, "dt", {}));
+  options.most_poses = given(values, "poses", 0).value();
+  options.most_work = values.count("most-work") != 0 ? values["most-work"].as<double>()
+                                                     : std::numeric_limits<double>::infinity();
+  core::require_input(options.most_work > 0, "--most-work: it must be above 0");
+  return options;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,23 @@
+/// The command line of "pbstudy stability".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/pbstudy/stability/stability_settings.h"
+#include "app/pbstudy/study/study_options.h"
+
+namespace pbmpi::app {
+
+struct StabilityOptions : StudyOptions {
+  std::vector<StabilitySetting> settings;
+  int most_poses = 1200;  ///< recorded of each case for the replay
+  double most_work = 0;   ///< body-steps of a case; cases with more are left out
+};
+
+/// Throws core::InputError with one clear message.
+StabilityOptions parse_stability_options(const std::vector<std::string>& args);
+
+std::string stability_help_text();
+
+}  // namespace pbmpi::app

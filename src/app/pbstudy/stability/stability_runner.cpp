@@ -1,0 +1,187 @@
+#include "app/pbstudy/stability/stability_runner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/common/stepper_factory.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "model/space_map.h"
+#include "mpi/spaces/space_driver.h"
+
+namespace pbmpi::app {
+namespace {
+
+using model::State;
+using stability::Metric;
+
+/// Longer runs are looked at this often.
+constexpr std::int64_t most_looks = 20'000;
+
+/// Sees the states of a run: measures them, and keeps curves and poses.
+class Recorder {
+ public:
+  Recorder(const StabilityCase& one, const HardScene& hard, int most_poses, std::vector<RecordedPose>& poses)
+      : case_(one),
+        watch_(hard.hard_case, *hard.model, one.stepper.dt_s),
+        poses_(poses),
+        most_moments_(one.num_bodies > 0 ? std::min(25, most_poses / one.num_bodies) : 0) {}
+
+  void see(const State& state, const stepping::Observables& seen, std::int64_t step) {
+    watch_.see(state, seen, step);
+    row_visits_ += static_cast<double>(seen.rows) * case_.stepper.iterations * case_.stepper.substeps;
+    ++num_looks_;
+    worst_gap_m_ = std::max(worst_gap_m_, seen.joint_gap_m);
+    worst_penetration_m_ = std::max(worst_penetration_m_, seen.max_penetration_m);
+    if (step * most_curve_points >= (result.num_points + 1) * case_.num_steps) add_point(seen, step);
+    if (step * most_moments_ >= (num_moments_ + 1) * case_.num_steps) add_poses(state, step);
+  }
+
+  void finish() {
+    const stability::CaseMeasurement measured = watch_.result();
+    result.metrics = measured.metrics;
+    result.expected_off.fill(NAN);
+    std::ranges::copy(measured.expected_off, result.expected_off.begin());
+    result.broken_at_s = measured.broken_at_s;
+    result.simulated_s = measured.simulated_s;
+    result.row_visits = num_looks_ > 0 ? row_visits_ / static_cast<double>(num_looks_) : 0;
+  }
+
+  StabilityResult result;
+
+ private:
+  double time_of(std::int64_t step) const { return static_cast<double>(step) * case_.stepper.dt_s; }
+
+  void add_point(const stepping::Observables& seen, std::int64_t step) {
+    result.curve[static_cast<std::size_t>(result.num_points++)] = {
+        time_of(step), seen.energy_j, worst_gap_m_, worst_penetration_m_, watch_.metric(Metric::drift)};
+    worst_gap_m_ = worst_penetration_m_ = 0;
+  }
+
+  void add_poses(const State& state, std::int64_t step) {
+    ++num_moments_;
+    for (std::size_t body = 0; body < state.position.size(); ++body) {
+      const model::Vec3& at = state.position[body];
+      const model::Quat& turn = state.orientation[body];
+      poses_.push_back({0,
+                        static_cast<std::int32_t>(body),
+                        time_of(step),
+                        {at.x(), at.y(), at.z(), turn.w, turn.x, turn.y, turn.z}});
+    }
+  }
+
+  const StabilityCase& case_;
+  stability::CaseWatch watch_;
+  std::vector<RecordedPose>& poses_;
+  std::int64_t most_moments_, num_moments_ = 0, num_looks_ = 0;
+  double worst_gap_m_ = 0, worst_penetration_m_ = 0, row_visits_ = 0;
+};
+
+void run_whole(const StabilityCase& one, const HardScene& hard, Recorder& recorder) {
+  const auto stepper = make_stepper(one.stepper, "case: ");
+  stepper->add(0, hard.model, model::initial_state(*hard.model), 0);
+  const std::int64_t stride = std::max<std::int64_t>(1, one.num_steps / most_looks);
+  core::PhaseTimes times;
+  double seconds = 0;
+  for (std::int64_t step = 0; step < one.num_steps; step += stride) {
+    const double start_s = core::thread_cpu_s();
+    stepper->advance(static_cast<int>(stride), times);
+    seconds += core::thread_cpu_s() - start_s;
+    recorder.see(stepper->state(0), stepper->observables(0), step + stride);
+    recorder.result.step_time_s = seconds / static_cast<double>(step + stride);
+    if (stepper->observables(0).nonfinite > 0) return;
+  }
+}
+
+/// Sees what is shown of each step before its solve has ended; what is stepped on from is the precise state.
+void run_estimates(const StabilityCase& one, const HardScene& hard, Recorder& recorder) {
+  const auto stepper = make_anytime_stepper(one.stepper);
+  stepper->add(0, hard.model, model::initial_state(*hard.model), 0);
+  core::PhaseTimes times;
+  double seconds = 0;
+  for (std::int64_t step = 1; step <= one.num_steps; ++step) {
+    const double start_s = core::thread_cpu_s();
+    stepper->begin_step(one.estimate_iterations, times);
+    const State shown = stepper->look(0);
+    seconds += core::thread_cpu_s() - start_s;
+    stepper->advance(1, times);
+    stepping::Observables seen = stepper->observables(0);
+    stepping::observe_state(*hard.model, shown, seen);
+    recorder.see(shown, seen, step);
+    recorder.result.step_time_s = seconds / static_cast<double>(step);
+    if (stepper->observables(0).nonfinite > 0) return;
+  }
+}
+
+/// The world with its units in two spaces, the first half of them and the rest.
+std::shared_ptr<const model::Model> cut_in_two(const model::Model& whole) {
+  const model::SpaceMap map = model::make_space_map(whole);
+  auto cut = std::make_shared<model::Model>(whole);
+  cut->spaces = {"first", "second"};
+  cut->spaces_meet = true;
+  for (model::Geom& geom : cut->geoms) {
+    const int unit = geom.body == model::no_body ? 0 : map.unit_of_body[static_cast<std::size_t>(geom.body)];
+    geom.space = 2 * unit < map.num_units() ? 0 : 1;
+  }
+  return cut;
+}
+
+/// Has each step of a driver recorded.
+class StepObserver final : public stepping::FrameObserver {
+ public:
+  explicit StepObserver(Recorder& recorder) : recorder_(recorder) {}
+  void frame_done(const stepping::FrameRecord& frame) override {
+    const stepping::LocalWorld& world = frame.worlds.front();
+    recorder_.see(*world.state, *world.observables, frame.step);
+  }
+
+ private:
+  Recorder& recorder_;
+};
+
+void run_cut(const StabilityCase& one, const HardScene& hard, Recorder& recorder) {
+  const auto stepper = make_space_stepper(one.stepper, cut_in_two(*hard.model));
+  mpi::WorldRunSettings settings;
+  settings.warmup = 0;
+  settings.frames = static_cast<int>(one.num_steps);
+  settings.steps_per_frame = 1;
+  settings.dt_s = one.stepper.dt_s;
+  mpi::SpaceDriver driver(mpi::Communicator(), *stepper, settings);  // one rank, whose result is that of many
+  StepObserver observer(recorder);
+  driver.add_observer(observer);
+  const double start_s = core::thread_cpu_s();
+  const mpi::WorldRunResult result = driver.run();
+  recorder.result.step_time_s =
+      (core::thread_cpu_s() - start_s) / static_cast<double>(std::max<std::int64_t>(1, result.frames_done));
+}
+
+}  // namespace
+
+stability::CaseMeasurement StabilityResult::measurement(const stability::HardCase& hard_case) const {
+  stability::CaseMeasurement measured;
+  measured.metrics = metrics;
+  measured.expected_off.assign(expected_off.begin(),
+                               expected_off.begin() + std::ssize(hard_case.expectations));
+  measured.broken_at_s = broken_at_s;
+  measured.simulated_s = simulated_s;
+  return measured;
+}
+
+StabilityResult run_stability_case(const StabilityCase& one, const HardScene& hard, int most_poses,
+                                   std::vector<RecordedPose>& poses) {
+  core::require_input(hard.hard_case.expectations.size() <= most_expectations,
+                      "[[case.expect]]: at most " + std::to_string(most_expectations) + " of a case");
+  Recorder recorder(one, hard, most_poses, poses);
+  if (!one.not_applicable.empty()) return recorder.result;
+  if (one.cut) {
+    run_cut(one, hard, recorder);
+  } else if (one.estimate_iterations > 0) {
+    run_estimates(one, hard, recorder);
+  } else {
+    run_whole(one, hard, recorder);
+  }
+  recorder.finish();
+  return recorder.result;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,55 @@
+/// Runs one case of "pbstudy stability" on this rank.
+#pragma once
+
+#include <array>
+#include <type_traits>
+#include <vector>
+
+#include "app/pbstudy/stability/stability_cases.h"
+#include "stability/case_watch.h"
+
+namespace pbmpi::app {
+
+/// A point of a case's curves: at `time_s`, the worst since the point before.
+struct CurvePoint {
+  double time_s = 0;
+  double energy_j = 0;  ///< of that moment
+  double joint_gap_m = 0;
+  double penetration_m = 0;
+  double drift_m = 0;  ///< so far
+};
+inline constexpr int most_curve_points = 100;
+
+/// The pose of a body at a moment of a case.
+struct RecordedPose {
+  std::int32_t case_index = 0;
+  std::int32_t body = 0;
+  double time_s = 0;
+  std::array<double, 7> pose{};  ///< position [m], orientation (w, x, y, z); world frame
+};
+
+/// A case with more expectations is refused.
+inline constexpr std::size_t most_expectations = 24;
+
+/// What is measured of a case. Sent between ranks as its bytes.
+struct StabilityResult {
+  int index = 0;  ///< into the cases
+  std::array<double, stability::num_metrics> metrics{};
+  std::array<double, most_expectations> expected_off{};
+  double broken_at_s = 0;
+  double simulated_s = 0;
+  double step_time_s = 0;  ///< processor time of a step, mean
+  double row_visits = 0;   ///< of a step, mean
+  int num_points = 0;
+  std::array<CurvePoint, most_curve_points> curve{};
+
+  stability::CaseMeasurement measurement(const stability::HardCase& hard_case) const;
+};
+static_assert(std::is_trivially_copyable_v<StabilityResult>);
+static_assert(std::is_trivially_copyable_v<RecordedPose>);
+
+/// Appends at most `most_poses` poses, of moments at even distances.
+StabilityResult run_stability_case(const StabilityCase& one, const HardScene& hard, int most_poses,
+                                   std::vector<RecordedPose>& poses);
+
+}  // namespace pbmpi::app

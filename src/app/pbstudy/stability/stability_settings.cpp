@@ -1,0 +1,92 @@
+#include "app/pbstudy/stability/stability_settings.h"
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+#include "app/common/format.h"
+#include "core/error.h"
+#include "stepping/names.h"
+#include "stepping/step_options.h"
+
+namespace pbmpi::app {
+namespace {
+
+using core::require_input;
+
+/// One "name=value" of a setting.
+void set_option(const std::string& text, const std::string& name, const std::string& value,
+                StabilitySetting& setting) {
+  const std::string where = "--setting '" + text + "': " + name;
+  if (name == "estimate") {
+    stepping::StepperSettings count;
+    set(stepping::step_option("iterations"), value, where, count);
+    setting.estimate_iterations = count.iterations;
+    return;
+  }
+  const auto option = std::ranges::find(stepping::step_options(), name, &stepping::StepOption::name);
+  require_input(option != stepping::step_options().end(),
+                where + ": there is no such option of a step (pbmpi --help)");
+  require_input(
+      fits(*option, setting.stepper.kind),
+      where + ": the stepper " + std::string(name_of(setting.stepper.kind)) + " has no such option");
+  set(*option, value, where, setting.stepper);
+  setting.own_dt = setting.own_dt || name == "dt";
+}
+
+}  // namespace
+
+StabilitySetting parse_stability_setting(const std::string& text) {
+  std::istringstream stream(text);
+  std::string word;
+  StabilitySetting setting;
+  require_input(static_cast<bool>(stream >> word),
+                "--setting: it begins with a stepper, e.g. \"sor iterations=80\"");
+  set(stepping::step_option("stepper"), word, "--setting '" + text + "': stepper", setting.stepper);
+  while (stream >> word) {
+    const std::size_t equals = word.find('=');
+    if (word == "cut") {
+      setting.cut = true;
+    } else {
+      require_input(equals != std::string::npos,
+                    "--setting '" + text + "': " + word + ": write name=value, or cut");
+      set_option(text, word.substr(0, equals), word.substr(equals + 1), setting);
+    }
+  }
+  const stepping::StepperTraits& traits = traits_of(setting.stepper.kind);
+  require_input(!setting.cut || traits.cuts_spaces,
+                "--setting '" + text + "': this stepper steps whole worlds; leave out cut");
+  require_input(
+      setting.estimate_iterations == 0 || traits.is_anytime,
+      "--setting '" + text + "': this stepper cannot be looked at in mid-solve; leave out estimate");
+  require_input(!setting.cut || setting.estimate_iterations == 0,
+                "--setting '" + text + "': estimates are those of whole worlds; leave out cut or estimate");
+  require_input(setting.estimate_iterations <= setting.stepper.iterations,
+                "--setting '" + text + "': the estimate waits for at most all iterations");
+  return setting;
+}
+
+const std::vector<std::string>& default_stability_settings() {
+  static const std::vector<std::string> settings = {
+      "quick",
+      "direct",
+      "sor",
+      "sor precision=single",
+      "sor substeps=5 iterations=3",
+      "sor iterations=80",
+      "sor substeps=8 iterations=3 warm-start=1 sor-factor=1",
+      "sor cut",
+      "sor estimate=1",
+  };
+  return settings;
+}
+
+std::string setting_text(const StabilitySetting& setting) {
+  std::string text = stepping::setting_text(setting.stepper);
+  if (setting.own_dt) text += format(", dt %g s", setting.stepper.dt_s);
+  if (setting.cut) text += ", in two spaces";
+  if (setting.estimate_iterations > 0) text += format(", look at %d", setting.estimate_iterations);
+  return text;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,29 @@
+/// The settings that "pbstudy stability" holds against each case.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stepping/stepper.h"
+
+namespace pbmpi::app {
+
+struct StabilitySetting {
+  stepping::StepperSettings stepper;  ///< its dt_s is the scene's unless `own_dt`
+  bool own_dt = false;
+  bool cut = false;             ///< the world in two spaces (sor)
+  int estimate_iterations = 0;  ///< sor: what is judged is FEEC's look at the solve after so many iterations
+};
+
+/// Words "quick", "sor iterations=80 precision=single", "sor cut", "sor estimate=1": a stepper, then options
+/// of a step by name, dt among them. Throws core::InputError for what cannot be.
+StabilitySetting parse_stability_setting(const std::string& text);
+
+/// What the study takes unless told otherwise.
+const std::vector<std::string>& default_stability_settings();
+
+/// "sor single, 5 x 3, in two spaces"
+std::string setting_text(const StabilitySetting& setting);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,131 @@
+#include "app/pbstudy/stability/stability_table.h"
+
+#include "analysis/error_bands.h"
+#include "app/common/format.h"
+#include "app/pbstudy/study/table_columns.h"
+#include "stability/verdict.h"
+
+namespace pbmpi::app {
+namespace {
+
+using stability::Judgement;
+using stability::Metric;
+using stability::Verdict;
+
+std::vector<Judgement> judge_all(const StabilityRows& rows) {
+  std::vector<Judgement> judgements;
+  for (std::size_t i = 0; i < rows.cases.size(); ++i) {
+    const stability::HardCase& hard = rows.hard_cases[static_cast<std::size_t>(rows.cases[i].scene)];
+    if (rows.cases[i].not_applicable.empty()) {
+      judgements.push_back(judge(hard, rows.results[i].measurement(hard)));
+    } else {
+      judgements.push_back({Verdict::not_applicable, rows.cases[i].not_applicable, NAN, {NAN, NAN}, ""});
+    }
+  }
+  return judgements;
+}
+
+std::vector<io::TableColumn> case_facts(const StabilityRows& rows) {
+  using Case = const StabilityCase&;
+  const auto hard = [&](Case c) -> const stability::HardCase& {
+    return rows.hard_cases[static_cast<std::size_t>(c.scene)];
+  };
+  const auto& cases = rows.cases;
+  std::vector<io::TableColumn> columns = {
+      column<std::string>("scene", "", cases,
+                          [&](Case c) { return rows.scenes[static_cast<std::size_t>(c.scene)].source.name; }),
+      column<std::string>("group", "", cases, [&](Case c) { return hard(c).group; }),
+      column<std::int64_t>("row", "", cases, [&](Case c) { return hard(c).row; }),
+      column<std::string>("oracle", "", cases, [&](Case c) { return hard(c).oracle; }),
+      column<std::string>("source", "", cases, [&](Case c) { return hard(c).source; }),
+      column<std::string>(
+          "setting", "", cases,
+          [&](Case c) { return setting_text(rows.settings[static_cast<std::size_t>(c.setting)]); }),
+      column<std::int64_t>("cut", "", cases, [](Case c) { return c.cut ? 1 : 0; }),
+      column<std::int64_t>("estimate_iterations", "", cases, [](Case c) { return c.estimate_iterations; }),
+      column<std::int64_t>("bodies", "", cases, [](Case c) { return c.num_bodies; }),
+      column<double>("seconds", "s", cases, [&](Case c) { return hard(c).seconds; }),
+  };
+  add_step_columns(cases, columns);
+  return columns;
+}
+
+}  // namespace
+
+std::vector<io::TableColumn> stability_columns(const StabilityRows& rows) {
+  using Result = const StabilityResult&;
+  std::vector<io::TableColumn> columns = case_facts(rows);
+  const std::vector<Judgement> judgements = judge_all(rows);
+  using Judged = const Judgement&;
+  columns.push_back(column<std::string>("verdict", "", judgements, [](Judged j) {
+    return std::string(stability::verdict_names[static_cast<std::size_t>(j.verdict)]);
+  }));
+  columns.push_back(column<std::string>("decided_by", "", judgements, [](Judged j) { return j.decided_by; }));
+  columns.push_back(column<double>("value", "", judgements, [](Judged j) { return j.value; }));
+  columns.push_back(column<std::string>("value_unit", "", judgements, [](Judged j) { return j.unit; }));
+  columns.push_back(column<double>("limit_right", "", judgements, [](Judged j) { return j.limits.right; }));
+  columns.push_back(column<double>("limit_broken", "", judgements, [](Judged j) { return j.limits.broken; }));
+  const auto& results = rows.results;
+  columns.push_back(column<double>("broken_at", "s", results, [](Result r) { return r.broken_at_s; }));
+  columns.push_back(column<double>("simulated", "s", results, [](Result r) { return r.simulated_s; }));
+  for (std::size_t m = 0; m < stability::num_metrics; ++m) {
+    const stability::MetricTraits& traits = stability::metric_table[m];
+    columns.push_back(column<double>(std::string(traits.name), std::string(traits.unit), results,
+                                     [m](Result r) { return r.metrics[m]; }));
+  }
+  // The paper's category of the body that drifted farthest.
+  columns.push_back(column<std::int64_t>("drift_band", "", results, [](Result r) {
+    return analysis::position_band(r.metrics[static_cast<std::size_t>(Metric::drift)]);
+  }));
+  columns.push_back(column<double>("row_visits", "", results, [](Result r) { return r.row_visits; }));
+  columns.push_back(column<double>("step_time", "s", results, [](Result r) { return r.step_time_s; }));
+  return columns;
+}
+
+std::map<std::string, std::vector<io::TableColumn>> stability_tables(const StabilityRows& rows,
+                                                                     const std::vector<RecordedPose>& poses) {
+  struct Point {
+    int case_index;
+    CurvePoint at;
+  };
+  std::vector<Point> points;
+  for (const StabilityResult& result : rows.results) {
+    for (int i = 0; i < result.num_points; ++i)
+      points.push_back({result.index, result.curve[static_cast<std::size_t>(i)]});
+  }
+  const auto curve = [&](const char* name, const char* unit, double CurvePoint::*number) {
+    return column<double>(name, unit, points, [number](const Point& p) { return p.at.*number; });
+  };
+  std::vector<io::TableColumn> curves = {
+      column<std::int64_t>("case", "", points, [](const Point& p) { return p.case_index; }),
+      curve("time", "s", &CurvePoint::time_s),
+      curve("energy", "J", &CurvePoint::energy_j),
+      curve("joint_gap", "m", &CurvePoint::joint_gap_m),
+      curve("penetration", "m", &CurvePoint::penetration_m),
+      curve("drift", "m", &CurvePoint::drift_m)};
+  std::vector<double> numbers;
+  for (const RecordedPose& pose : poses) numbers.insert(numbers.end(), pose.pose.begin(), pose.pose.end());
+  std::vector<io::TableColumn> replay = {
+      column<std::int64_t>("case", "", poses, [](const RecordedPose& p) { return p.case_index; }),
+      column<double>("time", "s", poses, [](const RecordedPose& p) { return p.time_s; }),
+      column<std::int64_t>("body", "", poses, [](const RecordedPose& p) { return p.body; }),
+      {"pose", "", std::move(numbers), 7}};
+  return {{"curves", std::move(curves)}, {"poses", std::move(replay)}};
+}
+
+std::string stability_note(const StabilityRows& rows) {
+  const std::vector<Judgement> judgements = judge_all(rows);
+  std::string text = format("%-52s %5s %9s %7s %5s\n", "setting", "pass", "degraded", "broken", "n/a");
+  for (std::size_t k = 0; k < rows.settings.size(); ++k) {
+    std::array<int, 4> count{};
+    for (std::size_t i = 0; i < rows.cases.size(); ++i) {
+      if (rows.cases[i].setting == static_cast<int>(k))
+        ++count[static_cast<std::size_t>(judgements[i].verdict)];
+    }
+    text += format("%-52s %5d %9d %7d %5d\n", setting_text(rows.settings[k]).c_str(), count[0], count[1],
+                   count[2], count[3]);
+  }
+  return text;
+}
+
+}  // namespace pbmpi::app

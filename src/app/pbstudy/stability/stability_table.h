@@ -1,0 +1,31 @@
+/// The file of "pbstudy stability".
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/pbstudy/stability/stability_runner.h"
+#include "io/table/table_file.h"
+
+namespace pbmpi::app {
+
+/// What the file's columns are made of; all [num_cases], in the order of the cases.
+struct StabilityRows {
+  const std::vector<StudyScene>& scenes;
+  const std::vector<StabilitySetting>& settings;
+  const std::vector<stability::HardCase>& hard_cases;  ///< [num_scenes]
+  const std::vector<StabilityCase>& cases;
+  const std::vector<StabilityResult>& results;
+};
+
+/// Columns with a row a case (io/SCHEMA.md).
+std::vector<io::TableColumn> stability_columns(const StabilityRows& rows);
+/// Tables "curves" and "poses".
+std::map<std::string, std::vector<io::TableColumn>> stability_tables(const StabilityRows& rows,
+                                                                     const std::vector<RecordedPose>& poses);
+
+/// "9 of 70 broken" a setting, for the end of the run.
+std::string stability_note(const StabilityRows& rows);
+
+}  // namespace pbmpi::app
