@@ -3,7 +3,7 @@ import re
 
 from tables import programs
 
-ONLY_SETTINGS = ("--estimates", "0", "--warm-start", "0")
+ONLY_SETTINGS = ("--estimates", "0", "--warm-start", "0", "--dt", "0.01", "--rest-seconds", "0")
 QUICK_TO_MEASURE = ("--repeats", "1", "--floor-seeds", "4")
 
 

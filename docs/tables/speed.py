@@ -25,7 +25,7 @@ def measure(scene):
     with programs.Folder() as folder:
         cases, _ = programs.accuracy_cases(folder, [scene], "--precision", "double", "single", "--iterations", "20", "80",
                                            "--substeps", "1", "--warm-start", "0", "--estimates", "0", "--repeats", "5",
-                                           "--floor-seeds", "1")
+                                           "--floor-seeds", "1", "--dt", "0.01", "--rest-seconds", "0")
     return {(case["stepper"], case["precision"], case["iterations"]): case for case in cases if case["kind"] == "setting"}
 
 

@@ -56,6 +56,26 @@ TEST(Study, a_budget_takes_the_least_error_and_a_tolerance_the_least_time) {
   EXPECT_EQ(cases.cheapest_within(1e-3, ErrorMeasure::rms), std::nullopt);
 }
 
+TEST(Study, what_fells_at_rest_is_never_chosen_but_stays_on_the_front) {
+  SceneCases cases = scene();
+  cases.settings[3].rest_fallen = 2;
+  cases.settings[0].rest_fallen = 0;
+  EXPECT_EQ(cases.pareto_front(ErrorMeasure::rms), (std::vector<std::size_t>{1, 3, 0}));
+  EXPECT_EQ(cases.standing_front(ErrorMeasure::rms), (std::vector<std::size_t>{1, 4, 0}));
+  EXPECT_EQ(cases.best_within(2.5e-3, ErrorMeasure::rms), 1u);
+  EXPECT_EQ(cases.cheapest_within(6e-3, ErrorMeasure::rms), 4u);
+  EXPECT_FALSE(cases.settings[1].fells()) << "nothing was watched";
+}
+
+TEST(Study, remarks_say_what_falls_and_when) {
+  StudyCase one = setting(1, 10);
+  EXPECT_EQ(remarks_text(one, false), "");
+  EXPECT_EQ(remarks_text(one, true), "at the noise floor");
+  one.rest_fallen = 12;
+  one.rest_fell_at_s = 1.25;
+  EXPECT_EQ(remarks_text(one, true), "fells 12 bodies at rest, the first after 1.25 s; at the noise floor");
+}
+
 TEST(Study, the_noise_floor_is_that_of_the_worst_seed) {
   EXPECT_EQ(scene().floor_m(ErrorMeasure::rms), 2.5e-3);
 }

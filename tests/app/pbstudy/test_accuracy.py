@@ -13,7 +13,8 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import BIN, SOURCE, ProgramTest  # noqa: E402
 
-FAST = ["--frames", 3, "--repeats", 2, "--reference-iterations", 80, "--floor-seeds", 2]
+FAST = ["--frames", 3, "--repeats", 2, "--reference-iterations", 80, "--floor-seeds", 2, "--rest-seconds", 0]
+ONE_DT = ["--dt", 0.01]
 
 
 class Accuracy(ProgramTest):
@@ -34,7 +35,7 @@ class Accuracy(ProgramTest):
         return self.json(result)["scenes"]
 
     def test_errors_are_the_same_for_any_number_of_ranks(self):
-        args = ["--scene", "CrashSk", "--iterations", 1, 5, 20, "--substeps", 1, 2, *FAST]
+        args = ["--scene", "CrashSk", "--iterations", 1, 5, 20, "--substeps", 1, 2, *FAST, *ONE_DT]
         one, three = self.made(1, "one.h5", *args), self.made(3, "three.h5", *args)
         self.assertEqual(len(one["scene"]), 3 + 3 * 3 * 2 + 4 + 2 + 2,
                          "quick; sor with one substep, two, two and warm; estimates; seeds; halves")
@@ -55,7 +56,7 @@ class Accuracy(ProgramTest):
 
     def test_the_error_falls_along_the_front_and_the_choice_reproduces_its_error(self):
         self.made(2, "study.h5", "--scene", "CrashWa", "--iterations", 1, 5, 20, "--substeps", 1, "--precision", "double",
-                  *FAST)
+                  *FAST, *ONE_DT)
         [scene] = self.front("study.h5", "--budget", "1s")
         errors = [row["error_m"] for row in scene["front"]]
         times = [row["frame_time_s"]["worst"] for row in scene["front"]]
@@ -68,7 +69,7 @@ class Accuracy(ProgramTest):
         self.assertEqual(chosen["error_m"], errors[-1], "all fits into a second")
         options = chosen["options"]
         again = self.made(1, "again.h5", "--scene", "CrashWa", "--stepper", options["stepper"], "--iterations",
-                          options["iterations"], "--substeps", options.get("substeps", 1), "--precision", "double", *FAST)
+                          options["iterations"], "--substeps", options.get("substeps", 1), "--precision", "double", *FAST, *ONE_DT)
         found = again["defect_body_position_rms"][again["kind"] == b"setting"]
         self.assertEqual(list(found), [chosen["error_m"]], "the same bits, so also within the floor")
 
@@ -94,7 +95,7 @@ class Accuracy(ProgramTest):
 
     def test_a_preset_carries_warm_start_and_row_order(self):
         self.made(2, "study.h5", "--scene", "CrashSk", "--stepper", "sor", "--iterations", 3, "--substeps", 2,
-                  "--warm-start", 0.9, "--row-order", "fixed", "--precision", "double", "--estimates", 0, *FAST)
+                  "--warm-start", 0.9, "--row-order", "fixed", "--precision", "double", "--estimates", 0, *FAST, *ONE_DT)
         result = self.report("study.h5", "--tolerance", "1m", "--write-preset", "warm.preset")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("sor double, 2 x 3, warm 0.9, fixed order", result.stdout)
@@ -105,7 +106,7 @@ class Accuracy(ProgramTest):
             self.assertEqual(file["parameters/row_order"][()], b"fixed")
 
     def test_the_preset_of_a_tolerance_runs(self):
-        self.made(2, "study.h5", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, "--stepper", "sor", *FAST)
+        self.made(2, "study.h5", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, "--stepper", "sor", *FAST, *ONE_DT)
         result = self.report("study.h5", "--tolerance", "1m", "--write-preset", "crash.preset", "--html", "page.html",
                              "--csv", "table.csv")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -126,13 +127,40 @@ class Accuracy(ProgramTest):
 
     @unittest.skipUnless(shutil.which("chromium"), "the page is looked at in Chromium, which is not installed")
     def test_the_page_draws_its_charts_in_a_browser(self):
-        self.made(1, "study.h5", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, "--stepper", "sor", *FAST)
+        self.made(1, "study.h5", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, "--stepper", "sor", *FAST, *ONE_DT)
         result = self.report("study.h5", "--quiet", "--html", "page.html")
         self.assertEqual(result.returncode, 0, result.stderr)
         page = self.drawn("page.html")
         self.assertEqual(page.count("<canvas"), 4, "rms, p99, max, joint gap")
         self.assertTrue(re.search(r"<td>sor (double|single), 1 x 20, dt 0.01 s</td>", page),
                         "which precision is on the front follows the times")
+
+    def test_half_the_step_is_part_of_the_matrix(self):
+        study = self.made(1, "study.h5", "--scene", "CrashSk", "--iterations", 20, "--substeps", 1, "--stepper", "quick", *FAST)
+        setting = study["kind"] == b"setting"
+        self.assertEqual(list(study["dt"][setting]), [0.01, 0.005])
+        self.assertEqual(list(study["steps_per_frame"][setting]), [3, 6])
+
+    def test_a_setting_that_fells_what_stands_is_marked_and_not_chosen(self):
+        args = ["--scene", "CrashSk", "--stepper", "sor", "--precision", "double", "--substeps", 1, "--estimates", 0,
+                "--frames", 3, "--repeats", 1, "--reference-iterations", 80, "--floor-seeds", 1, "--rest-seconds", 2, *ONE_DT]
+        study = self.made(2, "study.h5", *args, "--iterations", 1, 80)
+        setting = study["kind"] == b"setting"
+        few, many = study["rest_fallen"][setting]
+        self.assertGreater(few, 20, "one iteration carries no human")
+        self.assertEqual(many, 0)
+        self.assertLess(study["rest_fell_at"][setting][0], 1)
+        self.assertEqual(study["rest_fell_at"][setting][1], np.inf)
+        self.assertLess(study["rest_creep"][setting][1], study["rest_creep"][setting][0])
+        self.assertTrue(np.isnan(study["rest_fallen"][~setting]).all())
+        [scene] = self.front("study.h5", "--budget", "1s")
+        self.assertEqual(scene["chosen"]["options"]["iterations"], "80")
+        [loose] = self.front("study.h5", "--tolerance", "10m")
+        self.assertEqual(loose["chosen"]["options"]["iterations"], "80", "the cheaper one keeps 10 m, and fells")
+        self.assertEqual(scene["front"][0]["at_rest"]["fallen"], few)
+        self.assertIn("bodies at rest", self.report("study.h5").stdout)
+        self.made(1, "few.h5", *args, "--iterations", 1)
+        self.assertIn("without felling", self.report("few.h5", "--budget", "1s").stdout)
 
     def refused(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stderr)
@@ -154,7 +182,7 @@ class Accuracy(ProgramTest):
         self.assertEqual(set(os.listdir(self.folder)), before)
 
     def test_reports_refuse_what_they_cannot_show(self):
-        self.made(1, "study.h5", "--scene", "CrashSk", "--iterations", 1, "--stepper", "quick", *FAST)
+        self.made(1, "study.h5", "--scene", "CrashSk", "--iterations", 1, "--stepper", "quick", *FAST, *ONE_DT)
         self.refused(self.report("study.h5", "--budget", "3.33"), "--budget", "unit")
         self.refused(self.report("study.h5", "--scene", "Fight", "--budget", "1ms"), "Fight", "CrashSk")
         self.refused(self.report("study.h5", "--budget", "1us", "--write-preset", "p"), "no setting")

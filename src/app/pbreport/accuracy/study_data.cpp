@@ -29,6 +29,12 @@ StudyCase read_case(const CaseRow& row) {
   one.joint_gap_m = row.real("joint_gap");
   one.penetration_m = row.real("penetration");
   one.energy_change_j = row.real("energy_change");
+  if (row.has("rest_fallen")) {  // since version 1.2
+    one.rest_fallen = row.real("rest_fallen");
+    one.rest_fell_at_s = row.real("rest_fell_at");
+    one.rest_creep_m_s = row.real("rest_creep");
+    one.rest_energy_gain_j = row.real("rest_energy_gain");
+  }
   one.defect = row.errors("defect");
   one.drift = row.errors("drift");
   return one;
@@ -118,16 +124,22 @@ std::vector<std::size_t> SceneCases::pareto_front(ErrorMeasure measure) const {
   return pareto_front([measure](const StudyCase& one) { return one.error_m(measure); });
 }
 
+std::vector<std::size_t> SceneCases::standing_front(ErrorMeasure measure) const {
+  return pareto_front([measure](const StudyCase& one) {
+    return one.fells() ? std::numeric_limits<double>::infinity() : one.error_m(measure);
+  });
+}
+
 std::optional<std::size_t> SceneCases::best_within(double budget_s, ErrorMeasure measure) const {
   std::optional<std::size_t> best;
-  for (const std::size_t i : pareto_front(measure)) {
+  for (const std::size_t i : standing_front(measure)) {
     if (settings[i].time_s <= budget_s) best = i;
   }
   return best;
 }
 
 std::optional<std::size_t> SceneCases::cheapest_within(double tolerance_m, ErrorMeasure measure) const {
-  for (const std::size_t i : pareto_front(measure)) {
+  for (const std::size_t i : standing_front(measure)) {
     if (settings[i].error_m(measure) <= tolerance_m) return i;
   }
   return std::nullopt;

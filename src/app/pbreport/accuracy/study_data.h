@@ -1,6 +1,7 @@
 /// A study of accuracy read back, and the choice among its settings.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,10 +24,15 @@ struct StudyCase {
   double median_time_s = 0;     ///< of the measured frames
   double row_visits = 0;
   double joint_gap_m = 0, penetration_m = 0, energy_change_j = 0;
+  /// Of the scene at rest; NaN if the study did not watch it: bodies that fell, when the first did, creep of
+  /// the fastest [m/s], energy gained without a cause [J].
+  double rest_fallen = NAN, rest_fell_at_s = NAN, rest_creep_m_s = NAN, rest_energy_gain_j = NAN;
   analysis::ErrorTable defect, drift;
 
   /// Did every body and joint stay finite?
   bool finite() const;
+  /// Does the setting fell what should stand, as far as the study knows?
+  bool fells() const { return rest_fallen > 0; }
   /// The error by which settings are ranked [m].
   double error_m(ErrorMeasure measure) const;
 };
@@ -50,7 +56,10 @@ struct SceneCases {
   /// from each to the next. Settings that blew up are never among them.
   std::vector<std::size_t> pareto_front(ErrorMeasure measure) const;
   std::vector<std::size_t> pareto_front(const std::function<double(const StudyCase&)>& error) const;
-  /// The setting on the front with the least error within the time, or the least time within the error.
+  /// The front of the settings that fell nothing at rest.
+  std::vector<std::size_t> standing_front(ErrorMeasure measure) const;
+  /// The setting with the least error within the time, or the least time within the error, among those that
+  /// fell nothing at rest.
   std::optional<std::size_t> best_within(double budget_s, ErrorMeasure measure) const;
   std::optional<std::size_t> cheapest_within(double tolerance_m, ErrorMeasure measure) const;
 };

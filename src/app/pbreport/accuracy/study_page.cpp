@@ -106,7 +106,7 @@ io::html::TextTable front_table(const SceneCases& scene, const AccuracyReportOpt
                                     format("%.4g", 1e3 * error.max),
                                     format("%.4g", 1e3 * one.joint_gap_m)};
     for (const std::int64_t count : error.bands) row.push_back(std::to_string(count));
-    row.emplace_back(one.error_m(options.measure) <= floor ? "at the noise floor" : "");
+    row.push_back(remarks_text(one, one.error_m(options.measure) <= floor));
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -1,6 +1,7 @@
 #include "app/pbreport/accuracy/study_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/common/format.h"
@@ -42,11 +43,18 @@ std::string floor_text(const SceneCases& scene) {
 }
 
 std::string row_text(const StudyCase& one, bool at_floor) {
+  const std::string remarks = remarks_text(one, at_floor);
   const analysis::ErrorSummary& error = one.defect.body_position;
-  return format("  %9.3f %9.3f %10.3g  %-32s %9.4g %9.4g %9.4g %9.4g %9.4g  %s%s\n", 1e3 * one.time_s,
+  return format("  %9.3f %9.3f %10.3g  %-32s %9.4g %9.4g %9.4g %9.4g %9.4g %9s  %s%s\n", 1e3 * one.time_s,
                 1e3 * one.median_time_s, one.row_visits, setting_text(one).c_str(), 1e3 * error.rms,
                 1e3 * error.p99, 1e3 * error.max, 1e3 * one.joint_gap_m, 1e3 * one.drift.body_position.rms,
-                bands_text(error.bands).c_str(), at_floor ? "  (at the noise floor)" : "");
+                std::isnan(one.rest_creep_m_s) ? "-" : format("%.3g", 1e3 * one.rest_creep_m_s).c_str(),
+                bands_text(error.bands).c_str(), remarks.empty() ? "" : ("  (" + remarks + ")").c_str());
+}
+
+bool keeps(const StudyCase& one, const AccuracyReportOptions& options) {
+  return options.budget_s ? one.time_s <= *options.budget_s
+                          : one.error_m(options.measure) <= *options.tolerance_m;
 }
 
 std::string choice_text(const SceneCases& scene, const AccuracyReportOptions& options) {
@@ -54,7 +62,12 @@ std::string choice_text(const SceneCases& scene, const AccuracyReportOptions& op
   const auto chosen = chosen_setting(scene, options);
   const std::string asked = options.budget_s ? format("budget %g ms", 1e3 * *options.budget_s)
                                              : format("tolerance %g mm", 1e3 * *options.tolerance_m);
-  if (!chosen) return "  " + asked + ": no setting of the study keeps it\n";
+  if (!chosen) {
+    const bool one_that_falls = std::ranges::any_of(
+        scene.settings, [&](const StudyCase& one) { return one.fells() && keeps(one, options); });
+    return "  " + asked + ": no setting of the study keeps it" +
+           (one_that_falls ? " without felling what stands at rest\n" : "\n");
+  }
   const StudyCase& one = scene.settings[*chosen];
   return format("  %s: %s (%.3f ms, defect %.4g mm)\n  run: %s\n", asked.c_str(), setting_text(one).c_str(),
                 1e3 * one.time_s, 1e3 * one.error_m(options.measure), run_command(one).c_str());
@@ -69,6 +82,13 @@ Json case_json(const StudyCase& one, double floor_m, const AccuracyReportOptions
   json["joint_gap_m"] = one.joint_gap_m;
   json["error_m"] = one.error_m(options.measure);
   json["at_noise_floor"] = one.error_m(options.measure) <= floor_m;
+  if (!std::isnan(one.rest_fallen)) {
+    json["at_rest"] = {
+        {"fallen", one.rest_fallen},
+        {"fell_at_s", std::isfinite(one.rest_fell_at_s) ? Json(one.rest_fell_at_s) : Json(nullptr)},
+        {"creep_m_s", one.rest_creep_m_s},
+        {"energy_gain_j", one.rest_energy_gain_j}};
+  }
   return json;
 }
 
@@ -77,10 +97,10 @@ std::string scene_text(const SceneCases& scene, const AccuracyReportOptions& opt
                      yardstick_text("reference with half the iterations:", scene.halved_iterations) +
                      yardstick_text("reference with half the substeps:", scene.halved_substeps) +
                      yardstick_text("reference with half the step:", scene.halved_dt);
-  text +=
-      format("  Pareto front of %zu settings\n  %9s %9s %10s  %-32s %9s %9s %9s %9s %9s  %s\n",
-             scene.settings.size(), "worst ms", "median ms", "row visits", "setting (substeps x iterations)",
-             "rms mm", "p99 mm", "max mm", "gap mm", "drift mm", "bodies < 1 cm/1-10/10-100/> 100/inf");
+  text += format("  Pareto front of %zu settings\n  %9s %9s %10s  %-32s %9s %9s %9s %9s %9s %9s  %s\n",
+                 scene.settings.size(), "worst ms", "median ms", "row visits",
+                 "setting (substeps x iterations)", "rms mm", "p99 mm", "max mm", "gap mm", "drift mm",
+                 "creep mm/s", "bodies < 1 cm/1-10/10-100/> 100/inf");
   const double floor = scene.floor_m(options.measure);
   for (const std::size_t i : scene.pareto_front(options.measure)) {
     text += row_text(scene.settings[i], scene.settings[i].error_m(options.measure) <= floor);
@@ -95,6 +115,16 @@ std::string scene_text(const SceneCases& scene, const AccuracyReportOptions& opt
 }
 
 }  // namespace
+
+std::string remarks_text(const StudyCase& one, bool at_floor) {
+  std::string text;
+  if (one.fells()) {
+    text = format("fells %.0f %s at rest, the first after %.3g s", one.rest_fallen,
+                  one.rest_fallen > 1 ? "bodies" : "body", one.rest_fell_at_s);
+  }
+  if (at_floor) text += text.empty() ? "at the noise floor" : "; at the noise floor";
+  return text;
+}
 
 std::optional<std::size_t> chosen_setting(const SceneCases& scene, const AccuracyReportOptions& options) {
   if (options.budget_s) return scene.best_within(*options.budget_s, options.measure);

@@ -13,6 +13,8 @@ std::optional<std::size_t> chosen_setting(const SceneCases& scene, const Accurac
 std::string study_to_text(const io::TableFile& file, const std::vector<SceneCases>& scenes,
                           const AccuracyReportOptions& options);
 std::string study_to_json(const std::vector<SceneCases>& scenes, const AccuracyReportOptions& options);
+/// "fells 12 bodies at rest, the first after 1.4 s", "at the noise floor"; empty: nothing is to be said.
+std::string remarks_text(const StudyCase& one, bool at_floor);
 /// Lines "name = value" for pbmpi --preset.
 std::string preset_text(const StudyCase& one);
 

@@ -15,15 +15,17 @@ using io::Parameter;
 std::vector<CaseResult> run_cases(const mpi::Communicator& comm, const AccuracyOptions& options,
                                   const std::vector<AccuracyCase>& cases, StudyRunner& runner) {
   std::optional<Reference> reference;
+  std::optional<RestRunner> rest;
   int reference_scene = -1;
   const std::vector<int> owner = deal_out(cases, runner.scenes(), comm.size());
   return runner.run<CaseResult>(cases, owner, [&](std::size_t i) {
     const StudyScene& scene = runner.scene(cases[i].scene);
     if (cases[i].scene != reference_scene) {
       reference = make_reference(scene, reference_settings(scene, options));
+      rest.emplace(scene, reference_settings(scene, options), options.rest_s);
       reference_scene = cases[i].scene;
     }
-    return run_case(cases[i], scene, *reference, options.repeats);
+    return run_case(cases[i], scene, *reference, *rest, options.repeats);
   });
 }
 
@@ -33,7 +35,8 @@ StudyContent content(const AccuracyOptions& options, const std::vector<StudyScen
   content.parameters = {Parameter::of("reference_stepper", "sor"),
                         Parameter::of("reference_precision", "double"),
                         Parameter::of("reference_iterations", std::int64_t{options.reference_iterations}),
-                        Parameter::of("reference_substeps", std::int64_t{options.reference_substeps})};
+                        Parameter::of("reference_substeps", std::int64_t{options.reference_substeps}),
+                        Parameter::of("rest_seconds", options.rest_s)};
   content.cases = case_columns(scenes, cases, results);
   content.next = " --budget 3.33ms";
   return content;

@@ -55,7 +55,13 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
   StepperSettings base;
   base.seed = options.seed;
   base.dt_s = scene.dt_s;
-  cross_settings(base, {&options.dts, 1}, [&](const StepperSettings& with_dt) {
+  SettingList dts = options.dts;
+  if (dts.values.empty()) {
+    StepperSettings half = base;
+    half.dt_s /= 2;
+    dts.values = {text_of(*dts.option, base), text_of(*dts.option, half)};
+  }
+  cross_settings(base, {&dts, 1}, [&](const StepperSettings& with_dt) {
     const int steps = steps_in_frame(scene, with_dt.dt_s);
     cross_settings(with_dt, {&options.settings.front(), 1}, [&](const StepperSettings& with_kind) {
       add_settings({index, CaseKind::setting, with_kind, steps}, scene, options, cases);

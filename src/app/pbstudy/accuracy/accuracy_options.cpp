@@ -22,7 +22,7 @@ constexpr std::array<VariedOption, 7> varied = {{
     {"row-order", "sor: shuffled (anew every 8 iterations), fixed; default: shuffled", "shuffled"},
 }};
 constexpr VariedOption varied_dt = {
-    "dt", "step [s], a whole number of which fills a frame; default: the scene's", ""};
+    "dt", "step [s], a whole number of which fills a frame; default: the scene's and half of it", ""};
 
 po::options_description options_description() {
   po::options_description what("What to vary (lists, separated by blanks; all are crossed)");
@@ -35,7 +35,11 @@ po::options_description options_description() {
   add_setting_list(varied_dt, what);
   what.add_options()  //
       ("max-sweeps", po::value<int>()->default_value(320)->value_name("N"),
-       "leave out cases with more iterations x substeps");
+       "leave out cases with more iterations x substeps")  //
+      ("rest-seconds", po::value<double>()->default_value(3)->value_name("S"),
+       "time for which the scene at rest is watched under each setting: what falls, creeps or gains energy; "
+       "0: "
+       "none");
   po::options_description how =
       how_to_measure({"of the scene's variation and of the reference's row order",
                       "how often each frame is timed, the process being alone on its core", 5,
@@ -57,6 +61,8 @@ void require_possible(const AccuracyOptions& options) {
   require_at_least({options.reference_iterations}, 2, "--reference-iterations");
   require_at_least({options.reference_substeps}, 1, "--reference-substeps");
   require_at_least(options.estimates, 0, "--estimates");
+  core::require_input(options.rest_s >= 0 && options.rest_s < 1e6,
+                      "--rest-seconds: it must be a time in seconds, or 0 for none");
 }
 
 }  // namespace
@@ -86,6 +92,7 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   options.max_sweeps = values["max-sweeps"].as<int>();
   options.reference_iterations = values["reference-iterations"].as<int>();
   options.reference_substeps = values["reference-substeps"].as<int>();
+  options.rest_s = values["rest-seconds"].as<double>();
   require_possible(options);
   return options;
 }

@@ -32,6 +32,10 @@ std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
       column<double>("energy_change", "J", results, [](Result r) { return r.energy_change_j; }),
       column<double>("momentum_change", "kg m s-1", results, [](Result r) { return r.momentum_change_ns; }),
       column<double>("stretch", "", results, [](Result r) { return r.max_stretch; }),
+      column<double>("rest_fallen", "", results, [](Result r) { return r.rest.fallen; }),
+      column<double>("rest_fell_at", "s", results, [](Result r) { return r.rest.fell_at_s; }),
+      column<double>("rest_creep", "m/s", results, [](Result r) { return r.rest.creep_m_s; }),
+      column<double>("rest_energy_gain", "J", results, [](Result r) { return r.rest.energy_gain_j; }),
   };
   add_step_columns(cases, columns);
   add_errors("defect", &CaseResult::defect, results, columns);

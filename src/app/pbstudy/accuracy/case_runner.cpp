@@ -98,7 +98,7 @@ void summarize_times(const std::vector<std::vector<double>>& times_s, CaseResult
 }  // namespace
 
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
-                    int repeats) {
+                    const RestRunner& rest, int repeats) {
   CaseResult result;
   // Another step length has its events at other steps. The bodies are the same.
   const bool own_step = one.stepper.dt_s == scene.dt_s;
@@ -107,6 +107,7 @@ CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Refe
   const auto times_s = measure_defect(one, scene, reference, worlds, is_yardstick ? 1 : repeats, result);
   summarize_times(times_s, result);
   measure_drift(one, scene, reference, worlds, result);
+  result.rest = one.kind == CaseKind::setting ? rest.run(one.stepper) : RestResult{NAN, NAN, NAN, NAN};
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "analysis/error_table.h"
 #include "app/pbstudy/accuracy/accuracy_cases.h"
+#include "app/pbstudy/accuracy/rest_runner.h"
 #include "app/pbstudy/study/case_stepper.h"
 
 namespace pbmpi::app {
@@ -22,12 +23,13 @@ struct CaseResult {
   double energy_change_j = 0;     ///< largest distance from the reference's energy after one frame
   double momentum_change_ns = 0;  ///< the same of the linear momentum
   double max_stretch = 0;         ///< of a human segment after one frame
+  RestResult rest;                ///< of a setting
   analysis::ErrorTable defect;
   analysis::ErrorTable drift;
 };
 static_assert(std::is_trivially_copyable_v<CaseResult>);
 
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
-                    int repeats);
+                    const RestRunner& rest, int repeats);
 
 }  // namespace pbmpi::app
