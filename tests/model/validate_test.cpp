@@ -39,6 +39,28 @@ const std::vector<Case>& cases() {
       {"mass infinite", [](Model& m) { m.bodies[1].mass_kg = infinity; }, "the mass"},
       {"air below 0", [](Model& m) { m.air_density = -1; }, "air of -1"},
       {"damping below 0", [](Model& m) { m.linear_damping = -1; }, "damping of -1"},
+      {"release at the start", [](Model& m) { m.events[0].kind = EventKind::release, m.events[0].joint = 0; },
+       "a joint is released at step 1 at the soonest"},
+      {"pair of an actor that is not there",
+       [](Model& m) {
+         m.pair_materials = {{0, 99, {}}};
+       },
+       "actor 99 does not exist"},
+      {"pair the wrong way round",
+       [](Model& m) {
+         m.pair_materials = {{1, 0, {}}};
+       },
+       "pair of actors 1 and 0: the lower actor comes first"},
+      {"pair with a gain",
+       [](Model& m) {
+         m.pair_materials = {{0, 1, {0.5, 2}}};
+       },
+       "restitution in [0, 1]"},
+      {"pairs out of order",
+       [](Model& m) {
+         m.pair_materials = {{0, 1, {}}, {0, 0, {}}};
+       },
+       "not in ascending order"},
       {"interest NaN",
        [](Model& m) {
          m.interest = Interest{{0, NAN, 0}};

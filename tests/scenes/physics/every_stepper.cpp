@@ -23,11 +23,14 @@ std::vector<SteppedBy> every_stepper() {
           {"sor_with_substeps", substeps}};
 }
 
+std::unique_ptr<stepping::WorldStepper> make_stepper(const StepperSettings& settings) {
+  return settings.kind == StepperKind::sor ? solver::make_sor_stepper(settings, ode::make_narrow_phase)
+                                           : ode::make_ode_stepper(settings, [](const std::string&) {});
+}
+
 model::State state_after(const std::string& toml, const StepperSettings& settings, int num_steps) {
   const auto model = parse_scene({"test", "test.toml", toml})->build(0, 1);
-  const auto stepper = settings.kind == StepperKind::sor
-                           ? solver::make_sor_stepper(settings, ode::make_narrow_phase)
-                           : ode::make_ode_stepper(settings, [](const std::string&) {});
+  const auto stepper = make_stepper(settings);
   stepper->add(0, model, model::initial_state(*model), 0);
   core::PhaseTimes times;
   stepper->advance(num_steps, times);

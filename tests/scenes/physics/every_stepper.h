@@ -1,6 +1,7 @@
 /// A world in each of the steppers.
 #pragma once
 
+#include <memory>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ inline std::ostream& operator<<(std::ostream& out, const SteppedBy& by) { return
 
 /// quick, direct, and sor in double, in single precision and with substeps.
 std::vector<SteppedBy> every_stepper();
+
+/// The stepper of these settings, of whichever kind, without worlds.
+std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings);
 
 /// The state after `num_steps` steps of world 0 of the scene with this text.
 model::State state_after(const std::string& toml, const stepping::StepperSettings& settings, int num_steps);

@@ -1,29 +1,75 @@
-// Scenes before their action: no events, nothing moving, for 2 s.
+// Scenes before their action: no events, nothing moving, for 2 s, with the settings that README and docs
+// name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
 
-#include "../simulation.h"
+#include "every_stepper.h"
 #include "model/mechanics.h"
+#include "scenes/parts/at_rest.h"
+#include "scenes/scene.h"
 
 namespace pbmpi::scenes {
 namespace {
 
-constexpr double salvo_radius_m = 0.1;  // of Battle's salvo: half its boxes' height too
+using stepping::Precision;
+using stepping::StepperKind;
 
-/// World 0 of a scene without its events and with all bodies at rest; a round in flight lies on the ground.
-model::Model quiet_model(const Scene& scene) {
-  model::Model model = *scene.build(0, 1);
-  model.events.clear();
-  for (model::Body& body : model.bodies) {
-    const bool flies =
-        model.actors[body.actor].kind == model::ActorKind::projectile && !body.velocity.isZero();
-    if (flies) body.pose.position.z() = salvo_radius_m;
-    body.velocity.setZero();
-    body.angular_velocity.setZero();
-  }
-  return model;
-}
+struct Setting {
+  std::string name;
+  StepperKind kind = StepperKind::sor;
+  Precision precision = Precision::double_;
+  int iterations = 20;
+  int num_worlds = 1;  ///< that differ in the solver's row order alone
+  int substeps = 1;
+  double warm_start = 0, sor_factor = stepping::StepperSettings().sor_factor;
+};
+std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out << setting.name; }
+
+/// 5 x 3 and 8 x 3 are in the docs for their small gaps of joints.
+const std::array<Setting, 7> settings = {{
+    {"quick_1x20", StepperKind::quick, Precision::double_, 20, 4},
+    {"sor_1x20", StepperKind::sor, Precision::double_, 20},
+    {"sor_single_1x20", StepperKind::sor, Precision::single, 20},
+    {"sor_1x80", StepperKind::sor, Precision::double_, 80},
+    {"sor_single_1x80", StepperKind::sor, Precision::single, 80},
+    {"sor_5x3", StepperKind::sor, Precision::double_, 3, 1, 5},
+    {"sor_8x3_warm", StepperKind::sor, Precision::double_, 3, 1, 8, 1, 1},
+}};
+
+/// direct solves a dense system for each island: cars and two humans, but no wall and no crowd.
+const Setting direct = {"direct", StepperKind::direct};
+
+const std::vector<std::string> all_scenes = {"2-Cars",  "10-Cars", "CrashSk", "CrashWa", "Environ",
+                                             "100CrSk", "Battle",  "Fight",   "Battle2"};
+
+/// What is known to go wrong today. A case that begins to pass fails its test: take it off the list.
+struct KnownFailure {
+  std::string setting, scene, what;
+};
+const std::vector<KnownFailure> known_failures = {
+    {"sor_1x20", "Environ", "103 of 264 blocks sunk"},
+    {"sor_single_1x20", "Environ", "109 of 264 blocks sunk"},
+    {"sor_5x3", "2-Cars", "1.1 times the energy of the first half second"},
+    {"sor_5x3", "10-Cars", "1.1 times the energy of the first half second"},
+    {"sor_5x3", "CrashSk", "2 of 2 heads sunk"},
+    {"sor_5x3", "CrashWa", "1.5 times the energy of the first half second"},
+    {"sor_5x3", "Environ", "45 of 264 blocks sunk"},
+    {"sor_5x3", "100CrSk", "2 of 2 heads sunk"},
+    {"sor_5x3", "Battle", "20 of 20 heads sunk"},
+    {"sor_5x3", "Fight", "10 of 10 heads sunk"},
+    {"sor_5x3", "Battle2", "10 of 10 heads sunk"},
+    {"sor_8x3_warm", "CrashSk", "2.5 times the energy of the first half second"},
+    {"sor_8x3_warm", "100CrSk", "3.6 times the energy of the first half second"},
+    {"sor_8x3_warm", "Battle", "1.6 times the energy of the first half second"},
+    {"sor_8x3_warm", "Fight", "5.1 times the energy of the first half second"},
+};
 
 double kinetic_energy(const model::Model& model, const model::State& state) {
   model::Model weightless = model;
@@ -32,58 +78,112 @@ double kinetic_energy(const model::Model& model, const model::State& state) {
 }
 
 constexpr double most_gap_m = 5e-3;  // a thickness of clothes: no gap that a viewer sees
-
 constexpr double most_penetration_m = 20e-3;
-constexpr int num_steps = 200;  // of 0.01 s
-constexpr int num_worlds = 4;   // that differ in the solver's row order alone
+constexpr double most_sink_of_blocks_m = 0.05;  // a third of the height of Environ's blocks
+constexpr double most_sink_of_heads_m = 0.3;    // standing humans sway by 0.16 m; a fall takes 1.6 m
+constexpr int num_steps = 200;                  // of 0.01 s
 
-class Quiet : public testing::TestWithParam<const char*> {};
-
-TEST_P(Quiet, scene_holds_together_and_comes_to_rest) {
-  const auto scene = parse_scene(find_scene(GetParam()));
-  const auto model = std::make_shared<model::Model>(quiet_model(*scene));
-  stepping::StepperSettings settings;
-  settings.dt_s = scene->defaults().dt_s;
-  settings.iterations = scene->defaults().iterations;
-  const auto stepper = ode::make_ode_stepper(settings, [](const std::string&) {});
-  for (int world = 0; world < num_worlds; ++world) {
-    stepper->add(world, model, model::initial_state(*model), 0);
-  }
-  core::PhaseTimes times;
+/// Worst over all worlds.
+struct Measured {
   double gap_m = 0, penetration_m = 0, early_j = 0, late_j = 0;
+  int nonfinite = 0, blocks_sunk = 0, heads_sunk = 0;
+};
+
+/// Bodies of walls, or heads, that lie lower than at the start.
+int count_sunk(const model::Model& model, const model::State& state, bool heads) {
+  int count = 0;
+  for (int i = 0; i < model.num_bodies(); ++i) {
+    const model::Body& body = model.bodies[i];
+    const bool counts =
+        heads ? body.name.ends_with(".head") : model.actors[body.actor].kind == model::ActorKind::wall;
+    const double most = heads ? most_sink_of_heads_m : most_sink_of_blocks_m;
+    // A position that is no number counts as sunk.
+    count += counts && !(state.position[i].z() > body.pose.position.z() - most);
+  }
+  return count;
+}
+
+Measured measure(const Setting& setting, const std::string& name) {
+  const auto scene = parse_scene(find_scene(name));
+  const auto model = std::make_shared<const model::Model>(at_rest(*scene->build(0, 1)));
+  stepping::StepperSettings with;
+  with.kind = setting.kind;
+  with.precision = setting.precision;
+  with.iterations = setting.iterations;
+  with.substeps = setting.substeps;
+  with.warm_start = setting.warm_start;
+  with.sor_factor = setting.sor_factor;
+  with.dt_s = scene->defaults().dt_s;
+  const auto stepper = make_stepper(with);
+  for (int world = 0; world < setting.num_worlds; ++world)
+    stepper->add(world, model, model::initial_state(*model), 0);
+  Measured found;
+  core::PhaseTimes times;
   for (int step = 0; step < num_steps; ++step) {
     stepper->advance(1, times);
-    for (int world = 0; world < num_worlds; ++world) {
+    for (int world = 0; world < setting.num_worlds; ++world) {
       const stepping::Observables& seen = stepper->observables(world);
-      gap_m = std::max(gap_m, seen.joint_gap_m);
-      penetration_m = std::max(penetration_m, seen.max_penetration_m);
+      found.gap_m = std::max(found.gap_m, seen.joint_gap_m);
+      found.penetration_m = std::max(found.penetration_m, seen.max_penetration_m);
       const double energy_j = kinetic_energy(*model, stepper->state(world));
-      if (4 * step < num_steps) early_j = std::max(early_j, energy_j);
-      if (4 * step >= 3 * num_steps) late_j = std::max(late_j, energy_j);
+      if (4 * step < num_steps) found.early_j = std::max(found.early_j, energy_j);
+      if (4 * step >= 3 * num_steps) found.late_j = std::max(found.late_j, energy_j);
     }
   }
-  for (int world = 0; world < num_worlds; ++world) {
-    EXPECT_EQ(stepper->observables(world).nonfinite, 0);
-    for (int i = 0; i < model->num_bodies(); ++i) {
-      if (!model->bodies[i].name.ends_with(".head")) continue;
-      // Standing humans sway by up to 0.16 m; a fall takes the head down by 1.6 m.
-      EXPECT_GT(stepper->state(world).position[i].z(), model->bodies[i].pose.position.z() - 0.3)
-          << model->bodies[i].name;
-    }
+  for (int world = 0; world < setting.num_worlds; ++world) {
+    const model::State& state = stepper->state(world);
+    found.nonfinite = std::max(found.nonfinite, stepper->observables(world).nonfinite);
+    found.blocks_sunk = std::max(found.blocks_sunk, count_sunk(*model, state, false));
+    found.heads_sunk = std::max(found.heads_sunk, count_sunk(*model, state, true));
   }
-  EXPECT_LT(gap_m, most_gap_m);
-  EXPECT_LT(penetration_m, most_penetration_m);
-  EXPECT_LT(late_j, early_j);  // decays
+  return found;
+}
+
+/// Everything that is not as it should be, empty if nothing is.
+std::string faults_of(const Measured& found) {
+  std::ostringstream faults;
+  const auto demand = [&](bool right, double number, const char* what) {
+    if (!right) faults << (faults.tellp() > 0 ? ", " : "") << number << what;
+  };
+  demand(found.nonfinite == 0, found.nonfinite, " bodies not finite");
+  demand(found.heads_sunk == 0, found.heads_sunk, " heads sunk");
+  demand(found.blocks_sunk == 0, found.blocks_sunk, " blocks sunk");
+  demand(found.gap_m < most_gap_m, found.gap_m, " m of joint gap");
+  demand(found.penetration_m < most_penetration_m, found.penetration_m, " m of penetration");
+  demand(found.late_j < found.early_j, found.late_j / found.early_j,
+         " times the energy of the first half second");
+  return faults.str();
+}
+
+class Quiet : public testing::TestWithParam<std::tuple<Setting, std::string>> {};
+
+TEST_P(Quiet, scene_holds_together_and_comes_to_rest_or_is_known_not_to) {
+  const Setting& setting = std::get<0>(GetParam());
+  const std::string& scene = std::get<1>(GetParam());
+  const std::string faults = faults_of(measure(setting, scene));
+  const auto known = std::find_if(known_failures.begin(), known_failures.end(), [&](const KnownFailure& one) {
+    return one.setting == setting.name && one.scene == scene;
+  });
+  if (known == known_failures.end()) {
+    EXPECT_EQ(faults, "");
+  } else {
+    EXPECT_NE(faults, "") << "it is a known failure (" << known->what
+                          << ") and holds now; take it off the list";
+  }
+}
+
+std::string name_of(const testing::TestParamInfo<std::tuple<Setting, std::string>>& instance) {
+  std::string name = std::get<0>(instance.param).name + "_" + std::get<1>(instance.param);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Quiet,
-                         testing::Values("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk",
-                                         "Battle", "Fight", "Battle2"),
-                         [](const auto& instance) {
-                           std::string name = instance.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         testing::Combine(testing::ValuesIn(settings), testing::ValuesIn(all_scenes)),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(SmallScenes, Quiet,
+                         testing::Combine(testing::Values(direct), testing::Values("2-Cars", "CrashSk")),
+                         name_of);
 
 }  // namespace
 }  // namespace pbmpi::scenes
