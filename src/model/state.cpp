@@ -48,6 +48,7 @@ std::uint64_t hash(const State& state) {
     hash.add(static_cast<std::uint64_t>(joint));
     hash.add(static_cast<std::uint64_t>(state.broken_in[joint]));
   }
+  if (state.guard.frozen_in >= 0) hash.add(static_cast<std::uint64_t>(state.guard.frozen_in));
   return hash.value();
 }
 

@@ -63,8 +63,8 @@ void copy_body(int body, const State& from, State& to);
 /// The state in which `model` starts.
 State initial_state(const Model& model);
 
-/// Hash of all bits of poses and velocities, body by body, and of the joints that are broken, with their
-/// steps. Equal states have equal hashes on every machine.
+/// Hash of all bits of poses and velocities, body by body, of the joints that are broken, with their steps,
+/// and of the step from which on a world stands. Equal states have equal hashes on every machine.
 std::uint64_t hash(const State& state);
 
 /// Bodies of which any number is NaN or infinite.

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include "model/joint_traits.h"
 #include "model/mechanics.h"
+#include "stability/events_in.h"
 
 namespace pbmpi::stability {
 namespace {
@@ -34,13 +34,6 @@ double spring_travel(const State& state, const Joint& joint) {
   const Vec3 axis = state.orientation[joint.body_a].to_eigen() * joint.axis1_a;
   return axis.dot(point_in_world(state, joint.body_a, joint.anchor_a) -
                   point_in_world(state, joint.body_b, joint.anchor_b));
-}
-
-/// The events of the steps [first, first + count).
-std::span<const Event> events_of(const Model& model, std::int64_t first, std::int64_t count) {
-  const auto begin = std::ranges::lower_bound(model.events, first, {}, &Event::step);
-  const auto end = std::ranges::lower_bound(model.events, first + count, {}, &Event::step);
-  return {begin, end};
 }
 
 /// What drives an axis at any time between two states.
@@ -127,7 +120,7 @@ double drive_work(const Model& model, const State& before, const State& after, s
 double launch_work(const Model& model, const State& before, std::int64_t first_step, int num_steps) {
   double work = 0;
   State launched;
-  for (const Event& event : events_of(model, first_step, num_steps)) {
+  for (const Event& event : events_in(model, first_step, num_steps)) {
     if (event.kind != EventKind::launch) continue;
     if (launched.position.empty()) launched = before;
     const int body = event.body;
@@ -172,7 +165,7 @@ EnergyGain::EnergyGain(const Model& model, double dt_s)
     : model_(&model), dt_s_(dt_s), has_springs_(std::ranges::any_of(model.joints, has_spring)) {}
 
 bool EnergyGain::launches_in(std::int64_t first_step, int num_steps) const {
-  return std::ranges::any_of(events_of(*model_, first_step, num_steps),
+  return std::ranges::any_of(events_in(*model_, first_step, num_steps),
                              [](const Event& event) { return event.kind == EventKind::launch; });
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace pbmpi::stepping {
 
@@ -15,7 +16,21 @@ inline constexpr const char* signal = "signal";              ///< the run ends e
 inline constexpr const char* time_limit = "time_limit";      ///< the run ends early
 inline constexpr const char* checkpoint = "checkpoint";      ///< value: 1 if it was written, 0 if that failed
 inline constexpr const char* joint_broken = "joint_broken";  ///< step, world, joint and name tell which
-inline constexpr std::array all = {rebalance, signal, time_limit, checkpoint, joint_broken};
+
+// A guard that tripped (stability/guards.h); step, world and name tell where.
+inline constexpr const char* nonfinite = "nonfinite";      ///< value: bodies; name: the first
+inline constexpr const char* joint_gap = "joint_gap";      ///< value: the widest gap [m]
+inline constexpr const char* energy_gain = "energy_gain";  ///< value: gained without a cause [J]
+inline constexpr const char* passage = "passage";          ///< value: way beyond what was passed [m]
+
+// What was done about it, with --on-blowup.
+inline constexpr const char* frozen = "frozen";    ///< the world stands from the start of `step` on
+inline constexpr const char* refined = "refined";  ///< value: the finer steps that replaced `step`
+
+inline constexpr std::array guards = {nonfinite, joint_gap, energy_gain, passage};
+inline constexpr std::array guard_actions = {frozen, refined};
+inline constexpr std::array all = {rebalance, signal,      time_limit, checkpoint, joint_broken, nonfinite,
+                                   joint_gap, energy_gain, passage,    frozen,     refined};
 
 }  // namespace event_kind
 
@@ -26,8 +41,16 @@ struct RunEvent {
   std::int64_t step = -1;   ///< in which it happened, counted from 0; -1: at the end of the frame
   std::int32_t world = -1;  ///< -1: of no world
   std::int32_t joint = -1;  ///< index in the world's model; -1: of no joint
-  std::string name = {};    ///< of the joint
+  std::string name = {};    ///< of the joint or body
   double value = 0;         ///< see event_kind
+};
+
+/// Knows of events that only the owner of a world sees.
+class RunEventSource {
+ public:
+  virtual ~RunEventSource() = default;
+  /// Events since the last call; their frame is for the caller to fill in.
+  virtual std::vector<RunEvent> take_events() = 0;
 };
 
 }  // namespace pbmpi::stepping

@@ -53,6 +53,18 @@ TEST(StateHash, tells_two_bodies_apart) {
   EXPECT_NE(hash(initial_state(model)), hash(state));
 }
 
+TEST(StateHash, tells_since_when_a_world_stands_and_nothing_else_that_guards_remember) {
+  const State state = initial_state(support::free_box());
+  State other = state;
+  other.guard.energy_gain_j = other.guard.largest_kinetic_j = 7;
+  EXPECT_EQ(hash(other), hash(state));
+  other.guard.frozen_in = 0;
+  State later = other;
+  later.guard.frozen_in = 1;
+  EXPECT_NE(hash(other), hash(state));
+  EXPECT_NE(hash(other), hash(later));
+}
+
 TEST(CountNonfinite, finds_every_bad_number_and_counts_bodies) {
   const State state = initial_state(support::crash());
   EXPECT_EQ(count_nonfinite(state), 0);

@@ -1,0 +1,13 @@
+/// How large the bodies of a model are.
+#pragma once
+
+#include <vector>
+
+#include "model/model.h"
+
+namespace pbmpi::stability {
+
+/// [num_bodies] Diameter of the ball about its centre of mass that holds a body's geoms [m]; 0 without any.
+std::vector<double> sizes_of(const model::Model& model);
+
+}  // namespace pbmpi::stability

@@ -1,0 +1,97 @@
+#include "stability/guarded_stepper.h"
+
+#include <utility>
+
+#include "core/error.h"
+
+namespace pbmpi::stability {
+
+GuardedStepper::GuardedStepper(std::unique_ptr<stepping::WorldStepper> inner, GuardSettings settings)
+    : settings_(std::move(settings)),
+      inner_(std::move(inner)),
+      anytime_(dynamic_cast<stepping::AnytimeStepper*>(inner_.get())) {}
+
+void GuardedStepper::add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
+                         std::int64_t step) {
+  Slot slot;
+  slot.model = model;
+  slot.guard = std::make_unique<WorldGuard>(world, model, settings_);
+  slot.step = step;
+  slot.now = slot.guard->begin(state);
+  if (!slot.now.is_frozen()) {
+    inner_->add(world, std::move(model), state, step);
+    // The stepper completes the state, e.g. by the poses near which bodies rest.
+    const model::GuardMemory memory = slot.now.state.guard;
+    slot.now.state = inner_->state(world);
+    slot.now.state.guard = memory;
+  }
+  const bool is_new = worlds_.emplace(world, std::move(slot)).second;
+  core::require_invariant(is_new, "a world was added twice");
+}
+
+void GuardedStepper::remove(int world) {
+  const auto found = worlds_.find(world);
+  core::require_invariant(found != worlds_.end(), "a world was removed that is not there");
+  if (!found->second.now.is_frozen()) inner_->remove(world);
+  worlds_.erase(found);
+}
+
+void GuardedStepper::set_state(int world, const model::State& state, std::int64_t step) {
+  Slot& slot = worlds_.at(world);
+  const bool was_frozen = slot.now.is_frozen();
+  slot.now = slot.guard->begin(state);
+  slot.step = step;
+  if (slot.now.is_frozen()) {
+    if (!was_frozen) inner_->remove(world);
+    return;
+  }
+  if (was_frozen) {
+    inner_->add(world, slot.model, state, step);
+  } else {
+    inner_->set_state(world, state, step);
+  }
+  const model::GuardMemory memory = slot.now.state.guard;
+  slot.now.state = inner_->state(world);
+  slot.now.state.guard = memory;
+}
+
+void GuardedStepper::advance(int num_steps, core::PhaseTimes& times) {
+  inner_->advance(num_steps, times);
+  if (num_steps == 0) return;
+  core::LapTimer timer(times);
+  for (auto& [world, slot] : worlds_) end_frame(world, slot, num_steps);
+  timer.lap(core::Phase::islands);
+}
+
+void GuardedStepper::end_frame(int world, Slot& slot, int num_steps) {
+  const std::int64_t first_step = std::exchange(slot.step, slot.step + num_steps);
+  if (slot.now.is_frozen()) return;
+  std::swap(slot.before, slot.now);
+  slot.now.state = inner_->state(world);
+  slot.now.seen = inner_->observables(world);
+  if (!slot.guard->end_frame(slot.before, first_step, num_steps, slot.now, events_)) return;
+  inner_->remove(world);
+  if (!slot.now.is_frozen()) inner_->add(world, slot.model, slot.now.state, slot.step);
+}
+
+double GuardedStepper::cost_s(int world) const {
+  // Loads are divided by their sum, which must not be 0 where all worlds stand.
+  constexpr double next_to_nothing_s = 1e-9;
+  return worlds_.at(world).now.is_frozen() ? next_to_nothing_s : inner_->cost_s(world);
+}
+
+const stepping::StepProfile* GuardedStepper::profile(int world) const {
+  return worlds_.at(world).now.is_frozen() ? nullptr : inner_->profile(world);
+}
+
+void GuardedStepper::begin_step(int iterations, core::PhaseTimes& times) {
+  core::require_invariant(anytime_ != nullptr, "begin_step: the stepper cannot be looked at in mid-solve");
+  anytime_->begin_step(iterations, times);
+}
+
+const model::State& GuardedStepper::look(int world) const {
+  const Slot& slot = worlds_.at(world);
+  return slot.now.is_frozen() ? slot.now.state : anytime_->look(world);
+}
+
+}  // namespace pbmpi::stability

@@ -1,0 +1,61 @@
+/// A stepper whose worlds are watched.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "stability/on_blowup.h"
+#include "stability/world_guard.h"
+#include "stepping/run_event.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::stability {
+
+/// Steps worlds with another stepper, and looks at each of them after every advance(), which is a frame.
+/// States carry what the guards remember (State::guard), so that all goes on alike where a world moves to
+/// another rank or comes from a checkpoint. With freeze and refine a world that blows up gets another state,
+/// and one that stands is kept out of the other stepper, whose other worlds keep their bits.
+class GuardedStepper final : public stepping::AnytimeStepper, public stepping::RunEventSource {
+ public:
+  /// begin_step() and look() are for an `inner` that is an AnytimeStepper.
+  GuardedStepper(std::unique_ptr<stepping::WorldStepper> inner, GuardSettings settings);
+  GuardedStepper(const GuardedStepper&) = delete;  // the worlds' guards point at its settings
+  GuardedStepper& operator=(const GuardedStepper&) = delete;
+
+  void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
+           std::int64_t step) override;
+  void remove(int world) override;
+  void set_state(int world, const model::State& state, std::int64_t step) override;
+  void advance(int num_steps, core::PhaseTimes& times) override;
+  const model::State& state(int world) const override { return worlds_.at(world).now.state; }
+  const model::Model& model(int world) const override { return *worlds_.at(world).model; }
+  const stepping::Observables& observables(int world) const override { return worlds_.at(world).now.seen; }
+  double cost_s(int world) const override;
+  void profile_last_step() override { inner_->profile_last_step(); }
+  const stepping::StepProfile* profile(int world) const override;
+
+  void begin_step(int iterations, core::PhaseTimes& times) override;
+  const model::State& look(int world) const override;
+
+  std::vector<stepping::RunEvent> take_events() override { return std::exchange(events_, {}); }
+
+ private:
+  struct Slot {
+    std::shared_ptr<const model::Model> model;
+    std::unique_ptr<WorldGuard> guard;
+    std::int64_t step = 0;
+    Watched now, before;  ///< `before`: the state of a frame ago; kept for its memory
+  };
+
+  void end_frame(int world, Slot& slot, int num_steps);
+
+  GuardSettings settings_;
+  std::unique_ptr<stepping::WorldStepper> inner_;
+  stepping::AnytimeStepper* anytime_ = nullptr;  ///< inner_, if it is one
+  std::map<int, Slot> worlds_;
+  std::vector<stepping::RunEvent> events_;
+};
+
+}  // namespace pbmpi::stability

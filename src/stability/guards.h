@@ -1,0 +1,104 @@
+/// What a run itself watches for in one world, and how far each may go.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+#include "model/state.h"
+#include "stability/energy_gain.h"
+#include "stability/passage.h"
+#include "stepping/observables.h"
+#include "stepping/run_event.h"
+
+namespace pbmpi::stability {
+
+/// Chosen so that none of the scenes that pbmpi brings trips over its own frames at its default setting.
+struct GuardLimits {
+  /// A joint may open by this share of the size of its smaller body, which then fits in between. Hands and
+  /// feet that a car hits open by half of their size for some steps.
+  double gap_share = 1;
+  /// Energy may be gained without a cause up to this share of the largest kinetic energy so far: pushing out
+  /// what overlaps and closing what gapes gains a little in each impact.
+  double energy_share = 0.05;
+  /// And besides by the work of lifting all bodies by so much [m] on Earth, which is what a world at rest
+  /// with overlaps of this size may make of them.
+  double energy_lift_m = 0.01;
+};
+
+/// In the order of stepping::event_kind::guards.
+enum class Guard { nonfinite, joint_gap, energy_gain, passage };
+
+/// A guard that has tripped.
+struct Trip {
+  Guard guard = Guard::nonfinite;
+  std::int64_t step = 0;      ///< counted from 0: the last before the guard saw it
+  int body = model::no_body;  ///< nonfinite, passage
+  int joint = -1;             ///< joint_gap
+  int through = -1;           ///< passage: geom
+  double value = 0;           ///< what the guard measured: stepping::event_kind
+  double limit = 0;
+};
+
+/// A state, and what is measured of it anyway.
+struct Seen {
+  const model::State& state;
+  double energy_j = 0;
+  double joint_gap_m = 0;
+  int nonfinite = 0;
+
+  Seen(const model::State& at, const stepping::Observables& observables)
+      : state(at),
+        energy_j(observables.energy_j),
+        joint_gap_m(observables.joint_gap_m),
+        nonfinite(observables.nonfinite) {}
+};
+
+/// Checks one world between two states, one step or some steps apart. What costs more than a pass over the
+/// bodies is done only where something is suspected.
+class Guards {
+ public:
+  /// `model` is borrowed.
+  Guards(const model::Model& model, double dt_s, const GuardLimits& limits = {});
+
+  /// The states before and after `num_steps` steps from `first_step` on.
+  struct Span {
+    Seen before, after;
+    std::int64_t first_step = 0;
+    int num_steps = 1;
+  };
+  /// The first guard that trips, of: non-finite numbers, a joint that opens beyond its limit (and was not yet
+  /// there), energy gained without a cause, a passage. Gains of energy are summed in `memory`. `from`: as of
+  /// PassageFinder::find().
+  std::optional<Trip> check(const Span& span, std::span<const model::Vec3> from,
+                            model::GuardMemory& memory) const;
+
+  /// Where the bodies are after the launches of these steps, if they are at `positions` before.
+  std::span<const model::Vec3> launched(std::span<const model::Vec3> positions, std::int64_t first_step,
+                                        int num_steps, std::vector<model::Vec3>& scratch) const;
+
+  /// Takes the kinetic energy of a state into memory.largest_kinetic_j.
+  void note_kinetic(const model::State& state, double energy_j, model::GuardMemory& memory) const;
+  /// Above which memory.energy_gain_j trips [J].
+  double energy_limit(const model::GuardMemory& memory) const;
+  const PassageFinder& passages() const { return passages_; }
+
+ private:
+  std::optional<Trip> check_gaps(const Span& span) const;
+
+  const model::Model* model_;
+  GuardLimits limits_;
+  EnergyGain energy_;
+  PassageFinder passages_;
+  std::vector<double> gap_limit_;  ///< [num_joints] m
+  double least_gap_limit_ = model::infinity;
+  double lift_work_j_ = 0;
+};
+
+/// The event of a guard that tripped in a world, for file and summary.
+stepping::RunEvent event_of(const Trip& trip, int world, const model::Model& model);
+
+}  // namespace pbmpi::stability

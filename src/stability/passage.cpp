@@ -1,0 +1,158 @@
+#include "stability/passage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/geometry.h"
+#include "geometry/ray_cast.h"
+#include "stability/body_size.h"
+
+namespace pbmpi::stability {
+namespace {
+
+using model::BodyPose;
+using model::Geom;
+using model::Shape;
+using model::State;
+using model::Vec3;
+
+/// Radius [m] of the largest ball about the body's centre of mass that the geom holds; 0 or less if the
+/// centre lies outside.
+double inner_radius(const Geom& geom) {
+  const Vec3 centre = geom.local.orientation.to_eigen().conjugate() * -geom.local.position;
+  const geometry::Extent extent = geometry::extent_of(geom);
+  const auto side = [&](int axis) {
+    return extent.half[static_cast<std::size_t>(axis)] - std::abs(centre[axis]);
+  };
+  switch (geom.shape) {
+    case Shape::sphere:
+      return geom.size[0] - centre.norm();
+    case Shape::capsule: {
+      const Vec3 off(centre.x(), centre.y(), std::max(0.0, -side(2)));
+      return geom.size[0] - off.norm();
+    }
+    case Shape::cylinder:
+      return std::min(geom.size[0] - std::hypot(centre.x(), centre.y()), side(2));
+    case Shape::box:
+      return std::min({side(0), side(1), side(2)});
+    case Shape::plane:
+      break;
+  }
+  return 0;
+}
+
+BodyPose pose_of(const State& state, int body) {
+  if (body == model::no_body) return geometry::static_pose();
+  BodyPose pose{};
+  for (int axis = 0; axis < 3; ++axis) pose.position[axis] = state.position[body][axis];
+  const core::Quat& q = state.orientation[body];
+  geometry::to_rotation(q.w, q.x, q.y, q.z, pose.rotation);
+  return pose;
+}
+
+/// How far the way goes on after it has crossed the geom from side to side, as a share of its length; nothing
+/// if it does not cross the whole of it.
+std::optional<double> share_beyond(const Geom& geom, const BodyPose& pose, const Vec3& from,
+                                   const Vec3& way) {
+  if (!geometry::enter(geom, pose, from, way)) return std::nullopt;
+  const auto back = geometry::enter(geom, pose, from + way, -way);
+  return back ? std::optional<double>(back->share) : std::nullopt;
+}
+
+/// Square of the distance between a point and the line of points from + s way, s from 0 to 1.
+double squared_distance(const Vec3& point, const Vec3& from, const Vec3& way) {
+  const Vec3 to_point = point - from;
+  const double share = std::clamp(to_point.dot(way) / way.squaredNorm(), 0.0, 1.0);
+  return (to_point - share * way).squaredNorm();
+}
+
+}  // namespace
+
+PassageFinder::PassageFinder(const model::Model& model) : model_(&model), rule_(model) {
+  std::vector<Mover> best(model.bodies.size());
+  const std::vector<double> sizes = sizes_of(model);
+  for (int i = 0; i < static_cast<int>(model.geoms.size()); ++i) {
+    const Geom& geom = model.geoms[i];
+    if (geom.shape == Shape::plane) {
+      const Vec3 normal = geom.local.orientation.to_eigen() * Vec3::UnitZ();
+      if (geom.body == model::no_body) planes_.push_back({i, normal, normal.dot(geom.local.position)});
+      continue;
+    }
+    const double radius = geometry::bounding_radius(geom);
+    if (geom.body == model::no_body) {
+      solids_.push_back({i, geom.body, geom.local.position, radius});
+      continue;
+    }
+    solids_.push_back({i, geom.body, Vec3::Zero(), radius + geom.local.position.norm()});
+    const double inner = inner_radius(geom);
+    if (inner > best[geom.body].radius) best[geom.body] = {geom.body, i, inner, sizes[geom.body]};
+  }
+  std::ranges::copy_if(best, std::back_inserter(movers_), [](const Mover& one) { return one.radius > 0; });
+}
+
+std::optional<Passage> PassageFinder::find(const State& before, std::span<const Vec3> from,
+                                           const State& after) const {
+  for (const Mover& mover : movers_) {
+    const Vec3& start = from[static_cast<std::size_t>(mover.body)];
+    if (auto found = through_planes(mover, start, after.position[mover.body])) return found;
+    if (auto found = through_solids(mover, before, start, after)) return found;
+  }
+  return std::nullopt;
+}
+
+std::optional<Passage> PassageFinder::through_planes(const Mover& mover, const Vec3& from,
+                                                     const Vec3& to) const {
+  for (const Plane& plane : planes_) {
+    const double height = plane.normal.dot(to) - plane.height;
+    if (height > -mover.size || plane.normal.dot(from) - plane.height <= -mover.size) continue;
+    if (rule_.may_touch(mover.geom, plane.geom)) return Passage{mover.body, plane.geom, -height};
+  }
+  return std::nullopt;
+}
+
+std::optional<Passage> PassageFinder::through_solids(const Mover& mover, const State& before,
+                                                     const Vec3& from, const State& after) const {
+  const Vec3& to = after.position[mover.body];
+  const Vec3 own_way = to - from;
+  const bool is_slow = !(own_way.squaredNorm() > mover.radius * mover.radius);
+  if (is_slow) return std::nullopt;
+  for (const Solid& solid : solids_) {
+    const bool is_static = solid.body == model::no_body;
+    const Vec3& centre = is_static ? solid.centre : after.position[solid.body];
+    const Vec3 way = is_static ? own_way : Vec3(own_way - (centre - before.position[solid.body]));
+    if (squared_distance(centre, to - way, way) > solid.radius * solid.radius) continue;
+    if (way.squaredNorm() <= mover.radius * mover.radius || !rule_.may_touch(mover.geom, solid.geom))
+      continue;
+    const Geom& geom = model_->geoms[solid.geom];
+    BodyPose body = pose_of(after, solid.body);
+    const auto beyond = share_beyond(geom, geometry::geom_pose(geom, body), to - way, way);
+    if (!beyond) continue;
+    const double beyond_m = *beyond * way.norm();
+    if (!is_static) {
+      if (beyond_m < 2 * mover.size) continue;
+      const BodyPose turned_before = pose_of(before, solid.body);
+      std::ranges::copy(turned_before.rotation, body.rotation);
+      if (!share_beyond(geom, geometry::geom_pose(geom, body), to - way, way)) continue;
+    }
+    return Passage{mover.body, solid.geom, beyond_m};
+  }
+  return std::nullopt;
+}
+
+bool PassageFinder::is_inside(const State& state, int body) const {
+  const auto mover = std::ranges::lower_bound(movers_, body, {}, &Mover::body);
+  if (mover == movers_.end() || mover->body != body) return false;
+  const Vec3& point = state.position[body];
+  return std::ranges::any_of(solids_, [&](const Solid& solid) {
+    const Vec3& centre = solid.body == model::no_body ? solid.centre : state.position[solid.body];
+    if ((point - centre).squaredNorm() > solid.radius * solid.radius) return false;
+    if (!rule_.may_touch(mover->geom, solid.geom)) return false;
+    const Geom& geom = model_->geoms[solid.geom];
+    const BodyPose pose = geometry::geom_pose(geom, pose_of(state, solid.body));
+    // From outside a way to the point comes in, and a way back from it does not.
+    const Vec3 way = Vec3::UnitX() * (3 * solid.radius);
+    return geometry::enter(geom, pose, point - way, way) && !geometry::enter(geom, pose, point, -way);
+  });
+}
+
+}  // namespace pbmpi::stability

@@ -1,0 +1,80 @@
+/// Bodies that went through something.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/contact.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "model/touch_rule.h"
+
+namespace pbmpi::stability {
+
+/// A body whose centre of mass is, or was, behind something that it may touch.
+struct Passage {
+  int body = 0;
+  int through = 0;    ///< geom
+  double beyond = 0;  ///< how far its centre is behind the plane, or went beyond the geom [m]
+};
+
+/// Finds passages between two states of a world. A body counts by its inner ball, the largest about its
+/// centre of mass that one of its geoms holds; bodies whose centre lies in none of their geoms, such as
+/// rings, are not looked at, because others may go through them.
+///
+/// A body has passed
+/// - a static plane, if its centre has come behind it by more than the body's size, from whatever above that:
+///   hands and feet on which a car stands are pressed into the ground by half of their size;
+/// - another solid geom, if the straight way of its centre, as seen from that geom, comes in and leaves
+/// again;
+///   a geom of another body only if the way goes on by twice the size of the body, which is then wholly
+///   behind it: light bodies that meet in a crash clip each other's corners, and are pushed apart.
+///
+/// Only bodies that moved farther than their inner radius are tested for solid geoms, which costs slow worlds
+/// next to nothing. A geom that turns meanwhile must be crossed as it was turned before and as it is after.
+class PassageFinder {
+ public:
+  /// `model` is borrowed.
+  explicit PassageFinder(const model::Model& model);
+
+  /// The first passage, by body, between two states. `from` [num_bodies]: where the centres started [m, world
+  /// frame], which is before.position unless a launch has put them elsewhere.
+  std::optional<Passage> find(const model::State& before, std::span<const model::Vec3> from,
+                              const model::State& after) const;
+
+  /// Does the body's centre lie in a solid geom that it may touch?
+  bool is_inside(const model::State& state, int body) const;
+
+ private:
+  struct Mover {
+    int body = 0;
+    int geom = 0;       ///< that holds its centre
+    double radius = 0;  ///< of the inner ball [m]
+    double size = 0;    ///< of the body [m], see sizes_of()
+  };
+  struct Solid {
+    int geom = 0;
+    int body = model::no_body;
+    model::Vec3 centre = model::Vec3::Zero();  ///< of a static geom [m]
+    double radius = 0;  ///< of the ball that holds it, about the body's centre of mass [m]
+  };
+  struct Plane {
+    int geom = 0;
+    model::Vec3 normal = model::Vec3::UnitZ();
+    double height = 0;  ///< of its points along the normal [m]
+  };
+
+  std::optional<Passage> through_planes(const Mover& mover, const model::Vec3& from,
+                                        const model::Vec3& to) const;
+  std::optional<Passage> through_solids(const Mover& mover, const model::State& before,
+                                        const model::Vec3& from, const model::State& after) const;
+
+  const model::Model* model_;
+  model::TouchRule rule_;
+  std::vector<Mover> movers_;
+  std::vector<Solid> solids_;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace pbmpi::stability

@@ -1,0 +1,179 @@
+#include "stability/world_guard.h"
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "stability/finer_steps.h"
+
+namespace pbmpi::stability {
+namespace {
+
+using model::State;
+using model::Vec3;
+using stepping::RunEvent;
+
+constexpr std::array finer_choices = {2, 4, 8, 16};
+
+Seen seen_of(const Watched& watched) { return {watched.state, watched.seen}; }
+
+}  // namespace
+
+/// A frame of one world done again, step by step.
+class WorldGuard::Replay {
+ public:
+  Replay(const WorldGuard& guard, const Watched& start, std::int64_t first_step,
+         std::vector<RunEvent>& events)
+      : guard_(&guard), now_(start), step_(first_step), from_(start.state.position), events_(&events) {
+    stepping::StepperSettings settings = guard.settings_->stepper;
+    settings.profile = false;
+    stepper_ = guard.settings_->make_stepper(settings);
+    stepper_->add(guard.world_, guard.model_, start.state, first_step);
+  }
+
+  /// False if nothing is left to do: a guard has tripped and only its report was wanted, or the world stands.
+  bool step();
+
+  bool has_tripped() const { return has_tripped_; }
+  bool has_mended() const { return has_mended_; }
+  const Watched& now() const { return now_; }
+
+ private:
+  std::optional<Trip> check(const Watched& next, model::GuardMemory& memory);
+  bool deal_with(const Trip& trip, Watched& next);
+  bool refine(Watched& next);
+  void freeze();
+  void go_on_from(Watched&& next);
+  void tell(const char* kind, double value, const std::string& detail);
+
+  const WorldGuard* guard_;
+  Watched now_;
+  std::int64_t step_;
+  /// Where the way of each centre begins: at now_, or further back for a centre that is in something, so that
+  /// a way through it is seen as a whole.
+  std::vector<Vec3> from_;
+  std::vector<Vec3> scratch_;
+  std::vector<RunEvent>* events_;
+  std::unique_ptr<stepping::WorldStepper> stepper_;
+  bool has_tripped_ = false, has_mended_ = false;
+};
+
+bool WorldGuard::Replay::step() {
+  core::PhaseTimes unused;
+  stepper_->advance(1, unused);
+  Watched next{stepper_->state(guard_->world_), stepper_->observables(guard_->world_)};
+  model::GuardMemory memory = now_.state.guard;
+  if (const auto trip = check(next, memory)) {
+    has_tripped_ = true;
+    events_->push_back(event_of(*trip, guard_->world_, *guard_->model_));
+    if (!deal_with(*trip, next)) return false;
+  } else {
+    next.state.guard = memory;
+  }
+  go_on_from(std::move(next));
+  return true;
+}
+
+std::optional<Trip> WorldGuard::Replay::check(const Watched& next, model::GuardMemory& memory) {
+  const auto from = guard_->guards_.launched(from_, step_, 1, scratch_);
+  return guard_->guards_.check({seen_of(now_), seen_of(next), step_, 1}, from, memory);
+}
+
+/// False if the world goes no further.
+bool WorldGuard::Replay::deal_with(const Trip&, Watched& next) {
+  const OnBlowup on_blowup = guard_->settings_->on_blowup;
+  if (!mends(on_blowup)) return false;
+  has_mended_ = true;
+  if (on_blowup == OnBlowup::refine && refine(next)) return true;
+  freeze();
+  return false;
+}
+
+/// Replaces the step by finer ones that no guard objects to, if there are any.
+bool WorldGuard::Replay::refine(Watched& next) {
+  for (const int finer : finer_choices) {
+    FinerResult result =
+        step_finer(*guard_->settings_, guard_->world_, *guard_->model_, now_.state, step_, finer);
+    next = {std::move(result.state), result.seen};
+    model::GuardMemory memory = now_.state.guard;
+    if (check(next, memory)) continue;
+    next.state.guard = memory;
+    stepper_->set_state(guard_->world_, next.state, step_ + 1);
+    tell(stepping::event_kind::refined, finer, "was done as " + std::to_string(finer) + " finer ones");
+    return true;
+  }
+  return false;
+}
+
+void WorldGuard::Replay::freeze() {
+  model::GuardMemory memory = now_.state.guard;
+  memory.frozen_in = static_cast<std::int32_t>(step_);
+  now_.state.guard = memory;
+  tell(stepping::event_kind::frozen, 0, "and all after it are not done: the world stands still");
+}
+
+void WorldGuard::Replay::go_on_from(Watched&& next) {
+  for (int body = 0; body < next.state.num_bodies(); ++body) {
+    if (!guard_->guards_.passages().is_inside(next.state, body)) from_[body] = next.state.position[body];
+  }
+  now_ = std::move(next);
+  ++step_;
+}
+
+void WorldGuard::Replay::tell(const char* kind, double value, const std::string& detail) {
+  RunEvent event;
+  event.kind = kind;
+  event.detail = "world " + std::to_string(guard_->world_) + ": step " + std::to_string(step_) + " " + detail;
+  event.step = step_;
+  event.world = guard_->world_;
+  event.value = value;
+  events_->push_back(std::move(event));
+}
+
+WorldGuard::WorldGuard(int world, std::shared_ptr<const model::Model> model, const GuardSettings& settings)
+    : world_(world),
+      model_(std::move(model)),
+      settings_(&settings),
+      guards_(*model_, settings.stepper.dt_s, settings.limits) {}
+
+/// Of a world that stands only what follows from its state is measured.
+Watched WorldGuard::begin(const State& state) const {
+  Watched watched{state, {}};
+  observe_state(*model_, watched.state, watched.seen);
+  if (!watched.is_frozen()) guards_.note_kinetic(watched.state, watched.seen.energy_j, watched.state.guard);
+  return watched;
+}
+
+bool WorldGuard::end_frame(const Watched& before, std::int64_t first_step, int num_steps, Watched& after,
+                           std::vector<RunEvent>& events) const {
+  const model::GuardMemory at_start = before.state.guard;
+  model::GuardMemory memory = at_start;
+  std::vector<Vec3> scratch;
+  const auto from = guards_.launched(before.state.position, first_step, num_steps, scratch);
+  const auto suspicion =
+      guards_.check({seen_of(before), seen_of(after), first_step, num_steps}, from, memory);
+  bool mended = false;
+  if (suspicion) {
+    Replay replay(*this, before, first_step, events);
+    for (int i = 0; i < num_steps && replay.step(); ++i) continue;
+    mended = replay.has_mended();
+    if (mended) {
+      after = replay.now();
+      if (after.is_frozen()) {
+        after = begin(after.state);
+        return true;
+      }
+      memory = after.state.guard;
+    } else if (replay.has_tripped()) {
+      // The next report is of what is gained from now on.
+      if (memory.energy_gain_j > guards_.energy_limit(memory)) memory.energy_gain_j = 0;
+    } else {
+      memory = replay.now().state.guard;
+    }
+  }
+  after.state.guard = memory;
+  if (after.seen.nonfinite == 0) guards_.note_kinetic(after.state, after.seen.energy_j, after.state.guard);
+  return mended;
+}
+
+}  // namespace pbmpi::stability
