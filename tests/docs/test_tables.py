@@ -23,13 +23,14 @@ class Tables(unittest.TestCase):
         case = {**case, "stepper": "quick", "substeps": 1.0, "iterations": 20.0, "warm_start": 0.0}
         self.assertEqual(programs.setting_name(case), "`quick`, 1 x 20")
 
-    def test_a_scene_at_rest_takes_speed_from_whatever_moves_and_puts_rounds_on_the_ground(self):
-        text = stability.at_rest("Battle")
-        self.assertIn("events = false", text)
-        moving = [actor for actor in stability.actors_of("Battle").values() if "velocity" in actor]
-        self.assertEqual(text.count("velocity = [0, 0, 0]"), len(moving))
-        self.assertEqual(text.count("position = "), sum(actor["type"] == "projectile" for actor in moving))
-        self.assertIn("speed = 0\n", stability.at_rest("CrashSk"))
+    def test_the_largest_step_is_that_up_to_which_all_shorter_ones_hold(self):
+        verdicts = dict.fromkeys(stability.STEPS_S, "pass")
+        self.assertEqual(stability.largest_step(verdicts, ("pass",)), "0.05 s")
+        verdicts[0.002] = "degraded"
+        self.assertEqual(stability.largest_step(verdicts, ("pass",)), "0.001 s")
+        self.assertEqual(stability.largest_step(verdicts, ("pass", "degraded")), "0.05 s")
+        verdicts[0.0001] = "broken"
+        self.assertEqual(stability.largest_step(verdicts, ("pass", "degraded")), "none")
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ StabilityCell read_cell(const CaseRow& row, std::size_t index) {
   StabilityCell cell;
   cell.index = index;
   cell.setting = row.text("setting");
+  cell.dt_s = row.real("dt");
   const auto verdict = model::enum_from_name<Verdict>(row.text("verdict"), stability::verdict_names);
   cell.judged.verdict = verdict.value_or(Verdict::not_applicable);
   cell.judged.decided_by = row.text("decided_by");

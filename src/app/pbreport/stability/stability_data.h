@@ -14,6 +14,7 @@ namespace pbmpi::app {
 struct StabilityCell {
   std::size_t index = 0;  ///< of the row
   std::string setting;
+  double dt_s = 0;
   stability::Judgement judged;
   std::array<double, stability::num_metrics> metrics{};
   double broken_at_s = 0, simulated_s = 0;

@@ -43,6 +43,7 @@ Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : 
 
 Json cell_json(const StabilityCell& cell) {
   Json json = {{"setting", cell.setting},
+               {"dt_s", cell.dt_s},
                {"verdict", name_of(cell.judged.verdict)},
                {"decided_by", cell.judged.decided_by},
                {"value", finite_or_null(cell.judged.value)},
