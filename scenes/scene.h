@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "model/model.h"
-#include "stability/hard_case.h"
+#include "stability/cases/hard_case.h"
 
 namespace pbmpi::scenes {
 

@@ -6,7 +6,7 @@
 
 #include "model/model.h"
 #include "scenes/format/table_reader.h"
-#include "stability/hard_case.h"
+#include "stability/cases/hard_case.h"
 
 namespace pbmpi::scenes {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/table/table_file.h"
-#include "stability/verdict.h"
+#include "stability/cases/verdict.h"
 
 namespace pbmpi::app {
 

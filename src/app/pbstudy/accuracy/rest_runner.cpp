@@ -8,7 +8,7 @@
 #include "core/clock.h"
 #include "scenes/parts/at_rest.h"
 #include "scenes/scene.h"
-#include "stability/case_watch.h"
+#include "stability/cases/case_watch.h"
 
 namespace pbmpi::app {
 

@@ -7,7 +7,7 @@
 
 #include "app/pbstudy/stability/stability_options.h"
 #include "app/pbstudy/study/study_scene.h"
-#include "stability/hard_case.h"
+#include "stability/cases/hard_case.h"
 
 namespace pbmpi::app {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/pbstudy/stability/stability_cases.h"
-#include "stability/case_watch.h"
+#include "stability/cases/case_watch.h"
 
 namespace pbmpi::app {
 

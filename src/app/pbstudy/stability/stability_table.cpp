@@ -3,7 +3,7 @@
 #include "analysis/error_bands.h"
 #include "app/common/format.h"
 #include "app/pbstudy/study/table_columns.h"
-#include "stability/verdict.h"
+#include "stability/cases/verdict.h"
 
 namespace pbmpi::app {
 namespace {

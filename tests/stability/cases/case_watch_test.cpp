@@ -1,4 +1,4 @@
-#include "stability/case_watch.h"
+#include "stability/cases/case_watch.h"
 
 #include <gtest/gtest.h>
 

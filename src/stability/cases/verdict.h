@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "stability/case_watch.h"
+#include "stability/cases/case_watch.h"
 
 namespace pbmpi::stability {
 

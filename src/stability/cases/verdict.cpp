@@ -1,4 +1,4 @@
-#include "stability/verdict.h"
+#include "stability/cases/verdict.h"
 
 #include <cmath>
 

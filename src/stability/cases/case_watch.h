@@ -8,8 +8,8 @@
 
 #include "model/model.h"
 #include "model/state.h"
+#include "stability/cases/hard_case.h"
 #include "stability/energy_gain.h"
-#include "stability/hard_case.h"
 #include "stepping/observables.h"
 
 namespace pbmpi::stability {
