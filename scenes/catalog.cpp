@@ -51,8 +51,10 @@ SceneSource find_scene(const std::string& name_or_path) {
     }
     if (is_hard_case(scene.name) == is_hard_case(name_or_path)) names.emplace_back(scene.name);
   }
+  // All hard cases would be too long a list.
+  const bool none_is_near = is_hard_case(name_or_path) && core::nearest_name(name_or_path, names).empty();
   throw core::InputError("unknown scene " + core::in_quotes(name_or_path) +
-                         core::suggestion(name_or_path, names) +
+                         (none_is_near ? "" : core::suggestion(name_or_path, names)) +
                          " (--list-scenes shows all; a scene file of your own ends in .toml)");
 }
 

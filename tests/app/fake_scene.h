@@ -7,10 +7,11 @@
 
 namespace pbmpi::app {
 
-/// Only its defaults matter.
+/// Only its defaults and its name matter.
 class FakeScene final : public scenes::Scene {
  public:
-  explicit FakeScene(scenes::RunDefaults defaults) : defaults_(std::move(defaults)) {}
+  explicit FakeScene(scenes::RunDefaults defaults, std::string name = "Fake")
+      : name_(std::move(name)), defaults_(std::move(defaults)) {}
   const std::string& name() const override { return name_; }
   const std::string& title() const override { return name_; }
   const std::string& text() const override { return name_; }
@@ -19,7 +20,7 @@ class FakeScene final : public scenes::Scene {
   std::shared_ptr<const model::Model> build(int, std::uint64_t) const override { return nullptr; }
 
  private:
-  std::string name_ = "Fake";
+  std::string name_;
   scenes::RunDefaults defaults_;
   std::optional<stability::HardCase> hard_case_;
 };

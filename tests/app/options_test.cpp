@@ -34,6 +34,11 @@ TEST(Options, absent_ones_come_from_the_scene) {
   EXPECT_EQ(spec.output, "Fake.h5");
 }
 
+TEST(Options, the_output_of_a_hard_case_lies_in_the_current_folder) {
+  const FakeScene scene({}, "hard/rest/column20");
+  EXPECT_EQ(resolve(parse_options({"--scene", "hard/rest/column20"}), scene).output, "column20.h5");
+}
+
 TEST(Options, given_ones_win_over_the_scene) {
   const RunSpec spec =
       resolve(parse_options({"--scene", "Fake", "--replicas", "3", "--dt", "0.002", "--iterations=5",

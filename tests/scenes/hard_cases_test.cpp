@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "core/error.h"
 #include "helpers.h"
 
 namespace pbmpi::scenes {
@@ -75,9 +76,22 @@ TEST(HardCases, are_the_files_word_for_word_and_at_most_25_a_folder) {
   EXPECT_EQ(files, std::set<std::string>(names.begin(), names.end()));
 }
 
-TEST(HardCases, do_not_show_up_among_the_papers_scenes) {
-  EXPECT_EQ(list_scenes().size(), 9u);
-  EXPECT_THROW(find_scene("hard/rest/colum"), std::exception);
+TEST(HardCases, do_not_show_up_among_the_papers_scenes) { EXPECT_EQ(list_scenes().size(), 9u); }
+
+std::string error_of_find(const std::string& name) {
+  try {
+    find_scene(name);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(HardCases, are_suggested_by_the_nearest_names_alone) {
+  EXPECT_NE(error_of_find("hard/rest/colum10").find("did you mean 'hard/rest/column10'"), std::string::npos);
+  EXPECT_EQ(
+      error_of_find("hard/waterfall"),
+      "unknown scene 'hard/waterfall' (--list-scenes shows all; a scene file of your own ends in .toml)");
 }
 
 }  // namespace
