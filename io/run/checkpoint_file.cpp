@@ -16,7 +16,7 @@ namespace pbmpi::io {
 namespace {
 
 /// Version of the layout; the first number changes when old programs would be misled.
-constexpr std::array<std::int64_t, 2> version = {1, 0};
+constexpr std::array<std::int64_t, 2> version = {1, 1};
 
 using core::Quat;
 using core::Vec3;
@@ -34,6 +34,8 @@ struct Columns {
   Doubles position, orientation, velocity, angular_velocity;
   Doubles rest_position, rest_orientation;
   Integers idle_steps, broken_in;
+  Doubles energy_gain, largest_kinetic;  ///< [W] as is frozen_in
+  Integers frozen_in;
 
   void add(const model::State& state) {
     bodies.push_back(std::ssize(state.position));
@@ -51,6 +53,9 @@ struct Columns {
       idle_steps.push_back(rest.idle_steps);
     }
     broken_in.insert(broken_in.end(), state.broken_in.begin(), state.broken_in.end());
+    energy_gain.push_back(state.guard.energy_gain_j);
+    largest_kinetic.push_back(state.guard.largest_kinetic_j);
+    frozen_in.push_back(state.guard.frozen_in);
   }
 };
 
@@ -70,7 +75,10 @@ TableFile tables_of(const Checkpoint& checkpoint) {
       Parameter::of("options", checkpoint.options),       Parameter::of("output", checkpoint.output)};
   file.tables["worlds"] = {{"bodies", "", std::move(columns.bodies)},
                            {"resting", "", std::move(columns.resting)},
-                           {"joints", "", std::move(columns.joints)}};
+                           {"joints", "", std::move(columns.joints)},
+                           {"energy_gain", "J", std::move(columns.energy_gain)},
+                           {"largest_kinetic", "J", std::move(columns.largest_kinetic)},
+                           {"frozen_in", "", std::move(columns.frozen_in)}};
   file.tables["bodies"] = {{"position", "m", std::move(columns.position), 3},
                            {"orientation", "", std::move(columns.orientation), 4},
                            {"velocity", "m s-1", std::move(columns.velocity), 3},
@@ -119,10 +127,11 @@ class Rows {
 std::vector<model::State> worlds_of(const TableFile& file) {
   Rows<std::int64_t> bodies(file, "worlds", "bodies"), resting(file, "worlds", "resting"),
       joints(file, "worlds", "joints"), idle_steps(file, "rest", "idle_steps"),
-      broken_in(file, "joints", "broken_in");
+      broken_in(file, "joints", "broken_in"), frozen_in(file, "worlds", "frozen_in");
   Rows<double> position(file, "bodies", "position", 3), orientation(file, "bodies", "orientation", 4),
       velocity(file, "bodies", "velocity", 3), angular_velocity(file, "bodies", "angular_velocity", 3),
-      rest_position(file, "rest", "position", 3), rest_orientation(file, "rest", "orientation", 4);
+      rest_position(file, "rest", "position", 3), rest_orientation(file, "rest", "orientation", 4),
+      energy_gain(file, "worlds", "energy_gain"), largest_kinetic(file, "worlds", "largest_kinetic");
   std::vector<model::State> worlds(file.column<std::int64_t>("worlds", "bodies").size());
   for (model::State& state : worlds) {
     const int num_bodies = bodies.integer(), num_resting = resting.integer(), num_joints = joints.integer();
@@ -135,6 +144,7 @@ std::vector<model::State> worlds_of(const TableFile& file) {
     for (int body = 0; body < num_resting; ++body)
       state.rest.push_back({rest_position.vector(), rest_orientation.quaternion(), idle_steps.integer()});
     for (int joint = 0; joint < num_joints; ++joint) state.broken_in.push_back(broken_in.integer());
+    state.guard = {*energy_gain.next(), *largest_kinetic.next(), frozen_in.integer()};
   }
   for (const auto* column :
        {&position, &orientation, &velocity, &angular_velocity, &rest_position, &rest_orientation}) {

@@ -87,8 +87,11 @@ void read_events(hid_t file, RunData& run) {
   if (has_object(file, "/events/step")) {
     read_subjects(file, count, run.events);
     run.worlds_moved = integer_attribute(file, "/events", worlds_moved);
-    for (const char* one : event_kind::all)
-      run.num_events[one] = integer_attribute(file, "/events", count_name(one));
+    const auto attributes = attributes_as_text(file, "/events");  // older layouts count fewer kinds
+    for (const char* one : event_kind::all) {
+      if (attributes.contains(count_name(one)))
+        run.num_events[one] = integer_attribute(file, "/events", count_name(one));
+    }
   } else {
     for (const stepping::RunEvent& event : run.events) ++run.num_events[event.kind];
   }

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "mpi/frame/breaks.h"
+#include "mpi/frame/world_events.h"
 
 namespace pbmpi::mpi {
 
@@ -53,6 +54,7 @@ void FrameDriver::run_frame() {
   core::LapTimer timer(record.phases);
   const Status status = agree_on_status();
   timer.lap(core::Phase::wait);
+  if (status.guards_found) settle_events();
   gather(record.phases);
 
   core::LapTimer after(record.phases);
@@ -74,8 +76,9 @@ void FrameDriver::run_frame() {
       {record.wall_s, verdict.delivered_s, record.measured, record.phases, record.traffic});
 
   if (joints_break_) announce_breaks(worlds);
+  if (status.guards_found) announce_guards();
   if (verdict.num_moves > 0) rebalance(verdict.num_moves, record.step);
-  if (status.nonfinite_world >= 0) note_failure(status.nonfinite_world);
+  if (status.nonfinite_world >= 0 && result_.failure.empty()) note_failure(status.nonfinite_world);
   if (frame_ + 1 < num_frames()) {
     if (status.stop != 0) {
       end_early(event_kind::signal, "stop requested (signal " + std::to_string(status.stop) + ")",
@@ -89,22 +92,27 @@ void FrameDriver::run_frame() {
 }
 
 FrameDriver::Status FrameDriver::agree_on_status() {
-  // One maximum over the ranks agrees on all five numbers. The lowest rank that failed, and the lowest world,
+  // One maximum over the ranks agrees on all six numbers. The lowest rank that failed, and the lowest world,
   // are sent as their distance from the number of ranks or worlds, so that they win the maximum.
-  enum { stop, save_requests, failed, all_failed, nonfinite, count };
+  enum { stop, save_requests, failed, all_failed, nonfinite, guards, count };
   const bool failed_here = errors_.failed();
   std::array<std::int64_t, count> agreed{};
   agreed[stop] = stop_flag_ ? stop_flag_->load(std::memory_order_relaxed) : 0;
   agreed[save_requests] = save_requests_ ? save_requests_->load(std::memory_order_relaxed) : 0;
   agreed[failed] = failed_here ? comm_.size() - comm_.rank() : 0;
   agreed[all_failed] = failed_here ? -1 : 0;
-  if (!failed_here) agreed[nonfinite] = settings_.num_worlds - lowest_nonfinite_world();
+  if (!failed_here) {
+    agreed[nonfinite] = settings_.num_worlds - lowest_nonfinite_world();
+    own_events_ = take_events();
+    agreed[guards] = own_events_.empty() ? 0 : 1;
+  }
   comm_.allreduce(agreed, Reduce::max);
   if (agreed[failed] > 0) {
     throw_error_of(comm_, errors_, comm_.size() - static_cast<int>(agreed[failed]), agreed[all_failed] == -1);
   }
   const auto world = settings_.num_worlds - static_cast<int>(agreed[nonfinite]);
-  return {static_cast<int>(agreed[stop]), agreed[save_requests], world < settings_.num_worlds ? world : -1};
+  return {static_cast<int>(agreed[stop]), agreed[save_requests], world < settings_.num_worlds ? world : -1,
+          agreed[guards] > 0};
 }
 
 FrameDriver::Verdict FrameDriver::decide(double frame_start_s, double delivered_s, const Status& status) {
@@ -115,7 +123,7 @@ FrameDriver::Verdict FrameDriver::decide(double frame_start_s, double delivered_
     verdict.delivered_s = delivered_s;
     verdict.wall_s = now_s - frame_start_s;
     verdict.time_is_up = now_s >= until_s_ ? 1 : 0;
-    const bool failed = status.nonfinite_world >= 0;
+    const bool failed = status.fails(settings_);
     Then then = Then::next_frame;
     if (status.stop != 0 || verdict.time_is_up != 0) then = Then::stop;
     if (frame_ + 1 == num_frames()) then = Then::end;
@@ -207,6 +215,15 @@ void FrameDriver::announce_breaks(std::span<const stepping::LocalWorld> worlds) 
   for (const stepping::RunEvent& event :
        find_breaks(comm_, worlds, frame_, frame_ * settings_.steps_per_frame))
     announce(event);
+}
+
+void FrameDriver::announce_guards() {
+  const std::vector<stepping::RunEvent> events = share_events(comm_, own_events_, frame_);
+  for (const stepping::RunEvent& event : events) announce(event);
+  if (settings_.stop_at_blowup) {
+    result_.failure = events.front().detail + "; the run ends here (--on-blowup stop), after frame " +
+                      std::to_string(frame_);
+  }
 }
 
 void FrameDriver::announce(const stepping::RunEvent& event) {

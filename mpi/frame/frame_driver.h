@@ -47,10 +47,10 @@ std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes);
 /// Runs the frames of a run on all ranks, which construct and run it together. The communicator is
 /// duplicated. How a frame is stepped is up to the derived class, one for each decomposition.
 ///
-/// A frame is: perhaps estimate -> advance -> agree (one allreduce of 5 numbers: stop, save, error,
-/// non-finite) -> gather -> verdict (one bcast of 32 bytes: the frame's times, whether work moves, whether
-/// the run is saved or its time is up) -> publish (observers, consumers) -> perhaps rebalance -> perhaps
-/// save.
+/// A frame is: perhaps estimate -> advance -> agree (one allreduce of 6 numbers: stop, save, error,
+/// non-finite, guards) -> perhaps settle what guards found -> gather -> verdict (one bcast of 32 bytes: the
+/// frame's times, whether work moves, whether the run is saved or its time is up) -> publish (observers,
+/// consumers) -> perhaps rebalance -> perhaps save.
 class FrameDriver {
  public:
   virtual ~FrameDriver() = default;
@@ -111,7 +111,11 @@ class FrameDriver {
   /// Lowest world that this rank reports with a non-finite body; num_worlds if there is none.
   virtual int lowest_nonfinite_world() const = 0;
   virtual std::int64_t count_nonfinite(int world) const = 0;  ///< on the rank that reports the world
-  virtual int reporter_of(int world) const = 0;               ///< that rank
+  /// What guards found in the frame, on the rank that reports the world.
+  virtual std::vector<stepping::RunEvent> take_events() { return {}; }
+  /// Collective, in a frame in which guards found something, before gather().
+  virtual void settle_events() {}
+  virtual int reporter_of(int world) const = 0;  ///< that rank
   virtual void gather(core::PhaseTimes& times) = 0;
   virtual std::span<const core::Vec3> position() const = 0;  ///< gathered, on root: all bodies'
   virtual std::span<const core::Quat> orientation() const = 0;
@@ -130,6 +134,10 @@ class FrameDriver {
     int stop = 0;                    ///< the stop flag
     std::int64_t save_requests = 0;  ///< so far
     int nonfinite_world = -1;        ///< lowest world with a non-finite body
+    bool guards_found = false;       ///< something, on any rank
+    bool fails(const WorldRunSettings& settings) const {
+      return nonfinite_world >= 0 || (guards_found && settings.stop_at_blowup);
+    }
   };
   /// What root decides after gather().
   struct Verdict {
@@ -150,6 +158,7 @@ class FrameDriver {
   void note_failure(int world);
   void announce(const stepping::RunEvent& event);
   void announce_breaks(std::span<const stepping::LocalWorld> worlds);
+  void announce_guards();
   std::int64_t num_frames() const { return settings_.warmup + settings_.frames; }
 
   Communicator comm_;
@@ -162,9 +171,10 @@ class FrameDriver {
   std::optional<CheckpointSchedule> schedule_;  ///< with a keeper; used on root
   double until_s_ = std::numeric_limits<double>::infinity();
   ErrorHold errors_;
-  std::int64_t frame_ = 0;     ///< frames done, including those before the run was resumed
-  bool joints_break_ = false;  ///< the effect "breakable_joints", in any world
-  double last_output_s_ = 0;   ///< time that observers and consumers took in the frame before
+  std::int64_t frame_ = 0;                      ///< frames done, including those before the run was resumed
+  bool joints_break_ = false;                   ///< the effect "breakable_joints", in any world
+  std::vector<stepping::RunEvent> own_events_;  ///< of this frame, from guards
+  double last_output_s_ = 0;  ///< time that observers and consumers took in the frame before
   WorldRunResult result_;
 };
 

@@ -33,7 +33,8 @@ void require_valid(const WorldRunSettings& settings, int num_parts, int num_rank
 
 std::uint64_t hash_of(const WorldRunSettings& settings) {
   core::Hash64 hash;
-  for (const int number : {settings.num_worlds, settings.warmup, settings.frames, settings.steps_per_frame}) {
+  for (const int number : {settings.num_worlds, settings.warmup, settings.frames, settings.steps_per_frame,
+                           settings.stop_at_blowup ? 1 : 0}) {
     hash.add(static_cast<std::uint64_t>(number));
   }
   for (const double number : {settings.dt_s, settings.budget_s, settings.rebalance_threshold})

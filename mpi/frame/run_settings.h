@@ -18,6 +18,7 @@ struct WorldRunSettings {
   double dt_s = 0.01;
   double budget_s = stepping::default_frame_budget_s;  ///< deadline of a frame
   double rebalance_threshold = 1.1;  ///< work moves when max/avg useful time passes this; infinity = never
+  bool stop_at_blowup = false;       ///< a guard that trips ends the run after the frame
   bool profile = false;  ///< measure the last step of each frame again, after the frame's time is taken
   std::int64_t first_frame = 0;  ///< frames done before: the run is resumed from a checkpoint
   std::vector<int> placement;  ///< owner at the start of each world (or space); empty = as the driver chooses

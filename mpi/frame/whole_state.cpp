@@ -10,9 +10,11 @@ namespace pbmpi::mpi {
 namespace {
 
 constexpr std::size_t num_lengths = 3;  ///< bodies, rows of State::rest, joints
+constexpr std::size_t numbers_of_guard = 3;
 
 std::size_t size_of(std::size_t bodies, std::size_t rests, std::size_t joints) {
-  return num_lengths + model::numbers_of_state * bodies + model::numbers_of_rest * rests + joints;
+  return num_lengths + model::numbers_of_state * bodies + model::numbers_of_rest * rests + joints +
+         numbers_of_guard;
 }
 
 template <class Row>
@@ -51,7 +53,10 @@ std::vector<double> pack(const model::State& state) {
     to[7] = rest.idle_steps;
     to += model::numbers_of_rest;
   }
-  std::copy(state.broken_in.begin(), state.broken_in.end(), to);
+  to = std::copy(state.broken_in.begin(), state.broken_in.end(), to);
+  *to++ = state.guard.energy_gain_j;
+  *to++ = state.guard.largest_kinetic_j;
+  *to = state.guard.frozen_in;
   return packed;
 }
 
@@ -81,6 +86,8 @@ model::State unpack(std::span<const double> packed) {
   }
   for (std::size_t joint = 0; joint < joints; ++joint)
     state.broken_in.push_back(static_cast<std::int32_t>(from[joint]));
+  from += joints;
+  state.guard = {from[0], from[1], static_cast<std::int32_t>(from[2])};
   return state;
 }
 

@@ -30,6 +30,15 @@ std::vector<int> all_of(int count) {
   return numbers;
 }
 
+/// Root's array, on every rank.
+std::vector<double> shared(const Communicator& comm, std::vector<double> packed) {
+  std::int64_t size = std::ssize(packed);
+  comm.bcast_value(size);
+  packed.resize(static_cast<std::size_t>(size));
+  comm.bcast(std::span(packed));
+  return packed;
+}
+
 /// The state that a resumed run starts from: root's, on every rank. Throws unless it fits the model.
 model::State resumed_state(const Communicator& comm, const model::Model& model,
                            std::span<const model::State> states) {
@@ -42,11 +51,7 @@ model::State resumed_state(const Communicator& comm, const model::Model& model,
     require_fit(0, states.front(), model);
     packed = pack(states.front());
   });
-  std::int64_t size = std::ssize(packed);
-  comm.bcast_value(size);
-  packed.resize(static_cast<std::size_t>(size));
-  comm.bcast(std::span(packed));
-  return unpack(packed);
+  return unpack(shared(comm, std::move(packed)));
 }
 
 }  // namespace
@@ -76,8 +81,19 @@ SpaceDriver::SpaceDriver(const Communicator& comm, stepping::SpaceStepper& stepp
   table_.body_offset.push_back(stepper.model().num_bodies());
   const model::State start = steps_done_ == 0 ? model::initial_state(stepper.model())
                                               : resumed_state(this->comm(), stepper.model(), states);
+  is_frozen_ = start.guard.frozen_in >= 0;
+  now_.state = start;
   step_.own(ownership_, start, steps_done_);
   agree(this->comm(), errors());
+}
+
+void SpaceDriver::watch(const stability::GuardSettings& settings) {
+  if (!comm().is_root()) return;
+  // The stepper, which is borrowed, keeps the model for as long.
+  guard_.emplace(0, std::shared_ptr<const model::Model>(std::shared_ptr<void>(), &stepper_->model()),
+                 settings);
+  now_ = guard_->begin(now_.state);
+  observables_ = now_.seen;
 }
 
 std::vector<stepping::LocalWorld> SpaceDriver::local_worlds() const {
@@ -94,6 +110,14 @@ std::vector<int> SpaceDriver::idle_ranks() const {
 }
 
 void SpaceDriver::advance(core::PhaseTimes& times) {
+  if (is_frozen_) {
+    steps_done_ += settings().steps_per_frame;
+  } else {
+    step_frame(times);
+  }
+}
+
+void SpaceDriver::step_frame(core::PhaseTimes& times) {
   core::LapTimer timer(times);
   // A rank without bodies only waits for the others, whatever the phases in which it does so.
   const bool idle = !comm().is_root() && ownership_.bodies[comm().rank()].empty();
@@ -108,6 +132,7 @@ void SpaceDriver::advance(core::PhaseTimes& times) {
   core::LapTimer observing(times);
   observe();
   rebalancer_.note_times(step_.findings());
+  end_watched_frame();
   observing.lap(Phase::islands);
 }
 
@@ -118,6 +143,33 @@ void SpaceDriver::observe() {
   observables_.energy_j = std::accumulate(found.energy_j.begin(), found.energy_j.end(), 0.0);
   stepping::observe_bodies(stepper_->model(), stepper_->state(), observables_);
 }
+
+void SpaceDriver::end_watched_frame() {
+  if (!guard_ || errors().failed()) return;
+  std::swap(before_, now_);
+  now_.state = stepper_->state();
+  now_.seen = observables_;
+  const int num_steps = settings().steps_per_frame;
+  errors().guard(
+      [&] { is_mended_ = guard_->end_frame(before_, steps_done_ - num_steps, num_steps, now_, events_); });
+  observables_ = now_.seen;
+}
+
+/// What root has made of the world replaces the state of every rank.
+void SpaceDriver::settle_events() {
+  enum What : std::int32_t { nothing, mended, frozen };
+  std::int32_t what = is_mended_ ? (now_.is_frozen() ? frozen : mended) : nothing;
+  comm().bcast_value(what);
+  if (what == nothing) return;
+  const model::State state =
+      unpack(shared(comm(), comm().is_root() ? pack(now_.state) : std::vector<double>()));
+  step_.own(ownership_, state, steps_done_);
+  is_frozen_ = what == frozen;
+  is_mended_ = false;
+}
+
+/// On root.
+const model::State& SpaceDriver::whole_state() const { return guard_ ? now_.state : stepper_->state(); }
 
 int SpaceDriver::lowest_nonfinite_world() const {
   return comm().is_root() && observables_.nonfinite > 0 ? 0 : settings().num_worlds;
@@ -130,6 +182,8 @@ int SpaceDriver::reporter_of(int) const { return Communicator::root; }
 void SpaceDriver::gather(core::PhaseTimes&) {}
 
 std::int64_t SpaceDriver::plan_moves(bool last) {
+  planned_ = {};
+  if (is_frozen_) return 0;  // nothing was measured
   planned_ = rebalancer_.decide(step_.findings(), ownership_, comm().size() > 1 && !last);
   return std::ssize(planned_.moves);
 }
@@ -171,13 +225,13 @@ void SpaceDriver::broadcast_state() {
 /// Root has the whole state since the last step of the frame.
 std::vector<model::State> SpaceDriver::gather_states() const {
   if (!comm().is_root()) return {};
-  return {stepper_->state()};
+  return {whole_state()};
 }
 
 std::uint64_t SpaceDriver::state_hash() const {
   std::uint64_t hash = 0;
   if (comm().is_root()) {
-    const std::uint64_t world = model::hash(stepper_->state());
+    const std::uint64_t world = model::hash(whole_state());
     hash = combine_world_hashes(std::span(&world, 1));
   }
   comm().bcast_value(hash);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "mpi/spaces/plan/space_loads.h"
 #include "mpi/spaces/space_rebalancer.h"
 #include "mpi/spaces/step/space_step.h"
+#include "stability/world_guard.h"
 #include "stepping/space_stepper.h"
 
 namespace pbmpi::mpi {
@@ -28,6 +30,11 @@ class SpaceDriver final : public FrameDriver {
   SpaceDriver(const Communicator& comm, stepping::SpaceStepper& stepper, const WorldRunSettings& settings,
               std::span<const model::State> states = {});
 
+  /// Watches the world: root, which has its whole state after each frame, steps it again by itself where a
+  /// guard suspects something, and shares what has become of it. `settings` is borrowed. On every rank or on
+  /// none, before run().
+  void watch(const stability::GuardSettings& settings);
+
   const stepping::WorldTable& table() const override { return table_; }
   std::vector<stepping::LocalWorld> local_worlds() const override;
   std::vector<int> idle_ranks() const override;
@@ -42,6 +49,8 @@ class SpaceDriver final : public FrameDriver {
   void advance(core::PhaseTimes& times) override;
   int lowest_nonfinite_world() const override;
   std::int64_t count_nonfinite(int world) const override;
+  std::vector<stepping::RunEvent> take_events() override { return std::exchange(events_, {}); }
+  void settle_events() override;
   int reporter_of(int world) const override;
   void gather(core::PhaseTimes& times) override;
   std::span<const core::Vec3> position() const override { return stepper_->state().position; }
@@ -52,14 +61,22 @@ class SpaceDriver final : public FrameDriver {
   std::vector<model::State> gather_states() const override;
   core::Traffic take_traffic() override { return step_.take_traffic(); }
 
+  void step_frame(core::PhaseTimes& times);
   void observe();
+  void end_watched_frame();
+  const model::State& whole_state() const;
   void broadcast_state();
 
   stepping::SpaceStepper* stepper_;
   SpaceOwnership ownership_;
   SpaceStep step_;
   stepping::WorldTable table_;
-  stepping::Observables observables_;  ///< on root
+  stepping::Observables observables_;           ///< on root
+  std::optional<stability::WorldGuard> guard_;  ///< on root
+  stability::Watched now_, before_;             ///< on root, with a guard: after this frame and the last
+  std::vector<stepping::RunEvent> events_;      ///< on root
+  bool is_mended_ = false;                      ///< on root: now_ has replaced what the ranks have computed
+  bool is_frozen_ = false;                      ///< the world stands
   std::int64_t steps_done_ = 0;
   SpaceRebalancer rebalancer_;  ///< used on root
   Reassignment planned_;        ///< root: what rebalancer_ decided after the last frame

@@ -32,6 +32,8 @@ class WorldDriver final : public FrameDriver {
 
   /// Estimates every frame first. Borrowed; it must outlive run(). On every rank or on none.
   void set_estimator(stepping::Estimator& estimator);
+  /// Announces the events of the worlds that the stepper has. Borrowed; on every rank or on none.
+  void set_event_source(stepping::RunEventSource& source) { events_ = &source; }
 
   const stepping::WorldTable& table() const override { return worlds_.table(); }
   std::vector<stepping::LocalWorld> local_worlds() const override { return worlds_.views(); }
@@ -46,6 +48,9 @@ class WorldDriver final : public FrameDriver {
   void advance(core::PhaseTimes& times) override;
   int lowest_nonfinite_world() const override;
   std::int64_t count_nonfinite(int world) const override { return stepper_->observables(world).nonfinite; }
+  std::vector<stepping::RunEvent> take_events() override {
+    return events_ == nullptr ? std::vector<stepping::RunEvent>{} : events_->take_events();
+  }
   int reporter_of(int world) const override { return worlds_.placement()[world]; }
   void gather(core::PhaseTimes& times) override;
   std::span<const core::Vec3> position() const override { return gather_.position(); }
@@ -61,6 +66,7 @@ class WorldDriver final : public FrameDriver {
   Rebalancer rebalancer_;  ///< used on root
   Rebalancing planned_;    ///< root: the moves of the last verdict
   stepping::Estimator* estimator_ = nullptr;
+  stepping::RunEventSource* events_ = nullptr;
   std::unique_ptr<PoseGather> estimates_;               ///< with an estimator
   std::vector<stepping::LocalWorld> estimated_worlds_;  ///< of this frame
   stepping::EstimateRecord estimate_record_;

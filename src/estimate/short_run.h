@@ -1,6 +1,7 @@
 /// The estimate as a short run of its own: another stepper, cheaper than the precise one.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <set>
 
@@ -19,13 +20,17 @@ class ShortRun final : public stepping::Estimator {
 
   void estimate(std::span<const stepping::LocalWorld> worlds, std::int64_t step, int num_steps,
                 core::PhaseTimes& times) override;
-  const model::State& state(int world) const override { return stepper_->state(world); }
+  const model::State& state(int world) const override {
+    const auto found = standing_.find(world);
+    return found == standing_.end() ? stepper_->state(world) : found->second;
+  }
 
  private:
   void follow(std::span<const stepping::LocalWorld> worlds, std::int64_t step);
 
   std::unique_ptr<stepping::WorldStepper> stepper_;
-  std::set<int> worlds_;  ///< that stepper_ has
+  std::set<int> worlds_;                  ///< that stepper_ has
+  std::map<int, model::State> standing_;  ///< worlds that stand still (model::GuardMemory), as they are
 };
 
 }  // namespace pbmpi::estimate

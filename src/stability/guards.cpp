@@ -52,6 +52,8 @@ std::string detail_of(const Trip& trip, const model::Model& model, const std::st
     case Guard::energy_gain:
       return number(trip.value, " J were gained without a cause, more than ") + number(trip.limit, " J");
     case Guard::passage:
+      if (trip.value == 0)
+        return "'" + name + "' went into " + geom_text(model, trip.through) + " up to its centre";
       return "'" + name + "' went through " + geom_text(model, trip.through) + ", " +
              number(trip.value, " m beyond it");
   }
@@ -77,7 +79,7 @@ Guards::Guards(const model::Model& model, double dt_s, const GuardLimits& limits
     lift_work_j_ += body.mass_kg * standard_gravity * limits.energy_lift_m;
 }
 
-std::optional<Trip> Guards::check(const Span& span, std::span<const Vec3> from,
+std::optional<Trip> Guards::check(const Span& span, std::span<const Vec3> from, PassageFinder::Pace pace,
                                   model::GuardMemory& memory) const {
   const std::int64_t last_step = span.first_step + span.num_steps - 1;
   if (span.after.nonfinite > 0) {
@@ -93,7 +95,7 @@ std::optional<Trip> Guards::check(const Span& span, std::span<const Vec3> from,
     trip = Trip{.guard = Guard::energy_gain, .value = memory.energy_gain_j, .limit = energy_limit(memory)};
   }
   if (!trip) {
-    if (const auto passed = passages_.find(span.before.state, from, span.after.state)) {
+    if (const auto passed = passages_.find(span.before.state, from, span.after.state, pace)) {
       trip = Trip{
           .guard = Guard::passage, .body = passed->body, .through = passed->through, .value = passed->beyond};
     }

@@ -72,8 +72,8 @@ class Guards {
   };
   /// The first guard that trips, of: non-finite numbers, a joint that opens beyond its limit (and was not yet
   /// there), energy gained without a cause, a passage. Gains of energy are summed in `memory`. `from`: as of
-  /// PassageFinder::find().
-  std::optional<Trip> check(const Span& span, std::span<const model::Vec3> from,
+  /// PassageFinder::find(), as is `pace`.
+  std::optional<Trip> check(const Span& span, std::span<const model::Vec3> from, PassageFinder::Pace pace,
                             model::GuardMemory& memory) const;
 
   /// Where the bodies are after the launches of these steps, if they are at `positions` before.

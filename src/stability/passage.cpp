@@ -50,12 +50,17 @@ BodyPose pose_of(const State& state, int body) {
   return pose;
 }
 
+/// Does a way come into the geom of a body from outside?
+bool enters(const Geom& geom, const BodyPose& body, const Vec3& from, const Vec3& way) {
+  return geometry::enter(geom, geometry::geom_pose(geom, body), from, way).has_value();
+}
+
 /// How far the way goes on after it has crossed the geom from side to side, as a share of its length; nothing
 /// if it does not cross the whole of it.
-std::optional<double> share_beyond(const Geom& geom, const BodyPose& pose, const Vec3& from,
+std::optional<double> share_beyond(const Geom& geom, const BodyPose& body, const Vec3& from,
                                    const Vec3& way) {
-  if (!geometry::enter(geom, pose, from, way)) return std::nullopt;
-  const auto back = geometry::enter(geom, pose, from + way, -way);
+  if (!enters(geom, body, from, way)) return std::nullopt;
+  const auto back = geometry::enter(geom, geometry::geom_pose(geom, body), from + way, -way);
   return back ? std::optional<double>(back->share) : std::nullopt;
 }
 
@@ -91,11 +96,11 @@ PassageFinder::PassageFinder(const model::Model& model) : model_(&model), rule_(
 }
 
 std::optional<Passage> PassageFinder::find(const State& before, std::span<const Vec3> from,
-                                           const State& after) const {
+                                           const State& after, Pace pace) const {
   for (const Mover& mover : movers_) {
     const Vec3& start = from[static_cast<std::size_t>(mover.body)];
     if (auto found = through_planes(mover, start, after.position[mover.body])) return found;
-    if (auto found = through_solids(mover, before, start, after)) return found;
+    if (auto found = through_solids(mover, before, start, after, pace)) return found;
   }
   return std::nullopt;
 }
@@ -111,30 +116,30 @@ std::optional<Passage> PassageFinder::through_planes(const Mover& mover, const V
 }
 
 std::optional<Passage> PassageFinder::through_solids(const Mover& mover, const State& before,
-                                                     const Vec3& from, const State& after) const {
+                                                     const Vec3& from, const State& after, Pace pace) const {
   const Vec3& to = after.position[mover.body];
   const Vec3 own_way = to - from;
-  const bool is_slow = !(own_way.squaredNorm() > mover.radius * mover.radius);
+  const double least_way = pace == Pace::fast ? mover.radius : 0;
+  const bool is_slow = !(own_way.squaredNorm() > least_way * least_way);
   if (is_slow) return std::nullopt;
   for (const Solid& solid : solids_) {
     const bool is_static = solid.body == model::no_body;
     const Vec3& centre = is_static ? solid.centre : after.position[solid.body];
     const Vec3 way = is_static ? own_way : Vec3(own_way - (centre - before.position[solid.body]));
     if (squared_distance(centre, to - way, way) > solid.radius * solid.radius) continue;
-    if (way.squaredNorm() <= mover.radius * mover.radius || !rule_.may_touch(mover.geom, solid.geom))
-      continue;
+    if (way.squaredNorm() <= least_way * least_way || !rule_.may_touch(mover.geom, solid.geom)) continue;
     const Geom& geom = model_->geoms[solid.geom];
     BodyPose body = pose_of(after, solid.body);
-    const auto beyond = share_beyond(geom, geometry::geom_pose(geom, body), to - way, way);
-    if (!beyond) continue;
-    const double beyond_m = *beyond * way.norm();
-    if (!is_static) {
-      if (beyond_m < 2 * mover.size) continue;
-      const BodyPose turned_before = pose_of(before, solid.body);
-      std::ranges::copy(turned_before.rotation, body.rotation);
-      if (!share_beyond(geom, geometry::geom_pose(geom, body), to - way, way)) continue;
+    auto beyond = share_beyond(geom, body, to - way, way);
+    if (is_static) {
+      const bool sticks_out = geometry::least_half_extent(geom) < mover.radius;
+      if (beyond || (sticks_out && enters(geom, body, from, way)))
+        return Passage{mover.body, solid.geom, beyond.value_or(0) * way.norm()};
+    } else if (beyond && *beyond * way.norm() >= 2 * mover.size) {
+      std::ranges::copy(pose_of(before, solid.body).rotation, body.rotation);
+      beyond = share_beyond(geom, body, to - way, way);
+      if (beyond) return Passage{mover.body, solid.geom, *beyond * way.norm()};
     }
-    return Passage{mover.body, solid.geom, beyond_m};
   }
   return std::nullopt;
 }
@@ -148,10 +153,10 @@ bool PassageFinder::is_inside(const State& state, int body) const {
     if ((point - centre).squaredNorm() > solid.radius * solid.radius) return false;
     if (!rule_.may_touch(mover->geom, solid.geom)) return false;
     const Geom& geom = model_->geoms[solid.geom];
-    const BodyPose pose = geometry::geom_pose(geom, pose_of(state, solid.body));
+    const BodyPose pose = pose_of(state, solid.body);
     // From outside a way to the point comes in, and a way back from it does not.
     const Vec3 way = Vec3::UnitX() * (3 * solid.radius);
-    return geometry::enter(geom, pose, point - way, way) && !geometry::enter(geom, pose, point, -way);
+    return enters(geom, pose, point - way, way) && !enters(geom, pose, point, -way);
   });
 }
 

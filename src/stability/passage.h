@@ -16,7 +16,7 @@ namespace pbmpi::stability {
 struct Passage {
   int body = 0;
   int through = 0;    ///< geom
-  double beyond = 0;  ///< how far its centre is behind the plane, or went beyond the geom [m]
+  double beyond = 0;  ///< how far its centre is behind the plane, or went beyond the geom [m]; 0: it is in it
 };
 
 /// Finds passages between two states of a world. A body counts by its inner ball, the largest about its
@@ -26,22 +26,26 @@ struct Passage {
 /// A body has passed
 /// - a static plane, if its centre has come behind it by more than the body's size, from whatever above that:
 ///   hands and feet on which a car stands are pressed into the ground by half of their size;
-/// - another solid geom, if the straight way of its centre, as seen from that geom, comes in and leaves
-/// again;
-///   a geom of another body only if the way goes on by twice the size of the body, which is then wholly
-///   behind it: light bodies that meet in a crash clip each other's corners, and are pushed apart.
-///
-/// Only bodies that moved farther than their inner radius are tested for solid geoms, which costs slow worlds
-/// next to nothing. A geom that turns meanwhile must be crossed as it was turned before and as it is after.
+/// - another static geom, if the straight way of its centre comes in and leaves again, or ends in one that is
+///   thinner than the inner ball, which then sticks out on both sides;
+/// - a geom of another body, if that way as seen from it comes in, leaves again, and goes on by twice the
+/// size
+///   of the body, which is then wholly behind it: light bodies that meet in a crash clip each other's
+///   corners, and are pushed apart. A geom that turns meanwhile must be crossed as it was turned before and
+///   as it is after.
 class PassageFinder {
  public:
   /// `model` is borrowed.
   explicit PassageFinder(const model::Model& model);
 
+  /// Which bodies are tested for solid geoms: those that moved farther than their inner radius, so that slow
+  /// worlds cost next to nothing, or all.
+  enum class Pace { fast, any };
+
   /// The first passage, by body, between two states. `from` [num_bodies]: where the centres started [m, world
   /// frame], which is before.position unless a launch has put them elsewhere.
   std::optional<Passage> find(const model::State& before, std::span<const model::Vec3> from,
-                              const model::State& after) const;
+                              const model::State& after, Pace pace = Pace::fast) const;
 
   /// Does the body's centre lie in a solid geom that it may touch?
   bool is_inside(const model::State& state, int body) const;
@@ -68,7 +72,7 @@ class PassageFinder {
   std::optional<Passage> through_planes(const Mover& mover, const model::Vec3& from,
                                         const model::Vec3& to) const;
   std::optional<Passage> through_solids(const Mover& mover, const model::State& before,
-                                        const model::Vec3& from, const model::State& after) const;
+                                        const model::Vec3& from, const model::State& after, Pace pace) const;
 
   const model::Model* model_;
   model::TouchRule rule_;

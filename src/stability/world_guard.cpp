@@ -40,7 +40,7 @@ class WorldGuard::Replay {
 
  private:
   std::optional<Trip> check(const Watched& next, model::GuardMemory& memory);
-  bool deal_with(const Trip& trip, Watched& next);
+  bool deal_with_trip(Watched& next);
   bool refine(Watched& next);
   void freeze();
   void go_on_from(Watched&& next);
@@ -66,7 +66,7 @@ bool WorldGuard::Replay::step() {
   if (const auto trip = check(next, memory)) {
     has_tripped_ = true;
     events_->push_back(event_of(*trip, guard_->world_, *guard_->model_));
-    if (!deal_with(*trip, next)) return false;
+    if (!deal_with_trip(next)) return false;
   } else {
     next.state.guard = memory;
   }
@@ -76,11 +76,12 @@ bool WorldGuard::Replay::step() {
 
 std::optional<Trip> WorldGuard::Replay::check(const Watched& next, model::GuardMemory& memory) {
   const auto from = guard_->guards_.launched(from_, step_, 1, scratch_);
-  return guard_->guards_.check({seen_of(now_), seen_of(next), step_, 1}, from, memory);
+  return guard_->guards_.check({seen_of(now_), seen_of(next), step_, 1}, from, PassageFinder::Pace::any,
+                               memory);
 }
 
 /// False if the world goes no further.
-bool WorldGuard::Replay::deal_with(const Trip&, Watched& next) {
+bool WorldGuard::Replay::deal_with_trip(Watched& next) {
   const OnBlowup on_blowup = guard_->settings_->on_blowup;
   if (!mends(on_blowup)) return false;
   has_mended_ = true;
@@ -150,8 +151,8 @@ bool WorldGuard::end_frame(const Watched& before, std::int64_t first_step, int n
   model::GuardMemory memory = at_start;
   std::vector<Vec3> scratch;
   const auto from = guards_.launched(before.state.position, first_step, num_steps, scratch);
-  const auto suspicion =
-      guards_.check({seen_of(before), seen_of(after), first_step, num_steps}, from, memory);
+  const auto suspicion = guards_.check({seen_of(before), seen_of(after), first_step, num_steps}, from,
+                                       PassageFinder::Pace::fast, memory);
   bool mended = false;
   if (suspicion) {
     Replay replay(*this, before, first_step, events);

@@ -41,7 +41,7 @@ STANDS_ON = {
     "mpi/worlds": ["mpi/frame", "mpi/balance"],
     "mpi/spaces/plan": ["src/model", "mpi/balance"],
     "mpi/spaces/step": ["mpi/spaces/plan", "mpi/comm", "src/stepping"],
-    "mpi/spaces": ["mpi/spaces/step", "mpi/frame"],
+    "mpi/spaces": ["mpi/spaces/step", "mpi/frame", "src/stability"],
     "io/hdf5": ["src/core"],
     "io/table": ["io/hdf5"],
     "io/run": ["io/table", "src/stepping"],

@@ -38,6 +38,7 @@ Checkpoint sample() {
     }
     if (world == 1) state.rest = {{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}, -1}, {{4, 5, 6}, {}, 17}};
     if (world == 2) state.broken_in = {-1, 31, -1, 7};
+    state.guard = {1.0 / 3, 1e300 * world, world == 0 ? 17 : -1};
   }
   return checkpoint;
 }
@@ -62,6 +63,9 @@ TEST(CheckpointFile, comes_back_as_it_was_written) {
     const model::State &a = found.worlds[world], &b = written.worlds[world];
     EXPECT_EQ(model::hash(a), model::hash(b)) << "all bits of poses and velocities, and what is broken";
     EXPECT_EQ(a.broken_in, b.broken_in);
+    EXPECT_EQ(a.guard.energy_gain_j, b.guard.energy_gain_j);
+    EXPECT_EQ(a.guard.largest_kinetic_j, b.guard.largest_kinetic_j);
+    EXPECT_EQ(a.guard.frozen_in, b.guard.frozen_in);
     ASSERT_EQ(a.rest.size(), b.rest.size());
     for (std::size_t body = 0; body < a.rest.size(); ++body) {
       EXPECT_EQ(a.rest[body].position, b.rest[body].position);

@@ -54,11 +54,26 @@ TEST(Passage, beside_a_plate_or_up_to_it_is_none) {
   const Model model = ball_and_cube();
   EXPECT_FALSE(moved(model, 0, {3, 0, 1.5}, {3, 0, 0.7}));
   EXPECT_FALSE(moved(model, 0, {0, 0, 1.5}, {0, 0, 1.2}));
-  EXPECT_FALSE(moved(model, 0, {0, 0, 1.5}, {0, 0, 1.0}));  // it is in the plate
 }
 
-TEST(Passage, of_a_slow_body_through_a_plate_is_not_looked_for) {
-  EXPECT_FALSE(moved(ball_and_cube(), 0, {0, 0, 1.05}, {0, 0, 0.95}));
+TEST(Passage, ends_where_a_thin_plate_is_in_the_middle_of_the_ball) {
+  Model model = ball_and_cube();
+  const auto found = moved(model, 0, {0, 0, 1.5}, {0, 0, 0.995});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->beyond, 0);
+  EXPECT_FALSE(moved(model, 0, {0, 0, 0.995}, {0, 0, 0.7})) << "it was there before";
+  model.geoms[1].size[2] = 0.5;  // thicker than the ball
+  EXPECT_FALSE(moved(model, 0, {0, 0, 1.5}, {0, 0, 0.995}));
+  EXPECT_TRUE(moved(model, 0, {0, 0, 1.5}, {0, 0, 0.5}));
+}
+
+TEST(Passage, of_a_slow_body_through_a_plate_is_looked_for_on_request) {
+  const Model model = ball_and_cube();
+  EXPECT_FALSE(moved(model, 0, {0, 0, 1.05}, {0, 0, 0.95}));
+  State before = initial_state(model), after = before;
+  before.position[0] = Vec3(0, 0, 1.05);
+  after.position[0] = Vec3(0, 0, 0.95);
+  EXPECT_TRUE(PassageFinder(model).find(before, before.position, after, PassageFinder::Pace::any));
 }
 
 TEST(Passage, through_the_ground_takes_a_depth_of_the_bodys_size) {

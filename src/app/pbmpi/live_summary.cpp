@@ -64,6 +64,7 @@ void LiveSummary::finish(const mpi::Communicator& comm, const mpi::WorldRunResul
   summary.complete = !result.stopped && result.failure.empty();
   summary.state_hash = core::to_hex(result.state_hash);
   summary.joints_broken = joints_broken_;
+  summary.guards = guards_;
   summary.rebalances = result.num_rebalances;
   summary.worlds_moved = result.worlds_moved;
   compute_performance(frames, summary);

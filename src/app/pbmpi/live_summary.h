@@ -14,6 +14,7 @@ class LiveSummary final : public stepping::FrameObserver {
   void frame_done(const stepping::FrameRecord& frame) override;
   void event(const stepping::RunEvent& event) override {
     joints_broken_ += event.kind == stepping::event_kind::joint_broken ? 1 : 0;
+    guards_.add(event);
   }
 
   /// Collective. Fills what is measured into `summary`, whose settings (worlds, bodies, ranks,
@@ -23,6 +24,7 @@ class LiveSummary final : public stepping::FrameObserver {
  private:
   ObservedFrames observed_;  ///< of this rank's worlds
   std::int64_t joints_broken_ = 0;
+  GuardSummary guards_;
 };
 
 }  // namespace pbmpi::app

@@ -8,6 +8,7 @@
 #include "mpi/comm/agreement.h"
 #include "mpi/spaces/space_driver.h"
 #include "mpi/worlds/world_driver.h"
+#include "stability/guarded_stepper.h"
 
 namespace pbmpi::app {
 namespace {
@@ -20,9 +21,17 @@ mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
   settings.steps_per_frame = spec.steps_per_frame;
   settings.dt_s = spec.stepper.dt_s;
   settings.budget_s = spec.budget_s;
+  settings.stop_at_blowup = spec.on_blowup == stability::OnBlowup::stop;
   settings.profile = spec.record_islands;
   settings.first_frame = spec.checkpoint.first_frame;
   return settings;
+}
+
+stability::GuardSettings guard_settings(const RunSpec& spec) {
+  return {spec.on_blowup,
+          spec.stepper,
+          [](const stepping::StepperSettings& settings) { return make_stepper(settings, "stepped again: "); },
+          {}};
 }
 
 }  // namespace
@@ -34,21 +43,23 @@ Simulation make_simulation(const mpi::Communicator& comm, const Work& work) {
   if (spec.decomposition == Decomposition::spaces) {
     simulation.spaces =
         mpi::agree_on_errors(comm, [&] { return make_space_stepper(spec.stepper, build(0)); });
-    simulation.driver =
+    simulation.guards = std::make_unique<stability::GuardSettings>(guard_settings(spec));
+    auto driver =
         std::make_unique<mpi::SpaceDriver>(comm, *simulation.spaces, driver_settings(spec), work.states);
+    driver->watch(*simulation.guards);
+    simulation.driver = std::move(driver);
   } else {
+    auto guarded =
+        std::make_unique<stability::GuardedStepper>(make_stepper(spec.stepper), guard_settings(spec));
     if (spec.estimate && spec.estimate_source == EstimateSource::same_solve) {
-      auto stepper = make_anytime_stepper(spec.stepper);
-      simulation.estimator = std::make_unique<estimate::SameSolve>(*stepper, spec.estimate->iterations);
-      simulation.worlds = std::move(stepper);
-    } else {
-      simulation.worlds = make_stepper(spec.stepper);
-      if (spec.estimate)
-        simulation.estimator =
-            std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
+      simulation.estimator = std::make_unique<estimate::SameSolve>(*guarded, spec.estimate->iterations);
+    } else if (spec.estimate) {
+      simulation.estimator = std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
     }
-    auto driver = std::make_unique<mpi::WorldDriver>(comm, *simulation.worlds, build, driver_settings(spec),
-                                                     work.states);
+    auto driver =
+        std::make_unique<mpi::WorldDriver>(comm, *guarded, build, driver_settings(spec), work.states);
+    driver->set_event_source(*guarded);
+    simulation.worlds = std::move(guarded);
     if (simulation.estimator) driver->set_estimator(*simulation.estimator);
     simulation.driver = std::move(driver);
   }

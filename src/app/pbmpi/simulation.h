@@ -6,6 +6,7 @@
 #include "app/pbmpi/work.h"
 #include "mpi/comm/communicator.h"
 #include "mpi/frame/frame_driver.h"
+#include "stability/on_blowup.h"
 #include "stepping/estimator.h"
 #include "stepping/space_stepper.h"
 #include "stepping/stepper.h"
@@ -14,6 +15,7 @@ namespace pbmpi::app {
 
 /// A driver and what it borrows.
 struct Simulation {
+  std::unique_ptr<stability::GuardSettings> guards;
   std::unique_ptr<stepping::WorldStepper> worlds;
   std::unique_ptr<stepping::SpaceStepper> spaces;
   std::unique_ptr<stepping::Estimator> estimator;  ///< with FEEC

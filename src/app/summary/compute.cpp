@@ -116,6 +116,20 @@ void compute_performance(const MeasuredFrames& frames, RunSummary& summary) {
   summary.rows_max = largest(frames.rows);
 }
 
+void GuardSummary::add(const stepping::RunEvent& event) {
+  namespace event_kind = stepping::event_kind;
+  const auto is = [&](const char* kind) { return event.kind == kind; };
+  const bool tripped = std::ranges::any_of(event_kind::guards, is);
+  if (!tripped && std::ranges::none_of(event_kind::guard_actions, is)) return;
+  ++counts[event.kind];
+  if (tripped && first.empty()) first = event.detail;
+}
+
+std::int64_t GuardSummary::count(const std::string& kind) const {
+  const auto found = counts.find(kind);
+  return found == counts.end() ? 0 : found->second;
+}
+
 void compute_delivery(const std::vector<double>& delivered_s, const std::vector<double>& precise_s,
                       double budget_s, EstimateSummary& estimate) {
   const double elapsed_s = sum(delivered_s);

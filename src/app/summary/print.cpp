@@ -127,6 +127,22 @@ nlohmann::ordered_json estimate_json(const EstimateSummary& e) {
       {"orientation_defect_rad", errors_json(e.orientation_defect)}};
 }
 
+std::string guard_lines(const GuardSummary& guards) {
+  if (guards.counts.empty()) return "";
+  const std::string counts = join(guards.counts, [](const auto& one) {
+    return format("%lld %s", static_cast<long long>(one.second), one.first.c_str());
+  });
+  return "guards: " + counts + (guards.first.empty() ? "" : "; first: " + guards.first) + "\n";
+}
+
+nlohmann::ordered_json guards_json(const GuardSummary& guards) {
+  nlohmann::ordered_json json;
+  for (const char* kind : stepping::event_kind::guards) json[kind] = guards.count(kind);
+  for (const char* kind : stepping::event_kind::guard_actions) json[kind] = guards.count(kind);
+  json["first"] = guards.first;
+  return json;
+}
+
 std::string state_lines(const RunSummary& s) {
   std::string text;
   text += format("islands: max %.0f, min %.0f, mean %.2f, stddev %.2f\n", s.islands.max, s.islands.min,
@@ -138,6 +154,7 @@ std::string state_lines(const RunSummary& s) {
              static_cast<long long>(s.nonfinite_bodies), 1e3 * s.max_joint_gap_m, 1e3 * s.max_penetration_m,
              s.energy_j);
   if (s.joints_broken > 0) text += format("joints_broken: %lld\n", static_cast<long long>(s.joints_broken));
+  text += guard_lines(s.guards);
   text += "output: " + (s.output.empty() ? std::string("none") : s.output) + "\n";
   if (!s.checkpoint.empty()) text += "checkpoint: " + s.checkpoint + "\n";
   text += "state_hash: " + s.state_hash + "\n";
@@ -212,6 +229,7 @@ std::string to_json(const RunSummary& s) {
                         {"max_penetration_m", s.max_penetration_m},
                         {"energy_j", s.energy_j}};
   json["joints_broken"] = s.joints_broken;
+  json["guards"] = guards_json(s.guards);
   json["effects"] = effects_json(s);
   json["effects_chosen"] = s.effects_chosen;
   json["decomposition"] = s.decomposition;

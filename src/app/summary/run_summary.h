@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/clock.h"
 #include "core/statistics.h"
 #include "effects/run_plan.h"
+#include "stepping/run_event.h"
 
 namespace pbmpi::app {
 
@@ -52,6 +54,15 @@ struct SpacesSummary {
   double messages_per_step = 0, bytes_per_step = 0;  ///< of all ranks
 };
 
+/// What guards found in the whole run, and what was done about it (--on-blowup).
+struct GuardSummary {
+  std::map<std::string, std::int64_t> counts;  ///< by stepping::event_kind
+  std::string first;                           ///< in words; empty if there was nothing
+
+  void add(const stepping::RunEvent& event);
+  std::int64_t count(const std::string& kind) const;
+};
+
 /// Counts and invariants over the measured frames; counts are sums over all worlds at the end of a frame.
 struct RunSummary {
   std::string version, scene, stepper, precision = "double", simd, output, state_hash;
@@ -77,7 +88,8 @@ struct RunSummary {
   double energy_j = 0;                                ///< of all worlds, at the end
   std::vector<EffectSummary> effects;
   std::string effects_chosen;  ///< "+friction,-gravity": demanded and left out; empty: as the scene calls for
-  std::int64_t joints_broken = 0;                 ///< in the whole run
+  std::int64_t joints_broken = 0;  ///< in the whole run
+  GuardSummary guards;
   std::int64_t rebalances = 0, worlds_moved = 0;  ///< moved: worlds, or spaces
   std::string decomposition = "worlds";
   SpacesSummary spaces;                     ///< only if decomposition is "spaces"

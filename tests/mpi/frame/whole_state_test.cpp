@@ -33,6 +33,7 @@ model::State sample(bool rests, int num_joints) {
     state.rest[2].idle_steps = 29;
   }
   for (int joint = 0; joint < num_joints; ++joint) state.broken_in.push_back(joint == 1 ? 40000 : -1);
+  state.guard = {1.0 / 3, 1e300, rests ? 40001 : -1};
   return state;
 }
 
@@ -53,6 +54,9 @@ TEST(WholeState, comes_back_bit_for_bit_with_and_without_rest_and_joints) {
       EXPECT_TRUE(same_bytes(found.velocity, state.velocity));
       EXPECT_TRUE(same_bytes(found.angular_velocity, state.angular_velocity));
       EXPECT_EQ(found.broken_in, state.broken_in);
+      EXPECT_EQ(found.guard.energy_gain_j, state.guard.energy_gain_j);
+      EXPECT_EQ(found.guard.largest_kinetic_j, state.guard.largest_kinetic_j);
+      EXPECT_EQ(found.guard.frozen_in, state.guard.frozen_in);
       ASSERT_EQ(found.rest.size(), state.rest.size());
       for (std::size_t i = 0; i < state.rest.size(); ++i) {
         EXPECT_EQ(found.rest[i].position, state.rest[i].position);

@@ -58,6 +58,13 @@ po::options_description options_description() {
     }
   }
   how.add_options()(
+      "on-blowup", po::value<std::string>()->default_value("report")->value_name("report|stop|freeze|refine"),
+      "what to do about a world that blows up: a number that is not finite, energy gained without a cause, a "
+      "joint that gapes, a body that went through something. report: the run goes on (not with a number that "
+      "is not finite); stop: the run ends after the frame; freeze: that world stands still from the start of "
+      "the step on; refine: the step is done again as 2, 4, 8 or 16 finer ones, and if these blow up too the "
+      "world stands still");
+  how.add_options()(
       "preset", po::value<std::string>()->value_name("FILE"),
       "a setting that pbreport has chosen from a study (pbreport --write-preset); other options win");
 
@@ -206,6 +213,7 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   options.record_residuals = values.count("record-residuals") != 0;
   if (values.count("spaces") != 0)
     options.spaces = choice<scenes::SpacesForm>(values, "spaces", spaces_names);
+  options.on_blowup = choice<stability::OnBlowup>(values, "on-blowup", stability::on_blowup_names);
   options.effects = effect_choices(given<std::string>(values, "effects").value_or(""));
   options.report = choice<ReportFormat>(values, "report", report_format_names);
   options.checkpoint = output_path(values, "checkpoint");

@@ -12,6 +12,7 @@
 #include "app/common/options.h"
 #include "app/common/step_arguments.h"
 #include "scenes/scene.h"
+#include "stability/on_blowup.h"
 #include "stepping/frame_budget.h"
 #include "stepping/stepper.h"
 
@@ -40,6 +41,7 @@ struct Options {
   std::optional<scenes::SpacesForm> spaces;
   model::EffectChoices effects;
   int record_every = 1;
+  stability::OnBlowup on_blowup = stability::OnBlowup::report;
   ReportFormat report = ReportFormat::text;
   std::optional<std::string> checkpoint, resume;
   std::optional<double> checkpoint_every_s, max_time_s;
@@ -100,6 +102,7 @@ struct RunSpec {
   double budget_s = stepping::default_frame_budget_s;  ///< for a frame; changes no result
   int record_every = 1;
   bool record_islands = false;
+  stability::OnBlowup on_blowup = stability::OnBlowup::report;
   scenes::SpacesForm spaces = scenes::SpacesForm::many;
   Decomposition decomposition = Decomposition::automatic;  ///< of resolve(): as asked; decided by decompose()
   model::EffectChoices effects;                            ///< of the scene file and the command line

@@ -134,6 +134,10 @@ void require_recordable(const Options& options, stepping::StepperKind kind) {
                 "use quick or direct");
   require_input(!options.record_islands || !options.no_output,
                 "--record-islands writes into the run's file; drop --no-output");
+  require_input(!options.record_islands || !stability::mends(options.on_blowup),
+                "--record-islands measures the last step of a frame again, and --on-blowup " +
+                    std::string(stability::on_blowup_names[static_cast<std::size_t>(options.on_blowup)]) +
+                    " may have replaced it; use --on-blowup report or stop");
   require_input(!options.record_residuals || traits.shows_residuals,
                 "--record-residuals: ODE's steppers do not show their rows; use --stepper sor");
   require_input(!options.record_residuals || !options.no_output,
@@ -168,6 +172,7 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   spec.spaces = scene.defaults().spaces;
   spec.effects = scene.defaults().effects;
   spec.record_islands = options.record_islands;
+  spec.on_blowup = options.on_blowup;
   require_recordable(options, spec.stepper.kind);
   spec.estimate = resolve_estimate(options, spec.stepper);
   spec.estimate_source = estimate_source(spec);

@@ -104,6 +104,7 @@ std::string saved_options(const RunSpec& spec, Decomposition asked) {
   lines.add("budget", spec.budget_s);
   lines.add("decompose", decomposition_names[static_cast<std::size_t>(asked)]);
   lines.add("spaces", spaces_names[static_cast<std::size_t>(spec.spaces)]);
+  lines.add("on-blowup", stability::on_blowup_names[static_cast<std::size_t>(spec.on_blowup)]);
   if (spec.estimate) add_estimate(*spec.estimate, lines);
   return lines.text();
 }

@@ -194,6 +194,9 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   summary.rebalances = num_events(run, stepping::event_kind::rebalance);
   summary.worlds_moved = run.worlds_moved;
   summary.joints_broken = num_events(run, stepping::event_kind::joint_broken);
+  for (const stepping::RunEvent& event : run.events) summary.guards.add(event);
+  for (auto& [kind, count] : summary.guards.counts)
+    count = num_events(run, kind.c_str());  // some have no row
   if (!run.estimate.delivered_s.empty()) summary.estimate = estimate_of(run, path, summary.budget_s);
   return summary;
 }

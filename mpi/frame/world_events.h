@@ -1,0 +1,18 @@
+/// Events that only the owners of worlds know, told to every rank.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mpi/comm/communicator.h"
+#include "stepping/run_event.h"
+
+namespace pbmpi::mpi {
+
+/// Collective. The events of all ranks, the same on every rank, in `frame`: by step, world and, of one world
+/// and step, as they happened.
+std::vector<stepping::RunEvent> share_events(const Communicator& comm,
+                                             std::span<const stepping::RunEvent> own, std::int64_t frame);
+
+}  // namespace pbmpi::mpi
