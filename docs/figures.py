@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-from tables import accuracy, effects, programs, scenes, speed, stability
+from tables import accuracy, effects, guards, programs, scenes, speed, stability
 
 # page: below the root. make: computes the lines of the table. has_clock: whether times are among its figures. commands: for
 # a reader who wants to measure it by hand.
@@ -37,6 +37,7 @@ ENTRIES = {
     "by_step": Entry("docs/stability.md", stability.by_step, False, ["pbstudy stability --setting quick sor --dt 0.0001 ... 0.05"]),
     "at_equal_time": Entry("docs/stability.md", stability.at_equal_time, True,
                            ["pbstudy stability --most-work 300000 --setting quick \"sor iterations=40\" ..."]),
+    "guards": Entry("docs/guards.md", guards.guards, False, ["pbmpi --scene CASE --steps-per-frame 3 --stepper ..."]),
     "speed": Entry("docs/speed.md", speed.against_bare, True,
                    ["bench_worlds SCENE 0 10 3", "pbstudy accuracy --scene SCENE"]),
     "spaces": Entry("docs/spaces.md", speed.spaces, True, ["tests/bench/decompose.py 3"]),
