@@ -82,6 +82,7 @@ Guards::Guards(const model::Model& model, double dt_s, const GuardLimits& limits
 std::optional<Trip> Guards::check(const Span& span, std::span<const Vec3> from, PassageFinder::Pace pace,
                                   model::GuardMemory& memory) const {
   const std::int64_t last_step = span.first_step + span.num_steps - 1;
+  if (span.before.nonfinite > 0) return std::nullopt;  // it was told of
   if (span.after.nonfinite > 0) {
     return Trip{.guard = Guard::nonfinite,
                 .step = last_step,

@@ -22,16 +22,23 @@ Seen seen_of(const Watched& watched) { return {watched.state, watched.seen}; }
 /// A frame of one world done again, step by step.
 class WorldGuard::Replay {
  public:
-  Replay(const WorldGuard& guard, const Watched& start, std::int64_t first_step,
+  /// `is_lost`: at the end of the frame something is not finite.
+  Replay(const WorldGuard& guard, const Watched& start, std::int64_t first_step, bool is_lost,
          std::vector<RunEvent>& events)
-      : guard_(&guard), now_(start), step_(first_step), from_(start.state.position), events_(&events) {
+      : guard_(&guard),
+        now_(start),
+        step_(first_step),
+        is_lost_(is_lost),
+        from_(start.state.position),
+        events_(&events) {
     stepping::StepperSettings settings = guard.settings_->stepper;
     settings.profile = false;
     stepper_ = guard.settings_->make_stepper(settings);
     stepper_->add(guard.world_, guard.model_, start.state, first_step);
   }
 
-  /// False if nothing is left to do: a guard has tripped and only its report was wanted, or the world stands.
+  /// False if nothing is left to do: a guard has tripped and its report is all that is wanted, or the world
+  /// stands.
   bool step();
 
   bool has_tripped() const { return has_tripped_; }
@@ -40,7 +47,8 @@ class WorldGuard::Replay {
 
  private:
   std::optional<Trip> check(const Watched& next, model::GuardMemory& memory);
-  bool deal_with_trip(Watched& next);
+  void tell(const Trip& trip);
+  bool mend(Watched& next);
   bool refine(Watched& next);
   void freeze();
   void go_on_from(Watched&& next);
@@ -49,6 +57,7 @@ class WorldGuard::Replay {
   const WorldGuard* guard_;
   Watched now_;
   std::int64_t step_;
+  bool is_lost_;
   /// Where the way of each centre begins: at now_, or further back for a centre that is in something, so that
   /// a way through it is seen as a whole.
   std::vector<Vec3> from_;
@@ -64,9 +73,14 @@ bool WorldGuard::Replay::step() {
   Watched next{stepper_->state(guard_->world_), stepper_->observables(guard_->world_)};
   model::GuardMemory memory = now_.state.guard;
   if (const auto trip = check(next, memory)) {
-    has_tripped_ = true;
-    events_->push_back(event_of(*trip, guard_->world_, *guard_->model_));
-    if (!deal_with_trip(next)) return false;
+    if (mends(guard_->settings_->on_blowup)) {
+      tell(*trip);
+      if (!mend(next)) return false;
+    } else {
+      // The first guard that trips is told of, and a number that is not finite in any case: it ends the run.
+      if (!has_tripped_ || trip->guard == Guard::nonfinite) tell(*trip);
+      if (trip->guard == Guard::nonfinite || !is_lost_) return false;
+    }
   } else {
     next.state.guard = memory;
   }
@@ -81,11 +95,9 @@ std::optional<Trip> WorldGuard::Replay::check(const Watched& next, model::GuardM
 }
 
 /// False if the world goes no further.
-bool WorldGuard::Replay::deal_with_trip(Watched& next) {
-  const OnBlowup on_blowup = guard_->settings_->on_blowup;
-  if (!mends(on_blowup)) return false;
+bool WorldGuard::Replay::mend(Watched& next) {
   has_mended_ = true;
-  if (on_blowup == OnBlowup::refine && refine(next)) return true;
+  if (guard_->settings_->on_blowup == OnBlowup::refine && refine(next)) return true;
   freeze();
   return false;
 }
@@ -119,6 +131,11 @@ void WorldGuard::Replay::go_on_from(Watched&& next) {
   }
   now_ = std::move(next);
   ++step_;
+}
+
+void WorldGuard::Replay::tell(const Trip& trip) {
+  has_tripped_ = true;
+  events_->push_back(event_of(trip, guard_->world_, *guard_->model_));
 }
 
 void WorldGuard::Replay::tell(const char* kind, double value, const std::string& detail) {
@@ -155,7 +172,7 @@ bool WorldGuard::end_frame(const Watched& before, std::int64_t first_step, int n
                                        PassageFinder::Pace::fast, memory);
   bool mended = false;
   if (suspicion) {
-    Replay replay(*this, before, first_step, events);
+    Replay replay(*this, before, first_step, after.seen.nonfinite > 0, events);
     for (int i = 0; i < num_steps && replay.step(); ++i) continue;
     mended = replay.has_mended();
     if (mended) {
