@@ -1,7 +1,7 @@
 /// bench_worlds [SUBJECT] [WORLDS] [FRAMES] [ROUNDS]: pbmpi's steppers against the bare ODE loop over the
 /// same worlds. bench_worlds --spaces: ODE's spaces against each other. bench_worlds --effects: what
-/// effects cost. bench_worlds --sleeping: what sleeping saves. bench_worlds --substeps [SUBJECT] [WORLDS]
-/// [FRAMES]: substeps and warm start against iterations.
+/// effects cost. bench_worlds --guards: what guards cost. bench_worlds --sleeping: what sleeping saves.
+/// bench_worlds --substeps [SUBJECT] [WORLDS] [FRAMES]: substeps and warm start against iterations.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +10,7 @@
 #include "compare.h"
 #include "core/error.h"
 #include "effects.h"
+#include "guards.h"
 #include "mpi/comm/session.h"
 #include "sleeping.h"
 #include "spaces.h"
@@ -34,6 +35,10 @@ void run(int argc, char** argv) {
   }
   if (name == "--effects") {
     pbmpi::bench::compare_effects();
+    return;
+  }
+  if (name == "--guards") {
+    pbmpi::bench::compare_guards();
     return;
   }
   if (name == "--sleeping") {

@@ -11,6 +11,7 @@ build/release/tests/bench/bench_worlds --substeps 100CrSk 0 100
 python3 tests/bench/spheres.py
 python3 tests/bench/interest.py
 build/release/tests/bench/bench_worlds --sleeping
+build/release/tests/bench/bench_worlds --guards
 python3 tests/bench/ranks.py 100CrSk 7 --stepper quick
 python3 tests/bench/ranks.py 100CrSk 7
 python3 tests/bench/decompose.py 7
