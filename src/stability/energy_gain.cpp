@@ -36,6 +36,12 @@ double spring_travel(const State& state, const Joint& joint) {
                   point_in_world(state, joint.body_b, joint.anchor_b));
 }
 
+double spring_energy_of(const Model& model, const State& state, std::size_t joint) {
+  if (state.is_broken(joint)) return 0;
+  const double travel = spring_travel(state, model.joints[joint]);
+  return 0.5 * model.joints[joint].suspension.stiffness * travel * travel;
+}
+
 /// What drives an axis at any time between two states.
 struct Drive {
   double max_force = 0;  ///< largest
@@ -146,10 +152,7 @@ double launch_work(const Model& model, const State& before, std::int64_t first_s
 double spring_energy(const Model& model, const State& state) {
   double energy = 0;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Joint& joint = model.joints[i];
-    if (!has_spring(joint) || state.is_broken(i)) continue;
-    const double travel = spring_travel(state, joint);
-    energy += 0.5 * joint.suspension.stiffness * travel * travel;
+    if (has_spring(model.joints[i])) energy += spring_energy_of(model, state, i);
   }
   return energy;
 }
@@ -161,22 +164,21 @@ double allowed_work(const Model& model, const State& before, const State& after,
          spring_energy(model, after);
 }
 
-EnergyGain::EnergyGain(const Model& model, double dt_s)
-    : model_(&model), dt_s_(dt_s), has_springs_(std::ranges::any_of(model.joints, has_spring)) {}
-
-bool EnergyGain::launches_in(std::int64_t first_step, int num_steps) const {
-  return std::ranges::any_of(events_in(*model_, first_step, num_steps),
-                             [](const Event& event) { return event.kind == EventKind::launch; });
+EnergyGain::EnergyGain(const Model& model, double dt_s) : model_(&model), dt_s_(dt_s) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (has_spring(model.joints[i])) springs_.push_back(i);
+  }
 }
 
 void EnergyGain::add(const At& before, const At& after, std::int64_t first_step, int num_steps,
                      model::GuardMemory& memory) const {
-  const double change = after.energy_j - before.energy_j;
-  const bool must_look =
-      change > 0 || memory.energy_gain_j > 0 || has_springs_ || launches_in(first_step, num_steps);
-  if (!must_look) return;
-  const double allowed = allowed_work(*model_, before.state, after.state, first_step, num_steps, dt_s_);
-  memory.energy_gain_j = std::max(0.0, memory.energy_gain_j + change - allowed);
+  double change = after.energy_j - before.energy_j;
+  for (const std::size_t joint : springs_)
+    change += spring_energy_of(*model_, after.state, joint) - spring_energy_of(*model_, before.state, joint);
+  change -= launch_work(*model_, before.state, first_step, num_steps);
+  if (change <= 0 && memory.energy_gain_j == 0) return;
+  change -= drive_work(*model_, before.state, after.state, first_step, num_steps, dt_s_);
+  memory.energy_gain_j = std::max(0.0, memory.energy_gain_j + change);
 }
 
 }  // namespace pbmpi::stability

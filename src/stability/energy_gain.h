@@ -1,7 +1,9 @@
 /// Energy that a world gains without a cause.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "model/model.h"
 #include "model/state.h"
@@ -35,17 +37,15 @@ class EnergyGain {
     double energy_j = 0;  ///< model::mechanical_energy()
   };
 
-  /// Takes `num_steps` steps from step `first_step` on into memory.energy_gain_j. Where the energy has not
-  /// risen this costs nothing, unless a suspension or a launch can hide a gain.
+  /// Takes `num_steps` steps from step `first_step` on into memory.energy_gain_j. What motors can have
+  /// delivered is found out only where the rest has risen.
   void add(const At& before, const At& after, std::int64_t first_step, int num_steps,
            model::GuardMemory& memory) const;
 
  private:
-  bool launches_in(std::int64_t first_step, int num_steps) const;
-
   const model::Model* model_;
   double dt_s_;
-  bool has_springs_ = false;
+  std::vector<std::size_t> springs_;  ///< joints
 };
 
 }  // namespace pbmpi::stability

@@ -85,22 +85,36 @@ PassageFinder::PassageFinder(const model::Model& model) : model_(&model), rule_(
     }
     const double radius = geometry::bounding_radius(geom);
     if (geom.body == model::no_body) {
-      solids_.push_back({i, geom.body, geom.local.position, radius});
+      static_.push_back({i, geom.body, geom.local.position, radius});
       continue;
     }
-    solids_.push_back({i, geom.body, Vec3::Zero(), radius + geom.local.position.norm()});
+    moving_.push_back({i, geom.body, Vec3::Zero(), radius + geom.local.position.norm()});
     const double inner = inner_radius(geom);
     if (inner > best[geom.body].radius) best[geom.body] = {geom.body, i, inner, sizes[geom.body]};
   }
   std::ranges::copy_if(best, std::back_inserter(movers_), [](const Mover& one) { return one.radius > 0; });
+  for (const Mover& mover : movers_) least_size_ = std::min(least_size_, mover.size);
 }
 
 std::optional<Passage> PassageFinder::find(const State& before, std::span<const Vec3> from,
                                            const State& after, Pace pace) const {
+  std::vector<Solid> far_movers;  // bodies that themselves went as far as the smallest is large
+  for (const Solid& solid : moving_) {
+    const Vec3 way = after.position[solid.body] - before.position[solid.body];
+    if (way.squaredNorm() >= least_size_ * least_size_) far_movers.push_back(solid);
+  }
   for (const Mover& mover : movers_) {
     const Vec3& start = from[static_cast<std::size_t>(mover.body)];
-    if (auto found = through_planes(mover, start, after.position[mover.body])) return found;
-    if (auto found = through_solids(mover, before, start, after, pace)) return found;
+    const Vec3& end = after.position[mover.body];
+    if (auto found = through_planes(mover, start, end)) return found;
+    const Vec3 way = end - start;
+    const double length = way.norm();
+    if (!(length > (pace == Pace::fast ? mover.radius : 0))) continue;
+    if (auto found = through_static(mover, start, way)) return found;
+    // Of two bodies that are twice a size apart from where they were, as seen from each other, one went a
+    // size by itself.
+    const std::vector<Solid>& others = length < mover.size ? far_movers : moving_;
+    if (auto found = through_bodies(mover, others, before, way, after)) return found;
   }
   return std::nullopt;
 }
@@ -115,31 +129,39 @@ std::optional<Passage> PassageFinder::through_planes(const Mover& mover, const V
   return std::nullopt;
 }
 
-std::optional<Passage> PassageFinder::through_solids(const Mover& mover, const State& before,
-                                                     const Vec3& from, const State& after, Pace pace) const {
+std::optional<Passage> PassageFinder::through_static(const Mover& mover, const Vec3& from,
+                                                     const Vec3& way) const {
+  for (const Solid& solid : static_) {
+    if (squared_distance(solid.centre, from, way) > solid.radius * solid.radius) continue;
+    if (!rule_.may_touch(mover.geom, solid.geom)) continue;
+    const Geom& geom = model_->geoms[solid.geom];
+    const BodyPose stands = geometry::static_pose();
+    const auto beyond = share_beyond(geom, stands, from, way);
+    const bool sticks_out = geometry::least_half_extent(geom) < mover.radius;
+    if (beyond || (sticks_out && enters(geom, stands, from, way)))
+      return Passage{mover.body, solid.geom, beyond.value_or(0) * way.norm()};
+  }
+  return std::nullopt;
+}
+
+std::optional<Passage> PassageFinder::through_bodies(const Mover& mover, std::span<const Solid> others,
+                                                     const State& before, const Vec3& own_way,
+                                                     const State& after) const {
   const Vec3& to = after.position[mover.body];
-  const Vec3 own_way = to - from;
-  const double least_way = pace == Pace::fast ? mover.radius : 0;
-  const bool is_slow = !(own_way.squaredNorm() > least_way * least_way);
-  if (is_slow) return std::nullopt;
-  for (const Solid& solid : solids_) {
-    const bool is_static = solid.body == model::no_body;
-    const Vec3& centre = is_static ? solid.centre : after.position[solid.body];
-    const Vec3 way = is_static ? own_way : Vec3(own_way - (centre - before.position[solid.body]));
+  const double least_way = 2 * mover.size;
+  for (const Solid& solid : others) {
+    const Vec3& centre = after.position[solid.body];
+    const Vec3 way = own_way - (centre - before.position[solid.body]);
+    if (way.squaredNorm() < least_way * least_way) continue;
     if (squared_distance(centre, to - way, way) > solid.radius * solid.radius) continue;
-    if (way.squaredNorm() <= least_way * least_way || !rule_.may_touch(mover.geom, solid.geom)) continue;
+    if (!rule_.may_touch(mover.geom, solid.geom)) continue;
     const Geom& geom = model_->geoms[solid.geom];
     BodyPose body = pose_of(after, solid.body);
     auto beyond = share_beyond(geom, body, to - way, way);
-    if (is_static) {
-      const bool sticks_out = geometry::least_half_extent(geom) < mover.radius;
-      if (beyond || (sticks_out && enters(geom, body, from, way)))
-        return Passage{mover.body, solid.geom, beyond.value_or(0) * way.norm()};
-    } else if (beyond && *beyond * way.norm() >= 2 * mover.size) {
-      std::ranges::copy(pose_of(before, solid.body).rotation, body.rotation);
-      beyond = share_beyond(geom, body, to - way, way);
-      if (beyond) return Passage{mover.body, solid.geom, *beyond * way.norm()};
-    }
+    if (!beyond || *beyond * way.norm() < least_way) continue;
+    std::ranges::copy(pose_of(before, solid.body).rotation, body.rotation);
+    beyond = share_beyond(geom, body, to - way, way);
+    if (beyond) return Passage{mover.body, solid.geom, *beyond * way.norm()};
   }
   return std::nullopt;
 }
@@ -148,7 +170,7 @@ bool PassageFinder::is_inside(const State& state, int body) const {
   const auto mover = std::ranges::lower_bound(movers_, body, {}, &Mover::body);
   if (mover == movers_.end() || mover->body != body) return false;
   const Vec3& point = state.position[body];
-  return std::ranges::any_of(solids_, [&](const Solid& solid) {
+  const auto is_in = [&](const Solid& solid) {
     const Vec3& centre = solid.body == model::no_body ? solid.centre : state.position[solid.body];
     if ((point - centre).squaredNorm() > solid.radius * solid.radius) return false;
     if (!rule_.may_touch(mover->geom, solid.geom)) return false;
@@ -157,7 +179,8 @@ bool PassageFinder::is_inside(const State& state, int body) const {
     // From outside a way to the point comes in, and a way back from it does not.
     const Vec3 way = Vec3::UnitX() * (3 * solid.radius);
     return enters(geom, pose, point - way, way) && !enters(geom, pose, point, -way);
-  });
+  };
+  return std::ranges::any_of(static_, is_in) || std::ranges::any_of(moving_, is_in);
 }
 
 }  // namespace pbmpi::stability

@@ -71,13 +71,17 @@ class PassageFinder {
 
   std::optional<Passage> through_planes(const Mover& mover, const model::Vec3& from,
                                         const model::Vec3& to) const;
-  std::optional<Passage> through_solids(const Mover& mover, const model::State& before,
-                                        const model::Vec3& from, const model::State& after, Pace pace) const;
+  std::optional<Passage> through_static(const Mover& mover, const model::Vec3& from,
+                                        const model::Vec3& way) const;
+  std::optional<Passage> through_bodies(const Mover& mover, std::span<const Solid> others,
+                                        const model::State& before, const model::Vec3& own_way,
+                                        const model::State& after) const;
 
   const model::Model* model_;
   model::TouchRule rule_;
   std::vector<Mover> movers_;
-  std::vector<Solid> solids_;
+  std::vector<Solid> static_, moving_;
+  double least_size_ = model::infinity;  ///< of movers_ [m]
   std::vector<Plane> planes_;
 };
 
