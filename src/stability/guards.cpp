@@ -75,8 +75,10 @@ Guards::Guards(const model::Model& model, double dt_s, const GuardLimits& limits
     gap_limit_.push_back(size > 0 ? limits.gap_share * size : model::infinity);
     least_gap_limit_ = std::min(least_gap_limit_, gap_limit_.back());
   }
-  for (const model::Body& body : model.bodies)
+  for (const model::Body& body : model.bodies) {
     lift_work_j_ += body.mass_kg * standard_gravity * limits.energy_lift_m;
+    mass_kg_.push_back(body.mass_kg);
+  }
 }
 
 std::optional<Trip> Guards::check(const Span& span, std::span<const Vec3> from, PassageFinder::Pace pace,
@@ -132,9 +134,9 @@ std::span<const Vec3> Guards::launched(std::span<const Vec3> positions, std::int
 }
 
 void Guards::note_kinetic(const State& state, double energy_j, model::GuardMemory& memory) const {
-  double kinetic_j = energy_j;
-  for (std::size_t body = 0; body < model_->bodies.size(); ++body)
-    kinetic_j += model_->bodies[body].mass_kg * model_->gravity.dot(state.position[body]);
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t body = 0; body < mass_kg_.size(); ++body) moment += mass_kg_[body] * state.position[body];
+  const double kinetic_j = energy_j + model_->gravity.dot(moment);
   memory.largest_kinetic_j = std::max(memory.largest_kinetic_j, kinetic_j);
 }
 

@@ -96,6 +96,7 @@ class Guards {
   std::vector<double> gap_limit_;  ///< [num_joints] m
   double least_gap_limit_ = model::infinity;
   double lift_work_j_ = 0;
+  std::vector<double> mass_kg_;  ///< [num_bodies] beside each other
 };
 
 /// The event of a guard that tripped in a world, for file and summary.

@@ -93,30 +93,105 @@ PassageFinder::PassageFinder(const model::Model& model) : model_(&model), rule_(
     if (inner > best[geom.body].radius) best[geom.body] = {geom.body, i, inner, sizes[geom.body]};
   }
   std::ranges::copy_if(best, std::back_inserter(movers_), [](const Mover& one) { return one.radius > 0; });
-  for (const Mover& mover : movers_) least_size_ = std::min(least_size_, mover.size);
+  std::ranges::stable_sort(moving_, {}, &Solid::body);
+  extents_.resize(model.bodies.size());
+  for (std::size_t body = 0; body < extents_.size(); ++body) {
+    const int actor = model.bodies[body].actor;
+    const bool touch_each_other = model.actors[static_cast<std::size_t>(actor)].self_collision;
+    extents_[body].actor = touch_each_other ? -1 - static_cast<int>(body) : actor;
+  }
+  for (int i = 0; i < static_cast<int>(moving_.size()); ++i) {
+    Extent& extent = extents_[static_cast<std::size_t>(moving_[static_cast<std::size_t>(i)].body)];
+    if (extent.last_solid == 0) extent.first_solid = i;
+    extent.last_solid = i + 1;
+    extent.radius = std::max(extent.radius, moving_[static_cast<std::size_t>(i)].radius);
+  }
+  for (int i = 0; i < static_cast<int>(movers_.size()); ++i) {
+    const Mover& mover = movers_[static_cast<std::size_t>(i)];
+    extents_[static_cast<std::size_t>(mover.body)].mover = i;
+    extents_[static_cast<std::size_t>(mover.body)].size = mover.size;
+    least_size_ = std::min(least_size_, mover.size);
+  }
 }
 
 std::optional<Passage> PassageFinder::find(const State& before, std::span<const Vec3> from,
                                            const State& after, Pace pace) const {
-  std::vector<Solid> far_movers;  // bodies that themselves went as far as the smallest is large
-  for (const Solid& solid : moving_) {
-    const Vec3 way = after.position[solid.body] - before.position[solid.body];
-    if (way.squaredNorm() >= least_size_ * least_size_) far_movers.push_back(solid);
-  }
+  find_close_pairs(from, after);
   for (const Mover& mover : movers_) {
-    const Vec3& start = from[static_cast<std::size_t>(mover.body)];
-    const Vec3& end = after.position[mover.body];
-    if (auto found = through_planes(mover, start, end)) return found;
-    const Vec3 way = end - start;
-    const double length = way.norm();
-    if (!(length > (pace == Pace::fast ? mover.radius : 0))) continue;
-    if (auto found = through_static(mover, start, way)) return found;
-    // Of two bodies that are twice a size apart from where they were, as seen from each other, one went a
-    // size by itself.
-    const std::vector<Solid>& others = length < mover.size ? far_movers : moving_;
-    if (auto found = through_bodies(mover, others, before, way, after)) return found;
+    const auto body = static_cast<std::size_t>(mover.body);
+    if (auto found = through_planes(mover, from[body], after.position[body])) return found;
+    if (static_.empty() || !(lengths_[body] > (pace == Pace::fast ? mover.radius : 0))) continue;
+    if (auto found = through_static(mover, from[body], ways_[body])) return found;
+  }
+  for (const Pair& pair : close_) {
+    if (auto found = through_body(pair.first, pair.second, before, after)) return found;
+    if (auto found = through_body(pair.second, pair.first, before, after)) return found;
   }
   return std::nullopt;
+}
+
+/// Bodies have gone through each other only if the ways of the two differ by twice the size of the smaller.
+/// So one of the ways differs by that size from whatever third way, for which the mean is taken: what flies
+/// together is no pair.
+void PassageFinder::find_close_pairs(std::span<const Vec3> from, const State& after) const {
+  const std::size_t num_bodies = extents_.size();
+  ways_.resize(num_bodies);
+  lengths_.resize(num_bodies);
+  far_.clear();
+  close_.clear();
+  Vec3 mean = Vec3::Zero();
+  for (std::size_t body = 0; body < num_bodies; ++body) {
+    ways_[body] = after.position[body] - from[body];
+    lengths_[body] = ways_[body].norm();
+    mean += ways_[body];
+  }
+  if (num_bodies > 0) mean /= static_cast<double>(num_bodies);
+  const auto is_far = [&](std::size_t body) {
+    return (ways_[body] - mean).squaredNorm() >= least_size_ * least_size_;
+  };
+  for (std::size_t body = 0; body < num_bodies; ++body) {
+    if (is_far(body)) far_.push_back(static_cast<int>(body));
+  }
+  if (far_.empty()) return;
+  reaches_.set(after.position, lengths_, extents_);
+  for (const int far : far_) {
+    const auto a = static_cast<std::size_t>(far);
+    const Extent& one = extents_[a];
+    const std::span<const std::int32_t> in_reach = reaches_.meeting(a);
+    for (std::size_t b = 0; b < num_bodies; ++b) {
+      if (in_reach[b] == 0) continue;
+      const Extent& other = extents_[b];
+      const double least_way = 2 * std::min(one.size, other.size);
+      if (one.actor == other.actor || (ways_[a] - ways_[b]).squaredNorm() < least_way * least_way) continue;
+      const bool is_second_look = b < a && is_far(b);
+      if (!is_second_look) close_.push_back({far, static_cast<int>(b)});
+    }
+  }
+}
+
+void PassageFinder::Reaches::set(std::span<const Vec3> position, std::span<const double> lengths,
+                                 std::span<const Extent> extents) {
+  const std::size_t num_bodies = position.size();
+  for (std::vector<float>* numbers : {&x_, &y_, &z_, &radius_}) numbers->resize(num_bodies);
+  hits_.resize(num_bodies);
+  const Vec3 origin = position.front();
+  for (std::size_t body = 0; body < num_bodies; ++body) {
+    const Vec3 at = position[body] - origin;
+    x_[body] = static_cast<float>(at.x());
+    y_[body] = static_cast<float>(at.y());
+    z_[body] = static_cast<float>(at.z());
+    radius_[body] = static_cast<float>(lengths[body] + extents[body].radius);
+  }
+}
+
+std::span<const std::int32_t> PassageFinder::Reaches::meeting(std::size_t body) {
+  constexpr float rounding = 1.0001F;  // of single precision, many times over
+  const float x = x_[body], y = y_[body], z = z_[body], radius = radius_[body];
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    const float dx = x_[i] - x, dy = y_[i] - y, dz = z_[i] - z, sum = rounding * (radius_[i] + radius);
+    hits_[i] = dx * dx + dy * dy + dz * dz <= sum * sum ? 1 : 0;
+  }
+  return hits_;
 }
 
 std::optional<Passage> PassageFinder::through_planes(const Mover& mover, const Vec3& from,
@@ -144,24 +219,28 @@ std::optional<Passage> PassageFinder::through_static(const Mover& mover, const V
   return std::nullopt;
 }
 
-std::optional<Passage> PassageFinder::through_bodies(const Mover& mover, std::span<const Solid> others,
-                                                     const State& before, const Vec3& own_way,
-                                                     const State& after) const {
+std::optional<Passage> PassageFinder::through_body(int body, int other, const State& before,
+                                                   const State& after) const {
+  const int index = extents_[static_cast<std::size_t>(body)].mover;
+  if (index < 0) return std::nullopt;
+  const Mover& mover = movers_[static_cast<std::size_t>(index)];
+  const Extent& extent = extents_[static_cast<std::size_t>(other)];
   const Vec3& to = after.position[mover.body];
+  const Vec3& centre = after.position[other];
+  const Vec3 way = ways_[static_cast<std::size_t>(body)] - (centre - before.position[other]);
   const double least_way = 2 * mover.size;
-  for (const Solid& solid : others) {
-    const Vec3& centre = after.position[solid.body];
-    const Vec3 way = own_way - (centre - before.position[solid.body]);
-    if (way.squaredNorm() < least_way * least_way) continue;
+  if (way.squaredNorm() < least_way * least_way) return std::nullopt;
+  for (int i = extent.first_solid; i < extent.last_solid; ++i) {
+    const Solid& solid = moving_[static_cast<std::size_t>(i)];
     if (squared_distance(centre, to - way, way) > solid.radius * solid.radius) continue;
     if (!rule_.may_touch(mover.geom, solid.geom)) continue;
     const Geom& geom = model_->geoms[solid.geom];
-    BodyPose body = pose_of(after, solid.body);
-    auto beyond = share_beyond(geom, body, to - way, way);
+    BodyPose pose = pose_of(after, other);
+    auto beyond = share_beyond(geom, pose, to - way, way);
     if (!beyond || *beyond * way.norm() < least_way) continue;
-    std::ranges::copy(pose_of(before, solid.body).rotation, body.rotation);
-    beyond = share_beyond(geom, body, to - way, way);
-    if (beyond) return Passage{mover.body, solid.geom, *beyond * way.norm()};
+    std::ranges::copy(pose_of(before, other).rotation, pose.rotation);
+    beyond = share_beyond(geom, pose, to - way, way);
+    if (beyond) return Passage{body, solid.geom, *beyond * way.norm()};
   }
   return std::nullopt;
 }

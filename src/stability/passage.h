@@ -1,6 +1,7 @@
 /// Bodies that went through something.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -69,20 +70,54 @@ class PassageFinder {
     double height = 0;  ///< of its points along the normal [m]
   };
 
+  /// What decides which bodies can have gone through each other.
+  struct Extent {
+    double size = model::infinity;  ///< as Mover::size; infinite: it is no mover
+    double radius = 0;              ///< of the ball about the centre of mass that holds its geoms [m]
+    int actor = -1;  ///< whose geoms never touch each other; below 0: none, another for each body
+    int first_solid = 0, last_solid = 0;  ///< in moving_: [first, last)
+    int mover = -1;                       ///< in movers_; -1: none
+  };
+  struct Pair {
+    int first = 0, second = 0;  ///< bodies
+  };
+
+  /// The balls that hold each body on its way, in single precision, so that all are compared with one at
+  /// little cost.
+  class Reaches {
+   public:
+    void set(std::span<const model::Vec3> position, std::span<const double> lengths,
+             std::span<const Extent> extents);
+    /// [num_bodies] 1 where the ball meets that of `body`; until the next call.
+    std::span<const std::int32_t> meeting(std::size_t body);
+
+   private:
+    std::vector<float> x_, y_, z_, radius_;
+    std::vector<std::int32_t> hits_;
+  };
+
+  void find_close_pairs(std::span<const model::Vec3> from, const model::State& after) const;
   std::optional<Passage> through_planes(const Mover& mover, const model::Vec3& from,
                                         const model::Vec3& to) const;
   std::optional<Passage> through_static(const Mover& mover, const model::Vec3& from,
                                         const model::Vec3& way) const;
-  std::optional<Passage> through_bodies(const Mover& mover, std::span<const Solid> others,
-                                        const model::State& before, const model::Vec3& own_way,
-                                        const model::State& after) const;
+  std::optional<Passage> through_body(int body, int other, const model::State& before,
+                                      const model::State& after) const;
 
   const model::Model* model_;
   model::TouchRule rule_;
   std::vector<Mover> movers_;
-  std::vector<Solid> static_, moving_;
+  std::vector<Solid> static_, moving_;   ///< moving_: by body
+  std::vector<Extent> extents_;          ///< [num_bodies]
   double least_size_ = model::infinity;  ///< of movers_ [m]
   std::vector<Plane> planes_;
+  // Of the last call, kept for their memory.
+  mutable std::vector<model::Vec3> ways_;  ///< [num_bodies] of the centres
+  mutable std::vector<double> lengths_;    ///< [num_bodies] of ways_
+  mutable std::vector<int>
+      far_;  ///< bodies whose way differs from the mean by the size of the smallest mover
+  mutable Reaches reaches_;
+  mutable std::vector<Pair> close_;  ///< that may have gone through each other
 };
 
 }  // namespace pbmpi::stability

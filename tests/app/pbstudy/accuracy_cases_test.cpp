@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "app/pbstudy/accuracy/case_runner.h"
@@ -39,14 +40,14 @@ TEST(AccuracyCases, all_settings_are_crossed_and_odes_steppers_have_fewer) {
       cases_of(options_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20", "--substeps",
                            "1", "2", "--sor-factor", "1", "1.3", "--precision", "single"}));
   // quick: 2 iterations; direct: one; sor: 2 iterations x (1 substep + 2 substeps x 2 warm starts) x 2
-  // factors
-  EXPECT_EQ(count(cases, CaseKind::setting), 2 + 1 + 12);
+  // factors; each with the scene's step and half of it
+  EXPECT_EQ(count(cases, CaseKind::setting), 2 * (2 + 1 + 12));
 }
 
 TEST(AccuracyCases, warm_start_and_row_order_are_crossed_where_they_mean_something) {
-  const auto cases =
-      cases_of(options_of({"--iterations", "3", "--substeps", "1", "5", "--precision", "double",
-                           "--warm-start", "0", "0.5", "0.9", "--row-order", "shuffled", "fixed"}));
+  const auto cases = cases_of(
+      options_of({"--iterations", "3", "--substeps", "1", "5", "--precision", "double", "--warm-start", "0",
+                  "0.5", "0.9", "--row-order", "shuffled", "fixed", "--dt", "0.01"}));
   EXPECT_EQ(count(cases, CaseKind::setting), 1 + 2 + 3 * 2) << "quick; one substep; five of them";
   for (const AccuracyCase& one : cases) EXPECT_TRUE(one.stepper.warm_start == 0 || one.stepper.substeps == 5);
   EXPECT_NE(refusal({"--warm-start", "2"}).find("0 to 1"), std::string::npos);
@@ -132,9 +133,10 @@ TEST(CaseRunner, the_reference_has_no_error_against_itself_and_few_iterations_ha
   const AccuracyOptions options = options_of({"--reference-iterations", "40"});
   const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
   const Reference reference = make_reference(scene, reference_settings(scene, options));
+  const RestRunner no_rest(scene, reference_settings(scene, options), 0);
   ASSERT_EQ(reference.states.size(), 9u);
   AccuracyCase one{0, CaseKind::setting, reference_settings(scene, options), 3};
-  const CaseResult itself = run_case(one, scene, reference, 2);
+  const CaseResult itself = run_case(one, scene, reference, no_rest, 2);
   EXPECT_EQ(itself.defect.body_position.max, 0);
   EXPECT_EQ(itself.drift.body_position.max, 0);
   EXPECT_EQ(itself.energy_change_j, 0);
@@ -144,7 +146,7 @@ TEST(CaseRunner, the_reference_has_no_error_against_itself_and_few_iterations_ha
   EXPECT_EQ(itself.row_visits, itself.rows * 40 * 3);
 
   one.stepper.iterations = 2;
-  const CaseResult few = run_case(one, scene, reference, 1);
+  const CaseResult few = run_case(one, scene, reference, no_rest, 1);
   EXPECT_GT(few.defect.body_position.max, 1e-3) << "two iterations are seen in a crash";
   EXPECT_GE(few.drift.body_position.rms, few.defect.body_position.rms)
       << "a frame's error grows along the way";
@@ -155,11 +157,28 @@ TEST(CaseRunner, repeats_change_times_only) {
   const AccuracyOptions options = options_of({"--reference-iterations", "10"});
   const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
   const Reference reference = make_reference(scene, reference_settings(scene, options));
+  const RestRunner no_rest(scene, reference_settings(scene, options), 0);
   AccuracyCase one{0, CaseKind::setting, {}, 3};
   one.stepper.iterations = 5;
-  const CaseResult once = run_case(one, scene, reference, 1), thrice = run_case(one, scene, reference, 3);
+  const CaseResult once = run_case(one, scene, reference, no_rest, 1);
+  const CaseResult thrice = run_case(one, scene, reference, no_rest, 3);
   EXPECT_EQ(once.defect.body_position.rms, thrice.defect.body_position.rms);
   EXPECT_EQ(once.max_joint_gap_m, thrice.max_joint_gap_m);
+}
+
+TEST(RestRunner, counts_what_falls_though_the_reference_holds_it) {
+  const AccuracyOptions options = options_of({"--reference-iterations", "80"});
+  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
+  const stepping::StepperSettings reference = reference_settings(scene, options);
+  const RestRunner rest(scene, reference, 1);
+  EXPECT_EQ(rest.run(reference).fallen, 0) << "against itself";
+  stepping::StepperSettings poor = reference;
+  poor.iterations = 1;
+  const RestResult fallen = rest.run(poor);
+  EXPECT_GT(fallen.fallen, 20) << "both humans sink, with most of their parts";
+  EXPECT_LT(fallen.fell_at_s, 1);
+  EXPECT_GT(fallen.creep_m_s, rest.run(reference).creep_m_s);
+  EXPECT_TRUE(std::isnan(RestRunner(scene, reference, 0).run(poor).fallen)) << "nothing was watched";
 }
 
 }  // namespace

@@ -37,8 +37,8 @@ void add_estimates(AccuracyCase base, const StudyScene& scene, const AccuracyOpt
   });
 }
 
-/// All settings of one kind of stepper, and its estimates. `base` has the kind and dt.
-void add_settings(AccuracyCase base, const StudyScene& scene, const AccuracyOptions& options,
+/// All settings of one kind of stepper. `base` has the kind and dt.
+void add_settings(const AccuracyCase& base, const AccuracyOptions& options,
                   std::vector<AccuracyCase>& cases) {
   const stepping::StepperTraits& traits = traits_of(base.stepper.kind);
   const std::span<const SettingList> lists = options.settings;
@@ -47,7 +47,6 @@ void add_settings(AccuracyCase base, const StudyScene& scene, const AccuracyOpti
     one.stepper = stepper;
     if (!traits.has_substeps || one.sweeps() <= options.max_sweeps) cases.push_back(one);
   });
-  if (traits.is_anytime) add_estimates(base, scene, options, cases);
 }
 
 void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& options,
@@ -64,7 +63,10 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
   cross_settings(base, {&dts, 1}, [&](const StepperSettings& with_dt) {
     const int steps = steps_in_frame(scene, with_dt.dt_s);
     cross_settings(with_dt, {&options.settings.front(), 1}, [&](const StepperSettings& with_kind) {
-      add_settings({index, CaseKind::setting, with_kind, steps}, scene, options, cases);
+      const AccuracyCase first{index, CaseKind::setting, with_kind, steps};
+      add_settings(first, options, cases);
+      const bool is_first_step = text_of(*dts.option, with_kind) == dts.values.front();
+      if (traits_of(with_kind.kind).is_anytime && is_first_step) add_estimates(first, scene, options, cases);
     });
   });
 }

@@ -30,7 +30,8 @@ po::options_description options_description() {
   for (const VariedOption& one : varied) add_setting_list(one, what);
   what.add_options()  //
       ("estimates", list_of<int>(),
-       "sor: FEEC cases, not crossed with the others: the state after so many iterations of a frame's last "
+       "sor: FEEC cases, not crossed with the others, at the first step of --dt: the state after so many "
+       "iterations of a frame's last "
        "solve, which has the scene's iterations; 0: none; default: 1 5");
   add_setting_list(varied_dt, what);
   what.add_options()  //
