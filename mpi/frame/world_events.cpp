@@ -55,6 +55,7 @@ std::vector<stepping::RunEvent> share_events(const Communicator& comm,
   std::vector<WireEvent> all = comm.allgatherv(std::span<const WireEvent>(mine));
   std::ranges::stable_sort(all, {}, [](const WireEvent& one) { return std::tuple(one.step, one.world); });
   std::vector<stepping::RunEvent> events;
+  events.reserve(all.size());
   for (const WireEvent& one : all) events.push_back(from_wire(one, frame));
   return events;
 }

@@ -120,7 +120,8 @@ std::optional<Passage> PassageFinder::find(const State& before, std::span<const 
   for (const Mover& mover : movers_) {
     const auto body = static_cast<std::size_t>(mover.body);
     if (auto found = through_planes(mover, from[body], after.position[body])) return found;
-    if (static_.empty() || !(lengths_[body] > (pace == Pace::fast ? mover.radius : 0))) continue;
+    const double least_way = pace == Pace::fast ? mover.radius : 0;
+    if (static_.empty() || !(squared_lengths_[body] > least_way * least_way)) continue;
     if (auto found = through_static(mover, from[body], ways_[body])) return found;
   }
   for (const Pair& pair : close_) {
@@ -136,13 +137,13 @@ std::optional<Passage> PassageFinder::find(const State& before, std::span<const 
 void PassageFinder::find_close_pairs(std::span<const Vec3> from, const State& after) const {
   const std::size_t num_bodies = extents_.size();
   ways_.resize(num_bodies);
-  lengths_.resize(num_bodies);
+  squared_lengths_.resize(num_bodies);
   far_.clear();
   close_.clear();
   Vec3 mean = Vec3::Zero();
   for (std::size_t body = 0; body < num_bodies; ++body) {
     ways_[body] = after.position[body] - from[body];
-    lengths_[body] = ways_[body].norm();
+    squared_lengths_[body] = ways_[body].squaredNorm();
     mean += ways_[body];
   }
   if (num_bodies > 0) mean /= static_cast<double>(num_bodies);
@@ -153,7 +154,7 @@ void PassageFinder::find_close_pairs(std::span<const Vec3> from, const State& af
     if (is_far(body)) far_.push_back(static_cast<int>(body));
   }
   if (far_.empty()) return;
-  reaches_.set(after.position, lengths_, extents_);
+  reaches_.set(after.position, squared_lengths_, extents_);
   for (const int far : far_) {
     const auto a = static_cast<std::size_t>(far);
     const Extent& one = extents_[a];
@@ -169,7 +170,7 @@ void PassageFinder::find_close_pairs(std::span<const Vec3> from, const State& af
   }
 }
 
-void PassageFinder::Reaches::set(std::span<const Vec3> position, std::span<const double> lengths,
+void PassageFinder::Reaches::set(std::span<const Vec3> position, std::span<const double> squared_lengths,
                                  std::span<const Extent> extents) {
   const std::size_t num_bodies = position.size();
   for (std::vector<float>* numbers : {&x_, &y_, &z_, &radius_}) numbers->resize(num_bodies);
@@ -180,7 +181,7 @@ void PassageFinder::Reaches::set(std::span<const Vec3> position, std::span<const
     x_[body] = static_cast<float>(at.x());
     y_[body] = static_cast<float>(at.y());
     z_[body] = static_cast<float>(at.z());
-    radius_[body] = static_cast<float>(lengths[body] + extents[body].radius);
+    radius_[body] = static_cast<float>(std::sqrt(squared_lengths[body]) + extents[body].radius);
   }
 }
 

@@ -86,7 +86,7 @@ class PassageFinder {
   /// little cost.
   class Reaches {
    public:
-    void set(std::span<const model::Vec3> position, std::span<const double> lengths,
+    void set(std::span<const model::Vec3> position, std::span<const double> squared_lengths,
              std::span<const Extent> extents);
     /// [num_bodies] 1 where the ball meets that of `body`; until the next call.
     std::span<const std::int32_t> meeting(std::size_t body);
@@ -112,8 +112,8 @@ class PassageFinder {
   double least_size_ = model::infinity;  ///< of movers_ [m]
   std::vector<Plane> planes_;
   // Of the last call, kept for their memory.
-  mutable std::vector<model::Vec3> ways_;  ///< [num_bodies] of the centres
-  mutable std::vector<double> lengths_;    ///< [num_bodies] of ways_
+  mutable std::vector<model::Vec3> ways_;        ///< [num_bodies] of the centres
+  mutable std::vector<double> squared_lengths_;  ///< [num_bodies] of ways_
   mutable std::vector<int>
       far_;  ///< bodies whose way differs from the mean by the size of the smallest mover
   mutable Reaches reaches_;

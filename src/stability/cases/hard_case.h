@@ -45,7 +45,7 @@ inline constexpr std::array<MetricTraits, 13> metric_table = {{
     {"joint_gap", "m", "largest gap of a joint that holds"},
     {"joint_gap_rms", "m", "root of the mean square of all gaps of all steps"},
     {"penetration", "m", "deepest contact, the first step left out"},
-    {"escaped", "", "bodies that left the case's region"},
+    {"escaped", "", "bodies outside of the case's region at once"},
     {"drift", "m", "longest way of a watched body from its start"},
     {"sink", "m", "farthest descent of a watched body below its start"},
     {"creep", "m/s", "mean speed of the watched body that went farthest in the second half of the run"},

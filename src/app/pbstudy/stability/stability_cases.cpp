@@ -74,6 +74,7 @@ std::vector<StabilityCase> make_stability_cases(const std::vector<StudyScene>& s
 
 std::vector<int> deal_out(const std::vector<StabilityCase>& cases, int num_ranks) {
   std::vector<double> cost;
+  cost.reserve(cases.size());
   for (const StabilityCase& one : cases) cost.push_back(cost_of(one));
   return mpi::lpt_placement(cost, num_ranks);
 }

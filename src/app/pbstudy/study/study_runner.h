@@ -24,10 +24,10 @@ namespace pbmpi::app {
 /// What a study adds to what the files of all studies hold, and to what is printed at the end.
 struct StudyContent {
   std::vector<io::Parameter> parameters;
-  std::vector<io::TableColumn> cases;  ///< a row a case
+  std::vector<io::TableColumn> cases;                          ///< a row a case
   std::map<std::string, std::vector<io::TableColumn>> tables;  ///< others, by name
-  std::string note;                    ///< lines for the end of the run
-  std::string next;                    ///< options of pbreport to go on with
+  std::string note;                                            ///< lines for the end of the run
+  std::string next;                                            ///< options of pbreport to go on with
 };
 
 /// All calls are collective, and made in this order: open_output(), run(), write().
