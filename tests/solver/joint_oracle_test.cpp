@@ -123,6 +123,53 @@ TEST_P(JointOracle, a_motor_at_its_limit_pushes_alike) {
   }
 }
 
+/// The first box of linked_boxes() alone, held to the world by this kind of joint.
+model::Model box_on_the_world(JointKind kind) {
+  model::Model model = linked_boxes(kind);
+  model.joints.pop_back();
+  model.joints[0].body_b = model::no_body;
+  model::Joint& joint = model.joints[0];
+  const model::Pose& pose = model.bodies[0].pose;
+  joint.anchor_b = pose.point_to_outer(joint.anchor_a);
+  joint.axis2_b = pose.direction_to_outer(joint.axis1_a).cross(Vec3(0.3, 0, 1)).normalized();
+  return model;
+}
+
+/// The same world elsewhere.
+model::Model moved(model::Model model, const Vec3& by) {
+  for (model::Body& body : model.bodies) body.pose.position += by;
+  for (model::Joint& joint : model.joints) {
+    if (joint.body_b == model::no_body) joint.anchor_b += by;
+  }
+  return model;
+}
+
+TEST_P(JointOracle, moves_alike_far_from_the_origin) {
+  for (const double distance : {0.0, 10.0, 400.0, 1e5}) {
+    // Positions are rounded to 1.5e-11 m at 1e5 m, and errors of 1e-11 m are corrected at 20 1/s.
+    const double rounding = 1e-14 * distance / 1e-3;
+    const Vec3 by = distance * Vec3(0.6, -0.8, 0);
+    EXPECT_LT(velocity_difference(moved(linked_boxes(GetParam()), by), 3), tolerance + rounding) << distance;
+    if (GetParam() == JointKind::hinge2) continue;  // ODE's needs two bodies
+    EXPECT_LT(velocity_difference(moved(box_on_the_world(GetParam()), by), 3), tolerance + rounding)
+        << distance << " m, on the world";
+  }
+}
+
+TEST_P(JointOracle, limits_and_motors_on_the_world_act_alike_far_from_the_origin) {
+  if (GetParam() == JointKind::ball || GetParam() == JointKind::fixed) GTEST_SKIP() << "has no axis";
+  if (GetParam() == JointKind::hinge2) GTEST_SKIP() << "ODE's needs two bodies";
+  for (const double distance : {0.0, 10.0, 400.0, 1e5}) {
+    const double rounding = 1e-14 * distance / 1e-3;
+    model::Model model = moved(box_on_the_world(GetParam()), distance * Vec3(0.6, -0.8, 0));
+    model.joints[0].motors[0] = {1.5, 40};
+    EXPECT_LT(velocity_difference(model, 3), tolerance + rounding) << distance;
+    model.joints[0].motors[0] = {};
+    model.joints[0].limits[0] = {0.05, 0.3};
+    EXPECT_LT(velocity_difference(model, 3), tolerance + rounding) << distance;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryKind, JointOracle,
                          testing::Values(JointKind::ball, JointKind::hinge, JointKind::slider,
                                          JointKind::universal, JointKind::fixed, JointKind::hinge2),

@@ -124,7 +124,7 @@ void ControlBuilder<T>::set_slider_control(JointLane<V>& joint, const Pair& pair
   rows.control_on[0] = control.has_motor || T::any(at_low + at_high);
   if (!rows.control_on[0] && !goes_on_) return;
   const auto state = rules_.decide(control, at_low, at_high, place);
-  const L3 moment = cross(apart * T::broadcast(static_cast<Scalar>(0.5)), axis);
+  const L3 moment = cross(slider_arm<T>(pair, apart), axis);
   rows_.set_line(axis, moment, moment, state.rhs, T::broadcast(rows_.cfm()), pair, row.row);
   set_bounds(state, row);
   if (rows.control_on[0])

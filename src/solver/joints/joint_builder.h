@@ -101,9 +101,9 @@ void JointBuilder<T>::set_slider_lines(const JointTermsLane<V>& terms, const Pai
   const L3 error = apart + pair.b.rotation * terms.anchor_b;
   L3 directions[2];
   plane_space<T>(axis, directions[0], directions[1]);
-  const V half = T::broadcast(static_cast<Scalar>(0.5));
+  const L3 arm = slider_arm<T>(pair, apart);
   for (int i = 0; i < 2; ++i) {
-    const L3 moment = cross(apart, directions[i]) * half;
+    const L3 moment = cross(arm, directions[i]);
     rows_.set_line(directions[i], moment, moment, rows_.k() * dot(directions[i], error),
                    T::broadcast(rows_.cfm()), pair, rows[i]);
   }

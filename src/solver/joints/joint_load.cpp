@@ -14,7 +14,6 @@ effects::Reaction reaction_of(const JointLoad& load, const model::Model& model, 
     const Vec3 acts_at = effects::offset_of_second(model, joint);
     turn += (rotation * (acts_at - joint.anchor_a)).cross(impulse);
   }
-  if (place == model::HeldPlace::line && joint.body_b == model::no_body) turn += Vec3(load.moment);
   return {impulse.norm() / h, turn.norm() / h};
 }
 

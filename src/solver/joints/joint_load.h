@@ -11,10 +11,9 @@ namespace pbmpi::solver {
 
 /// Sums over the rows of a joint as last solved, on its first body, world frame. Rows along lines all act at
 /// one point: the anchor; of a fixed joint where the second body's centre of mass belongs, of a slider the
-/// middle between the two (with the origin, if there is no second).
+/// middle between the two, or the centre of one that slides on the world.
 struct JointLoad {
   double impulse[3] = {};  ///< [N s] of rows along lines
-  double moment[3] = {};   ///< [N m s] of line rows (hinge2, slider), about the body's centre of mass
   double turn[3] = {};     ///< [N m s] of rows about axes
 };
 
@@ -34,7 +33,6 @@ JointLoad load_of(const JointRows<T, kind>& rows, int lane) {
       add(row.axis, impulse, load.turn);
     } else {
       add(row.direction, impulse, load.impulse);
-      add(row.moment_a, impulse, load.moment);
     }
   });
   return load;

@@ -59,6 +59,15 @@ class RowBuilder {
   Scalar k_, cfm_, factor_;
 };
 
+/// From the centre of a to where a slider's lines act: the middle of its two bodies, which are `apart`; the
+/// centre itself if a slides on the world, whose origin says nothing of the joint (as in ODE).
+template <class T>
+PBMPI_LANES Vec3L<typename T::V> slider_arm(const JointBodies<typename T::V>& pair,
+                                            const Vec3L<typename T::V>& apart) {
+  const auto zero = T::broadcast(0), half = T::broadcast(static_cast<typename T::Scalar>(0.5));
+  return apart * (pair.b.inv_mass > zero ? half : zero);
+}
+
 template <class T>
 PBMPI_LANES void RowBuilder<T>::set_axis(const L3& axis, const V& rhs, const Pair& pair,
                                          AxisRow<V>& row) const {
