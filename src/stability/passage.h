@@ -111,7 +111,7 @@ class PassageFinder {
   std::vector<Extent> extents_;          ///< [num_bodies]
   double least_size_ = model::infinity;  ///< of movers_ [m]
   std::vector<Plane> planes_;
-  // Of the last call, kept for their memory.
+  // Results of the last call, members so that they keep their memory.
   mutable std::vector<model::Vec3> ways_;        ///< [num_bodies] of the centres
   mutable std::vector<double> squared_lengths_;  ///< [num_bodies] of ways_
   mutable std::vector<int>

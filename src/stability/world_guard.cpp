@@ -154,7 +154,7 @@ WorldGuard::WorldGuard(int world, std::shared_ptr<const model::Model> model, con
       settings_(&settings),
       guards_(*model_, settings.stepper.dt_s, settings.limits) {}
 
-/// Of a world that stands only what follows from its state is measured.
+/// In a world that stands only what follows from its state is measured.
 Watched WorldGuard::begin(const State& state) const {
   Watched watched{state, {}};
   observe_state(*model_, watched.state, watched.seen);

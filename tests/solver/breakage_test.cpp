@@ -1,4 +1,5 @@
-// The effect "breakable_joints" in all steppers: quick, direct and sor.
+// The effect "breakable_joints" in all steppers: quick, direct and sor. (Long because every kind of joint
+// breaks, and is released, in each of them by the same helpers.)
 #include "effects/breakage.h"
 
 #include <gtest/gtest.h>

@@ -174,7 +174,8 @@ void CaseWatch::see_momentum(const State& state) {
 void CaseWatch::see_expected(const State& state, double time_s) {
   for (std::size_t i = 0; i < expected_body_.size(); ++i) {
     const Expectation& expected = case_->expectations[i];
-    if (std::abs(time_s - expected.at_s) > dt_s_ / 2) continue;
+    const bool is_taken = !std::isnan(now_.expected_off[i]);
+    if (is_taken || time_s < expected.at_s - dt_s_ / 2) continue;
     const auto body = static_cast<std::size_t>(expected_body_[i]);
     now_.expected_off[i] = std::abs(quantity_of(expected, start_, state, body) - expected.value);
   }

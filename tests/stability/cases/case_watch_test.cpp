@@ -128,6 +128,19 @@ TEST(CaseWatch, compares_a_quantity_at_its_time_with_what_is_expected) {
   EXPECT_TRUE(std::isnan(watch.result().expected_off[1])) << "the run ended before";
 }
 
+TEST(CaseWatch, takes_the_first_state_after_the_time_if_it_sees_only_some) {
+  const Model model = support::free_box();
+  HardCase hard_case = case_of(1);
+  hard_case.expectations = {{model.bodies[0].name, Quantity::x, 0.5, 3, {0.1, 1}}};
+  CaseWatch watch(hard_case, model, dt_s);
+  State state = initial_state(model);
+  for (const std::int64_t step : {47, 52, 57}) {
+    state.position[0].x() = static_cast<double>(step) / 10;
+    see(watch, model, state, step);
+  }
+  EXPECT_NEAR(watch.result().expected_off[0], 2.2, 1e-12) << "of step 52";
+}
+
 TEST(CaseWatch, notes_when_a_limit_was_first_passed) {
   const Model model = support::free_box();
   HardCase hard_case = case_of(1);

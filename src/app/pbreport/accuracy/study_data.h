@@ -24,8 +24,8 @@ struct StudyCase {
   double median_time_s = 0;     ///< of the measured frames
   double row_visits = 0;
   double joint_gap_m = 0, penetration_m = 0, energy_change_j = 0;
-  /// Of the scene at rest; NaN if the study did not watch it: bodies that fell, when the first did, creep of
-  /// the fastest [m/s], energy gained without a cause [J].
+  /// The scene at rest: bodies that fell, when the first did, creep of the fastest [m/s], energy gained
+  /// without a cause [J]. NaN if the study did not watch it.
   double rest_fallen = NAN, rest_fell_at_s = NAN, rest_creep_m_s = NAN, rest_energy_gain_j = NAN;
   analysis::ErrorTable defect, drift;
 

@@ -11,7 +11,7 @@
 namespace pbmpi::app {
 
 core::ExitCode run_effects_report(const std::vector<std::string>& args, std::ostream& out) {
-  const EffectsReportOptions options = parse_effects_report_options(args);
+  const ReportOfStudyOptions options = parse_effects_report_options(args);
   if (options.help) {
     out << effects_report_help_text();
     return core::ExitCode::done;

@@ -8,12 +8,8 @@
 
 namespace pbmpi::app {
 
-struct EffectsReportOptions : ReportOfStudyOptions {
-  bool markdown = false;
-};
-
 /// Throws core::InputError with one clear message.
-EffectsReportOptions parse_effects_report_options(const std::vector<std::string>& args);
+ReportOfStudyOptions parse_effects_report_options(const std::vector<std::string>& args);
 
 std::string effects_report_help_text();
 

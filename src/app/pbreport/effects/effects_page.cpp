@@ -203,7 +203,7 @@ io::html::PageSection scene_section(const EffectScene& scene) {
 }  // namespace
 
 void write_effects_page(const std::string& path, const io::TableFile& file,
-                        const std::vector<EffectScene>& scenes, const EffectsReportOptions& options) {
+                        const std::vector<EffectScene>& scenes, const ReportOfStudyOptions& options) {
   io::html::ChartPage page;
   page.title = "What effects cost";
   page.subtitle = options.file + "; " + instructions_text(file);

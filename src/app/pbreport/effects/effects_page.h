@@ -11,6 +11,6 @@ namespace pbmpi::app {
 
 /// Throws core::InputError if the page cannot be written.
 void write_effects_page(const std::string& path, const io::TableFile& file,
-                        const std::vector<EffectScene>& scenes, const EffectsReportOptions& options);
+                        const std::vector<EffectScene>& scenes, const ReportOfStudyOptions& options);
 
 }  // namespace pbmpi::app

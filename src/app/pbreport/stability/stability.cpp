@@ -11,7 +11,7 @@
 namespace pbmpi::app {
 
 core::ExitCode run_stability_report(const std::vector<std::string>& args, std::ostream& out) {
-  const StabilityReportOptions options = parse_stability_report_options(args);
+  const ReportOfStudyOptions options = parse_stability_report_options(args);
   if (options.help) {
     out << stability_report_help_text();
     return core::ExitCode::done;

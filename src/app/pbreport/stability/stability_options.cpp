@@ -2,9 +2,6 @@
 
 #include <sstream>
 
-#include "app/common/options.h"
-#include "core/error.h"
-
 namespace pbmpi::app {
 namespace {
 
@@ -14,9 +11,7 @@ po::options_description visible_options() {
   po::options_description all("Options");
   add_scene_choice(all);
   add_output_options("a map of cases and settings; a click on a field shows its curves and its replay", all);
-  all.add_options()                               //
-      ("json", "print all as one JSON document")  //
-      ("markdown", "print the map as a table instead");
+  add_print_options("print the map as a table instead", all);
   add_general_options("--json or --markdown", all);
   return all;
 }
@@ -33,15 +28,9 @@ std::string stability_report_help_text() {
   return text.str();
 }
 
-StabilityReportOptions parse_stability_report_options(const std::vector<std::string>& args) {
-  const po::variables_map values = parse_study_report(args, visible_options());
-  StabilityReportOptions options;
-  static_cast<ReportOfStudyOptions&>(options) =
-      report_of_study_options(values, "a study of stability", "stability.h5");
-  if (options.help) return options;
-  options.markdown = values.count("markdown") != 0;
-  core::require_input(!options.json || !options.markdown, "--json and --markdown: print one of the two");
-  return options;
+ReportOfStudyOptions parse_stability_report_options(const std::vector<std::string>& args) {
+  return report_of_study_options(parse_study_report(args, visible_options()), "a study of stability",
+                                 "stability.h5");
 }
 
 }  // namespace pbmpi::app

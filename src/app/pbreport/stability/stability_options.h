@@ -8,12 +8,8 @@
 
 namespace pbmpi::app {
 
-struct StabilityReportOptions : ReportOfStudyOptions {
-  bool markdown = false;
-};
-
 /// Throws core::InputError with one clear message.
-StabilityReportOptions parse_stability_report_options(const std::vector<std::string>& args);
+ReportOfStudyOptions parse_stability_report_options(const std::vector<std::string>& args);
 
 std::string stability_report_help_text();
 

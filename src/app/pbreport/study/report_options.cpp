@@ -21,6 +21,11 @@ void add_output_options(const std::string& page, po::options_description& descri
       ("csv", po::value<std::string>()->value_name("OUT"), "all cases as comma-separated values");
 }
 
+void add_print_options(const std::string& markdown, po::options_description& description) {
+  description.add_options()("json", "print all as one JSON document")  //
+      ("markdown", markdown.c_str());
+}
+
 void add_scene_choice(po::options_description& description) {
   description.add_options()("scene",
                             po::value<std::vector<std::string>>()->multitoken()->value_name("NAME..."),
@@ -43,6 +48,8 @@ ReportOfStudyOptions report_of_study_options(const po::variables_map& values, co
   options.html = output_path(values, "html");
   options.csv = output_path(values, "csv");
   options.json = values.count("json") != 0;
+  options.markdown = values.count("markdown") != 0;
+  require_input(!options.json || !options.markdown, "--json and --markdown: print one of the two");
   options.quiet = values.count("quiet") != 0;
   require_input(values.count("file") != 0,
                 "no file given; name the file of " + what + ", e.g. pbreport " + example);

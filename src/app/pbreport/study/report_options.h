@@ -15,6 +15,7 @@ struct ReportOfStudyOptions {
   std::vector<std::string> scenes;  ///< empty: all in the file
   std::optional<std::string> html, csv;
   bool json = false, quiet = false;
+  bool markdown = false;  ///< where add_print_options() offers it; never with json
 };
 
 /// --config and --quiet. `printed`: what --quiet lets through.
@@ -22,6 +23,8 @@ void add_general_options(const std::string& printed,
                          boost::program_options::options_description& description);
 /// --html and --csv. `page`: what the page shows.
 void add_output_options(const std::string& page, boost::program_options::options_description& description);
+/// --json and --markdown. `markdown`: what the latter prints.
+void add_print_options(const std::string& markdown, boost::program_options::options_description& description);
 /// --scene.
 void add_scene_choice(boost::program_options::options_description& description);
 

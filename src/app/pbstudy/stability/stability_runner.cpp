@@ -83,12 +83,14 @@ void run_whole(const StabilityCase& one, const HardScene& hard, Recorder& record
   const std::int64_t stride = std::max<std::int64_t>(1, one.num_steps / most_looks);
   core::PhaseTimes times;
   double seconds = 0;
-  for (std::int64_t step = 0; step < one.num_steps; step += stride) {
+  for (std::int64_t step = 0; step < one.num_steps;) {
+    const std::int64_t num_steps = std::min(stride, one.num_steps - step);
     const double start_s = core::thread_cpu_s();
-    stepper->advance(static_cast<int>(stride), times);
+    stepper->advance(static_cast<int>(num_steps), times);
     seconds += core::thread_cpu_s() - start_s;
-    recorder.see(stepper->state(0), stepper->observables(0), step + stride);
-    recorder.result.step_time_s = seconds / static_cast<double>(step + stride);
+    step += num_steps;
+    recorder.see(stepper->state(0), stepper->observables(0), step);
+    recorder.result.step_time_s = seconds / static_cast<double>(step);
     if (stepper->observables(0).nonfinite > 0) return;
   }
 }
