@@ -37,6 +37,16 @@ class BadInput(ProgramTest):
     def test_unknown_scene_names_the_nearest(self):
         self.refused(3, ["--scene", "100CrSq"], "100CrSq", "100CrSk")
 
+    def test_a_seed_below_zero_or_an_empty_name_is_no_default(self):
+        self.refused(2, ["--scene", "CrashSk", "--seed", "-1"], "--seed", "-1", "number")
+        self.refused(2, ["--scene", "CrashSk", "--seed", "1e3"], "--seed", "number")
+        self.refused(2, ["--scene", "CrashSk", "-o", ""], "--output", "empty")
+
+    def test_an_integer_that_no_double_equals_is_a_number(self):
+        huge = str(2**53 + 1)
+        self.refused(2, self.scene(GOOD_SCENE.replace("mass = 10", f"mass = -{huge}")), "scene.toml:10:", "mass", "above 0")
+        self.assertEqual(self.pbmpi(1, *self.scene(GOOD_SCENE.replace("mass = 10", f"mass = {huge}")), "--describe").returncode, 0)
+
     def test_missing_scene(self):
         self.refused(2, [], "--scene", "--list-scenes")
 

@@ -6,6 +6,7 @@
 #include "app/common/version.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 
@@ -73,6 +74,18 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
     throw core::InputError(std::string(error.what()) + "; see --help");
   }
   return values;
+}
+
+void add_seed_option(const std::string& meaning, po::options_description& description) {
+  // As text: Boost would take -1 for 2^64 - 1.
+  description.add_options()("seed", po::value<std::string>()->default_value("1")->value_name("N"),
+                            meaning.c_str());
+}
+
+std::uint64_t given_seed(const po::variables_map& values) {
+  stepping::StepperSettings settings;
+  set(stepping::step_option("solver-seed"), values["seed"].as<std::string>(), "--seed", settings);
+  return settings.seed;
 }
 
 std::optional<std::string> output_path(const po::variables_map& values, const char* option) {

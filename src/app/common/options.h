@@ -1,6 +1,7 @@
 /// What the three programs' command lines have in common.
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -29,6 +30,11 @@ boost::program_options::variables_map parse_command_line(
     const std::vector<std::string>& args, const boost::program_options::options_description& description,
     const boost::program_options::positional_options_description& positional = {},
     const std::string& last = "");
+
+/// Adds --seed, 1 by default; `meaning`: for --help.
+void add_seed_option(const std::string& meaning, boost::program_options::options_description& description);
+/// Throws core::InputError unless it is a whole number from 0 to 2^64 - 1.
+std::uint64_t given_seed(const boost::program_options::variables_map& values);
 
 /// The file to write that an option names, if it is given. Throws core::InputError for an empty name.
 std::optional<std::string> output_path(const boost::program_options::variables_map& values,

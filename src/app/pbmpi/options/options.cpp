@@ -37,9 +37,8 @@ po::options_description options_description() {
       ("replicas", po::value<int>()->value_name("N"), "worlds; default: the scene's")                   //
       ("frames", po::value<int>()->value_name("N"), "measured frames; default: the scene's")            //
       ("warmup", po::value<int>()->value_name("N"),
-       "frames before the measured ones; default: the scene's, 3")  //
-      ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"),
-       "of the solver's row order and of the scene's variation");
+       "frames before the measured ones; default: the scene's, 3");
+  add_seed_option("of the solver's row order and of the scene's variation", what);
   add_step_option(stepping::step_option("solver-seed"), what);
   what.add_options()  //
       ("effects", po::value<std::string>()->value_name("+NAME,-NAME"),
@@ -200,13 +199,13 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   options.steps_per_frame = given<int>(values, "steps-per-frame");
   options.step = step_arguments(values);
   options.decomposition = choice<Decomposition>(values, "decompose", decomposition_names);
-  options.seed = values["seed"].as<std::uint64_t>();
+  options.seed = given_seed(values);
   options.feec = values.count("feec") != 0;
   for (const std::string_view name : estimate_options) {
     const std::string option = "estimate-" + std::string(name);
     if (values.count(option) != 0) options.estimate.emplace(name, values[option].as<std::string>());
   }
-  options.output = given<std::string>(values, "output");
+  options.output = output_path(values, "output");
   options.no_output = values.count("no-output") != 0;
   options.record_every = values["record-every"].as<int>();
   options.record_islands = values.count("record-islands") != 0;

@@ -30,9 +30,8 @@ po::options_description options_description() {
       ("most-work", po::value<double>()->value_name("N"),
        "leave out cases of more than so many bodies x steps; default: none");
   po::options_description how("How to measure");
+  add_seed_option("of the scene's variation and of the solver", how);
   how.add_options()  //
-      ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"),
-       "of the scene's variation and of the solver")  //
       ("poses", po::value<int>()->default_value(1200)->value_name("N"),
        "most poses of a case that the file keeps for the replay; 0: none");
   po::options_description all;

@@ -18,10 +18,10 @@ po::options_description how_to_measure(const HowOptions& says) {
       ("replicas", po::value<int>()->value_name("N"), "worlds of a case; default: the scene's")          //
       ("frames", po::value<int>()->value_name("N"), "measured frames; default: the scene's")             //
       ("warmup", po::value<int>()->value_name("N"), "frames before them; default: the scene's")          //
-      ("seed", po::value<std::uint64_t>()->default_value(1)->value_name("N"), says.seed)                 //
       ("repeats", po::value<int>()->default_value(says.default_repeats)->value_name("N"), says.repeats)  //
       ("floor-seeds", po::value<int>()->default_value(says.default_floor_seeds)->value_name("N"),        //
        says.floor_seeds);
+  add_seed_option(says.seed, how);
   return how;
 }
 
@@ -43,8 +43,8 @@ StudyOptions study_options(const po::variables_map& values, const std::string& p
   options.overrides = {given(values, "replicas", 1), given(values, "frames", 1), given(values, "warmup", 0)};
   options.repeats = given(values, "repeats", 1).value_or(1);
   options.floor_seeds = given(values, "floor-seeds", 1).value_or(0);
-  options.seed = values["seed"].as<std::uint64_t>();
-  options.output = values["output"].as<std::string>();
+  options.seed = given_seed(values);
+  options.output = output_path(values, "output").value();
   return options;
 }
 
