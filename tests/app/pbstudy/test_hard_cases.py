@@ -2,7 +2,9 @@
 
 known_failures.txt lists what does not pass. A case that fails and is not listed fails this test, and so does one that is
 listed and passes: then the list is written anew (PBMPI_WRITE_KNOWN_FAILURES=1 in the environment) and shows in the commit what
-became better or worse. Whether a failure is degraded or broken, and its number, is there to be read: falls are chaotic.
+became better or worse. Whether a failure is degraded or broken, and its number, is there to be read: falls are chaotic. So
+are numbers near a limit, since sines of another processor's C library have other last bits: within a fifth of the limit a
+case may be on either side of it.
 """
 import os
 import sys
@@ -14,6 +16,15 @@ from harness import BIN, ProgramTest  # noqa: E402
 LIST = os.path.join(os.path.dirname(os.path.abspath(__file__)), "known_failures.txt")
 MOST_WORK = 50_000  # bodies x steps: 77 cases, some 20 s on two cores
 HEAD = "# Hard cases that do not pass: case | setting | verdict | what decided. See test_hard_cases.py.\n"
+
+
+NEAR = 1.2  # of the limit, or its inverse
+
+
+def is_clear(cell):
+    """Whether the number that decided is well to one side of its limit."""
+    value, limit = cell["value"], cell["right_up_to"]
+    return value is None or limit == 0 or not limit / NEAR < value < limit * NEAR
 
 
 def read_list():
@@ -41,10 +52,11 @@ class HardCases(ProgramTest):
                     number = "not finite" if cell["value"] is None else f"{cell['value']:.3g} {cell['unit']}".strip()
                     file.write(f"{case} | {setting} | {cell['verdict']} | {cell['decided_by']} {number}\n")
         known = read_list()
-        self.assertGreater(len(results), 500, "cases were run")
-        self.assertEqual(sorted(set(failing) - known), [], "these passed before, and fail now")
-        self.assertEqual(sorted(known - set(failing)), [], "these are listed as failures, and pass (or are gone): write the "
-                                                           "list anew")
+        clear = {key for key, cell in results.items() if is_clear(cell)}
+        self.assertGreater(len(clear), 500, "cases were run")
+        self.assertEqual(sorted((set(failing) - known) & clear), [], "these passed before, and fail now")
+        passing = (known - set(failing)) & clear | known - set(results)
+        self.assertEqual(sorted(passing), [], "these are listed as failures, and pass (or are gone): write the list anew")
 
 
 if __name__ == "__main__":
