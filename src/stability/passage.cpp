@@ -175,7 +175,7 @@ void PassageFinder::Reaches::set(std::span<const Vec3> position, std::span<const
   const std::size_t num_bodies = position.size();
   for (std::vector<float>* numbers : {&x_, &y_, &z_, &radius_}) numbers->resize(num_bodies);
   hits_.resize(num_bodies);
-  const Vec3 origin = position.front();
+  const Vec3& origin = position.front();
   for (std::size_t body = 0; body < num_bodies; ++body) {
     const Vec3 at = position[body] - origin;
     x_[body] = static_cast<float>(at.x());
