@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "model/step_memory.h"
 
 namespace pbmpi::model {
 
@@ -42,6 +43,7 @@ struct State {
   /// [num_joints] the step in which each broke, or unbroken; with the effect "breakable_joints", else none.
   /// What is broken stays so, also where the effect is left out.
   std::vector<std::int32_t> broken_in;
+  StepMemory memory;  ///< of `sor` with a warm start
   GuardMemory guard;
 
   int num_bodies() const { return static_cast<int>(position.size()); }

@@ -30,14 +30,24 @@ enum class Colliders { lanes, ode };
 /// key (as ODE's quickstep does), or that of the model in all.
 enum class RowOrder { shuffled, fixed };
 
+/// Which directions friction may take at a contact: all alike (the cone of Coulomb's law), or each of two
+/// axes for itself (the pyramid of ODE's dContactApprox1, which along its diagonal holds 1.41 times as much).
+enum class Friction { pyramid, cone };
+
 /// What a run chooses about the step; the rest is in the Model.
 struct StepperSettings {
   StepperKind kind = StepperKind::quick;
   double dt_s = 0.01;
-  int iterations = 20;      ///< sweeps of an iterative solver, in each substep
-  int substeps = 1;         ///< sor: parts of a step without new collision detection
-  double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
-  double warm_start = 0;    ///< sor: share of the impulses that a substep takes over from the one before
+  int iterations = 20;           ///< sweeps of an iterative solver, in each substep
+  int substeps = 1;              ///< sor: parts of a step without new collision detection
+  double sor_factor = 1.3;       ///< sor: over-relaxation (ODE's default, which quick has built in)
+  double warm_start = 0;         ///< sor: share of the impulses that a substep takes over from the one before
+  int relax = 0;                 ///< sor: sweeps at the end of a substep that push nothing out
+  double contact_frequency = 0;  ///< [Hz] sor: of contacts as springs; 0: the scene's ERP and CFM
+  double contact_damping = 10;   ///< sor: their damping ratio
+  double joint_frequency = 0;    ///< [Hz] sor: of joints as springs; 0: the scene's ERP and CFM
+  double joint_damping = 2;      ///< sor: their damping ratio
+  Friction friction = Friction::pyramid;  ///< sor
   RowOrder row_order = RowOrder::shuffled;
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;

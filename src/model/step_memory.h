@@ -1,0 +1,41 @@
+/// What a step hands on to the next beside poses and velocities.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/contact.h"
+
+namespace pbmpi::model {
+
+/// The force with which a contact point ended a step, and how the next step finds it: by its pair of geoms,
+/// and among the points of a pair by its place.
+struct ContactForce {
+  GeomPair geoms;
+  int body_a = 0, body_b = no_body;  ///< as in Contact
+  Vec3 arm = Vec3::Zero();           ///< [m] from the centre of body a to the point, world axes
+  double normal = 0;                 ///< [N]
+  Vec3 friction = Vec3::Zero();      ///< [N] on body a, world frame
+};
+
+/// The forces with which a joint ended a step, on its first body, world frame.
+struct JointForce {
+  Vec3 force = Vec3::Zero();   ///< [N] of the rows along lines
+  Vec3 torque = Vec3::Zero();  ///< [N m] of the rows about axes
+  double control[2] = {};      ///< [N] or [N m] of the limits and motors of the joint's axes
+};
+
+/// Forces from which the next step's solver starts. They are forces, not impulses, so that a step of another
+/// length finds them right. Empty where the stepper remembers nothing.
+struct StepMemory {
+  std::vector<ContactForce> contacts;  ///< in canonical order
+  std::vector<JointForce> joints;      ///< [num_joints] or none
+
+  bool empty() const { return contacts.empty() && joints.empty(); }
+  void clear() {
+    contacts.clear();
+    joints.clear();
+  }
+};
+
+}  // namespace pbmpi::model
