@@ -20,8 +20,8 @@ model::State unpack(std::span<const double> packed);
 
 /// Throws core::RunError unless a state of `world` has a row for each body of its model.
 void require_rows(int world, const model::State& state, const model::Model& model);
-/// Throws what require_rows() throws, and core::RunError unless State::broken_in, if there is one, has an
-/// entry for each joint of the model.
+/// Throws what require_rows() throws, and core::RunError unless State::broken_in and the memory's joints, if
+/// there are any, have an entry for each joint of the model, and the model has what contact forces act on.
 void require_fit(int world, const model::State& state, const model::Model& model);
 
 }  // namespace pbmpi::mpi

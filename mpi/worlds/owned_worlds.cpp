@@ -12,6 +12,22 @@ namespace {
 
 constexpr int state_tag = 1;
 
+/// States differ in length, also from step to step: the contact forces that they hold come and go.
+void send_state(const Communicator& comm, const model::State& state, int to) {
+  const std::vector<double> packed = pack(state);
+  const std::int64_t size = std::ssize(packed);
+  comm.send(std::span<const std::int64_t>(&size, 1), to, state_tag);
+  comm.send(std::span<const double>(packed), to, state_tag);
+}
+
+model::State receive_state(const Communicator& comm, int from) {
+  std::int64_t size = 0;
+  comm.recv(std::span(&size, 1), from, state_tag);
+  std::vector<double> packed(static_cast<std::size_t>(size));
+  comm.recv(std::span(packed), from, state_tag);
+  return unpack(packed);
+}
+
 }  // namespace
 
 OwnedWorlds::OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepper, BuildWorld build,
@@ -29,7 +45,7 @@ OwnedWorlds::OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepp
       states.erase(world);
     }
   });
-  exchange_sizes();
+  count_bodies();
 }
 
 std::map<int, model::State> OwnedWorlds::scatter_states(std::span<const model::State> states) const {
@@ -44,16 +60,9 @@ std::map<int, model::State> OwnedWorlds::scatter_states(std::span<const model::S
     if (comm_->is_root() && owner == Communicator::root) own[world] = states[world];
     if (owner == Communicator::root) continue;
     if (comm_->is_root()) {
-      const std::vector<double> packed = pack(states[world]);
-      const std::int64_t size = std::ssize(packed);
-      comm_->send(std::span<const std::int64_t>(&size, 1), owner, state_tag);
-      comm_->send(std::span<const double>(packed), owner, state_tag);
+      send_state(*comm_, states[world], owner);
     } else if (owner == comm_->rank()) {
-      std::int64_t size = 0;
-      comm_->recv(std::span(&size, 1), Communicator::root, state_tag);
-      std::vector<double> packed(static_cast<std::size_t>(size));
-      comm_->recv(std::span(packed), Communicator::root, state_tag);
-      own[world] = unpack(packed);
+      own[world] = receive_state(*comm_, Communicator::root);
     }
   }
   return own;
@@ -64,13 +73,11 @@ std::vector<model::State> OwnedWorlds::gather_states() const {
   for (int world = 0; world < std::ssize(placement_); ++world) {
     const int owner = placement_[world];
     if (owner == comm_->rank() && !comm_->is_root()) {
-      comm_->send(std::span<const double>(pack(stepper_->state(world))), Communicator::root, state_tag);
+      send_state(*comm_, stepper_->state(world), Communicator::root);
     } else if (comm_->is_root() && owner == Communicator::root) {
       states.push_back(stepper_->state(world));
     } else if (comm_->is_root()) {
-      std::vector<double> packed(static_cast<std::size_t>(state_doubles_[world]));
-      comm_->recv(std::span(packed), owner, state_tag);
-      states.push_back(unpack(packed));
+      states.push_back(receive_state(*comm_, owner));
     }
   }
   return states;
@@ -83,15 +90,10 @@ void OwnedWorlds::find_own() {
   }
 }
 
-void OwnedWorlds::exchange_sizes() {
+void OwnedWorlds::count_bodies() {
   std::vector<std::int64_t> num_bodies(placement_.size(), 0);
-  state_doubles_.assign(placement_.size(), 0);
-  for (const int world : ids_) {
-    num_bodies[world] = stepper_->model(world).num_bodies();
-    state_doubles_[world] = packed_size(stepper_->state(world));
-  }
+  for (const int world : ids_) num_bodies[world] = stepper_->model(world).num_bodies();
   comm_->allreduce(num_bodies, Reduce::max);
-  comm_->allreduce(state_doubles_, Reduce::max);
   for (const std::int64_t count : num_bodies) table_.body_offset.push_back(table_.body_offset.back() + count);
 }
 
@@ -110,11 +112,9 @@ void OwnedWorlds::move(std::span<const Move> moves, std::int64_t step) {
   std::vector<std::pair<int, model::State>> arrivals;
   for (const Move& move : moves) {
     if (placement_[move.part] == comm_->rank()) {
-      comm_->send(std::span<const double>(pack(stepper_->state(move.part))), move.to, state_tag);
+      send_state(*comm_, stepper_->state(move.part), move.to);
     } else if (move.to == comm_->rank()) {
-      std::vector<double> packed(state_doubles_[move.part]);
-      comm_->recv(std::span(packed), placement_[move.part], state_tag);
-      arrivals.emplace_back(move.part, unpack(packed));
+      arrivals.emplace_back(move.part, receive_state(*comm_, placement_[move.part]));
     }
   }
   agree_on_errors(*comm_, [&] {

@@ -48,7 +48,7 @@ class OwnedWorlds {
  private:
   /// Collective. Sends root's states to the owners of their worlds; returns this rank's.
   std::map<int, model::State> scatter_states(std::span<const model::State> states) const;
-  void exchange_sizes();
+  void count_bodies();
   void find_own();
 
   const Communicator* comm_;
@@ -56,7 +56,6 @@ class OwnedWorlds {
   BuildWorld build_;
   Placement placement_;
   stepping::WorldTable table_;
-  std::vector<std::int64_t> state_doubles_;  ///< [num_worlds] length of each packed state
   std::vector<int> ids_;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/hash.h"
+#include "model/memory_rows.h"
 
 namespace pbmpi::model {
 
@@ -48,6 +49,7 @@ std::uint64_t hash(const State& state) {
     hash.add(static_cast<std::uint64_t>(joint));
     hash.add(static_cast<std::uint64_t>(state.broken_in[joint]));
   }
+  add_bits(state.memory, hash);
   if (state.guard.frozen_in >= 0) hash.add(static_cast<std::uint64_t>(state.guard.frozen_in));
   return hash.value();
 }

@@ -41,8 +41,10 @@ class OdeStepper final : public stepping::WorldStepper {
     std::optional<stepping::StepProfile> profile;
     std::unique_ptr<World> world;  ///< none once the state is not finite: ODE would stop at an assertion
 
-    /// A state from elsewhere may lack what the effects "sleeping" and "breakable_joints" add.
+    /// A state from elsewhere may lack what the effects "sleeping" and "breakable_joints" add, and have
+    /// forces of a stepper that remembers them.
     void complete_state() {
+      state.memory.clear();
       state.rest.assign(world->rest().begin(), world->rest().end());
       state.broken_in = world->broken_in();
     }

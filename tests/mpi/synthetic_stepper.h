@@ -36,8 +36,9 @@ class SyntheticStepper final : public stepping::WorldStepper {
   struct Behaviour {
     std::function<double(int world)> cost_s = [](int) { return 1e-3; };
     std::function<void(int world, std::int64_t step)> before_step = [](int, std::int64_t) {};  ///< may throw
-    bool rests = false;  ///< does the state say how long bodies have rested?
-    int num_joints = 0;  ///< of which the state says in which step they broke
+    bool rests = false;      ///< does the state say how long bodies have rested?
+    int num_joints = 0;      ///< of which the state says in which step they broke
+    bool remembers = false;  ///< does a step hand on forces, sometimes more and sometimes fewer?
     std::function<bool(int world, std::int64_t step)> turns_nan = [](int, std::int64_t) { return false; };
   };
 
@@ -105,10 +106,25 @@ class SyntheticStepper final : public stepping::WorldStepper {
       if (world.step == static_cast<std::int64_t>(3 * i + 1))
         world.state.broken_in[i] = static_cast<std::int32_t>(world.step);
     }
+    if (behaviour_.remembers) remember(id, world);
     if (behaviour_.turns_nan(id, world.step)) {
       world.state.position[0].x() = std::numeric_limits<double>::quiet_NaN();
     }
     ++world.step;
+  }
+
+  /// Depends on what was remembered before, and has another length in each step.
+  void remember(int id, World& world) const {
+    model::StepMemory& memory = world.state.memory;
+    const double before = memory.contacts.empty() ? 0.1 * id : memory.contacts.front().normal;
+    memory.contacts.resize(static_cast<std::size_t>((id + world.step) % 4));
+    for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
+      const double force = 0.7 * before + static_cast<double>(i);
+      memory.contacts[i] = {{0, 1}, 0, model::no_body, {force, 0, 1}, force, {0, 0.3 * force, 0}};
+    }
+    memory.joints.resize(static_cast<std::size_t>(behaviour_.num_joints));
+    for (model::JointForce& joint : memory.joints)
+      joint.torque = 0.5 * joint.torque + world.state.position[0];
   }
 
   Behaviour behaviour_;

@@ -170,7 +170,10 @@ void SorStepper::begin_step(int iterations, core::PhaseTimes& times) {
 void SorStepper::look(Group& group, core::PhaseTimes& times) {
   LapTimer timer(times);
   if (group.looks.empty()) {  // room for them, kept from step to step
-    for (const SorWorld* world : group.worlds) group.looks.push_back(world->state());
+    for (const SorWorld* world : group.worlds) {
+      group.looks.push_back(world->state());
+      group.looks.back().memory.clear();  // nothing goes on from a look
+    }
   }
   if (!group.sleeps) {
     group.pack->look(group.looks);

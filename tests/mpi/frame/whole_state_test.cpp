@@ -18,6 +18,7 @@ double odd_nan() {
   return number;
 }
 
+/// With as many contact forces as joints.
 model::State sample(bool rests, int num_joints) {
   model::State state;
   state.resize(3);
@@ -33,6 +34,10 @@ model::State sample(bool rests, int num_joints) {
     state.rest[2].idle_steps = 29;
   }
   for (int joint = 0; joint < num_joints; ++joint) state.broken_in.push_back(joint == 1 ? 40000 : -1);
+  for (int point = 0; point < num_joints; ++point)
+    state.memory.contacts.push_back({{1, 2}, 1, point - 1, {0.1 * point, -0.0, 0.2}, odd_nan(), {1, 2, 3}});
+  for (int joint = 0; joint < num_joints; ++joint)
+    state.memory.joints.push_back({{0.1 * joint, 1, 2}, {-0.0, odd_nan(), 3}, {4, 1.0 / 3}});
   state.guard = {1.0 / 3, 1e300, rests ? 40001 : -1};
   return state;
 }
@@ -42,7 +47,7 @@ bool same_bytes(const std::vector<Row>& a, const std::vector<Row>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Row)) == 0;
 }
 
-TEST(WholeState, comes_back_bit_for_bit_with_and_without_rest_and_joints) {
+TEST(WholeState, comes_back_bit_for_bit_with_and_without_rest_joints_and_memory) {
   for (const bool rests : {false, true}) {
     for (const int num_joints : {0, 5}) {
       const model::State state = sample(rests, num_joints);
@@ -54,6 +59,9 @@ TEST(WholeState, comes_back_bit_for_bit_with_and_without_rest_and_joints) {
       EXPECT_TRUE(same_bytes(found.velocity, state.velocity));
       EXPECT_TRUE(same_bytes(found.angular_velocity, state.angular_velocity));
       EXPECT_EQ(found.broken_in, state.broken_in);
+      EXPECT_EQ(found.memory.contacts.size(), state.memory.contacts.size());
+      EXPECT_EQ(found.memory.joints.size(), state.memory.joints.size());
+      EXPECT_EQ(model::hash(found), model::hash(state)) << "all bits, of the memory too";
       EXPECT_EQ(found.guard.energy_gain_j, state.guard.energy_gain_j);
       EXPECT_EQ(found.guard.largest_kinetic_j, state.guard.largest_kinetic_j);
       EXPECT_EQ(found.guard.frozen_in, state.guard.frozen_in);
@@ -77,12 +85,31 @@ TEST(WholeState, lengths_that_do_not_fit_are_refused) {
 TEST(WholeState, a_state_of_another_model_is_refused) {
   model::Model model;
   model.bodies.resize(3);
-  model.joints.resize(5);
-  EXPECT_NO_THROW(require_fit(0, sample(true, 5), model));
+  model.joints.resize(4);
+  model.geoms.resize(3);
+  EXPECT_NO_THROW(require_fit(0, sample(true, 4), model));
   EXPECT_NO_THROW(require_fit(0, sample(false, 0), model)) << "a state says of effects only what it has";
-  EXPECT_THROW(require_fit(0, sample(false, 4), model), core::RunError);
+  EXPECT_THROW(require_fit(0, sample(false, 3), model), core::RunError);
   model.bodies.resize(2);
-  EXPECT_THROW(require_fit(0, sample(false, 5), model), core::RunError);
+  EXPECT_THROW(require_fit(0, sample(false, 4), model), core::RunError);
+}
+
+TEST(WholeState, a_memory_of_another_model_is_refused) {
+  model::Model model;
+  model.bodies.resize(3);
+  model.joints.resize(4);
+  model.geoms.resize(3);
+  const auto expect_refused = [&](const auto& change) {
+    model::State state = sample(false, 4);
+    change(state.memory);
+    EXPECT_THROW(require_fit(0, state, model), core::RunError);
+  };
+  expect_refused([](model::StepMemory& memory) { memory.joints.pop_back(); });
+  expect_refused([](model::StepMemory& memory) { memory.contacts[2].geoms.second = 3; });
+  expect_refused([](model::StepMemory& memory) { memory.contacts[2].geoms.first = -1; });
+  expect_refused([](model::StepMemory& memory) { memory.contacts[3].body_a = 3; });
+  expect_refused([](model::StepMemory& memory) { memory.contacts[0].body_a = model::no_body; });
+  expect_refused([](model::StepMemory& memory) { memory.contacts[0].body_b = -2; });
 }
 
 }  // namespace

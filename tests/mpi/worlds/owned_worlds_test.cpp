@@ -66,6 +66,7 @@ TEST_P(Ring, of_worlds_is_passed_on_bit_for_bit) {
   constexpr int num_worlds = 9;
   SyntheticStepper::Behaviour behaviour;
   std::tie(behaviour.rests, behaviour.num_joints) = GetParam();
+  behaviour.remembers = behaviour.rests;
   SyntheticStepper moving(behaviour);
   SyntheticStepper staying(behaviour);
   OwnedWorlds worlds(comm, moving, synthetic_model, round_robin(num_worlds, comm.size()));
@@ -74,6 +75,10 @@ TEST_P(Ring, of_worlds_is_passed_on_bit_for_bit) {
   for (int round = 1; round <= 5; ++round) {
     moving.advance(3, times);
     staying.advance(3, times);
+    const std::vector<model::State> gathered = worlds.gather_states();
+    ASSERT_EQ(std::ssize(gathered), comm.is_root() ? num_worlds : 0);
+    for (std::size_t world = 0; world < gathered.size(); ++world)
+      EXPECT_EQ(model::hash(gathered[world]), model::hash(staying.state(static_cast<int>(world))));
     const Placement next = round_robin(num_worlds, comm.size(), round);
     worlds.move(moves_to(worlds.placement(), next), 3 * round);
     EXPECT_EQ(worlds.placement(), next);

@@ -1,0 +1,54 @@
+/// The forces of a StepMemory as rows of numbers: as they are hashed, sent and written.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/hash.h"
+#include "model/model.h"
+#include "model/step_memory.h"
+
+namespace pbmpi::model {
+
+/// Numbers that lie side by side in a row; in a table they are a column.
+struct RowPart {
+  const char* name;
+  const char* unit;
+  std::size_t width;
+  bool is_index = false;  ///< whole numbers, of which a double holds each
+};
+
+/// Parts of a row, in this order.
+inline constexpr std::array<RowPart, 5> contact_force_parts = {{{"geoms", "", 2, true},
+                                                                {"bodies", "", 2, true},
+                                                                {"arm", "m", 3},
+                                                                {"normal", "N", 1},
+                                                                {"friction", "N", 3}}};
+inline constexpr std::array<RowPart, 3> joint_force_parts = {
+    {{"force", "N", 3}, {"torque", "N m", 3}, {"control", "", 2}}};
+
+template <std::size_t N>
+constexpr std::size_t row_width(const std::array<RowPart, N>& parts) {
+  std::size_t width = 0;
+  for (const RowPart& part : parts) width += part.width;
+  return width;
+}
+inline constexpr std::size_t numbers_of_contact_force = row_width(contact_force_parts);
+inline constexpr std::size_t numbers_of_joint_force = row_width(joint_force_parts);
+
+/// Writes a row, every bit kept; returns where the next one begins.
+double* put_row(const ContactForce& force, double* to);
+double* put_row(const JointForce& force, double* to);
+/// Inverse of put_row(). The indices must be within the range of int.
+const double* take_row(const double* from, ContactForce& force);
+const double* take_row(const double* from, JointForce& force);
+
+/// Adds all bits of a memory to a hash. A joint without force is as good as none, so that no entry for any
+/// joint, and one of zeros for each, have the same hash.
+void add_bits(const StepMemory& memory, core::Hash64& hash);
+
+/// Drops all that acts on a body, e.g. since it has been put elsewhere: its contacts, and the forces of its
+/// joints.
+void forget(const Model& model, int body, StepMemory& memory);
+
+}  // namespace pbmpi::model

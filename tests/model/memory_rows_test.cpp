@@ -1,0 +1,120 @@
+#include "model/memory_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "model/state.h"
+#include "support/models.h"
+
+namespace pbmpi::model {
+namespace {
+
+/// Two contacts of a pair, one with the ground, and the forces of two joints.
+StepMemory sample() {
+  StepMemory memory;
+  memory.contacts = {{{0, 3}, 2, no_body, {0.1, -0.0, 1e-300}, 7, {0.5, 0.25, 1e300}},
+                     {{2, 3}, 1, 2, {0.3, 0.2, 0.1}, 1.0 / 3, {1, 2, 3}},
+                     {{2, 3}, 1, 2, {0.4, 0.2, 0.1}, 0, {0, 0, 0}}};
+  memory.joints = {{{1, 2, 3}, {4, 5, 6}, {7, 8}}, {{0, -1, 0}, {0, 0, 1.0 / 7}, {0, 9}}};
+  return memory;
+}
+
+template <class Force, std::size_t width>
+void expect_same_row(const Force& force) {
+  std::array<double, width> row, again;
+  EXPECT_EQ(put_row(force, row.data()), row.data() + width);
+  Force found;
+  EXPECT_EQ(take_row(row.data(), found), row.data() + width);
+  put_row(found, again.data());
+  EXPECT_EQ(std::memcmp(row.data(), again.data(), sizeof row), 0);
+}
+
+TEST(MemoryRows, come_back_bit_for_bit) {
+  for (const ContactForce& force : sample().contacts)
+    expect_same_row<ContactForce, numbers_of_contact_force>(force);
+  for (const JointForce& force : sample().joints) expect_same_row<JointForce, numbers_of_joint_force>(force);
+}
+
+TEST(MemoryRows, have_their_parts_in_the_order_of_the_tables) {
+  std::array<double, numbers_of_contact_force> contact;
+  put_row(sample().contacts[1], contact.data());
+  EXPECT_EQ(contact, (std::array<double, 11>{2, 3, 1, 2, 0.3, 0.2, 0.1, 1.0 / 3, 1, 2, 3}));
+  std::array<double, numbers_of_joint_force> joint;
+  put_row(sample().joints[0], joint.data());
+  EXPECT_EQ(joint, (std::array<double, 8>{1, 2, 3, 4, 5, 6, 7, 8}));
+}
+
+State remembering() {
+  State state = initial_state(support::free_box());
+  state.memory = sample();
+  return state;
+}
+
+TEST(StateHash, is_that_of_poses_and_velocities_where_nothing_is_remembered) {
+  const State without = initial_state(support::free_box());
+  State zeros = without;
+  zeros.memory.joints.resize(3);
+  EXPECT_EQ(hash(zeros), hash(without)) << "joints without force are as good as none";
+  EXPECT_NE(hash(remembering()), hash(without));
+}
+
+TEST(StateHash, changes_with_every_number_that_is_remembered) {
+  std::vector<std::function<void(StepMemory&)>> changes = {
+      [](StepMemory& m) { m.contacts[1].geoms.first = 1; },
+      [](StepMemory& m) { m.contacts[1].geoms.second = 4; },
+      [](StepMemory& m) { m.contacts[1].body_a = 0; },
+      [](StepMemory& m) { m.contacts[1].body_b = no_body; },
+      [](StepMemory& m) { m.contacts[1].normal = std::nextafter(m.contacts[1].normal, infinity); },
+      [](StepMemory& m) { std::swap(m.contacts[1], m.contacts[2]); },
+      [](StepMemory& m) { m.contacts.pop_back(); },
+      [](StepMemory& m) { std::swap(m.joints[0], m.joints[1]); }};
+  for (int k = 0; k < 3; ++k) {
+    changes.emplace_back([k](StepMemory& m) { m.contacts[2].arm[k] += 1e-9; });
+    changes.emplace_back([k](StepMemory& m) { m.contacts[2].friction[k] = -0.0; });
+    changes.emplace_back([k](StepMemory& m) { m.joints[1].force[k] += 1e-9; });
+    changes.emplace_back([k](StepMemory& m) { m.joints[1].torque[k] += 1e-9; });
+  }
+  for (const int axis : {0, 1})
+    changes.emplace_back([axis](StepMemory& m) { m.joints[0].control[axis] += 1e-9; });
+  const State state = remembering();
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    State other = state;
+    EXPECT_EQ(hash(other), hash(state));
+    changes[i](other.memory);
+    EXPECT_NE(hash(other), hash(state)) << "change " << i;
+  }
+}
+
+TEST(Forget, drops_the_contacts_of_a_body_and_the_forces_of_its_joints_only) {
+  Model model;
+  model.bodies.resize(4);
+  model.joints.resize(2);
+  model.joints[0].body_a = 3;
+  model.joints[0].body_b = 1;
+  model.joints[1].body_a = 2;  // to the world
+  const auto left = [&](int body) {
+    StepMemory memory = sample();
+    forget(model, body, memory);
+    EXPECT_EQ(memory.joints.size(), 2u);
+    return memory;
+  };
+  const StepMemory without_1 = left(1);
+  ASSERT_EQ(without_1.contacts.size(), 1u);
+  EXPECT_EQ(without_1.contacts[0].geoms, (GeomPair{0, 3}));
+  EXPECT_EQ(without_1.joints[0].force, Vec3::Zero());
+  EXPECT_EQ(without_1.joints[0].torque, Vec3::Zero());
+  EXPECT_EQ(without_1.joints[0].control[1], 0);
+  EXPECT_EQ(without_1.joints[1].control[1], 9);
+  EXPECT_TRUE(left(2).contacts.empty());
+  EXPECT_EQ(left(2).joints[1].control[1], 0);
+  EXPECT_EQ(left(0).contacts.size(), 3u);
+  EXPECT_EQ(left(0).joints[0].control[1], 8);
+}
+
+}  // namespace
+}  // namespace pbmpi::model
