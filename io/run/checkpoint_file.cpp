@@ -3,25 +3,28 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "core/error.h"
 #include "io/hdf5/file_types.h"
 #include "io/hdf5/output_target.h"
 #include "io/hdf5/replace_file.h"
+#include "io/run/table_rows.h"
 #include "io/table/table_file.h"
 
 namespace pbmpi::io {
 namespace {
 
 /// Version of the layout; the first number changes when old programs would be misled.
-constexpr std::array<std::int64_t, 2> version = {1, 1};
+constexpr std::array<std::int64_t, 2> version = {1, 2};
 
 using core::Quat;
 using core::Vec3;
 using Doubles = std::vector<double>;
 using Integers = std::vector<std::int64_t>;
+
+/// Tables of State::memory, and the columns of /worlds that count the rows of each world.
+constexpr const char *contact_forces = "contact_forces", *joint_forces = "joint_forces";
 
 void append(Doubles& column, const Vec3& vector) {
   column.insert(column.end(), vector.data(), vector.data() + 3);
@@ -36,6 +39,8 @@ struct Columns {
   Integers idle_steps, broken_in;
   Doubles energy_gain, largest_kinetic;  ///< [W] as is frozen_in
   Integers frozen_in;
+  Integers num_contact_forces, num_joint_forces;  ///< [W] rows of each world
+  Doubles contact_force_rows, joint_force_rows;   ///< as put_row() makes them
 
   void add(const model::State& state) {
     bodies.push_back(std::ssize(state.position));
@@ -56,6 +61,10 @@ struct Columns {
     energy_gain.push_back(state.guard.energy_gain_j);
     largest_kinetic.push_back(state.guard.largest_kinetic_j);
     frozen_in.push_back(state.guard.frozen_in);
+    num_contact_forces.push_back(std::ssize(state.memory.contacts));
+    num_joint_forces.push_back(std::ssize(state.memory.joints));
+    append_rows(contact_force_rows, state.memory.contacts, model::numbers_of_contact_force);
+    append_rows(joint_force_rows, state.memory.joints, model::numbers_of_joint_force);
   }
 };
 
@@ -78,7 +87,9 @@ TableFile tables_of(const Checkpoint& checkpoint) {
                            {"joints", "", std::move(columns.joints)},
                            {"energy_gain", "J", std::move(columns.energy_gain)},
                            {"largest_kinetic", "J", std::move(columns.largest_kinetic)},
-                           {"frozen_in", "", std::move(columns.frozen_in)}};
+                           {"frozen_in", "", std::move(columns.frozen_in)},
+                           {contact_forces, "", std::move(columns.num_contact_forces)},
+                           {joint_forces, "", std::move(columns.num_joint_forces)}};
   file.tables["bodies"] = {{"position", "m", std::move(columns.position), 3},
                            {"orientation", "", std::move(columns.orientation), 4},
                            {"velocity", "m s-1", std::move(columns.velocity), 3},
@@ -87,48 +98,27 @@ TableFile tables_of(const Checkpoint& checkpoint) {
                          {"orientation", "", std::move(columns.rest_orientation), 4},
                          {"idle_steps", "", std::move(columns.idle_steps)}};
   file.tables["joints"] = {{"broken_in", "", std::move(columns.broken_in)}};
+  file.tables[contact_forces] = columns_of(model::contact_force_parts, columns.contact_force_rows);
+  file.tables[joint_forces] = columns_of(model::joint_force_parts, columns.joint_force_rows);
   return file;
 }
 
-/// Hands out the rows of a file's column, one after the other.
-template <class Value>
-class Rows {
- public:
-  Rows(const TableFile& file, const std::string& table, const std::string& name, std::size_t width = 1)
-      : name_("/" + table + "/" + name), values_(&file.column<Value>(table, name)), width_(width) {}
-
-  const Value* next() {
-    if (next_ + width_ > values_->size()) refuse();
-    next_ += width_;
-    return values_->data() + next_ - width_;
-  }
-  Vec3 vector() { return Vec3(next()); }
-  Quat quaternion() {
-    const Value* q = next();
-    return {q[0], q[1], q[2], q[3]};
-  }
-  std::int32_t integer() {
-    const Value value = *next();
-    if (!std::in_range<std::int32_t>(value)) refuse();
-    return static_cast<std::int32_t>(value);
-  }
-  void require_end() const {
-    if (next_ != values_->size()) refuse();
-  }
-
- private:
-  [[noreturn]] void refuse() const { throw core::RunError(name_ + " does not fit /worlds"); }
-
-  std::string name_;
-  const std::vector<Value>* values_;
-  std::size_t width_, next_ = 0;
-};
+void read_memory(const TableFile& file, std::vector<model::State>& worlds) {
+  if (!file.has_column("worlds", contact_forces)) return;  // layout 1.1
+  ForceReader<model::ContactForce, model::contact_force_parts.size()> contacts(file, contact_forces,
+                                                                               model::contact_force_parts);
+  ForceReader<model::JointForce, model::joint_force_parts.size()> joints(file, joint_forces,
+                                                                         model::joint_force_parts);
+  for (model::State& state : worlds) state.memory = {contacts.of_next_world(), joints.of_next_world()};
+  contacts.require_end();
+  joints.require_end();
+}
 
 std::vector<model::State> worlds_of(const TableFile& file) {
-  Rows<std::int64_t> bodies(file, "worlds", "bodies"), resting(file, "worlds", "resting"),
+  RowReader<std::int64_t> bodies(file, "worlds", "bodies"), resting(file, "worlds", "resting"),
       joints(file, "worlds", "joints"), idle_steps(file, "rest", "idle_steps"),
       broken_in(file, "joints", "broken_in"), frozen_in(file, "worlds", "frozen_in");
-  Rows<double> position(file, "bodies", "position", 3), orientation(file, "bodies", "orientation", 4),
+  RowReader<double> position(file, "bodies", "position", 3), orientation(file, "bodies", "orientation", 4),
       velocity(file, "bodies", "velocity", 3), angular_velocity(file, "bodies", "angular_velocity", 3),
       rest_position(file, "rest", "position", 3), rest_orientation(file, "rest", "orientation", 4),
       energy_gain(file, "worlds", "energy_gain"), largest_kinetic(file, "worlds", "largest_kinetic");
@@ -152,6 +142,7 @@ std::vector<model::State> worlds_of(const TableFile& file) {
   }
   idle_steps.require_end();
   broken_in.require_end();
+  read_memory(file, worlds);
   return worlds;
 }
 

@@ -9,12 +9,13 @@
 
 #include "core/error.h"
 #include "io/hdf5/replace_file.h"
+#include "io/table/table_file.h"
 #include "scratch.h"
 
 namespace pbmpi::io::test {
 namespace {
 
-/// Worlds of different sizes: with rest, with joints, with neither.
+/// Worlds of different sizes: with rest, with joints and forces, with contact forces alone.
 Checkpoint sample() {
   Checkpoint checkpoint;
   checkpoint.pbmpi_version = "0.1.0";
@@ -38,6 +39,12 @@ Checkpoint sample() {
     }
     if (world == 1) state.rest = {{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}, -1}, {{4, 5, 6}, {}, 17}};
     if (world == 2) state.broken_in = {-1, 31, -1, 7};
+    for (int point = 0; world != 1 && point <= world; ++point) {
+      state.memory.contacts.push_back(
+          {{0, 7 + point}, world, point - 1, {0.1 * point, -0.0, 1e-300}, 1.0 / 3, {1, 2, 1e300}});
+    }
+    if (world == 2)
+      state.memory.joints = {{{1, -0.0, 3}, {4, 5, 1.0 / 7}, {6, 7}}, {}, {}, {{}, {}, {0, -9}}};
     state.guard = {1.0 / 3, 1e300 * world, world == 0 ? 17 : -1};
   }
   return checkpoint;
@@ -61,7 +68,10 @@ TEST(CheckpointFile, comes_back_as_it_was_written) {
   ASSERT_EQ(found.worlds.size(), 3u);
   for (std::size_t world = 0; world < 3; ++world) {
     const model::State &a = found.worlds[world], &b = written.worlds[world];
-    EXPECT_EQ(model::hash(a), model::hash(b)) << "all bits of poses and velocities, and what is broken";
+    EXPECT_EQ(model::hash(a), model::hash(b))
+        << "all bits of poses, velocities and forces, and what is broken";
+    EXPECT_EQ(a.memory.contacts.size(), b.memory.contacts.size());
+    EXPECT_EQ(a.memory.joints.size(), b.memory.joints.size());
     EXPECT_EQ(a.broken_in, b.broken_in);
     EXPECT_EQ(a.guard.energy_gain_j, b.guard.energy_gain_j);
     EXPECT_EQ(a.guard.largest_kinetic_j, b.guard.largest_kinetic_j);
@@ -74,6 +84,59 @@ TEST(CheckpointFile, comes_back_as_it_was_written) {
     }
   }
   EXPECT_EQ(scratch.num_files(), 1u) << "nothing else is left";
+}
+
+/// As table_image() takes them: without the attributes that it adds.
+TableFile tables_of_sample(const std::string& path) {
+  write_checkpoint(path, sample());
+  TableFile file = read_table_file(path, "pbmpi-checkpoint", 1);
+  file.attributes.erase("filetype");
+  file.attributes.erase("version");
+  return file;
+}
+
+TEST(CheckpointFile, of_layout_1_1_is_read_without_forces) {
+  const Scratch scratch;
+  const std::string path = scratch.file("run.ck.h5");
+  TableFile file = tables_of_sample(path);
+  file.tables.erase("contact_forces");
+  file.tables.erase("joint_forces");
+  std::erase_if(file.tables["worlds"],
+                [](const TableColumn& column) { return column.name.ends_with("_forces"); });
+  replace_file(path, table_image("pbmpi-checkpoint", {1, 1}, file));
+  const Checkpoint found = read_checkpoint(path);
+  ASSERT_EQ(found.worlds.size(), 3u);
+  for (std::size_t world = 0; world < 3; ++world) {
+    model::State expected = sample().worlds[world];
+    expected.memory.clear();
+    EXPECT_TRUE(found.worlds[world].memory.empty());
+    EXPECT_EQ(model::hash(found.worlds[world]), model::hash(expected));
+  }
+}
+
+/// A sample whose column /TABLE/NAME of whole numbers was changed.
+template <class Change>
+void write_damaged(const std::string& path, const std::string& table, const std::string& name,
+                   const Change& change) {
+  TableFile file = tables_of_sample(path);
+  for (TableColumn& column : file.tables.at(table)) {
+    if (column.name == name) change(std::get<std::vector<std::int64_t>>(column.values));
+  }
+  replace_file(path, table_image("pbmpi-checkpoint", {1, 2}, file));
+}
+
+TEST(CheckpointFile, whose_forces_do_not_fit_is_refused) {
+  using Integers = std::vector<std::int64_t>;
+  const Scratch scratch;
+  const std::string path = scratch.file("run.ck.h5");
+  const auto expect_refused = [&](const std::string& table, const std::string& name, const auto& change) {
+    write_damaged(path, table, name, change);
+    EXPECT_THROW(read_checkpoint(path), core::InputError) << table << " " << name;
+  };
+  expect_refused("worlds", "contact_forces", [](Integers& counts) { ++counts[1]; });
+  expect_refused("worlds", "contact_forces", [](Integers& counts) { --counts[2]; });
+  expect_refused("worlds", "joint_forces", [](Integers& counts) { counts[2] = 1'000'000'000'000; });
+  expect_refused("contact_forces", "geoms", [](Integers& geoms) { geoms[3] = std::int64_t{1} << 40; });
 }
 
 TEST(CheckpointFile, replaces_the_one_before_also_behind_a_link) {

@@ -161,7 +161,7 @@ mpi::WorldRunResult run_to_end(mpi::FrameDriver& driver, io::RunFile* file) {
 
 /// A place for checkpoints that was asked for is tried before the run, not after hours of it.
 void require_writable(const mpi::Communicator& comm, const CheckpointSpec& spec, std::int64_t num_bodies) {
-  constexpr std::int64_t about_bytes_each = 256, about_bytes = std::int64_t{1} << 17;
+  constexpr std::int64_t about_bytes_each = 1024, about_bytes = std::int64_t{1} << 17;
   mpi::agree_on_errors(comm, [&] {
     if (comm.is_root() && (spec.at_end || spec.every_s))
       io::require_checkpoint_writable(spec.path, about_bytes + about_bytes_each * num_bodies);

@@ -1,0 +1,135 @@
+/// Rows of a table, put into it and handed out one after the other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/error.h"
+#include "core/vector.h"
+#include "io/table/table_file.h"
+#include "model/memory_rows.h"
+
+namespace pbmpi::io {
+
+/// Appends forces as put_row() makes them.
+template <class Force>
+void append_rows(std::vector<double>& rows, const std::vector<Force>& forces, std::size_t width) {
+  rows.resize(rows.size() + width * forces.size());
+  double* to = rows.data() + rows.size() - width * forces.size();
+  for (const Force& force : forces) to = model::put_row(force, to);
+}
+
+/// Cuts such rows into a column for each of their parts.
+template <std::size_t N>
+std::vector<TableColumn> columns_of(const std::array<model::RowPart, N>& parts,
+                                    const std::vector<double>& rows) {
+  std::vector<TableColumn> columns;
+  std::size_t first = 0;
+  for (const model::RowPart& part : parts) {
+    std::vector<double> values;
+    for (std::size_t at = first; at < rows.size(); at += model::row_width(parts))
+      values.insert(values.end(), &rows[at], &rows[at] + part.width);
+    columns.push_back({part.name, part.unit, {}, part.width});
+    if (part.is_index) {
+      columns.back().values = std::vector<std::int64_t>(values.begin(), values.end());
+    } else {
+      columns.back().values = std::move(values);
+    }
+    first += part.width;
+  }
+  return columns;
+}
+
+/// A column whose rows belong to worlds that say how many of them they have. Throws core::RunError where it
+/// is not as long as all of them say, or a number is out of range.
+template <class Value>
+class RowReader {
+ public:
+  /// `file` is borrowed.
+  RowReader(const TableFile& file, const std::string& table, const std::string& name, std::size_t width = 1)
+      : name_("/" + table + "/" + name), values_(&file.column<Value>(table, name)), width_(width) {}
+
+  const Value* next() {
+    if (next_ + width_ > values_->size()) refuse();
+    next_ += width_;
+    return values_->data() + next_ - width_;
+  }
+  core::Vec3 vector() { return core::Vec3(next()); }
+  core::Quat quaternion() {
+    const Value* q = next();
+    return {q[0], q[1], q[2], q[3]};
+  }
+  std::int32_t integer() { return in_range(*next()); }
+  /// The next row as doubles, whole numbers within the range of int; returns where one more would begin.
+  double* put(double* to) {
+    const Value* from = next();
+    for (std::size_t i = 0; i < width_; ++i) {
+      if constexpr (std::is_integral_v<Value>) {
+        *to++ = in_range(from[i]);
+      } else {
+        *to++ = from[i];
+      }
+    }
+    return to;
+  }
+  void require_end() const {
+    if (next_ != values_->size()) refuse();
+  }
+
+ private:
+  std::int32_t in_range(Value value) const {
+    if (!std::in_range<std::int32_t>(value)) refuse();
+    return static_cast<std::int32_t>(value);
+  }
+  [[noreturn]] void refuse() const { throw core::RunError(name_ + " does not fit /worlds"); }
+
+  std::string name_;
+  const std::vector<Value>* values_;
+  std::size_t width_, next_ = 0;
+};
+
+/// Reads what columns_of() made of the forces of all worlds. A column of /worlds, of the table's name, says
+/// how many each world has.
+template <class Force, std::size_t N>
+class ForceReader {
+ public:
+  ForceReader(const TableFile& file, const std::string& table, const std::array<model::RowPart, N>& parts)
+      : counts_(file, "worlds", table) {
+    for (const model::RowPart& part : parts) {
+      if (part.is_index) {
+        columns_.emplace_back(RowReader<std::int64_t>(file, table, part.name, part.width));
+      } else {
+        columns_.emplace_back(RowReader<double>(file, table, part.name, part.width));
+      }
+      width_ += part.width;
+    }
+  }
+  std::vector<Force> of_next_world() {
+    std::vector<Force> forces;
+    std::vector<double> row(width_);
+    for (int left = counts_.integer(); left > 0; --left) {
+      double* to = row.data();
+      for (Column& column : columns_) to = std::visit([to](auto& reader) { return reader.put(to); }, column);
+      model::take_row(row.data(), forces.emplace_back());
+    }
+    return forces;
+  }
+  void require_end() const {
+    for (const Column& column : columns_)
+      std::visit([](const auto& reader) { reader.require_end(); }, column);
+  }
+
+ private:
+  using Column = std::variant<RowReader<std::int64_t>, RowReader<double>>;
+  RowReader<std::int64_t> counts_;
+  std::vector<Column> columns_;
+  std::size_t width_ = 0;
+};
+
+}  // namespace pbmpi::io
