@@ -220,6 +220,11 @@ void SpaceDriver::broadcast_state() {
     comm().bcast(std::span(broken));
     stepper_->put_broken(units, broken);
   }
+  if (stepper_->remembers()) {
+    const bool has_rows = comm().is_root();
+    stepper_->put_memory(units,
+                         shared(comm(), has_rows ? stepper_->memory_rows(units) : std::vector<double>()));
+  }
 }
 
 /// Root has the whole state since the last step of the frame.

@@ -63,6 +63,20 @@ class SpaceStepper {
     static_cast<void>(rows);
   }
 
+  /// Does a step hand on forces to the next (State::memory)?
+  virtual bool remembers() const { return false; }
+  /// What is remembered of these units: the contacts whose body a is in one of them, and their joints; and
+  /// what takes it in from elsewhere, in place of what was known of these units. Numbers as the engine has
+  /// them. The forces of units that this rank owns or solves are current.
+  virtual std::vector<double> memory_rows(std::span<const int> units) const {
+    static_cast<void>(units);
+    return {};
+  }
+  virtual void put_memory(std::span<const int> units, std::span<const double> rows) {
+    static_cast<void>(units);
+    static_cast<void>(rows);
+  }
+
   /// Own bodies that are fast at the state of now (effects/fast_bodies.h), ascending: collide_across() must
   /// have their whole states, and takes all others for slow. None without the pass.
   virtual std::vector<int> fast_bodies() = 0;

@@ -25,8 +25,9 @@ struct FrameFindings {
   std::int64_t bodies_shipped = 0;      ///< in this frame, from any rank to another, step by step
 };
 
-/// Each rank measures its own bodies and sends root one message: the rows of its bodies, its boxes, counts,
-/// energies, times and islands. Root then has the whole state and the findings of the frame.
+/// Each rank measures its own bodies and sends root one message: the rows of its bodies, what is remembered
+/// of its units, its boxes, counts, energies, times and islands. Root then has the whole state and the
+/// findings of the frame.
 ///
 /// SpaceStep calls send() on every rank at the end of the last step of a frame, also where all bodies sleep
 /// or are on one rank.

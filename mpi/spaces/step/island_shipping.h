@@ -12,8 +12,8 @@
 namespace pbmpi::mpi {
 
 /// Carries out a rank's Orders. Messages: for each other rank that solves an own island, one with its units,
-/// the states of their bodies, what is broken of their joints, and its contacts; and one back with the states
-/// after the step.
+/// the states of their bodies, what is broken of their joints, the forces that the step before has handed on,
+/// and its contacts; and one back with the states, what is broken, and the forces after the step.
 ///
 /// Called by SpaceStep: start_step() in each step in which something can cross, ship() once the orders are
 /// known, ship_back() when all islands here are solved. Both do nothing for a rank that neither gives nor

@@ -33,7 +33,8 @@ namespace pbmpi::mpi {
 /// nothing crosses, a rank thus waits for nothing but root's verdict.
 ///
 /// The effects "sleeping" (SleepAgreement) and "field_of_interest" (FieldCenter) add messages of their own.
-/// With the effect "breakable_joints" what is broken travels with the states of the bodies that it held.
+/// With the effect "breakable_joints" what is broken travels with the states of the bodies that it held, and
+/// the forces that a step hands on to the next travel with the states of the bodies on which they act.
 /// The last step of a frame ends with an account to root (FrameReport).
 ///
 /// Errors of the stepper are held in `errors`; the messages of the step are exchanged all the same.

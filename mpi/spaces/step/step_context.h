@@ -41,6 +41,7 @@ struct StepContext {
   bool crosses = false;          ///< Can bodies of two ranks touch? Otherwise steps exchange no islands.
   bool has_fast_bodies = false;  ///< the effect "fast_bodies"
   bool joints_break = false;     ///< the effect "breakable_joints"
+  bool remembers = false;        ///< a step hands on forces to the next
 
   bool is_root() const { return comm->is_root(); }
   const std::vector<int>& own_spaces() const { return ownership->spaces[comm->rank()]; }

@@ -16,6 +16,7 @@
 #include "solver/spaces/packed_state.h"
 #include "solver/spaces/space_bodies.h"
 #include "solver/spaces/space_fast_bodies.h"
+#include "solver/spaces/unit_memory.h"
 
 namespace pbmpi::solver {
 namespace {
@@ -42,6 +43,13 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   void put_poses(std::span<const int> bodies, std::span<const double> rows) override;
   std::vector<std::int32_t> broken_rows(std::span<const int> units) const override;
   void put_broken(std::span<const int> units, std::span<const std::int32_t> rows) override;
+  bool remembers() const override { return settings_.warm_start > 0; }
+  std::vector<double> memory_rows(std::span<const int> units) const override {
+    return UnitMemory{map_, articulations_}.rows(units, state().memory);
+  }
+  void put_memory(std::span<const int> units, std::span<const double> rows) override {
+    UnitMemory{map_, articulations_}.put(units, rows, model_->joints.size(), packed_.state().memory);
+  }
   std::vector<int> fast_bodies() override;
   void fire_events(std::int64_t step) override;
   void launch_others(std::int64_t step, std::span<geometry::Box> boxes) override;
@@ -135,6 +143,7 @@ void SorSpaceStepper::own(std::span<const int> spaces, const model::State& state
   if (fast_bodies_) fast_bodies_->own(own_mask());
   pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
   packed_.start(state, *pack_);
+  if (!remembers()) packed_.state().memory.clear();
   rules_.start();
   shown_revision_ = -1;
   active_.clear();

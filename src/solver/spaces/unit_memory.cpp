@@ -1,0 +1,74 @@
+#include "solver/spaces/unit_memory.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "model/memory_rows.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::ContactForce;
+using model::JointForce;
+
+std::vector<char> mask_of(std::span<const int> units, const model::SpaceMap& map) {
+  std::vector<char> mask(static_cast<std::size_t>(map.num_units()), 0);
+  for (const int unit : units) mask[unit] = 1;
+  return mask;
+}
+
+}  // namespace
+
+std::vector<double> UnitMemory::rows(std::span<const int> units, const model::StepMemory& memory) const {
+  const std::vector<char> chosen = mask_of(units, map);
+  std::vector<double> rows(1);
+  const auto append = [&rows](const auto& force, std::size_t width) {
+    rows.resize(rows.size() + width);
+    model::put_row(force, &rows[rows.size() - width]);
+  };
+  for (const ContactForce& force : memory.contacts) {
+    if (!chosen[map.unit_of_body[force.body_a]]) continue;
+    append(force, model::numbers_of_contact_force);
+    ++rows.front();
+  }
+  if (memory.joints.empty()) return rows;
+  for (const int unit : units) {
+    for (const int joint : articulations[unit].joints)
+      append(memory.joints[joint], model::numbers_of_joint_force);
+  }
+  return rows;
+}
+
+void UnitMemory::put(std::span<const int> units, std::span<const double> rows, std::size_t num_joints,
+                     model::StepMemory& memory) const {
+  core::require_invariant(!rows.empty(), "the forces of units begin with the number of contacts");
+  const double* row = rows.data();
+  const auto num_contacts = static_cast<std::size_t>(*row++);
+  const std::size_t contacts_end = 1 + num_contacts * model::numbers_of_contact_force;
+  const bool has_joints = rows.size() > contacts_end;
+  std::size_t num_joint_rows = 0;
+  for (const int unit : units) num_joint_rows += articulations[unit].joints.size();
+  core::require_invariant(
+      rows.size() == contacts_end + (has_joints ? num_joint_rows * model::numbers_of_joint_force : 0),
+      "the forces of units are as long as they say");
+
+  const std::vector<char> chosen = mask_of(units, map);
+  std::erase_if(memory.contacts,
+                [&](const ContactForce& force) { return chosen[map.unit_of_body[force.body_a]] != 0; });
+  const auto num_kept = std::ssize(memory.contacts);
+  for (std::size_t i = 0; i < num_contacts; ++i) row = model::take_row(row, memory.contacts.emplace_back());
+  // All points of a pair have the same body a, and so came together.
+  std::inplace_merge(memory.contacts.begin(), memory.contacts.begin() + num_kept, memory.contacts.end(),
+                     [](const ContactForce& a, const ContactForce& b) { return a.geoms < b.geoms; });
+
+  if (has_joints) memory.joints.resize(num_joints);
+  if (memory.joints.empty()) return;
+  for (const int unit : units) {
+    for (const int joint : articulations[unit].joints) {
+      memory.joints[joint] = {};
+      if (has_joints) row = model::take_row(row, memory.joints[joint]);
+    }
+  }
+}
+
+}  // namespace pbmpi::solver
