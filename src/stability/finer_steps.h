@@ -15,7 +15,8 @@ namespace pbmpi::stability {
 model::Model in_finer_steps(const model::Model& model, int finer);
 
 /// A state as a run with steps `finer` times as short has it, and back: broken joints and idle steps count
-/// steps. Joints that were broken before keep their step, which comes from `before`.
+/// steps. Joints that were broken before keep their step, which comes from `before`. What is remembered are
+/// forces, and needs no change.
 model::State to_finer_steps(model::State state, int finer);
 model::State from_finer_steps(model::State state, int finer, const model::State& before);
 

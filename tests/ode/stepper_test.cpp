@@ -48,6 +48,19 @@ TEST(OdeStepper, knows_a_world_from_its_adding_to_its_removal) {
   EXPECT_EQ(stepper->state(3).num_bodies(), 1);
 }
 
+TEST(OdeStepper, drops_what_another_stepper_remembered) {
+  const auto stepper = make_ode_stepper({}, fail_on_warning);
+  const auto model = std::make_shared<const Model>(support::box_over_ground(0.1));
+  model::State remembering = model::initial_state(*model);
+  remembering.memory.contacts.push_back({{0, 1}, 0, model::no_body, {0, 0, -0.5}, 98});
+  stepper->add(0, model, remembering, 0);
+  EXPECT_TRUE(stepper->state(0).memory.empty());
+  stepper->set_state(0, remembering, 0);
+  core::PhaseTimes times;
+  stepper->advance(2, times);
+  EXPECT_TRUE(stepper->state(0).memory.empty());
+}
+
 TEST(OdeStepper, tells_where_the_time_went) {
   const auto stepper = make_ode_stepper({}, fail_on_warning);
   add(*stepper, 0, support::crash());

@@ -56,6 +56,17 @@ std::vector<std::uint64_t> hashes(const stepping::WorldStepper& stepper) {
   return all;
 }
 
+/// As looks have them: what a step hands on to the next is known when it has ended.
+std::vector<std::uint64_t> hashes_without_memory(const stepping::WorldStepper& stepper) {
+  std::vector<std::uint64_t> all;
+  for (int world = 0; world < num_worlds; ++world) {
+    model::State state = stepper.state(world);
+    state.memory.clear();
+    all.push_back(model::hash(state));
+  }
+  return all;
+}
+
 std::vector<std::uint64_t> looks(const stepping::AnytimeStepper& stepper) {
   std::vector<std::uint64_t> all;
   for (int world = 0; world < num_worlds; ++world) all.push_back(model::hash(stepper.look(world)));
@@ -79,7 +90,7 @@ TEST_P(Anytime, a_look_is_the_state_of_a_run_of_so_many_iterations) {
     few.iterations = iterations;
     const auto short_run = crashes.start(few);
     advance(*short_run, 1);
-    EXPECT_EQ(looks(*stepper), hashes(*short_run)) << iterations << " iterations";
+    EXPECT_EQ(looks(*stepper), hashes_without_memory(*short_run)) << iterations << " iterations";
   }
 }
 
@@ -109,7 +120,7 @@ TEST_P(Anytime, of_several_steps_and_substeps_the_first_step_was_begun) {
   advance(*alone, 3);
   advance(*one, 1);
   begun->begin_step(4, times);
-  EXPECT_EQ(looks(*begun), hashes(*one)) << "after all iterations of the last substep";
+  EXPECT_EQ(looks(*begun), hashes_without_memory(*one)) << "after all iterations of the last substep";
   advance(*begun, 3);
   EXPECT_EQ(hashes(*begun), hashes(*alone));
 }
@@ -140,6 +151,17 @@ TEST(AnytimeStepper, what_was_begun_is_dropped_when_worlds_come_go_or_change) {
   stepper->add(2, crash(2), crashes.states[2], Crashes::step);
   advance(*stepper, 1);
   EXPECT_EQ(hashes(*stepper), hashes(*expected));
+}
+
+TEST(AnytimeStepper, a_look_remembers_nothing) {
+  const stepping::StepperSettings settings =
+      settings_of(stepping::Simd::automatic, stepping::Precision::double_);
+  Crashes crashes(settings);
+  crashes.states[0].memory.contacts.push_back({{0, 1}, 0, model::no_body, {0, 0, 1}, 5});
+  core::PhaseTimes times;
+  const auto stepper = crashes.start(settings);
+  stepper->begin_step(20, times);
+  EXPECT_TRUE(stepper->look(0).memory.empty());
 }
 
 TEST(AnytimeStepper, a_step_cannot_be_begun_twice_or_beyond_its_iterations) {
