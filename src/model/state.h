@@ -66,7 +66,7 @@ void copy_body(int body, const State& from, State& to);
 State initial_state(const Model& model);
 
 /// Hash of all bits of poses and velocities, body by body, of the joints that are broken, with their steps,
-/// and of the step from which on a world stands. Equal states have equal hashes on every machine.
+/// of the memory, and of the step from which on a world stands. Equal states: equal hashes on every machine.
 std::uint64_t hash(const State& state);
 
 /// Bodies of which any number is NaN or infinite.

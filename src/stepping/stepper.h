@@ -101,7 +101,7 @@ class AnytimeStepper : public WorldStepper {
   /// bit for bit. Until then state() is that before the step; add(), remove() and set_state() drop what was
   /// begun. Adds the seconds spent to `times`.
   virtual void begin_step(int iterations, core::PhaseTimes& times) = 0;
-  /// The state of a world as it would be if the step ended where the last begin_step() stopped.
+  /// The state of a world as it would be if the step ended where the last begin_step() stopped; no memory.
   virtual const model::State& look(int world) const = 0;
 };
 
