@@ -17,10 +17,12 @@ using Traits = StepperTraits;
 
 bool at_least_1(double value) { return value >= 1; }
 bool is_length(double value) { return std::isfinite(value) && value > 0; }
+bool is_count(double value) { return value >= 0; }
+bool is_magnitude(double value) { return std::isfinite(value) && value >= 0; }
 bool converges(double factor) { return factor > 0 && factor < 2; }
 bool is_share(double value) { return value >= 0 && value <= 1; }
 
-constexpr std::array<StepOption, 11> options = {{
+constexpr std::array<StepOption, 17> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
      .placeholder = "sor|quick|direct",
@@ -65,6 +67,65 @@ constexpr std::array<StepOption, 11> options = {{
      .allows = is_share,
      .limit = "the share of the impulses to take over is 0 to 1",
      .in_short = "warm *"},
+    {.name = "relax",
+     .member = &Settings::relax,
+     .placeholder = "N",
+     .meaning =
+         "sor: sweeps at the end of a substep that take back the speed which pushed errors of position "
+         "out",
+     .shown_default = "0",
+     .needs = &Traits::tunes_sweeps,
+     .allows = is_count,
+     .limit = "it must be at least 0",
+     .in_short = "relax *"},
+    {.name = "contact-frequency",
+     .member = &Settings::contact_frequency,
+     .placeholder = "HZ",
+     .meaning =
+         "sor: contacts are springs of this frequency, at most a quarter of a period a substep; 0: they "
+         "have the scene's ERP and CFM",
+     .shown_default = "0",
+     .needs = &Traits::tunes_sweeps,
+     .allows = is_magnitude,
+     .limit = "a frequency is 0 or more, and finite",
+     .in_short = "contacts * Hz",
+     .unit = "Hz"},
+    {.name = "contact-damping",
+     .member = &Settings::contact_damping,
+     .placeholder = "RATIO",
+     .meaning = "sor: damping ratio of contacts that are springs",
+     .shown_default = "10",
+     .needs = &Traits::tunes_sweeps,
+     .allows = is_length,
+     .limit = "a damping ratio is above 0, and finite",
+     .in_short = "damping *"},
+    {.name = "joint-frequency",
+     .member = &Settings::joint_frequency,
+     .placeholder = "HZ",
+     .meaning = "sor: as --contact-frequency, of joints",
+     .shown_default = "0",
+     .needs = &Traits::tunes_sweeps,
+     .allows = is_magnitude,
+     .limit = "a frequency is 0 or more, and finite",
+     .in_short = "joints * Hz",
+     .unit = "Hz"},
+    {.name = "joint-damping",
+     .member = &Settings::joint_damping,
+     .placeholder = "RATIO",
+     .meaning = "sor: damping ratio of joints that are springs",
+     .shown_default = "2",
+     .needs = &Traits::tunes_sweeps,
+     .allows = is_length,
+     .limit = "a damping ratio is above 0, and finite",
+     .in_short = "damping *"},
+    {.name = "friction",
+     .member = &Settings::friction,
+     .placeholder = "cone|pyramid",
+     .meaning = "sor: friction that is the same in all directions, or ODE's, which holds more along the "
+                "diagonals of two axes",
+     .shown_default = "pyramid",
+     .needs = &Traits::tunes_sweeps,
+     .in_short = "*"},
     {.name = "row-order",
      .member = &Settings::row_order,
      .placeholder = "shuffled|fixed",
@@ -103,6 +164,7 @@ constexpr std::array<StepOption, 11> options = {{
 
 constexpr const auto& names_of(StepperKind) { return stepper_kind_names; }
 constexpr const auto& names_of(RowOrder) { return row_order_names; }
+constexpr const auto& names_of(Friction) { return friction_names; }
 constexpr const auto& names_of(Precision) { return precision_names; }
 constexpr const auto& names_of(Simd) { return simd_names; }
 constexpr const auto& names_of(Colliders) { return colliders_names; }

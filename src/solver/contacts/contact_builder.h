@@ -24,14 +24,19 @@ class ContactBuilder {
       : bodies_(&bodies), parameters_(parameters) {}
 
   /// Rows of manifolds[num_lanes], before forces act on the twists (bounce looks at the speed of approach).
-  /// Impulses start at 0. `points`: [slot.num_points].
+  /// Impulses start with their share of what the manifolds remember. `points`: [slot.num_points].
   void build(const Manifold* manifolds, ContactSlot<T>& slot, Point* points) const;
 
   /// Next substep, with the velocities as the last sweep left them: the depth that the normal speed has left,
   /// the same directions and arms. What is deeper than the push has planned is taken back at once: that is no
-  /// more than the last sweep's residual. Impulses are reduced to the share that is taken over, which has
-  /// not acted on the velocities yet.
+  /// more than the last sweep's residual.
   void advance(const ContactSlot<T>& slot, Point* points) const;
+
+  /// Reduces the impulses to the share that the next substep takes over.
+  void carry(const ContactSlot<T>& slot, Point* points) const;
+
+  /// Writes the forces of the points to where their manifolds remember them.
+  void remember(const ContactSlot<T>& slot, const Point* points, const Manifold* manifolds) const;
 
  private:
   /// What is read of a manifold's bodies.
@@ -45,12 +50,16 @@ class ContactBuilder {
   struct Given {
     L3 position, normal;
     V depth, mu, restitution, factor;
+    V normal_force;
+    L3 friction_force;
   };
 
   BodyPair gather(const Manifold* manifolds, ContactSlot<T>& slot) const;
   Given read(const Manifold* manifolds, int point) const;
   template <bool bounces>
   void build_point(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, Point& point) const;
+  void build_friction(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, const L3& arm_a,
+                      const L3& arm_b, Point& point) const;
   PBMPI_LANES static void build_row(const ContactSlot<T>& slot, const BodyPair& pair, const L3& direction,
                                     const L3& arm_a, const L3& arm_b, Scalar cfm, const V& factor, Row& row);
   PBMPI_LANES Motion gather_motion(const std::int32_t* index) const {
@@ -127,7 +136,8 @@ template <class T, bool two_bodies, ContactKind kind>
 typename ContactBuilder<T, two_bodies, kind>::Given ContactBuilder<T, two_bodies, kind>::read(
     const Manifold* manifolds, int point) const {
   const V zero = T::broadcast(0);
-  Given given{{zero, zero, zero}, {zero, zero, T::broadcast(1)}, zero, zero, zero, zero};
+  Given given{{zero, zero, zero}, {zero, zero, T::broadcast(1)}, zero, zero, zero, zero, zero,
+              {zero, zero, zero}};
   for (int lane = 0; lane < T::num_lanes; ++lane) {
     if (point >= manifolds[lane].num_points) continue;
     const model::Contact& contact = manifolds[lane].points[point];
@@ -143,6 +153,14 @@ typename ContactBuilder<T, two_bodies, kind>::Given ContactBuilder<T, two_bodies
     if constexpr (Solver::friction) T::set(given.mu, lane, static_cast<Scalar>(contact.mu));
     T::set(given.restitution, lane, static_cast<Scalar>(contact.restitution));
     T::set(given.factor, lane, parameters_.sor_factor);
+    if (manifolds[lane].forces == nullptr) continue;
+    const model::ContactForce& force = manifolds[lane].forces[point];
+    T::set(given.normal_force, lane, static_cast<Scalar>(force.normal));
+    if constexpr (Solver::friction) {
+      T::set(given.friction_force.x, lane, static_cast<Scalar>(force.friction.x()));
+      T::set(given.friction_force.y, lane, static_cast<Scalar>(force.friction.y()));
+      T::set(given.friction_force.z, lane, static_cast<Scalar>(force.friction.z()));
+    }
   }
   return given;
 }
@@ -159,24 +177,50 @@ void ContactBuilder<T, two_bodies, kind>::build_point(const ContactSlot<T>& slot
   }
   build_row(slot, pair, given.normal, arm_a, arm_b, parameters_.soft_cfm / parameters_.h, given.factor,
             point.normal);
+  const V carried = T::broadcast(parameters_.h * parameters_.warm_start);
+  point.normal.impulse = given.normal_force * carried;
   V bounce = zero;
   if constexpr (bounces) {
     const V outgoing = Solver::speed(point.normal, pair.motion_a, pair.motion_b);
     bounce = outgoing < T::broadcast(-parameters_.bounce_velocity) ? -given.restitution * outgoing : zero;
   }
-  const V push = parameters_.push_rate * given.depth;
+  point.bounce = bounce;
+  point.peak = zero;
+  const V push = T::min(parameters_.push_rate * given.depth, T::broadcast(parameters_.push_limit));
   // A gap (negative depth) lets the bodies approach until they touch.
-  point.rhs = given.depth < zero ? given.depth / parameters_.h : T::max(push, bounce);
+  point.rhs =
+      given.depth < zero ? given.depth / parameters_.h : (parameters_.relaxes ? push : T::max(push, bounce));
   point.depth = point.planned = given.depth;
-  if constexpr (Solver::friction) {
-    point.mu = given.mu;
-    L3 directions[2];
-    plane_space<T>(given.normal, directions[0], directions[1]);
-    for (int i = 0; i < 2; ++i) {
-      build_row(slot, pair, directions[i], arm_a, arm_b, parameters_.cfm / parameters_.h, given.factor,
-                point.friction[i]);
-    }
+  if constexpr (Solver::friction) build_friction(slot, pair, given, arm_a, arm_b, point);
+}
+
+template <class T, bool two_bodies, ContactKind kind>
+void ContactBuilder<T, two_bodies, kind>::build_friction(const ContactSlot<T>& slot, const BodyPair& pair,
+                                                         const Given& given, const L3& arm_a, const L3& arm_b,
+                                                         Point& point) const {
+  point.mu = given.mu;
+  L3 directions[2];
+  plane_space<T>(given.normal, directions[0], directions[1]);
+  const V carried = T::broadcast(parameters_.h * parameters_.warm_start);
+  const Scalar cfm = parameters_.cfm / parameters_.h;
+  Row &row0 = point.friction[0], &row1 = point.friction[1];
+  for (int i = 0; i < 2; ++i) {
+    build_row(slot, pair, directions[i], arm_a, arm_b, cfm, given.factor, point.friction[i]);
+    point.friction[i].impulse = dot(directions[i], given.friction_force) * carried;
   }
+  point.coupling = T::broadcast(0);
+  if (!parameters_.cone) return;
+  // Inverse of the 2 x 2 block, times the factor.
+  V off = dot(row0.moment_a, row1.turn_a);
+  if constexpr (two_bodies) off += dot(row0.moment_b, row1.turn_b);
+  const V zero = T::broadcast(0), one = T::broadcast(1);
+  const auto is_idle = given.factor <= zero;
+  const V factor = is_idle ? one : given.factor;
+  const V scale0 = row0.scale, scale1 = row1.scale;
+  const V share = 1 / (factor - off * off * scale0 * scale1 / factor);
+  point.coupling = -off * scale0 * scale1 * share;
+  row0.scale = scale0 * factor * share;
+  row1.scale = scale1 * factor * share;
 }
 
 template <class T, bool two_bodies, ContactKind kind>
@@ -207,9 +251,6 @@ void ContactBuilder<T, two_bodies, kind>::advance(const ContactSlot<T>& slot, Po
   const Motion a = Solver::gather(bodies_->contact_twists, slot.row_a);
   const Motion b = two_bodies ? Solver::gather(bodies_->contact_twists, slot.row_b) : Motion{};
   const V zero = T::broadcast(0);
-  const auto carried = [&](const V& impulse) {
-    return parameters_.warm_start > 0 ? impulse * T::broadcast(parameters_.warm_start) : zero;
-  };
   const V per_h = T::broadcast(1 / parameters_.h), rate = T::broadcast(parameters_.push_rate);
   const V rest = T::broadcast(1 - parameters_.push_rate * parameters_.h);
   for (int i = 0; i < slot.num_points; ++i) {
@@ -218,10 +259,43 @@ void ContactBuilder<T, two_bodies, kind>::advance(const ContactSlot<T>& slot, Po
     point.planned = point.planned * rest;
     const V excess = T::max(point.depth - T::max(point.planned, zero), zero);
     // A gap (negative depth) lets the bodies approach until they touch.
-    point.rhs = (point.depth > zero ? rate : per_h) * point.depth + excess * per_h;
-    point.normal.impulse = carried(point.normal.impulse);
+    const V push = (point.depth > zero ? rate : per_h) * point.depth;
+    point.rhs =
+        parameters_.relaxes ? T::min(push, T::broadcast(parameters_.push_limit)) : push + excess * per_h;
+    point.peak = T::max(point.peak, point.normal.impulse);
+  }
+}
+
+template <class T, bool two_bodies, ContactKind kind>
+void ContactBuilder<T, two_bodies, kind>::carry(const ContactSlot<T>& slot, Point* points) const {
+  const auto carried = [&](const V& impulse) {
+    return parameters_.warm_start > 0 ? impulse * T::broadcast(parameters_.warm_start) : T::broadcast(0);
+  };
+  for (int i = 0; i < slot.num_points; ++i) {
+    points[i].normal.impulse = carried(points[i].normal.impulse);
     if constexpr (Solver::friction) {
-      for (Row& row : point.friction) row.impulse = carried(row.impulse);
+      for (Row& row : points[i].friction) row.impulse = carried(row.impulse);
+    }
+  }
+}
+
+template <class T, bool two_bodies, ContactKind kind>
+void ContactBuilder<T, two_bodies, kind>::remember(const ContactSlot<T>& slot, const Point* points,
+                                                   const Manifold* manifolds) const {
+  const V per_h = T::broadcast(1 / parameters_.h), zero = T::broadcast(0);
+  for (int i = 0; i < slot.num_points; ++i) {
+    const Point& point = points[i];
+    const V normal = point.normal.impulse * per_h;
+    L3 friction{zero, zero, zero};
+    if constexpr (Solver::friction)
+      friction = (point.friction[0].direction * point.friction[0].impulse +
+                  point.friction[1].direction * point.friction[1].impulse) *
+                 per_h;
+    for (int lane = 0; lane < T::num_lanes; ++lane) {
+      if (i >= manifolds[lane].num_points || manifolds[lane].forces == nullptr) continue;
+      model::ContactForce& force = manifolds[lane].forces[i];
+      force.normal = T::get(normal, lane);
+      force.friction = {T::get(friction.x, lane), T::get(friction.y, lane), T::get(friction.z, lane)};
     }
   }
 }

@@ -34,6 +34,19 @@ class ContactList {
     const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
     for (const ContactSlot<T>& slot : slots_) builder.advance(slot, points_of(slot));
   }
+  void carry(const BodyLanes<T>& bodies, const Parameters& parameters) {
+    const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
+    for (const ContactSlot<T>& slot : slots_) builder.carry(slot, points_of(slot));
+  }
+  void remember(const BodyLanes<T>& bodies, const Parameters& parameters) {
+    const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
+    for (std::size_t i = 0; i < slots_.size(); ++i)
+      builder.remember(slots_[i], points_of(slots_[i]), order.dealt().data() + i * T::num_lanes);
+  }
+  void bounce(TwistRows<T>& twists, const Parameters& parameters) {
+    const ContactSolver<T, two_bodies, kind> solver(parameters, {});
+    for (const ContactSlot<T>& slot : slots_) solver.bounce(twists, slot, points_of(slot));
+  }
   void push_carried(TwistRows<T>& twists) {
     for (const ContactSlot<T>& slot : slots_)
       ContactSolver<T, two_bodies, kind>::push_carried(twists, slot, points_of(slot));
@@ -44,8 +57,8 @@ class ContactList {
     for (std::size_t i = 0; i < slots_.size(); ++i)
       visit(slots_[i], points_.data() + slots_[i].first_point, order.dealt().data() + i * T::num_lanes);
   }
-  void sweep(TwistRows<T>& twists, const Parameters& parameters, bool backwards) {
-    const ContactSolver<T, two_bodies, kind> solver(parameters);
+  void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<Scalar>& law, bool backwards) {
+    const ContactSolver<T, two_bodies, kind> solver(parameters, law);
     const std::size_t count = slots_.size();
     for (std::size_t i = 0; i < count; ++i) {
       const ContactSlot<T>& slot = slots_[backwards ? count - 1 - i : i];
@@ -87,9 +100,11 @@ class ContactLists {
   }
 
   /// The contacts of one world, in canonical order, of the bodies of which `moves(body)`. `place_of(body)`:
-  /// where a body, or the environment, lies. Spans hold during the step.
+  /// where a body, or the environment, lies. `forces`: with which they start and end, [contacts] or none.
+  /// Spans hold during the step.
   template <class Moves, class PlaceOf>
-  void add_world(int num_bodies, std::span<const model::Contact> contacts, Moves moves, PlaceOf place_of) {
+  void add_world(int num_bodies, std::span<const model::Contact> contacts,
+                 std::span<model::ContactForce> forces, Moves moves, PlaceOf place_of) {
     for_each([&](auto& list) { list.order.start_world(num_bodies); });
     for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
       const model::Contact& first = contacts[begin];
@@ -98,7 +113,8 @@ class ContactLists {
       if (!moves(first.body_a)) continue;
       while (end < last && belong_together(first, contacts[end])) ++end;
       order_of(first, end - begin)
-          .add(contacts.subspan(begin, end - begin), place_of(first.body_a), place_of(first.body_b));
+          .add(contacts.subspan(begin, end - begin), forces.empty() ? nullptr : forces.data() + begin,
+               place_of(first.body_a), place_of(first.body_b));
     }
   }
 
@@ -107,6 +123,16 @@ class ContactLists {
   }
   void advance(const BodyLanes<T>& bodies, const Parameters& parameters) {
     for_each([&](auto& list) { list.advance(bodies, parameters); });
+  }
+  /// See ContactBuilder.
+  void carry(const BodyLanes<T>& bodies, const Parameters& parameters) {
+    for_each([&](auto& list) { list.carry(bodies, parameters); });
+  }
+  void remember(const BodyLanes<T>& bodies, const Parameters& parameters) {
+    for_each([&](auto& list) { list.remember(bodies, parameters); });
+  }
+  void bounce(TwistRows<T>& twists, const Parameters& parameters) {
+    for_each([&](auto& list) { list.bounce(twists, parameters); });
   }
   /// Lets the impulses that the contacts start with act on the bodies.
   void push_carried(TwistRows<T>& twists) {
@@ -117,8 +143,9 @@ class ContactLists {
   void visit_slots(Visit visit) const {
     for_each([&](const auto& list) { list.visit_slots(visit); });
   }
-  void sweep(TwistRows<T>& twists, const Parameters& parameters, bool backwards) {
-    for_each([&](auto& list) { list.sweep(twists, parameters, backwards); });
+  void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<typename T::Scalar>& law,
+             bool backwards) {
+    for_each([&](auto& list) { list.sweep(twists, parameters, law, backwards); });
   }
   /// visit(slot of a body that is in contact), some of them more than once.
   template <class Visit>

@@ -6,20 +6,25 @@
 #include <type_traits>
 
 #include "solver/layout/body_lanes.h"
+#include "solver/layout/row_law.h"
 
 namespace pbmpi::solver {
 
 /// Uniform numbers of contacts in a substep.
 ///
-/// push_rate [1/s]: the share of its depth that a contact is to push out in a second: ERP divided by the
-/// length of the whole step. Divided by that of a substep it would push as many times faster as there are
-/// substeps, and nothing takes away the speed that a push gives.
+/// push_rate [1/s]: the share of its depth that a contact is to push out in a second. As a spring's it
+/// follows from its frequency and damping (layout/row_law.h). From the scene's ERP it is that divided by the
+/// length of the whole step: divided by that of a substep it would push as many times faster as there are
+/// substeps, and without relaxing sweeps nothing takes away the speed that a push gives.
 template <class Scalar>
 struct ContactParameters {
-  Scalar h, push_rate, soft_cfm, cfm, bounce_velocity, sor_factor;
-  bool restitution;   ///< may a contact bounce?
-  bool turning;       ///< may a contact turn a body? If not, its rows do not, of whatever kind they are.
-  Scalar warm_start;  ///< share of the impulses that a substep takes over from the one before
+  Scalar h, push_rate, push_limit, soft_cfm, cfm, bounce_velocity, sor_factor;
+  Scalar warm_start;  ///< share of the impulses that a step and a substep take over from the one before
+  RowLaw<Scalar> law;
+  bool restitution;  ///< may a contact bounce?
+  bool turning;      ///< may a contact turn a body? If not, its rows do not, of whatever kind they are.
+  bool relaxes;      ///< do sweeps follow that push nothing out? Then contacts bounce after them.
+  bool cone;         ///< friction that is the same in all directions
 };
 
 /// Which rows a contact has. `central`: no friction, and its normal goes through the centres of its bodies,
@@ -44,7 +49,7 @@ struct alignas(sizeof(V)) TurningRow<V, true> : TurningRow<V, false> {
 template <class V, bool two_bodies, ContactKind kind>
 using ContactRow = std::conditional_t<kind == ContactKind::central, CentralRow<V>, TurningRow<V, two_bodies>>;
 
-/// Normal and friction rows (box friction: ODE's dContactApprox1) of one point of each lane's manifold.
+/// Normal and friction rows of one point of each lane's manifold.
 template <class V, bool two_bodies_, ContactKind kind_>
 struct alignas(sizeof(V)) ContactPoint {
   static constexpr bool two_bodies = two_bodies_;
@@ -53,12 +58,15 @@ struct alignas(sizeof(V)) ContactPoint {
   V rhs;  ///< of the normal row; friction rows want 0 [m/s]
   V depth;
   V planned;  ///< [m] the depth that should be left by now
+  V bounce;   ///< [m/s] the speed at which the bodies are to part after the relaxing sweeps; 0: none
+  V peak;     ///< [N s] the largest normal impulse of a substep so far
 };
 template <class V, bool two_bodies>
 struct alignas(sizeof(V)) ContactPoint<V, two_bodies, ContactKind::rough>
     : ContactPoint<V, two_bodies, ContactKind::smooth> {
   static constexpr ContactKind kind = ContactKind::rough;
   TurningRow<V, two_bodies> friction[2];
+  V coupling;  ///< of the two, if they are solved as a block: the scale of each with the other's speed
   V mu;
 };
 
@@ -84,8 +92,13 @@ class ContactSolver {
   /// What a contact can change of a body's velocity.
   using Motion = std::conditional_t<central, Vec3L<V>, Twist<V>>;
 
-  explicit ContactSolver(const ContactParameters<Scalar>& parameters)
-      : normal_cfm_(parameters.soft_cfm / parameters.h), friction_cfm_(parameters.cfm / parameters.h) {}
+  /// law: of this sweep.
+  ContactSolver(const ContactParameters<Scalar>& parameters, const RowLaw<Scalar>& law)
+      : normal_cfm_(parameters.soft_cfm / parameters.h),
+        friction_cfm_(parameters.cfm / parameters.h),
+        inverse_factor_(1 / parameters.sor_factor),
+        law_(law),
+        cone_(parameters.cone) {}
 
   /// `points`: those of the slot, [slot.num_points].
   PBMPI_LANES void solve(TwistRows<T>& twists, const ContactSlot<T>& slot, Point* points,
@@ -105,6 +118,22 @@ class ContactSolver {
         if constexpr (friction) {
           for (const Row& row : points[i].friction) push(slot, row, row.impulse, a, b);
         }
+      }
+    });
+  }
+
+  /// After the relaxing sweeps: what has touched parts at its speed of bouncing.
+  PBMPI_LANES void bounce(TwistRows<T>& twists, const ContactSlot<T>& slot, Point* points) const {
+    const V zero = T::broadcast(0);
+    with_motions(twists, slot, [&](Motion& a, Motion& b) {
+      for (int i = 0; i < slot.num_points; ++i) {
+        Row& row = points[i].normal;
+        const V bounces = points[i].peak > zero ? points[i].bounce : zero;
+        if (!T::any(bounces)) continue;
+        const V change = (bounces - speed(row, a, b)) * (row.scale * inverse_factor_);
+        const V applied = bounces > zero ? T::max(change, -row.impulse) : zero;
+        row.impulse += applied;
+        push(slot, row, applied, a, b);
       }
     });
   }
@@ -148,12 +177,44 @@ class ContactSolver {
   }
 
   PBMPI_LANES void solve_point(const ContactSlot<T>& slot, Point& point, Motion& a, Motion& b) const {
-    const V zero = T::broadcast(0), unbounded = T::broadcast(static_cast<Scalar>(huge_bound));
-    solve_row(slot, point.normal, point.rhs, normal_cfm_, zero, unbounded, a, b);
-    if constexpr (friction) {
-      const V bound = point.mu * point.normal.impulse;
-      for (Row& row : point.friction) solve_row(slot, row, zero, friction_cfm_, -bound, bound, a, b);
+    solve_normal(slot, point, a, b);
+    if constexpr (friction) solve_friction(slot, point, a, b);
+  }
+
+  /// A gap (rhs < 0) is no spring: what approaches stops where it touches.
+  PBMPI_LANES void solve_normal(const ContactSlot<T>& slot, Point& point, Motion& a, Motion& b) const {
+    const V zero = T::broadcast(0), one = T::broadcast(1);
+    Row& row = point.normal;
+    const V rhs = T::min(point.rhs, T::broadcast(law_.most_push));
+    const V share = point.rhs < zero ? one : T::broadcast(law_.mass_share);
+    const V relief = point.rhs < zero ? zero : T::broadcast(law_.relief);
+    const V change =
+        (rhs - speed(row, a, b) - normal_cfm_ * row.impulse) * (row.scale * share) - relief * row.impulse;
+    const V impulse = T::max(row.impulse + change, zero);
+    const V applied = impulse - row.impulse;
+    row.impulse = impulse;
+    push(slot, row, applied, a, b);
+  }
+
+  PBMPI_LANES void solve_friction(const ContactSlot<T>& slot, Point& point, Motion& a, Motion& b) const {
+    const V bound = point.mu * point.normal.impulse;
+    Row &row0 = point.friction[0], &row1 = point.friction[1];
+    if (!cone_) {
+      const V zero = T::broadcast(0);
+      for (Row* row : {&row0, &row1}) solve_row(slot, *row, zero, friction_cfm_, -bound, bound, a, b);
+      return;
     }
+    const V speed0 = speed(row0, a, b) + friction_cfm_ * row0.impulse;
+    const V speed1 = speed(row1, a, b) + friction_cfm_ * row1.impulse;
+    const V free0 = row0.impulse - row0.scale * speed0 - point.coupling * speed1;
+    const V free1 = row1.impulse - point.coupling * speed0 - row1.scale * speed1;
+    const V square = T::max(free0 * free0 + free1 * free1, T::broadcast(least_square));
+    const V share = T::min(bound / T::sqrt(square), T::broadcast(1));
+    const V applied0 = free0 * share - row0.impulse, applied1 = free1 * share - row1.impulse;
+    row0.impulse += applied0;
+    row1.impulse += applied1;
+    push(slot, row0, applied0, a, b);
+    push(slot, row1, applied1, a, b);
   }
 
   PBMPI_LANES static void solve_row(const ContactSlot<T>& slot, Row& row, const V& rhs, Scalar cfm,
@@ -182,7 +243,12 @@ class ContactSolver {
     }
   }
 
-  Scalar normal_cfm_, friction_cfm_;
+  /// Of an impulse, so that none divides by 0: its root is far below any impulse.
+  static constexpr Scalar least_square = static_cast<Scalar>(1e-30);
+
+  Scalar normal_cfm_, friction_cfm_, inverse_factor_;
+  RowLaw<Scalar> law_;
+  bool cone_;
 };
 
 }  // namespace pbmpi::solver

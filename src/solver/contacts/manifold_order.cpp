@@ -23,7 +23,8 @@ void ManifoldOrder::start_world(int num_bodies) {
   started_ = false;
 }
 
-void ManifoldOrder::add(std::span<const model::Contact> points, LanePlace a, LanePlace b) {
+void ManifoldOrder::add(std::span<const model::Contact> points, model::ContactForce* forces, LanePlace a,
+                        LanePlace b) {
   if (!started_) painter_.start(num_bodies_);
   started_ = true;
   const int color = painter_.paint(points.front().body_a, points.front().body_b);
@@ -31,7 +32,7 @@ void ManifoldOrder::add(std::span<const model::Contact> points, LanePlace a, Lan
   const std::size_t num_buckets = bucket_of(color + 1, most_points);
   if (num_buckets > next_.size()) next_.resize(num_buckets, 0);
   ++next_[bucket_of(color, num_points)];
-  painted_.push_back({points.data(), num_points, static_cast<short>(color), a, b});
+  painted_.push_back({points.data(), forces, num_points, static_cast<short>(color), a, b});
 }
 
 /// Fills by_color_ with the indices of painted_.
@@ -76,7 +77,7 @@ void ManifoldOrder::idle() {
   for (int slot = first_open_; slot < num_slots(); ++slot) {
     for (int lane = slots_[static_cast<std::size_t>(slot)].used; lane < num_lanes_; ++lane)
       dealt_[static_cast<std::size_t>(slot * num_lanes_ + lane)] = {
-          nullptr, 0, 0, {static_slot_, lane}, {static_slot_, lane}};
+          nullptr, nullptr, 0, 0, {static_slot_, lane}, {static_slot_, lane}};
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/contact.h"
+#include "model/step_memory.h"
 #include "solver/contacts/contact_colors.h"
 #include "solver/layout/lane_place.h"
 
@@ -14,6 +15,7 @@ namespace pbmpi::solver {
 /// in registers.
 struct Manifold {
   const model::Contact* points = nullptr;  ///< [num_points]; null: the lane idles
+  model::ContactForce* forces = nullptr;   ///< [num_points]; null: nothing is remembered
   short num_points = 0;
   short color = 0;  ///< see ContactColors
   LanePlace a, b;   ///< b: the static slot for the environment
@@ -30,8 +32,8 @@ class ManifoldOrder {
   void clear();
   /// The manifolds to come are of a world with so many bodies.
   void start_world(int num_bodies);
-  /// In canonical order. `points` hold until the next clear().
-  void add(std::span<const model::Contact> points, LanePlace a, LanePlace b);
+  /// In canonical order. `points` and `forces` hold until the next clear().
+  void add(std::span<const model::Contact> points, model::ContactForce* forces, LanePlace a, LanePlace b);
 
   /// [slots][num_lanes]; lanes without a manifold idle on `static_slot`, which comes after all other slots of
   /// bodies.

@@ -39,12 +39,18 @@ class BrokenLanes {
   std::vector<BrokenJoint> joints_;
 };
 
-/// Stops rows that have just been built where `holds` is 0: an impulse starts at 0 in a step, and without a
-/// scale it stays there.
+/// Stops rows that have just been built where `holds` is 0: they start without an impulse, and without a
+/// scale it stays so.
 template <class T, model::JointKind kind>
 PBMPI_LANES void stop_broken(JointRows<T, kind>& rows, const typename T::V& holds) {
-  for (auto& row : rows.points) row.scale = row.scale * holds;
-  for_each_single_row(rows, [&](auto& row) { row.scale = row.scale * holds; });
+  for (auto& row : rows.points) {
+    row.scale = row.scale * holds;
+    row.impulse = row.impulse * holds;
+  }
+  for_each_single_row(rows, [&](auto& row) {
+    row.scale = row.scale * holds;
+    row.impulse = row.impulse * holds;
+  });
 }
 
 }  // namespace pbmpi::solver

@@ -12,7 +12,7 @@ struct alignas(sizeof(V)) HalfAngle {
   V s, c;
 };
 
-/// As JointBuilder. All may add to the twists: see ControlRules::push().
+/// As JointBuilder.
 template <class T>
 class ControlBuilder {
  public:
@@ -105,7 +105,6 @@ bool ControlBuilder<T>::set_row(const AxisControl<V>& control, const L3& axis, c
   const auto state = rules_.decide(control, at_low, at_high, angle);
   rows_.set_axis(axis, state.rhs, pair, row.row);
   set_bounds(state, row);
-  if (is_on) rules_.push(row.row, state.push, pair.twist_a, pair.twist_b);
   return is_on;
 }
 
@@ -127,8 +126,6 @@ void ControlBuilder<T>::set_slider_control(JointLane<V>& joint, const Pair& pair
   const L3 moment = cross(slider_arm<T>(pair, apart), axis);
   rows_.set_line(axis, moment, moment, state.rhs, T::broadcast(rows_.cfm()), pair, row.row);
   set_bounds(state, row);
-  if (rows.control_on[0])
-    rules_.push(row.row, state.push, rows.inv_mass_a, rows.inv_mass_b, pair.twist_a, pair.twist_b);
 }
 
 }  // namespace pbmpi::solver

@@ -23,10 +23,14 @@ class JointAdvancer {
   /// Before the bodies move on with the twists that they have.
   template <model::JointKind kind>
   PBMPI_LANES void advance(JointLane<V>& joint, const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
-  /// After the bodies have moved. May add to the twists, as JointBuilder::build(); carried impulses have not
-  /// acted on them yet.
+  /// After the bodies have moved.
   template <model::JointKind kind>
-  PBMPI_LANES void rebuild(JointLane<V>& joint, BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
+  PBMPI_LANES void rebuild(const JointLane<V>& joint, const BodyLanes<T>& bodies,
+                           JointRows<T, kind>& rows) const;
+  /// Limits and motors of the next substep, and the share of the impulses that it takes over, which have not
+  /// acted on the twists yet.
+  template <model::JointKind kind>
+  PBMPI_LANES void restart(const JointLane<V>& joint, JointRows<T, kind>& rows) const;
 
  private:
   V carried(const V& impulse) const { return carry_ > 0 ? impulse * T::broadcast(carry_) : T::broadcast(0); }
@@ -37,10 +41,9 @@ class JointAdvancer {
     const V least = T::broadcast(static_cast<Scalar>(0.25));
     return before * T::max(2 - (diagonal + cfm_) * before * inverse_factor_, least);
   }
-  /// Bounds and right-hand side of the row of an axis; push(impulse): of a motor at its limit. Returns
-  /// whether any lane has a row.
-  template <class Row, class Push>
-  PBMPI_LANES bool control(const AxisControl<V>& control, Bounded<Row, V>& row, const Push& push) const;
+  /// Bounds and right-hand side of the row of an axis. Returns whether any lane has a row.
+  template <class Row>
+  PBMPI_LANES bool control(const AxisControl<V>& control, Bounded<Row, V>& row) const;
 
   ControlRules<T> controls_;
   Scalar erp_, cfm_, inverse_factor_, carry_;
@@ -74,35 +77,32 @@ PBMPI_LANES void JointAdvancer<T>::advance(JointLane<V>& joint, const BodyLanes<
 
 template <class T>
 template <model::JointKind kind>
-PBMPI_LANES void JointAdvancer<T>::rebuild(JointLane<V>& joint, BodyLanes<T>& bodies,
+PBMPI_LANES void JointAdvancer<T>::rebuild(const JointLane<V>& joint, const BodyLanes<T>& bodies,
                                            JointRows<T, kind>& rows) const {
-  Twist<V>&twist_a = bodies.twists[rows.slot_a], &twist_b = bodies.twists[rows.slot_b];
-  for (PointRows<V>& row : rows.points) {
+  for (PointRows<V>& row : rows.points)
     build_point<T>(joint.terms, bodies.bodies[rows.slot_a], bodies.bodies[rows.slot_b], erp_ / controls_.h(),
                    row, [&](const V& diagonal, const V& before) { return scale_of(diagonal, before); });
-    row.impulse = {carried(row.impulse.x), carried(row.impulse.y), carried(row.impulse.z)};
-  }
-  for (LineRow<V>& row : rows.lines) row.impulse = carried(row.impulse);
-  for (AxisRow<V>& row : rows.axes) row.impulse = carried(row.impulse);
-  for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
-    auto& row = rows.axis_controls[i];
-    if (!joint.controls[i].any()) continue;
-    rows.control_on[i] = control(joint.controls[i], row, [&](const V& impulse) {
-      controls_.push(row.row, impulse, twist_a, twist_b);
-    });
-  }
-  for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
-    auto& row = rows.line_controls[i];
-    rows.control_on[i] = control(joint.controls[i], row, [&](const V& impulse) {
-      controls_.push(row.row, impulse, rows.inv_mass_a, rows.inv_mass_b, twist_a, twist_b);
-    });
-  }
 }
 
 template <class T>
-template <class Row, class Push>
-PBMPI_LANES bool JointAdvancer<T>::control(const AxisControl<V>& control, Bounded<Row, V>& row,
-                                           const Push& push) const {
+template <model::JointKind kind>
+PBMPI_LANES void JointAdvancer<T>::restart(const JointLane<V>& joint, JointRows<T, kind>& rows) const {
+  if (carry_ != 1) {
+    for (PointRows<V>& row : rows.points)
+      row.impulse = {carried(row.impulse.x), carried(row.impulse.y), carried(row.impulse.z)};
+    for (LineRow<V>& row : rows.lines) row.impulse = carried(row.impulse);
+    for (AxisRow<V>& row : rows.axes) row.impulse = carried(row.impulse);
+  }
+  for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+    if (joint.controls[i].any()) rows.control_on[i] = control(joint.controls[i], rows.axis_controls[i]);
+  }
+  for (std::size_t i = 0; i < rows.line_controls.size(); ++i)
+    rows.control_on[i] = control(joint.controls[i], rows.line_controls[i]);
+}
+
+template <class T>
+template <class Row>
+PBMPI_LANES bool JointAdvancer<T>::control(const AxisControl<V>& control, Bounded<Row, V>& row) const {
   const V zero = T::broadcast(0), one = T::broadcast(1);
   V at_low = zero, at_high = zero;
   if (control.has_limit) {
@@ -117,7 +117,6 @@ PBMPI_LANES bool JointAdvancer<T>::control(const AxisControl<V>& control, Bounde
   row.row.rhs = state.rhs;
   set_bounds(state, row);
   row.row.impulse = T::min(T::max(carried(row.row.impulse), state.low), state.high);
-  push(state.push);
   return true;
 }
 

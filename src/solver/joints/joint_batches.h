@@ -12,6 +12,7 @@
 #include "solver/joints/broken_lanes.h"
 #include "solver/joints/joint_advancer.h"
 #include "solver/joints/joint_builder.h"
+#include "solver/joints/joint_memory.h"
 
 namespace pbmpi::solver {
 
@@ -25,6 +26,9 @@ class JointBatches {
   int num_shapes() const { return static_cast<int>(shapes_.size()); }
   /// The joints of a shape: [num_batches][shape.joints].
   std::vector<JointLane<V>>& joints(int shape) { return shapes_[static_cast<std::size_t>(shape)].joints; }
+  const std::vector<JointLane<V>>& joints(int shape) const {
+    return shapes_[static_cast<std::size_t>(shape)].joints;
+  }
 
   /// Which batches a step works on, by the slots of their bodies; at the start all.
   void deactivate_all() {
@@ -52,21 +56,40 @@ class JointBatches {
   /// A joint has broken in this lane.
   void set_broken(int shape, int joint, int lane) { broken_.add(shape, joint, lane); }
   /// The rows of a step's first substep.
-  void build(const Batch& batch, const JointBuilder<T>& builder, BodyLanes<T>& bodies) {
+  void build(const Batch& batch, const JointBuilder<T>& builder, const BodyLanes<T>& bodies) {
     for_each_rows(batch, [&](auto& joint, auto& rows) { builder.build(joint, bodies, rows); });
+  }
+  /// The impulses with which the rows start: what the joints remember, times `h`.
+  void recall(const Batch& batch, const V& h) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) { recall_forces<T>(joint.memory, h, rows); });
+  }
+  /// Remembers what the rows ended with, but where `keeps(slot)` of a joint's first body: null, or 1 in the
+  /// lanes whose memory stays as it is.
+  template <class Keeps>
+  void remember(const Batch& batch, const V& per_h, const Keeps& keeps) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) {
+      remember_forces<T>(rows, per_h, keeps(joint.slot_a), joint.memory);
+    });
+  }
+  /// At the start of a substep, what acts on the bodies before the sweeps: motors at their limits, and the
+  /// impulses that the rows start with, if `carries`.
+  void push(const Batch& batch, bool carries, BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto&, auto& rows) {
+      JointSolver<T>::push_motors(rows, bodies);
+      if (carries) JointSolver<T>::push_carried(rows, bodies);
+    });
   }
   /// After build(), in all active batches: broken joints push nothing, in no substep of the step.
   void stop_broken_joints();
-  /// Before and after the bodies move on to the next substep; `carries`: the rows start with impulses, which
-  /// act on the bodies.
+  /// Before and after the bodies move on; and at the start of the next substep.
   void advance(const Batch& batch, const JointAdvancer<T>& advancer, const BodyLanes<T>& bodies) {
     for_each_rows(batch, [&](auto& joint, auto& rows) { advancer.advance(joint, bodies, rows); });
   }
-  void rebuild(const Batch& batch, const JointAdvancer<T>& advancer, bool carries, BodyLanes<T>& bodies) {
-    for_each_rows(batch, [&](auto& joint, auto& rows) {
-      advancer.rebuild(joint, bodies, rows);
-      if (carries) JointSolver<T>::push_carried(rows, bodies);
-    });
+  void rebuild(const Batch& batch, const JointAdvancer<T>& advancer, const BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) { advancer.rebuild(joint, bodies, rows); });
+  }
+  void restart(const Batch& batch, const JointAdvancer<T>& advancer) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) { advancer.restart(joint, rows); });
   }
   /// Fisher-Yates with keyed numbers: the same order in every batch of a shape, so in every world.
   void shuffle(std::uint64_t key);

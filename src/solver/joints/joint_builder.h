@@ -20,9 +20,9 @@ class JointBuilder {
   JointBuilder(Scalar h, Scalar erp, Scalar cfm, Scalar sor_factor, bool goes_on)
       : rules_(h, erp), rows_(erp / h, cfm / h, sor_factor), controls_(rules_, rows_, goes_on) {}
 
-  /// Rows from the poses. May add to the twists: see ControlRules::push().
+  /// Rows from the poses, without impulses.
   template <model::JointKind kind>
-  void build(JointLane<V>& joint, BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
+  void build(JointLane<V>& joint, const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
 
  private:
   using Pair = JointBodies<V>;
@@ -41,10 +41,10 @@ class JointBuilder {
 
 template <class T>
 template <model::JointKind kind>
-void JointBuilder<T>::build(JointLane<V>& joint, BodyLanes<T>& bodies, JointRows<T, kind>& rows) const {
+void JointBuilder<T>::build(JointLane<V>& joint, const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const {
   using model::JointKind;
-  const Pair pair{bodies.bodies[joint.slot_a], bodies.bodies[joint.slot_b], bodies.twists[joint.slot_a],
-                  bodies.twists[joint.slot_b]};
+  const Pair pair{bodies.bodies[joint.slot_a], bodies.bodies[joint.slot_b]};
+  rows.sprung = kind == JointKind::hinge2 && joint.sprung;
   rows.slot_a = joint.slot_a;
   rows.slot_b = joint.slot_b;
   rows.inv_mass_a = pair.a.inv_mass;

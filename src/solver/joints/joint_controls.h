@@ -10,7 +10,8 @@ namespace pbmpi::solver {
 template <class V>
 struct alignas(sizeof(V)) ControlState {
   V rhs, low, high;  ///< of the row
-  V push;            ///< impulse of a motor that is at its limit; acts on a against the axis
+  V relaxed_rhs;     ///< of the row in sweeps that close no gap
+  V push;            ///< of a motor that is at its limit: see Bounded
 };
 
 template <class T>
@@ -32,13 +33,14 @@ class ControlRules {
     const V bound = T::broadcast(static_cast<Scalar>(huge_bound));
     const V velocity = control.has_hold ? aim(control, place) : control.velocity;
     const V force = control.max_force * h_;
-    ControlState<V> state{velocity, -force, force, zero};
+    ControlState<V> state{velocity, -force, force, velocity, zero};
     if (!T::any(at_low_flag + at_high_flag)) return state;
     const auto at_low = at_low_flag != zero;
     const auto at_high = at_high_flag != zero;
     const auto locked = control.low == control.high;
     const V error = place - (at_low ? control.low : control.high);
     state.rhs = at_low ? -k_ * error : (at_high ? -k_ * error : velocity);
+    state.relaxed_rhs = at_low ? zero : (at_high ? zero : velocity);
     state.low = at_low ? (locked ? -bound : zero) : (at_high ? -bound : -force);
     state.high = at_low ? bound : (at_high ? (locked ? bound : zero) : force);
     // A motor at its limit is a constant torque, into the limit unless the motor turns away from it.
@@ -47,19 +49,6 @@ class ControlRules {
     state.push = at_low ? push : (at_high ? push : zero);
     state.push = locked ? zero : state.push;
     return state;
-  }
-
-  /// A motor that is at its limit pushes as an external torque (ODE: dxJointLimitMotor::addLimot).
-  PBMPI_LANES static void push(const AxisRow<V>& row, const V& impulse, Twist<V>& a, Twist<V>& b) {
-    a.angular = a.angular - row.turn_a * impulse;
-    b.angular = b.angular + row.turn_b * impulse;
-  }
-  PBMPI_LANES static void push(const LineRow<V>& row, const V& impulse, const V& inv_mass_a,
-                               const V& inv_mass_b, Twist<V>& a, Twist<V>& b) {
-    a.linear = a.linear - row.direction * (inv_mass_a * impulse);
-    a.angular = a.angular - row.turn_a * impulse;
-    b.linear = b.linear + row.direction * (inv_mass_b * impulse);
-    b.angular = b.angular - row.turn_b * impulse;
   }
 
  private:
@@ -76,6 +65,8 @@ template <class Row, class V>
 PBMPI_LANES void set_bounds(const ControlState<V>& state, Bounded<Row, V>& row) {
   row.low = state.low;
   row.high = state.high;
+  row.relaxed_rhs = state.relaxed_rhs;
+  row.push = state.push;
 }
 
 }  // namespace pbmpi::solver

@@ -15,6 +15,7 @@
 
 #include "model/joint_traits.h"
 #include "solver/layout/body_lanes.h"
+#include "solver/layout/row_law.h"
 
 namespace pbmpi::solver {
 
@@ -35,11 +36,13 @@ constexpr RowCounts row_counts(model::JointKind kind) {
           .line_controls = traits.slides ? traits.num_axes : 0};
 }
 
-/// A row with bounds on its impulse [N s or N m s].
+/// A row of a limit or a motor.
 template <class Row, class V>
 struct alignas(sizeof(V)) Bounded {
   Row row;
-  V low, high;
+  V low, high;    ///< bounds of its impulse [N s or N m s]
+  V relaxed_rhs;  ///< in sweeps that close no gap: what a motor aims at
+  V push;         ///< impulse of a motor that is at its limit, once a substep; acts on a against the axis
 };
 
 template <class T, model::JointKind kind>
@@ -49,6 +52,7 @@ struct alignas(sizeof(typename T::V)) JointRows {
 
   int slot_a = 0, slot_b = 0;
   bool control_on[2] = {false, false};  ///< does a row stand for this axis now, in any lane?
+  bool sprung = false;                  ///< is the first line a suspension spring?
   V inv_mass_a, inv_mass_b;
   std::array<PointRows<V>, counts.points> points;
   std::array<LineRow<V>, counts.lines> lines;
@@ -77,8 +81,8 @@ class JointSolver {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// cfm [s/kg] of the joints, divided by the step.
-  explicit JointSolver(Scalar cfm) : cfm_(cfm) {}
+  /// cfm [s/kg] of the joints, divided by the step; law: of this sweep.
+  JointSolver(Scalar cfm, const RowLaw<Scalar>& law) : cfm_(cfm), law_(law) {}
 
   /// Rows in ODE's order, place before angles before limits and motors; places_last: the other way round.
   template <bool places_last, model::JointKind kind>
@@ -97,6 +101,26 @@ class JointSolver {
     }
     bodies.twists[rows.slot_a] = a;
     bodies.twists[rows.slot_b] = b;
+  }
+
+  /// A motor that is at its limit pushes as an external torque (ODE: dxJointLimitMotor::addLimot).
+  template <model::JointKind kind>
+  PBMPI_LANES static void push_motors(const JointRows<T, kind>& rows, BodyLanes<T>& bodies) {
+    Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
+    for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
+      if (!rows.control_on[i]) continue;
+      const auto& [row, low, high, relaxed_rhs, push] = rows.axis_controls[i];
+      a.angular = a.angular - row.turn_a * push;
+      b.angular = b.angular + row.turn_b * push;
+    }
+    for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
+      if (!rows.control_on[i]) continue;
+      const auto& [row, low, high, relaxed_rhs, push] = rows.line_controls[i];
+      a.linear = a.linear - row.direction * (rows.inv_mass_a * push);
+      a.angular = a.angular - row.turn_a * push;
+      b.linear = b.linear + row.direction * (rows.inv_mass_b * push);
+      b.angular = b.angular - row.turn_b * push;
+    }
   }
 
   /// Lets the impulses that the rows start with act on the bodies.
@@ -130,30 +154,37 @@ class JointSolver {
   }
   template <model::JointKind kind>
   PBMPI_LANES void solve_lines(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
-    for (LineRow<V>& row : rows.lines) push(row, step_of(row, a, b), rows.inv_mass_a, rows.inv_mass_b, a, b);
+    for (std::size_t i = 0; i < rows.lines.size(); ++i) {
+      LineRow<V>& row = rows.lines[i];
+      // A suspension is a spring of its own, in all sweeps.
+      const RowLaw<Scalar>& law = rows.sprung && i == 0 ? RowLaw<Scalar>{} : law_;
+      push(row, step_of(row, row.rhs * law.bias, law, a, b), rows.inv_mass_a, rows.inv_mass_b, a, b);
+    }
   }
   template <model::JointKind kind>
   PBMPI_LANES void solve_axes(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
-    for (AxisRow<V>& row : rows.axes) push(row, step_of(row, a, b), a, b);
+    for (AxisRow<V>& row : rows.axes) push(row, step_of(row, row.rhs * law_.bias, a, b), a, b);
   }
   template <model::JointKind kind>
   PBMPI_LANES void solve_controls(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
     for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
       if (!rows.control_on[i]) continue;
       auto& control = rows.axis_controls[i];
-      push(control.row, clamped(control, step_of(control.row, a, b)), a, b);
+      push(control.row, clamped(control, step_of(control.row, rhs_of(control), a, b)), a, b);
     }
     for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
       if (!rows.control_on[i]) continue;
       auto& control = rows.line_controls[i];
-      push(control.row, clamped(control, step_of(control.row, a, b)), rows.inv_mass_a, rows.inv_mass_b, a, b);
+      push(control.row, clamped(control, step_of(control.row, rhs_of(control), law_, a, b)), rows.inv_mass_a,
+           rows.inv_mass_b, a, b);
     }
   }
   PBMPI_LANES void solve_point(PointRows<V>& row, const V& inv_mass_a, const V& inv_mass_b, Twist<V>& a,
                                Twist<V>& b) const {
     const Vec3L<V>&ra = row.arm_a, &rb = row.arm_b;
     const auto apply = [&](V speed, V rhs, V scale, V& impulse, V& linear_a, V& linear_b, int k) {
-      const V change = (rhs - speed - cfm_ * impulse) * scale;
+      const V change =
+          (rhs * law_.bias - speed - cfm_ * impulse) * (scale * law_.mass_share) - law_.relief * impulse;
       impulse += change;
       linear_a += inv_mass_a * change;
       linear_b -= inv_mass_b * change;
@@ -175,12 +206,21 @@ class JointSolver {
           row.rhs.z, row.scale.z, row.impulse.z, a.linear.z, b.linear.z, 2);
   }
 
-  /// The impulse of a row after a Gauss-Seidel step on it, before bounds.
-  PBMPI_LANES V step_of(const AxisRow<V>& row, const Twist<V>& a, const Twist<V>& b) const {
-    return row.impulse + (row.rhs - dot(row.axis, a.angular - b.angular) - cfm_ * row.impulse) * row.scale;
+  template <class Row>
+  PBMPI_LANES V rhs_of(const Bounded<Row, V>& control) const {
+    return law_.bias > 0 ? control.row.rhs : control.relaxed_rhs;
   }
-  PBMPI_LANES static V step_of(const LineRow<V>& row, const Twist<V>& a, const Twist<V>& b) {
-    return row.impulse + (row.rhs - relative_speed(row, a, b) - row.cfm * row.impulse) * row.scale;
+  /// The impulse of a row after a Gauss-Seidel step on it, before bounds.
+  PBMPI_LANES V step_of(const AxisRow<V>& row, const V& rhs, const Twist<V>& a, const Twist<V>& b) const {
+    return row.impulse + ((rhs - dot(row.axis, a.angular - b.angular) - cfm_ * row.impulse) *
+                              (row.scale * law_.mass_share) -
+                          law_.relief * row.impulse);
+  }
+  PBMPI_LANES static V step_of(const LineRow<V>& row, const V& rhs, const RowLaw<Scalar>& law,
+                               const Twist<V>& a, const Twist<V>& b) {
+    return row.impulse +
+           ((rhs - relative_speed(row, a, b) - row.cfm * row.impulse) * (row.scale * law.mass_share) -
+            law.relief * row.impulse);
   }
   template <class Row>
   PBMPI_LANES static V clamped(const Bounded<Row, V>& control, const V& impulse) {
@@ -202,6 +242,7 @@ class JointSolver {
   }
 
   Scalar cfm_;
+  RowLaw<Scalar> law_;
 };
 
 }  // namespace pbmpi::solver

@@ -27,6 +27,13 @@ struct alignas(sizeof(V)) JointTermsLane {
   V cos0, sin0, stiffness, damping;
 };
 
+/// model::JointForce in lanes.
+template <class V>
+struct alignas(sizeof(V)) JointForceLane {
+  Vec3L<V> force{}, torque{};
+  V control[2]{};
+};
+
 /// One joint of a batch.
 template <class V>
 struct alignas(sizeof(V)) JointLane {
@@ -34,6 +41,7 @@ struct alignas(sizeof(V)) JointLane {
   bool sprung = false;  ///< hinge2 with a suspension spring
   JointTermsLane<V> terms;
   AxisControl<V> controls[2];
+  JointForceLane<V> memory;  ///< with what the last step ended
 };
 
 }  // namespace pbmpi::solver

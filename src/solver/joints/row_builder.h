@@ -10,7 +10,6 @@ namespace pbmpi::solver {
 template <class V>
 struct JointBodies {
   const BodyLane<V>&a, &b;
-  Twist<V>&twist_a, &twist_b;
 };
 
 /// (q_a^-1 q_b) relative^-1: how b has turned against a since the start.
@@ -23,7 +22,7 @@ struct alignas(sizeof(V)) RelativeRotation {
 template <class V>
 PBMPI_LANES RelativeRotation<V> relative_rotation(const JointTermsLane<V>& terms,
                                                   const JointBodies<V>& pair) {
-  const auto& [a, b, twist_a, twist_b] = pair;
+  const auto& [a, b] = pair;
   const V rw = a.qw * b.qw + a.qx * b.qx + a.qy * b.qy + a.qz * b.qz;
   const V rx = a.qw * b.qx - a.qx * b.qw - a.qy * b.qz + a.qz * b.qy;
   const V ry = a.qw * b.qy - a.qy * b.qw - a.qz * b.qx + a.qx * b.qz;

@@ -183,6 +183,9 @@ struct alignas(sizeof(V)) Mat3L {
   PBMPI_LANES Vec3L<V> operator*(const Vec3L<V>& v) const {
     return {dot(row0, v), dot(row1, v), dot(row2, v)};
   }
+  PBMPI_LANES Vec3L<V> transposed_times(const Vec3L<V>& v) const {
+    return row0 * v.x + row1 * v.y + row2 * v.z;
+  }
 };
 
 }  // namespace pbmpi::solver

@@ -132,6 +132,27 @@ PBMPI_LANES void integrate(Body& body, const Twist<typename T::V>& twist, typena
   body.qz *= inverse;
 }
 
+/// integrate() of a body that nothing turns but its own inertia: its angular momentum stays to rounding, its
+/// energy to third order in the angle of a substep (midpoint rule for the angular velocity that belongs to
+/// the momentum). Lanes where `has_torque` is 0 keep their velocity to the bit.
+template <class T, bool last>
+PBMPI_LANES void integrate_turning(BodyLane<typename T::V>& body, const typename T::V& has_torque,
+                                   Twist<typename T::V>& twist, typename T::Scalar h) {
+  using V = typename T::V;
+  const auto has = has_torque > T::broadcast(0);
+  const Vec3L<V> w = twist.angular;
+  const Vec3L<V> momentum = body.rotation * (body.inertia_body * body.rotation.transposed_times(w));
+  const auto velocity_in = [&](const Mat3L<V>& rotation) -> Vec3L<V> {
+    const Vec3L<V> turned = rotation * (body.inv_inertia_body * rotation.transposed_times(momentum));
+    return {has ? turned.x : w.x, has ? turned.y : w.y, has ? turned.z : w.z};
+  };
+  PoseLane<V> half{body.position, body.qw, body.qx, body.qy, body.qz};
+  integrate<T, false>(half, twist, h / 2);
+  twist.angular = velocity_in(to_matrix(half.qw, half.qx, half.qy, half.qz));
+  integrate<T, last>(body, twist, h);
+  twist.angular = velocity_in(to_matrix(body.qw, body.qx, body.qy, body.qz));
+}
+
 /// The implicit gyroscopic torque of ODE 0.16 (Lacoursiere, "Stabilizing gyroscopic forces in rigid multibody
 /// simulations", 2006): angular velocity after a torque-free step of the body's Euler equation,
 ///   (I + h [L]x^T) w' = L with L = I w, all in the world frame.

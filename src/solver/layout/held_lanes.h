@@ -18,6 +18,12 @@ class HeldLanes {
   template <class Places>
   void hold(int num_slots, const Places& places);
 
+  /// 1 in the lanes of a slot that are held, else 0; null if none is.
+  const V* lanes(int slot) const {
+    const int index = index_.empty() ? -1 : index_[static_cast<std::size_t>(slot)];
+    return index < 0 ? nullptr : &slots_[static_cast<std::size_t>(index)].held;
+  }
+
   void save(const BodyLanes<T>& bodies) {
     for (Slot& held : slots_) {
       held.body = bodies.bodies[held.slot];
@@ -52,15 +58,16 @@ class HeldLanes {
   }
 
   std::vector<Slot> slots_;
+  std::vector<int> index_;  ///< [num_slots] in slots_, or -1
 };
 
 template <class T>
 template <class Places>
 void HeldLanes<T>::hold(int num_slots, const Places& places) {
   slots_.clear();
-  std::vector<int> index(static_cast<std::size_t>(num_slots), -1);
+  index_.assign(static_cast<std::size_t>(num_slots), -1);
   for (const LanePlace& at : places) {
-    int& found = index[static_cast<std::size_t>(at.slot)];
+    int& found = index_[static_cast<std::size_t>(at.slot)];
     if (found < 0) {
       found = static_cast<int>(slots_.size());
       Slot& held = slots_.emplace_back();

@@ -22,8 +22,12 @@ class BodyMotion {
 
   void apply_gyroscopic_torques(const Batch& batch, Scalar dt, const GyroscopicSlot<V>*& next);
   void apply_gravity(const Batch& batch, Scalar h);
-  void move(const Batch& batch, Scalar h);
-  void move_on(const Batch& batch, Scalar h);
+  /// last: the step ends here. `next`: as above, or null where bodies turn without the torque.
+  template <bool last>
+  void move(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next);
+  /// Likewise, of one slot, without what follows from the pose.
+  template <bool last>
+  void move_slot(int slot, Scalar h, const GyroscopicSlot<V>*& next, BodyLane<V>& body, Twist<V>& twist);
   void damp(const Batch& batch, double h);
 
  private:
@@ -49,22 +53,32 @@ void BodyMotion<T>::apply_gravity(const Batch& batch, Scalar h) {
   }
 }
 
+/// Between two substeps inertia in the world's frame stays that of the step's start, as in a step without
+/// substeps.
 template <class T>
-void BodyMotion<T>::move(const Batch& batch, Scalar h) {
+template <bool last>
+void BodyMotion<T>::move(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next) {
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
-    integrate<T, true>(worlds_.bodies.bodies[slot], worlds_.bodies.twists[slot], h);
-    refresh(worlds_.bodies.bodies[slot]);
+    BodyLane<V>& body = worlds_.bodies.bodies[slot];
+    move_slot<last>(slot, h, next, body, worlds_.bodies.twists[slot]);
+    if constexpr (last) {
+      refresh(body);
+    } else {
+      body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
+    }
   }
 }
 
-/// Between two substeps. Inertia in the world's frame, and with it the gyroscopic torque, stays that of the
-/// step's start, as in a step without substeps.
 template <class T>
-void BodyMotion<T>::move_on(const Batch& batch, Scalar h) {
-  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
-    BodyLane<V>& body = worlds_.bodies.bodies[slot];
-    integrate<T, false>(body, worlds_.bodies.twists[slot], h);
-    body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
+template <bool last>
+void BodyMotion<T>::move_slot(int slot, Scalar h, const GyroscopicSlot<V>*& next, BodyLane<V>& body,
+                              Twist<V>& twist) {
+  const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
+  while (next != nullptr && next != end && next->slot < slot) ++next;
+  if (next != nullptr && next != end && next->slot == slot) {
+    integrate_turning<T, last>(body, next->has_torque, twist, h);
+  } else {
+    integrate<T, last>(body, twist, h);
   }
 }
 

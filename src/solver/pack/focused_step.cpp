@@ -19,10 +19,12 @@ stepping::Residuals join(const stepping::Residuals& a, const stepping::Residuals
 void FocusedStep::begin(std::span<const FocusedWorld> worlds, int iterations) {
   worlds_.assign(worlds.begin(), worlds.end());
   contacts_.clear();
+  forces_.clear();
   bool any_inside = false, any_outside = false, all_have_fields = true;
   iterations_ = outside_iterations_ = iterations;
   for (const FocusedWorld& world : worlds_) {
     contacts_.push_back(world.contacts);
+    forces_.push_back(world.forces);
     all_have_fields &= world.field != nullptr;
     any_inside |= world.field == nullptr || !world.field->inside().empty();
     if (world.field == nullptr || world.field->outside().empty()) continue;
@@ -39,7 +41,7 @@ void FocusedStep::begin_outside(Pack& pack, StepParameters parameters, core::Pha
   parameters.iterations = outside_iterations_;
   for (std::size_t w = 0; w < worlds_.size(); ++w)
     pack.set_active(static_cast<int>(w), worlds_[w].field->outside());
-  pack.begin_step(contacts_, parameters, times);
+  pack.begin_step(contacts_, forces_, parameters, times);
 }
 
 void FocusedStep::finish_outside(Pack& pack, bool residuals, core::PhaseTimes& times) {

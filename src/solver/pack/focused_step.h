@@ -18,6 +18,7 @@ struct FocusedWorld {
   /// pack.
   const effects::FieldOfInterest* field = nullptr;
   std::span<const model::Contact> contacts;  ///< between these bodies, in canonical order
+  std::span<model::ContactForce> forces;     ///< [contacts] or none: see Pack::step()
 };
 
 /// Where bodies of both sorts are to move, the step is taken twice, each time with those of one sort
@@ -25,7 +26,7 @@ struct FocusedWorld {
 /// what is inside. An island has the bits that a pack without the other islands would give it.
 class FocusedStep {
  public:
-  using Contacts = std::span<const std::span<const model::Contact>>;
+  using Contacts = Pack::Contacts;
 
   /// Begins a step in a run with so many iterations. The spans must live until the step is taken.
   void begin(std::span<const FocusedWorld> worlds, int iterations);
@@ -34,6 +35,7 @@ class FocusedStep {
   /// For the bodies that step_outside() leaves; for all, if it is not cut.
   int iterations() const { return iterations_; }
   Contacts contacts() const { return contacts_; }
+  Pack::Forces forces() const { return forces_; }
 
   /// If it is cut: moves what is outside, and makes what is inside active. With `look_after`: sees the former
   /// as it would be after so many iterations.
@@ -59,6 +61,7 @@ class FocusedStep {
 
   std::vector<FocusedWorld> worlds_;
   std::vector<std::span<const model::Contact>> contacts_;  ///< [num_worlds]
+  std::vector<std::span<model::ContactForce>> forces_;     ///< [num_worlds]
   std::vector<Seen> seen_;                                 ///< [num_worlds] of what is outside
   std::vector<model::State> looks_;
   bool cut_ = false;

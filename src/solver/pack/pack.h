@@ -13,6 +13,7 @@
 #include "model/model.h"
 #include "model/state.h"
 #include "solver/layout/packed_world.h"
+#include "solver/layout/row_law.h"
 #include "stepping/observables.h"
 
 namespace pbmpi::solver {
@@ -23,7 +24,10 @@ struct StepParameters {
   int substeps = 1;
   int iterations = 20;
   double sor_factor = 1.3;
-  double warm_start = 0;        ///< share of the impulses that a substep takes over from the one before
+  double warm_start = 0;  ///< share of the impulses that a step and a substep take over from the one before
+  int relax = 0;          ///< sweeps at the end of a substep that push nothing out
+  Spring contacts, joints;
+  bool cone = false;            ///< friction that is the same in all directions
   bool shuffled = true;         ///< false: the joints of an articulation keep their order
   bool residuals = false;       ///< measure them at the end of the solve
   std::uint64_t order_key = 0;  ///< (seed, step): the order of joints within an articulation
@@ -51,9 +55,13 @@ class Pack {
   virtual void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) = 0;
   virtual void set_limit(int world, int joint, int axis, const model::AxisLimit& limit) = 0;
   virtual void launch(int world, const model::Event& event) = 0;
+  /// The joints of a body forget their forces: it was taken to where they say nothing.
+  virtual void forget(int world, int body) = 0;
   /// Joints of a world are broken from now on (State::broken_in): they act no more, their settings change no
   /// more, their bodies may touch, and need not be active together. What is broken stays so.
   virtual void set_broken(int world, std::span<const std::int32_t> broken_in) = 0;
+  /// [m] Centre of mass of a body, world frame.
+  virtual model::Vec3 centre(int world, int body) const = 0;
   /// Poses of a world's bodies: [num_bodies].
   virtual void poses(int world, std::span<model::BodyPose> poses) const = 0;
   /// Collision detection among the swept geoms at the poses of now: the contacts of each world, in canonical
@@ -62,17 +70,19 @@ class Pack {
   /// The contacts of given pairs (sorted) of one world, swept geoms or not; appended.
   virtual void collide_pairs(int world, std::span<const model::GeomPair> pairs,
                              std::vector<model::Contact>& contacts) = 0;
-  /// One step with these contacts (of each world, in canonical order); spans hold during the call.
+  using Contacts = std::span<const std::span<const model::Contact>>;
+  using Forces = std::span<const std::span<model::ContactForce>>;
+  /// One step with these contacts (of each world, in canonical order), and with the forces with which they
+  /// start, and end after the call: [contacts] of each world, or none. Spans hold during the call.
   /// Adds the seconds spent on rows, solve and integrate to `times`.
-  void step(std::span<const std::span<const model::Contact>> contacts, const StepParameters& parameters,
-            core::PhaseTimes& times) {
-    begin_step(contacts, parameters, times);
+  void step(Contacts contacts, Forces forces, const StepParameters& parameters, core::PhaseTimes& times) {
+    begin_step(contacts, forces, parameters, times);
     finish_step(times);
   }
   /// A step in parts: all before the iterations of the last substep; then some of these iterations, at most
   /// as many as are left; then the rest of the step.
-  virtual void begin_step(std::span<const std::span<const model::Contact>> contacts,
-                          const StepParameters& parameters, core::PhaseTimes& times) = 0;
+  virtual void begin_step(Contacts contacts, Forces forces, const StepParameters& parameters,
+                          core::PhaseTimes& times) = 0;
   virtual void iterate(int iterations, core::PhaseTimes& times) = 0;
   virtual void finish_step(core::PhaseTimes& times) = 0;
   /// Before finish_step(): the states [num_worlds] as they would be if the step ended now. Costs an

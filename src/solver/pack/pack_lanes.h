@@ -12,8 +12,6 @@ namespace pbmpi::solver {
 template <class T>
 class PackLanes final : public Pack {
  public:
-  using Contacts = std::span<const std::span<const model::Contact>>;
-
   explicit PackLanes(std::span<const PackedWorld> worlds)
       : passes_(shared_passes(worlds)),
         worlds_(worlds, passes_),
@@ -42,12 +40,14 @@ class PackLanes final : public Pack {
     worlds_.set_limit(world, joint, axis, limit);
   }
   void launch(int world, const model::Event& event) override { worlds_.launch(world, event); }
+  void forget(int world, int body) override { worlds_.forget(world, body); }
   void set_broken(int world, std::span<const std::int32_t> broken_in) override {
     if (worlds_.set_broken(world, broken_in) && collider_) collider_->set_broken(world, broken_in);
   }
   effects::Reaction reaction(int world, int joint) const override {
     return worlds_.reaction(world, joint, step_.h());
   }
+  model::Vec3 centre(int world, int body) const override { return worlds_.centre(world, body); }
   void poses(int world, std::span<model::BodyPose> poses) const override { worlds_.poses(world, poses); }
   int joint_rows(int world, int joint) const override { return worlds_.joint_rows(world, joint); }
 
@@ -58,8 +58,9 @@ class PackLanes final : public Pack {
                      std::vector<model::Contact>& contacts) override {
     if (collider_) collider_->collide_pairs(worlds_, world, pairs, contacts);
   }
-  void begin_step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) override {
-    step_.begin(contacts, parameters, times);
+  void begin_step(Contacts contacts, Forces forces, const StepParameters& parameters,
+                  core::PhaseTimes& times) override {
+    step_.begin(contacts, forces, parameters, times);
   }
   void iterate(int iterations, core::PhaseTimes& times) override { step_.iterate(iterations, times); }
   void finish_step(core::PhaseTimes& times) override { step_.finish(times); }

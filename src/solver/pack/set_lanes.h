@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/geometry.h"
+#include "model/step_memory.h"
 #include "solver/joints/joint_terms.h"
 #include "solver/layout/body_lanes.h"
 
@@ -53,6 +54,12 @@ struct SetLanes {
     set(to.sin0, lane, terms.sin0);
     set(to.stiffness, lane, terms.stiffness);
     set(to.damping, lane, terms.damping);
+  }
+  static void set(JointForceLane<V>& to, int lane, const model::JointForce& force) {
+    set(to.force, lane, force.force);
+    set(to.torque, lane, force.torque);
+    set(to.control[0], lane, force.control[0]);
+    set(to.control[1], lane, force.control[1]);
   }
   static void set(AxisControl<V>& control, int lane, const model::AxisMotor& motor) {
     set(control.velocity, lane, motor.velocity);

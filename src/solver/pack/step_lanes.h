@@ -13,13 +13,18 @@
 
 namespace pbmpi::solver {
 
+/// [m/s] With relaxing sweeps no contact pushes its bodies apart faster, however deep they are (Box2D v3 has
+/// the same).
+inline constexpr double fastest_push = 3;
+
 /// See Pack: begin(), iterate() and finish() follow each other in a step.
 template <class T>
 class StepLanes {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
-  using Contacts = std::span<const std::span<const model::Contact>>;
+  using Contacts = Pack::Contacts;
+  using Forces = Pack::Forces;
 
   /// `passes` and `worlds` are borrowed.
   StepLanes(const PackLaws& laws, const Passes& passes, WorldLanes<T>& worlds)
@@ -29,7 +34,7 @@ class StepLanes {
         motion_(laws, worlds),
         contacts_(frictionless_contacts(passes)) {}
 
-  void begin(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times);
+  void begin(Contacts contacts, Forces forces, const StepParameters& parameters, core::PhaseTimes& times);
   void iterate(int iterations, core::PhaseTimes& times);
   void finish(core::PhaseTimes& times);
   void look(std::span<model::State> states);
@@ -40,16 +45,40 @@ class StepLanes {
  private:
   using Batch = typename JointBatches<T>::Batch;
 
-  void sort_contacts(Contacts contacts);
+  void sort_contacts(Contacts contacts, Forces forces);
 
   void damp(const Batch& batch) {
     if (passes_.damping) motion_.damp(batch, parameters_.dt_s / parameters_.substeps);
   }
+  bool relaxes() const { return parameters_.relax > 0; }
+  bool remembers() const { return parameters_.warm_start > 0; }
   void start_step();
   void start_substep();
+  void push_carried();
   void sweep();
-  void sweep_joints();
+  void sweep_joints(const RowLaw<Scalar>& law);
+  void sweep_contacts(const RowLaw<Scalar>& law, bool backwards);
   void end_sweeps();
+  /// From the last sweep with bias to the end of the substep: the bodies move, and the relaxing sweeps.
+  template <bool last>
+  void end_substep();
+  void relax();
+  void bounce();
+  void remember();
+  /// For BodyMotion::move().
+  const GyroscopicSlot<V>* first_turning() const { return relaxes() ? worlds_.gyroscopic.data() : nullptr; }
+  double joint_erp() const {
+    return parameters_.joints.is_on() ? SpringStep(parameters_.joints, h()).erp() : laws_.erp;
+  }
+  JointAdvancer<T> joint_advancer() const {
+    const auto scalar = [](double value) { return static_cast<Scalar>(value); };
+    return {h_, scalar(joint_erp()), scalar(laws_.cfm), scalar(parameters_.sor_factor),
+            scalar(parameters_.warm_start)};
+  }
+  RowLaw<Scalar> joint_law() const {
+    return parameters_.joints.is_on() ? SpringStep(parameters_.joints, h()).template law<Scalar>()
+                                      : RowLaw<Scalar>{};
+  }
   static ContactKind frictionless_contacts(const Passes& passes) {
     if (passes.idle_friction) return ContactKind::rough;
     return passes.turning_contacts ? ContactKind::smooth : ContactKind::central;
@@ -72,11 +101,13 @@ class StepLanes {
 };
 
 template <class T>
-void StepLanes<T>::sort_contacts(Contacts contacts) {
+void StepLanes<T>::sort_contacts(Contacts contacts, Forces forces) {
   contacts_.clear();
   for (int world = 0; world < worlds_.num_worlds(); ++world) {
+    const auto w = static_cast<std::size_t>(world);
     contacts_.add_world(
-        worlds_.model(world).num_bodies(), contacts[static_cast<std::size_t>(world)],
+        worlds_.model(world).num_bodies(), contacts[w],
+        remembers() && !forces.empty() ? forces[w] : std::span<model::ContactForce>(),
         [&](int body) { return worlds_.moves(world, body); },
         [&](int body) { return worlds_.places.body(world, body); });
   }
@@ -85,15 +116,22 @@ void StepLanes<T>::sort_contacts(Contacts contacts) {
 template <class T>
 ContactParameters<typename T::Scalar> StepLanes<T>::contact_parameters() const {
   const auto scalar = [](double value) { return static_cast<Scalar>(value); };
-  return {h_,
-          scalar(laws_.contact_erp) / scalar(parameters_.dt_s),
-          scalar(laws_.contact_cfm),
-          scalar(laws_.cfm),
-          scalar(laws_.bounce_velocity),
-          scalar(parameters_.sor_factor),
-          passes_.restitution,
-          laws_.turning_contacts,
-          scalar(parameters_.warm_start)};
+  const bool sprung = parameters_.contacts.is_on();
+  const SpringStep spring(sprung ? parameters_.contacts : Spring{1, 1}, h());
+  return {
+      .h = h_,
+      .push_rate = sprung ? scalar(spring.erp()) / h_ : scalar(laws_.contact_erp) / scalar(parameters_.dt_s),
+      .push_limit = scalar(relaxes() ? fastest_push : huge_bound),
+      .soft_cfm = scalar(sprung ? 0 : laws_.contact_cfm),
+      .cfm = scalar(laws_.cfm),
+      .bounce_velocity = scalar(laws_.bounce_velocity),
+      .sor_factor = scalar(parameters_.sor_factor),
+      .warm_start = scalar(parameters_.warm_start),
+      .law = sprung ? spring.template law<Scalar>() : RowLaw<Scalar>{},
+      .restitution = passes_.restitution,
+      .turning = laws_.turning_contacts,
+      .relaxes = relaxes(),
+      .cone = parameters_.cone};
 }
 
 /// Rows and forces of a step, up to the first iteration.
@@ -101,37 +139,38 @@ template <class T>
 void StepLanes<T>::start_step() {
   const auto scalar = [](double value) { return static_cast<Scalar>(value); };
   contacts_.build(worlds_.bodies, contact_parameters());
-  const JointBuilder<T> builder(h_, scalar(laws_.erp), scalar(laws_.cfm), scalar(parameters_.sor_factor),
+  const JointBuilder<T> builder(h_, scalar(joint_erp()), scalar(laws_.cfm), scalar(parameters_.sor_factor),
                                 parameters_.substeps > 1);
   const GyroscopicSlot<V>* next_turning = worlds_.gyroscopic.data();
+  const V recalled = T::broadcast(h_ * scalar(parameters_.warm_start));
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
-    motion_.apply_gyroscopic_torques(batch, scalar(parameters_.dt_s), next_turning);
+    if (!relaxes()) motion_.apply_gyroscopic_torques(batch, scalar(parameters_.dt_s), next_turning);
     if (passes_.gravity) motion_.apply_gravity(batch, h_);
     worlds_.joints.build(batch, builder, worlds_.bodies);
+    if (remembers()) worlds_.joints.recall(batch, recalled);
   });
   worlds_.joints.stop_broken_joints();
-  twists_.start(worlds_.bodies);
-  iteration_ = 0;
+  push_carried();
 }
 
-/// From the last iteration of a substep to the first of the next. Batch by batch, so that its bodies and
-/// joints are in the cache from pass to pass.
 template <class T>
 void StepLanes<T>::start_substep() {
-  const auto scalar = [](double value) { return static_cast<Scalar>(value); };
-  const bool carries = parameters_.warm_start > 0;
-  contacts_.advance(worlds_.bodies, contact_parameters());
-  const JointAdvancer<T> advancer(h_, scalar(laws_.erp), scalar(laws_.cfm), scalar(parameters_.sor_factor),
-                                  scalar(parameters_.warm_start));
+  if (parameters_.warm_start != 1) contacts_.carry(worlds_.bodies, contact_parameters());
+  const JointAdvancer<T> advancer = joint_advancer();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
-    worlds_.joints.advance(batch, advancer, worlds_.bodies);
-    motion_.move_on(batch, h_);
-    damp(batch);
     if (passes_.gravity) motion_.apply_gravity(batch, h_);
-    worlds_.joints.rebuild(batch, advancer, carries, worlds_.bodies);
+    worlds_.joints.restart(batch, advancer);
   });
+  push_carried();
+}
+
+/// What acts before the first sweep: motors at their limits, and the impulses that the rows start with.
+template <class T>
+void StepLanes<T>::push_carried() {
+  worlds_.joints.for_each_active_batch(
+      [&](const Batch& batch) { worlds_.joints.push(batch, remembers(), worlds_.bodies); });
   twists_.start(worlds_.bodies);
-  if (carries) {
+  if (remembers()) {
     twists_.need_rows(worlds_.bodies);
     contacts_.push_carried(worlds_.bodies.contact_twists);
     twists_.changed_rows();
@@ -139,9 +178,9 @@ void StepLanes<T>::start_substep() {
   iteration_ = 0;
 }
 
-/// One iteration: all joints, then all contacts. In the last one of a substep the joints come last: what is
-/// left of their error would open the gap at once and in every substep, whereas the next substep sees the
-/// depth that is left of a contact's.
+/// One iteration: all joints, then all contacts. Without relaxing sweeps the joints come last in the last one
+/// of a substep: what is left of their error would open the gap at once and in every substep, whereas the
+/// next substep sees the depth that is left of a contact's.
 template <class T>
 void StepLanes<T>::sweep() {
   constexpr int iterations_per_order = 8;  // as ODE's quickstep
@@ -151,21 +190,26 @@ void StepLanes<T>::sweep() {
     worlds_.joints.shuffle(core::mix_key(parameters_.order_key, static_cast<std::uint64_t>(substep_),
                                          static_cast<std::uint64_t>(iteration_)));
   }
-  const bool joints_last = parameters_.substeps > 1 && iteration_ + 1 == parameters_.iterations;
-  if (!joints_last) sweep_joints();
-  twists_.need_rows(worlds_.bodies);
-  contacts_.sweep(worlds_.bodies.contact_twists, contact_parameters(), iteration_ % 2 == 1);
-  twists_.changed_rows();
-  if (joints_last) sweep_joints();
+  const bool joints_last = !relaxes() && parameters_.substeps > 1 && iteration_ + 1 == parameters_.iterations;
+  if (!joints_last) sweep_joints(joint_law());
+  sweep_contacts(contact_parameters().law, iteration_ % 2 == 1);
+  if (joints_last) sweep_joints(joint_law());
   ++iteration_;
+}
+
+template <class T>
+void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, bool backwards) {
+  twists_.need_rows(worlds_.bodies);
+  contacts_.sweep(worlds_.bodies.contact_twists, contact_parameters(), law, backwards);
+  twists_.changed_rows();
 }
 
 /// With substeps the rows of a joint that hold its place come after those that hold its angles, which would
 /// open what is closed.
 template <class T>
-void StepLanes<T>::sweep_joints() {
+void StepLanes<T>::sweep_joints(const RowLaw<Scalar>& law) {
   twists_.need_slots(worlds_.bodies);
-  const JointSolver<T> solver(static_cast<Scalar>(laws_.cfm) / h_);
+  const JointSolver<T> solver(static_cast<Scalar>(laws_.cfm) / h_, law);
   if (parameters_.substeps > 1) {
     worlds_.joints.template sweep<true>(solver, worlds_.bodies);
   } else {
@@ -174,20 +218,74 @@ void StepLanes<T>::sweep_joints() {
   twists_.changed_slots();
 }
 
+/// Takes back the speed that pushed errors of position out.
 template <class T>
-void StepLanes<T>::begin(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
+void StepLanes<T>::relax() {
+  for (int i = 0; i < parameters_.relax; ++i) {
+    sweep_joints(RowLaw<Scalar>::relaxing());
+    sweep_contacts(RowLaw<Scalar>::relaxing(), false);
+  }
+}
+
+/// Batch by batch, so that its bodies and joints are in the cache from pass to pass.
+template <class T>
+template <bool last>
+void StepLanes<T>::end_substep() {
+  if (!last || relaxes()) contacts_.advance(worlds_.bodies, contact_parameters());
+  const JointAdvancer<T> advancer = joint_advancer();
+  const GyroscopicSlot<V>* turning = first_turning();
+  worlds_.joints.for_each_active_batch([&](const Batch& batch) {
+    if (!last) worlds_.joints.advance(batch, advancer, worlds_.bodies);
+    motion_.template move<last>(batch, h_, turning);
+    if (!last) worlds_.joints.rebuild(batch, advancer, worlds_.bodies);
+    if (!relaxes()) damp(batch);
+  });
+  if (!relaxes()) return;
+  twists_.start(worlds_.bodies);
+  relax();
+  if (last) {
+    remember();
+    bounce();
+  }
+  twists_.end(worlds_.bodies);
+  worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
+}
+
+/// One sweep over the contacts that have touched and whose bodies approached faster than the threshold.
+template <class T>
+void StepLanes<T>::bounce() {
+  if (!passes_.restitution) return;
+  twists_.need_rows(worlds_.bodies);
+  contacts_.bounce(worlds_.bodies.contact_twists, contact_parameters());
+  twists_.changed_rows();
+}
+
+template <class T>
+void StepLanes<T>::remember() {
+  if (!remembers()) return;
+  contacts_.remember(worlds_.bodies, contact_parameters());
+  const V per_h = T::broadcast(1 / h_);
+  worlds_.joints.for_each_active_batch([&](const Batch& batch) {
+    worlds_.joints.remember(batch, per_h, [&](int slot) { return worlds_.held_lanes(slot); });
+  });
+}
+
+template <class T>
+void StepLanes<T>::begin(Contacts contacts, Forces forces, const StepParameters& parameters,
+                         core::PhaseTimes& times) {
   parameters_ = parameters;
   h_ = static_cast<Scalar>(parameters.dt_s / parameters.substeps);
   core::LapTimer timer(times);
   worlds_.update_active();
   if (passes_.holds_bodies()) worlds_.save_held();
-  sort_contacts(contacts);
+  sort_contacts(contacts, forces);
   twists_.find(worlds_, [&](auto visit) { contacts_.for_each_body_slot(visit); });
   substep_ = 0;
   start_step();
   timer.lap(core::Phase::rows);
   while (substep_ + 1 < parameters.substeps) {
     end_sweeps();
+    end_substep<false>();
     timer.lap(core::Phase::solve);
     ++substep_;
     start_substep();
@@ -218,11 +316,9 @@ void StepLanes<T>::finish(core::PhaseTimes& times) {
     residuals_.clear();
     for (int world = 0; world < worlds_.num_worlds(); ++world) residuals_.push_back(measure_residuals(world));
   }
+  if (!relaxes()) remember();
   timer.lap(core::Phase::solve);
-  worlds_.joints.for_each_active_batch([&](const Batch& batch) {
-    motion_.move(batch, h_);
-    damp(batch);
-  });
+  end_substep<true>();
   if (passes_.holds_bodies()) worlds_.restore_held();
   timer.lap(core::Phase::integrate);
 }
@@ -233,20 +329,19 @@ template <class T>
 void StepLanes<T>::look(std::span<model::State> states) {
   twists_.end(worlds_.bodies);
   look_poses_.resize(worlds_.gravity.size());
-  worlds_.for_each_active_slot([&](int slot) {
-    const BodyLane<V>& body = worlds_.bodies.bodies[slot];
-    PoseLane<V>& pose = look_poses_[static_cast<std::size_t>(slot)];
-    pose = {body.position, body.qw, body.qx, body.qy, body.qz};
-    integrate<T, true>(pose, worlds_.bodies.twists[slot], h_);
-  });
   std::vector<Twist<V>>& twists = worlds_.bodies.twists;
-  if (passes_.damping) {
-    kept_twists_ = twists;
-    worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
-  }
+  const bool changes_twists = passes_.damping || relaxes();
+  if (changes_twists) kept_twists_ = twists;
+  const GyroscopicSlot<V>* turning = first_turning();
+  worlds_.for_each_active_slot([&](int slot) {
+    BodyLane<V> body = worlds_.bodies.bodies[slot];
+    motion_.template move_slot<true>(slot, h_, turning, body, twists[slot]);
+    look_poses_[static_cast<std::size_t>(slot)] = {body.position, body.qw, body.qx, body.qy, body.qz};
+  });
+  worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
   for (std::size_t world = 0; world < states.size(); ++world)
     worlds_.store_with(look_poses_.data(), static_cast<int>(world), states[world]);
-  if (passes_.damping) twists = kept_twists_;
+  if (changes_twists) twists = kept_twists_;
 }
 
 template <class T>

@@ -28,6 +28,10 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   parameters.iterations = settings.iterations;
   parameters.sor_factor = settings.sor_factor;
   parameters.warm_start = settings.warm_start;
+  parameters.relax = settings.relax;
+  parameters.contacts = {settings.contact_frequency, settings.contact_damping};
+  parameters.joints = {settings.joint_frequency, settings.joint_damping};
+  parameters.cone = settings.friction == stepping::Friction::cone;
   parameters.residuals = settings.residuals;
   parameters.shuffled = settings.row_order == stepping::RowOrder::shuffled;
   parameters.order_key = core::mix_key(settings.seed, static_cast<std::uint64_t>(step), 0);

@@ -11,6 +11,7 @@
 #include "solver/joints/joint_load.h"
 #include "solver/layout/active_bodies.h"
 #include "solver/layout/held_lanes.h"
+#include "solver/layout/joints_of_bodies.h"
 #include "solver/layout/lane_places.h"
 #include "solver/layout/passes.h"
 #include "solver/pack/gyroscopic_slots.h"
@@ -30,6 +31,7 @@ class WorldLanes {
   void load(int world, const model::State& state) {
     for (int body = 0; body < model(world).num_bodies(); ++body) load_body(world, body, state);
   }
+  /// Joints' forces only where the state has room for them.
   void store(int world, model::State& state) const {
     for (int body = 0; body < model(world).num_bodies(); ++body) store_body(world, body, state);
   }
@@ -50,6 +52,8 @@ class WorldLanes {
   /// With Passes::holds_bodies(): round a step, for the bodies that are not active in batches that are.
   void save_held() { held_.save(bodies); }
   void restore_held() { held_.restore(bodies); }
+  /// 1 in the lanes of a slot that are held, else 0; null if none is.
+  const V* held_lanes(int slot) const { return holds_bodies_ ? held_.lanes(slot) : nullptr; }
   template <class Visit>
   void for_each_active_slot(Visit visit) const {
     joints.for_each_active_batch([&](const auto& batch) {
@@ -63,10 +67,16 @@ class WorldLanes {
     set_control(world, joint, axis, limit);
   }
   void launch(int world, const model::Event& event);
+  void forget(int world, int body);
   /// True if more joints are broken than before.
   bool set_broken(int world, std::span<const std::int32_t> broken_in);
   /// What a joint exerted in the last substep, which took h [s].
   effects::Reaction reaction(int world, int joint, double h) const;
+  model::Vec3 centre(int world, int body) const {
+    const LanePlace at = places.body(world, body);
+    const Vec3L<V>& position = bodies.bodies[at.slot].position;
+    return {T::get(position.x, at.lane), T::get(position.y, at.lane), T::get(position.z, at.lane)};
+  }
   void poses(int world, std::span<model::BodyPose> poses) const {
     for (std::size_t body = 0; body < poses.size(); ++body) poses[body] = pose(world, static_cast<int>(body));
   }
@@ -108,8 +118,21 @@ class WorldLanes {
     const JointPlace& at = places.joint(world, joint);
     return joints.joints(at.shape)[at.joint];
   }
+  const JointLane<V>& joint_at(int world, int joint) const {
+    const JointPlace& at = places.joint(world, joint);
+    return joints.joints(at.shape)[at.joint];
+  }
+
+  /// The joints of which a body is the first.
+  std::span<const int> joints_of(int world, int body) const {
+    const JointsOfBodies& all = joints_of_bodies_[static_cast<std::size_t>(world)];
+    const auto first = static_cast<std::size_t>(all.first[static_cast<std::size_t>(body)]);
+    return std::span(all.joints)
+        .subspan(first, static_cast<std::size_t>(all.first[static_cast<std::size_t>(body) + 1]) - first);
+  }
 
   std::vector<const model::Model*> models_;
+  std::vector<JointsOfBodies> joints_of_bodies_;  ///< [num_worlds]
   bool holds_bodies_;
   ActiveBodies active_, awake_;
   BrokenJoints broken_;
@@ -137,6 +160,7 @@ WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& pas
     for (const Articulation& articulation : world.articulations) {
       for (std::size_t j = 0; j < articulation.joints.size(); ++j) set_joint(w, articulation, j);
     }
+    joints_of_bodies_.emplace_back(*world.model);
     load(w, model::initial_state(*world.model));
   }
   allow_idle_controls(passes);
@@ -193,6 +217,12 @@ void WorldLanes<T>::load_body(int world, int body, const model::State& state) {
   const LanePlace at = places.body(world, body);
   set_pose(at, {state.position[body], state.orientation[body]});
   set_twist(at, state.velocity[body], state.angular_velocity[body]);
+  for (const int joint : joints_of(world, body)) {
+    const bool remembers = !state.memory.joints.empty();
+    const model::JointForce force =
+        remembers ? state.memory.joints[static_cast<std::size_t>(joint)] : model::JointForce{};
+    Set::set(joint_at(world, joint).memory, places.joint(world, joint).lane, force);
+  }
 }
 
 template <class T>
@@ -208,6 +238,15 @@ void WorldLanes<T>::store_body(int world, int body, const Poses* poses, model::S
                              T::get(lanes.qz, at.lane)};
   state.velocity[body] = vector_of(bodies.twists[at.slot].linear, at.lane);
   state.angular_velocity[body] = vector_of(bodies.twists[at.slot].angular, at.lane);
+  if (state.memory.joints.empty()) return;
+  for (const int joint : joints_of(world, body)) {
+    const JointForceLane<V>& memory = joint_at(world, joint).memory;
+    const int lane = places.joint(world, joint).lane;
+    model::JointForce& force = state.memory.joints[static_cast<std::size_t>(joint)];
+    force.force = vector_of(memory.force, lane);
+    force.torque = vector_of(memory.torque, lane);
+    for (std::size_t axis = 0; axis < 2; ++axis) force.control[axis] = T::get(memory.control[axis], lane);
+  }
 }
 
 template <class T>
@@ -247,6 +286,15 @@ void WorldLanes<T>::launch(int world, const model::Event& event) {
   const LanePlace at = places.body(world, event.body);
   set_twist(at, event.velocity, event.angular_velocity);
   if (event.pose) set_pose(at, *event.pose);
+}
+
+template <class T>
+void WorldLanes<T>::forget(int world, int body) {
+  for (int joint = 0; joint < model(world).num_joints(); ++joint) {
+    const model::Joint& held = model(world).joints[static_cast<std::size_t>(joint)];
+    if (held.body_a != body && held.body_b != body) continue;
+    Set::set(joint_at(world, joint).memory, places.joint(world, joint).lane, model::JointForce{});
+  }
 }
 
 template <class T>

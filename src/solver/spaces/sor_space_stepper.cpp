@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "effects/step_rules.h"
+#include "model/memory_rows.h"
+#include "solver/contacts/contact_recall.h"
 #include "solver/layout/articulation.h"
 #include "solver/pack/focused_step.h"
 #include "solver/pack/simd.h"
@@ -70,6 +72,7 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
   void activate(std::span<const int> units);
   void focus(std::span<const Contact> contacts);
+  void recall(std::span<const Contact> contacts);
   bool is_awake(int body) const { return rules_.sleepers() == nullptr || !rules_.sleepers()->asleep(body); }
   /// Applies the velocity rules to the awake bodies of own spaces, or to those of other ranks.
   void change_velocities(bool own);
@@ -96,6 +99,7 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   std::vector<model::GeomPair> pairs_;
   std::optional<SpaceFastBodies> fast_bodies_;  ///< none without the pass
   FocusedStep focused_;                         ///< of the last solve()
+  ContactRecall recall_;                        ///< likewise
   int bodies_inside_ = 0;                       ///< likewise
   std::int64_t last_step_ = 0;                  ///< solved
   std::optional<std::int64_t> launched_step_;   ///< the last one of launch_others()
@@ -143,7 +147,9 @@ void SorSpaceStepper::own(std::span<const int> spaces, const model::State& state
   if (fast_bodies_) fast_bodies_->own(own_mask());
   pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
   packed_.start(state, *pack_);
-  if (!remembers()) packed_.state().memory.clear();
+  model::StepMemory& memory = packed_.state().memory;
+  if (!remembers()) memory.clear();
+  if (remembers()) memory.joints.resize(model_->joints.size());
   rules_.start();
   shown_revision_ = -1;
   active_.clear();
@@ -226,7 +232,10 @@ void SorSpaceStepper::fire_events(std::int64_t step) {
   if (rules_.sleepers() != nullptr) rules_.sleepers()->wake_called(step);
   for (const Event& event : events_of(*model_, step)) {
     apply_setting(event, 0, *pack_);
-    if (event.kind == EventKind::launch && is_own(event.body)) packed_.launch(event, *pack_);
+    if (event.kind != EventKind::launch) continue;
+    if (is_own(event.body)) packed_.launch(event, *pack_);
+    pack_->forget(0, event.body);
+    model::forget(*model_, event.body, packed_.state().memory);
   }
   change_velocities(true);
 }
@@ -291,8 +300,19 @@ void SorSpaceStepper::focus(std::span<const Contact> contacts) {
   if (rules_.field() != nullptr)
     rules_.sort_by_interest(active_.bodies(), effects::touching_bodies(contacts));
   bodies_inside_ = rules_.num_inside();
-  const FocusedWorld world = {model_.get(), rules_.field(), contacts};
+  const FocusedWorld world = {model_.get(), rules_.field(), contacts, recall_.forces()};
   focused_.begin(std::span(&world, 1), settings_.iterations);
+}
+
+/// What is known of units that are solved elsewhere (which have the contacts of which a body is the first),
+/// or sleep, stays as it is.
+void SorSpaceStepper::recall(std::span<const Contact> contacts) {
+  const auto sleeps = [&](int body) { return body != model::no_body && !is_awake(body); };
+  recall_.recall(
+      contacts, state().memory.contacts, [&](int body) { return state().position[body]; },
+      [&](const model::ContactForce& old) {
+        return !active_.contains(map_.unit_of_body[old.body_a]) || sleeps(old.body_a) || sleeps(old.body_b);
+      });
 }
 
 void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
@@ -300,6 +320,7 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   core::LapTimer timer(times);
   show_sleepers();
   activate(units);
+  if (remembers()) recall(contacts);
   focus(contacts);
   if (rules_.sleepers() != nullptr && active_.bodies().empty()) return;
   packed_.load(active_.bodies(), *pack_);
@@ -307,9 +328,10 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   StepParameters parameters = step_parameters(settings_, step);
   if (focused_.is_cut()) focused_.step_outside(*pack_, parameters, std::nullopt, times);
   parameters.iterations = focused_.iterations();
-  pack_->step(focused_.contacts(), parameters, times);
+  pack_->step(focused_.contacts(), focused_.forces(), parameters, times);
   core::LapTimer after(times);
   last_step_ = step;
+  if (remembers()) recall_.store(packed_.state().memory.contacts);
   break_overloaded_joints(step);
   // A pack with sleepers puts back the others.
   packed_.store(active_.bodies(), *pack_, rules_.sleepers() != nullptr);

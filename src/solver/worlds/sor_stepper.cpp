@@ -205,7 +205,7 @@ void SorStepper::begin(Group& group, std::optional<int> look_after, core::PhaseT
   StepParameters parameters = step_parameters(settings_, group.worlds.front()->step());
   if (group.focused.is_cut()) group.focused.step_outside(*group.pack, parameters, look_after, times);
   parameters.iterations = group.focused.iterations();
-  group.pack->begin_step(group.focused.contacts(), parameters, times);
+  group.pack->begin_step(group.focused.contacts(), group.focused.forces(), parameters, times);
 }
 
 void SorStepper::focus(Group& group) const {
@@ -213,7 +213,7 @@ void SorStepper::focus(Group& group) const {
   for (std::size_t i = 0; i < group.worlds.size(); ++i) {
     SorWorld& world = *group.worlds[i];
     world.before_solve(*group.pack, static_cast<int>(i), group.contacts[i]);
-    group.focused_worlds.push_back({&world.model(), world.field(), group.contacts[i]});
+    group.focused_worlds.push_back({&world.model(), world.field(), group.contacts[i], world.forces()});
   }
   group.focused.begin(group.focused_worlds, settings_.iterations);
 }

@@ -20,7 +20,10 @@ class SorWorld::InPack final : public effects::RuledWorld {
   void fire_events(std::int64_t step) override {
     for (const model::Event& event : events_of(*world_.model_, step)) {
       apply_setting(event, index_, pack_);
-      if (event.kind == model::EventKind::launch) pack_.launch(index_, event);
+      if (event.kind != model::EventKind::launch) continue;
+      pack_.launch(index_, event);
+      pack_.forget(index_, event.body);
+      world_.forget(event.body);
     }
   }
   void store(std::span<const int> bodies, model::State& state) const override {
@@ -62,13 +65,16 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
       laws_(laws_of(*model_)),
       state_(state),
       rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::whole, state_),
-      narrow_phase_(make_narrow_phase(*model_)) {
+      narrow_phase_(make_narrow_phase(*model_)),
+      remembers_(settings.warm_start > 0) {
   set_state(state, step);
 }
 
 void SorWorld::set_state(const model::State& state, std::int64_t step) {
   state_ = state;
   step_ = step;
+  if (!remembers_) state_.memory.clear();
+  if (remembers_) state_.memory.joints.resize(model_->joints.size());
   rules_.start();
   moved_ = true;
 }
@@ -109,11 +115,19 @@ bool SorWorld::after_collision(Pack& pack, int index, std::vector<model::Contact
 void SorWorld::before_solve(Pack& pack, int index, std::vector<model::Contact>& contacts) {
   InPack world(*this, pack, index, &contacts, nullptr);
   rules_.before_solve(world);
+  if (!remembers_) return;
+  const auto is_asleep = [&](int body) {
+    return rules_.sleepers() != nullptr && body != model::no_body && state_.rest[body].asleep();
+  };
+  recall_.recall(
+      contacts, state_.memory.contacts, [&](int body) { return pack.centre(index, body); },
+      [&](const model::ContactForce& old) { return is_asleep(old.body_a) || is_asleep(old.body_b); });
 }
 
 void SorWorld::after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts,
                            const FocusedStep& step) {
   moved_ = moved_ || moves();
+  if (remembers_) recall_.store(state_.memory.contacts);
   if (step.is_cut()) activate(pack, index);
   InPack world(*this, pack, index, &contacts, &step);
   rules_.after_solve(world, step_);

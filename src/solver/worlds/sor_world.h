@@ -8,7 +8,9 @@
 
 #include "effects/step_rules.h"
 #include "model/contact.h"
+#include "model/memory_rows.h"
 #include "model/state.h"
+#include "solver/contacts/contact_recall.h"
 #include "solver/layout/pack_laws.h"
 #include "solver/pack/focused_step.h"
 #include "solver/pack/pack.h"
@@ -50,6 +52,8 @@ class SorWorld {
   /// Instead of all but begin_step(), if no world of the pack moves.
   void sleep_on();
 
+  /// With which the contacts of the step start and end; none without a warm start. After before_solve().
+  std::span<model::ContactForce> forces() { return recall_.forces(); }
   /// Null without the pass "field_of_interest".
   const effects::FieldOfInterest* field() const { return rules_.field(); }
   /// Lets the steps to come move all that is awake.
@@ -75,6 +79,7 @@ class SorWorld {
 
  private:
   class InPack;
+  void forget(int body) { model::forget(*model_, body, state_.memory); }
   void show_awake(Pack& pack, int index) const;
   void count_rows(const Pack& pack, int index, const FocusedStep& step,
                   std::span<const model::Contact> contacts);
@@ -86,6 +91,8 @@ class SorWorld {
   std::int64_t step_;
   effects::StepRules rules_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
+  bool remembers_;  ///< from step to step
+  ContactRecall recall_;
   stepping::Observables observables_;
   bool moved_ = true;  ///< since the last observe()
 };

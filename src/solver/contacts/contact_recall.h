@@ -1,0 +1,46 @@
+/// Finds the forces with which the contacts of a step start among those with which the last step ended.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/contact.h"
+#include "model/step_memory.h"
+
+namespace pbmpi::solver {
+
+/// Of one world. A contact point takes over from a point of the same pair of geoms: from the nearest, seen
+/// from the centre of its first body, that no point before it has taken.
+class ContactRecall {
+ public:
+  /// Both in canonical order; centre(body): [m] world frame. keeps(old): is this one to be remembered though
+  /// no contact of this step can take over from it, since its bodies are not looked at?
+  template <class Centre, class Keeps>
+  void recall(std::span<const model::Contact> contacts, std::span<const model::ContactForce> before,
+              Centre centre, Keeps keeps) {
+    forces_.clear();
+    for (const model::Contact& contact : contacts) {
+      forces_.push_back({.geoms = contact.geoms,
+                         .body_a = contact.body_a,
+                         .body_b = contact.body_b,
+                         .arm = contact.position - centre(contact.body_a)});
+    }
+    kept_.clear();
+    for (const model::ContactForce& old : before) {
+      if (keeps(old)) kept_.push_back(old);
+    }
+    match(before);
+  }
+  /// [contacts], to be replaced by those with which the step ends.
+  std::span<model::ContactForce> forces() { return forces_; }
+  /// What is to be remembered after the step.
+  void store(std::vector<model::ContactForce>& memory) const;
+
+ private:
+  void match(std::span<const model::ContactForce> before);
+
+  std::vector<model::ContactForce> forces_, kept_;
+  std::vector<char> taken_;  ///< of the points of the pair at hand
+};
+
+}  // namespace pbmpi::solver

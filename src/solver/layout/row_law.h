@@ -1,0 +1,55 @@
+/// How hard rows hold: as springs with a frequency and a damping ratio, or as ODE's ERP and CFM have it.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace pbmpi::solver {
+
+/// A constraint as a damped spring between bodies, whatever their masses.
+struct Spring {
+  double frequency_hz = 0;  ///< 0: none, the scene's ERP and CFM hold
+  double damping_ratio = 1;
+
+  bool is_on() const { return frequency_hz > 0; }
+};
+
+/// What a sweep makes of a row with effective mass 1 / d, right-hand side and impulse p:
+///   change = (rhs - J v) mass_share / d - relief p.
+/// mass_share = 1 and relief = 0 are a rigid row.
+template <class Scalar>
+struct RowLaw {
+  Scalar mass_share = 1, relief = 0;
+  Scalar bias = 1;                                        ///< 0: what has opened is left open
+  Scalar most_push = std::numeric_limits<Scalar>::max();  ///< [m/s] of contacts
+
+  /// A sweep that leaves errors of position as they are.
+  static RowLaw relaxing() { return {1, 0, 0, 0}; }
+};
+
+/// Both follow from an implicit Euler step h [s] of the spring (E. Catto, "Soft constraints", GDC 2011): its
+/// ERP is h w / (2 zeta + h w), its CFM relative to d is 1 / (h w (2 zeta + h w)). A spring of more than
+/// a quarter of a period a step is only as stiff as that.
+class SpringStep {
+ public:
+  SpringStep(const Spring& spring, double h) {
+    constexpr double most_periods = 0.25;
+    const double angle = 2 * std::numbers::pi * std::min(spring.frequency_hz * h, most_periods);
+    const double resistance = 2 * spring.damping_ratio + angle;
+    erp_ = angle / resistance;
+    relative_cfm_ = 1 / (angle * resistance);
+  }
+
+  double erp() const { return erp_; }
+  template <class Scalar>
+  RowLaw<Scalar> law() const {
+    const double total = 1 + relative_cfm_;
+    return {static_cast<Scalar>(1 / total), static_cast<Scalar>(relative_cfm_ / total)};
+  }
+
+ private:
+  double erp_, relative_cfm_;
+};
+
+}  // namespace pbmpi::solver
