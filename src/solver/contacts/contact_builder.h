@@ -208,7 +208,7 @@ void ContactBuilder<T, two_bodies, kind>::build_friction(const ContactSlot<T>& s
     build_row(slot, pair, directions[i], arm_a, arm_b, cfm, given.factor, point.friction[i]);
     point.friction[i].impulse = dot(directions[i], given.friction_force) * carried;
   }
-  point.coupling = T::broadcast(0);
+  point.coupling = point.slide = T::broadcast(0);
   if (!parameters_.cone) return;
   // Inverse of the 2 x 2 block, times the factor.
   V off = dot(row0.moment_a, row1.turn_a);
@@ -218,6 +218,8 @@ void ContactBuilder<T, two_bodies, kind>::build_friction(const ContactSlot<T>& s
   const V factor = is_idle ? one : given.factor;
   const V scale0 = row0.scale, scale1 = row1.scale;
   const V share = 1 / (factor - off * off * scale0 * scale1 / factor);
+  const V sum = scale0 + scale1;
+  point.slide = scale0 * scale1 / (is_idle ? one : sum);
   point.coupling = -off * scale0 * scale1 * share;
   row0.scale = scale0 * factor * share;
   row1.scale = scale1 * factor * share;

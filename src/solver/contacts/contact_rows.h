@@ -67,6 +67,7 @@ struct alignas(sizeof(V)) ContactPoint<V, two_bodies, ContactKind::rough>
   static constexpr ContactKind kind = ContactKind::rough;
   TurningRow<V, two_bodies> friction[2];
   V coupling;  ///< of the two, if they are solved as a block: the scale of each with the other's speed
+  V slide;     ///< scale of both where the point slides
   V mu;
 };
 
@@ -208,9 +209,14 @@ class ContactSolver {
     const V speed1 = speed(row1, a, b) + friction_cfm_ * row1.impulse;
     const V free0 = row0.impulse - row0.scale * speed0 - point.coupling * speed1;
     const V free1 = row1.impulse - point.coupling * speed0 - row1.scale * speed1;
-    const V square = T::max(free0 * free0 + free1 * free1, T::broadcast(least_square));
+    // Where it slides, the impulse turns against the velocity: a step of the same scale along both rows has
+    // that as its fixed point, the block's has not.
+    const auto sticks = free0 * free0 + free1 * free1 <= bound * bound;
+    const V slid0 = row0.impulse - point.slide * speed0, slid1 = row1.impulse - point.slide * speed1;
+    const V square = T::max(slid0 * slid0 + slid1 * slid1, T::broadcast(least_square));
     const V share = T::min(bound / T::sqrt(square), T::broadcast(1));
-    const V applied0 = free0 * share - row0.impulse, applied1 = free1 * share - row1.impulse;
+    const V applied0 = (sticks ? free0 : slid0 * share) - row0.impulse;
+    const V applied1 = (sticks ? free1 : slid1 * share) - row1.impulse;
     row0.impulse += applied0;
     row1.impulse += applied1;
     push(slot, row0, applied0, a, b);

@@ -163,20 +163,21 @@ class JointSolver {
   }
   template <model::JointKind kind>
   PBMPI_LANES void solve_axes(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
-    for (AxisRow<V>& row : rows.axes) push(row, step_of(row, row.rhs * law_.bias, a, b), a, b);
+    for (AxisRow<V>& row : rows.axes) push(row, step_of(row, row.rhs * law_.bias, law_, a, b), a, b);
   }
   template <model::JointKind kind>
   PBMPI_LANES void solve_controls(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
     for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
       if (!rows.control_on[i]) continue;
       auto& control = rows.axis_controls[i];
-      push(control.row, clamped(control, step_of(control.row, rhs_of(control), a, b)), a, b);
+      push(control.row, clamped(control, step_of(control.row, rhs_of(control), RowLaw<Scalar>{}, a, b)), a,
+           b);
     }
     for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
       if (!rows.control_on[i]) continue;
       auto& control = rows.line_controls[i];
-      push(control.row, clamped(control, step_of(control.row, rhs_of(control), law_, a, b)), rows.inv_mass_a,
-           rows.inv_mass_b, a, b);
+      push(control.row, clamped(control, step_of(control.row, rhs_of(control), RowLaw<Scalar>{}, a, b)),
+           rows.inv_mass_a, rows.inv_mass_b, a, b);
     }
   }
   PBMPI_LANES void solve_point(PointRows<V>& row, const V& inv_mass_a, const V& inv_mass_b, Twist<V>& a,
@@ -206,15 +207,17 @@ class JointSolver {
           row.rhs.z, row.scale.z, row.impulse.z, a.linear.z, b.linear.z, 2);
   }
 
+  /// A motor has a velocity to keep and a limit one side only: neither is a spring.
   template <class Row>
   PBMPI_LANES V rhs_of(const Bounded<Row, V>& control) const {
     return law_.bias > 0 ? control.row.rhs : control.relaxed_rhs;
   }
   /// The impulse of a row after a Gauss-Seidel step on it, before bounds.
-  PBMPI_LANES V step_of(const AxisRow<V>& row, const V& rhs, const Twist<V>& a, const Twist<V>& b) const {
-    return row.impulse + ((rhs - dot(row.axis, a.angular - b.angular) - cfm_ * row.impulse) *
-                              (row.scale * law_.mass_share) -
-                          law_.relief * row.impulse);
+  PBMPI_LANES V step_of(const AxisRow<V>& row, const V& rhs, const RowLaw<Scalar>& law, const Twist<V>& a,
+                        const Twist<V>& b) const {
+    return row.impulse +
+           ((rhs - dot(row.axis, a.angular - b.angular) - cfm_ * row.impulse) * (row.scale * law.mass_share) -
+            law.relief * row.impulse);
   }
   PBMPI_LANES static V step_of(const LineRow<V>& row, const V& rhs, const RowLaw<Scalar>& law,
                                const Twist<V>& a, const Twist<V>& b) {

@@ -237,7 +237,7 @@ void StepLanes<T>::end_substep() {
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     if (!last) worlds_.joints.advance(batch, advancer, worlds_.bodies);
     motion_.template move<last>(batch, h_, turning);
-    if (!last) worlds_.joints.rebuild(batch, advancer, worlds_.bodies);
+    if (!last || relaxes()) worlds_.joints.rebuild(batch, advancer, worlds_.bodies);
     if (!relaxes()) damp(batch);
   });
   if (!relaxes()) return;
