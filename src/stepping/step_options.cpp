@@ -39,21 +39,21 @@ constexpr std::array<StepOption, 17> options = {{
     {.name = "iterations",
      .member = &Settings::iterations,
      .placeholder = "N",
-     .meaning = "sweeps of the iterative solver, in each substep; default: the scene's, 20",
+     .meaning =
+         "sweeps of the iterative solver, in each substep; default: the scene's (20) with quick, 1 with sor",
      .allows = at_least_1,
      .limit = "it must be at least 1"},
     {.name = "substeps",
      .member = &Settings::substeps,
      .placeholder = "N",
-     .meaning = "sor: parts of a step that share its collision detection",
-     .shown_default = "1",
+     .meaning = "sor: parts of a step that share its collision detection; default: 8",
      .needs = &Traits::has_substeps,
      .allows = at_least_1,
      .limit = "it must be at least 1"},
     {.name = "sor-factor",
      .member = &Settings::sor_factor,
      .placeholder = "X",
-     .meaning = "sor: over-relaxation, above 0 and below 2; default: 1.3, as in ODE",
+     .meaning = "sor: over-relaxation, above 0 and below 2 (ODE's is 1.3); default: 1",
      .needs = &Traits::tunes_sweeps,
      .allows = converges,
      .limit = "the iteration converges above 0 and below 2 only",
@@ -61,8 +61,9 @@ constexpr std::array<StepOption, 17> options = {{
     {.name = "warm-start",
      .member = &Settings::warm_start,
      .placeholder = "X",
-     .meaning = "sor: share of their impulses with which joints and contacts start a substep after the "
-                "first, 0 to 1; default: 0, none; needs --substeps",
+     .meaning =
+         "sor: share of the last step's and substep's forces with which joints and contacts start, 0 to "
+         "1; 0: a step without memory; default: 1",
      .needs = &Traits::tunes_sweeps,
      .allows = is_share,
      .limit = "the share of the impulses to take over is 0 to 1",
@@ -72,8 +73,7 @@ constexpr std::array<StepOption, 17> options = {{
      .placeholder = "N",
      .meaning =
          "sor: sweeps at the end of a substep that take back the speed which pushed errors of position "
-         "out",
-     .shown_default = "0",
+         "out; default: 1",
      .needs = &Traits::tunes_sweeps,
      .allows = is_count,
      .limit = "it must be at least 0",
@@ -83,8 +83,7 @@ constexpr std::array<StepOption, 17> options = {{
      .placeholder = "HZ",
      .meaning =
          "sor: contacts are springs of this frequency, at most a quarter of a period a substep; 0: they "
-         "have the scene's ERP and CFM",
-     .shown_default = "0",
+         "have the scene's ERP and CFM; default: 100",
      .needs = &Traits::tunes_sweeps,
      .allows = is_magnitude,
      .limit = "a frequency is 0 or more, and finite",
@@ -93,8 +92,7 @@ constexpr std::array<StepOption, 17> options = {{
     {.name = "contact-damping",
      .member = &Settings::contact_damping,
      .placeholder = "RATIO",
-     .meaning = "sor: damping ratio of contacts that are springs",
-     .shown_default = "10",
+     .meaning = "sor: damping ratio of contacts that are springs; default: 10",
      .needs = &Traits::tunes_sweeps,
      .allows = is_length,
      .limit = "a damping ratio is above 0, and finite",
@@ -102,8 +100,7 @@ constexpr std::array<StepOption, 17> options = {{
     {.name = "joint-frequency",
      .member = &Settings::joint_frequency,
      .placeholder = "HZ",
-     .meaning = "sor: as --contact-frequency, of joints",
-     .shown_default = "0",
+     .meaning = "sor: as --contact-frequency, of joints; default: 100",
      .needs = &Traits::tunes_sweeps,
      .allows = is_magnitude,
      .limit = "a frequency is 0 or more, and finite",
@@ -112,8 +109,7 @@ constexpr std::array<StepOption, 17> options = {{
     {.name = "joint-damping",
      .member = &Settings::joint_damping,
      .placeholder = "RATIO",
-     .meaning = "sor: damping ratio of joints that are springs",
-     .shown_default = "2",
+     .meaning = "sor: damping ratio of joints that are springs; default: 2",
      .needs = &Traits::tunes_sweeps,
      .allows = is_length,
      .limit = "a damping ratio is above 0, and finite",
@@ -122,8 +118,7 @@ constexpr std::array<StepOption, 17> options = {{
      .member = &Settings::friction,
      .placeholder = "cone|pyramid",
      .meaning = "sor: friction that is the same in all directions, or ODE's, which holds more along the "
-                "diagonals of two axes",
-     .shown_default = "pyramid",
+                "diagonals of two axes; default: cone",
      .needs = &Traits::tunes_sweeps,
      .in_short = "*"},
     {.name = "row-order",
@@ -246,8 +241,22 @@ std::string text_of(const StepOption& option, const StepperSettings& settings) {
       option.member);
 }
 
+StepperSettings default_settings(StepperKind kind) {
+  StepperSettings settings;
+  settings.kind = kind;
+  if (!traits_of(kind).tunes_sweeps) return settings;
+  settings.substeps = 8;
+  settings.iterations = 1;
+  settings.relax = 1;
+  settings.sor_factor = 1;
+  settings.warm_start = 1;
+  settings.contact_frequency = settings.joint_frequency = 100;
+  settings.friction = Friction::cone;
+  return settings;
+}
+
 bool is_default(const StepOption& option, const StepperSettings& settings) {
-  return text_of(option, settings) == text_of(option, StepperSettings{});
+  return text_of(option, settings) == text_of(option, default_settings(settings.kind));
 }
 
 void set(const StepOption& option, std::string_view text, const std::string& what,

@@ -55,7 +55,10 @@ bool fits(const StepOption& option, StepperKind kind);
 /// The value as text that set() reads back bit for bit.
 std::string text_of(const StepOption& option, const StepperSettings& settings);
 StepValue value_of(const StepOption& option, const StepperSettings& settings);
-/// Does the option have the value that StepperSettings starts with?
+/// The settings with which a kind of stepper is meant to be used: for `sor` those that hold most of
+/// scenes/hard at least cost (docs/stability.md), for the others what StepperSettings starts with.
+StepperSettings default_settings(StepperKind kind);
+/// Does the option have the value of default_settings()?
 bool is_default(const StepOption& option, const StepperSettings& settings);
 
 /// Sets the value that `text` names. Throws core::InputError, opening with `what` (e.g. "--warm-start"), if
@@ -68,7 +71,8 @@ void restore(const StepOption& option, const StepValue& value, StepperSettings& 
 /// The stepper's name, and its precision where it has a choice: "quick", "sor single".
 std::string stepper_text(const StepperSettings& settings);
 
-/// "sor single, 2 x 3, warm 0.5": the stepper, substeps x iterations, and what differs from the defaults.
+/// "sor single, 2 x 3, warm 0.5": the stepper, substeps x iterations, and what differs from
+/// default_settings().
 std::string setting_text(const StepperSettings& settings);
 
 }  // namespace pbmpi::stepping

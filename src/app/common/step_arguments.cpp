@@ -33,6 +33,9 @@ void add_step_option(const stepping::StepOption& option, po::options_description
 
 StepArguments step_arguments(const po::variables_map& values) {
   StepArguments arguments;
+  const stepping::StepOption& stepper = stepping::step_option("stepper");
+  set(stepper, values["stepper"].as<std::string>(), "--stepper", arguments.settings);
+  arguments.settings = default_settings(arguments.settings.kind);
   for (const stepping::StepOption& option : stepping::step_options()) {
     const std::string name(option.name);
     if (values.count(name) == 0) continue;

@@ -11,7 +11,8 @@
 
 namespace pbmpi::app {
 
-/// What a command line (with its files) says of the step; what it leaves open is as in StepperSettings.
+/// What a command line (with its files) says of the step; what it leaves open is as in
+/// stepping::default_settings().
 struct StepArguments {
   stepping::StepperSettings settings;
   std::set<std::string, std::less<>> given;  ///< names of the options that it sets, shown defaults among them

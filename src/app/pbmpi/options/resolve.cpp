@@ -29,7 +29,6 @@ std::optional<stepping::StepperSettings> resolve_estimate(const Options& options
   stepping::StepperSettings estimate = precise;
   estimate.iterations = 1;
   estimate.substeps = 1;
-  estimate.warm_start = 0;
   estimate.residuals = false;
   for (const auto& [name, text] : options.estimate)
     set(stepping::step_option(name), text, "--estimate-" + name, estimate);
@@ -111,7 +110,8 @@ CheckpointSpec resolve_checkpoint(const Options& options, const scenes::Scene& s
 stepping::StepperSettings resolve_step(const Options& options, const scenes::RunDefaults& defaults) {
   stepping::StepperSettings step = options.step.settings;
   if (!options.step.has("dt")) step.dt_s = defaults.dt_s;
-  if (!options.step.has("iterations")) {
+  if (!options.step.has("iterations") &&
+      step.kind != stepping::StepperKind::sor) {  // the scene's are quick's
     step.iterations = defaults.iterations;
     require_at_least(step.iterations, 1, "--iterations");
   }
@@ -119,10 +119,6 @@ stepping::StepperSettings resolve_step(const Options& options, const scenes::Run
   step.profile = options.record_islands;
   step.residuals = options.record_residuals;
   require_fitting(step);
-  require_input(
-      step.warm_start == 0 || step.substeps > 1,
-      "--warm-start carries impulses from one substep to the next, and there is one; give --substeps "
-      "2 or more");
   return step;
 }
 

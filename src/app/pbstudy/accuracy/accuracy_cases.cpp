@@ -49,6 +49,24 @@ void add_settings(const AccuracyCase& base, const AccuracyOptions& options,
   });
 }
 
+/// The settings with a memory from step to step: as the stepper is meant to be used, in the study's numbers
+/// of substeps and precisions.
+void add_remembering(const AccuracyCase& base, const AccuracyOptions& options,
+                     std::vector<AccuracyCase>& cases) {
+  AccuracyCase one = base;
+  one.stepper = default_settings(base.stepper.kind);
+  one.stepper.dt_s = base.stepper.dt_s;
+  one.stepper.seed = base.stepper.seed;
+  std::vector<SettingList> lists;
+  for (const SettingList& list : options.settings) {
+    if (list.option->name == "substeps" || list.option->name == "precision") lists.push_back(list);
+  }
+  cross_settings(one.stepper, lists, [&](const StepperSettings& stepper) {
+    one.stepper = stepper;
+    if (one.sweeps() <= options.max_sweeps) cases.push_back(one);
+  });
+}
+
 void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& options,
                 std::vector<AccuracyCase>& cases) {
   StepperSettings base;
@@ -65,6 +83,7 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
     cross_settings(with_dt, {&options.settings.front(), 1}, [&](const StepperSettings& with_kind) {
       const AccuracyCase first{index, CaseKind::setting, with_kind, steps};
       add_settings(first, options, cases);
+      if (traits_of(with_kind.kind).tunes_sweeps) add_remembering(first, options, cases);
       const bool is_first_step = text_of(*dts.option, with_kind) == dts.values.front();
       if (traits_of(with_kind.kind).is_anytime && is_first_step) add_estimates(first, scene, options, cases);
     });

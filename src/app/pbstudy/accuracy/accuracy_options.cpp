@@ -17,15 +17,17 @@ constexpr std::array<VariedOption, 7> varied = {{
     {"substeps", "sor; default: 1 2 4 8 16", "1 2 4 8 16"},
     {"precision", "sor: double, single; default: both", "double single"},
     {"sor-factor", "sor: over-relaxation; default: 1.3", "1.3"},
-    {"warm-start",
-     "sor, with several substeps: share of the impulses that a substep takes over; default: 0 0.9", "0 0.9"},
+    {"warm-start", "sor: share of the forces that a step and a substep take over; default: 0", "0"},
     {"row-order", "sor: shuffled (anew every 8 iterations), fixed; default: shuffled", "shuffled"},
 }};
 constexpr VariedOption varied_dt = {
     "dt", "step [s], a whole number of which fills a frame; default: the scene's and half of it", ""};
 
 po::options_description options_description() {
-  po::options_description what("What to vary (lists, separated by blanks; all are crossed)");
+  po::options_description what(
+      "What to vary (lists, separated by blanks; all are crossed; beside them sor as it is meant to be used, "
+      "in "
+      "the numbers of substeps and the precisions given)");
   add_scene_option(what);
   for (const VariedOption& one : varied) add_setting_list(one, what);
   what.add_options()  //

@@ -57,11 +57,15 @@ EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const
 
 std::vector<StepperSettings> steppers_of(const StudyScene& scene, const EffectsOptions& options) {
   std::vector<StepperSettings> all;
-  StepperSettings one;
-  one.dt_s = scene.dt_s;
-  one.iterations = options.iterations.value_or(scene.iterations);
-  one.seed = options.seed;
-  cross_settings(one, options.settings, [&](const StepperSettings& stepper) { all.push_back(stepper); });
+  cross_settings({}, options.settings, [&](const StepperSettings& varied) {
+    StepperSettings one = default_settings(varied.kind);
+    one.precision = varied.precision;
+    one.dt_s = scene.dt_s;
+    if (varied.kind != stepping::StepperKind::sor) one.iterations = scene.iterations;
+    one.iterations = options.iterations.value_or(one.iterations);
+    one.seed = options.seed;
+    all.push_back(one);
+  });
   return all;
 }
 

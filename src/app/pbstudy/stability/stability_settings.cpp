@@ -43,13 +43,18 @@ StabilitySetting parse_stability_setting(const std::string& text) {
   require_input(static_cast<bool>(stream >> word),
                 "--setting: it begins with a stepper, e.g. \"sor iterations=80\"");
   set(stepping::step_option("stepper"), word, "--setting '" + text + "': stepper", setting.stepper);
+  setting.stepper = default_settings(setting.stepper.kind);
   while (stream >> word) {
     const std::size_t equals = word.find('=');
     if (word == "cut") {
       setting.cut = true;
+    } else if (word == "cold") {
+      const stepping::StepperKind kind = setting.stepper.kind;
+      setting.stepper = {};
+      setting.stepper.kind = kind;
     } else {
       require_input(equals != std::string::npos,
-                    "--setting '" + text + "': " + word + ": write name=value, or cut");
+                    "--setting '" + text + "': " + word + ": write name=value, cold, or cut");
       set_option(text, word.substr(0, equals), word.substr(equals + 1), setting);
     }
   }
@@ -72,9 +77,9 @@ const std::vector<std::string>& default_stability_settings() {
       "direct",
       "sor",
       "sor precision=single",
-      "sor substeps=5 iterations=3",
-      "sor iterations=80",
-      "sor substeps=8 iterations=3 warm-start=1 sor-factor=1",
+      "sor substeps=4 contact-frequency=60",
+      "sor cold",
+      "sor cold iterations=80",
       "sor cut",
       "sor estimate=1",
   };

@@ -23,7 +23,6 @@ std::span<const std::string> useful(const SettingList& list, const stepping::Ste
   const std::span<const std::string> values = list.values;
   if (!fits(*list.option, base.kind)) return {};
   if (list.option->name == "iterations" && !traits_of(base.kind).iterates) return values.first(1);
-  if (list.option->name == "warm-start" && base.substeps == 1) return {};
   return values;
 }
 
