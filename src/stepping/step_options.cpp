@@ -124,7 +124,9 @@ constexpr std::array<StepOption, 17> options = {{
     {.name = "row-order",
      .member = &Settings::row_order,
      .placeholder = "shuffled|fixed",
-     .meaning = "sor: the joints' order in the sweeps: another every 8 iterations, or always the model's",
+     .meaning =
+         "sor: the order of joints and contacts in the sweeps: drawn anew (joints every 8 iterations), "
+         "or always the model's",
      .shown_default = "shuffled",
      .needs = &Traits::tunes_sweeps,
      .in_short = "* order"},

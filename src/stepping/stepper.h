@@ -26,8 +26,8 @@ enum class Simd { automatic, sse2, avx2, avx512, off };
 /// that they lack), or dCollide for all.
 enum class Colliders { lanes, ode };
 
-/// The order of the joints' rows in the sweeps of the sor stepper: anew every 8 iterations, by the step's
-/// key (as ODE's quickstep does), or that of the model in all.
+/// The order of rows in the sweeps of the sor stepper: by the step's key, joints anew every 8 iterations (as
+/// ODE's quickstep) and contacts in each, or that of the model in all.
 enum class RowOrder { shuffled, fixed };
 
 /// Which directions friction may take at a contact: all alike (the cone of Coulomb's law), or each of two

@@ -1,4 +1,4 @@
-/// The order in which contacts are solved.
+/// Which contacts may be solved side by side.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,9 @@ namespace pbmpi::solver {
 
 /// Colours of contacts, such that no two of one colour share a body: each contact, in its given order, gets
 /// the lowest colour that neither of its bodies has yet. The solver sweeps colour by colour, so that contacts
-/// of one colour may be solved side by side, in any grouping, with the same bits.
+/// of one colour may be solved side by side, in any grouping, with the same bits. All contacts of a world are
+/// coloured together, those with the environment included: a kind of contacts that came after all others in
+/// each sweep would lag behind them.
 class ContactColors {
  public:
   /// Starts anew; bodies are 0 to num_bodies - 1.

@@ -1,15 +1,17 @@
-/// The contacts of a pack in one step. They are of six kinds, swept one after the other: with or without a
-/// second body, and central, smooth or rough; and of each kind those of many points before those of few,
-/// since a slot takes as long as its longest manifold.
+/// The contacts of a pack in one step. They are of six kinds: with or without a second body, and central,
+/// smooth or rough.
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
 
 #include "solver/contacts/contact_builder.h"
+#include "solver/contacts/contact_colors.h"
+#include "solver/contacts/sweep_order.h"
 
 namespace pbmpi::solver {
 
@@ -57,12 +59,15 @@ class ContactList {
     for (std::size_t i = 0; i < slots_.size(); ++i)
       visit(slots_[i], points_.data() + slots_[i].first_point, order.dealt().data() + i * T::num_lanes);
   }
-  void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<Scalar>& law, bool backwards) {
+  /// The contacts of one colour.
+  void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<Scalar>& law, int color,
+             const SweepOrder::Points& points) {
+    const ManifoldOrder::SlotRange range = order.slots_of(color);
+    if (range.first == range.end) return;
     const ContactSolver<T, two_bodies, kind> solver(parameters, law);
-    const std::size_t count = slots_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const ContactSlot<T>& slot = slots_[backwards ? count - 1 - i : i];
-      solver.solve(twists, slot, points_of(slot), backwards);
+    for (int i = range.first; i < range.end; ++i) {
+      const ContactSlot<T>& slot = slots_[static_cast<std::size_t>(i)];
+      solver.solve(twists, slot, points_of(slot), points);
     }
   }
 
@@ -97,6 +102,7 @@ class ContactLists {
 
   void clear() {
     for_each([](auto& list) { list.order.clear(); });
+    num_colors_ = 0;
   }
 
   /// The contacts of one world, in canonical order, of the bodies of which `moves(body)`. `place_of(body)`:
@@ -105,16 +111,18 @@ class ContactLists {
   template <class Moves, class PlaceOf>
   void add_world(int num_bodies, std::span<const model::Contact> contacts,
                  std::span<model::ContactForce> forces, Moves moves, PlaceOf place_of) {
-    for_each([&](auto& list) { list.order.start_world(num_bodies); });
+    if (!contacts.empty()) painter_.start(num_bodies);
     for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
       const model::Contact& first = contacts[begin];
       const std::size_t last = std::min(contacts.size(), begin + ManifoldOrder::most_points);
       end = begin + 1;
       if (!moves(first.body_a)) continue;
       while (end < last && belong_together(first, contacts[end])) ++end;
-      order_of(first, end - begin)
-          .add(contacts.subspan(begin, end - begin), forces.empty() ? nullptr : forces.data() + begin,
-               place_of(first.body_a), place_of(first.body_b));
+      const int color = painter_.paint(first.body_a, first.body_b);
+      num_colors_ = std::max(num_colors_, color + 1);
+      order_of(first).add(contacts.subspan(begin, end - begin),
+                          forces.empty() ? nullptr : forces.data() + begin, color, place_of(first.body_a),
+                          place_of(first.body_b));
     }
   }
 
@@ -143,9 +151,16 @@ class ContactLists {
   void visit_slots(Visit visit) const {
     for_each([&](const auto& list) { list.visit_slots(visit); });
   }
+  /// Colour by colour, in an order that the key gives; ascending without one.
   void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<typename T::Scalar>& law,
-             bool backwards) {
-    for_each([&](auto& list) { list.sweep(twists, parameters, law, backwards); });
+             std::optional<std::uint64_t> key) {
+    if (key) {
+      order_.shuffle(num_colors_, *key);
+    } else {
+      order_.sort(num_colors_);
+    }
+    for (const int color : order_.colors())
+      for_each([&](auto& list) { list.sweep(twists, parameters, law, color, order_.points()); });
   }
   /// visit(slot of a body that is in contact), some of them more than once.
   template <class Visit>
@@ -157,24 +172,19 @@ class ContactLists {
   static bool belong_together(const model::Contact& a, const model::Contact& b) {
     return a.body_a == b.body_a && a.body_b == b.body_b && (a.mu > 0) == (b.mu > 0);
   }
-  /// The lists of one kind: manifolds of many points and of few.
-  template <bool two_bodies, ContactKind kind>
-  using Kind = std::array<ContactList<T, two_bodies, kind>, 2>;
-  /// Swept by ascending kind.
   template <bool two_bodies>
-  using Kinds = std::tuple<Kind<two_bodies, ContactKind::central>, Kind<two_bodies, ContactKind::smooth>,
-                           Kind<two_bodies, ContactKind::rough>>;
+  using Kinds = std::tuple<ContactList<T, two_bodies, ContactKind::central>,
+                           ContactList<T, two_bodies, ContactKind::smooth>,
+                           ContactList<T, two_bodies, ContactKind::rough>>;
 
-  ManifoldOrder& order_of(const model::Contact& contact, std::size_t num_points) {
-    const std::size_t few = num_points > 2 ? 0 : 1;
+  ManifoldOrder& order_of(const model::Contact& contact) {
     const ContactKind kind = contact.mu > 0 ? ContactKind::rough : frictionless_;
-    return contact.body_b == model::no_body ? order_of(one_body_, kind, few)
-                                            : order_of(two_bodies_, kind, few);
+    return contact.body_b == model::no_body ? order_of(one_body_, kind) : order_of(two_bodies_, kind);
   }
   template <class Lists>
-  static ManifoldOrder& order_of(Lists& lists, ContactKind kind, std::size_t few) {
-    if (kind == ContactKind::central) return std::get<0>(lists)[few].order;
-    return kind == ContactKind::smooth ? std::get<1>(lists)[few].order : std::get<2>(lists)[few].order;
+  static ManifoldOrder& order_of(Lists& lists, ContactKind kind) {
+    if (kind == ContactKind::central) return std::get<0>(lists).order;
+    return kind == ContactKind::smooth ? std::get<1>(lists).order : std::get<2>(lists).order;
   }
   template <class Visit>
   void for_each(Visit visit) {
@@ -186,12 +196,15 @@ class ContactLists {
   }
   template <class Self, class Visit>
   static void for_each(Self& self, Visit visit) {
-    const auto both = [&](auto&... kind) { ((visit(kind[0]), visit(kind[1])), ...); };
-    std::apply(both, self.one_body_);
-    std::apply(both, self.two_bodies_);
+    const auto all = [&](auto&... list) { (visit(list), ...); };
+    std::apply(all, self.one_body_);
+    std::apply(all, self.two_bodies_);
   }
 
   ContactKind frictionless_;
+  ContactColors painter_;
+  int num_colors_ = 0;  ///< the most that a world has
+  SweepOrder order_;
   Kinds<false> one_body_;
   Kinds<true> two_bodies_;
 };

@@ -1,10 +1,11 @@
 /// Rows of contacts in lanes. A slot holds manifolds of which no two touch the same body, so that its lanes
-/// can be solved at once; the sweep over the slots is the same Gauss-Seidel for every number of lanes.
+/// can be solved at once.
 #pragma once
 
 #include <cstdint>
 #include <type_traits>
 
+#include "solver/contacts/sweep_order.h"
 #include "solver/layout/body_lanes.h"
 #include "solver/layout/row_law.h"
 
@@ -101,12 +102,13 @@ class ContactSolver {
         law_(law),
         cone_(parameters.cone) {}
 
-  /// `points`: those of the slot, [slot.num_points].
+  /// `points`: those of the slot, [slot.num_points]. `order`: in which they are solved.
   PBMPI_LANES void solve(TwistRows<T>& twists, const ContactSlot<T>& slot, Point* points,
-                         bool backwards) const {
+                         const SweepOrder::Points& order) const {
     with_motions(twists, slot, [&](Motion& a, Motion& b) {
-      for (int i = 0; i < slot.num_points; ++i)
-        solve_point(slot, points[backwards ? slot.num_points - 1 - i : i], a, b);
+      for (const int i : order) {
+        if (i < slot.num_points) solve_point(slot, points[i], a, b);
+      }
     });
   }
 

@@ -18,16 +18,8 @@ void ManifoldOrder::clear() {
   next_.clear();
 }
 
-void ManifoldOrder::start_world(int num_bodies) {
-  num_bodies_ = num_bodies;
-  started_ = false;
-}
-
-void ManifoldOrder::add(std::span<const model::Contact> points, model::ContactForce* forces, LanePlace a,
-                        LanePlace b) {
-  if (!started_) painter_.start(num_bodies_);
-  started_ = true;
-  const int color = painter_.paint(points.front().body_a, points.front().body_b);
+void ManifoldOrder::add(std::span<const model::Contact> points, model::ContactForce* forces, int color,
+                        LanePlace a, LanePlace b) {
   const auto num_points = static_cast<short>(points.size());
   const std::size_t num_buckets = bucket_of(color + 1, most_points);
   if (num_buckets > next_.size()) next_.resize(num_buckets, 0);
@@ -50,50 +42,38 @@ void ManifoldOrder::sort_by_color() {
   }
 }
 
-/// The first slot with room after those that the bodies have had.
-int ManifoldOrder::choose_slot(const Manifold& manifold) const {
-  int slot = std::max(ready_[index_of(manifold.a)], first_open_);
-  if (moves(manifold.b)) slot = std::max(slot, ready_[index_of(manifold.b)]);
-  while (slot < num_slots() && is_full(slot)) ++slot;
-  return slot;
-}
-
-void ManifoldOrder::put(const Manifold& manifold, int slot) {
-  if (slot == num_slots()) {
-    slots_.push_back({});
-    const std::size_t needed = slots_.size() * static_cast<std::size_t>(num_lanes_);
+/// Into the last slot, or a new one if that is full or of another colour.
+void ManifoldOrder::put(const Manifold& manifold) {
+  const auto color = static_cast<std::size_t>(manifold.color);
+  const bool is_new_color = color >= first_slot_.size();
+  if (is_new_color || used_ == num_lanes_) {
+    fill_last_slot();
+    first_slot_.resize(color + 1, num_slots());
+    num_points_.push_back(manifold.num_points);
+    used_ = 0;
+    const std::size_t needed = num_points_.size() * static_cast<std::size_t>(num_lanes_);
     if (needed > dealt_.size()) dealt_.resize(2 * needed);
   }
-  Slot& chosen = slots_[static_cast<std::size_t>(slot)];
-  dealt_[static_cast<std::size_t>(slot * num_lanes_ + chosen.used++)] = manifold;
-  chosen.num_points = std::max<int>(chosen.num_points, manifold.num_points);
-  while (first_open_ < num_slots() && is_full(first_open_)) ++first_open_;
-  ready_[index_of(manifold.a)] = slot + 1;
-  if (moves(manifold.b)) ready_[index_of(manifold.b)] = slot + 1;
+  dealt_[static_cast<std::size_t>((num_slots() - 1) * num_lanes_ + used_++)] = manifold;
 }
 
-/// Fills the lanes that have no manifold.
-void ManifoldOrder::idle() {
-  for (int slot = first_open_; slot < num_slots(); ++slot) {
-    for (int lane = slots_[static_cast<std::size_t>(slot)].used; lane < num_lanes_; ++lane)
-      dealt_[static_cast<std::size_t>(slot * num_lanes_ + lane)] = {
-          nullptr, nullptr, 0, 0, {static_slot_, lane}, {static_slot_, lane}};
-  }
+/// Lets the lanes idle that have no manifold.
+void ManifoldOrder::fill_last_slot() {
+  for (int lane = used_; num_slots() > 0 && lane < num_lanes_; ++lane)
+    dealt_[static_cast<std::size_t>((num_slots() - 1) * num_lanes_ + lane)] = {
+        nullptr, nullptr, 0, 0, {static_slot_, lane}, {static_slot_, lane}};
 }
 
 std::span<const Manifold> ManifoldOrder::deal(int num_lanes, int static_slot) {
   num_lanes_ = num_lanes;
   static_slot_ = static_slot;
-  slots_.clear();
-  first_open_ = 0;
-  if (painted_.empty()) return {};
+  num_points_.clear();
+  first_slot_.clear();
+  used_ = 0;
   sort_by_color();
-  ready_.assign(static_cast<std::size_t>(static_slot * num_lanes), 0);
-  for (const int i : by_color_) {
-    const Manifold& manifold = painted_[static_cast<std::size_t>(i)];
-    put(manifold, choose_slot(manifold));
-  }
-  idle();
+  for (const int i : by_color_) put(painted_[static_cast<std::size_t>(i)]);
+  fill_last_slot();
+  if (!first_slot_.empty()) first_slot_.push_back(num_slots());
   return dealt();
 }
 

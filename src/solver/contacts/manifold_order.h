@@ -1,4 +1,4 @@
-/// The order in which contacts are solved, and which of them are solved side by side.
+/// Which contacts are solved side by side.
 #pragma once
 
 #include <span>
@@ -6,13 +6,11 @@
 
 #include "model/contact.h"
 #include "model/step_memory.h"
-#include "solver/contacts/contact_colors.h"
 #include "solver/layout/lane_place.h"
 
 namespace pbmpi::solver {
 
-/// Contact points between the same two bodies, solved one after the other while the bodies' velocities stay
-/// in registers.
+/// Contact points between the same two bodies, solved while the bodies' velocities stay in registers.
 struct Manifold {
   const model::Contact* points = nullptr;  ///< [num_points]; null: the lane idles
   model::ContactForce* forces = nullptr;   ///< [num_points]; null: nothing is remembered
@@ -21,30 +19,39 @@ struct Manifold {
   LanePlace a, b;   ///< b: the static slot for the environment
 };
 
-/// Collects the manifolds of all worlds of a pack and deals them out to slots of lanes, which are solved one
-/// after the other. In each world a body's manifolds are solved by ascending colour (see ContactColors); a
-/// manifold may go into any slot after those that its bodies have had, so that the sweep is the same
-/// Gauss-Seidel whatever shares its slot, and for every number of lanes.
+/// Collects the manifolds of one kind, of all worlds of a pack, and deals them out to slots of lanes. A slot
+/// holds manifolds of one colour, of which no two touch the same body, so that a sweep may take the colours
+/// in any order, and is the same Gauss-Seidel whatever shares a slot, and for every number of lanes.
 class ManifoldOrder {
  public:
   static constexpr int most_points = 4;
 
-  void clear();
-  /// The manifolds to come are of a world with so many bodies.
-  void start_world(int num_bodies);
-  /// In canonical order. `points` and `forces` hold until the next clear().
-  void add(std::span<const model::Contact> points, model::ContactForce* forces, LanePlace a, LanePlace b);
+  /// [first, end)
+  struct SlotRange {
+    int first = 0, end = 0;
+  };
 
-  /// [slots][num_lanes]; lanes without a manifold idle on `static_slot`, which comes after all other slots of
-  /// bodies.
+  void clear();
+  /// `points` and `forces` hold until the next clear().
+  void add(std::span<const model::Contact> points, model::ContactForce* forces, int color, LanePlace a,
+           LanePlace b);
+
+  /// [slots][num_lanes], by ascending colour, and within a colour by descending number of points, since a
+  /// slot takes as long as its longest manifold. Lanes without a manifold idle on `static_slot`, which comes
+  /// after all other slots of bodies.
   std::span<const Manifold> deal(int num_lanes, int static_slot);
   /// What the last deal() returned, without the points' memory, which may be gone.
   std::span<const Manifold> dealt() const {
-    return std::span(dealt_).first(slots_.size() * static_cast<std::size_t>(num_lanes_));
+    return std::span(dealt_).first(num_points_.size() * static_cast<std::size_t>(num_lanes_));
   }
-  int num_slots() const { return static_cast<int>(slots_.size()); }
+  int num_slots() const { return static_cast<int>(num_points_.size()); }
   /// The most that a manifold of the slot has.
-  int num_points(int slot) const { return slots_[static_cast<std::size_t>(slot)].num_points; }
+  int num_points(int slot) const { return num_points_[static_cast<std::size_t>(slot)]; }
+  /// Empty for a colour that no manifold has.
+  SlotRange slots_of(int color) const {
+    const auto at = static_cast<std::size_t>(color);
+    return at + 1 < first_slot_.size() ? SlotRange{first_slot_[at], first_slot_[at + 1]} : SlotRange{};
+  }
 
   /// visit(slot) of both bodies of each manifold.
   template <class Visit>
@@ -56,31 +63,17 @@ class ManifoldOrder {
   }
 
  private:
-  struct Slot {
-    int used = 0;        ///< lanes
-    int num_points = 0;  ///< the most of its manifolds
-  };
-
   void sort_by_color();
-  int choose_slot(const Manifold& manifold) const;
-  void put(const Manifold& manifold, int slot);
-  void idle();
-  bool is_full(int slot) const { return slots_[static_cast<std::size_t>(slot)].used == num_lanes_; }
-  bool moves(LanePlace place) const { return place.slot != static_slot_; }
-  std::size_t index_of(LanePlace place) const {
-    return static_cast<std::size_t>(place.slot * num_lanes_ + place.lane);
-  }
+  void put(const Manifold& manifold);
+  void fill_last_slot();
 
   int num_lanes_ = 1, static_slot_ = 0;  ///< of the pack
-  int num_bodies_ = 0;
-  bool started_ = false;  ///< have manifolds of the world at hand been coloured?
-  ContactColors painter_;
-  std::vector<Manifold> painted_;  ///< world by world
-  std::vector<int> next_;          ///< [colours x most_points] buckets: by colour, the most points first
-  std::vector<int> by_color_;      ///< of painted_
-  std::vector<Slot> slots_;
-  int first_open_ = 0;      ///< the first slot with room
-  std::vector<int> ready_;  ///< [slots of bodies x num_lanes] the first slot that a body may go into next
+  std::vector<Manifold> painted_;        ///< as added
+  std::vector<int> next_;        ///< [colours x most_points] buckets: by colour, the most points first
+  std::vector<int> by_color_;    ///< of painted_
+  std::vector<int> first_slot_;  ///< [colours + 1]
+  std::vector<int> num_points_;  ///< [slots]
+  int used_ = 0;                 ///< lanes of the last slot
   std::vector<Manifold> dealt_;  ///< [at least slots][num_lanes]: room is kept from step to step
 };
 

@@ -28,9 +28,9 @@ struct StepParameters {
   int relax = 0;          ///< sweeps at the end of a substep that push nothing out
   Spring contacts, joints;
   bool cone = false;            ///< friction that is the same in all directions
-  bool shuffled = true;         ///< false: the joints of an articulation keep their order
+  bool shuffled = true;         ///< false: the joints of an articulation and the contacts keep their order
   bool residuals = false;       ///< measure them at the end of the solve
-  std::uint64_t order_key = 0;  ///< (seed, step): the order of joints within an articulation
+  std::uint64_t order_key = 0;  ///< (seed, step): the order of joints within an articulation, and of contacts
 };
 
 /// One implementation for each number type, number of lanes and instruction set; all give the same bits for a

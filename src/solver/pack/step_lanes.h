@@ -57,7 +57,12 @@ class StepLanes {
   void push_carried();
   void sweep();
   void sweep_joints(const RowLaw<Scalar>& law);
-  void sweep_contacts(const RowLaw<Scalar>& law, bool backwards);
+  void sweep_contacts(const RowLaw<Scalar>& law, int iteration);
+  /// Of the order of rows in an iteration, relaxing ones included.
+  std::uint64_t order_key(int iteration) const {
+    return core::mix_key(parameters_.order_key, static_cast<std::uint64_t>(substep_),
+                         static_cast<std::uint64_t>(iteration));
+  }
   void end_sweeps();
   /// From the last sweep with bias to the end of the substep: the bodies move, and the relaxing sweeps.
   template <bool last>
@@ -183,24 +188,24 @@ void StepLanes<T>::push_carried() {
 /// next substep sees the depth that is left of a contact's.
 template <class T>
 void StepLanes<T>::sweep() {
-  constexpr int iterations_per_order = 8;  // as ODE's quickstep
+  constexpr int iterations_per_order = 8;  // of joints: as ODE's quickstep
   if (!parameters_.shuffled) {
     if (iteration_ == 0) worlds_.joints.order_as_given();
   } else if (iteration_ % iterations_per_order == 0) {
-    worlds_.joints.shuffle(core::mix_key(parameters_.order_key, static_cast<std::uint64_t>(substep_),
-                                         static_cast<std::uint64_t>(iteration_)));
+    worlds_.joints.shuffle(order_key(iteration_));
   }
   const bool joints_last = !relaxes() && parameters_.substeps > 1 && iteration_ + 1 == parameters_.iterations;
   if (!joints_last) sweep_joints(joint_law());
-  sweep_contacts(contact_parameters().law, iteration_ % 2 == 1);
+  sweep_contacts(contact_parameters().law, iteration_);
   if (joints_last) sweep_joints(joint_law());
   ++iteration_;
 }
 
 template <class T>
-void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, bool backwards) {
+void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, int iteration) {
   twists_.need_rows(worlds_.bodies);
-  contacts_.sweep(worlds_.bodies.contact_twists, contact_parameters(), law, backwards);
+  const auto key = parameters_.shuffled ? std::optional(order_key(iteration)) : std::nullopt;
+  contacts_.sweep(worlds_.bodies.contact_twists, contact_parameters(), law, key);
   twists_.changed_rows();
 }
 
@@ -223,7 +228,7 @@ template <class T>
 void StepLanes<T>::relax() {
   for (int i = 0; i < parameters_.relax; ++i) {
     sweep_joints(RowLaw<Scalar>::relaxing());
-    sweep_contacts(RowLaw<Scalar>::relaxing(), false);
+    sweep_contacts(RowLaw<Scalar>::relaxing(), parameters_.iterations + i);
   }
 }
 
