@@ -82,9 +82,13 @@ PBMPI_LANES Sym3L<V> rotated(const Mat3L<V>& r, const Sym3L<V>& s) {
 }
 
 template <class V>
+PBMPI_LANES void refresh_inertia(BodyLane<V>& body) {
+  body.inv_inertia = rotated(body.rotation, body.inv_inertia_body);
+}
+template <class V>
 PBMPI_LANES void refresh(BodyLane<V>& body) {
   body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
-  body.inv_inertia = rotated(body.rotation, body.inv_inertia_body);
+  refresh_inertia(body);
 }
 
 /// Where a body is, in lanes.
@@ -134,7 +138,7 @@ PBMPI_LANES void integrate(Body& body, const Twist<typename T::V>& twist, typena
 
 /// integrate() of a body that nothing turns but its own inertia: its angular momentum stays to rounding, its
 /// energy to third order in the angle of a substep (midpoint rule for the angular velocity that belongs to
-/// the momentum). Lanes where `has_torque` is 0 keep their velocity to the bit.
+/// the momentum). Lanes where `has_torque` is 0 keep their velocity to the bit. Sets the rotation, too.
 template <class T, bool last>
 PBMPI_LANES void integrate_turning(BodyLane<typename T::V>& body, const typename T::V& has_torque,
                                    Twist<typename T::V>& twist, typename T::Scalar h) {
@@ -150,7 +154,8 @@ PBMPI_LANES void integrate_turning(BodyLane<typename T::V>& body, const typename
   integrate<T, false>(half, twist, h / 2);
   twist.angular = velocity_in(to_matrix(half.qw, half.qx, half.qy, half.qz));
   integrate<T, last>(body, twist, h);
-  twist.angular = velocity_in(to_matrix(body.qw, body.qx, body.qy, body.qz));
+  body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
+  twist.angular = velocity_in(body.rotation);
 }
 
 /// The implicit gyroscopic torque of ODE 0.16 (Lacoursiere, "Stabilizing gyroscopic forces in rigid multibody

@@ -25,7 +25,7 @@ class BodyMotion {
   /// last: the step ends here. `next`: as above, or null where bodies turn without the torque.
   template <bool last>
   void move(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next);
-  /// Likewise, of one slot, without what follows from the pose.
+  /// Likewise, of one slot: its pose and rotation.
   template <bool last>
   void move_slot(int slot, Scalar h, const GyroscopicSlot<V>*& next, BodyLane<V>& body, Twist<V>& twist);
   void damp(const Batch& batch, double h);
@@ -61,11 +61,7 @@ void BodyMotion<T>::move(const Batch& batch, Scalar h, const GyroscopicSlot<V>*&
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
     BodyLane<V>& body = worlds_.bodies.bodies[slot];
     move_slot<last>(slot, h, next, body, worlds_.bodies.twists[slot]);
-    if constexpr (last) {
-      refresh(body);
-    } else {
-      body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
-    }
+    if constexpr (last) refresh_inertia(body);
   }
 }
 
@@ -79,6 +75,7 @@ void BodyMotion<T>::move_slot(int slot, Scalar h, const GyroscopicSlot<V>*& next
     integrate_turning<T, last>(body, next->has_torque, twist, h);
   } else {
     integrate<T, last>(body, twist, h);
+    body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
   }
 }
 

@@ -4,18 +4,13 @@
 #include "core/clock.h"
 #include "core/random.h"
 #include "solver/contacts/contact_lists.h"
-#include "solver/layout/pack_laws.h"
-#include "solver/layout/passes.h"
 #include "solver/pack/body_motion.h"
 #include "solver/pack/contact_twists.h"
 #include "solver/pack/pack.h"
 #include "solver/pack/residual_meter.h"
+#include "solver/pack/step_laws.h"
 
 namespace pbmpi::solver {
-
-/// [m/s] With relaxing sweeps no contact pushes its bodies apart faster, however deep they are (Box2D v3 has
-/// the same).
-inline constexpr double fastest_push = 3;
 
 /// See Pack: begin(), iterate() and finish() follow each other in a step.
 template <class T>
@@ -28,18 +23,19 @@ class StepLanes {
 
   /// `passes` and `worlds` are borrowed.
   StepLanes(const PackLaws& laws, const Passes& passes, WorldLanes<T>& worlds)
-      : laws_(laws),
+      : pack_laws_(laws),
         passes_(passes),
         worlds_(worlds),
         motion_(laws, worlds),
-        contacts_(frictionless_contacts(passes)) {}
+        contacts_(frictionless_contacts(passes)),
+        laws_(laws, passes, {}) {}
 
   void begin(Contacts contacts, Forces forces, const StepParameters& parameters, core::PhaseTimes& times);
   void iterate(int iterations, core::PhaseTimes& times);
   void finish(core::PhaseTimes& times);
   void look(std::span<model::State> states);
 
-  double h() const { return static_cast<double>(h_); }  ///< [s] a substep of the last step
+  double h() const { return static_cast<double>(laws_.h()); }  ///< [s] a substep of the last step
   stepping::Residuals residuals(int world) const { return residuals_[static_cast<std::size_t>(world)]; }
 
  private:
@@ -72,34 +68,21 @@ class StepLanes {
   void remember();
   /// For BodyMotion::move().
   const GyroscopicSlot<V>* first_turning() const { return relaxes() ? worlds_.gyroscopic.data() : nullptr; }
-  double joint_erp() const {
-    return parameters_.joints.is_on() ? SpringStep(parameters_.joints, h()).erp() : laws_.erp;
-  }
-  JointAdvancer<T> joint_advancer() const {
-    const auto scalar = [](double value) { return static_cast<Scalar>(value); };
-    return {h_, scalar(joint_erp()), scalar(laws_.cfm), scalar(parameters_.sor_factor),
-            scalar(parameters_.warm_start)};
-  }
-  RowLaw<Scalar> joint_law() const {
-    return parameters_.joints.is_on() ? SpringStep(parameters_.joints, h()).template law<Scalar>()
-                                      : RowLaw<Scalar>{};
-  }
   static ContactKind frictionless_contacts(const Passes& passes) {
     if (passes.idle_friction) return ContactKind::rough;
     return passes.turning_contacts ? ContactKind::smooth : ContactKind::central;
   }
-  ContactParameters<Scalar> contact_parameters() const;
   stepping::Residuals measure_residuals(int world) const;
 
-  PackLaws laws_;
+  PackLaws pack_laws_;
   const Passes& passes_;
   WorldLanes<T>& worlds_;
   BodyMotion<T> motion_;
   ContactLists<T> contacts_;
   ContactTwists<T> twists_;
   StepParameters parameters_;  ///< of the step at hand, with how far it has come
+  StepLaws<T> laws_;           ///< likewise
   int substep_ = 0, iteration_ = 0;
-  Scalar h_ = 0;                                ///< [s] a substep
   std::vector<PoseLane<V>> look_poses_;         ///< [slots] scratch
   std::vector<Twist<V>> kept_twists_;           ///< [slots] scratch
   std::vector<stepping::Residuals> residuals_;  ///< [num_worlds] of the last step, if they are measured
@@ -118,39 +101,17 @@ void StepLanes<T>::sort_contacts(Contacts contacts, Forces forces) {
   }
 }
 
-template <class T>
-ContactParameters<typename T::Scalar> StepLanes<T>::contact_parameters() const {
-  const auto scalar = [](double value) { return static_cast<Scalar>(value); };
-  const bool sprung = parameters_.contacts.is_on();
-  const SpringStep spring(sprung ? parameters_.contacts : Spring{1, 1}, h());
-  return {
-      .h = h_,
-      .push_rate = sprung ? scalar(spring.erp()) / h_ : scalar(laws_.contact_erp) / scalar(parameters_.dt_s),
-      .push_limit = scalar(relaxes() ? fastest_push : huge_bound),
-      .soft_cfm = scalar(sprung ? 0 : laws_.contact_cfm),
-      .cfm = scalar(laws_.cfm),
-      .bounce_velocity = scalar(laws_.bounce_velocity),
-      .sor_factor = scalar(parameters_.sor_factor),
-      .warm_start = scalar(parameters_.warm_start),
-      .law = sprung ? spring.template law<Scalar>() : RowLaw<Scalar>{},
-      .restitution = passes_.restitution,
-      .turning = laws_.turning_contacts,
-      .relaxes = relaxes(),
-      .cone = parameters_.cone};
-}
-
 /// Rows and forces of a step, up to the first iteration.
 template <class T>
 void StepLanes<T>::start_step() {
-  const auto scalar = [](double value) { return static_cast<Scalar>(value); };
-  contacts_.build(worlds_.bodies, contact_parameters());
-  const JointBuilder<T> builder(h_, scalar(joint_erp()), scalar(laws_.cfm), scalar(parameters_.sor_factor),
-                                parameters_.substeps > 1);
+  contacts_.build(worlds_.bodies, laws_.contacts());
+  const JointBuilder<T> builder = laws_.joint_builder();
   const GyroscopicSlot<V>* next_turning = worlds_.gyroscopic.data();
-  const V recalled = T::broadcast(h_ * scalar(parameters_.warm_start));
+  const V recalled = T::broadcast(laws_.h() * laws_.contacts().warm_start);
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
-    if (!relaxes()) motion_.apply_gyroscopic_torques(batch, scalar(parameters_.dt_s), next_turning);
-    if (passes_.gravity) motion_.apply_gravity(batch, h_);
+    if (!relaxes())
+      motion_.apply_gyroscopic_torques(batch, static_cast<Scalar>(parameters_.dt_s), next_turning);
+    if (passes_.gravity) motion_.apply_gravity(batch, laws_.h());
     worlds_.joints.build(batch, builder, worlds_.bodies);
     if (remembers()) worlds_.joints.recall(batch, recalled);
   });
@@ -160,10 +121,10 @@ void StepLanes<T>::start_step() {
 
 template <class T>
 void StepLanes<T>::start_substep() {
-  if (parameters_.warm_start != 1) contacts_.carry(worlds_.bodies, contact_parameters());
-  const JointAdvancer<T> advancer = joint_advancer();
+  if (parameters_.warm_start != 1) contacts_.carry(worlds_.bodies, laws_.contacts());
+  const JointAdvancer<T> advancer = laws_.joint_advancer();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
-    if (passes_.gravity) motion_.apply_gravity(batch, h_);
+    if (passes_.gravity) motion_.apply_gravity(batch, laws_.h());
     worlds_.joints.restart(batch, advancer);
   });
   push_carried();
@@ -195,9 +156,9 @@ void StepLanes<T>::sweep() {
     worlds_.joints.shuffle(order_key(iteration_));
   }
   const bool joints_last = !relaxes() && parameters_.substeps > 1 && iteration_ + 1 == parameters_.iterations;
-  if (!joints_last) sweep_joints(joint_law());
-  sweep_contacts(contact_parameters().law, iteration_);
-  if (joints_last) sweep_joints(joint_law());
+  if (!joints_last) sweep_joints(laws_.joint_law());
+  sweep_contacts(laws_.contact_law(), iteration_);
+  if (joints_last) sweep_joints(laws_.joint_law());
   ++iteration_;
 }
 
@@ -205,7 +166,7 @@ template <class T>
 void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, int iteration) {
   twists_.need_rows(worlds_.bodies);
   const auto key = parameters_.shuffled ? std::optional(order_key(iteration)) : std::nullopt;
-  contacts_.sweep(worlds_.bodies.contact_twists, contact_parameters(), law, key);
+  contacts_.sweep(worlds_.bodies.contact_twists, laws_.contacts(), law, key);
   twists_.changed_rows();
 }
 
@@ -214,7 +175,7 @@ void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, int iteration) {
 template <class T>
 void StepLanes<T>::sweep_joints(const RowLaw<Scalar>& law) {
   twists_.need_slots(worlds_.bodies);
-  const JointSolver<T> solver(static_cast<Scalar>(laws_.cfm) / h_, law);
+  const JointSolver<T> solver = laws_.joint_solver(law);
   if (parameters_.substeps > 1) {
     worlds_.joints.template sweep<true>(solver, worlds_.bodies);
   } else {
@@ -236,12 +197,12 @@ void StepLanes<T>::relax() {
 template <class T>
 template <bool last>
 void StepLanes<T>::end_substep() {
-  if (!last || relaxes()) contacts_.advance(worlds_.bodies, contact_parameters());
-  const JointAdvancer<T> advancer = joint_advancer();
+  if (!last || relaxes()) contacts_.advance(worlds_.bodies, laws_.contacts());
+  const JointAdvancer<T> advancer = laws_.joint_advancer();
   const GyroscopicSlot<V>* turning = first_turning();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     if (!last) worlds_.joints.advance(batch, advancer, worlds_.bodies);
-    motion_.template move<last>(batch, h_, turning);
+    motion_.template move<last>(batch, laws_.h(), turning);
     if (!last || relaxes()) worlds_.joints.rebuild(batch, advancer, worlds_.bodies);
     if (!relaxes()) damp(batch);
   });
@@ -261,15 +222,15 @@ template <class T>
 void StepLanes<T>::bounce() {
   if (!passes_.restitution) return;
   twists_.need_rows(worlds_.bodies);
-  contacts_.bounce(worlds_.bodies.contact_twists, contact_parameters());
+  contacts_.bounce(worlds_.bodies.contact_twists, laws_.contacts());
   twists_.changed_rows();
 }
 
 template <class T>
 void StepLanes<T>::remember() {
   if (!remembers()) return;
-  contacts_.remember(worlds_.bodies, contact_parameters());
-  const V per_h = T::broadcast(1 / h_);
+  contacts_.remember(worlds_.bodies, laws_.contacts());
+  const V per_h = T::broadcast(1 / laws_.h());
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     worlds_.joints.remember(batch, per_h, [&](int slot) { return worlds_.held_lanes(slot); });
   });
@@ -279,7 +240,7 @@ template <class T>
 void StepLanes<T>::begin(Contacts contacts, Forces forces, const StepParameters& parameters,
                          core::PhaseTimes& times) {
   parameters_ = parameters;
-  h_ = static_cast<Scalar>(parameters.dt_s / parameters.substeps);
+  laws_ = {pack_laws_, passes_, parameters};
   core::LapTimer timer(times);
   worlds_.update_active();
   if (passes_.holds_bodies()) worlds_.save_held();
@@ -340,7 +301,7 @@ void StepLanes<T>::look(std::span<model::State> states) {
   const GyroscopicSlot<V>* turning = first_turning();
   worlds_.for_each_active_slot([&](int slot) {
     BodyLane<V> body = worlds_.bodies.bodies[slot];
-    motion_.template move_slot<true>(slot, h_, turning, body, twists[slot]);
+    motion_.template move_slot<true>(slot, laws_.h(), turning, body, twists[slot]);
     look_poses_[static_cast<std::size_t>(slot)] = {body.position, body.qw, body.qx, body.qy, body.qz};
   });
   worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
@@ -351,7 +312,7 @@ void StepLanes<T>::look(std::span<model::State> states) {
 
 template <class T>
 stepping::Residuals StepLanes<T>::measure_residuals(int world) const {
-  ResidualMeter<T> meter(h_, laws_.cfm, contact_parameters());
+  ResidualMeter<T> meter(laws_.h(), pack_laws_.cfm, laws_.contacts());
   worlds_.visit_joint_rows(world,
                            [&](const auto& rows, int lane) { meter.add_joint(rows, worlds_.bodies, lane); });
   contacts_.visit_slots([&](const auto& slot, const auto* points, const Manifold* manifolds) {

@@ -147,8 +147,10 @@ void SorWorld::keep_sleepers(model::State& state) const {
 
 void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
                           std::span<const model::Contact> contacts) {
-  std::vector<std::pair<int, int>> links;
-  std::vector<int> rows;
+  std::vector<std::pair<int, int>>& links = links_;
+  std::vector<int>& rows = link_rows_;
+  links.clear();
+  rows.clear();
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     if (!state_.acted_in(step_ - 1, j)) continue;
     links.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
@@ -165,7 +167,8 @@ void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
     rows.push_back(model::contact_rows(contact.mu));
   }
   const model::Islands islands = model::find_islands(model_->num_bodies(), links);
-  std::vector<int> island_rows(static_cast<std::size_t>(islands.count), 0);
+  std::vector<int>& island_rows = island_rows_;
+  island_rows.assign(static_cast<std::size_t>(islands.count), 0);
   observables_.rows = 0;
   for (std::size_t i = 0; i < links.size(); ++i) {
     island_rows[static_cast<std::size_t>(islands.of_body[static_cast<std::size_t>(links[i].first)])] +=

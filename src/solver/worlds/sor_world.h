@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "effects/step_rules.h"
@@ -94,7 +95,9 @@ class SorWorld {
   bool remembers_;  ///< from step to step
   ContactRecall recall_;
   stepping::Observables observables_;
-  bool moved_ = true;  ///< since the last observe()
+  bool moved_ = true;                       ///< since the last observe()
+  std::vector<std::pair<int, int>> links_;  ///< scratch of count_rows(), as what follows
+  std::vector<int> link_rows_, island_rows_;
 };
 
 }  // namespace pbmpi::solver

@@ -1,0 +1,86 @@
+/// The numbers by which the rows of a step are built and swept.
+#pragma once
+
+#include "solver/contacts/contact_rows.h"
+#include "solver/joints/joint_advancer.h"
+#include "solver/joints/joint_builder.h"
+#include "solver/layout/pack_laws.h"
+#include "solver/layout/passes.h"
+#include "solver/pack/pack.h"
+
+namespace pbmpi::solver {
+
+/// [m/s] With relaxing sweeps no contact pushes its bodies apart faster, however deep they are (Box2D v3 has
+/// the same).
+inline constexpr double fastest_push = 3;
+
+/// What the worlds of a pack have in common and what a run has chosen, put together for a step.
+template <class T>
+class StepLaws {
+ public:
+  using Scalar = typename T::Scalar;
+
+  StepLaws(const PackLaws& laws, const Passes& passes, const StepParameters& step)
+      : h_(static_cast<Scalar>(step.dt_s / step.substeps)),
+        joint_erp_(laws.erp),
+        joint_cfm_(static_cast<Scalar>(laws.cfm)),
+        sor_factor_(static_cast<Scalar>(step.sor_factor)),
+        warm_start_(static_cast<Scalar>(step.warm_start)),
+        several_(step.substeps > 1) {
+    set_joints(step);
+    set_contacts(laws, passes, step);
+  }
+
+  Scalar h() const { return h_; }  ///< [s] a substep
+  const ContactParameters<Scalar>& contacts() const { return contacts_; }
+  /// Of a sweep that pushes errors of position out.
+  const RowLaw<Scalar>& contact_law() const { return contacts_.law; }
+  const RowLaw<Scalar>& joint_law() const { return joint_law_; }
+
+  JointBuilder<T> joint_builder() const {
+    return {h_, scalar(joint_erp_), joint_cfm_, sor_factor_, several_};
+  }
+  JointAdvancer<T> joint_advancer() const {
+    return {h_, scalar(joint_erp_), joint_cfm_, sor_factor_, warm_start_};
+  }
+  JointSolver<T> joint_solver(const RowLaw<Scalar>& law) const { return {joint_cfm_ / h_, law}; }
+
+ private:
+  static Scalar scalar(double value) { return static_cast<Scalar>(value); }
+
+  void set_joints(const StepParameters& step) {
+    if (!step.joints.is_on()) return;
+    const SpringStep spring(step.joints, static_cast<double>(h_));
+    joint_erp_ = spring.erp();
+    joint_law_ = spring.template law<Scalar>();
+  }
+  void set_contacts(const PackLaws& laws, const Passes& passes, const StepParameters& step) {
+    contacts_ = {.h = h_,
+                 .push_rate = scalar(laws.contact_erp) / scalar(step.dt_s),
+                 .push_limit = scalar(step.relax > 0 ? fastest_push : huge_bound),
+                 .soft_cfm = scalar(laws.contact_cfm),
+                 .cfm = scalar(laws.cfm),
+                 .bounce_velocity = scalar(laws.bounce_velocity),
+                 .sor_factor = sor_factor_,
+                 .warm_start = warm_start_,
+                 .law = {},
+                 .restitution = passes.restitution,
+                 .turning = laws.turning_contacts,
+                 .relaxes = step.relax > 0,
+                 .cone = step.cone};
+    if (!step.contacts.is_on()) return;
+    const SpringStep spring(step.contacts, static_cast<double>(h_));
+    contacts_.push_rate = scalar(spring.erp()) / h_;
+    contacts_.soft_cfm = 0;
+    contacts_.law = spring.template law<Scalar>();
+  }
+
+  Scalar h_;
+  double joint_erp_;
+  Scalar joint_cfm_, sor_factor_, warm_start_;
+  bool several_;  ///< substeps
+  RowLaw<Scalar> joint_law_;
+  ContactParameters<Scalar> contacts_;
+};
+
+}  // namespace pbmpi::solver
