@@ -14,6 +14,7 @@ inline constexpr std::array<std::string_view, 2> precision_names = {"double", "s
 inline constexpr std::array<std::string_view, 5> simd_names = {"auto", "sse2", "avx2", "avx512", "off"};
 inline constexpr std::array<std::string_view, 2> colliders_names = {"lanes", "ode"};
 inline constexpr std::array<std::string_view, 2> row_order_names = {"shuffled", "fixed"};
+inline constexpr std::array<std::string_view, 2> joint_solver_names = {"sweeps", "tree"};
 inline constexpr std::array<std::string_view, 2> friction_names = {"pyramid", "cone"};
 
 constexpr std::string_view name_of(StepperKind kind) { return stepper_kind_names[static_cast<int>(kind)]; }
@@ -23,6 +24,9 @@ constexpr std::string_view name_of(Precision precision) {
 constexpr std::string_view name_of(Simd simd) { return simd_names[static_cast<int>(simd)]; }
 constexpr std::string_view name_of(Colliders colliders) {
   return colliders_names[static_cast<int>(colliders)];
+}
+constexpr std::string_view name_of(JointSolver solver) {
+  return joint_solver_names[static_cast<int>(solver)];
 }
 constexpr std::string_view name_of(Friction friction) { return friction_names[static_cast<int>(friction)]; }
 constexpr std::string_view name_of(RowOrder order) { return row_order_names[static_cast<int>(order)]; }

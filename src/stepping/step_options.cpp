@@ -22,7 +22,7 @@ bool is_magnitude(double value) { return std::isfinite(value) && value >= 0; }
 bool converges(double factor) { return factor > 0 && factor < 2; }
 bool is_share(double value) { return value >= 0 && value <= 1; }
 
-constexpr std::array<StepOption, 17> options = {{
+constexpr std::array<StepOption, 18> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
      .placeholder = "sor|quick|direct",
@@ -114,6 +114,14 @@ constexpr std::array<StepOption, 17> options = {{
      .allows = is_length,
      .limit = "a damping ratio is above 0, and finite",
      .in_short = "damping *"},
+    {.name = "joint-solver",
+     .member = &Settings::joint_solver,
+     .placeholder = "sweeps|tree",
+     .meaning =
+         "sor: in a sweep joints are solved one after the other, or all of an articulation exactly, but "
+         "for limits, motors and what closes loops; default: sweeps",
+     .needs = &Traits::tunes_sweeps,
+     .in_short = "joints by *"},
     {.name = "friction",
      .member = &Settings::friction,
      .placeholder = "cone|pyramid",
@@ -161,6 +169,7 @@ constexpr std::array<StepOption, 17> options = {{
 
 constexpr const auto& names_of(StepperKind) { return stepper_kind_names; }
 constexpr const auto& names_of(RowOrder) { return row_order_names; }
+constexpr const auto& names_of(JointSolver) { return joint_solver_names; }
 constexpr const auto& names_of(Friction) { return friction_names; }
 constexpr const auto& names_of(Precision) { return precision_names; }
 constexpr const auto& names_of(Simd) { return simd_names; }

@@ -34,6 +34,10 @@ enum class RowOrder { shuffled, fixed };
 /// axes for itself (the pyramid of ODE's dContactApprox1, which along its diagonal holds 1.41 times as much).
 enum class Friction { pyramid, cone };
 
+/// How the sor stepper solves joints in a sweep: one after the other, or all of an articulation exactly, but
+/// for limits, motors and what closes loops.
+enum class JointSolver { sweeps, tree };
+
 /// What a run chooses about the step; the rest is in the Model.
 struct StepperSettings {
   StepperKind kind = StepperKind::quick;
@@ -47,7 +51,8 @@ struct StepperSettings {
   double contact_damping = 10;   ///< sor: their damping ratio
   double joint_frequency = 0;    ///< [Hz] sor: of joints as springs; 0: the scene's ERP and CFM
   double joint_damping = 2;      ///< sor: their damping ratio
-  Friction friction = Friction::pyramid;  ///< sor
+  JointSolver joint_solver = JointSolver::sweeps;  ///< sor
+  Friction friction = Friction::pyramid;           ///< sor
   RowOrder row_order = RowOrder::shuffled;
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -98,6 +99,15 @@ class JointBatches {
   /// places_last: see JointSolver::solve().
   template <bool places_last>
   void sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies);
+
+  /// The order of the joints of a shape in this sweep.
+  std::span<const std::size_t> order(std::size_t shape) const { return shapes_[shape].order; }
+  /// visit(rows) of a joint: of a shape's joints, [num_batches][shape.joints].
+  template <class Visit>
+  void change_rows(std::size_t shape, std::size_t joint, Visit visit) {
+    const RowsAt at = shapes_[shape].rows[joint];
+    with_kind(at.kind, [&](auto kind) { visit(rows_of<kind.value>()[static_cast<std::size_t>(at.index)]); });
+  }
 
   /// Rows of a lane of a joint as last built, limits and motors included.
   int num_rows(int shape, int joint, int lane) const;

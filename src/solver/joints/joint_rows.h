@@ -103,6 +103,12 @@ class JointSolver {
     bodies.twists[rows.slot_b] = b;
   }
 
+  /// Limits and motors only.
+  template <model::JointKind kind>
+  PBMPI_LANES void solve_controls(JointRows<T, kind>& rows, BodyLanes<T>& bodies) const {
+    solve_controls(rows, bodies.twists[rows.slot_a], bodies.twists[rows.slot_b]);
+  }
+
   /// A motor that is at its limit pushes as an external torque (ODE: dxJointLimitMotor::addLimot).
   template <model::JointKind kind>
   PBMPI_LANES static void push_motors(const JointRows<T, kind>& rows, BodyLanes<T>& bodies) {

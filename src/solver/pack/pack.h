@@ -27,6 +27,7 @@ struct StepParameters {
   double warm_start = 0;  ///< share of the impulses that a step and a substep take over from the one before
   int relax = 0;          ///< sweeps at the end of a substep that push nothing out
   Spring contacts, joints;
+  bool exact_joints = false;    ///< solve the joints of an articulation together
   bool cone = false;            ///< friction that is the same in all directions
   bool shuffled = true;         ///< false: the joints of an articulation and the contacts keep their order
   bool residuals = false;       ///< measure them at the end of the solve

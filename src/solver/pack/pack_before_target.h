@@ -38,6 +38,7 @@
 #include "solver/joints/broken_joints.h"
 #include "solver/layout/active_bodies.h"
 #include "solver/layout/articulation.h"
+#include "solver/layout/articulation_tree.h"
 #include "solver/layout/awake_geoms.h"
 #include "solver/layout/joints_of_bodies.h"
 #include "solver/layout/lane_places.h"

@@ -1,9 +1,12 @@
 /// One step of a pack, substeps and iterations included, from the contacts to the bodies' new poses.
 #pragma once
 
+#include <optional>
+
 #include "core/clock.h"
 #include "core/random.h"
 #include "solver/contacts/contact_lists.h"
+#include "solver/joints/joint_trees.h"
 #include "solver/pack/body_motion.h"
 #include "solver/pack/contact_twists.h"
 #include "solver/pack/pack.h"
@@ -60,6 +63,10 @@ class StepLanes {
                          static_cast<std::uint64_t>(iteration));
   }
   void end_sweeps();
+  /// With exact joints: gets ready for the rows of now.
+  void factor_joints() {
+    if (trees_) trees_->factor(laws_.joint_cfm(), worlds_.bodies);
+  }
   /// From the last sweep with bias to the end of the substep: the bodies move, and the relaxing sweeps.
   template <bool last>
   void end_substep();
@@ -80,8 +87,9 @@ class StepLanes {
   BodyMotion<T> motion_;
   ContactLists<T> contacts_;
   ContactTwists<T> twists_;
-  StepParameters parameters_;  ///< of the step at hand, with how far it has come
-  StepLaws<T> laws_;           ///< likewise
+  std::optional<JointTrees<T>> trees_;  ///< of a step that solves its joints exactly
+  StepParameters parameters_;           ///< of the step at hand, with how far it has come
+  StepLaws<T> laws_;                    ///< likewise
   int substep_ = 0, iteration_ = 0;
   std::vector<PoseLane<V>> look_poses_;         ///< [slots] scratch
   std::vector<Twist<V>> kept_twists_;           ///< [slots] scratch
@@ -116,6 +124,7 @@ void StepLanes<T>::start_step() {
     if (remembers()) worlds_.joints.recall(batch, recalled);
   });
   worlds_.joints.stop_broken_joints();
+  factor_joints();
   push_carried();
 }
 
@@ -176,7 +185,9 @@ template <class T>
 void StepLanes<T>::sweep_joints(const RowLaw<Scalar>& law) {
   twists_.need_slots(worlds_.bodies);
   const JointSolver<T> solver = laws_.joint_solver(law);
-  if (parameters_.substeps > 1) {
+  if (trees_) {
+    trees_->solve(solver, law, worlds_.bodies);
+  } else if (parameters_.substeps > 1) {
     worlds_.joints.template sweep<true>(solver, worlds_.bodies);
   } else {
     worlds_.joints.template sweep<false>(solver, worlds_.bodies);
@@ -206,6 +217,7 @@ void StepLanes<T>::end_substep() {
     if (!last || relaxes()) worlds_.joints.rebuild(batch, advancer, worlds_.bodies);
     if (!relaxes()) damp(batch);
   });
+  if (!last || relaxes()) factor_joints();
   if (!relaxes()) return;
   twists_.start(worlds_.bodies);
   relax();
@@ -241,6 +253,8 @@ void StepLanes<T>::begin(Contacts contacts, Forces forces, const StepParameters&
                          core::PhaseTimes& times) {
   parameters_ = parameters;
   laws_ = {pack_laws_, passes_, parameters};
+  if (!parameters.exact_joints) trees_.reset();
+  if (parameters.exact_joints && !trees_) trees_.emplace(worlds_.places.shapes(), worlds_.joints);
   core::LapTimer timer(times);
   worlds_.update_active();
   if (passes_.holds_bodies()) worlds_.save_held();

@@ -43,7 +43,8 @@ class StepLaws {
   JointAdvancer<T> joint_advancer() const {
     return {h_, scalar(joint_erp_), joint_cfm_, sor_factor_, warm_start_};
   }
-  JointSolver<T> joint_solver(const RowLaw<Scalar>& law) const { return {joint_cfm_ / h_, law}; }
+  Scalar joint_cfm() const { return joint_cfm_ / h_; }  ///< divided by the step
+  JointSolver<T> joint_solver(const RowLaw<Scalar>& law) const { return {joint_cfm(), law}; }
 
  private:
   static Scalar scalar(double value) { return static_cast<Scalar>(value); }
