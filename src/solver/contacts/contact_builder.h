@@ -290,7 +290,8 @@ void ContactBuilder<T, two_bodies, kind>::remember(const ContactSlot<T>& slot, c
     const V normal = point.normal.impulse * per_h;
     L3 friction{zero, zero, zero};
     if constexpr (Solver::friction)
-      friction = (point.friction[0].direction * point.friction[0].impulse +
+      // Without impulses +0, as of a contact that has no friction rows.
+      friction = (friction + point.friction[0].direction * point.friction[0].impulse +
                   point.friction[1].direction * point.friction[1].impulse) *
                  per_h;
     for (int lane = 0; lane < T::num_lanes; ++lane) {
