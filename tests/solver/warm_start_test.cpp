@@ -1,4 +1,4 @@
-/// Impulses that go on from substep to substep.
+/// Impulses that go on from substep to substep, and forces that go on from step to step.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,11 +36,6 @@ std::vector<model::Model> worlds() {
   return models;
 }
 
-TEST(WarmStart, one_substep_has_nothing_to_take_over) {
-  EXPECT_EQ(hashes_after(settings_of(1, 10, 0.9), worlds(), 20),
-            hashes_after(settings_of(1, 10, 0), worlds(), 20));
-}
-
 TEST(WarmStart, gives_the_same_bits_for_every_width_and_for_a_world_alone) {
   for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
     stepping::StepperSettings settings = settings_of(5, 3, 0.9);
@@ -54,6 +49,46 @@ TEST(WarmStart, gives_the_same_bits_for_every_width_and_for_a_world_alone) {
     }
     settings.warm_start = 0;
     EXPECT_NE(hashes_after(settings, worlds(), 24), expected);
+  }
+}
+
+/// The hash after one step from the state after 20; without its memory if `forgets`.
+std::uint64_t hash_one_step_later(double warm_start, bool forgets) {
+  const model::Model model = support::crash();
+  const auto before = make_stepper(settings_of(1, 10, 0.9), {model});
+  advance(*before, 20);
+  model::State state = before->state(0);
+  EXPECT_FALSE(state.memory.contacts.empty());
+  EXPECT_EQ(state.memory.joints.size(), model.joints.size());
+  if (forgets) state.memory.clear();
+  const auto stepper = make_stepper(settings_of(1, 10, warm_start));
+  stepper->add(0, std::make_shared<const model::Model>(model), state, 20);
+  advance(*stepper, 1);
+  return model::hash(stepper->state(0));
+}
+
+TEST(WarmStart, reaches_from_step_to_step_and_without_it_the_memory_has_no_effect) {
+  EXPECT_NE(hash_one_step_later(0.9, false), hash_one_step_later(0.9, true)) << "of one substep, too";
+  EXPECT_EQ(hash_one_step_later(0, false), hash_one_step_later(0, true));
+}
+
+TEST(WarmStart, of_nothing_leaves_nothing_to_remember) {
+  const auto stepper = make_stepper(settings_of(5, 3, 0), {support::crash()});
+  advance(*stepper, 20);
+  EXPECT_TRUE(stepper->state(0).memory.empty());
+}
+
+TEST(WarmStart, a_state_that_is_set_again_goes_on_with_the_same_bits) {
+  const stepping::StepperSettings settings = settings_of(4, 1, 1);
+  const auto straight = make_stepper(settings, worlds()), again = make_stepper(settings, worlds());
+  for (int step = 0; step < 24; ++step) {
+    advance(*straight, 1);
+    advance(*again, 1);
+    for (int world = 0; world < 8; ++world) {
+      const model::State state = again->state(world);
+      again->set_state(world, state, step + 1);
+      EXPECT_EQ(model::hash(again->state(world)), model::hash(straight->state(world))) << "step " << step;
+    }
   }
 }
 
