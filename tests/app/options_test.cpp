@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "fake_scene.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -30,8 +31,9 @@ TEST(Options, absent_ones_come_from_the_scene) {
   EXPECT_EQ(spec.total_frames(), 10);
   EXPECT_EQ(spec.steps_per_frame, 2);
   EXPECT_EQ(spec.stepper.dt_s, 0.004);
-  EXPECT_EQ(spec.stepper.iterations, 33);
+  EXPECT_EQ(spec.stepper.iterations, 1) << "the scene's are quick's";
   EXPECT_EQ(spec.output, "Fake.h5");
+  EXPECT_EQ(resolve(parse_options({"--scene", "Fake", "--stepper", "quick"}), scene).stepper.iterations, 33);
 }
 
 TEST(Options, the_output_of_a_hard_case_lies_in_the_current_folder) {
@@ -84,15 +86,38 @@ TEST(Options, those_of_sor_are_refused_with_another_stepper) {
             std::string::npos);
 }
 
-TEST(Options, a_warm_start_is_a_share_and_needs_substeps) {
-  const auto with = [](const char* substeps, const char* share) {
-    return refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", substeps, "--warm-start", share});
+TEST(Options, those_of_the_sweeps_are_refused_outside_of_their_range) {
+  const auto with = [](const char* option, const char* value) {
+    return refusal({"--scene", "Fake", "--stepper", "sor", option, value});
   };
-  EXPECT_EQ(with("2", "0.9"), "");
-  EXPECT_EQ(with("1", "0"), "");
-  EXPECT_NE(with("1", "0.9").find("--substeps 2 or more"), std::string::npos);
-  EXPECT_NE(with("2", "1.01").find("0 to 1"), std::string::npos);
-  EXPECT_NE(with("2", "nan").find("0 to 1"), std::string::npos);
+  for (const char* share : {"0", "0.9", "1"}) EXPECT_EQ(with("--warm-start", share), "");
+  for (const char* share : {"1.01", "nan"})
+    EXPECT_NE(with("--warm-start", share).find("0 to 1"), std::string::npos);
+  EXPECT_EQ(with("--relax", "0"), "");
+  EXPECT_NE(with("--relax", "-1").find("at least 0"), std::string::npos);
+  for (const char* kind : {"--contact", "--joint"}) {
+    const std::string frequency = std::string(kind) + "-frequency", damping = std::string(kind) + "-damping";
+    EXPECT_EQ(with(frequency.c_str(), "0"), "");
+    EXPECT_NE(with(frequency.c_str(), "-1").find("0 or more"), std::string::npos);
+    EXPECT_NE(with(frequency.c_str(), "inf").find("finite"), std::string::npos);
+    EXPECT_NE(with(damping.c_str(), "0").find("above 0"), std::string::npos);
+  }
+  EXPECT_NE(with("--friction", "ball").find("pyramid, cone"), std::string::npos);
+}
+
+TEST(Options, sor_starts_with_the_step_that_has_a_memory) {
+  const auto step = [](const std::vector<std::string>& args) {
+    return resolve(parse_options(args), FakeScene({})).stepper;
+  };
+  const stepping::StepperSettings sor = step({"--scene", "Fake"}),
+                                  quick = step({"--scene", "Fake", "--stepper", "quick"});
+  for (const stepping::StepOption& option : stepping::step_options()) {
+    EXPECT_TRUE(is_default(option, sor)) << option.name;
+    EXPECT_TRUE(is_default(option, quick)) << option.name;
+  }
+  EXPECT_EQ(sor.substeps, 8);
+  EXPECT_EQ(sor.warm_start, 1);
+  EXPECT_EQ(quick.substeps, 1);
 }
 
 TEST(Options, residuals_are_of_whole_worlds_and_go_into_the_file) {
@@ -109,19 +134,18 @@ TEST(Options, residuals_are_of_whole_worlds_and_go_into_the_file) {
 
 TEST(Options, feec_looks_at_the_precise_solve_where_it_is_the_only_one_of_a_frame) {
   const auto source = [](std::vector<std::string> more) {
-    std::vector<std::string> args = {"--scene", "Fake", "--stepper", "sor", "--feec", "--iterations", "20"};
+    std::vector<std::string> args = {"--scene",      "Fake", "--stepper",         "sor", "--feec",
+                                     "--iterations", "20",   "--steps-per-frame", "1"};
     args.insert(args.end(), more.begin(), more.end());
     return resolve(parse_options(args), FakeScene({})).estimate_source;
   };
-  EXPECT_EQ(source({"--steps-per-frame", "1"}), EstimateSource::same_solve);
-  EXPECT_EQ(source({"--steps-per-frame", "1", "--estimate-iterations", "20"}), EstimateSource::same_solve);
-  for (const std::vector<std::string>& other :
-       {std::vector<std::string>{"--steps-per-frame", "3"},
-        {"--steps-per-frame", "1", "--substeps", "2"},
-        {"--steps-per-frame", "1", "--estimate-iterations", "21"},
-        {"--steps-per-frame", "1", "--estimate-stepper", "quick"},
-        {"--steps-per-frame", "1", "--estimate-precision", "single"}}) {
-    EXPECT_EQ(source(other), EstimateSource::short_run) << other.back();
+  EXPECT_EQ(source({"--substeps", "1"}), EstimateSource::same_solve);
+  EXPECT_EQ(source({"--substeps", "1", "--estimate-iterations", "20"}), EstimateSource::same_solve);
+  EXPECT_EQ(source({}), EstimateSource::short_run) << "8 substeps";
+  for (const std::vector<std::string>& other : {std::vector<std::string>{"--estimate-iterations", "21"},
+                                                {"--estimate-stepper", "quick"},
+                                                {"--estimate-precision", "single"}}) {
+    EXPECT_EQ(source({"--substeps", "1", other[0], other[1]}), EstimateSource::short_run) << other.back();
   }
 }
 

@@ -5,6 +5,7 @@
 #include "app/pbreport/accuracy/study_options.h"
 #include "app/pbreport/accuracy/study_text.h"
 #include "core/error.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -93,12 +94,15 @@ TEST(Study, a_setting_becomes_the_options_that_give_it) {
 
 TEST(Study, the_text_of_a_setting_leaves_out_what_all_have_in_common) {
   StudyCase one = setting(1, 10);
-  EXPECT_EQ(setting_text(one), "sor single, 2 x 3, dt 0.01 s");
+  one.stepper = default_settings(stepping::StepperKind::sor);
+  one.stepper.precision = stepping::Precision::single;
+  EXPECT_EQ(setting_text(one), "sor single, 8 x 1, dt 0.01 s");
+  one.stepper.iterations = 3;
   one.stepper.sor_factor = 1.5;
   one.stepper.warm_start = 0.9;
   one.stepper.row_order = stepping::RowOrder::fixed;
   one.estimate_iterations = 2;
-  EXPECT_EQ(setting_text(one), "sor single, 2 x 3, factor 1.5, warm 0.9, fixed order, look at 2, dt 0.01 s");
+  EXPECT_EQ(setting_text(one), "sor single, 8 x 3, factor 1.5, warm 0.9, fixed order, look at 2, dt 0.01 s");
   one.stepper = {.kind = stepping::StepperKind::direct, .dt_s = 0.01};
   one.estimate_iterations = 0;
   EXPECT_EQ(setting_text(one), "direct, dt 0.01 s");

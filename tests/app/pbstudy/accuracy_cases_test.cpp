@@ -8,6 +8,7 @@
 
 #include "app/pbstudy/accuracy/case_runner.h"
 #include "core/error.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -39,18 +40,32 @@ TEST(AccuracyCases, all_settings_are_crossed_and_odes_steppers_have_fewer) {
   const auto cases =
       cases_of(options_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20", "--substeps",
                            "1", "2", "--sor-factor", "1", "1.3", "--precision", "single"}));
-  // quick: 2 iterations; direct: one; sor: 2 iterations x (1 substep + 2 substeps x 2 warm starts) x 2
-  // factors; each with the scene's step and half of it
-  EXPECT_EQ(count(cases, CaseKind::setting), 2 * (2 + 1 + 12));
+  // quick: 2 iterations; direct: one; sor: 2 iterations x 2 substeps x 2 factors, and with a memory 2
+  // substeps; each with the scene's step and half of it
+  EXPECT_EQ(count(cases, CaseKind::setting), 2 * (2 + 1 + 8 + 2));
 }
 
-TEST(AccuracyCases, warm_start_and_row_order_are_crossed_where_they_mean_something) {
+TEST(AccuracyCases, warm_start_and_row_order_are_crossed_where_there_are_any) {
   const auto cases = cases_of(
       options_of({"--iterations", "3", "--substeps", "1", "5", "--precision", "double", "--warm-start", "0",
                   "0.5", "0.9", "--row-order", "shuffled", "fixed", "--dt", "0.01"}));
-  EXPECT_EQ(count(cases, CaseKind::setting), 1 + 2 + 3 * 2) << "quick; one substep; five of them";
-  for (const AccuracyCase& one : cases) EXPECT_TRUE(one.stepper.warm_start == 0 || one.stepper.substeps == 5);
+  EXPECT_EQ(count(cases, CaseKind::setting), 1 + 2 * 3 * 2 + 2) << "quick; sor; sor with a memory";
   EXPECT_NE(refusal({"--warm-start", "2"}).find("0 to 1"), std::string::npos);
+}
+
+TEST(AccuracyCases, beside_all_others_sor_is_measured_as_it_is_meant_to_be_used) {
+  const auto cases = cases_of(options_of({"--substeps", "2", "4", "--iterations", "9", "--dt", "0.005"}));
+  std::set<std::pair<int, stepping::Precision>> found;
+  for (const AccuracyCase& one : cases) {
+    if (one.kind != CaseKind::setting || one.stepper.relax == 0) continue;
+    EXPECT_EQ(one.stepper.dt_s, 0.005);
+    for (const stepping::StepOption& option : stepping::step_options()) {
+      const bool is_varied = std::set<std::string_view>{"dt", "substeps", "precision"}.contains(option.name);
+      EXPECT_TRUE(is_varied || is_default(option, one.stepper)) << option.name;
+    }
+    found.insert({one.stepper.substeps, one.stepper.precision});
+  }
+  EXPECT_EQ(found.size(), 4u);
 }
 
 TEST(AccuracyCases, estimates_look_into_the_scenes_own_solve) {

@@ -44,12 +44,13 @@ TEST(SettingLists, iterations_are_not_varied_where_nothing_iterates) {
             1u);
 }
 
-TEST(SettingLists, a_warm_start_needs_a_second_substep) {
+TEST(SettingLists, a_warm_start_is_crossed_with_one_substep_too) {
   const auto all = crossed({list_of_values("stepper", {"sor"}), list_of_values("substeps", {"1", "2"}),
                             list_of_values("warm-start", {"0.5", "0.9"})});
-  ASSERT_EQ(all.size(), 3u);
-  EXPECT_EQ(all[0].warm_start, 0);
-  EXPECT_EQ(all[1].warm_start, 0.5);
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_EQ(all[0].warm_start, 0.5);
+  EXPECT_EQ(all[1].warm_start, 0.9);
+  EXPECT_EQ(all[1].substeps, 1);
 }
 
 TEST(SettingLists, a_list_without_values_leaves_the_base_as_it_is) {
