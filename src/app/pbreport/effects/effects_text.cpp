@@ -5,6 +5,7 @@
 
 #include "app/common/format.h"
 #include "app/pbreport/study/error_text.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -29,11 +30,13 @@ std::string row_text(const EffectRow& row) {
 }
 
 std::string scene_text(const EffectScene& scene) {
-  std::string text = format("\nscene: %s, %s", scene.name.c_str(), scene.stepper.c_str());
-  if (!scene.effects.empty()) {
+  std::string text = "\nscene: " + scene.name + ", ";
+  if (scene.effects.empty()) {
+    text += scene.stepper;
+  } else {
     const EffectRow& any = scene.effects.front();
-    text += format(", %d iterations, %d %s", any.stepper.iterations, any.worlds,
-                   any.worlds == 1 ? "world" : "worlds");
+    text += setting_text(any.stepper);
+    text += format(", %d %s", any.worlds, any.worlds == 1 ? "world" : "worlds");
   }
   text += format("; a step takes %.1f us as the scene is\n", 1e6 * scene.step_s());
   text += format(

@@ -21,11 +21,14 @@ std::string counted(std::int64_t count, const char* one, const char* many) {
 }  // namespace
 
 std::vector<io::html::Fact> facts_of(const RunSummary& s) {
+  const std::string sweeps =
+      (s.substeps > 1 ? counted(s.substeps, "substep", "substeps") + " of " : std::string()) +
+      counted(s.iterations, "iteration", "iterations");
   std::vector<io::html::Fact> facts = {
       {"Size", counted(s.bodies, "body", "bodies"), "in " + counted(s.worlds, "world", "worlds")},
       {"Ranks", with_commas(s.ranks),
        "on " + counted(static_cast<std::int64_t>(s.hosts.size()), "host", "hosts")},
-      {"Stepper", s.stepper, format("%d iterations, dt %g ms", s.iterations, 1e3 * s.dt_s)},
+      {"Stepper", s.stepper, sweeps + format(", dt %g ms", 1e3 * s.dt_s)},
   };
   if (s.measured_frames == 0) {
     facts.push_back({"Frame rate", "not measured", "the run ended in its warm-up"});

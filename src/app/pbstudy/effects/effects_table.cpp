@@ -51,8 +51,7 @@ std::vector<io::TableColumn> effect_columns(const std::vector<StudyScene>& scene
       column<std::string>("hash_baseline", "", results, [](Result r) { return hash_text(r.hash_baseline); }),
       column<std::string>("hash_variant", "", results, [](Result r) { return hash_text(r.hash_variant); }),
   };
-  for (const char* name : {"stepper", "precision", "iterations", "dt", "solver-seed"})
-    columns.push_back(step_column(stepping::step_option(name), cases));
+  add_step_columns(cases, columns);
   add_spread("time_with", "s", &EffectResult::time_with_s, results, columns);
   add_spread("time_without", "s", &EffectResult::time_without_s, results, columns);
   add_spread("time_cost", "s", &EffectResult::cost_s, results, columns);
