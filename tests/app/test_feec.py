@@ -4,7 +4,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness import ProgramTest
+from harness import COLD, ProgramTest
 
 
 class Feec(ProgramTest):
@@ -52,11 +52,13 @@ class Feec(ProgramTest):
         self.assertIn("--feec: ", refused.stderr)
 
     def test_as_many_iterations_as_the_precise_run_leave_no_defect(self):
-        summary = self.summary(3, "--scene", "CrashSk", "--feec", "--estimate-iterations", 20, "--no-output")
-        self.assertEqual(summary["estimate"]["position_defect_m"]["max"], 0)
+        for setting in (["--stepper", "quick"], [*COLD, "--iterations", 20], ["--substeps", 1, "--iterations", 20]):
+            summary = self.summary(3, "--scene", "CrashSk", *setting, "--feec", "--estimate-iterations", 20, "--no-output")
+            self.assertEqual(summary["estimate"]["position_defect_m"]["max"], 0)
 
     def test_with_one_step_a_frame_sor_estimates_from_the_same_solve(self):
-        args = ["--scene", "CrashSk", "--replicas", 7, "--stepper", "sor", "--steps-per-frame", 1, "--frames", 16]
+        cold = ["--scene", "CrashSk", "--replicas", 7, *COLD, "--steps-per-frame", 1, "--frames", 16]
+        args = [*cold, "--iterations", 20]
         alone = self.summary(1, *args, "--no-output")["state_hash"]
         for ranks in (1, 2, 3, 4):
             summary = self.summary(ranks, *args, "--feec", "--estimate-iterations", 3, "--output", f"run{ranks}.h5")
@@ -70,7 +72,7 @@ class Feec(ProgramTest):
             for column in ("position/value", "orientation/value"):
                 self.assertEqual(one["estimate"][column][:].tobytes(), four["estimate"][column][:].tobytes())
             # The first frame starts where a run of three iterations does, and so is its first frame.
-            self.summary(1, *args, "--iterations", 3, "--output", "short.h5")
+            self.summary(1, *cold, "--iterations", 3, "--output", "short.h5")
             with h5py.File(self.path("short.h5")) as short:
                 self.assertEqual(one["estimate/position/value"][0].tobytes(),
                                  short["particles/bodies/position/value"][0].tobytes())

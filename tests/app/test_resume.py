@@ -7,7 +7,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness import PBMPI, SOURCE, ProgramTest
+from harness import COLD, PBMPI, SOURCE, ProgramTest
 from test_breakage import SCENE as SIGN
 from test_sleeping import SCENE as STACKS
 
@@ -38,6 +38,7 @@ class Resume(ProgramTest):
 
     def test_substeps_the_direct_stepper_estimates_and_other_effects_go_on_too(self):
         self.check("CrashSk", 3, 9, ["--substeps", 4, "--warm-start", 0.9, "--iterations", 5], [(1, 2)])
+        self.check("CrashSk", 3, 9, [*COLD, "--iterations", 20], [(2, 1)])
         self.check("CrashSk", 3, 6, ["--stepper", "direct"], [(1, 1)])
         self.check("CrashSk", 3, 9, ["--feec"], [(1, 1)])
         self.check("CrashSk", 3, 9, ["--feec", "--steps-per-frame", 1], [(1, 2)])
@@ -188,7 +189,7 @@ class Refused(ProgramTest):
         self.assertEqual(result.stderr.count("warning: other.h5 was written by another build"), 1, result.stderr)
 
     def test_options_that_would_make_it_another_run(self):
-        for name, value, had in (("dt", "0.02", "0.01"), ("iterations", "5", "20"), ("stepper", "quick", "sor"),
+        for name, value, had in (("dt", "0.02", "0.01"), ("iterations", "5", "1"), ("stepper", "quick", "sor"),
                                  ("replicas", "2", "1"), ("seed", "2", "1"), ("precision", "single", "double"),
                                  ("steps-per-frame", "1", "3"), ("effects", "-gravity", "none")):
             self.check([f"--{name} {value}", f"has {name} {had}", "leave the option out"], "--resume", "run.ck.h5",
@@ -196,7 +197,7 @@ class Refused(ProgramTest):
         self.check(["--scene CrashWa", "CrashSk"], "--resume", "run.ck.h5", "--scene", "CrashWa", ranks=2)
 
     def test_the_same_options_again_are_none_of_those(self):
-        result = self.pbmpi(2, "--resume", "run.ck.h5", "--scene", "CrashSk", "--dt", 0.01, "--iterations", 20, "--frames",
+        result = self.pbmpi(2, "--resume", "run.ck.h5", "--scene", "CrashSk", "--dt", 0.01, "--iterations", 1, "--frames",
                             4, "--simd", "sse2", "--no-output", "--quiet")
         self.assertEqual(result.returncode, 0, result.stderr)
 
