@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <tuple>
+
 #include "core/hash.h"
 #include "model/names.h"
 #include "solver/sor_run.h"
 #include "stepping/names.h"
+#include "stepping/step_options.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -14,10 +18,14 @@ namespace {
 
 constexpr int num_steps = 60;  // well past the impact of the crash, where one wrong bit has grown to metres
 
-stepping::StepperSettings settings_of(stepping::Precision precision, stepping::Simd simd) {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
-  settings.precision = precision;
+/// A step without a memory, and that with which sor is meant to be used.
+enum class Step { cold, remembering };
+using Kind = std::tuple<Step, stepping::Precision>;
+
+stepping::StepperSettings settings_of(const Kind& kind, stepping::Simd simd) {
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
+  if (std::get<Step>(kind) == Step::cold) settings = {.kind = stepping::StepperKind::sor};
+  settings.precision = std::get<stepping::Precision>(kind);
   settings.simd = simd;
   settings.seed = 7;
   return settings;
@@ -39,7 +47,7 @@ std::vector<model::Model> crashes(int count) {
   return worlds;
 }
 
-class Lanes : public testing::TestWithParam<stepping::Precision> {};
+class Lanes : public testing::TestWithParam<Kind> {};
 
 TEST_P(Lanes, every_width_gives_the_bits_of_one_lane) {
   const auto worlds = crashes(19);  // fills some lanes of each width, and leaves some idle
@@ -62,8 +70,12 @@ TEST_P(Lanes, a_world_does_not_notice_its_neighbours) {
 /// The bits themselves, for every compiler, build and machine: nothing on the way is left to a library but
 /// the sines and cosines of joint limits. Whoever changes them says in the commit why.
 TEST_P(Lanes, a_crash_ends_in_the_same_bits_everywhere) {
-  const std::uint64_t golden =
-      GetParam() == stepping::Precision::single ? 0x33475ef68293d550u : 0xd1d039d290be93cfu;
+  const std::uint64_t golden = std::map<Kind, std::uint64_t>{
+      {{Step::cold, stepping::Precision::double_}, 0xd1d039d290be93cf},
+      {{Step::cold, stepping::Precision::single}, 0x33475ef68293d550},
+      {{Step::remembering, stepping::Precision::double_}, 0xd8e09fd3f7eb5bd4},
+      {{Step::remembering, stepping::Precision::single},
+ 0xac771a92f0d316d0}}.at(GetParam());
   for (const stepping::Simd simd : machine_simds())
     EXPECT_EQ(hashes(crashes(1), settings_of(GetParam(), simd)).front(), golden) << name_of(simd);
 }
@@ -86,9 +98,15 @@ TEST_P(Lanes, a_world_that_moves_to_another_stepper_goes_on_bit_for_bit) {
   EXPECT_EQ(hash(moved->state(1)), hash(stayed->state(1)));
 }
 
-INSTANTIATE_TEST_SUITE_P(BothPrecisions, Lanes,
-                         testing::Values(stepping::Precision::double_, stepping::Precision::single),
-                         [](const auto& test) { return std::string(name_of(test.param)) + "_precision"; });
+INSTANTIATE_TEST_SUITE_P(EveryStep, Lanes,
+                         testing::Combine(testing::Values(Step::cold, Step::remembering),
+                                          testing::Values(stepping::Precision::double_,
+                                                          stepping::Precision::single)),
+                         [](const auto& test) {
+                           return std::string(std::get<Step>(test.param) == Step::cold ? "cold_"
+                                                                                       : "remembering_") +
+                                  std::string(name_of(std::get<stepping::Precision>(test.param)));
+                         });
 
 }  // namespace
 }  // namespace pbmpi::solver

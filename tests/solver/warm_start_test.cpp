@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "solver/sor_run.h"
+#include "stepping/step_options.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -79,7 +80,7 @@ TEST(WarmStart, of_nothing_leaves_nothing_to_remember) {
 }
 
 TEST(WarmStart, a_state_that_is_set_again_goes_on_with_the_same_bits) {
-  const stepping::StepperSettings settings = settings_of(4, 1, 1);
+  const stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
   const auto straight = make_stepper(settings, worlds()), again = make_stepper(settings, worlds());
   for (int step = 0; step < 24; ++step) {
     advance(*straight, 1);

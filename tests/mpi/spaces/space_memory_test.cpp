@@ -6,6 +6,7 @@
 #include "model/memory_rows.h"
 #include "solver/spaces/unit_memory.h"
 #include "space_run.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::mpi {
 namespace {
@@ -173,15 +174,19 @@ TEST(SpaceMemory, is_there_again_where_a_run_goes_on_from_the_states_of_root) {
 
 TEST(SpaceMemory, of_a_world_that_is_cut_is_that_of_the_whole_one) {
   const SharedModel model = share(neighbours());
-  stepping::StepperSettings stepper;
-  stepper.warm_start = 0.8;
-  WorldRunSettings settings = space_settings();
-  const std::uint64_t expected = testing_support::whole_hash(model, settings, stepper);
-  settings.rebalance_threshold = model::infinity;
-  for (const Placement& placement : placements_of_four_spaces(world().size(), 37)) {
-    settings.placement = placement;
-    EXPECT_EQ(testing_support::run_spaces(world(), model, settings, stepper).result.state_hash, expected)
-        << testing::PrintToString(placement);
+  stepping::StepperSettings hard, single = default_settings(stepping::StepperKind::sor);
+  hard.warm_start = 0.8;
+  single.precision = stepping::Precision::single;
+  for (const stepping::StepperSettings& stepper :
+       {hard, default_settings(stepping::StepperKind::sor), single}) {
+    WorldRunSettings settings = space_settings();
+    const std::uint64_t expected = testing_support::whole_hash(model, settings, stepper);
+    settings.rebalance_threshold = model::infinity;
+    for (const Placement& placement : placements_of_four_spaces(world().size(), 37)) {
+      settings.placement = placement;
+      EXPECT_EQ(testing_support::run_spaces(world(), model, settings, stepper).result.state_hash, expected)
+          << setting_text(stepper) << testing::PrintToString(placement);
+    }
   }
 }
 
