@@ -33,6 +33,12 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.substeps = 3;
   settings.sor_factor = 1.0 / 3;
   settings.warm_start = 0.3;
+  settings.relax = 2;
+  settings.contact_frequency = 1.0 / 7;
+  settings.contact_damping = 1.0 / 9;
+  settings.joint_frequency = 1.0 / 11;
+  settings.joint_damping = 1.0 / 13;
+  settings.friction = Friction::cone;
   settings.row_order = RowOrder::fixed;
   settings.precision = Precision::single;
   settings.simd = Simd::avx2;
@@ -40,12 +46,13 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.seed = 18446744073709551615u;
   StepperSettings again;
   for (const StepOption& option : step_options()) {
-    EXPECT_FALSE(is_default(option, settings)) << option.name;
+    EXPECT_EQ(is_default(option, settings), option.name == "stepper") << option.name;
     set(option, text_of(option, settings), "", again);
     EXPECT_EQ(text_of(option, again), text_of(option, settings));
   }
   EXPECT_EQ(again.dt_s, settings.dt_s);
   EXPECT_EQ(again.sor_factor, settings.sor_factor);
+  EXPECT_EQ(again.joint_frequency, settings.joint_frequency);
   EXPECT_EQ(again.seed, settings.seed);
 }
 
@@ -54,6 +61,23 @@ TEST(StepOptions, shown_defaults_are_values) {
   for (const StepOption& option : step_options()) {
     if (option.shown_default.empty()) continue;
     EXPECT_NO_THROW(set(option, option.shown_default, "", settings)) << option.name;
+  }
+}
+
+TEST(StepOptions, of_sor_have_a_memory_by_default_and_a_text_names_what_differs) {
+  StepperSettings sor = default_settings(StepperKind::sor);
+  EXPECT_GT(sor.warm_start, 0);
+  EXPECT_EQ(setting_text(sor), "sor double, 8 x 1");
+  sor.contact_frequency = 60;
+  sor.substeps = 4;
+  EXPECT_EQ(setting_text(sor), "sor double, 4 x 1, contacts 60 Hz");
+  StepperSettings cold;
+  cold.kind = StepperKind::sor;
+  EXPECT_EQ(setting_text(cold),
+            "sor double, 1 x 20, factor 1.3, warm 0, relax 0, contacts 0 Hz, joints 0 Hz, pyramid");
+  for (const StepperKind kind : {StepperKind::quick, StepperKind::direct}) {
+    for (const StepOption& option : step_options())
+      EXPECT_EQ(text_of(option, default_settings(kind)), text_of(option, {.kind = kind})) << option.name;
   }
 }
 
@@ -71,7 +95,8 @@ TEST(StepOptions, impossible_values_are_refused_by_name) {
 
 TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
   for (const char* name :
-       {"substeps", "sor-factor", "warm-start", "row-order", "precision", "simd", "colliders"}) {
+       {"substeps", "sor-factor", "warm-start", "relax", "contact-frequency", "contact-damping",
+        "joint-frequency", "joint-damping", "friction", "row-order", "precision", "simd", "colliders"}) {
     EXPECT_TRUE(fits(step_option(name), StepperKind::sor));
     EXPECT_FALSE(fits(step_option(name), StepperKind::quick));
     EXPECT_FALSE(fits(step_option(name), StepperKind::direct));
