@@ -18,16 +18,15 @@ constexpr std::array<VariedOption, 7> varied = {{
     {"precision", "sor: double, single; default: both", "double single"},
     {"sor-factor", "sor: over-relaxation; default: 1.3", "1.3"},
     {"warm-start", "sor: share of the forces that a step and a substep take over; default: 0", "0"},
-    {"row-order", "sor: shuffled (anew every 8 iterations), fixed; default: shuffled", "shuffled"},
+    {"row-order", "sor: shuffled (drawn anew), fixed; default: shuffled", "shuffled"},
 }};
 constexpr VariedOption varied_dt = {
     "dt", "step [s], a whole number of which fills a frame; default: the scene's and half of it", ""};
 
 po::options_description options_description() {
   po::options_description what(
-      "What to vary (lists, separated by blanks; all are crossed; beside them sor as it is meant to be used, "
-      "in "
-      "the numbers of substeps and the precisions given)");
+      "What to vary (lists, separated by blanks; all are crossed, in steps of sor without memory; beside "
+      "them sor as it is by default, in the numbers of substeps and the precisions given)");
   add_scene_option(what);
   for (const VariedOption& one : varied) add_setting_list(one, what);
   what.add_options()  //

@@ -25,7 +25,8 @@ po::options_description options_description() {
   add_scene_option(what);
   what.add_options()("effect", list_of<std::string>(), "effects; default: all (pbmpi --describe)");
   for (const VariedOption& one : varied) add_setting_list(one, what);
-  what.add_options()("iterations", po::value<int>()->value_name("N"), "default: the scene's");
+  what.add_options()("iterations", po::value<int>()->value_name("N"),
+                     "default: the scene's with quick, 1 with sor");
   po::options_description how =
       how_to_measure({"of the scene's variation and of the solver",
                       "how often each frame is timed with and without the effect, in turn", 15,
