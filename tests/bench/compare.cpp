@@ -15,6 +15,7 @@
 #include "ode/objects/engine.h"
 #include "ode/ode_stepper.h"
 #include "solver/worlds/sor_stepper.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::bench {
 namespace {
@@ -163,19 +164,28 @@ std::uint64_t hash_of(const Side& side, std::size_t num_worlds) {
   return hash.value();
 }
 
-std::unique_ptr<Side> sor_side(const Subject& subject, const std::string& name, stepping::Precision precision,
-                               stepping::Simd simd, int substeps, int iterations,
-                               stepping::Colliders colliders = stepping::Colliders::lanes) {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
+std::unique_ptr<Side> sor_side(const Subject& subject, const std::string& name,
+                               stepping::StepperSettings settings) {
   settings.dt_s = subject.dt_s;
-  settings.iterations = iterations;
-  settings.substeps = substeps;
-  settings.precision = precision;
-  settings.simd = simd;
-  settings.colliders = colliders;
   return std::make_unique<Ours>(subject, name, solver::make_sor_stepper(settings, ode::make_narrow_phase),
                                 "");
+}
+
+/// As sor is by default, in this precision and with these instructions.
+stepping::StepperSettings sor_settings(stepping::Precision precision, stepping::Simd simd) {
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
+  settings.precision = precision;
+  settings.simd = simd;
+  return settings;
+}
+
+/// One step without memory, with the subject's iterations.
+stepping::StepperSettings cold_settings(const Subject& subject) {
+  stepping::StepperSettings settings;
+  settings.kind = stepping::StepperKind::sor;
+  settings.precision = stepping::Precision::single;
+  settings.iterations = subject.iterations;
+  return settings;
 }
 
 /// The bare loop first: the others are compared with it.
@@ -191,17 +201,17 @@ std::vector<std::unique_ptr<Side>> make_sides(const Subject& subject) {
   const std::string path =
       (std::filesystem::temp_directory_path() / ("bench_worlds." + std::to_string(::getpid()) + ".h5"))
           .string();
-  const int n = subject.iterations;
+  stepping::StepperSettings with_ode = sor_settings(Precision::single, Simd::automatic);
+  with_ode.colliders = stepping::Colliders::ode;
   std::vector<std::unique_ptr<Side>> sides;
   sides.push_back(std::make_unique<Bare>(subject));
   sides.push_back(std::make_unique<Ours>(subject, "quick", quick(), ""));
   sides.push_back(std::make_unique<Ours>(subject, "quick, recorded", quick(), path));
-  sides.push_back(sor_side(subject, "sor double, 1 lane", Precision::double_, Simd::off, 1, n));
-  sides.push_back(sor_side(subject, "sor double, widest", Precision::double_, Simd::automatic, 1, n));
-  sides.push_back(sor_side(subject, "sor single, widest", Precision::single, Simd::automatic, 1, n));
-  sides.push_back(sor_side(subject, "sor single, dCollide", Precision::single, Simd::automatic, 1, n,
-                           stepping::Colliders::ode));
-  sides.push_back(sor_side(subject, "sor single, 5 x 3", Precision::single, Simd::automatic, 5, 3));
+  sides.push_back(sor_side(subject, "sor double, 1 lane", sor_settings(Precision::double_, Simd::off)));
+  sides.push_back(sor_side(subject, "sor double, widest", sor_settings(Precision::double_, Simd::automatic)));
+  sides.push_back(sor_side(subject, "sor single, widest", sor_settings(Precision::single, Simd::automatic)));
+  sides.push_back(sor_side(subject, "sor single, dCollide", with_ode));
+  sides.push_back(sor_side(subject, "sor single, cold", cold_settings(subject)));
   return sides;
 }
 
@@ -246,9 +256,8 @@ void compare(const Subject& subject, int frames, int rounds) {
   std::vector<Result> results;
   for (int round = 0; round < rounds; ++round) run_round(subject, frames, results);
   std::printf(
-      "%s: %zu worlds, %d bodies, dt %g s, %d iterations, %d x %d frames of %d steps; time and speed are "
-      "medians\n"
-      "of the frames' CPU time ratios to the bare ODE loop of the same round\n",
+      "%s: %zu worlds, %d bodies, dt %g s, ODE and cold with %d iterations, %d x %d frames of %d steps;\n"
+      "time and speed are medians of the frames' CPU time ratios to the bare ODE loop of the same round\n",
       subject.name.c_str(), subject.models.size(), subject.num_bodies(), subject.dt_s, subject.iterations,
       rounds, frames, subject.steps_per_frame);
   for (const Result& result : results) print(subject, result, results.front());

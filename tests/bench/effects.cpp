@@ -9,6 +9,7 @@
 #include "ode/collide/narrow_phase.h"
 #include "ode/objects/engine.h"
 #include "solver/worlds/sor_stepper.h"
+#include "stepping/step_options.h"
 #include "support/models.h"
 
 namespace pbmpi::bench {
@@ -24,8 +25,7 @@ class Side {
  public:
   Side(std::string name, double mu, const model::EffectChoices& effects, stepping::Precision precision)
       : name_(std::move(name)) {
-    stepping::StepperSettings settings;
-    settings.kind = stepping::StepperKind::sor;
+    stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
     settings.precision = precision;
     stepper_ = solver::make_sor_stepper(settings, ode::make_narrow_phase);
     for (int world = 0; world < num_worlds; ++world) {

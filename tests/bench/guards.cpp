@@ -94,8 +94,7 @@ void compare_guards() {
   const ode::Engine engine;
   for (const char* scene : {"CrashSk", "100CrSk", "CrashWa", "Environ", "Battle2"}) {
     const Subject subject = load_subject(scene, std::string(scene) == "100CrSk" ? 24 : 0);
-    stepping::StepperSettings settings;
-    settings.kind = stepping::StepperKind::sor;
+    stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
     for (const auto precision : {stepping::Precision::double_, stepping::Precision::single}) {
       settings.precision = precision;
       compare(subject, settings);

@@ -1,7 +1,8 @@
 """What a field of interest saves and costs: `tests/bench/interest.py [REPEATS]`, after jobs/build.sh.
 
 Environ, of which what is within 10 m of the car, or of the tank, gets all iterations, by `pbstudy effects`: the same
-frames with the effect and without, in turn. Nothing else should run on the machine.
+frames with the effect and without, in turn. By quick: sor has one iteration a substep, of which nothing can be saved.
+Nothing else should run on the machine.
 """
 import json
 import os
@@ -21,7 +22,7 @@ def study(folder, actor, repeats):
                    f'radius = {RADIUS_M}\n')
     out = path + ".h5"
     subprocess.run([os.path.join(BIN, "pbstudy"), "effects", "--scene", path, "--effect", "field_of_interest",
-                    "--precision", "double", "single", "--repeats", str(repeats), "--floor-seeds", "2", "--quiet",
+                    "--stepper", "quick", "--repeats", str(repeats), "--floor-seeds", "2", "--quiet",
                     "-o", out], check=True)
     report = subprocess.run([os.path.join(BIN, "pbreport"), out, "--json"], check=True, capture_output=True, text=True)
     return json.loads(report.stdout)["scenes"]

@@ -12,6 +12,7 @@
 #include "ode/ode_stepper.h"
 #include "scenes/scene.h"
 #include "solver/worlds/sor_stepper.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::bench {
 namespace {
@@ -37,8 +38,7 @@ model::Model quiet_battle2() {
 }
 
 std::unique_ptr<stepping::WorldStepper> make_stepper(stepping::StepperKind kind) {
-  stepping::StepperSettings settings;
-  settings.kind = kind;
+  const stepping::StepperSettings settings = default_settings(kind);
   if (kind == stepping::StepperKind::sor) return solver::make_sor_stepper(settings, ode::make_narrow_phase);
   return ode::make_ode_stepper(settings);
 }

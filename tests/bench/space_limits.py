@@ -50,7 +50,7 @@ def root_section(folder, spaces):
     times = []
     for _ in range(RUNS):  # of two frames each, after which spaces would change their owner
         subprocess.run(["mpirun", "-n", "2", os.path.join(BIN, "pbmpi"), "--scene", path, "--stepper", "sor", "--decompose",
-                        "spaces", "--warmup", "0", "--frames", "2", "--iterations", "1", "--output", output, "--quiet"],
+                        "spaces", "--warmup", "0", "--frames", "2", "--substeps", "1", "--output", output, "--quiet"],
                        check=True)
         with h5py.File(output) as run:
             rank = run["timings/rank"]

@@ -11,28 +11,40 @@
 #include "ode/collide/narrow_phase.h"
 #include "ode/objects/engine.h"
 #include "solver/worlds/sor_stepper.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::bench {
 namespace {
 
 struct Setting {
+  const char* name;
+  bool cold;  ///< as StepperSettings starts, not as sor is by default
   int substeps, iterations;
   double warm_start;
 };
 constexpr int num_rounds = 5;
-constexpr Setting settings[] = {{1, 20, 0}, {2, 10, 0}, {4, 5, 0}, {5, 3, 0}, {5, 3, 0.3}, {5, 3, 0.9}};
+constexpr Setting settings[] = {{"cold 1 x 20", true, 1, 20, 0}, {"cold 5 x 3", true, 5, 3, 0},
+                                {"1 x 1", false, 1, 1, 1},       {"2 x 1", false, 2, 1, 1},
+                                {"4 x 1", false, 4, 1, 1},       {"8 x 1", false, 8, 1, 1},
+                                {"16 x 1", false, 16, 1, 1},     {"8 x 1, no memory", false, 8, 1, 0}};
+
+stepping::StepperSettings settings_of(const Setting& setting, stepping::Precision precision) {
+  stepping::StepperSettings stepper;
+  if (!setting.cold) stepper = default_settings(stepping::StepperKind::sor);
+  stepper.kind = stepping::StepperKind::sor;
+  stepper.precision = precision;
+  stepper.substeps = setting.substeps;
+  stepper.iterations = setting.iterations;
+  stepper.warm_start = setting.warm_start;
+  return stepper;
+}
 
 class Side {
  public:
   Side(const Subject& subject, const Setting& setting, stepping::Precision precision)
       : subject_(&subject), setting_(setting) {
-    stepping::StepperSettings stepper;
-    stepper.kind = stepping::StepperKind::sor;
+    stepping::StepperSettings stepper = settings_of(setting, precision);
     stepper.dt_s = subject.dt_s;
-    stepper.precision = precision;
-    stepper.substeps = setting.substeps;
-    stepper.iterations = setting.iterations;
-    stepper.warm_start = setting.warm_start;
     stepper_ = solver::make_sor_stepper(stepper, ode::make_narrow_phase);
     for (int world = 0; world < num_worlds(); ++world) {
       const auto& model = subject.models[static_cast<std::size_t>(world)];
@@ -58,12 +70,11 @@ class Side {
     core::Hash64 hash;
     for (int world = 0; world < num_worlds(); ++world) hash.add(model::hash(stepper_->state(world)));
     std::printf(
-        "  %2d x %-2d warm %.1f  frame %6.3f ms  time x %5.3f  joint gap rms %6.2f mm  x %5.3f  "
+        "  %-18s frame %6.3f ms  time x %5.3f  joint gap rms %6.2f mm  x %5.3f  "
         "mean of worst %6.2f mm  deepest contact: mean %4.1f mm, most %4.0f mm  hash %s\n",
-        setting_.substeps, setting_.iterations, setting_.warm_start, 1e3 * frame_s, frame_s / first_frame_s,
-        1e3 * gap_rms_m(), gap_rms_m() / first_gap_m, 1e3 * worst_sum_ / (num_frames_ * num_worlds()),
-        1e3 * depth_sum_ / (num_frames_ * num_worlds()), 1e3 * deepest_m_,
-        core::to_hex(hash.value()).c_str());
+        setting_.name, 1e3 * frame_s, frame_s / first_frame_s, 1e3 * gap_rms_m(), gap_rms_m() / first_gap_m,
+        1e3 * worst_sum_ / (num_frames_ * num_worlds()), 1e3 * depth_sum_ / (num_frames_ * num_worlds()),
+        1e3 * deepest_m_, core::to_hex(hash.value()).c_str());
   }
 
  private:
