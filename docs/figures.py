@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes the tables of figures in the documents: what stands between `<!-- figures: NAME -->` and `<!-- end figures -->`.
 
-Usage: docs/figures.py [--check] [NAME ...], after jobs/build.sh (PBMPI_BIN: another folder of the programs); default: all
-tables. Below each table stand its commands, the revision and, of a table with a clock, the machine and the day. --check
+Usage: docs/figures.py [--check | --without-clock] [NAME ...], after jobs/build.sh (PBMPI_BIN: another folder of the programs);
+default: all tables, or all without a clock. Below each table stand its commands, the revision and, of a table with a clock, the machine and the day. --check
 recomputes the tables without a clock, and fails with the names of those that differ from their page.
 """
 import argparse
@@ -26,17 +26,19 @@ ENTRIES = {
                      ["pbstudy effects --stepper sor --repeats 5", "pbreport effects.h5 --markdown"]),
     "interest": Entry("docs/effects.md", effects.interest, True, ["tests/bench/interest.py 5"]),
     "crashwa": Entry("docs/accuracy.md", accuracy.crashwa, False,
-                     ["pbstudy accuracy --scene CrashWa --precision double --iterations 1 10 20 80 --substeps 1 2 4"]),
+                     ["pbstudy accuracy --scene CrashWa --precision double --iterations 1 20 80 --substeps 1 2 4 8 16 --max-sweeps 80"]),
     "reference": Entry("docs/accuracy.md", accuracy.reference, False, ["pbstudy accuracy --floor-seeds 4"]),
     "least_defect": Entry("docs/accuracy.md", accuracy.least_defect, True,
-                          ["pbstudy accuracy --iterations 1 2 3 5 10 20 40 80 --substeps 1 2 4 8 --warm-start 0 --repeats 3"]),
+                          ["pbstudy accuracy --iterations 1 2 3 5 10 20 40 80 --substeps 1 2 4 8 --repeats 3"]),
     "substeps": Entry("docs/accuracy.md", accuracy.substeps, False, ["bench_worlds --substeps 100CrSk 0 8",
                                                                      "bench_worlds --substeps 100CrSk 0 100"]),
     "hard_map": Entry("docs/stability.md", stability.hard_map, False, ["pbstudy stability",
                                                                        "pbreport stability.h5 --markdown"]),
+    "joint_springs": Entry("docs/stability.md", stability.joint_springs, False,
+                           ["pbstudy stability --setting sor \"sor iterations=16\" \"sor joint-frequency=200\" ..."]),
     "by_step": Entry("docs/stability.md", stability.by_step, False, ["pbstudy stability --setting quick sor --dt 0.0001 ... 0.05"]),
     "at_equal_time": Entry("docs/stability.md", stability.at_equal_time, True,
-                           ["pbstudy stability --most-work 300000 --setting quick \"sor iterations=40\" ..."]),
+                           ["pbstudy stability --most-work 300000 --setting quick \"sor substeps=16\" ..."]),
     "guards": Entry("docs/guards.md", guards.guards, False, ["pbmpi --scene CASE --steps-per-frame 3 --stepper ..."]),
     "speed": Entry("docs/speed.md", speed.against_bare, True,
                    ["bench_worlds SCENE 0 10 3", "pbstudy accuracy --scene SCENE"]),
@@ -96,14 +98,16 @@ def differs(name):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--without-clock", action="store_true")
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(ENTRIES))
     arguments = parser.parse_args()
     unknown = [name for name in arguments.names if name not in ENTRIES]
     if unknown:
         parser.error(f"no table {', '.join(unknown)}; known: {', '.join(ENTRIES)}")
     names = arguments.names or list(ENTRIES)
-    if arguments.check:
+    if arguments.check or arguments.without_clock:
         names = [name for name in names if not ENTRIES[name].has_clock]
+    if arguments.check:
         return int(any([differs(name) for name in names]))
     for name in names:
         print(name, flush=True)

@@ -3,7 +3,7 @@ import re
 
 from tables import programs
 
-ONLY_SETTINGS = ("--estimates", "0", "--warm-start", "0", "--dt", "0.01", "--rest-seconds", "0")
+ONLY_SETTINGS = ("--estimates", "0", "--dt", "0.01", "--rest-seconds", "0")
 QUICK_TO_MEASURE = ("--repeats", "1", "--floor-seeds", "4")
 
 
@@ -13,12 +13,13 @@ def defect(case):
 
 def crashwa():
     """Defects of some settings in CrashWa, and what they cost without a clock: visits of rows."""
-    wanted = (("quick", 1, 1), ("quick", 1, 20), ("quick", 1, 80), ("sor", 1, 1), ("sor", 1, 10), ("sor", 1, 20),
-              ("sor", 1, 80), ("sor", 2, 10), ("sor", 4, 20))
+    wanted = (("quick", False, 1, 1), ("quick", False, 1, 20), ("quick", False, 1, 80), ("sor", True, 1, 1), ("sor", True, 1, 20),
+              ("sor", True, 1, 80), *(("sor", False, substeps, 1) for substeps in (1, 2, 4, 8, 16)))
     with programs.Folder() as folder:
-        cases, _ = programs.accuracy_cases(folder, ["CrashWa"], "--precision", "double", "--iterations", "1", "10", "20",
-                                                "80", "--substeps", "1", "2", "4", *ONLY_SETTINGS, *QUICK_TO_MEASURE)
-    found = {(case["stepper"], case["substeps"], case["iterations"]): case for case in cases
+        cases, _ = programs.accuracy_cases(folder, ["CrashWa"], "--precision", "double", "--iterations", "1", "20", "80",
+                                           "--substeps", "1", "2", "4", "8", "16", "--max-sweeps", "80", *ONLY_SETTINGS,
+                                           *QUICK_TO_MEASURE)
+    found = {(case["stepper"], programs.is_cold(case), case["substeps"], case["iterations"]): case for case in cases
              if case["kind"] == "setting" and case["dt"] == 0.01}
     rows = [[programs.setting_name(found[key]), f"{found[key]['row_visits'] / 1000:,.0f}", *defect(found[key]),
              programs.millimetres(found[key]["joint_gap"])] for key in wanted]
@@ -54,21 +55,22 @@ def least_defects(cases):
     in_time = [case for case in cases if case["frame_time_median"] <= quick["frame_time_median"]]
     found = {"`quick`, 1 x 1": programs.millimetres(quick["defect_body_position_rms"])}
     for precision in ("double", "single"):
-        for name, several in (("1 x N", False), ("M x N", True)):
-            fitting = [case["defect_body_position_rms"] for case in in_time if case["stepper"] == "sor"
-                       and case["precision"] == precision and (case["substeps"] > 1) == several]
-            found[f"`sor` {precision}, {name}"] = programs.millimetres(min(fitting)) if fitting else "-"
+        of_sor = [case for case in in_time if case["stepper"] == "sor" and case["precision"] == precision]
+        for name, fits in ((f"`sor` cold {precision}, 1 x N", lambda case: programs.is_cold(case) and case["substeps"] == 1),
+                           (f"`sor` cold {precision}, M x N", lambda case: programs.is_cold(case) and case["substeps"] > 1),
+                           (f"`sor` {precision}, M x 1", lambda case: not programs.is_cold(case))):
+            fitting = [case["defect_body_position_rms"] for case in of_sor if fits(case)]
+            found[name] = programs.millimetres(min(fitting)) if fitting else "-"
     return found
 
 
 def substeps():
     """Joint gaps in 100CrSk by the number of substeps."""
-    pattern = re.compile(r"^ *(\d+ x \d+) +warm ([\d.]+) .*joint gap rms +([\d.]+) mm.*deepest contact: mean ([\d.]+) mm", re.M)
+    pattern = re.compile(r"^  (\S.*?) +frame .*joint gap rms +([\d.]+) mm.*deepest contact: mean +([\d.]+) mm", re.M)
     found = {}
     for frames in (8, 100):
         text = programs.run([programs.BENCH, "--substeps", "100CrSk", "0", str(frames)]).split("100CrSk, sor single")[0]
-        for setting, warm, gap, depth in pattern.findall(text):
-            name = setting + (f", warm start {warm}" if float(warm) else "")
+        for name, gap, depth in pattern.findall(text):
             found.setdefault(name, []).extend((gap, depth))
     rows = [[name, *cells] for name, cells in found.items()]
     return programs.table(["100CrSk, `sor` double", "8 frames: joint gap rms [mm]", "deepest contact, mean [mm]",

@@ -6,7 +6,9 @@ import sys
 from tables import programs
 
 SCENES = ("CrashWa", "100CrSk")
-SETTINGS = (("quick", "double", 20), ("sor", "double", 80), ("sor", "single", 80))  # stepper, precision, iterations
+# stepper, cold?, precision, substeps, iterations
+SETTINGS = (("quick", False, "double", 1, 20), ("sor", False, "double", 8, 1), ("sor", False, "single", 8, 1),
+            ("sor", True, "double", 1, 80), ("sor", True, "single", 1, 80))
 REST_S = 5
 
 
@@ -20,10 +22,10 @@ def settings_of(scenes, *options):
     """(scene, setting, case) of a study; each frame is timed alone on its core."""
     with programs.Folder() as folder:
         cases, _ = programs.accuracy_cases(folder, scenes, "--precision", "double", "single", "--iterations", "20", "80",
-                                           "--substeps", "1", "--warm-start", "0", "--estimates", "0", "--floor-seeds", "1",
+                                           "--substeps", "1", "8", "--max-sweeps", "80", "--estimates", "0", "--floor-seeds", "1",
                                            "--dt", "0.01", *options)
-    return [(case["scene"], (case["stepper"], case["precision"], case["iterations"]), case) for case in cases
-            if case["kind"] == "setting"]
+    return [(case["scene"], (case["stepper"], programs.is_cold(case), case["precision"], case["substeps"], case["iterations"]), case)
+            for case in cases if case["kind"] == "setting"]
 
 
 def holding():
@@ -40,7 +42,7 @@ def against_bare():
     for scene in SCENES:
         bare = quick_against_bare(scene)
         cases = {setting: case for _, setting, case in settings_of([scene], "--repeats", "5", "--rest-seconds", "0")}
-        quick_s = cases["quick", "double", 20]["frame_time_median"]
+        quick_s = cases[SETTINGS[0]]["frame_time_median"]
         for setting in SETTINGS:
             case = cases[setting]
             figures = [f"x {bare * case['frame_time_median'] / quick_s:.2f}",

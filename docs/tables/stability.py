@@ -25,7 +25,9 @@ def cases(folder, *options):
 def hard_map():
     """Every hard case under every setting of the study's own list."""
     with programs.Folder() as folder:
-        return programs.pbreport(study(folder), "--markdown").splitlines()
+        head, *lines = programs.pbreport(study(folder), "--markdown").splitlines()
+    cells = [programs.short_setting(cell.strip()) for cell in head.strip("|").split("|")]
+    return [f"| {' | '.join(cells)} |", *lines]
 
 
 def largest_step(by_step, verdicts):
@@ -48,7 +50,7 @@ def by_step():
             for case in found:
                 verdicts = {cell["dt_s"]: cell["verdict"] for cell in case["results"]}
                 rows[case["scene"]] += [largest_step(verdicts, ("pass",)), largest_step(verdicts, ("pass", "degraded"))]
-    head = ["case", "`quick`: right up to", "not broken up to", "`sor` double, 1 x 20: right up to", "not broken up to"]
+    head = ["case", "`quick`: right up to", "not broken up to", "`sor` double, 8 x 1: right up to", "not broken up to"]
     return programs.table(head, rows.values())
 
 
@@ -59,10 +61,23 @@ def small_cases():
     return [case for case in found if case["results"][0]["verdict"] != "n/a" and case["results"][0]["dt_s"] == 0.01]
 
 
+def joint_springs():
+    """Whether sweeps or the frequency of joints decide what stretches: verdict and largest joint gap."""
+    names = [f"hard/{name}" for name in ("joints/chain20_100", "joints/chain20_1000", "joints/rope100", "joints/bridge30", "joints/net8",
+                                         "joints/double_pendulum", "joints/limit_chains", "rest/CrashSk")]
+    settings = ["sor", "sor iterations=16", "sor substeps=32", "sor joint-frequency=200", "sor substeps=32 joint-frequency=400"]
+    with programs.Folder() as folder:
+        found = cases(folder, "--scene", *names, "--setting", *settings)
+    rows = [[f"`{case['scene'].split('/', 1)[1]}`",
+             *(f"{cell['verdict']}, {programs.millimetres(cell['metrics']['joint_gap'])}" for cell in case["results"])] for case in found]
+    return programs.table(["verdict, largest joint gap [mm]", *(cell["setting"] for cell in found[0]["results"])], rows)
+
+
 def at_equal_time():
-    """What more iterations of `sor` hold, beside ODE, and the median of the ratios of their times of a step."""
-    settings = ["quick"] + [f"sor precision={precision} iterations={iterations}"
-                            for precision in ("double", "single") for iterations in (20, 40, 80, 160)]
+    """What more substeps of `sor` hold, beside ODE, and the median of the ratios of their times of a step."""
+    settings = ["quick", "sor cold", "sor cold iterations=80", "sor substeps=4 contact-frequency=60", "sor iterations=2"]
+    settings += [f"sor precision={precision} substeps={substeps}"
+                 for precision in ("double", "single") for substeps in (4, 8, 16)]
     with programs.Folder() as folder:
         found = cases(folder, "--setting", *settings, "--most-work", "300000")
     found = [case for case in found if case["results"][0]["verdict"] != "n/a"]
@@ -71,5 +86,5 @@ def at_equal_time():
     for number, cell in enumerate(found[0]["results"]):
         counts = [sum(case["results"][number]["verdict"] == verdict for case in found) for verdict in VERDICTS]
         ratio = statistics.median(results[number]["step_time_s"] / results[0]["step_time_s"] for results in large)
-        rows.append([cell["setting"], *counts, f"x {ratio:.2f}"])
+        rows.append([programs.short_setting(cell["setting"]), *counts, f"x {ratio:.2f}"])
     return programs.table(["setting", *VERDICTS, "time of a step over `quick`'s"], rows)
