@@ -1,4 +1,4 @@
-#include "solver/layout/articulation.h"
+#include "solver/layout/articulation_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -37,6 +37,41 @@ TEST(Articulation, a_joint_to_the_world_points_past_the_last_body) {
   const auto parts = find_articulations(support::pendulum(1, 0.3));
   ASSERT_EQ(parts.size(), 1u);
   EXPECT_EQ(parts[0].shape.joints[0].body_b, parts[0].shape.num_bodies);
+}
+
+TEST(ArticulationTree, holds_each_body_once_parents_first_and_names_the_loops) {
+  ArticulationShape shape;
+  shape.num_bodies = 4;
+  using model::JointKind;
+  shape.joints = {{JointKind::ball, 1, 0},
+                  {JointKind::ball, 2, 1},
+                  {JointKind::ball, 0, 2},
+                  {JointKind::ball, 3, 4},
+                  {JointKind::ball, 3, 0}};
+  const ArticulationTree tree(shape);
+  ASSERT_EQ(tree.nodes.size(), 4u);
+  EXPECT_EQ(tree.nodes[0].body, 3) << "hangs on the world";
+  EXPECT_EQ(tree.nodes[0].parent, shape.num_bodies);
+  EXPECT_TRUE(tree.nodes[0].is_first);
+  std::vector<char> seen(5, 0);
+  seen[4] = 1;
+  for (const TreeNode& node : tree.nodes) {
+    EXPECT_EQ(seen[static_cast<std::size_t>(node.parent)], 1) << node.body;
+    EXPECT_EQ(seen[static_cast<std::size_t>(node.body)], 0) << node.body;
+    seen[static_cast<std::size_t>(node.body)] = 1;
+  }
+  ASSERT_EQ(tree.loops.size(), 1u);
+  EXPECT_EQ(tree.loops[0], 1) << "0 reaches 1 and 2 before they reach each other";
+}
+
+TEST(ArticulationTree, without_the_world_begins_at_the_first_body) {
+  const ArticulationTree tree({2, {{model::JointKind::hinge, 1, 0}}});
+  ASSERT_EQ(tree.nodes.size(), 2u);
+  EXPECT_EQ(tree.nodes[0].body, 0);
+  EXPECT_EQ(tree.nodes[0].joint, -1);
+  EXPECT_EQ(tree.nodes[1].parent, 0);
+  EXPECT_TRUE(tree.nodes[1].is_first);
+  EXPECT_TRUE(tree.loops.empty());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "model/names.h"
 #include "ode/ode_stepper.h"
 #include "solver/sor_run.h"
+#include "stepping/step_options.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -49,11 +50,24 @@ std::unique_ptr<stepping::WorldStepper> reference(const model::Model& model) {
   return stepper;
 }
 
-/// The largest difference of a velocity after `num_steps` steps.
-double velocity_difference(const model::Model& model, int num_steps) {
+stepping::StepperSettings sweeps() {
   stepping::StepperSettings settings;
   settings.kind = stepping::StepperKind::sor;
   settings.iterations = converged;
+  return settings;
+}
+
+/// Joints by their trees: one iteration has to do.
+stepping::StepperSettings trees() {
+  stepping::StepperSettings settings = sweeps();
+  settings.iterations = 1;
+  settings.joint_solver = stepping::JointSolver::tree;
+  return settings;
+}
+
+/// The largest difference of a velocity after `num_steps` steps.
+double velocity_difference(const model::Model& model, int num_steps,
+                           const stepping::StepperSettings& settings = sweeps()) {
   const auto own = make_stepper(settings, {model});
   const auto direct = reference(model);
   advance(*own, num_steps);
@@ -78,6 +92,21 @@ TEST_P(JointOracle, an_error_at_the_start_is_corrected_alike) {
   model::Model model = linked_boxes(GetParam());
   model.joints[0].anchor_b += Vec3(0.01, -0.02, 0.015);
   EXPECT_LT(velocity_difference(model, 3), tolerance);
+}
+
+TEST_P(JointOracle, a_tree_is_solved_in_one_iteration) {
+  model::Model model = linked_boxes(GetParam());
+  EXPECT_LT(velocity_difference(model, 5, trees()), tolerance);
+  model.joints[0].anchor_b += Vec3(0.01, -0.02, 0.015);
+  EXPECT_LT(velocity_difference(model, 3, trees()), tolerance);
+  std::swap(model.joints[0], model.joints[1]);
+  EXPECT_LT(velocity_difference(model, 3, trees()), tolerance) << "in another order";
+}
+
+TEST_P(JointOracle, a_tree_that_hangs_nowhere_is_solved_in_one_iteration) {
+  model::Model model = linked_boxes(GetParam());
+  model.joints.pop_back();
+  EXPECT_LT(velocity_difference(model, 5, trees()), tolerance);
 }
 
 TEST_P(JointOracle, a_motor_drives_alike) {
@@ -195,6 +224,44 @@ TEST(JointOracle, a_suspension_springs_alike) {
 
 TEST(JointOracle, a_body_spins_freely_alike) {
   EXPECT_LT(velocity_difference(support::free_box(), 20), tolerance);
+}
+
+TEST(JointTrees, solve_a_long_chain_under_a_weight_in_one_iteration) {
+  model::Model model = support::chain(20);
+  model.bodies.back().mass_kg *= 1000;
+  model.bodies.back().inertia *= 1000;
+  EXPECT_LT(velocity_difference(model, 10, trees()), 1e-6);
+  EXPECT_GT(velocity_difference(model, 10, sweeps()), 1e-3) << "thousands of sweeps do not";
+}
+
+TEST(JointTrees, solve_what_closes_a_loop_by_sweeps) {
+  model::Model model = support::chain(4);
+  const int last = model.num_bodies() - 1;
+  support::add_joint(model, JointKind::ball, last, model::no_body, model.bodies[last].pose.position);
+  stepping::StepperSettings settings = trees();
+  settings.iterations = converged;
+  EXPECT_LT(velocity_difference(model, 5, settings), tolerance);
+}
+
+TEST(JointTrees, have_the_same_bits_in_every_width) {
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
+  settings.joint_solver = stepping::JointSolver::tree;
+  for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
+    settings.precision = precision;
+    settings.simd = stepping::Simd::off;
+    const auto one_lane = make_stepper(settings, {support::crash(0), support::crash(1), support::crash(2)});
+    advance(*one_lane, 20);
+    for (const stepping::Simd simd : machine_simds()) {
+      settings.simd = simd;
+      const auto lanes = make_stepper(settings, {support::crash(0), support::crash(1), support::crash(2)});
+      const auto alone = make_stepper(settings, {support::crash(1)});
+      advance(*lanes, 20);
+      advance(*alone, 20);
+      for (const int world : {0, 1, 2})
+        EXPECT_EQ(model::hash(lanes->state(world)), model::hash(one_lane->state(world))) << world;
+      EXPECT_EQ(model::hash(alone->state(0)), model::hash(one_lane->state(1)));
+    }
+  }
 }
 
 }  // namespace
