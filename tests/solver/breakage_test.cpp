@@ -9,6 +9,7 @@
 #include "model/names.h"
 #include "ode/ode_stepper.h"
 #include "solver/sor_run.h"
+#include "stepping/step_options.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -99,6 +100,25 @@ TEST_P(EveryStepperAndKind, breaks_a_hung_joint_below_the_weight_and_not_above_i
   EXPECT_FALSE(state_after(settings(), model, num_steps).is_broken(1));
   model.joints[1].break_force = 0.99 * mass_kg * gravity;
   EXPECT_EQ(state_after(settings(), model, num_steps).broken_in[1], 0);
+}
+
+/// With a memory a joint is a spring, whose load first passes the weight that it comes to bear by up to a
+/// tenth, and that of an arm's moment by up to a half: what stands has the load of its weight.
+TEST(RememberingStep, breaks_a_joint_that_has_come_to_rest_below_the_weight_and_not_above_it) {
+  const StepperSettings settings = default_settings(StepperKind::sor);
+  for (const JointKind kind : {JointKind::ball, JointKind::hinge, JointKind::slider, JointKind::universal,
+                               JointKind::fixed, JointKind::hinge2}) {
+    Model model = hanging(kind);
+    model.joints[1].break_force = 10 * mass_kg * gravity;
+    const State at_rest = state_after(settings, model, num_steps);
+    ASSERT_FALSE(at_rest.is_broken(1)) << name_of(kind);
+    for (const bool breaks : {false, true}) {
+      model.joints[1].break_force = (breaks ? 0.99 : 1.01) * mass_kg * gravity;
+      const auto stepper = start(settings, model, at_rest, num_steps);
+      advance(*stepper, num_steps);
+      EXPECT_EQ(stepper->state(0).is_broken(1), breaks) << name_of(kind);
+    }
+  }
 }
 
 TEST_P(EveryStepperAndKind, breaks_an_arm_below_its_moment_and_not_above_it) {

@@ -7,6 +7,7 @@
 #include "effects/sleepers.h"
 #include "ode/ode_stepper.h"
 #include "solver/sor_run.h"
+#include "stepping/step_options.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -66,6 +67,7 @@ struct Case {
   StepperKind kind;
   stepping::Precision precision;
   int height;  ///< of a stack; ODE's dWorldStep makes boxes on boxes creep
+  bool remembers = false;
 };
 
 void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
@@ -74,6 +76,7 @@ class Sleeping : public testing::TestWithParam<Case> {
  protected:
   StepperSettings settings() const {
     StepperSettings settings;
+    if (GetParam().remembers) settings = default_settings(GetParam().kind);
     settings.kind = GetParam().kind;
     settings.precision = GetParam().precision;
     return settings;
@@ -82,13 +85,15 @@ class Sleeping : public testing::TestWithParam<Case> {
   int num_bodies() const { return 2 * height() + 1; }
 };
 
-INSTANTIATE_TEST_SUITE_P(Steppers, Sleeping,
-                         testing::Values(Case{"quick", StepperKind::quick, stepping::Precision::double_, 4},
-                                         Case{"direct", StepperKind::direct, stepping::Precision::double_, 1},
-                                         Case{"sor", StepperKind::sor, stepping::Precision::double_, 4},
-                                         Case{"sor_single", StepperKind::sor, stepping::Precision::single,
-                                              4}),
-                         [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Steppers, Sleeping,
+    testing::Values(Case{"quick", StepperKind::quick, stepping::Precision::double_, 4},
+                    Case{"direct", StepperKind::direct, stepping::Precision::double_, 1},
+                    Case{"sor", StepperKind::sor, stepping::Precision::double_, 4},
+                    Case{"remembering", StepperKind::sor, stepping::Precision::double_, 4, true},
+                    Case{"remembering_single", StepperKind::sor, stepping::Precision::single, 4, true},
+                    Case{"sor_single", StepperKind::sor, stepping::Precision::single, 4}),
+    [](const auto& instance) { return instance.param.name; });
 
 TEST_P(Sleeping, world_keeps_its_bits_and_solves_nothing) {
   const Model model = stacks(height());
@@ -218,8 +223,7 @@ TEST(SleepingInPacks, worlds_have_the_bits_that_each_has_alone_for_every_instruc
   for (const int launched_at : {70, 90, 110, 75, 400, 95, 85}) worlds.push_back(stacks(4, launched_at));
   constexpr int num_steps = 150;
   for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-    StepperSettings settings;
-    settings.kind = StepperKind::sor;
+    StepperSettings settings = default_settings(StepperKind::sor);
     settings.precision = precision;
     std::vector<std::uint64_t> alone;
     for (const Model& model : worlds) {

@@ -4,6 +4,7 @@
 #include "ode/ode_stepper.h"
 #include "scenes/scene.h"
 #include "solver/worlds/sor_stepper.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::scenes {
 
@@ -20,7 +21,8 @@ std::vector<SteppedBy> every_stepper() {
           {"direct", direct},
           {"sor", sor},
           {"sor_single", single},
-          {"sor_with_substeps", substeps}};
+          {"sor_with_substeps", substeps},
+          {"sor_with_memory", default_settings(StepperKind::sor)}};
 }
 
 std::unique_ptr<stepping::WorldStepper> make_stepper(const StepperSettings& settings) {

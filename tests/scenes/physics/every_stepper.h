@@ -18,7 +18,8 @@ struct SteppedBy {
 /// In a test's name.
 inline std::ostream& operator<<(std::ostream& out, const SteppedBy& by) { return out << by.name; }
 
-/// quick, direct, and sor in double, in single precision and with substeps.
+/// quick, direct, and sor: cold in double, in single precision and with substeps, and as it is meant to be
+/// used.
 std::vector<SteppedBy> every_stepper();
 
 /// The stepper of these settings, of whichever kind, without worlds.
