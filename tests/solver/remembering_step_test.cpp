@@ -1,6 +1,8 @@
 /// What bodies do in the step with which sor is meant to be used.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "model/mechanics.h"
