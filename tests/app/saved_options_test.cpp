@@ -71,7 +71,7 @@ TEST(SavedOptions, each_that_decides_the_bits_is_refused_if_it_changes) {
       {"seed", "2"},          {"substeps", "3"},           {"iterations", "7"},      {"steps-per-frame", "9"},
       {"warm-start", "0.5"},  {"row-order", "fixed"},      {"colliders", "ode"},     {"sor-factor", "1.3"},
       {"relax", "2"},         {"contact-frequency", "60"}, {"contact-damping", "5"}, {"joint-frequency", "0"},
-      {"joint-damping", "1"}, {"friction", "pyramid"},     {"solver-seed", "5"}};
+      {"joint-damping", "1"}, {"joint-solver", "tree"},    {"friction", "pyramid"},  {"solver-seed", "5"}};
   for (const auto& [name, value] : changes) {
     const std::string message = refusal({"--" + name, value, "--scene", "Fake"}, before);
     EXPECT_TRUE(message.starts_with("--" + name + " " + value + ": the run in ck.h5 has " + name)) << message;

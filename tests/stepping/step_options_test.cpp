@@ -38,6 +38,7 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.contact_damping = 1.0 / 9;
   settings.joint_frequency = 1.0 / 11;
   settings.joint_damping = 1.0 / 13;
+  settings.joint_solver = JointSolver::tree;
   settings.friction = Friction::cone;
   settings.row_order = RowOrder::fixed;
   settings.precision = Precision::single;
@@ -94,9 +95,9 @@ TEST(StepOptions, impossible_values_are_refused_by_name) {
 }
 
 TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
-  for (const char* name :
-       {"substeps", "sor-factor", "warm-start", "relax", "contact-frequency", "contact-damping",
-        "joint-frequency", "joint-damping", "friction", "row-order", "precision", "simd", "colliders"}) {
+  for (const char* name : {"substeps", "sor-factor", "warm-start", "relax", "contact-frequency",
+                           "contact-damping", "joint-frequency", "joint-damping", "joint-solver", "friction",
+                           "row-order", "precision", "simd", "colliders"}) {
     EXPECT_TRUE(fits(step_option(name), StepperKind::sor));
     EXPECT_FALSE(fits(step_option(name), StepperKind::quick));
     EXPECT_FALSE(fits(step_option(name), StepperKind::direct));
