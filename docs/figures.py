@@ -35,7 +35,7 @@ ENTRIES = {
     "hard_map": Entry("docs/stability.md", stability.hard_map, False, ["pbstudy stability",
                                                                        "pbreport stability.h5 --markdown"]),
     "joint_springs": Entry("docs/stability.md", stability.joint_springs, False,
-                           ["pbstudy stability --setting sor \"sor iterations=16\" \"sor joint-frequency=200\" ..."]),
+                           ["pbstudy stability --setting sor \"sor iterations=16\" \"sor joint-solver=tree\" ..."]),
     "by_step": Entry("docs/stability.md", stability.by_step, False, ["pbstudy stability --setting quick sor --dt 0.0001 ... 0.05"]),
     "at_equal_time": Entry("docs/stability.md", stability.at_equal_time, True,
                            ["pbstudy stability --most-work 300000 --setting quick \"sor substeps=16\" ..."]),

@@ -62,10 +62,11 @@ def small_cases():
 
 
 def joint_springs():
-    """Whether sweeps or the frequency of joints decide what stretches: verdict and largest joint gap."""
+    """Whether sweeps, the frequency of joints or their solver decide what stretches: verdict and largest joint gap."""
     names = [f"hard/{name}" for name in ("joints/chain20_100", "joints/chain20_1000", "joints/rope100", "joints/bridge30", "joints/net8",
                                          "joints/double_pendulum", "joints/limit_chains", "rest/CrashSk")]
-    settings = ["sor", "sor iterations=16", "sor substeps=32", "sor joint-frequency=200", "sor substeps=32 joint-frequency=400"]
+    settings = ["sor", "sor iterations=16", "sor substeps=32", "sor joint-frequency=200", "sor substeps=32 joint-frequency=400",
+                "sor joint-solver=tree", "sor joint-solver=tree iterations=3 relax=3"]
     with programs.Folder() as folder:
         found = cases(folder, "--scene", *names, "--setting", *settings)
     rows = [[f"`{case['scene'].split('/', 1)[1]}`",
