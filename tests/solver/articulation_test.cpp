@@ -1,4 +1,4 @@
-#include "solver/layout/articulation_tree.h"
+#include "solver/joints/articulation_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <vector>
 
+#include "solver/joints/articulation_tree.h"
 #include "solver/joints/joint_jacobian.h"
 #include "solver/lanes/symmetric_factor.h"
-#include "solver/layout/articulation_tree.h"
 
 namespace pbmpi::solver {
 

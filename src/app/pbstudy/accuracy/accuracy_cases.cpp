@@ -83,7 +83,8 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
     cross_settings(with_dt, {&options.settings.front(), 1}, [&](const StepperSettings& with_kind) {
       const AccuracyCase first{index, CaseKind::setting, with_kind, steps};
       add_settings(first, options, cases);
-      if (traits_of(with_kind.kind).tunes_sweeps) add_remembering(first, options, cases);
+      if (options.with_default && traits_of(with_kind.kind).tunes_sweeps)
+        add_remembering(first, options, cases);
       const bool is_first_step = text_of(*dts.option, with_kind) == dts.values.front();
       if (traits_of(with_kind.kind).is_anytime && is_first_step) add_estimates(first, scene, options, cases);
     });

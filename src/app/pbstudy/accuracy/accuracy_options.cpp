@@ -26,7 +26,8 @@ constexpr VariedOption varied_dt = {
 po::options_description options_description() {
   po::options_description what(
       "What to vary (lists, separated by blanks; all are crossed, in steps of sor without memory; beside "
-      "them sor as it is by default, in the numbers of substeps and the precisions given)");
+      "them sor as it is by default, in the numbers of substeps and the precisions given, unless "
+      "--sor-factor, --warm-start or --row-order is)");
   add_scene_option(what);
   for (const VariedOption& one : varied) add_setting_list(one, what);
   what.add_options()  //
@@ -89,6 +90,9 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   AccuracyOptions options;
   static_cast<StudyOptions&>(options) = study_options(values, "pbstudy accuracy", args);
   options.settings = setting_lists(varied, values);
+  // Who varies what only the cold step has asks for that.
+  options.with_default =
+      values.count("sor-factor") + values.count("warm-start") + values.count("row-order") == 0;
   options.dts = setting_list(varied_dt, values);
   options.estimates = list<int>(values, "estimates", {1, 5});
   options.max_sweeps = values["max-sweeps"].as<int>();

@@ -12,6 +12,7 @@ namespace pbmpi::app {
 /// The settings that are crossed, and how each is measured.
 struct AccuracyOptions : StudyOptions {
   std::vector<SettingList> settings;  ///< the stepper first; the last varies fastest
+  bool with_default = true;           ///< besides them sor as it is meant to be used
   SettingList dts;                    ///< without values: the scene's and half of it
   std::vector<int> estimates;         ///< sor: iterations after which the precise solve is looked at (FEEC)
   int max_sweeps = 320;               ///< iterations x substeps of a case, at most
