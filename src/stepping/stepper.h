@@ -42,11 +42,11 @@ enum class JointSolver { sweeps, tree };
 struct StepperSettings {
   StepperKind kind = StepperKind::quick;
   double dt_s = 0.01;
-  int iterations = 20;           ///< sweeps of an iterative solver, in each substep
-  int substeps = 1;              ///< sor: parts of a step without new collision detection
-  double sor_factor = 1.3;       ///< sor: over-relaxation (ODE's default, which quick has built in)
-  double warm_start = 0;         ///< sor: share of the impulses that a substep takes over from the one before
-  int relax = 0;                 ///< sor: sweeps at the end of a substep that push nothing out
+  int iterations = 20;      ///< sweeps of an iterative solver, in each substep
+  int substeps = 1;         ///< sor: parts of a step without new collision detection
+  double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
+  double warm_start = 0;    ///< sor: share of the forces that a step and a substep take over from the last
+  int relax = 0;            ///< sor: sweeps at the end of a substep that push nothing out
   double contact_frequency = 0;  ///< [Hz] sor: of contacts as springs; 0: the scene's ERP and CFM
   double contact_damping = 10;   ///< sor: their damping ratio
   double joint_frequency = 0;    ///< [Hz] sor: of joints as springs; 0: the scene's ERP and CFM
@@ -61,6 +61,11 @@ struct StepperSettings {
   bool residuals = false;  ///< sor: measure Observables::residuals
   std::uint64_t seed = 1;  ///< of the run; a step's random numbers come from (seed, world, step)
 };
+
+/// Sweeps in a step, relaxing ones included.
+constexpr int sweeps_of(const StepperSettings& settings) {
+  return (settings.iterations + settings.relax) * settings.substeps;
+}
 
 /// Steps the worlds that one rank owns. A world's result depends on nothing but its model, its state, the
 /// step number and the settings: not on the other worlds, nor on the order of the calls.

@@ -28,7 +28,7 @@ struct AccuracyCase {
   int steps_per_frame = 3;
   int estimate_iterations = 0;  ///< estimate: those of the frame's last solve that it waits for
 
-  int sweeps() const { return (stepper.iterations + stepper.relax) * stepper.substeps; }  ///< in a step
+  int sweeps() const { return sweeps_of(stepper); }  ///< in a step
 };
 
 StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions& options);

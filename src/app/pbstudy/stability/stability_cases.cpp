@@ -29,7 +29,7 @@ double cost_of(const StabilityCase& one) {
   if (!one.not_applicable.empty()) return 0;
   const stepping::StepperTraits& traits = traits_of(one.stepper.kind);
   const double bodies = one.num_bodies;
-  const double sweeps = one.stepper.iterations * one.stepper.substeps;
+  const double sweeps = sweeps_of(one.stepper);
   const double step = one.stepper.kind == StepperKind::direct ? traits.relative_cost * std::pow(bodies, 3)
                                                               : traits.relative_cost * (sweeps + 5) * bodies;
   return step * static_cast<double>(one.num_steps);

@@ -29,7 +29,7 @@ class Recorder {
 
   void see(const State& state, const stepping::Observables& seen, std::int64_t step) {
     watch_.see(state, seen, step);
-    row_visits_ += static_cast<double>(seen.rows) * case_.stepper.iterations * case_.stepper.substeps;
+    row_visits_ += static_cast<double>(seen.rows) * sweeps_of(case_.stepper);
     ++num_looks_;
     worst_gap_m_ = std::max(worst_gap_m_, seen.joint_gap_m);
     worst_penetration_m_ = std::max(worst_penetration_m_, seen.max_penetration_m);
