@@ -32,12 +32,6 @@ class ContactBuilder {
   /// more than the last sweep's residual.
   void advance(const ContactSlot<T>& slot, Point* points) const;
 
-  /// Reduces the impulses to the share that the next substep takes over.
-  void carry(const ContactSlot<T>& slot, Point* points) const;
-
-  /// Writes the forces of the points to where their manifolds remember them.
-  void remember(const ContactSlot<T>& slot, const Point* points, const Manifold* manifolds) const;
-
  private:
   /// What is read of a manifold's bodies.
   struct BodyPair {
@@ -265,41 +259,6 @@ void ContactBuilder<T, two_bodies, kind>::advance(const ContactSlot<T>& slot, Po
     point.rhs =
         parameters_.relaxes ? T::min(push, T::broadcast(parameters_.push_limit)) : push + excess * per_h;
     point.peak = T::max(point.peak, point.normal.impulse);
-  }
-}
-
-template <class T, bool two_bodies, ContactKind kind>
-void ContactBuilder<T, two_bodies, kind>::carry(const ContactSlot<T>& slot, Point* points) const {
-  const auto carried = [&](const V& impulse) {
-    return parameters_.warm_start > 0 ? impulse * T::broadcast(parameters_.warm_start) : T::broadcast(0);
-  };
-  for (int i = 0; i < slot.num_points; ++i) {
-    points[i].normal.impulse = carried(points[i].normal.impulse);
-    if constexpr (Solver::friction) {
-      for (Row& row : points[i].friction) row.impulse = carried(row.impulse);
-    }
-  }
-}
-
-template <class T, bool two_bodies, ContactKind kind>
-void ContactBuilder<T, two_bodies, kind>::remember(const ContactSlot<T>& slot, const Point* points,
-                                                   const Manifold* manifolds) const {
-  const V per_h = T::broadcast(1 / parameters_.h), zero = T::broadcast(0);
-  for (int i = 0; i < slot.num_points; ++i) {
-    const Point& point = points[i];
-    const V normal = point.normal.impulse * per_h;
-    L3 friction{zero, zero, zero};
-    if constexpr (Solver::friction)
-      // Without impulses +0, as of a contact that has no friction rows.
-      friction = (friction + point.friction[0].direction * point.friction[0].impulse +
-                  point.friction[1].direction * point.friction[1].impulse) *
-                 per_h;
-    for (int lane = 0; lane < T::num_lanes; ++lane) {
-      if (i >= manifolds[lane].num_points || manifolds[lane].forces == nullptr) continue;
-      model::ContactForce& force = manifolds[lane].forces[i];
-      force.normal = T::get(normal, lane);
-      force.friction = {T::get(friction.x, lane), T::get(friction.y, lane), T::get(friction.z, lane)};
-    }
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "solver/contacts/contact_builder.h"
 #include "solver/contacts/contact_colors.h"
+#include "solver/contacts/contact_memory.h"
 #include "solver/contacts/sweep_order.h"
 
 namespace pbmpi::solver {
@@ -36,14 +37,14 @@ class ContactList {
     const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
     for (const ContactSlot<T>& slot : slots_) builder.advance(slot, points_of(slot));
   }
-  void carry(const BodyLanes<T>& bodies, const Parameters& parameters) {
-    const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
-    for (const ContactSlot<T>& slot : slots_) builder.carry(slot, points_of(slot));
+  void carry(const Parameters& parameters) {
+    const ContactMemory<T, two_bodies, kind> memory(parameters);
+    for (const ContactSlot<T>& slot : slots_) memory.carry(slot, points_of(slot));
   }
-  void remember(const BodyLanes<T>& bodies, const Parameters& parameters) {
-    const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
+  void remember(const Parameters& parameters) {
+    const ContactMemory<T, two_bodies, kind> memory(parameters);
     for (std::size_t i = 0; i < slots_.size(); ++i)
-      builder.remember(slots_[i], points_of(slots_[i]), order.dealt().data() + i * T::num_lanes);
+      memory.remember(slots_[i], points_of(slots_[i]), order.dealt().data() + i * T::num_lanes);
   }
   void bounce(TwistRows<T>& twists, const Parameters& parameters) {
     const ContactSolver<T, two_bodies, kind> solver(parameters, {});
@@ -132,12 +133,12 @@ class ContactLists {
   void advance(const BodyLanes<T>& bodies, const Parameters& parameters) {
     for_each([&](auto& list) { list.advance(bodies, parameters); });
   }
-  /// See ContactBuilder.
-  void carry(const BodyLanes<T>& bodies, const Parameters& parameters) {
-    for_each([&](auto& list) { list.carry(bodies, parameters); });
+  /// See ContactMemory.
+  void carry(const Parameters& parameters) {
+    for_each([&](auto& list) { list.carry(parameters); });
   }
-  void remember(const BodyLanes<T>& bodies, const Parameters& parameters) {
-    for_each([&](auto& list) { list.remember(bodies, parameters); });
+  void remember(const Parameters& parameters) {
+    for_each([&](auto& list) { list.remember(parameters); });
   }
   void bounce(TwistRows<T>& twists, const Parameters& parameters) {
     for_each([&](auto& list) { list.bounce(twists, parameters); });

@@ -130,7 +130,7 @@ void StepLanes<T>::start_step() {
 
 template <class T>
 void StepLanes<T>::start_substep() {
-  if (parameters_.warm_start != 1) contacts_.carry(worlds_.bodies, laws_.contacts());
+  if (parameters_.warm_start != 1) contacts_.carry(laws_.contacts());
   const JointAdvancer<T> advancer = laws_.joint_advancer();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     if (passes_.gravity) motion_.apply_gravity(batch, laws_.h());
@@ -241,7 +241,7 @@ void StepLanes<T>::bounce() {
 template <class T>
 void StepLanes<T>::remember() {
   if (!remembers()) return;
-  contacts_.remember(worlds_.bodies, laws_.contacts());
+  contacts_.remember(laws_.contacts());
   const V per_h = T::broadcast(1 / laws_.h());
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     worlds_.joints.remember(batch, per_h, [&](int slot) { return worlds_.held_lanes(slot); });
