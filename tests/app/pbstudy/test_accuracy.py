@@ -158,7 +158,7 @@ class Accuracy(ProgramTest):
         self.assertEqual(scene["chosen"]["options"]["iterations"], "80")
         [loose] = self.front("study.h5", "--tolerance", "10m")
         self.assertEqual(loose["chosen"]["options"]["iterations"], "80", "the cheaper one keeps 10 m, and fells")
-        self.assertEqual(scene["front"][0]["at_rest"]["fallen"], few)
+        self.assertGreater(scene["front"][0]["at_rest"]["fallen"], 20, "the cheapest, with a memory or without, fells")
         self.assertIn("bodies at rest", self.report("study.h5").stdout)
         self.made(1, "few.h5", *args, "--iterations", 1)
         self.assertIn("without felling", self.report("few.h5", "--budget", "1s").stdout)
