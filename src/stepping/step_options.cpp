@@ -266,6 +266,10 @@ StepperSettings default_settings(StepperKind kind) {
   return settings;
 }
 
+int default_iterations(StepperKind kind, int scene_iterations) {
+  return traits_of(kind).has_substeps ? default_settings(kind).iterations : scene_iterations;
+}
+
 bool is_default(const StepOption& option, const StepperSettings& settings) {
   return text_of(option, settings) == text_of(option, default_settings(settings.kind));
 }

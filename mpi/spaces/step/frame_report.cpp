@@ -56,8 +56,7 @@ void FrameReport::post(const Account& own) {
   MessageWriter message;
   message.put(state_rows(shared_->stepper->state(), shared_->own_bodies()));
   if (shared_->sleepers) message.put(shared_->sleepers->rest_rows(shared_->own_bodies()));
-  if (shared_->joints_break) message.put(shared_->stepper->broken_rows(shared_->own_units()));
-  if (shared_->remembers) message.put(shared_->stepper->memory_rows(shared_->own_units()));
+  shared_->put_units(shared_->own_units(), message);
   message.put(crossing_->own_boxes());
   message.put_value(own.seen);
   message.put(own.energy_j);
@@ -73,8 +72,7 @@ void FrameReport::take_rows(int rank, MessageReader& message) {
   const SpaceOwnership& ownership = *shared_->ownership;
   shared_->stepper->put_states(ownership.bodies[rank], message.get<double>());
   if (shared_->sleepers) shared_->sleepers->put(ownership.bodies[rank], message.get<double>());
-  if (shared_->joints_break) shared_->stepper->put_broken(ownership.units[rank], message.get<std::int32_t>());
-  if (shared_->remembers) shared_->stepper->put_memory(ownership.units[rank], message.get<double>());
+  shared_->take_units(ownership.units[rank], message);
   crossing_->put_boxes(rank, message.get<geometry::Box>());
 }
 

@@ -56,8 +56,7 @@ void IslandShipping::send(const Orders& orders, const LocalIslands& own, StepWor
     const std::vector<int> bodies = bodies_of(map, units[to]);
     bodies_shipped_ += std::ssize(bodies);
     message.put(state_rows(shared_->stepper->state(), bodies));
-    if (shared_->joints_break) message.put(shared_->stepper->broken_rows(units[to]));
-    if (shared_->remembers) message.put(shared_->stepper->memory_rows(units[to]));
+    shared_->put_units(units[to], message);
     message.put(contacts[to]);
     shared_->mail->post(message.take(), to, ship_tag);
     away_.push_back({to, std::move(units[to])});
@@ -71,8 +70,7 @@ void IslandShipping::receive(const Orders& orders, StepWork& work, core::LapTime
     timer.lap(Phase::wait);
     const auto units = message.get<int>();
     const auto rows = message.get<double>();
-    if (shared_->joints_break) shared_->stepper->put_broken(units, message.get<std::int32_t>());
-    if (shared_->remembers) shared_->stepper->put_memory(units, message.get<double>());
+    shared_->take_units(units, message);
     merge_contacts(message.get<WireContact>(), work.contacts);
     guests_.push_back({from, {units.begin(), units.end()}});
     shared_->stepper->put_states(bodies_of(shared_->stepper->map(), units), rows);
@@ -85,8 +83,7 @@ void IslandShipping::ship_back(core::LapTimer& timer) {
   for (const Shipment& guest : guests_) {
     MessageWriter message;
     message.put(state_rows(shared_->stepper->state(), bodies_of(map, guest.units)));
-    if (shared_->joints_break) message.put(shared_->stepper->broken_rows(guest.units));
-    if (shared_->remembers) message.put(shared_->stepper->memory_rows(guest.units));
+    shared_->put_units(guest.units, message);
     shared_->mail->post(message.take(), guest.rank, back_tag);
     timer.lap(Phase::ship);
   }
@@ -94,8 +91,7 @@ void IslandShipping::ship_back(core::LapTimer& timer) {
     MessageReader message(shared_->mail->take(shipped.rank, back_tag));
     timer.lap(Phase::wait);
     shared_->stepper->put_states(bodies_of(map, shipped.units), message.get<double>());
-    if (shared_->joints_break) shared_->stepper->put_broken(shipped.units, message.get<std::int32_t>());
-    if (shared_->remembers) shared_->stepper->put_memory(shipped.units, message.get<double>());
+    shared_->take_units(shipped.units, message);
     timer.lap(Phase::ship);
   }
 }

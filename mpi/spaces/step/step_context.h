@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "mpi/comm/agreement.h"
 #include "mpi/comm/communicator.h"
 #include "mpi/comm/mail.h"
+#include "mpi/comm/message.h"
 #include "mpi/spaces/plan/space_ownership.h"
 #include "stepping/space_stepper.h"
 
@@ -47,6 +49,18 @@ struct StepContext {
   const std::vector<int>& own_spaces() const { return ownership->spaces[comm->rank()]; }
   const std::vector<int>& own_units() const { return ownership->units[comm->rank()]; }
   const std::vector<int>& own_bodies() const { return ownership->bodies[comm->rank()]; }
+
+  /// What travels of units beside the states of their bodies: what is broken of their joints, and the forces
+  /// that a step hands on.
+  void put_units(std::span<const int> units, MessageWriter& message) const {
+    if (joints_break) message.put(stepper->broken_rows(units));
+    if (remembers) message.put(stepper->memory_rows(units));
+  }
+  /// Takes in what put_units() wrote.
+  void take_units(std::span<const int> units, MessageReader& message) const {
+    if (joints_break) stepper->put_broken(units, message.get<std::int32_t>());
+    if (remembers) stepper->put_memory(units, message.get<double>());
+  }
 
   /// Calls `function` unless an error is held already; holds what it throws. The messages of the step are
   /// exchanged all the same, so that no rank waits for another in vain.

@@ -21,11 +21,10 @@ template <class Scalar>
 struct ContactParameters {
   Scalar h, push_rate, push_limit, soft_cfm, cfm, bounce_velocity, sor_factor;
   Scalar warm_start;  ///< share of the impulses that a step and a substep take over from the one before
-  RowLaw<Scalar> law;
-  bool restitution;  ///< may a contact bounce?
-  bool turning;      ///< may a contact turn a body? If not, its rows do not, of whatever kind they are.
-  bool relaxes;      ///< do sweeps follow that push nothing out? Then contacts bounce after them.
-  bool cone;         ///< friction that is the same in all directions
+  bool restitution;   ///< may a contact bounce?
+  bool turning;       ///< may a contact turn a body? If not, its rows do not, of whatever kind they are.
+  bool relaxes;       ///< do sweeps follow that push nothing out? Then contacts bounce after them.
+  bool cone;          ///< friction that is the same in all directions
 };
 
 /// Which rows a contact has. `central`: no friction, and its normal goes through the centres of its bodies,

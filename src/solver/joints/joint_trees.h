@@ -2,6 +2,7 @@
 /// chain only in many sweeps, the tree carries in one.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "solver/joints/joint_batches.h"
@@ -33,11 +34,10 @@ class JointTrees {
  private:
   struct Shape {
     explicit Shape(const ArticulationShape& shape)
-        : num_bodies(shape.num_bodies),
-          num_joints(shape.joints.size()),
-          nodes(ArticulationTree(shape).nodes),
-          in_loop(num_joints, 0) {
-      for (const int joint : ArticulationTree(shape).loops) in_loop[static_cast<std::size_t>(joint)] = 1;
+        : num_bodies(shape.num_bodies), num_joints(shape.joints.size()), in_loop(num_joints, 0) {
+      ArticulationTree tree(shape);
+      for (const int joint : tree.loops) in_loop[static_cast<std::size_t>(joint)] = 1;
+      nodes = std::move(tree.nodes);
     }
     int num_bodies;
     std::size_t num_joints;

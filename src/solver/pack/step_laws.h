@@ -34,7 +34,7 @@ class StepLaws {
   Scalar h() const { return h_; }  ///< [s] a substep
   const ContactParameters<Scalar>& contacts() const { return contacts_; }
   /// Of a sweep that pushes errors of position out.
-  const RowLaw<Scalar>& contact_law() const { return contacts_.law; }
+  const RowLaw<Scalar>& contact_law() const { return contact_law_; }
   const RowLaw<Scalar>& joint_law() const { return joint_law_; }
 
   JointBuilder<T> joint_builder() const {
@@ -64,7 +64,6 @@ class StepLaws {
                  .bounce_velocity = scalar(laws.bounce_velocity),
                  .sor_factor = sor_factor_,
                  .warm_start = warm_start_,
-                 .law = {},
                  .restitution = passes.restitution,
                  .turning = laws.turning_contacts,
                  .relaxes = step.relax > 0,
@@ -73,14 +72,14 @@ class StepLaws {
     const SpringStep spring(step.contacts, static_cast<double>(h_));
     contacts_.push_rate = scalar(spring.erp()) / h_;
     contacts_.soft_cfm = 0;
-    contacts_.law = spring.template law<Scalar>();
+    contact_law_ = spring.template law<Scalar>();
   }
 
   Scalar h_;
   double joint_erp_;
   Scalar joint_cfm_, sor_factor_, warm_start_;
   bool several_;  ///< substeps
-  RowLaw<Scalar> joint_law_;
+  RowLaw<Scalar> joint_law_, contact_law_;
   ContactParameters<Scalar> contacts_;
 };
 

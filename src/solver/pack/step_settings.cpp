@@ -21,6 +21,14 @@ void require_valid(const stepping::StepperSettings& settings) {
                       "this machine lacks the instruction set asked for with --simd; use auto");
 }
 
+void start_memory(bool remembers, const model::Model& model, model::StepMemory& memory) {
+  if (remembers) {
+    memory.joints.resize(model.joints.size());
+  } else {
+    memory.clear();
+  }
+}
+
 StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step) {
   StepParameters parameters;
   parameters.dt_s = settings.dt_s;

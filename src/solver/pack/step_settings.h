@@ -13,6 +13,13 @@ namespace pbmpi::solver {
 /// instruction set that this machine lacks.
 void require_valid(const stepping::StepperSettings& settings);
 
+/// Do the steps of a run start from the forces that the last one ended with?
+inline bool remembers(const stepping::StepperSettings& settings) { return settings.warm_start > 0; }
+
+/// Makes the memory of a state with which a world starts what the steps of a run need: no force where nothing
+/// is known, or none at all.
+void start_memory(bool remembers, const model::Model& model, model::StepMemory& memory);
+
 /// The parameters of a step of a run.
 StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step);
 

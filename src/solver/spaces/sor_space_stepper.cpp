@@ -45,7 +45,7 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   void put_poses(std::span<const int> bodies, std::span<const double> rows) override;
   std::vector<std::int32_t> broken_rows(std::span<const int> units) const override;
   void put_broken(std::span<const int> units, std::span<const std::int32_t> rows) override;
-  bool remembers() const override { return settings_.warm_start > 0; }
+  bool remembers() const override { return solver::remembers(settings_); }
   std::vector<double> memory_rows(std::span<const int> units) const override {
     return UnitMemory{map_, articulations_}.rows(units, state().memory);
   }
@@ -147,9 +147,7 @@ void SorSpaceStepper::own(std::span<const int> spaces, const model::State& state
   if (fast_bodies_) fast_bodies_->own(own_mask());
   pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
   packed_.start(state, *pack_);
-  model::StepMemory& memory = packed_.state().memory;
-  if (!remembers()) memory.clear();
-  if (remembers()) memory.joints.resize(model_->joints.size());
+  start_memory(remembers(), *model_, packed_.state().memory);
   rules_.start();
   shown_revision_ = -1;
   active_.clear();

@@ -66,15 +66,14 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
       state_(state),
       rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::whole, state_),
       narrow_phase_(make_narrow_phase(*model_)),
-      remembers_(settings.warm_start > 0) {
+      remembers_(remembers(settings)) {
   set_state(state, step);
 }
 
 void SorWorld::set_state(const model::State& state, std::int64_t step) {
   state_ = state;
   step_ = step;
-  if (!remembers_) state_.memory.clear();
-  if (remembers_) state_.memory.joints.resize(model_->joints.size());
+  start_memory(remembers_, *model_, state_.memory);
   rules_.start();
   moved_ = true;
 }
@@ -147,36 +146,33 @@ void SorWorld::keep_sleepers(model::State& state) const {
 
 void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
                           std::span<const model::Contact> contacts) {
-  std::vector<std::pair<int, int>>& links = links_;
-  std::vector<int>& rows = link_rows_;
-  links.clear();
-  rows.clear();
+  links_.clear();
+  link_rows_.clear();
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     if (!state_.acted_in(step_ - 1, j)) continue;
-    links.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
+    links_.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
     const bool asleep = rules_.sleepers() != nullptr && state_.rest[model_->joints[j].body_a].asleep();
-    rows.push_back(asleep ? 0 : step.joint_rows(pack, index, static_cast<int>(j)));
+    link_rows_.push_back(asleep ? 0 : step.joint_rows(pack, index, static_cast<int>(j)));
   }
   for (int body = 0; rules_.sleepers() != nullptr && body < model_->num_bodies(); ++body) {
     if (!state_.rest[body].asleep()) continue;
-    links.emplace_back(body, state_.rest[body].island());
-    rows.push_back(0);
+    links_.emplace_back(body, state_.rest[body].island());
+    link_rows_.push_back(0);
   }
   for (const model::Contact& contact : contacts) {
-    links.emplace_back(contact.body_a, contact.body_b);
-    rows.push_back(model::contact_rows(contact.mu));
+    links_.emplace_back(contact.body_a, contact.body_b);
+    link_rows_.push_back(model::contact_rows(contact.mu));
   }
-  const model::Islands islands = model::find_islands(model_->num_bodies(), links);
-  std::vector<int>& island_rows = island_rows_;
-  island_rows.assign(static_cast<std::size_t>(islands.count), 0);
+  const model::Islands islands = model::find_islands(model_->num_bodies(), links_);
+  island_rows_.assign(static_cast<std::size_t>(islands.count), 0);
   observables_.rows = 0;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    island_rows[static_cast<std::size_t>(islands.of_body[static_cast<std::size_t>(links[i].first)])] +=
-        rows[i];
-    observables_.rows += rows[i];
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    island_rows_[static_cast<std::size_t>(islands.of_body[static_cast<std::size_t>(links_[i].first)])] +=
+        link_rows_[i];
+    observables_.rows += link_rows_[i];
   }
   observables_.islands = islands.count;
-  observables_.max_island_rows = *std::max_element(island_rows.begin(), island_rows.end());
+  observables_.max_island_rows = *std::max_element(island_rows_.begin(), island_rows_.end());
 }
 
 void SorWorld::observe(const Pack& pack, int index, const FocusedStep& step,

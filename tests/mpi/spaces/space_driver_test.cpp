@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "space_run.h"
 #include "support/models.h"
+#include "wrapped_space_stepper.h"
 
 namespace pbmpi::mpi {
 namespace {
@@ -203,52 +204,25 @@ TEST(SpaceDriver, ends_on_every_rank_when_a_body_becomes_non_finite) {
 }
 
 /// Throws in step 20 on one rank, while the others wait for its messages.
-class FailingStepper final : public stepping::SpaceStepper {
+class FailingStepper final : public testing_support::WrappedSpaceStepper {
  public:
   FailingStepper(std::unique_ptr<stepping::SpaceStepper> inner, bool collide, bool here)
-      : inner_(std::move(inner)), collide_(collide), here_(here) {}
-  const model::Model& model() const override { return inner_->model(); }
-  const model::SpaceMap& map() const override { return inner_->map(); }
-  const model::State& state() const override { return inner_->state(); }
-  int num_lanes() const override { return inner_->num_lanes(); }
-  void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override {
-    inner_->own(spaces, state, step);
-  }
-  void put_states(std::span<const int> bodies, std::span<const double> rows) override {
-    inner_->put_states(bodies, rows);
-  }
-  void put_poses(std::span<const int> bodies, std::span<const double> rows) override {
-    inner_->put_poses(bodies, rows);
-  }
-  std::vector<int> fast_bodies() override { return inner_->fast_bodies(); }
+      : WrappedSpaceStepper(std::move(inner)), collide_(collide), here_(here) {}
   void fire_events(std::int64_t step) override {
     step_ = step;
-    inner_->fire_events(step);
-  }
-  void launch_others(std::int64_t step, std::span<geometry::Box> boxes) override {
-    inner_->launch_others(step, boxes);
+    WrappedSpaceStepper::fire_events(step);
   }
   void collide(std::vector<model::Contact>& contacts) override {
     if (here_ && collide_ && step_ == 20) throw core::RunError("collider lost");
-    inner_->collide(contacts);
-  }
-  geometry::Box space_box(int space) const override { return inner_->space_box(space); }
-  void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
-                      std::vector<model::Contact>& contacts) override {
-    inner_->collide_across(owner, boxes, contacts);
+    WrappedSpaceStepper::collide(contacts);
   }
   void solve(std::span<const int> units, std::span<const model::Contact> contacts, std::int64_t step,
              core::PhaseTimes& times) override {
     if (here_ && !collide_ && step_ == 20) throw core::RunError("solver lost");
-    inner_->solve(units, contacts, step, times);
-  }
-  stepping::Observables count(std::span<const int> units,
-                              std::span<const model::Contact> contacts) const override {
-    return inner_->count(units, contacts);
+    WrappedSpaceStepper::solve(units, contacts, step, times);
   }
 
  private:
-  std::unique_ptr<stepping::SpaceStepper> inner_;
   bool collide_, here_;
   std::int64_t step_ = -1;
 };

@@ -7,6 +7,7 @@
 #include "solver/spaces/unit_memory.h"
 #include "space_run.h"
 #include "stepping/step_options.h"
+#include "wrapped_space_stepper.h"
 
 namespace pbmpi::mpi {
 namespace {
@@ -21,29 +22,20 @@ using testing_support::world;
 
 /// Moves bodies as sor without a warm start does, and keeps an account of contacts and joints in the memory
 /// that depends on all steps before, so that whatever is lost on the way shows at the end.
-class Accountant final : public stepping::SpaceStepper {
+class Accountant final : public testing_support::WrappedSpaceStepper {
  public:
   explicit Accountant(const SharedModel& model)
-      : inner_(make_space_stepper(model)), articulations_(solver::find_articulations(*model)) {}
+      : WrappedSpaceStepper(make_space_stepper(model)), articulations_(solver::find_articulations(*model)) {}
 
-  const model::Model& model() const override { return inner_->model(); }
-  const model::SpaceMap& map() const override { return inner_->map(); }
   const model::State& state() const override {
-    state_ = inner_->state();
+    state_ = inner().state();
     state_.memory = memory_;
     return state_;
   }
-  int num_lanes() const override { return inner_->num_lanes(); }
   void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override {
     const model::StepMemory memory = state.memory;  // `state` may be that of state()
-    inner_->own(spaces, state, step);
+    WrappedSpaceStepper::own(spaces, state, step);
     memory_ = memory;
-  }
-  void put_states(std::span<const int> bodies, std::span<const double> rows) override {
-    inner_->put_states(bodies, rows);
-  }
-  void put_poses(std::span<const int> bodies, std::span<const double> rows) override {
-    inner_->put_poses(bodies, rows);
   }
   bool remembers() const override { return true; }
   std::vector<double> memory_rows(std::span<const int> units) const override {
@@ -52,25 +44,10 @@ class Accountant final : public stepping::SpaceStepper {
   void put_memory(std::span<const int> units, std::span<const double> rows) override {
     unit_memory().put(units, rows, model().joints.size(), memory_);
   }
-  std::vector<int> fast_bodies() override { return inner_->fast_bodies(); }
-  void fire_events(std::int64_t step) override { inner_->fire_events(step); }
-  void launch_others(std::int64_t step, std::span<geometry::Box> boxes) override {
-    inner_->launch_others(step, boxes);
-  }
-  void collide(std::vector<model::Contact>& contacts) override { inner_->collide(contacts); }
-  geometry::Box space_box(int space) const override { return inner_->space_box(space); }
-  void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
-                      std::vector<model::Contact>& contacts) override {
-    inner_->collide_across(owner, boxes, contacts);
-  }
   void solve(std::span<const int> units, std::span<const model::Contact> contacts, std::int64_t step,
              core::PhaseTimes& times) override {
-    inner_->solve(units, contacts, step, times);
+    WrappedSpaceStepper::solve(units, contacts, step, times);
     book(units, contacts);
-  }
-  stepping::Observables count(std::span<const int> units,
-                              std::span<const model::Contact> contacts) const override {
-    return inner_->count(units, contacts);
   }
 
  private:
@@ -78,7 +55,6 @@ class Accountant final : public stepping::SpaceStepper {
   void book(std::span<const int> units, std::span<const model::Contact> contacts);
   model::ContactForce entry_of(const model::Contact& contact, std::size_t place) const;
 
-  std::unique_ptr<stepping::SpaceStepper> inner_;
   std::vector<solver::Articulation> articulations_;
   model::StepMemory memory_;
   mutable model::State state_;
@@ -107,7 +83,7 @@ void Accountant::book(std::span<const int> units, std::span<const model::Contact
   for (const int unit : units) {
     for (const int joint : articulations_[unit].joints) {
       model::JointForce& force = booked.joints[joint];
-      force.torque = 0.9 * force.torque + inner_->state().velocity[model().joints[joint].body_a];
+      force.torque = 0.9 * force.torque + inner().state().velocity[model().joints[joint].body_a];
       force.control[1] += 1;
     }
   }

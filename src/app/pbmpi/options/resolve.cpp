@@ -110,9 +110,8 @@ CheckpointSpec resolve_checkpoint(const Options& options, const scenes::Scene& s
 stepping::StepperSettings resolve_step(const Options& options, const scenes::RunDefaults& defaults) {
   stepping::StepperSettings step = options.step.settings;
   if (!options.step.has("dt")) step.dt_s = defaults.dt_s;
-  if (!options.step.has("iterations") &&
-      step.kind != stepping::StepperKind::sor) {  // the scene's are quick's
-    step.iterations = defaults.iterations;
+  if (!options.step.has("iterations")) {
+    step.iterations = default_iterations(step.kind, defaults.iterations);
     require_at_least(step.iterations, 1, "--iterations");
   }
   if (!options.step.has("solver-seed")) step.seed = options.seed;

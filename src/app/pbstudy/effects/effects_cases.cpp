@@ -61,8 +61,7 @@ std::vector<StepperSettings> steppers_of(const StudyScene& scene, const EffectsO
     StepperSettings one = default_settings(varied.kind);
     one.precision = varied.precision;
     one.dt_s = scene.dt_s;
-    if (varied.kind != stepping::StepperKind::sor) one.iterations = scene.iterations;
-    one.iterations = options.iterations.value_or(one.iterations);
+    one.iterations = options.iterations.value_or(default_iterations(varied.kind, scene.iterations));
     one.seed = options.seed;
     all.push_back(one);
   });

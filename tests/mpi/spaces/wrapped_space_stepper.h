@@ -1,0 +1,59 @@
+/// A stepper round another, of which tests override what they change.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "stepping/space_stepper.h"
+
+namespace pbmpi::testing_support {
+
+/// Hands on what every stepper has; what only some have it lacks.
+class WrappedSpaceStepper : public stepping::SpaceStepper {
+ public:
+  explicit WrappedSpaceStepper(std::unique_ptr<stepping::SpaceStepper> inner) : inner_(std::move(inner)) {}
+
+  const model::Model& model() const override { return inner_->model(); }
+  const model::SpaceMap& map() const override { return inner_->map(); }
+  const model::State& state() const override { return inner_->state(); }
+  int num_lanes() const override { return inner_->num_lanes(); }
+  void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override {
+    inner_->own(spaces, state, step);
+  }
+  void put_states(std::span<const int> bodies, std::span<const double> rows) override {
+    inner_->put_states(bodies, rows);
+  }
+  void put_poses(std::span<const int> bodies, std::span<const double> rows) override {
+    inner_->put_poses(bodies, rows);
+  }
+  std::vector<int> fast_bodies() override { return inner_->fast_bodies(); }
+  void fire_events(std::int64_t step) override { inner_->fire_events(step); }
+  void launch_others(std::int64_t step, std::span<geometry::Box> boxes) override {
+    inner_->launch_others(step, boxes);
+  }
+  void collide(std::vector<model::Contact>& contacts) override { inner_->collide(contacts); }
+  geometry::Box space_box(int space) const override { return inner_->space_box(space); }
+  void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
+                      std::vector<model::Contact>& contacts) override {
+    inner_->collide_across(owner, boxes, contacts);
+  }
+  void solve(std::span<const int> units, std::span<const model::Contact> contacts, std::int64_t step,
+             core::PhaseTimes& times) override {
+    inner_->solve(units, contacts, step, times);
+  }
+  stepping::Observables count(std::span<const int> units,
+                              std::span<const model::Contact> contacts) const override {
+    return inner_->count(units, contacts);
+  }
+
+ protected:
+  stepping::SpaceStepper& inner() { return *inner_; }
+  const stepping::SpaceStepper& inner() const { return *inner_; }
+
+ private:
+  std::unique_ptr<stepping::SpaceStepper> inner_;
+};
+
+}  // namespace pbmpi::testing_support
