@@ -7,7 +7,7 @@ packages=(g++ cmake ninja-build pkg-config git ca-certificates
   openmpi-bin libopenmpi-dev openssh-client libhdf5-openmpi-dev libode-dev libeigen3-dev
   libboost-program-options-dev libtomlplusplus-dev nlohmann-json3-dev libjs-three libjs-chart.js)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3 python3-h5py python3-pandas python3-selenium
-  chromium chromium-driver hdf5-tools slurm-wlm munge procps valgrind binutils doxygen)
+  chromium chromium-driver hdf5-tools slurm-wlm munge procps valgrind binutils doxygen qemu-user-static)
 
 gate_packages=(clang clang-format clang-tidy libclang-rt-14-dev)
 

@@ -2,7 +2,7 @@
 # The gates that a change passes beside the tests, packages included: `tests/gates.sh` runs all, `tests/gates.sh NAME...` some of
 #   format    clang-format leaves every source as it is
 #   avx       no AVX instruction outside the packs that are compiled for it (needs the build of tests/run.sh)
-#   clang     clang++ builds the programs without a warning, and without headers parsed ahead
+#   clang     clang++ builds the programs without a warning, and without headers parsed ahead; they have the golden hashes
 #   tidy      clang-tidy finds nothing in the sources of the programs
 #   sanitize  unit tests and the programs, built with the sanitizers of addresses and of undefined behaviour
 set -euo pipefail
@@ -18,6 +18,8 @@ avx() {
 
 clang() {
   jobs/build.sh clang -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF
+  . jobs/mpi_environment.sh
+  PBMPI_BIN=$PWD/build/clang/bin python3 tests/app/golden/test_golden.py
 }
 
 tidy() {

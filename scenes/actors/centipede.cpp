@@ -1,8 +1,8 @@
 // A centipede: a chain of segments on universal joints, each with a pair of driven legs.
-#include <cmath>
 #include <numbers>
 #include <string>
 
+#include "core/elementary.h"
 #include "scenes/actors/actor.h"
 #include "scenes/parts/mass_properties.h"
 
@@ -71,7 +71,7 @@ class CentipedeBuilder {
     const double rise = c_.ride_height_m - c_.leg_radius_m;
     const Vec3 hip(x, side * c_.segment_width_m / 2, c_.ride_height_m - initial_depth_m);
     const Vec3 foot = hip + Vec3(0, side * c_.leg_reach_m, -rise);
-    const double angle = side * std::atan2(c_.leg_reach_m, rise);  // from straight down, about x
+    const double angle = side * core::angle_of(c_.leg_reach_m, rise);  // from straight down, about x
     const std::array<double, 3> size = {c_.leg_radius_m, (foot - hip).norm(), 0};
     const std::string name = (side > 0 ? "left_leg" : "right_leg") + std::to_string(number + 1);
     const int leg =

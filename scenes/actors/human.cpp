@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/elementary.h"
 #include "scenes/actors/actor.h"
 
 namespace pbmpi::scenes {
@@ -103,7 +104,7 @@ class HumanBuilder {
 
   /// By how much the stance lowers the hips.
   double hip_drop() const {
-    return (skeleton_.hip - skeleton_.ankle) * (1 - std::cos(radians(human_.stance_deg)));
+    return (skeleton_.hip - skeleton_.ankle) * (1 - core::cosine(radians(human_.stance_deg)));
   }
 
   /// An upright segment between two heights.

@@ -1,6 +1,7 @@
 // A wooden board that rises from the ground along the actor's x axis.
 #include <cmath>
 
+#include "core/elementary.h"
 #include "scenes/actors/actor.h"
 
 namespace pbmpi::scenes {
@@ -23,10 +24,10 @@ ActorPlan read_ramp(TableReader& actor, const SceneContext&) {
   ramp.thickness_m = actor.number("thickness", Sign::positive, 0.1);  // a stout plank
   ramp.material = read_material(actor, {0.7, 0});                     // rubber on dry rough wood, about 0.7
   return [ramp](const Placement& place, model::Model& model) {
-    const double slope = std::atan2(ramp.height_m, ramp.length_m);
+    const double slope = core::angle_of(ramp.height_m, ramp.length_m);
     const double board = std::hypot(ramp.height_m, ramp.length_m);
-    const Vec3 along(std::cos(slope), 0, std::sin(slope));
-    const Vec3 normal(-std::sin(slope), 0, std::cos(slope));
+    const Vec3 along(core::cosine(slope), 0, core::sine(slope));
+    const Vec3 normal(-core::sine(slope), 0, core::cosine(slope));
     model::Geom geom;
     geom.actor = add_actor(model, place.name, model::ActorKind::ramp);
     geom.space = place.space;

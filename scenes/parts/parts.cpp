@@ -3,6 +3,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/elementary.h"
+
 namespace pbmpi::scenes {
 namespace {
 
@@ -26,7 +28,8 @@ Pose compose(const Pose& outer, const Pose& inner) {
 }
 
 Quat rotation(double angle_rad, const Vec3& axis) {
-  return Quat::from_eigen(Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, axis)));
+  const Vec3 vector = core::sine(angle_rad / 2) * axis;
+  return {core::cosine(angle_rad / 2), vector.x(), vector.y(), vector.z()};
 }
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }

@@ -42,44 +42,27 @@ core::Vec3 with_front(const model::Geom& geom, const model::BodyPose& geom_at, c
   return way + geometry::half_extent(geom, geom_at.rotation, way / length) / length * way;
 }
 
-bool starts_fast(const model::Geom& geom, const core::Pose& pose, const core::Vec3& velocity,
-                 const core::Vec3& angular_velocity) {
-  const model::BodyPose at = geometry::geom_pose(geom, body_pose(pose.position, pose.orientation));
-  return moves_past_half(geom, at,
-                         nominal_step_s * velocity_of_centre(at, pose.position, velocity, angular_velocity));
-}
-
 bool by_geoms(const model::Contact& a, const model::Contact& b) { return a.geoms < b.geoms; }
 
 }  // namespace
 
-int count_fast_starts(const model::Model& model) {
-  std::vector<char> is_fast(model.bodies.size(), 0);
-  std::vector<std::vector<const model::Geom*>> geoms(model.bodies.size());
+std::vector<SlowBound> slow_bounds(const model::Model& model) {
+  // Of what a geom's centre may move, half by the body's way and half by its turn; what is rounded stays
+  // below.
+  constexpr double share = 0.49;
+  std::vector<SlowBound> bounds(model.bodies.size(), {model::infinity, model::infinity});
   for (const model::Geom& geom : model.geoms) {
-    if (geom.body != model::no_body) geoms[geom.body].push_back(&geom);
+    if (geom.body == model::no_body) continue;
+    SlowBound& bound = bounds[static_cast<std::size_t>(geom.body)];
+    const double way = share * geometry::least_half_extent(geom), arm = geom.local.position.norm();
+    bound.way_m = std::min(bound.way_m, way);
+    if (arm > 0) bound.turn_rad = std::min(bound.turn_rad, way / arm);
   }
-  const auto start = [&](int body, const core::Pose& pose, const core::Vec3& velocity,
-                         const core::Vec3& angular_velocity) {
-    is_fast[body] |= std::any_of(geoms[body].begin(), geoms[body].end(), [&](const model::Geom* geom) {
-      return starts_fast(*geom, pose, velocity, angular_velocity);
-    });
-  };
-  for (int i = 0; i < model.num_bodies(); ++i) {
-    const model::Body& body = model.bodies[i];
-    start(i, body.pose, body.velocity, body.angular_velocity);
-  }
-  for (const model::Event& event : model.events) {
-    if (event.kind != model::EventKind::launch) continue;
-    start(event.body, event.pose.value_or(model.bodies[event.body].pose), event.velocity,
-          event.angular_velocity);
-  }
-  return static_cast<int>(std::count(is_fast.begin(), is_fast.end(), 1));
+  return bounds;
 }
 
 FastBodies::FastBodies(const model::Model& model, std::span<const char> of_bodies)
     : model_(&model), rule_(model), fast_of_geom_(model.geoms.size(), -1) {
-  if (count_fast_starts(model) == 0) return;
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
     const model::Geom& geom = model.geoms[i];
     const int index = static_cast<int>(i);

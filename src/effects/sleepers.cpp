@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace pbmpi::effects {
 namespace {
 
@@ -31,7 +33,7 @@ Sleepers::Sleepers(const model::Model& model, double dt_s)
     : model_(&model),
       steps_(std::max(1, static_cast<int>(std::ceil(model.sleep.after_s / dt_s - 1e-9)))),
       distance_m_(model.sleep.speed * model.sleep.after_s),
-      least_cosine_(std::cos(std::min(model.sleep.angular_speed * model.sleep.after_s / 2, 1.5))),
+      least_cosine_(core::cosine(std::min(model.sleep.angular_speed * model.sleep.after_s / 2, 1.5))),
       sets_(model.num_bodies()) {}
 
 void Sleepers::start(model::State& state) {

@@ -77,7 +77,7 @@ void StepRules::change_velocities(RuledWorld& world) {
 }
 
 void StepRules::look_ahead(RuledWorld& world) {
-  if (!fast_bodies_) return;
+  if (!fast_bodies_ || !world.may_be_fast()) return;
   world.store(all_bodies_, before_);
   has_before_ = true;
   if (fast_bodies_->look(before_, dt_s_)) world.add_contacts_ahead(*fast_bodies_, before_);

@@ -25,6 +25,8 @@ class RuledWorld {
   virtual void store(std::span<const int> bodies, model::State& state) const = 0;
   /// The bodies have the velocities of `state` from now on.
   virtual void set_velocities(std::span<const int> bodies, const model::State& state) = 0;
+  /// False if no geom can be fast in the step at hand (SlowBound), events done.
+  virtual bool may_be_fast() const = 0;
   /// Adds the contacts that `fast` finds ahead of fast bodies in `before`, the state at the step's start.
   virtual void add_contacts_ahead(FastBodies& fast, const model::State& before) = 0;
   /// The contacts of the step at hand, those ahead included; valid until the next call.

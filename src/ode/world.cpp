@@ -47,6 +47,7 @@ World::World(int id, const model::Model& model, const model::State& state, std::
       settings_(settings),
       world_(make_world(model, settings, resources)),
       bodies_(make_bodies(world_.get(), model)),
+      slow_bounds_(effects::slow_bounds(model)),
       joints_(make_joints(world_.get(), bodies_, model, settings.dt_s)),
       held_poses_(model, joints_),
       events_(model, bodies_, joints_, held_poses_),
@@ -182,6 +183,14 @@ const std::vector<GeomPair>& World::awake_pairs(const std::vector<GeomPair>& pai
     if (awake(pair.first) || awake(pair.second)) awake_pairs_.push_back(pair);
   }
   return awake_pairs_;
+}
+
+bool World::may_be_fast() const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const dReal *v = dBodyGetLinearVel(bodies_[i]), *w = dBodyGetAngularVel(bodies_[i]);
+    if (!slow_bounds_[i].holds({v[0], v[1], v[2]}, {w[0], w[1], w[2]}, settings_.dt_s)) return true;
+  }
+  return false;
 }
 
 void World::add_contacts_ahead(effects::FastBodies& fast, const model::State& before) {

@@ -60,6 +60,7 @@ class World final : private effects::RuledWorld {
   void fire_events(std::int64_t step) override { events_.fire(step); }
   void store(std::span<const int> bodies, model::State& state) const override;
   void set_velocities(std::span<const int> bodies, const model::State& state) override;
+  bool may_be_fast() const override;
   void add_contacts_ahead(effects::FastBodies& fast, const model::State& before) override;
   std::span<const effects::BodyPair> touching() override;
   effects::Reaction reaction(int joint) const override { return loads_.reaction(joint); }
@@ -84,6 +85,7 @@ class World final : private effects::RuledWorld {
   stepping::StepperSettings settings_;
   WorldHandle world_;
   std::vector<dBodyID> bodies_;
+  std::vector<effects::SlowBound> slow_bounds_;  ///< [bodies]
   std::vector<dJointID> joints_;
   HeldPoses held_poses_;
   Events events_;

@@ -14,7 +14,7 @@ inline constexpr std::array<std::string_view, 2> precision_names = {"double", "s
 inline constexpr std::array<std::string_view, 5> simd_names = {"auto", "sse2", "avx2", "avx512", "off"};
 inline constexpr std::array<std::string_view, 2> colliders_names = {"lanes", "ode"};
 inline constexpr std::array<std::string_view, 2> row_order_names = {"shuffled", "fixed"};
-inline constexpr std::array<std::string_view, 2> joint_solver_names = {"sweeps", "tree"};
+inline constexpr std::array<std::string_view, 3> joint_solver_names = {"sweeps", "hanging", "tree"};
 inline constexpr std::array<std::string_view, 2> friction_names = {"pyramid", "cone"};
 
 constexpr std::string_view name_of(StepperKind kind) { return stepper_kind_names[static_cast<int>(kind)]; }

@@ -116,10 +116,11 @@ constexpr std::array<StepOption, 18> options = {{
      .in_short = "damping *"},
     {.name = "joint-solver",
      .member = &Settings::joint_solver,
-     .placeholder = "sweeps|tree",
+     .placeholder = "sweeps|hanging|tree",
      .meaning =
          "sor: in a sweep joints are solved one after the other, or all of an articulation exactly, but "
-         "for limits, motors and what closes loops; default: sweeps",
+         "for limits, motors and what closes loops; hanging: exactly where joints hold an articulation to "
+         "what does not move, without limits and motors; default: hanging",
      .needs = &Traits::tunes_sweeps,
      .in_short = "joints by *"},
     {.name = "friction",
@@ -263,6 +264,7 @@ StepperSettings default_settings(StepperKind kind) {
   settings.warm_start = 1;
   settings.contact_frequency = settings.joint_frequency = 100;
   settings.friction = Friction::cone;
+  settings.joint_solver = JointSolver::hanging;
   return settings;
 }
 

@@ -34,9 +34,11 @@ enum class RowOrder { shuffled, fixed };
 /// axes for itself (the pyramid of ODE's dContactApprox1, which along its diagonal holds 1.41 times as much).
 enum class Friction { pyramid, cone };
 
-/// How the sor stepper solves joints in a sweep: one after the other, or all of an articulation exactly, but
-/// for limits, motors and what closes loops.
-enum class JointSolver { sweeps, tree };
+/// Which articulations the sor stepper solves exactly in a sweep, but for limits, motors and what closes
+/// loops; the joints of the others one after the other. `hanging`: those that joints hold to what does not
+/// move, and that have neither limits nor motors. What stands on contacts gains nothing from exact joints
+/// alone: its contacts see the foot and not the body.
+enum class JointSolver { sweeps, hanging, tree };
 
 /// What a run chooses about the step; the rest is in the Model.
 struct StepperSettings {

@@ -34,18 +34,24 @@ TEST(RunPlan, of_one_world_says_what_its_step_plan_says) {
 
 TEST(RunPlan, counts_what_is_in_all_worlds) {
   const model::Model box = support::box_over_ground(1);
-  EXPECT_EQ(text_of(plan_of({box, box, box})),
-            "collision: 6 geoms, in 3 worlds\n"
-            "friction: 6 geoms with mu > 0, in 3 worlds\n"
-            "gravity: 3 bodies under 9.81 m/s^2, in 3 worlds\n");
+  EXPECT_EQ(
+      text_of(plan_of({box, box, box})),
+      "collision: 6 geoms, in 3 worlds\n"
+      "fast_bodies: 3 moving geoms, armed in steps in which one moves by more than half its extent, in 3 "
+      "worlds\n"
+      "friction: 6 geoms with mu > 0, in 3 worlds\n"
+      "gravity: 3 bodies under 9.81 m/s^2, in 3 worlds\n");
 }
 
 TEST(RunPlan, says_how_many_worlds_call_for_a_pass_where_they_differ) {
-  EXPECT_EQ(text_of(plan_of({support::box_over_ground(1), support::pile(3), support::pendulum(1, 0)})),
-            "collision: 6 geoms, in 2 of 3 worlds\n"
-            "friction: 6 geoms with mu > 0, in 2 of 3 worlds\n"
-            "joints: 1 joints, in 1 of 3 worlds\n"
-            "gravity: 5 bodies under 9.81 m/s^2, in 3 worlds\n");
+  EXPECT_EQ(
+      text_of(plan_of({support::box_over_ground(1), support::pile(3), support::pendulum(1, 0)})),
+      "collision: 6 geoms, in 2 of 3 worlds\n"
+      "fast_bodies: 4 moving geoms, armed in steps in which one moves by more than half its extent, in 2 of "
+      "3 worlds\n"
+      "friction: 6 geoms with mu > 0, in 2 of 3 worlds\n"
+      "joints: 1 joints, in 1 of 3 worlds\n"
+      "gravity: 5 bodies under 9.81 m/s^2, in 3 worlds\n");
 }
 
 TEST(RunPlan, keeps_apart_what_is_not_the_same) {

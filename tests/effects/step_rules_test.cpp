@@ -34,6 +34,7 @@ class NotingWorld final : public RuledWorld {
   void set_velocities(std::span<const int>, const model::State&) override {
     calls.emplace_back("set velocities");
   }
+  bool may_be_fast() const override { return is_fast; }
   void add_contacts_ahead(FastBodies&, const model::State&) override { calls.emplace_back("ahead"); }
   std::span<const BodyPair> touching() override { return touches; }
   Reaction reaction(int joint) const override {
@@ -60,6 +61,7 @@ class NotingWorld final : public RuledWorld {
   model::State& state() { return state_; }
 
   mutable Calls calls;  ///< of the last step
+  bool is_fast = false;
   std::vector<BodyPair> touches;
   Reaction load;
 
@@ -80,9 +82,21 @@ TEST(StepRules, look_ahead_then_sort_islands_by_the_state_at_the_start_of_the_st
   model.bodies[1].velocity = {0, 0, -200};
   model.interest = model::Interest{{0, 0, 0}, model::no_body, 0.1, 4};
   NotingWorld world(model);
+  world.is_fast = true;
   world.step(0);
   EXPECT_EQ(world.calls, (Calls{"events of 0", "store 2", "ahead"})) << "the state is read out once";
   EXPECT_EQ(world.rules().field()->inside().size() + world.rules().field()->outside().size(), 2u);
+}
+
+TEST(StepRules, read_no_state_out_for_what_may_be_ahead_where_nothing_may_be_fast) {
+  model::Model model = support::pile(2);
+  model.bodies[1].velocity = {0, 0, -200};
+  NotingWorld world(model);
+  world.step(0);
+  EXPECT_EQ(world.calls, Calls{"events of 0"});
+  world.is_fast = true;
+  world.step(1);
+  EXPECT_EQ(world.calls, (Calls{"events of 1", "store 2", "ahead"}));
 }
 
 TEST(StepRules, break_joints_before_islands_fall_asleep) {
@@ -141,6 +155,7 @@ TEST(StepRules, of_a_cut_world_leave_looking_ahead_to_its_ranks) {
   model::State state = model::initial_state(model);
   StepRules rules(model, dt_s, 20, StepRules::World::cut, state);
   NotingWorld engine(model);
+  engine.is_fast = true;
   engine.calls.clear();
   EXPECT_FALSE(rules.after_collision(engine));
   EXPECT_EQ(engine.calls, Calls{});

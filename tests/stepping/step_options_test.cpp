@@ -75,7 +75,8 @@ TEST(StepOptions, of_sor_have_a_memory_by_default_and_a_text_names_what_differs)
   StepperSettings cold;
   cold.kind = StepperKind::sor;
   EXPECT_EQ(setting_text(cold),
-            "sor double, 1 x 20, factor 1.3, warm 0, relax 0, contacts 0 Hz, joints 0 Hz, pyramid");
+            "sor double, 1 x 20, factor 1.3, warm 0, relax 0, contacts 0 Hz, joints 0 Hz, joints by "
+            "sweeps, pyramid");
   for (const StepperKind kind : {StepperKind::quick, StepperKind::direct}) {
     for (const StepOption& option : step_options())
       EXPECT_EQ(text_of(option, default_settings(kind)), text_of(option, {.kind = kind})) << option.name;

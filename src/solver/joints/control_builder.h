@@ -1,6 +1,7 @@
 /// Builds the rows of limits and motors from the poses of a joint's bodies.
 #pragma once
 
+#include "core/elementary.h"
 #include "solver/joints/joint_controls.h"
 #include "solver/joints/row_builder.h"
 
@@ -90,7 +91,7 @@ typename ControlBuilder<T>::AxisPlace ControlBuilder<T>::locate(AxisControl<V>& 
     place.at_high = place.at_low > zero ? zero : place.at_high;
   }
   if (control.has_hold || goes_on_ || T::any(place.at_low + place.at_high)) {
-    place.angle = 2 * T::atan2(now.s, now.c);
+    place.angle = 2 * core::angle_of_right_half<T>(now.s, now.c);
     if (goes_on_) control.place = place.angle;
   }
   return place;

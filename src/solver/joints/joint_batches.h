@@ -96,9 +96,9 @@ class JointBatches {
   void shuffle(std::uint64_t key);
   /// Sweeps the joints in the order of the model.
   void order_as_given();
-  /// places_last: see JointSolver::solve().
-  template <bool places_last>
-  void sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies);
+  /// Of the shapes for which passes_over(shape) is false. places_last: see JointSolver::solve().
+  template <bool places_last, class PassesOver>
+  void sweep(const JointSolver<T>& solver, const PassesOver& passes_over, BodyLanes<T>& bodies);
 
   /// The order of the joints of a shape in this sweep.
   std::span<const std::size_t> order(std::size_t shape) const { return shapes_[shape].order; }
@@ -255,9 +255,11 @@ void JointBatches<T>::shuffle(std::uint64_t key) {
 /// Joint by joint, each in all batches in turn: batches share no body, so that the processor works on several
 /// at once.
 template <class T>
-template <bool places_last>
-void JointBatches<T>::sweep(const JointSolver<T>& solver, BodyLanes<T>& bodies) {
+template <bool places_last, class PassesOver>
+void JointBatches<T>::sweep(const JointSolver<T>& solver, const PassesOver& passes_over,
+                            BodyLanes<T>& bodies) {
   for (const Shape& shape : shapes_) {
+    if (passes_over(static_cast<std::size_t>(&shape - shapes_.data()))) continue;
     for (const std::size_t joint : shape.order) {
       for (std::size_t i = joint; i < shape.rows.size(); i += shape.num_joints) {
         if (!shape.active[i / shape.num_joints]) continue;

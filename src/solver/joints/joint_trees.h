@@ -2,6 +2,7 @@
 /// chain only in many sweeps, the tree carries in one.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -18,14 +19,20 @@ class JointTrees {
   using Batch = typename JointBatches<T>::Batch;
 
   /// The batches of these shapes, in the order in which they were added to `joints`, which is borrowed.
-  JointTrees(const std::vector<LanePlaces::ShapePlace>& shapes, JointBatches<T>& joints) : joints_(joints) {
+  /// `only_hanging`: solves those that hang, and no others.
+  JointTrees(const std::vector<LanePlaces::ShapePlace>& shapes, bool only_hanging, JointBatches<T>& joints)
+      : joints_(joints) {
     for (const LanePlaces::ShapePlace& at : shapes) {
       Shape& shape = shapes_.emplace_back(at.shape);
-      if (!at.shape.joints.empty())
+      if (!at.shape.joints.empty() && (at.shape.hangs || !only_hanging))
         shape.trees.assign(static_cast<std::size_t>(at.num_batches), TreeSolver<T>(at.shape.num_bodies));
     }
   }
 
+  bool solves_any() const {
+    return std::ranges::any_of(shapes_, [](const Shape& shape) { return !shape.trees.empty(); });
+  }
+  bool solves(std::size_t shape) const { return !shapes_[shape].trees.empty(); }
   /// Gets ready for the rows of now, in all active batches. cfm [s/kg] of the joints, divided by the step.
   void factor(Scalar cfm, const BodyLanes<T>& bodies);
   /// Limits, motors and what closes loops by a sweep, then all other rows exactly.
@@ -43,12 +50,12 @@ class JointTrees {
     std::size_t num_joints;
     std::vector<TreeNode> nodes;
     std::vector<char> in_loop;         ///< [num_joints]
-    std::vector<TreeSolver<T>> trees;  ///< [num_batches], none without joints
+    std::vector<TreeSolver<T>> trees;  ///< [num_batches], none if it is not solved here
 
     int parent_of(const TreeNode& node) const { return node.parent == num_bodies ? -1 : node.parent; }
   };
 
-  /// visit(shape, tree, batch) of each active batch with joints.
+  /// visit(shape, tree, batch) of each active batch that is solved here.
   template <class Visit>
   void for_each_tree(Visit visit) {
     joints_.for_each_active_batch([&](const Batch& batch) {
@@ -62,6 +69,8 @@ class JointTrees {
   }
   void sweep_others(const JointSolver<T>& solver, const Shape& shape, const Batch& batch,
                     BodyLanes<T>& bodies);
+  void solve_tree(const RowLaw<Scalar>& law, const Shape& shape, TreeSolver<T>& tree, const Batch& batch,
+                  BodyLanes<T>& bodies);
 
   JointBatches<T>& joints_;
   std::vector<Shape> shapes_;
@@ -102,23 +111,29 @@ template <class T>
 void JointTrees<T>::solve(const JointSolver<T>& solver, const RowLaw<Scalar>& law, BodyLanes<T>& bodies) {
   for_each_tree([&](const Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
     sweep_others(solver, shape, batch, bodies);
-    tree.start_solve();
-    for (auto node = shape.nodes.rbegin(); node != shape.nodes.rend(); ++node) {
-      if (node->joint < 0) continue;
-      with_rows(batch, shape, static_cast<std::size_t>(node->joint), [&](auto& rows) {
-        tree.up(node->body, shape.parent_of(*node), node->is_first, law, bodies, rows);
+    solve_tree(law, shape, tree, batch, bodies);
+  });
+}
+
+template <class T>
+void JointTrees<T>::solve_tree(const RowLaw<Scalar>& law, const Shape& shape, TreeSolver<T>& tree,
+                               const Batch& batch, BodyLanes<T>& bodies) {
+  tree.start_solve();
+  for (auto node = shape.nodes.rbegin(); node != shape.nodes.rend(); ++node) {
+    if (node->joint < 0) continue;
+    with_rows(batch, shape, static_cast<std::size_t>(node->joint), [&](auto& rows) {
+      tree.up(node->body, shape.parent_of(*node), node->is_first, law, bodies, rows);
+    });
+  }
+  for (const TreeNode& node : shape.nodes) {
+    if (node.joint < 0) {
+      tree.root(node.body, bodies.twists[batch.first_slot + node.body]);
+    } else {
+      with_rows(batch, shape, static_cast<std::size_t>(node.joint), [&](auto& rows) {
+        tree.down(node.body, shape.parent_of(node), node.is_first, bodies, rows);
       });
     }
-    for (const TreeNode& node : shape.nodes) {
-      if (node.joint < 0) {
-        tree.root(node.body, bodies.twists[batch.first_slot + node.body]);
-      } else {
-        with_rows(batch, shape, static_cast<std::size_t>(node.joint), [&](auto& rows) {
-          tree.down(node.body, shape.parent_of(node), node.is_first, bodies, rows);
-        });
-      }
-    }
-  });
+  }
 }
 
 }  // namespace pbmpi::solver

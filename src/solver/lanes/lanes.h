@@ -86,19 +86,6 @@ struct LaneTraits {
   }
   /// Is any lane other than 0?
   PBMPI_LANES static bool any(const V& v) { return bits(v) != 0; }
-  /// The angle of the direction (x, y), for x >= 0: within a few units in the last place, from the operations
-  /// that IEEE 754 rounds, so that it has the same bits on every machine. Halving the angle four times leaves
-  /// a tangent below 0.1, for which the series of the arc tangent ends soon.
-  PBMPI_LANES static V atan2(const V& y, const V& x) {
-    const V one = broadcast(1), length = sqrt(x * x + y * y) + x;
-    V t = y / (length > V{} ? length : one);
-    for (int halving = 0; halving < 3; ++halving) t = t / (one + sqrt(one + t * t));
-    const V square = t * t;
-    V series = broadcast(Scalar(1) / Scalar(17));
-    for (int odd = 15; odd > 0; odd -= 2)
-      series = broadcast(Scalar(1) / static_cast<Scalar>(odd)) - square * series;
-    return broadcast(16) * t * series;
-  }
   /// num_lanes consecutive numbers, aligned or not.
   PBMPI_LANES static V load(const Scalar* from) {
     V v;

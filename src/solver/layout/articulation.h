@@ -36,6 +36,7 @@ struct JointLink {
 /// differ.
 struct ArticulationShape {
   int num_bodies = 0;
+  bool hangs = false;  ///< on the static body, by joints of which none has a limit or a motor at any time
   std::vector<JointLink> joints;
   bool operator==(const ArticulationShape&) const = default;
   auto operator<=>(const ArticulationShape&) const = default;

@@ -18,8 +18,9 @@ struct PassOfEffect {
   bool only_idle;  ///< there only if the effect is demanded and nothing calls for it
 };
 
-constexpr std::array<PassOfEffect, 11> passes_of_effects = {{
+constexpr std::array<PassOfEffect, 12> passes_of_effects = {{
     {&Passes::collision, EffectId::collision, false},
+    {&Passes::fast_bodies, EffectId::fast_bodies, false},
     {&Passes::restitution, EffectId::restitution, false},
     {&Passes::gyroscopic_torque, EffectId::gyroscopic_torque, false},
     {&Passes::gravity, EffectId::gravity, false},

@@ -16,6 +16,7 @@ struct Passes {
   /// May a contact turn a body? False where nothing rubs and every body is a ball, since all normals go
   /// through the centres.
   bool turning_contacts = false;
+  bool fast_bodies = false;
   bool restitution = false;
   bool gyroscopic_torque = false;
   bool gravity = false;

@@ -1,8 +1,7 @@
 /// Forces on the bodies of a pack, and how their velocities move them.
 #pragma once
 
-#include <cmath>
-
+#include "core/elementary.h"
 #include "solver/layout/pack_laws.h"
 #include "solver/pack/world_lanes.h"
 
@@ -83,8 +82,8 @@ void BodyMotion<T>::move_slot(int slot, Scalar h, const GyroscopicSlot<V>*& next
 /// exponential decay.
 template <class T>
 void BodyMotion<T>::damp(const Batch& batch, double h) {
-  const V linear = T::broadcast(static_cast<Scalar>(std::exp(-linear_damping_ * h)));
-  const V angular = T::broadcast(static_cast<Scalar>(std::exp(-angular_damping_ * h)));
+  const V linear = T::broadcast(static_cast<Scalar>(core::exponential(-linear_damping_ * h)));
+  const V angular = T::broadcast(static_cast<Scalar>(core::exponential(-angular_damping_ * h)));
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
     Twist<V>& twist = worlds_.bodies.twists[slot];
     twist = {twist.linear * linear, twist.angular * angular};

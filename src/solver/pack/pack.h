@@ -15,6 +15,7 @@
 #include "solver/layout/packed_world.h"
 #include "solver/layout/row_law.h"
 #include "stepping/observables.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::solver {
 
@@ -27,7 +28,7 @@ struct StepParameters {
   double warm_start = 0;  ///< share of the impulses that a step and a substep take over from the one before
   int relax = 0;          ///< sweeps at the end of a substep that push nothing out
   Spring contacts, joints;
-  bool exact_joints = false;    ///< solve the joints of an articulation together
+  stepping::JointSolver joint_solver = stepping::JointSolver::sweeps;
   bool cone = false;            ///< friction that is the same in all directions
   bool shuffled = true;         ///< false: the joints of an articulation and the contacts keep their order
   bool residuals = false;       ///< measure them at the end of the solve
@@ -63,6 +64,9 @@ class Pack {
   virtual void set_broken(int world, std::span<const std::int32_t> broken_in) = 0;
   /// [m] Centre of mass of a body, world frame.
   virtual model::Vec3 centre(int world, int body) const = 0;
+  /// may_be_fast[num_worlds]: 0 if no geom of the world can be fast (effects/fast_bodies.h) in a step of
+  /// `dt_s` from now. All 0 without the pass "fast_bodies".
+  virtual void find_fast(double dt_s, std::vector<char>& may_be_fast) const = 0;
   /// Poses of a world's bodies: [num_bodies].
   virtual void poses(int world, std::span<model::BodyPose> poses) const = 0;
   /// Collision detection among the swept geoms at the poses of now: the contacts of each world, in canonical

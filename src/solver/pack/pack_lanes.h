@@ -5,6 +5,7 @@
 
 #include "solver/layout/pack_laws.h"
 #include "solver/pack/collider_lanes.h"
+#include "solver/pack/speed_bounds.h"
 #include "solver/pack/step_lanes.h"
 
 namespace pbmpi::solver {
@@ -17,6 +18,7 @@ class PackLanes final : public Pack {
         worlds_(worlds, passes_),
         step_(laws_of(*worlds.front().model), passes_, worlds_) {
     if (passes_.collision) collider_.emplace(worlds, worlds_, passes_.sleeping);
+    if (passes_.fast_bodies) speed_bounds_.emplace(worlds_);
   }
 
   void load(int world, const model::State& state) override {
@@ -48,6 +50,10 @@ class PackLanes final : public Pack {
     return worlds_.reaction(world, joint, step_.h());
   }
   model::Vec3 centre(int world, int body) const override { return worlds_.centre(world, body); }
+  void find_fast(double dt_s, std::vector<char>& may_be_fast) const override {
+    may_be_fast.assign(static_cast<std::size_t>(worlds_.num_worlds()), 0);
+    if (speed_bounds_) speed_bounds_->find_fast(worlds_, dt_s, may_be_fast);
+  }
   void poses(int world, std::span<model::BodyPose> poses) const override { worlds_.poses(world, poses); }
   int joint_rows(int world, int joint) const override { return worlds_.joint_rows(world, joint); }
 
@@ -71,7 +77,8 @@ class PackLanes final : public Pack {
   Passes passes_;
   WorldLanes<T> worlds_;
   StepLanes<T> step_;
-  std::optional<ColliderLanes<T>> collider_;  ///< none without the pass "collision"
+  std::optional<ColliderLanes<T>> collider_;    ///< none without the pass "collision"
+  std::optional<SpeedBounds<T>> speed_bounds_;  ///< none without the pass "fast_bodies"
 };
 
 }  // namespace pbmpi::solver

@@ -1,8 +1,7 @@
 /// Plain numbers into one lane of what a pack keeps in lanes.
 #pragma once
 
-#include <cmath>
-
+#include "core/elementary.h"
 #include "geometry/geometry.h"
 #include "model/step_memory.h"
 #include "solver/joints/joint_terms.h"
@@ -73,10 +72,10 @@ struct SetLanes {
     const bool low = limit.low > -model::infinity, high = limit.high < model::infinity;
     set(control.low, lane, low ? limit.low : -huge_bound);
     set(control.high, lane, high ? limit.high : huge_bound);
-    set(control.sin_low, lane, low ? std::sin(limit.low / 2) : -1);
-    set(control.cos_low, lane, low ? std::cos(limit.low / 2) : 0);
-    set(control.sin_high, lane, high ? std::sin(limit.high / 2) : 1);
-    set(control.cos_high, lane, high ? std::cos(limit.high / 2) : 0);
+    set(control.sin_low, lane, low ? core::sine(limit.low / 2) : -1);
+    set(control.cos_low, lane, low ? core::cosine(limit.low / 2) : 0);
+    set(control.sin_high, lane, high ? core::sine(limit.high / 2) : 1);
+    set(control.cos_high, lane, high ? core::cosine(limit.high / 2) : 0);
     control.has_limit = control.has_limit || low || high;
   }
 };

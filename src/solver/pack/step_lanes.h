@@ -63,6 +63,7 @@ class StepLanes {
                          static_cast<std::uint64_t>(iteration));
   }
   void end_sweeps();
+  void choose_trees(stepping::JointSolver solver);
   /// With exact joints: gets ready for the rows of now.
   void factor_joints() {
     if (trees_) trees_->factor(laws_.joint_cfm(), worlds_.bodies);
@@ -87,7 +88,7 @@ class StepLanes {
   BodyMotion<T> motion_;
   ContactLists<T> contacts_;
   ContactTwists<T> twists_;
-  std::optional<JointTrees<T>> trees_;  ///< of a step that solves its joints exactly
+  std::optional<JointTrees<T>> trees_;  ///< of a step that solves some joints exactly
   StepParameters parameters_;           ///< of the step at hand, with how far it has come
   StepLaws<T> laws_;                    ///< likewise
   int substep_ = 0, iteration_ = 0;
@@ -174,7 +175,8 @@ void StepLanes<T>::sweep() {
 template <class T>
 void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, int iteration) {
   twists_.need_rows(worlds_.bodies);
-  const auto key = parameters_.shuffled ? std::optional(order_key(iteration)) : std::nullopt;
+  std::optional<std::uint64_t> key;
+  if (parameters_.shuffled) key = order_key(iteration);
   contacts_.sweep(worlds_.bodies.contact_twists, laws_.contacts(), law, key);
   twists_.changed_rows();
 }
@@ -185,12 +187,12 @@ template <class T>
 void StepLanes<T>::sweep_joints(const RowLaw<Scalar>& law) {
   twists_.need_slots(worlds_.bodies);
   const JointSolver<T> solver = laws_.joint_solver(law);
-  if (trees_) {
-    trees_->solve(solver, law, worlds_.bodies);
-  } else if (parameters_.substeps > 1) {
-    worlds_.joints.template sweep<true>(solver, worlds_.bodies);
+  const auto has_tree = [&](std::size_t shape) { return trees_ && trees_->solves(shape); };
+  if (trees_) trees_->solve(solver, law, worlds_.bodies);
+  if (parameters_.substeps > 1) {
+    worlds_.joints.template sweep<true>(solver, has_tree, worlds_.bodies);
   } else {
-    worlds_.joints.template sweep<false>(solver, worlds_.bodies);
+    worlds_.joints.template sweep<false>(solver, has_tree, worlds_.bodies);
   }
   twists_.changed_slots();
 }
@@ -248,13 +250,22 @@ void StepLanes<T>::remember() {
   });
 }
 
+/// Trees stay from step to step.
+template <class T>
+void StepLanes<T>::choose_trees(stepping::JointSolver solver) {
+  if (solver == parameters_.joint_solver) return;
+  trees_.reset();
+  if (solver == stepping::JointSolver::sweeps) return;
+  trees_.emplace(worlds_.places.shapes(), solver == stepping::JointSolver::hanging, worlds_.joints);
+  if (!trees_->solves_any()) trees_.reset();
+}
+
 template <class T>
 void StepLanes<T>::begin(Contacts contacts, Forces forces, const StepParameters& parameters,
                          core::PhaseTimes& times) {
+  choose_trees(parameters.joint_solver);
   parameters_ = parameters;
   laws_ = {pack_laws_, passes_, parameters};
-  if (!parameters.exact_joints) trees_.reset();
-  if (parameters.exact_joints && !trees_) trees_.emplace(worlds_.places.shapes(), worlds_.joints);
   core::LapTimer timer(times);
   worlds_.update_active();
   if (passes_.holds_bodies()) worlds_.save_held();

@@ -39,7 +39,7 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   parameters.relax = settings.relax;
   parameters.contacts = {settings.contact_frequency, settings.contact_damping};
   parameters.joints = {settings.joint_frequency, settings.joint_damping};
-  parameters.exact_joints = settings.joint_solver == stepping::JointSolver::tree;
+  parameters.joint_solver = settings.joint_solver;
   parameters.cone = settings.friction == stepping::Friction::cone;
   parameters.residuals = settings.residuals;
   parameters.shuffled = settings.row_order == stepping::RowOrder::shuffled;

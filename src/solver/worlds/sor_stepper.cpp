@@ -30,6 +30,7 @@ struct Group {
   std::vector<SorWorld*> worlds;
   std::unique_ptr<Pack> pack;
   std::vector<std::vector<model::Contact>> contacts;  ///< [worlds] of this step
+  std::vector<char> may_be_fast;                      ///< likewise: Pack::find_fast()
   std::vector<FocusedWorld> focused_worlds;           ///< [worlds] for the step at hand
   FocusedStep focused;
   bool sleeps = false;              ///< in the step at hand nothing moves
@@ -91,7 +92,7 @@ class SorStepper final : public stepping::AnytimeStepper {
   static void look(Group& group, core::PhaseTimes& times);
   /// Up to the iterations of the last substep; `look_after`: they will be looked at after so many.
   void begin(Group& group, std::optional<int> look_after, core::PhaseTimes& times);
-  static void collide(Group& group);
+  void collide(Group& group) const;
   void focus(Group& group) const;
   static void finish(Group& group, core::PhaseTimes& times);
   void observe(Group& group, core::PhaseTimes& times) const;
@@ -219,13 +220,15 @@ void SorStepper::focus(Group& group) const {
 }
 
 /// All worlds of the group collide again while bodies wake in any of them.
-void SorStepper::collide(Group& group) {
+void SorStepper::collide(Group& group) const {
+  group.pack->find_fast(settings_.dt_s, group.may_be_fast);
   bool woke = true;
   while (woke) {
     woke = false;
     group.pack->collide(group.contacts);
     for (std::size_t i = 0; i < group.worlds.size(); ++i)
-      woke |= group.worlds[i]->after_collision(*group.pack, static_cast<int>(i), group.contacts[i]);
+      woke |= group.worlds[i]->after_collision(*group.pack, static_cast<int>(i), group.may_be_fast[i] != 0,
+                                               group.contacts[i]);
   }
 }
 

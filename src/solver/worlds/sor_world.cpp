@@ -14,8 +14,13 @@ namespace pbmpi::solver {
 class SorWorld::InPack final : public effects::RuledWorld {
  public:
   InPack(SorWorld& world, Pack& pack, int index, std::vector<model::Contact>* contacts,
-         const FocusedStep* solved)
-      : world_(world), pack_(pack), index_(index), contacts_(contacts), solved_(solved) {}
+         const FocusedStep* solved, bool may_be_fast = false)
+      : world_(world),
+        pack_(pack),
+        index_(index),
+        contacts_(contacts),
+        solved_(solved),
+        may_be_fast_(may_be_fast) {}
 
   void fire_events(std::int64_t step) override {
     for (const model::Event& event : events_of(*world_.model_, step)) {
@@ -32,6 +37,7 @@ class SorWorld::InPack final : public effects::RuledWorld {
   void set_velocities(std::span<const int> bodies, const model::State& state) override {
     for (const int body : bodies) pack_.launch(index_, velocity_event(body, state));
   }
+  bool may_be_fast() const override { return may_be_fast_; }
   void add_contacts_ahead(effects::FastBodies& fast, const model::State& before) override {
     fast.add(
         before, [](int, int) { return true; }, *contacts_);
@@ -54,6 +60,7 @@ class SorWorld::InPack final : public effects::RuledWorld {
   int index_;
   std::vector<model::Contact>* contacts_;  ///< null before collision detection
   const FocusedStep* solved_;              ///< null before the solve
+  bool may_be_fast_;                       ///< see Pack::find_fast()
   std::vector<effects::BodyPair> touching_;
 };
 
@@ -106,8 +113,9 @@ void SorWorld::begin_step(Pack& pack, int index) {
   rules_.begin_step(world, step_);
 }
 
-bool SorWorld::after_collision(Pack& pack, int index, std::vector<model::Contact>& contacts) {
-  InPack world(*this, pack, index, &contacts, nullptr);
+bool SorWorld::after_collision(Pack& pack, int index, bool may_be_fast,
+                               std::vector<model::Contact>& contacts) {
+  InPack world(*this, pack, index, &contacts, nullptr, may_be_fast);
   return rules_.after_collision(world);
 }
 

@@ -45,9 +45,10 @@ class SorWorld {
 
   // A step, as effects::StepRules has it.
   void begin_step(Pack& pack, int index);
-  /// With the contacts of this step, to which those ahead of fast bodies are added; true if bodies woke,
-  /// whose own contacts are still to be found.
-  [[nodiscard]] bool after_collision(Pack& pack, int index, std::vector<model::Contact>& contacts);
+  /// With the contacts of this step, to which those ahead of fast bodies are added, if it may have any; true
+  /// if bodies woke, whose own contacts are still to be found.
+  [[nodiscard]] bool after_collision(Pack& pack, int index, bool may_be_fast,
+                                     std::vector<model::Contact>& contacts);
   void before_solve(Pack& pack, int index, std::vector<model::Contact>& contacts);
   void after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts, const FocusedStep& step);
   /// Instead of all but begin_step(), if no world of the pack moves.

@@ -135,8 +135,8 @@ TEST(UnneededEffect, is_tried_in_one_of_the_nine_for_all_that_not_each_of_them_n
     const auto names = unneeded(find_scene(scene));
     tried.insert(names.begin(), names.end());
   }
-  for (const char* name : {"cross_space", "fast_bodies", "field_of_interest", "breakable_joints", "sleeping",
-                           "events", "steering", "motors", "suspension", "restitution", "damping", "drag"})
+  for (const char* name : {"cross_space", "field_of_interest", "breakable_joints", "sleeping", "events",
+                           "steering", "motors", "suspension", "restitution", "damping", "drag"})
     EXPECT_EQ(tried.count(name), 1u) << name;
 }
 

@@ -1,0 +1,65 @@
+/// Which worlds of a pack have a body that may be fast (effects/fast_bodies.h) in a step.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <vector>
+
+#include "effects/fast_bodies.h"
+#include "solver/pack/world_lanes.h"
+
+namespace pbmpi::solver {
+
+template <class T>
+class SpeedBounds {
+ public:
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+
+  explicit SpeedBounds(const WorldLanes<T>& worlds);
+
+  /// Sets may_be_fast[num_worlds], 0 before, where a body does not keep its effects::SlowBound in a step of
+  /// `dt_s`.
+  void find_fast(const WorldLanes<T>& worlds, double dt_s, std::vector<char>& may_be_fast) const;
+
+ private:
+  struct alignas(sizeof(V)) Slot {
+    V way2, turn2;  ///< squares of a body's SlowBound; infinite in idle lanes
+  };
+  std::vector<Slot> slots_;
+};
+
+template <class T>
+SpeedBounds<T>::SpeedBounds(const WorldLanes<T>& worlds) {
+  const V none = T::broadcast(static_cast<Scalar>(model::infinity));
+  slots_.assign(static_cast<std::size_t>(worlds.places.num_slots()), {none, none});
+  for (int world = 0; world < worlds.num_worlds(); ++world) {
+    const std::vector<effects::SlowBound> bounds = effects::slow_bounds(worlds.model(world));
+    for (std::size_t body = 0; body < bounds.size(); ++body) {
+      const auto [way, turn] = bounds[body];
+      const LanePlace at = worlds.places.body(world, static_cast<int>(body));
+      Slot& slot = slots_[static_cast<std::size_t>(at.slot)];
+      T::set(slot.way2, at.lane, static_cast<Scalar>(way * way));
+      T::set(slot.turn2, at.lane, static_cast<Scalar>(turn * turn));
+    }
+  }
+}
+
+template <class T>
+void SpeedBounds<T>::find_fast(const WorldLanes<T>& worlds, double dt_s,
+                               std::vector<char>& may_be_fast) const {
+  const V zero = T::broadcast(0), one = T::broadcast(1);
+  const V square = T::broadcast(static_cast<Scalar>(dt_s * dt_s));
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    const Twist<V>& twist = worlds.bodies.twists[slot];
+    const V way2 = dot(twist.linear, twist.linear) * square;
+    const V turn2 = dot(twist.angular, twist.angular) * square;
+    const V in_bounds = way2 <= slots_[slot].way2 ? (turn2 <= slots_[slot].turn2 ? one : zero) : zero;
+    for (unsigned lanes = T::bits(one - in_bounds); lanes != 0; lanes &= lanes - 1) {
+      const int world = worlds.places.world_at({static_cast<int>(slot), std::countr_zero(lanes)});
+      if (world >= 0) may_be_fast[static_cast<std::size_t>(world)] = 1;
+    }
+  }
+}
+
+}  // namespace pbmpi::solver
