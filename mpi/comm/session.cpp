@@ -3,11 +3,27 @@
 #include <cstdlib>
 #include <exception>
 
+#include "core/awaited.h"
 #include "mpi/comm/check.h"
 
 namespace pbmpi::mpi {
+namespace {
+
+/// Keeps Open MPI's files without shared file pointers, which nothing here uses: its component "sm" makes a
+/// semaphore of the host by the last part of the file's name. One that a killed run held keeps each later run
+/// of that name waiting for ever, and two runs of one name share it. A file goes without shared pointers if
+/// the only component of their framework gets a priority below all; without any component it could not be
+/// opened.
+void do_without_shared_file_pointers() {
+  setenv("OMPI_MCA_sharedfp", "sm", 1);
+  setenv("OMPI_MCA_sharedfp_sm_priority", "-1", 1);
+}
+
+}  // namespace
 
 Session::Session(int& argc, char**& argv) : exceptions_at_start_(std::uncaught_exceptions()) {
+  do_without_shared_file_pointers();
+  const core::Awaited all_ranks("all ranks to start (MPI_Init)");
   int provided = 0;
   // Before MPI_Init there is no error handler to set: MPI aborts by itself if it cannot start.
   check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
@@ -17,6 +33,7 @@ Session::Session(int& argc, char**& argv) : exceptions_at_start_(std::uncaught_e
 
 Session::~Session() {
   if (std::uncaught_exceptions() > exceptions_at_start_) return;
+  const core::Awaited all_ranks("all ranks to end (MPI_Finalize)");
   MPI_Finalize();  // a destructor has nobody to report an error to
 }
 

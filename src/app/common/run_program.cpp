@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "core/awaited.h"
 #include "mpi/comm/session.h"
 
 namespace pbmpi::app {
@@ -9,6 +10,7 @@ namespace pbmpi::app {
 int run_program(const std::string& name,
                 const std::function<core::ExitCode(const mpi::Communicator&)>& program) {
   const mpi::Communicator world = mpi::Communicator::world();
+  core::set_waiter(name + ": rank " + std::to_string(world.rank()));
   const auto report = [&](const std::exception& error, core::ExitCode code) {
     if (world.is_root()) std::cerr << name << ": " << error.what() << std::endl;
     return static_cast<int>(code);

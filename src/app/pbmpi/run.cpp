@@ -19,6 +19,7 @@
 #include "app/pbmpi/signals.h"
 #include "app/pbmpi/simulation.h"
 #include "app/pbmpi/work.h"
+#include "core/awaited.h"
 #include "core/hash.h"
 #include "effects/effect_choices.h"
 #include "io/run/run_file.h"
@@ -168,10 +169,12 @@ void require_writable(const mpi::Communicator& comm, const CheckpointSpec& spec,
   });
 }
 
-ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work work, double start_s) {
+ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work work,
+                  const SignalRequests& signals, double start_s) {
   const scenes::Scene& scene = *work.scene;
   const RunSpec& spec = work.spec;
-  const SignalRequests signals;
+  const bool speaks = comm.is_root() && !options.common.quiet;
+  std::optional<core::Awaited> awaited("all ranks to build their worlds");
   const Simulation simulation = make_simulation(comm, work);
   work.states = {};
   mpi::FrameDriver& driver = *simulation.driver;
@@ -187,7 +190,10 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   if (spec.checkpoint.max_time_s) driver.set_time_limit(start_s + *spec.checkpoint.max_time_s);
 
   const Provenance provenance = collect_provenance(comm, options.command_line);
+  signals.enter(SignalRequests::Phase::begin_or_end, speaks);
+  awaited.emplace("all ranks to create " + spec.output.value_or("no file"));
   const auto file = create_output(comm, driver, work, provenance);
+  awaited.reset();
   EstimateMonitor monitor(spec.warmup);
   if (spec.estimate) driver.add_consumer(monitor);
   LiveSummary live;
@@ -199,7 +205,13 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
     driver.add_observer(*progress);
   }
 
+  FrameWatch watch;
+  driver.add_observer(watch);
+
+  signals.enter(SignalRequests::Phase::frames, speaks);
   const mpi::WorldRunResult result = run_to_end(driver, file.get());
+  signals.enter(SignalRequests::Phase::begin_or_end, speaks);
+  awaited.emplace("all ranks to close " + spec.output.value_or("no file"));
 
   progress.reset();
   RunSummary summary = settings_summary(scene, spec, provenance, driver.table().num_bodies());
@@ -211,6 +223,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
     file->close(summary.complete, summary.state_hash);
     write_sidecar(comm, *spec.output);
   }
+  awaited.reset();
   summary.checkpoint = keeper.last();
   print(comm, options, summary);
   if (!result.failure.empty()) throw core::RunError(result.failure);
@@ -239,10 +252,14 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
     case Action::run:
       break;
   }
+  const SignalRequests signals;
+  core::set_wait_limit(options.wait_limit_s);
+  std::optional<core::Awaited> awaited("all ranks to read the scene");
   Work work = options.resume ? resumed_work(comm, args, options) : new_work(comm, options);
   work.spec.decomposition =
       decompose(work.spec, static_cast<int>(work.first_world->spaces.size()), comm.size());
-  if (options.action == Action::run) return simulate(comm, options, std::move(work), start_s);
+  awaited.reset();
+  if (options.action == Action::run) return simulate(comm, options, std::move(work), signals, start_s);
   mpi::agree_on_errors(comm, [&] {
     if (comm.is_root()) say(describe(work, comm.size()));
   });

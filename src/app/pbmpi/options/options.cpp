@@ -117,6 +117,10 @@ po::options_description options_description() {
        "given; default: <output without .h5>.checkpoint.h5, or the file of --resume")  //
       ("checkpoint-every", po::value<double>()->value_name("SECONDS"),
        "save the run this often, too")  //
+      ("wait-limit", po::value<int>()->default_value(1800)->value_name("SECONDS"),
+       "end with exit code 1 if ranks wait so long for each other while the run begins or ends; what they "
+       "wait for is "
+       "said on stderr long before")  //
       ("resume", po::value<std::string>()->value_name("FILE"),
        "go on from a checkpoint, with any number of ranks and the same bits. Scene and physics are the "
        "checkpoint's; options that would change them are refused. --frames and --warmup count from the start "
@@ -180,7 +184,11 @@ std::string help_text() {
        << "\nExit codes: 0 done; 1 the simulation failed (what was written is readable); "
        << "2 bad usage or bad input; 75 stopped early on request, with a checkpoint.\n"
        << "Signals: INT, TERM and USR2 finish the frame, save the run, close the file and end with 75; USR1 "
-          "saves it and\nthe run goes on (send USR2 and USR1 to mpirun).\n"
+          "saves it and\nthe run goes on (send USR2 and USR1 to mpirun). Before the first frame INT and TERM "
+          "end the run "
+          "at once, and a\nsecond one always does; so does one whose frame goes on for 10 s, or three times "
+          "the longest "
+          "before.\n"
        << "Example: mpirun -n 2 pbmpi --scene 100CrSk --report json\n";
   return text.str();
 }
@@ -219,6 +227,9 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   options.checkpoint_every_s = seconds(values, "checkpoint-every");
   options.max_time_s = seconds(values, "max-time");
   options.resume = given<std::string>(values, "resume");
+  options.wait_limit_s = values["wait-limit"].as<int>();
+  require_input(options.wait_limit_s >= 1, "--wait-limit " + std::to_string(options.wait_limit_s) +
+                                               ": it must be at least 1, the seconds that ranks may wait");
   if (values.count("budget") != 0)
     options.budget_s = parse_time_or_seconds(values["budget"].as<std::string>(), "--budget");
   const bool needs_scene = options.action == Action::run || options.action == Action::describe;

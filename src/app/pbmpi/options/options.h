@@ -46,6 +46,7 @@ struct Options {
   std::optional<std::string> checkpoint, resume;
   std::optional<double> checkpoint_every_s, max_time_s;
   double budget_s = stepping::default_frame_budget_s;
+  int wait_limit_s = 1800;
   CommonOptions common;
   std::string command_line;
 
