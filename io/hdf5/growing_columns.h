@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/file/output_target.h"
 #include "io/hdf5/hdf5_handle.h"
-#include "io/hdf5/output_target.h"
 #include "io/hdf5/parallel_file.h"
 #include "io/hdf5/rows.h"
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/file/write_file.h"
 #include "io/html/assets.h"
 #include "io/html/escape.h"
 #include "io/html/fill_template.h"
@@ -38,7 +39,7 @@ std::string make_chart_page(const ChartPage& page) {
 }
 
 void write_chart_page(const std::string& path, const ChartPage& page) {
-  write_whole_page(path, make_chart_page(page));
+  write_file(path, make_chart_page(page));
 }
 
 }  // namespace pbmpi::io::html

@@ -1,4 +1,4 @@
-/// How the pages are put together and written.
+/// How the pages are put together.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,5 @@ namespace pbmpi::io::html {
 
 /// `text` with each {{name}} replaced by what `field` gives for it.
 std::string fill_template(std::string_view text, const std::function<std::string(std::string_view)>& field);
-
-/// Writes a page by way of a temporary file beside it, so that no half page is left. Throws core::InputError
-/// if it cannot be written.
-void write_whole_page(const std::string& path, const std::string& page);
 
 }  // namespace pbmpi::io::html

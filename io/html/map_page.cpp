@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "io/file/write_file.h"
 #include "io/html/assets.h"
 #include "io/html/base64.h"
 #include "io/html/escape.h"
@@ -59,8 +60,8 @@ std::string field(std::string_view name, const MapPage& page) {
 }  // namespace
 
 void write_map_page(const std::string& path, const MapPage& page) {
-  write_whole_page(
-      path, fill_template(asset("map_html"), [&](std::string_view name) { return field(name, page); }));
+  write_file(path,
+             fill_template(asset("map_html"), [&](std::string_view name) { return field(name, page); }));
 }
 
 }  // namespace pbmpi::io::html

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/file/write_file.h"
 #include "io/html/assets.h"
 #include "io/html/escape.h"
 #include "io/html/fill_template.h"
@@ -62,7 +63,7 @@ std::string make_page(const RunData& run, const PageOptions& options) {
 }
 
 void write_page(const std::string& path, const RunData& run, const PageOptions& options) {
-  write_whole_page(path, make_page(run, options));
+  write_file(path, make_page(run, options));
 }
 
 }  // namespace pbmpi::io::html

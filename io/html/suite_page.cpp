@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "io/file/write_file.h"
 #include "io/html/assets.h"
 #include "io/html/base64.h"
 #include "io/html/escape.h"
@@ -30,9 +31,9 @@ std::string suite_json(const std::vector<SuiteScene>& scenes) {
 }  // namespace
 
 void write_suite_page(const std::string& path, const std::vector<SuiteScene>& scenes) {
-  write_whole_page(path, fill_template(asset("suite_html"), [&](std::string_view name) {
-                     return name == "suite" ? suite_json(scenes) : std::string(asset(name));
-                   }));
+  write_file(path, fill_template(asset("suite_html"), [&](std::string_view name) {
+               return name == "suite" ? suite_json(scenes) : std::string(asset(name));
+             }));
 }
 
 }  // namespace pbmpi::io::html

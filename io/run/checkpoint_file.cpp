@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/file/output_target.h"
+#include "io/file/write_file.h"
 #include "io/hdf5/file_types.h"
-#include "io/hdf5/output_target.h"
-#include "io/hdf5/replace_file.h"
 #include "io/run/table_rows.h"
 #include "io/table/table_file.h"
 
@@ -188,9 +188,9 @@ Checkpoint checkpoint_of(const TableFile& file) {
 
 }  // namespace
 
-std::int64_t write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
+std::int64_t write_checkpoint(const OutputLock& lock, const Checkpoint& checkpoint) {
   const std::vector<std::byte> image = table_image(checkpoint_filetype, version, tables_of(checkpoint));
-  replace_file(path, image);
+  replace_file(lock, image);
   return std::ssize(image);
 }
 
@@ -203,8 +203,9 @@ Checkpoint read_checkpoint(const std::string& path) {
   }
 }
 
-void require_checkpoint_writable(const std::string& path, std::int64_t bytes) {
-  const OutputTarget removed_at_once(path, std::max<std::int64_t>(bytes, 1));
+OutputLock lock_checkpoint(const std::string& path, std::int64_t bytes) {
+  require_kind(path, checkpoint_filetype);
+  return OutputTarget(path, std::max<std::int64_t>(bytes, 1)).take_lock();
 }
 
 }  // namespace pbmpi::io

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file/output_lock.h"
 #include "model/state.h"
 
 namespace pbmpi::io {
@@ -24,13 +25,15 @@ struct Checkpoint {
   std::vector<model::State> worlds;  ///< [num_worlds] bit for bit
 };
 
-/// Replaces `path` in one go (io/replace_file.h); returns the bytes written. Throws core::RunError.
-std::int64_t write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
+/// Replaces the file of `lock` in one go (io/file/write_file.h); returns the bytes written. Throws
+/// core::RunError.
+std::int64_t write_checkpoint(const OutputLock& lock, const Checkpoint& checkpoint);
 
 /// Throws core::InputError: missing, not HDF5, of another file type, a newer layout, damaged.
 Checkpoint read_checkpoint(const std::string& path);
 
-/// Throws core::InputError unless a checkpoint of about so many bytes can be written to `path`.
-void require_checkpoint_writable(const std::string& path, std::int64_t bytes);
+/// The right to write checkpoints of about so many bytes to `path`. Throws core::InputError if they cannot be
+/// written, or another process writes there.
+OutputLock lock_checkpoint(const std::string& path, std::int64_t bytes);
 
 }  // namespace pbmpi::io

@@ -4,11 +4,13 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "io/file/output_target.h"
 #include "io/hdf5/commit_record.h"
-#include "io/hdf5/output_target.h"
+#include "io/hdf5/file_types.h"
 #include "io/hdf5/parallel_file.h"
 #include "io/run/frame_columns.h"
 #include "io/run/skeleton.h"
+#include "io/table/table_file.h"
 
 namespace pbmpi::io {
 
@@ -56,7 +58,9 @@ RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(s
     const std::int64_t bytes =
         estimate_file_bytes(setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(),
                             setup_.num_frames, setup_.record_every, setup_.optional);
-    if (ranks_.is_root()) target_ = OutputTarget(setup_.path, bytes);
+    if (!ranks_.is_root()) return;
+    require_kind(setup_.path, filetype);
+    target_ = OutputTarget(setup_.path, bytes);
   });
   try {
     ranks_.together([this] { make_skeleton(); });
@@ -138,12 +142,15 @@ void RunFile::Impl::close(bool complete, const std::string& state_hash) {
   write_together([&] {
     if (ranks_.is_root()) finish(complete, state_hash);
   });
+  ranks_.together([this] {
+    if (ranks_.is_root()) target_.require_in_place();
+  });
 }
 
 void RunFile::Impl::finish(bool complete, const std::string& state_hash) {
   record_.finish(complete, state_hash, columns_->event_counts());
   if (!record_.close()) check(-1, "H5Fclose");
-  File file = open_alone(target_.path());
+  File file = open_alone(target_.open_path());
   const std::vector<ByteRange> unused = columns_->cut(file.id());
   if (!file.close()) check(-1, "H5Fclose");
   target_.release(unused);

@@ -1,13 +1,11 @@
 #include "io/run/xdmf.h"
 
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <system_error>
 
 #include "core/error.h"
+#include "io/file/write_file.h"
 #include "io/hdf5/read_columns.h"
 
 namespace pbmpi::io {
@@ -126,22 +124,30 @@ std::string document(const Bodies& b) {
   return out.str();
 }
 
+/// Does a file that is there show the bodies of another run, or is it no sidecar at all?
+bool is_of_others(const std::string& run_path, const std::string& xdmf_path) {
+  std::ifstream file(xdmf_path, std::ios::binary);
+  constexpr std::size_t enough = 4096;  // the first grid names the run
+  std::string begin(enough, '\0');
+  file.read(begin.data(), enough);
+  begin.resize(static_cast<std::size_t>(file.gcount()));
+  if (begin.empty()) return false;
+  if (begin.find("<Xdmf") == std::string::npos) return true;
+  return begin.find(bodies) != std::string::npos &&
+         begin.find(fs::path(run_path).filename().string() + ":" + bodies) == std::string::npos;
+}
+
 }  // namespace
 
+void write_sidecar(const std::string& run_path, const std::string& xdmf_path) {
+  core::require_input(!is_of_others(run_path, xdmf_path),
+                      xdmf_path + ": it is there, and not the sidecar of " + run_path +
+                          "; remove it and use pbreport --xdmf");
+  write_xdmf(run_path, xdmf_path);
+}
+
 void write_xdmf(const std::string& run_path, const std::string& xdmf_path) {
-  const std::string text = document(read_bodies(run_path, xdmf_path));
-  const std::string temporary = xdmf_path + ".part";
-  errno = 0;
-  std::ofstream out(temporary, std::ios::binary);
-  out << text << std::flush;
-  const bool written = out.good();
-  out.close();
-  if (!written || std::rename(temporary.c_str(), xdmf_path.c_str()) != 0) {
-    const std::string why = std::generic_category().message(errno);
-    std::remove(temporary.c_str());
-    throw core::InputError("cannot write " + xdmf_path + ": " + why +
-                           "; give the name of a file in a directory you can write to");
-  }
+  write_file(xdmf_path, document(read_bodies(run_path, xdmf_path)));
 }
 
 }  // namespace pbmpi::io

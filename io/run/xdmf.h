@@ -6,9 +6,13 @@
 namespace pbmpi::io {
 
 /// Writes an XDMF 3 file: one point a body and one grid a recorded frame, whose numbers stay in the HDF5 file
-/// `run_path`, named relative to the folder of `xdmf_path`. Only committed frames appear. The file is
-/// replaced as a whole or not at all. Throws core::InputError if the run cannot be read or the file cannot be
+/// `run_path`, named relative to the folder of `xdmf_path`. Only committed frames appear. It is
+/// written by write_file(). Throws core::InputError if the run cannot be read or the file cannot be
 /// written.
 void write_xdmf(const std::string& run_path, const std::string& xdmf_path);
+
+/// write_xdmf() to a place that nobody has named: core::InputError, too, if what is there is not an older
+/// sidecar of that run.
+void write_sidecar(const std::string& run_path, const std::string& xdmf_path);
 
 }  // namespace pbmpi::io

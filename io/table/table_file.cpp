@@ -5,8 +5,9 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "io/file/output_target.h"
+#include "io/file/write_file.h"
 #include "io/hdf5/columns.h"
-#include "io/hdf5/output_target.h"
 #include "io/hdf5/read_columns.h"
 
 namespace pbmpi::io {
@@ -158,6 +159,7 @@ struct TableWriter::Impl {
 TableWriter::TableWriter(const std::string& path) {
   prepare_hdf5();
   constexpr std::int64_t about_bytes = std::int64_t{1} << 20;
+  require_kind(path, "pbmpi-study");
   impl_ = std::make_unique<Impl>(Impl{OutputTarget(path, about_bytes)});
 }
 TableWriter::~TableWriter() = default;
@@ -197,9 +199,16 @@ TableFile read_table_file(const std::string& path, const std::string& filetype, 
   }
 }
 
+void require_kind(const std::string& path, const std::string& filetype) {
+  const std::string found = filetype_of(path);
+  core::require_input(found.empty() || found == filetype,
+                      "cannot create " + path + ": it is a file of type " + found + ", which one of type " +
+                          filetype + " would replace; give another name, or remove it first");
+}
+
 std::string filetype_of(const std::string& path) {
   prepare_hdf5();
-  if (H5Fis_hdf5(path.c_str()) <= 0) return "";
+  if (content_of(path) != Content::hdf5) return "";  // a pipe is not even opened
   try {
     const auto file = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "H5Fopen");
     const auto attributes = attributes_as_text(file.id(), "/");

@@ -74,6 +74,10 @@ std::vector<std::byte> table_image(const std::string& filetype, const std::array
 TableFile read_table_file(const std::string& path, const std::string& filetype,
                           std::int64_t major = study_version[0]);
 
+/// Throws core::InputError if `path` is a file of pbmpi of another type than this, whose place the new one
+/// would take.
+void require_kind(const std::string& path, const std::string& filetype);
+
 /// The attribute filetype of an HDF5 file; empty if `path` is none or has none.
 std::string filetype_of(const std::string& path);
 

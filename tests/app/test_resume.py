@@ -204,7 +204,7 @@ class Refused(ProgramTest):
     def test_files_that_would_be_lost_and_frames_that_are_done(self):
         self.check(["run.h5", "frames before"], "--resume", "run.ck.h5", "--output", self.path("run.h5"))
         self.check(["run.ck.h5", "checkpoint"], "--resume", "run.ck.h5", "--output", "run.ck.h5")
-        self.check(["run.ck.h5", "own output"], "--scene", "CrashSk", "--output", "run.ck.h5", "--checkpoint", "run.ck.h5")
+        self.check(["run.ck.h5", "written, too"], "--scene", "CrashSk", "--output", "run.ck.h5", "--checkpoint", "run.ck.h5")
         self.check(["all 5 frames", "above 2"], "--resume", "run.ck.h5", "--frames", 2, ranks=2)
 
     def test_impossible_times_and_a_place_that_cannot_be_written(self):

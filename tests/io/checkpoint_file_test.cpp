@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "io/hdf5/replace_file.h"
+#include "io/file/write_file.h"
 #include "io/table/table_file.h"
 #include "scratch.h"
 
@@ -54,7 +54,7 @@ TEST(CheckpointFile, comes_back_as_it_was_written) {
   const Scratch scratch;
   const std::string path = scratch.file("run.ck.h5");
   const Checkpoint written = sample();
-  const std::int64_t bytes = write_checkpoint(path, written);
+  const std::int64_t bytes = write_checkpoint(OutputLock(path), written);
   EXPECT_EQ(static_cast<std::int64_t>(std::filesystem::file_size(path)), bytes);
   const Checkpoint found = read_checkpoint(path);
   EXPECT_EQ(found.scene_text, written.scene_text);
@@ -88,7 +88,7 @@ TEST(CheckpointFile, comes_back_as_it_was_written) {
 
 /// As table_image() takes them: without the attributes that it adds.
 TableFile tables_of_sample(const std::string& path) {
-  write_checkpoint(path, sample());
+  write_checkpoint(OutputLock(path), sample());
   TableFile file = read_table_file(path, "pbmpi-checkpoint", 1);
   file.attributes.erase("filetype");
   file.attributes.erase("version");
@@ -103,7 +103,7 @@ TEST(CheckpointFile, of_layout_1_1_is_read_without_forces) {
   file.tables.erase("joint_forces");
   std::erase_if(file.tables["worlds"],
                 [](const TableColumn& column) { return column.name.ends_with("_forces"); });
-  replace_file(path, table_image("pbmpi-checkpoint", {1, 1}, file));
+  replace_file(OutputLock(path), table_image("pbmpi-checkpoint", {1, 1}, file));
   const Checkpoint found = read_checkpoint(path);
   ASSERT_EQ(found.worlds.size(), 3u);
   for (std::size_t world = 0; world < 3; ++world) {
@@ -122,7 +122,7 @@ void write_damaged(const std::string& path, const std::string& table, const std:
   for (TableColumn& column : file.tables.at(table)) {
     if (column.name == name) change(std::get<std::vector<std::int64_t>>(column.values));
   }
-  replace_file(path, table_image("pbmpi-checkpoint", {1, 2}, file));
+  replace_file(OutputLock(path), table_image("pbmpi-checkpoint", {1, 2}, file));
 }
 
 TEST(CheckpointFile, whose_forces_do_not_fit_is_refused) {
@@ -143,10 +143,10 @@ TEST(CheckpointFile, replaces_the_one_before_also_behind_a_link) {
   const Scratch scratch;
   const std::string path = scratch.file("run.ck.h5"), link = scratch.file("link.h5");
   Checkpoint checkpoint = sample();
-  write_checkpoint(path, checkpoint);
+  write_checkpoint(OutputLock(path), checkpoint);
   std::filesystem::create_symlink(path, link);
   checkpoint.frames = 13;
-  write_checkpoint(link, checkpoint);
+  write_checkpoint(OutputLock(link), checkpoint);
   EXPECT_TRUE(std::filesystem::is_symlink(link));
   EXPECT_EQ(read_checkpoint(path).frames, 13);
 }
@@ -154,9 +154,9 @@ TEST(CheckpointFile, replaces_the_one_before_also_behind_a_link) {
 TEST(CheckpointFile, that_is_cut_off_anywhere_is_refused) {
   const Scratch scratch;
   const std::string path = scratch.file("run.ck.h5");
-  const auto bytes = static_cast<std::uintmax_t>(write_checkpoint(path, sample()));
+  const auto bytes = static_cast<std::uintmax_t>(write_checkpoint(OutputLock(path), sample()));
   for (int tenth = 0; tenth < 10; ++tenth) {
-    write_checkpoint(path, sample());
+    write_checkpoint(OutputLock(path), sample());
     std::filesystem::resize_file(path, bytes * static_cast<std::uintmax_t>(tenth) / 10);
     EXPECT_THROW(read_checkpoint(path), core::InputError) << tenth;
   }
@@ -164,10 +164,10 @@ TEST(CheckpointFile, that_is_cut_off_anywhere_is_refused) {
 
 TEST(CheckpointFile, places_that_cannot_be_written_are_found_out_without_leaving_a_file) {
   const Scratch scratch;
-  EXPECT_NO_THROW(require_checkpoint_writable(scratch.file("run.ck.h5"), 1000));
+  EXPECT_NO_THROW(lock_checkpoint(scratch.file("run.ck.h5"), 1000));
   EXPECT_EQ(scratch.num_files(), 0u);
-  EXPECT_THROW(require_checkpoint_writable(scratch.file("no/run.ck.h5"), 1000), core::InputError);
-  EXPECT_THROW(require_checkpoint_writable(scratch.folder().string(), 1000), core::InputError);
+  EXPECT_THROW(lock_checkpoint(scratch.file("no/run.ck.h5"), 1000), core::InputError);
+  EXPECT_THROW(lock_checkpoint(scratch.folder().string(), 1000), core::InputError);
 }
 
 std::string text_of(const std::string& path) {
@@ -182,14 +182,14 @@ std::span<const std::byte> bytes_of(const std::string& text) {
 TEST(ReplaceFile, that_cannot_be_written_leaves_the_old_one_and_says_why) {
   const Scratch scratch;
   const std::string path = scratch.file("file");
-  replace_file(path, bytes_of("old"));
+  replace_file(OutputLock(path), bytes_of("old"));
   rlimit limit{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
   const rlimit small{100, limit.rlim_max};
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
   std::string message;
   try {
-    replace_file(path, bytes_of(std::string(101, 'x')));
+    replace_file(OutputLock(path), bytes_of(std::string(101, 'x')));
   } catch (const core::RunError& error) {
     message = error.what();
   }
@@ -197,7 +197,7 @@ TEST(ReplaceFile, that_cannot_be_written_leaves_the_old_one_and_says_why) {
   EXPECT_EQ(message, "cannot write " + path + ": File too large");
   EXPECT_EQ(text_of(path), "old");
   EXPECT_EQ(scratch.num_files(), 1u);
-  EXPECT_THROW(replace_file(scratch.file("no/file"), bytes_of("new")), core::RunError);
+  EXPECT_THROW(OutputLock(scratch.file("no/file")), core::InputError);
 }
 
 }  // namespace

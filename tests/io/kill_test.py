@@ -45,6 +45,9 @@ def kill_one(mpiexec, writer, folder, attempt, rng):
     os.remove(path)
     if os.path.exists(path + ".xdmf"):
         os.remove(path + ".xdmf")
+    lock = os.path.join(folder, f".run{attempt}.h5.lock")
+    if os.path.exists(lock):  # a killed run's, held by nobody
+        os.remove(lock)
     sample_check.only_file_in(folder, ["log"])
     return committed
 

@@ -1,5 +1,6 @@
 #include "app/common/options.h"
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -73,7 +74,29 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
   } catch (const po::error& error) {
     throw core::InputError(std::string(error.what()) + "; see --help");
   }
+  core::require_separate(named_paths(values));
   return values;
+}
+
+std::vector<core::NamedPath> named_paths(const po::variables_map& values) {
+  std::vector<core::NamedPath> paths;
+  const auto add = [&](const std::string& option, bool written) {
+    if (values.count(option) == 0) return;
+    const boost::any& value = values[option].value();
+    std::vector<std::string> names;
+    if (const auto* one = boost::any_cast<std::string>(&value)) names = {*one};
+    if (const auto* many = boost::any_cast<std::vector<std::string>>(&value)) names = *many;
+    for (const std::string& name : names) {
+      // A scene may be one that the program brings.
+      if (!name.empty() && (option != "scene" || std::filesystem::exists(name)))
+        paths.push_back({option == "file" ? "the file" : "--" + option, name, written});
+    }
+  };
+  for (const char* option : {"file", "scene", "config", "preset", "floor", "instructions-from"})
+    add(option, false);
+  for (const char* option : {"output", "checkpoint", "html", "csv", "xdmf", "write-preset"})
+    add(option, true);
+  return paths;
 }
 
 void add_seed_option(const std::string& meaning, po::options_description& description) {
@@ -94,12 +117,6 @@ std::optional<std::string> output_path(const po::variables_map& values, const ch
   core::require_input(!path.empty(),
                       std::string("--") + option + ": the file name is empty; name a file to write");
   return path;
-}
-
-void require_not_overwritten(const std::string& file,
-                             std::initializer_list<std::optional<std::string>> outputs) {
-  for (const auto& output : outputs)
-    core::require_input(output != file, file + ": this file is to be read, not written over");
 }
 
 CommonOptions common_options(const po::variables_map& values) {

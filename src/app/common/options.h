@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <boost/program_options.hpp>
+
+#include "core/paths.h"
 
 namespace pbmpi::app {
 
@@ -25,7 +26,8 @@ boost::program_options::options_description common_options_description();
 /// Parses `args` (without the program's name) and, if given, the files named by --config and --preset; the
 /// command line wins over both, --config over --preset, and all over `last`, lines as in such a file.
 /// `positional` names the option that takes the words without a dash; empty = such words are refused. Throws
-/// core::InputError for anything that is not in `description`, with the nearest option.
+/// core::InputError for anything that is not in `description`, with the nearest option, and if a file would
+/// be written that is written or read by another option, too.
 boost::program_options::variables_map parse_command_line(
     const std::vector<std::string>& args, const boost::program_options::options_description& description,
     const boost::program_options::positional_options_description& positional = {},
@@ -40,9 +42,9 @@ std::uint64_t given_seed(const boost::program_options::variables_map& values);
 std::optional<std::string> output_path(const boost::program_options::variables_map& values,
                                        const char* option);
 
-/// Throws core::InputError if one of the outputs is the file that is to be read.
-void require_not_overwritten(const std::string& file,
-                             std::initializer_list<std::optional<std::string>> outputs);
+/// The files that a command line names: those to be read, as far as they are there, and those to be written.
+/// Not the checkpoint to go on from, which the next one may replace.
+std::vector<core::NamedPath> named_paths(const boost::program_options::variables_map& values);
 
 /// Reads the common options out of a parsed command line. Throws core::InputError.
 CommonOptions common_options(const boost::program_options::variables_map& values);

@@ -1,13 +1,10 @@
-/// Text that a program leaves behind: in files, and on standard output.
+/// Text on standard output.
 #pragma once
 
 #include <iosfwd>
 #include <string>
 
 namespace pbmpi::app {
-
-/// Throws core::InputError if `path` cannot be written.
-void write_text(const std::string& path, const std::string& text);
 
 /// Throws core::RunError if what was printed to `out` has not all arrived. `what`: e.g. "the report".
 void require_printed(std::ostream& out, const std::string& what);

@@ -9,6 +9,14 @@
 
 namespace pbmpi::app {
 
+void CheckpointKeeper::reserve(std::int64_t bytes, bool asked) {
+  try {
+    lock_ = io::lock_checkpoint(path_, bytes);
+  } catch (const core::InputError&) {
+    if (asked) throw;
+  }
+}
+
 std::string CheckpointKeeper::keep(mpi::Snapshot snapshot) {
   about_.created = core::utc_now();
   about_.frames = snapshot.frames;
@@ -16,18 +24,19 @@ std::string CheckpointKeeper::keep(mpi::Snapshot snapshot) {
   about_.state_hash = core::to_hex(snapshot.state_hash);
   about_.worlds = std::move(snapshot.worlds);
   try {
-    const std::int64_t bytes = io::write_checkpoint(path_, about_);
+    if (!lock_.is_held()) lock_ = io::lock_checkpoint(path_, 1);
+    const std::int64_t bytes = io::write_checkpoint(lock_, about_);
     about_.worlds.clear();
     last_ = path_ + " (after " + std::to_string(snapshot.frames) + " frames)";
     return std::filesystem::path(path_).filename().string() + " holds the run after step " +
            std::to_string(snapshot.steps) + " (" + std::to_string((bytes + 1023) / 1024) + " KiB)";
-  } catch (const core::RunError& error) {
+  } catch (const std::runtime_error& error) {  // an InputError, too: whose mistake it was no longer matters
     about_.worlds.clear();
     if (!snapshot.ends_run) {
       *warnings_ << "pbmpi: warning: no checkpoint in frame " << snapshot.frames - 1 << ": " << error.what()
                  << "; the run goes on" << std::endl;
     }
-    throw;
+    throw core::RunError(error.what());
   }
 }
 

@@ -17,6 +17,11 @@ class CheckpointKeeper final : public mpi::SnapshotKeeper {
   CheckpointKeeper(std::string path, io::Checkpoint about, std::ostream& warnings)
       : path_(std::move(path)), about_(std::move(about)), warnings_(&warnings) {}
 
+  /// Takes the place of the checkpoints, of about so many bytes, for as long as this lives. Throws
+  /// core::InputError if that cannot be, but only if checkpoints were `asked` for: else the first keep()
+  /// tries again.
+  void reserve(std::int64_t bytes, bool asked);
+
   std::string keep(mpi::Snapshot snapshot) override;
 
   /// "FILE (after 12 frames)" of the last file written, or nothing.
@@ -24,6 +29,7 @@ class CheckpointKeeper final : public mpi::SnapshotKeeper {
 
  private:
   std::string path_;
+  io::OutputLock lock_;
   io::Checkpoint about_;
   std::ostream* warnings_;
   std::string last_;

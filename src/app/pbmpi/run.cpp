@@ -1,7 +1,6 @@
 #include "app/pbmpi/run.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -128,13 +127,14 @@ std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const 
                                        std::move(setup));
 }
 
-/// The sidecar stands beside the run file: "x.h5" gets "x.xdmf".
-void write_sidecar(const mpi::Communicator& comm, const std::string& run_path) {
-  mpi::agree_on_errors(comm, [&] {
-    if (comm.is_root()) {
-      io::write_xdmf(run_path, std::filesystem::path(run_path).replace_extension(".xdmf").string());
-    }
-  });
+/// A sidecar that cannot be written costs the run nothing else.
+void write_sidecar(const mpi::Communicator& comm, const RunSpec& spec) {
+  if (!comm.is_root() || !spec.sidecar) return;
+  try {
+    io::write_sidecar(*spec.output, *spec.sidecar);
+  } catch (const std::runtime_error& error) {
+    std::cerr << "pbmpi: warning: no sidecar for ParaView: " << error.what() << std::endl;
+  }
 }
 
 void print(const mpi::Communicator& comm, const Options& options, const RunSummary& summary) {
@@ -160,12 +160,14 @@ mpi::WorldRunResult run_to_end(mpi::FrameDriver& driver, io::RunFile* file) {
   }
 }
 
-/// A place for checkpoints that was asked for is tried before the run, not after hours of it.
-void require_writable(const mpi::Communicator& comm, const CheckpointSpec& spec, std::int64_t num_bodies) {
+/// A place for checkpoints that was asked for is tried before the run, not after hours of it. One that nobody
+/// asked for is kept free of others where that can be.
+void reserve(const mpi::Communicator& comm, const CheckpointSpec& spec, std::int64_t num_bodies,
+             CheckpointKeeper& keeper) {
   constexpr std::int64_t about_bytes_each = 1024, about_bytes = std::int64_t{1} << 17;
   mpi::agree_on_errors(comm, [&] {
-    if (comm.is_root() && (spec.at_end || spec.every_s))
-      io::require_checkpoint_writable(spec.path, about_bytes + about_bytes_each * num_bodies);
+    if (comm.is_root())
+      keeper.reserve(about_bytes + about_bytes_each * num_bodies, spec.at_end || spec.every_s);
   });
 }
 
@@ -179,9 +181,9 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   work.states = {};
   mpi::FrameDriver& driver = *simulation.driver;
   driver.set_stop_flag(signals.stop());
-  require_writable(comm, spec.checkpoint, driver.table().num_bodies());
   CheckpointKeeper keeper(spec.checkpoint.path, checkpoint_without_states(work, options.decomposition),
                           std::cerr);
+  reserve(comm, spec.checkpoint, driver.table().num_bodies(), keeper);
   mpi::CheckpointPlan plan;
   plan.requests = &signals.saves();
   plan.every_s = spec.checkpoint.every_s.value_or(plan.every_s);
@@ -221,7 +223,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   if (spec.estimate) summary.estimate = estimate_summary(spec, result, monitor);
   if (file) {
     file->close(summary.complete, summary.state_hash);
-    write_sidecar(comm, *spec.output);
+    write_sidecar(comm, spec);
   }
   awaited.reset();
   summary.checkpoint = keeper.last();

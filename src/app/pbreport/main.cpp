@@ -4,6 +4,7 @@
 #include "app/common/options.h"
 #include "app/pbreport/commands.h"
 #include "core/error.h"
+#include "core/leftovers.h"
 
 int main(int argc, char** argv) {
   using pbmpi::core::ExitCode;
@@ -11,6 +12,7 @@ int main(int argc, char** argv) {
     std::cerr << "pbreport: " << error.what() << std::endl;
     return static_cast<int>(code);
   };
+  pbmpi::core::remove_leftovers_on_signals();
   try {
     return static_cast<int>(pbmpi::app::run_pbreport(pbmpi::app::arguments(argc, argv), std::cout));
   } catch (const pbmpi::core::InputError& error) {

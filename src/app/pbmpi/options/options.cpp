@@ -96,6 +96,8 @@ po::options_description options_description() {
       ("output,o", po::value<std::string>()->value_name("FILE"),
        "HDF5 file of the run; default: <scene>.h5")  //
       ("no-output", "write no file")                 //
+      ("no-xdmf",
+       "write no sidecar for ParaView; without this it stands beside the file, <output without .h5>.xdmf")  //
       ("record-every", po::value<int>()->default_value(1)->value_name("N"),
        "store the bodies of every Nth frame; timings are stored for all")  //
       ("record-islands",
@@ -215,6 +217,8 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   }
   options.output = output_path(values, "output");
   options.no_output = values.count("no-output") != 0;
+  options.no_xdmf = values.count("no-xdmf") != 0;
+  options.paths = named_paths(values);
   options.record_every = values["record-every"].as<int>();
   options.record_islands = values.count("record-islands") != 0;
   options.record_residuals = values.count("record-residuals") != 0;

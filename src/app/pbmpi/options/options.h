@@ -43,6 +43,8 @@ struct Options {
   int record_every = 1;
   stability::OnBlowup on_blowup = stability::OnBlowup::report;
   ReportFormat report = ReportFormat::text;
+  bool no_xdmf = false;
+  std::vector<core::NamedPath> paths;  ///< that the command line names
   std::optional<std::string> checkpoint, resume;
   std::optional<double> checkpoint_every_s, max_time_s;
   double budget_s = stepping::default_frame_budget_s;
@@ -100,6 +102,7 @@ struct RunSpec {
   std::optional<stepping::StepperSettings> estimate;  ///< FEEC: what estimates each frame first
   EstimateSource estimate_source = EstimateSource::short_run;
   std::optional<std::string> output;                   ///< path of the HDF5 file, or nothing with --no-output
+  std::optional<std::string> sidecar;                  ///< path of ParaView's, or nothing
   double budget_s = stepping::default_frame_budget_s;  ///< for a frame; changes no result
   int record_every = 1;
   bool record_islands = false;

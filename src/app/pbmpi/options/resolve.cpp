@@ -51,9 +51,10 @@ EstimateSource estimate_source(const RunSpec& spec) {
 
 namespace fs = std::filesystem;
 
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return fs::weakly_canonical(fs::absolute(a), ignored) == fs::weakly_canonical(fs::absolute(b), ignored);
+/// "run.xdmf" of "run.h5"; any other name gets ".xdmf" behind it, so that two runs share none but r and r.h5.
+std::string sidecar_of(const std::string& output) {
+  const fs::path path(output);
+  return path.extension() == ".h5" ? fs::path(path).replace_extension(".xdmf").string() : output + ".xdmf";
 }
 
 /// "run.h5" -> "run"
@@ -78,7 +79,7 @@ std::optional<std::string> resolve_output(const Options& options, const scenes::
                                           const ResumePoint& from) {
   if (options.no_output) return std::nullopt;
   if (options.output) {
-    require_input(from.output.empty() || !is_same_file(*options.output, from.output),
+    require_input(from.output.empty() || !core::is_same_file(*options.output, from.output),
                   "--output " + *options.output +
                       ": the frames before the checkpoint are in that file; name "
                       "another, or leave the option out");
@@ -99,12 +100,29 @@ CheckpointSpec resolve_checkpoint(const Options& options, const scenes::Scene& s
   spec.at_end = options.checkpoint.has_value();
   spec.resumed_from = from.path;
   spec.first_frame = from.frames;
-  require_input(!output || !is_same_file(*output, spec.path),
+  require_input(!output || !core::is_same_file(*output, spec.path),
                 "--checkpoint " + spec.path + ": that is the run's own output; name another file");
   require_input(
-      !output || from.path.empty() || !is_same_file(*output, from.path),
+      !output || from.path.empty() || !core::is_same_file(*output, from.path),
       "--output " + output.value_or("") + ": that is the checkpoint to go on from; name another file");
   return spec;
+}
+
+/// Nothing that is written may be read too, or written twice, whether it was named or follows from another
+/// name.
+void require_separate_files(const Options& options, const RunSpec& spec) {
+  std::vector<core::NamedPath> paths;
+  for (const core::NamedPath& path : options.paths) {
+    if (!path.written) paths.push_back(path);
+  }
+  if (spec.output) paths.push_back({"--output", *spec.output, true});
+  if (spec.sidecar) paths.push_back({"the sidecar for ParaView (--no-xdmf)", *spec.sidecar, true});
+  // Without --checkpoint a saved run replaces the one that it came from.
+  paths.push_back({"--checkpoint", spec.checkpoint.path, true});
+  if (!spec.checkpoint.resumed_from.empty() &&
+      !core::is_same_file(spec.checkpoint.resumed_from, spec.checkpoint.path))
+    paths.push_back({"--resume", spec.checkpoint.resumed_from, false});
+  core::require_separate(paths);
 }
 
 stepping::StepperSettings resolve_step(const Options& options, const scenes::RunDefaults& defaults) {
@@ -155,6 +173,8 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   spec.decomposition = options.decomposition;
   spec.output = resolve_output(options, scene, from);
   spec.checkpoint = resolve_checkpoint(options, scene, from, spec.output);
+  if (spec.output && !options.no_xdmf) spec.sidecar = sidecar_of(*spec.output);
+  require_separate_files(options, spec);
   require_at_least(spec.num_worlds, 1, "--replicas");
   require_at_least(spec.warmup, 0, "--warmup");
   require_at_least(spec.frames, 1, "--frames");

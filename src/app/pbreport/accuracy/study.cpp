@@ -6,6 +6,7 @@
 #include "app/pbreport/accuracy/study_page.h"
 #include "app/pbreport/accuracy/study_text.h"
 #include "app/pbreport/study/study_file.h"
+#include "io/file/write_file.h"
 
 namespace pbmpi::app {
 namespace {
@@ -16,7 +17,7 @@ void write_preset(const std::vector<SceneCases>& scenes, const AccuracyReportOpt
   const auto chosen = chosen_setting(scenes.front(), options);
   core::require_input(chosen.has_value(), "no setting of the study keeps what is asked for in " +
                                               scenes.front().name + "; ask for less or study more settings");
-  write_text(*options.preset, preset_text(scenes.front().settings[*chosen]));
+  io::write_file(*options.preset, preset_text(scenes.front().settings[*chosen]));
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out
   const io::TableFile file = read_study(options.file, "accuracy");
   const std::vector<SceneCases> scenes = study_scenes(file, options.scenes);
   if (options.preset) write_preset(scenes, options);
-  if (options.csv) write_text(*options.csv, study_to_csv(file));
+  if (options.csv) io::write_file(*options.csv, study_to_csv(file));
   if (options.html) write_study_page(*options.html, scenes, options);
   if (options.json) {
     out << study_to_json(scenes, options);

@@ -70,7 +70,6 @@ AccuracyReportOptions parse_study_options(const std::vector<std::string>& args) 
     options.tolerance_m = parse_length_m(values["tolerance"].as<std::string>(), "--tolerance");
   }
   options.preset = output_path(values, "write-preset");
-  require_not_overwritten(options.file, {options.preset});
   require_input(!options.preset || options.budget_s || options.tolerance_m,
                 "--write-preset writes the setting that --budget or --tolerance chooses; give one of them");
   require_input(!options.budget_s || !options.tolerance_m,

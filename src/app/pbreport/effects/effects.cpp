@@ -7,6 +7,7 @@
 #include "app/pbreport/effects/effects_page.h"
 #include "app/pbreport/effects/effects_text.h"
 #include "app/pbreport/study/study_file.h"
+#include "io/file/write_file.h"
 
 namespace pbmpi::app {
 
@@ -18,7 +19,7 @@ core::ExitCode run_effects_report(const std::vector<std::string>& args, std::ost
   }
   const io::TableFile file = read_study(options.file, "effects");
   const std::vector<EffectScene> scenes = effect_scenes(file, options.scenes);
-  if (options.csv) write_text(*options.csv, study_to_csv(file));
+  if (options.csv) io::write_file(*options.csv, study_to_csv(file));
   if (options.html) write_effects_page(*options.html, file, scenes, options);
   if (options.json) {
     out << effects_to_json(file, scenes);

@@ -65,7 +65,6 @@ ReportOptions parse_report_options(const std::vector<std::string>& args) {
   require_input(files.size() == 1, "'" + files.back() + "' follows '" + files.front() +
                                        "': pbreport reads one file; see --help");
   options.file = files.front();
-  require_not_overwritten(options.file, {options.html, options.xdmf});
   return options;
 }
 

@@ -7,6 +7,7 @@
 #include "app/pbreport/stability/stability_page.h"
 #include "app/pbreport/stability/stability_text.h"
 #include "app/pbreport/study/study_file.h"
+#include "io/file/write_file.h"
 
 namespace pbmpi::app {
 
@@ -18,7 +19,7 @@ core::ExitCode run_stability_report(const std::vector<std::string>& args, std::o
   }
   const io::TableFile file = read_study(options.file, "stability");
   const StabilityMap map = stability_map(file, options.scenes);
-  if (options.csv) write_text(*options.csv, study_to_csv(file));
+  if (options.csv) io::write_file(*options.csv, study_to_csv(file));
   if (options.html) write_stability_page(*options.html, file, map);
   if (options.json) {
     out << stability_to_json(map);

@@ -56,7 +56,6 @@ ReportOfStudyOptions report_of_study_options(const po::variables_map& values, co
   const auto files = values["file"].as<std::vector<std::string>>();
   require_input(files.size() == 1, "'" + files.back() + "' follows '" + files.front() + "': give one study");
   options.file = files.front();
-  require_not_overwritten(options.file, {options.html, options.csv});
   return options;
 }
 

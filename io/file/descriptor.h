@@ -1,0 +1,48 @@
+/// Owner of a file descriptor, and the few calls on it that are done in one way.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace pbmpi::io {
+
+/// Move-only. Programs that this one starts do not inherit it.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  /// open(2) with rights for all but what the umask takes away; errno says why if get() is below 0.
+  Descriptor(const std::string& path, int flags);
+  ~Descriptor() { close(); }
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+
+  int get() const { return fd_; }
+  bool is_open() const { return fd_ >= 0; }
+  /// 0, or the errno of closing, which may be that of a write.
+  int close();
+  /// Does `path` name the open file?
+  bool is_at(const std::string& path) const;
+  /// 0, or the errno of what failed.
+  int write(std::span<const std::byte> bytes) const;
+
+ private:
+  int fd_ = -1;
+};
+
+/// The system's words for an errno.
+std::string reason_of(int error);
+
+/// RLIMIT_FSIZE in bytes; a write beyond it raises SIGXFSZ.
+std::uint64_t largest_file_bytes();
+
+/// A name in the folder of `path` for a file that belongs to it: prefix + name + suffix, the name cut where
+/// that is too long for a file system.
+std::string beside(const std::string& path, const std::string& prefix, const std::string& suffix);
+
+}  // namespace pbmpi::io

@@ -1,0 +1,174 @@
+#include "io/file/output_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+#include "core/error.h"
+#include "core/paths.h"
+
+namespace pbmpi::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the lock file says of the process that holds it, or held it when it was killed.
+struct Holder {
+  long process = 0, parent = 0;
+  std::string host, temporary;
+};
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+Holder read_holder(const std::string& lock_path) {
+  Holder holder;
+  std::ifstream file(lock_path);
+  file >> holder.process >> holder.parent >> holder.host;
+  file.ignore();
+  std::getline(file, holder.temporary);
+  return holder;
+}
+
+/// State and parent of a process of this host, as /proc has them; nothing if there is none.
+std::optional<std::pair<char, long>> state_of(long process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string text;
+  if (!std::getline(file, text) || text.rfind(')') == std::string::npos) return std::nullopt;
+  std::istringstream after(text.substr(text.rfind(')') + 1));
+  std::pair<char, long> state;
+  after >> state.first >> state.second;
+  return state;
+}
+
+/// Is the holder about to end: dead, or without the launcher that started it?
+bool is_ending(const Holder& holder) {
+  if (holder.host != host_name() || holder.process <= 0) return false;
+  const auto state = state_of(holder.process);
+  return !state || state->first == 'Z' || state->first == 'X' || state->second != holder.parent;
+}
+
+bool is_dead(const Holder& holder) {
+  return holder.host == host_name() && holder.process > 0 &&
+         kill(static_cast<pid_t>(holder.process), 0) != 0 && errno == ESRCH;
+}
+
+std::string name_of(const Holder& holder) {
+  if (holder.process == 0) return "another process";
+  return "process " + std::to_string(holder.process) + " on host " + holder.host;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why, const std::string& advice) {
+  throw core::InputError("cannot create " + path + ": " + why + "; " + advice);
+}
+
+/// Only what has the form of a temporary file of `path` is removed.
+void remove_unfinished(const std::string& path, const Holder& holder) {
+  const fs::path temporary = fs::path(path).parent_path() / holder.temporary;
+  if (holder.temporary.empty() || holder.temporary.find('/') != std::string::npos ||
+      !holder.temporary.ends_with(".part"))
+    return;
+  unlink(temporary.c_str());
+}
+
+}  // namespace
+
+OutputLock::OutputLock(const std::string& path, bool has_locks)
+    : path_(core::followed(path)),
+      lock_path_(beside(path_, ".", ".lock")),
+      temporary_path_(beside(path_, "", "." + host_name() + "-" + std::to_string(getpid()) + ".part")) {
+  using namespace std::chrono_literals;
+  constexpr int most_tries = 100;  // 5 s: mpirun gives the ranks of a dead run one
+  for (int tries = 0;; ++tries) {
+    const Taken taken = has_locks ? take() : take_by_name();
+    if (taken == Taken::yes) break;
+    const Holder holder = read_holder(lock_path_);
+    if (tries == most_tries || (taken == Taken::held && !is_ending(holder))) {
+      refuse(path_, name_of(holder) + " writes it",
+             has_locks
+                 ? "wait for it to end, or give another name"
+                 : "wait for it to end, or give another name; if that process is gone, remove " + lock_path_);
+    }
+    std::this_thread::sleep_for(50ms);
+  }
+  lock_file_ = core::Leftover(lock_path_);
+  remove_unfinished(path_, read_holder(lock_path_));
+  write_record();
+  temporary_file_ = core::Leftover(temporary_path_);
+}
+
+OutputLock& OutputLock::operator=(OutputLock&& other) noexcept {
+  if (this == &other) return *this;
+  release();
+  path_ = std::move(other.path_);
+  lock_path_ = std::move(other.lock_path_);
+  temporary_path_ = std::move(other.temporary_path_);
+  file_ = std::move(other.file_);
+  lock_file_ = std::move(other.lock_file_);
+  temporary_file_ = std::move(other.temporary_file_);
+  return *this;
+}
+
+OutputLock::Taken OutputLock::take() {
+  Descriptor file(lock_path_, O_CREAT | O_RDWR);
+  if (!file.is_open()) {
+    refuse(path_, reason_of(errno), "give the name of a file in a directory you can write to");
+  }
+  if (flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) return Taken::held;
+    if (errno == EINTR) return Taken::again;
+    // A file system without locks: a lock by name says whose it is, so an empty file is what was just made
+    // here.
+    if (lseek(file.get(), 0, SEEK_END) == 0) unlink(lock_path_.c_str());
+    return take_by_name();
+  }
+  // Its holder removes the file before the lock goes, and then this is a lock on nothing.
+  if (!file.is_at(lock_path_)) return Taken::again;
+  file_ = std::move(file);
+  return Taken::yes;
+}
+
+OutputLock::Taken OutputLock::take_by_name() {
+  Descriptor file(lock_path_, O_CREAT | O_EXCL | O_RDWR);
+  if (!file.is_open()) {
+    const int error = errno;
+    if (error != EEXIST)
+      refuse(path_, reason_of(error), "give the name of a file in a directory you can write to");
+    const Holder holder = read_holder(lock_path_);
+    if (!is_dead(holder)) return Taken::held;
+    remove_unfinished(path_, holder);
+    unlink(lock_path_.c_str());
+    return Taken::again;
+  }
+  file_ = std::move(file);
+  return Taken::yes;
+}
+
+void OutputLock::write_record() {
+  const std::string record = std::to_string(getpid()) + " " + std::to_string(getppid()) + " " + host_name() +
+                             "\n" + fs::path(temporary_path_).filename().string() + "\n";
+  // A full disk may keep it from being written; the lock holds all the same.
+  if (ftruncate(file_.get(), 0) != 0) return;
+  static_cast<void>(file_.write(std::as_bytes(std::span(record))));
+}
+
+void OutputLock::release() {
+  if (!file_.is_open()) return;
+  if (file_.is_at(lock_path_)) unlink(lock_path_.c_str());
+  lock_file_ = {};
+  temporary_file_ = {};
+  file_.close();
+}
+
+}  // namespace pbmpi::io

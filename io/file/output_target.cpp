@@ -1,0 +1,145 @@
+#include "io/file/output_target.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/paths.h"
+#include "io/file/write_file.h"
+
+namespace pbmpi::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why, const std::string& advice) {
+  throw core::InputError("cannot create " + path + ": " + why + "; " + advice);
+}
+
+bool has_free(const std::string& path, std::int64_t bytes) {
+  struct statvfs system {};
+  if (statvfs(path.c_str(), &system) != 0) return true;
+  return static_cast<double>(system.f_bavail) * static_cast<double>(system.f_frsize) >=
+         static_cast<double>(bytes);
+}
+
+/// errno of reserving `bytes` for the file, 0 if all went well. A file system that cannot reserve is only
+/// asked for its free space.
+int reserve(const Descriptor& file, const std::string& path, std::int64_t bytes) {
+  // The limit is asked for first: a write beyond it raises SIGXFSZ.
+  if (largest_file_bytes() < static_cast<std::uint64_t>(bytes)) return EFBIG;
+  while (fallocate(file.get(), 0, 0, bytes) != 0) {
+    if (errno == EOPNOTSUPP || errno == ENOSYS) return has_free(path, bytes) ? 0 : ENOSPC;
+    if (errno != EINTR) return errno;
+  }
+  return 0;
+}
+
+void refuse_space(const std::string& path, std::int64_t bytes, int error) {
+  refuse(path, "its " + std::to_string((bytes >> 20) + 1) + " MiB do not fit: " + reason_of(error),
+         "free some space, record fewer frames (--record-every) or write elsewhere (--output)");
+}
+
+void require_replaceable(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) refuse(path.string(), "it is a directory", "give the name of a file");
+  if (!fs::exists(status)) return;
+  if (!fs::is_regular_file(status)) refuse(path.string(), "it is not a regular file", "give another name");
+  if (access(path.c_str(), W_OK) != 0)
+    refuse(path.string(), reason_of(errno), "give another name or make it writable");
+  if (content_of(path.string()) == Content::other)
+    refuse(path.string(), "it is there, and no HDF5 file", "give another name, or remove it first");
+}
+
+}  // namespace
+
+OutputTarget::OutputTarget(const std::string& path, std::int64_t bytes) {
+  if (path.empty()) refuse("the output file", "its name is empty", "give the name of a file");
+  const std::string target = core::followed(path);
+  require_replaceable(target);
+  std::error_code ignored;
+  const fs::path folder = fs::path(target).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, ignored)) {
+    refuse(path, "there is no directory " + folder.string(), "make it first or give another name");
+  }
+  lock_ = OutputLock(path);
+  file_ = Descriptor(temporary_path(), O_CREAT | O_RDWR | O_TRUNC);
+  if (!file_.is_open()) {
+    refuse(path, reason_of(errno), "give the name of a file in a directory you can write to");
+  }
+  // HDF5 creates the file anew and reserves nothing; this only asks whether it would fit.
+  if (const int error = reserve(file_, temporary_path(), bytes); error != 0) {
+    remove_unpublished();
+    refuse_space(path, bytes, error);
+  }
+}
+
+OutputTarget::~OutputTarget() { remove_unpublished(); }
+
+OutputTarget& OutputTarget::operator=(OutputTarget&& other) noexcept {
+  if (this == &other) return *this;
+  remove_unpublished();
+  lock_ = std::move(other.lock_);
+  file_ = std::move(other.file_);
+  is_published_ = other.is_published_;
+  return *this;
+}
+
+void OutputTarget::remove_unpublished() {
+  if (file_.is_open() && !is_published_) unlink(temporary_path().c_str());
+  file_.close();
+}
+
+void OutputTarget::publish() {
+  struct stat status {};
+  if (fstat(file_.get(), &status) != 0) refuse(path(), reason_of(errno), "try again");
+  if (const int error = reserve(file_, temporary_path(), status.st_size); error != 0) {
+    refuse_space(path(), status.st_size, error);
+  }
+  keep_rights(file_, path());
+  if (std::rename(temporary_path().c_str(), path().c_str()) != 0) {
+    refuse(path(), reason_of(errno), "give another name");
+  }
+  is_published_ = true;
+}
+
+OutputLock OutputTarget::take_lock() {
+  remove_unpublished();
+  return std::move(lock_);
+}
+
+std::string OutputTarget::open_path() const {
+  const std::string own = "/proc/self/fd/" + std::to_string(file_.get());
+  return file_.is_at(own) ? own : path();
+}
+
+void OutputTarget::require_in_place() const {
+  if (file_.is_at(path())) return;
+  throw core::RunError(
+      "the file of this run was removed or replaced by somebody while it was written; run again, and "
+      "leave it alone");
+}
+
+std::string OutputTarget::shortage() const {
+  constexpr std::int64_t nothing_left = std::int64_t{64} * 1024;
+  struct stat status {};
+  if (fstat(file_.get(), &status) == 0 && static_cast<std::uint64_t>(status.st_size) > largest_file_bytes())
+    return reason_of(EFBIG);
+  return has_free(path(), nothing_left) ? "" : reason_of(ENOSPC);
+}
+
+void OutputTarget::release(const std::vector<ByteRange>& unused) const {
+  for (const auto& [offset, length] : unused) {
+    if (fallocate(file_.get(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, offset, length) != 0) return;
+  }
+}
+
+}  // namespace pbmpi::io

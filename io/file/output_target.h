@@ -1,0 +1,56 @@
+/// The name under which a run's file appears, and the disk space behind it. Serial: root only.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/file/descriptor.h"
+#include "io/file/output_lock.h"
+
+namespace pbmpi::io {
+
+/// A range of bytes of a file: offset, length.
+using ByteRange = std::pair<std::int64_t, std::int64_t>;
+
+/// An HDF5 file that is made under a temporary name in its directory and appears under its own name when
+/// publish() is called. Until then the destructor removes it. While one lives, no other process may write the
+/// file.
+class OutputTarget {
+ public:
+  OutputTarget() = default;
+  /// Throws core::InputError, and leaves nothing behind, if `path` cannot be created, is written by another
+  /// process, is something else than a file, or a file that is not HDF5, or `bytes` do not fit on the disk.
+  OutputTarget(const std::string& path, std::int64_t bytes);
+  ~OutputTarget();
+  OutputTarget(OutputTarget&& other) noexcept = default;
+  OutputTarget& operator=(OutputTarget&& other) noexcept;
+
+  /// The final name, links resolved.
+  const std::string& path() const { return lock_.path(); }
+  const std::string& temporary_path() const { return lock_.temporary_path(); }
+  /// Reserves the disk space of the whole file, so that the disk cannot become full in mid-run, and renames
+  /// it. Throws core::InputError.
+  void publish();
+  /// Drops the unpublished file; the right to write it goes to the caller.
+  OutputLock take_lock();
+  /// A name of the very file that was published, also when another one has taken its place since.
+  std::string open_path() const;
+  /// Throws core::RunError if the published file no longer has its name: somebody has removed or replaced it.
+  void require_in_place() const;
+  /// Why a write may just have failed, which MPI-IO does not tell: a full disk or a limit on the size of
+  /// files. Empty if neither is the case.
+  std::string shortage() const;
+  /// Gives disk space back that the file reserved and never used. Best effort.
+  void release(const std::vector<ByteRange>& unused) const;
+
+ private:
+  void remove_unpublished();
+
+  OutputLock lock_;
+  Descriptor file_;  ///< open from the start, so that nobody can put another one in its place
+  bool is_published_ = false;
+};
+
+}  // namespace pbmpi::io

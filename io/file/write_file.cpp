@@ -1,0 +1,123 @@
+#include "io/file/write_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/paths.h"
+
+namespace pbmpi::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Flushes a folder, so that a new name in it outlives a power failure. File systems that cannot do it need
+/// not.
+void sync_folder(const fs::path& folder) {
+  const Descriptor opened(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
+  if (opened.is_open()) fsync(opened.get());
+}
+
+/// Returns 0, or the errno of what failed.
+int write_new(const OutputLock& lock, std::span<const std::byte> bytes) {
+  // The limit is asked for first: a write beyond it raises SIGXFSZ.
+  if (largest_file_bytes() < bytes.size()) return EFBIG;
+  Descriptor file(lock.temporary_path(), O_CREAT | O_WRONLY | O_TRUNC);
+  if (!file.is_open()) return errno;
+  keep_rights(file, lock.path());
+  if (const int error = file.write(bytes); error != 0) return error;
+  if (fsync(file.get()) != 0) return errno;
+  return file.close();
+}
+
+/// Is it a name of a file that this process has open, such as /dev/stdout? A new file under that name would
+/// reach nobody.
+bool names_open_file(const std::string& path) {
+  fs::path current = path;
+  std::error_code ignored;
+  constexpr int most_links = 40;
+  for (int i = 0; i < most_links && fs::is_symlink(current, ignored); ++i) {
+    const fs::path folder = current.parent_path();
+    if (fs::canonical(folder.empty() ? "." : folder, ignored).string().starts_with("/proc/")) return true;
+    const fs::path target = fs::read_symlink(current, ignored);
+    current = target.is_absolute() ? target : folder / target;
+  }
+  return false;
+}
+
+/// Devices and pipes, but for what files are on.
+bool is_stream(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return false;
+  return S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode) ||
+         names_open_file(path);
+}
+
+/// Returns 0, or the errno of what failed.
+int write_stream(const std::string& path, std::span<const std::byte> bytes) {
+  Descriptor stream(path, O_WRONLY);
+  if (!stream.is_open()) return errno;
+  const int error = stream.write(bytes);
+  return error != 0 ? error : stream.close();
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw core::InputError("cannot write " + path + ": " + why + "; choose another place");
+}
+
+}  // namespace
+
+Content content_of(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_size == 0)
+    return Content::nothing;
+  constexpr std::array<char, 8> signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
+  std::array<char, 8> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return begin == signature ? Content::hdf5 : Content::other;
+}
+
+void write_file(const std::string& path, std::string_view text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  if (path.empty()) refuse("a file without a name", "the name is empty");
+  if (is_stream(path)) {
+    if (const int error = write_stream(path, bytes); error != 0) refuse(path, reason_of(error));
+    return;
+  }
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    refuse(path, S_ISDIR(status.st_mode) ? reason_of(EISDIR) : "it is a device");
+  if (access(path.c_str(), F_OK) == 0 && access(path.c_str(), W_OK) != 0) refuse(path, reason_of(errno));
+  if (content_of(path) == Content::hdf5) refuse(path, "an HDF5 file is there, which a text would destroy");
+  try {
+    const OutputLock lock(path);
+    replace_file(lock, bytes);
+  } catch (const core::RunError& error) {
+    throw core::InputError(std::string(error.what()) + "; choose another place");
+  }
+}
+
+void replace_file(const OutputLock& lock, std::span<const std::byte> bytes) {
+  int error = write_new(lock, bytes);
+  if (error == 0 && std::rename(lock.temporary_path().c_str(), lock.path().c_str()) != 0) error = errno;
+  if (error != 0) {
+    unlink(lock.temporary_path().c_str());
+    throw core::RunError("cannot write " + lock.path() + ": " + reason_of(error));
+  }
+  sync_folder(fs::path(lock.path()).parent_path());
+}
+
+void keep_rights(const Descriptor& file, const std::string& path) {
+  struct stat status {};
+  constexpr mode_t all_rights = 07777;
+  if (stat(path.c_str(), &status) == 0) static_cast<void>(!fchmod(file.get(), status.st_mode & all_rights));
+}
+
+}  // namespace pbmpi::io

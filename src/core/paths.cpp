@@ -1,0 +1,57 @@
+#include "core/paths.h"
+
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace pbmpi::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_stream(const struct stat& status) { return !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode); }
+
+}  // namespace
+
+std::string followed(const std::string& path) {
+  constexpr int most_links = 40;  // as many as Linux follows
+  fs::path current = path;
+  std::error_code error;
+  for (int i = 0; i < most_links; ++i) {
+    if (!fs::is_symlink(current, error)) return current.string();
+    const fs::path target = fs::read_symlink(current, error);
+    if (error) return current.string();
+    current = target.is_absolute() ? target : current.parent_path() / target;
+  }
+  throw InputError(path + ": links that go round in a circle; name the file itself");
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  struct stat of_a {
+  }, of_b{};
+  const bool has_a = stat(a.c_str(), &of_a) == 0, has_b = stat(b.c_str(), &of_b) == 0;
+  if (has_a != has_b || (has_a && (is_stream(of_a) || is_stream(of_b)))) return false;
+  if (has_a) return of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(followed(a)), ignored) ==
+         fs::weakly_canonical(fs::absolute(followed(b)), ignored);
+}
+
+void require_separate(std::span<const NamedPath> paths) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const NamedPath& written = paths[i].written ? paths[i] : paths[j];
+      const NamedPath& other = paths[i].written ? paths[j] : paths[i];
+      if (!written.written || !is_same_file(written.path, other.path)) continue;
+      const std::string both =
+          written.option + " " + written.path + ": that is the file of " + other.option + " " + other.path;
+      throw InputError(both + (other.written ? ", which is written, too; name another file"
+                                             : ", which is to be read, not written over; name another file"));
+    }
+  }
+}
+
+}  // namespace pbmpi::core
