@@ -32,7 +32,7 @@ bool has_free(const std::string& path, std::int64_t bytes) {
 
 /// errno of reserving `bytes` for the file, 0 if all went well. A file system that cannot reserve is only
 /// asked for its free space.
-int reserve(const Descriptor& file, const std::string& path, std::int64_t bytes) {
+int reserve_whole(const Descriptor& file, const std::string& path, std::int64_t bytes) {
   // The limit is asked for first: a write beyond it raises SIGXFSZ.
   if (largest_file_bytes() < static_cast<std::uint64_t>(bytes)) return EFBIG;
   while (fallocate(file.get(), 0, 0, bytes) != 0) {
@@ -75,11 +75,12 @@ OutputTarget::OutputTarget(const std::string& path, std::int64_t bytes) {
   if (!file_.is_open()) {
     refuse(path, reason_of(errno), "give the name of a file in a directory you can write to");
   }
-  // HDF5 creates the file anew and reserves nothing; this only asks whether it would fit.
-  if (const int error = reserve(file_, temporary_path(), bytes); error != 0) {
+  // This only asks whether it would fit: what is kept ahead of the rows is up to SpaceAhead.
+  if (const int error = reserve_whole(file_, temporary_path(), bytes); error != 0) {
     remove_unpublished();
     refuse_space(path, bytes, error);
   }
+  static_cast<void>(!ftruncate(file_.get(), 0));
 }
 
 OutputTarget::~OutputTarget() { remove_unpublished(); }
@@ -101,9 +102,10 @@ void OutputTarget::remove_unpublished() {
 void OutputTarget::publish() {
   struct stat status {};
   if (fstat(file_.get(), &status) != 0) refuse(path(), reason_of(errno), "try again");
-  if (const int error = reserve(file_, temporary_path(), status.st_size); error != 0) {
-    refuse_space(path(), status.st_size, error);
-  }
+  constexpr std::int64_t block_bytes = 512;
+  const bool within_limit = static_cast<std::uint64_t>(status.st_size) <= largest_file_bytes();
+  if (!within_limit || !has_free(temporary_path(), status.st_size - block_bytes * status.st_blocks))
+    refuse_space(path(), status.st_size, within_limit ? ENOSPC : EFBIG);
   keep_rights(file_, path());
   if (std::rename(temporary_path().c_str(), path().c_str()) != 0) {
     refuse(path(), reason_of(errno), "give another name");
@@ -134,6 +136,16 @@ std::string OutputTarget::shortage() const {
   if (fstat(file_.get(), &status) == 0 && static_cast<std::uint64_t>(status.st_size) > largest_file_bytes())
     return reason_of(EFBIG);
   return has_free(path(), nothing_left) ? "" : reason_of(ENOSPC);
+}
+
+std::string OutputTarget::reserve(const std::vector<ByteRange>& ranges) const {
+  for (const auto& [offset, length] : ranges) {
+    while (fallocate(file_.get(), FALLOC_FL_KEEP_SIZE, offset, length) != 0) {
+      if (errno == EOPNOTSUPP || errno == ENOSYS) return has_free(path(), length) ? "" : reason_of(ENOSPC);
+      if (errno != EINTR) return reason_of(errno);
+    }
+  }
+  return "";
 }
 
 void OutputTarget::release(const std::vector<ByteRange>& unused) const {

@@ -30,8 +30,8 @@ class OutputTarget {
   /// The final name, links resolved.
   const std::string& path() const { return lock_.path(); }
   const std::string& temporary_path() const { return lock_.temporary_path(); }
-  /// Reserves the disk space of the whole file, so that the disk cannot become full in mid-run, and renames
-  /// it. Throws core::InputError.
+  /// Renames the file. Throws core::InputError, also if the disk has no room for the length that it has by
+  /// now.
   void publish();
   /// Drops the unpublished file; the right to write it goes to the caller.
   OutputLock take_lock();
@@ -42,6 +42,9 @@ class OutputTarget {
   /// Why a write may just have failed, which MPI-IO does not tell: a full disk or a limit on the size of
   /// files. Empty if neither is the case.
   std::string shortage() const;
+  /// Takes disk space for bytes that are about to be written, where the file system can; elsewhere asks
+  /// whether there is enough. Empty, or why it cannot be had.
+  std::string reserve(const std::vector<ByteRange>& ranges) const;
   /// Gives disk space back that the file reserved and never used. Best effort.
   void release(const std::vector<ByteRange>& unused) const;
 

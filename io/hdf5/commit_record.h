@@ -31,6 +31,8 @@ class CommitRecord {
   void commit(std::int64_t num_frames, const EventCounts& events);
   /// Stores what is known only at the end of the run.
   void finish(bool complete, const std::string& state_hash, const EventCounts& events);
+  /// Its handle of the file, to look at datasets by.
+  hid_t id() const { return file_.id(); }
   /// False if HDF5 could not write all of it.
   bool close() { return file_.close(); }
 

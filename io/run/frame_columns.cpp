@@ -7,12 +7,17 @@
 namespace pbmpi::io {
 namespace {
 
+/// Bytes that a frame adds to the file, on average.
+std::size_t mean_bytes(const RunShape& shape) {
+  const FrameBytes bytes = frame_bytes(shape);
+  return std::max<std::size_t>(
+      bytes.every_frame + bytes.recorded / static_cast<std::size_t>(shape.record_every), 1);
+}
+
 /// Frames that wait at most: what all ranks together hold of them stays below 32 MiB, unless one is larger.
 std::int64_t frames_to_hold(const RunShape& shape) {
   constexpr std::size_t most_bytes = std::size_t{32} << 20;
-  const FrameBytes bytes = frame_bytes(shape);
-  const std::size_t each = bytes.every_frame + bytes.recorded / static_cast<std::size_t>(shape.record_every);
-  return std::max<std::int64_t>(static_cast<std::int64_t>(most_bytes / each), 1);
+  return std::max<std::int64_t>(static_cast<std::int64_t>(most_bytes / mean_bytes(shape)), 1);
 }
 
 TableShape table_shape(const FrameTable& table, const RunShape& shape) {
@@ -49,6 +54,7 @@ FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const stepping::W
     : ranks_(ranks),
       table_(table),
       record_every_(shape.record_every),
+      bytes_each_(mean_bytes(shape)),
       first_frame_(shape.first_frame),
       frames_held_(frames_to_hold(shape)),
       groups_(frame_tables(shape.optional)),
@@ -73,6 +79,21 @@ std::vector<GrowingTable*> FrameColumns::tables() {
   std::vector<GrowingTable*> all = {&events_.rows()};
   for (GrowingTable& rows : rows_) all.push_back(&rows);
   return all;
+}
+
+std::vector<ColumnRows> FrameColumns::column_rows() const {
+  std::vector<ColumnRows> all;
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const hsize_t rows = rows_[i].num_rows() + rows_[i].num_waiting();
+    for (const ColumnSpec& column : groups_[i].columns)
+      all.push_back({groups_[i].group + "/" + column.name, rows,
+                     groups_[i].rows == Rows::recorded ? record_every_ : 1});
+  }
+  return all;
+}
+
+hsize_t FrameColumns::frames_in(std::size_t bytes) const {
+  return std::max<std::size_t>(bytes / bytes_each_, 1);
 }
 
 std::string FrameColumns::write(const PropertyList& transfer) {

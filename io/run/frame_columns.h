@@ -20,6 +20,13 @@ struct FrameBytes {
 };
 FrameBytes frame_bytes(const RunShape& shape);
 
+/// A growing dataset, and how many of its rows are written or wait.
+struct ColumnRows {
+  std::string path;
+  hsize_t rows;
+  int frames_per_row;
+};
+
 /// Makes the growing datasets, takes in frames and events, and writes what waits.
 class FrameColumns {
  public:
@@ -33,6 +40,11 @@ class FrameColumns {
   bool empty() const { return frames_added_ == frames_written_ && events_.rows().num_waiting() == 0; }
   std::int64_t frames_written() const { return frames_written_; }
   EventCounts event_counts() const { return events_.counts(); }
+
+  /// All but those of events.
+  std::vector<ColumnRows> column_rows() const;
+  /// Frames that make a step of this many bytes, one at least.
+  hsize_t frames_in(std::size_t bytes) const;
 
   /// Collective. The first error of this rank, empty if there was none.
   std::string write(const PropertyList& transfer);
@@ -53,6 +65,7 @@ class FrameColumns {
   const FileRanks& ranks_;
   const stepping::WorldTable& table_;
   int record_every_;
+  std::size_t bytes_each_;  ///< of a frame, on average
   std::int64_t first_frame_;
   std::int64_t frames_held_;  ///< frames that can wait
   std::int64_t frames_added_ = 0, frames_written_ = 0;

@@ -8,6 +8,7 @@
 #include "io/hdf5/commit_record.h"
 #include "io/hdf5/file_types.h"
 #include "io/hdf5/parallel_file.h"
+#include "io/hdf5/space_ahead.h"
 #include "io/run/frame_columns.h"
 #include "io/run/skeleton.h"
 #include "io/table/table_file.h"
@@ -33,6 +34,8 @@ class RunFile::Impl {
  private:
   void make_skeleton();
   void flush();
+  /// Root only, before what waits is written.
+  void reserve_ahead();
   /// Does `work` on every rank; an error on any closes the file on all and becomes the same RunError.
   template <class Work>
   void write_together(Work&& work);
@@ -46,6 +49,7 @@ class RunFile::Impl {
   OutputTarget target_;  ///< root only
   File file_;
   CommitRecord record_;  ///< root only
+  SpaceAhead space_{target_};
   std::optional<FrameColumns> columns_;
   PropertyList transfer_;
   double last_flush_s_ = 0;
@@ -118,6 +122,9 @@ void RunFile::Impl::add(const stepping::RunEvent& event) {
 void RunFile::Impl::flush() {
   if (!columns_->empty()) {
     write_together([this] {
+      if (ranks_.is_root()) reserve_ahead();
+    });
+    write_together([this] {
       const std::string error = columns_->write(transfer_);
       if (!error.empty()) throw core::RunError(error);
     });
@@ -128,6 +135,15 @@ void RunFile::Impl::flush() {
     });
   }
   last_flush_s_ = core::now_s();
+}
+
+void RunFile::Impl::reserve_ahead() {
+  constexpr std::size_t step_bytes = std::size_t{64} << 20;
+  const hsize_t frames = columns_->frames_in(step_bytes);
+  for (const ColumnRows& column : columns_->column_rows()) {
+    const hsize_t ahead = frames / static_cast<hsize_t>(column.frames_per_row) + 1;
+    space_.cover(record_.id(), column.path, column.rows, ahead);
+  }
 }
 
 void RunFile::Impl::close(bool complete, const std::string& state_hash) {

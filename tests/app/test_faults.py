@@ -63,6 +63,52 @@ class Faults(ProgramTest):
                 self.assertEqual(len(file["timings/frame/wall"]), committed, "the file is cut to what was simulated")
                 self.assertEqual(len(file.attrs["state_hash"]), 16)
 
+    def disk_bytes(self, name):
+        return 512 * os.stat(self.path(name)).st_blocks
+
+    def test_a_killed_run_keeps_a_step_of_the_disk_that_it_planned_and_repair_gives_it_back(self):
+        process = self.start(2, "--scene", "100CrSk", "--frames", "4000", "--quiet", "--output", "run.h5")
+        wait_until(lambda: os.path.exists(self.path("run.h5")) and self.check_file("run.h5") > 2, "some frames")
+        refused = self.report("repair", "run.h5")
+        self.assertEqual(refused.returncode, 2, "a run that lives is not repaired")
+        self.assertIn("writes it", refused.stderr)
+        for pid in rank_pids(process).values():
+            os.kill(pid, signal.SIGKILL)
+        process.wait(timeout=TIMEOUT_S)
+        committed = self.check_file("run.h5")
+        planned, kept = os.stat(self.path("run.h5")).st_size, self.disk_bytes("run.h5")
+        with h5py.File(self.path("run.h5")) as file:
+            before = file["particles/bodies/position/value"][:committed]
+        self.assertGreater(planned, 1e9)
+        self.assertLess(kept, planned * committed / 4000 + (150 << 20), "one step too much at most")
+        result = self.report("repair", "run.h5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f"{committed} frames are committed", result.stdout)
+        self.assertLess(self.disk_bytes("run.h5"), planned * committed / 4000 + (8 << 20))
+        self.assertEqual(self.check_file("run.h5"), committed)
+        with h5py.File(self.path("run.h5")) as file:
+            self.assertEqual(len(file["timings/frame/wall"]), committed)
+            self.assertTrue(numpy.array_equal(file["particles/bodies/position/value"][:], before))
+        self.assertEqual(os.listdir(self.folder), ["run.h5"], "lock and unfinished files are gone")
+        again = self.report("repair", "run.h5")
+        self.assertIn("0.0 MiB given back", again.stdout)
+        self.assertEqual(self.report("run.h5").returncode, 0)
+
+    @unittest.skipUnless(os.geteuid() == 0, "mounting a small disk needs root")
+    def test_a_disk_that_fills_up_ends_the_run_between_two_writes(self):
+        disk = self.path("disk")
+        os.mkdir(disk)
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=400m", "tmpfs", disk], check=True)
+        self.addCleanup(subprocess.run, ["umount", disk], check=True)
+        process = self.start(2, "--scene", "100CrSk", "--frames", "600", "--quiet", "--output", "disk/run.h5")
+        wait_until(lambda: os.path.exists(self.path("disk/run.h5")) and self.check_file("disk/run.h5") > 2, "some frames")
+        with open(self.path("disk/other"), "wb") as other:
+            free = os.statvfs(disk)
+            os.posix_fallocate(other.fileno(), 0, (free.f_bavail - 8) * free.f_bsize)
+        self.assertEqual(process.wait(timeout=TIMEOUT_S), 1)
+        self.assertIn("No space left on device", process.stderr.read())
+        self.assertGreater(self.check_file("disk/run.h5"), 2)
+
     @unittest.skipUnless(os.geteuid() == 0, "mounting a small disk needs root")
     def test_a_disk_too_small_for_the_file_is_refused_before_the_first_frame(self):
         disk = self.path("disk")

@@ -86,10 +86,11 @@ TEST(RunFile, reads_back_every_number_of_a_complete_run) {
   const SharedFolder folder(world());
   const Sample sample = sample_on(world());
   const std::string path = folder.file("run.h5");
-  const auto file = begin_run(world(), sample, path, sample.num_frames);
+  auto file = begin_run(world(), sample, path, sample.num_frames);
   file->event({.frame = 4, .kind = "rebalance", .detail = "moved 2 worlds", .value = 2});
   file->event({5, "joint_broken", "a hinge", 17, 1, 3, "door.hinge"});
   file->close(true, "0123456789abcdef");
+  file.reset();  // the lock goes with it
   if (!world().is_root()) return;
 
   const RunData run = read_run(path);

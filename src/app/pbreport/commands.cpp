@@ -7,6 +7,7 @@
 #include "app/pbreport/diff/diff.h"
 #include "app/pbreport/effects/effects.h"
 #include "app/pbreport/figures/figures.h"
+#include "app/pbreport/repair/repair.h"
 #include "app/pbreport/run/options.h"
 #include "app/pbreport/run/report.h"
 #include "app/pbreport/stability/stability.h"
@@ -62,6 +63,7 @@ const std::vector<ReportCommand>& report_commands() {
       {"effects", "what effects cost: the file of pbstudy effects", run_effects_report},
       {"stability", "which settings hold the hard cases: the file of pbstudy stability",
        run_stability_report},
+      {"repair", "gives back the disk space that a killed run keeps", run_repair},
   };
   return commands;
 }

@@ -1,0 +1,57 @@
+#include "app/pbreport/repair/repair.h"
+
+#include <ostream>
+
+#include "app/common/format.h"
+#include "app/common/options.h"
+#include "app/common/text_output.h"
+#include "io/repair/repair_run.h"
+
+namespace pbmpi::app {
+namespace {
+
+namespace po = boost::program_options;
+
+po::options_description visible_options() {
+  po::options_description all("Options");
+  all.add_options()("help,h", "print this help")  //
+      ("config", po::value<std::string>()->value_name("FILE"),
+       "read options from FILE, one 'name = value' a line; the command line wins")  //
+      ("quiet,q", "print nothing but errors");
+  return all;
+}
+
+}  // namespace
+
+core::ExitCode run_repair(const std::vector<std::string>& args, std::ostream& out) {
+  po::options_description all = visible_options();
+  all.add_options()("file", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("file", -1);
+  const po::variables_map values = parse_command_line(args, all, positional);
+  if (values.count("help") != 0) {
+    out << "pbreport repair cuts the file of a run that was killed to its committed frames, which stay as "
+           "they are, and gives "
+           "back\nthe disk space behind them. It removes what else the run left beside the file.\n\n"
+        << "Usage: pbreport repair RUN.h5...\n\n"
+        << visible_options();
+    require_printed(out, "the help");
+    return core::ExitCode::done;
+  }
+  core::require_input(values.count("file") != 0,
+                      "repair: no file given; name the HDF5 file of a run that was killed");
+  for (const std::string& file : values["file"].as<std::vector<std::string>>()) {
+    const io::Repair repair = io::repair_run(file);
+    constexpr double mebibyte = 1024.0 * 1024.0;
+    if (values.count("quiet") == 0) {
+      out << file
+          << format(": %lld frames are committed; %.1f MiB given back\n",
+                    static_cast<long long>(repair.frames),
+                    static_cast<double>(repair.bytes_freed) / mebibyte);
+    }
+  }
+  require_printed(out, "what was repaired");
+  return core::ExitCode::done;
+}
+
+}  // namespace pbmpi::app
