@@ -6,6 +6,7 @@
 #include "app/common/format.h"
 #include "app/common/load_scene.h"
 #include "app/common/version.h"
+#include "core/awaited.h"
 
 namespace pbmpi::app {
 
@@ -19,6 +20,7 @@ StudyRunner::StudyRunner(const mpi::Communicator& comm, std::string name, const 
 }
 
 void StudyRunner::open_output(const std::function<void()>& check) {
+  const core::Awaited all_ranks("all ranks to begin, and root to create " + options_.output);
   mpi::agree_on_errors(comm_, [&] {
     if (!comm_.is_root()) return;
     if (check) check();
