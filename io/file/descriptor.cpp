@@ -29,9 +29,11 @@ bool Descriptor::is_at(const std::string& path) const {
          open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
-int Descriptor::write(std::span<const std::byte> bytes) const {
+int Descriptor::write(std::span<const std::byte> bytes) const { return write_all(fd_, bytes); }
+
+int write_all(int fd, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
+    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
     if (written < 0 && errno != EINTR) return errno;
     if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
   }

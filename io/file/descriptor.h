@@ -35,6 +35,9 @@ class Descriptor {
   int fd_ = -1;
 };
 
+/// Writes all to an open file: 0, or the errno of what failed.
+int write_all(int fd, std::span<const std::byte> bytes);
+
 /// The system's words for an errno.
 std::string reason_of(int error);
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -37,19 +38,28 @@ int write_new(const OutputLock& lock, std::span<const std::byte> bytes) {
   return file.close();
 }
 
-/// Is it a name of a file that this process has open, such as /dev/stdout? A new file under that name would
-/// reach nobody.
-bool names_open_file(const std::string& path) {
+/// A name below /proc/PROCESS/fd, such as /dev/stdout, stands for an open file; a new file under that name
+/// would reach nobody. `own`: its number, if it is this process's.
+struct OpenFile {
+  bool is_one = false;
+  int own = -1;
+};
+
+OpenFile open_file_of(const std::string& path) {
   fs::path current = path;
   std::error_code ignored;
   constexpr int most_links = 40;
   for (int i = 0; i < most_links && fs::is_symlink(current, ignored); ++i) {
     const fs::path folder = current.parent_path();
-    if (fs::canonical(folder.empty() ? "." : folder, ignored).string().starts_with("/proc/")) return true;
+    const std::string where = fs::canonical(folder.empty() ? "." : folder, ignored).string();
+    if (where.starts_with("/proc/")) {
+      const bool own = where == "/proc/" + std::to_string(getpid()) + "/fd";
+      return {true, own ? std::atoi(current.filename().c_str()) : -1};
+    }
     const fs::path target = fs::read_symlink(current, ignored);
     current = target.is_absolute() ? target : folder / target;
   }
-  return false;
+  return {};
 }
 
 /// Devices and pipes, but for what files are on.
@@ -57,11 +67,13 @@ bool is_stream(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) return false;
   return S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode) ||
-         names_open_file(path);
+         open_file_of(path).is_one;
 }
 
 /// Returns 0, or the errno of what failed.
 int write_stream(const std::string& path, std::span<const std::byte> bytes) {
+  // What this process has open is written where it stands: opened anew it would begin at its start again.
+  if (const int own = open_file_of(path).own; own >= 0) return write_all(own, bytes);
   Descriptor stream(path, O_WRONLY);
   if (!stream.is_open()) return errno;
   const int error = stream.write(bytes);
