@@ -99,15 +99,20 @@ def kill_one(kind, rng):
     for old in ("run.h5", "ck.h5"):
         if os.path.exists(kind.path(old)):
             os.remove(kind.path(old))
-    process = kind.start()
-    time.sleep(rng.uniform(0.1, 1.1) * kind.took_s)
-    pids = ranks_of(process) if process.poll() is None else []
+    pids, longest_s = [], kind.took_s
+    while not pids:  # a run that has ended cannot be killed
+        process = kind.start()
+        time.sleep(rng.uniform(0.1, 1.0) * longest_s)
+        pids = ranks_of(process) if process.poll() is None else []
+        if not pids:
+            kind.must_end(process, "a run that nobody killed in time")
+            longest_s *= 0.8
     victims = rng.choice([[process.pid], pids, pids[:1], pids[1:]])
     for pid in victims:
         kill(pid)
     if process.pid in victims and rng.random() < 0.5:
         process.wait()
-    elif process.pid not in victims and pids:
+    elif process.pid not in victims:
         process.wait(timeout=LIMIT_S)
     left = kind.path("left.h5")
     if os.path.exists(kind.path("run.h5")):
@@ -127,11 +132,16 @@ def kill_one(kind, rng):
 
 def pair(kind, rng):
     """Two runs that want one output: one is refused, with the other's host and process, and no row is lost."""
-    first = kind.start()
-    time.sleep(rng.uniform(0, 0.3))
-    second = kind.start()
-    ended = [kind.end(process, "one of a pair") for process in (first, second)]
-    codes = sorted(code for code, _ in ended)
+    codes = [0, 0]
+    for _ in range(10):  # on a busy machine the first may have ended before the second is there: then all is well, too
+        first = kind.start()
+        time.sleep(rng.uniform(0, 0.3))
+        second = kind.start()
+        ended = [kind.end(process, "one of a pair") for process in (first, second)]
+        codes = sorted(code for code, _ in ended)
+        if codes != [0, 0]:
+            break
+        assert kind.rows is None or kind.check() == kind.rows[0], f"{kind.name}: rows are lost"
     assert codes == [0, 2], f"{kind.name}: a pair ended with {ended}"
     refusal = next(errors for code, errors in ended if code == 2)
     assert f"on host {os.uname().nodename} writes it" in refusal, refusal
