@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Tries a command as on a fresh machine: makes a minimal Debian 12, clones this checkout's HEAD into it, runs the command
 # there as root, and removes everything: `tests/jobs/fresh_debian.sh jobs/quickstart.sh`. The exit code is the command's.
+# Without a command it runs the two of README.md one after the other in that clone, and the tests meet the build and the
+# files that the quick start left: this is what must pass before a release.
 #   --keep   leaves the system's folder and prints its name
 # Needs root, a network, and Debian's debootstrap, git and util-linux. DEBIAN_MIRROR and DEBIAN_SECURITY_MIRROR name other
 # mirrors; proxies and the like are taken from this machine's apt.
@@ -16,7 +18,8 @@ if [[ ${1:-} == --keep ]]; then
   keep=yes
   shift
 fi
-[[ $# -gt 0 ]] || fail "usage: tests/jobs/fresh_debian.sh [--keep] COMMAND [ARGUMENTS...], e.g. jobs/quickstart.sh"
+[[ ${1:-} != -* ]] || fail "usage: tests/jobs/fresh_debian.sh [--keep] [COMMAND [ARGUMENTS...]], e.g. jobs/quickstart.sh"
+[[ $# -gt 0 ]] || set -- bash -c 'jobs/quickstart.sh && tests/run.sh'
 [[ $EUID -eq 0 ]] || fail "debootstrap, mount and chroot need root"
 for program in debootstrap git unshare; do
   command -v "$program" >/dev/null || fail "no $program; apt-get install debootstrap git util-linux"

@@ -1,0 +1,31 @@
+"""What is installed between two builds of one checkout is taken in by the second: jobs/quickstart.sh, then tests/run.sh."""
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
+class Configure(unittest.TestCase):
+    def setUp(self):
+        self.build = tempfile.mkdtemp(prefix="pbmpi-test-")
+        self.addCleanup(shutil.rmtree, self.build, ignore_errors=True)
+
+    def configured(self, *options):
+        """The rules of the build, made by the options that jobs/quickstart.sh gives and `options`."""
+        subprocess.run(["cmake", "-S", SOURCE, "-B", self.build, "-G", "Ninja", "-DPBMPI_BUILD_TESTS=OFF",
+                        "-DPBMPI_BUILD_BENCHMARKS=OFF", *options], check=True, capture_output=True, timeout=120)
+        with open(os.path.join(self.build, "build.ninja"), encoding="utf-8") as file:
+            return file.read()
+
+    @unittest.skipUnless(os.path.exists("/usr/include/valgrind/callgrind.h"), "no header of Valgrind")
+    def test_valgrinds_header_is_noticed_when_it_comes_after_the_first_build(self):
+        # Without the folder CMake sees what it sees before the package is installed.
+        self.assertIn("PBMPI_HAS_CALLGRIND=0", self.configured("-DCMAKE_IGNORE_PATH=/usr/include"))
+        self.assertIn("PBMPI_HAS_CALLGRIND=1", self.configured("-DCMAKE_IGNORE_PATH="))
+
+
+if __name__ == "__main__":
+    unittest.main()
