@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 
 #include "app/pbreport/effects/effects_data.h"
 #include "app/pbreport/effects/effects_markdown.h"
 #include "app/pbreport/effects/effects_options.h"
+#include "app/pbreport/effects/effects_page.h"
 #include "app/pbreport/effects/effects_text.h"
 #include "core/error.h"
 
@@ -70,6 +73,23 @@ TEST(EffectsMarkdown, has_a_table_a_stepper_with_costs_errors_and_the_floor) {
             "\n| `sor single` | Crash |\n|---|---|\n"
             "| `friction` | 15, 0 |\n"
             "| noise floor | 2, 0.2 mm |\n");
+}
+
+TEST(EffectsReport, what_comes_only_on_request_is_demanded_in_every_form_of_the_report) {
+  EffectRow sleeping = row("sleeping", false, false, 0.1);
+  sleeping.reason = "only on request; after 0.5 s";
+  for (const bool called_for : {false, true}) {  // files of layout 1.2 say that it is called for
+    sleeping.called_for = called_for;
+    EXPECT_EQ(note_of(sleeping), "demanded: only on request; after 0.5 s");
+    const EffectScene scene{"Crash", "quick", {sleeping}, {}};
+    EXPECT_NE(effects_to_markdown({scene}).find("| (10), other bits |"), std::string::npos);
+    const std::string path = testing::TempDir() + "effects_test.html";
+    write_effects_page(path, {}, {scene}, {});
+    std::ifstream page(path);
+    const std::string text(std::istreambuf_iterator<char>(page), {});
+    EXPECT_NE(text.find("(10.0 %), other bits"), std::string::npos);
+    std::remove(path.c_str());
+  }
 }
 
 TEST(EffectsMarkdown, shows_it_if_demanding_changed_the_result) {

@@ -94,8 +94,18 @@ TEST(EffectCases, the_choices_of_the_scene_file_are_turned_round) {
   EXPECT_EQ(friction.kind, EffectCaseKind::left_out) << "the scene demands it";
   EXPECT_FALSE(friction.called_for);
   EXPECT_NE(gravity.reason.find("; the scene leaves it out"), std::string::npos) << gravity.reason;
-  EXPECT_EQ(find(cases, "sleeping").reason, "after 0.5 s below 0.05 m/s and 0.1 rad/s")
-      << "no choice of the scene";
+}
+
+TEST(EffectCases, what_comes_only_on_request_is_called_for_by_a_scene_that_asks_for_it_alone) {
+  const EffectCase without = find(cases_of(smooth_scene(), options_of({})), "sleeping");
+  EXPECT_EQ(without.kind, EffectCaseKind::demanded);
+  EXPECT_FALSE(without.called_for);
+  EXPECT_EQ(without.reason, "only on request; after 0.5 s below 0.05 m/s and 0.1 rad/s");
+  const EffectCase with =
+      find(cases_of(smooth_scene("[effects]\nsleeping = true\n"), options_of({})), "sleeping");
+  EXPECT_EQ(with.kind, EffectCaseKind::left_out);
+  EXPECT_TRUE(with.called_for);
+  EXPECT_EQ(with.reason, "after 0.5 s below 0.05 m/s and 0.1 rad/s");
 }
 
 TEST(EffectCases, the_reasons_count_all_worlds) {

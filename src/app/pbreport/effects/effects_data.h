@@ -31,8 +31,12 @@ struct EffectRow {
   bool measured() const { return same_bits.has_value(); }
   /// Share of the instructions of the step with the effect; none if nothing counted them.
   std::optional<double> instruction_share() const;
-  /// The study adds the effect to the scene: nothing calls for it, or the scene leaves it out.
+  /// The study adds the effect to the scene: nothing calls for it, it comes only on request, or the scene
+  /// leaves it out.
   bool demanded() const { return kind == "demanded"; }
+  /// The effect must not change the result. `called_for` does not tell: what comes only on request is not
+  /// called for either.
+  bool unneeded() const { return reason.starts_with("nothing calls for it"); }
 };
 
 /// The cases of one scene and one stepper.

@@ -22,12 +22,12 @@ constexpr std::array<const char*, 9> colours = {"#0072b2", "#e69f00", "#009e73",
 /// What a chart shows of a row; none = no bar.
 using Value = std::optional<double> (*)(const EffectRow&);
 
-std::optional<double> share_of_called_for(const EffectRow& row) {
-  if (!row.measured() || !row.called_for) return std::nullopt;
+std::optional<double> share_of_left_out(const EffectRow& row) {
+  if (!row.measured() || row.demanded()) return std::nullopt;
   return 100 * row.share.median;
 }
-std::optional<double> share_of_unneeded(const EffectRow& row) {
-  if (!row.measured() || row.called_for) return std::nullopt;
+std::optional<double> share_of_demanded(const EffectRow& row) {
+  if (!row.measured() || !row.demanded()) return std::nullopt;
   return 100 * row.share.median;
 }
 std::optional<double> counted_share(const EffectRow& row) {
@@ -107,7 +107,7 @@ std::string cell_of(const EffectScene& scene, const std::string& effect) {
     if (row.effect != effect) continue;
     if (!row.measured()) return "cannot be left out";
     const std::string share = percent_text(row.share.median);
-    if (!row.called_for) return "(" + share + ")";
+    if (row.demanded()) return "(" + share + (row.same_bits.value() ? ")" : "), other bits");
     return share +
            (row.same_bits.value() ? ", no error" : format(", %.3g mm", 1e3 * row.defect.body_position.rms));
   }
@@ -117,8 +117,8 @@ std::string cell_of(const EffectScene& scene, const std::string& effect) {
 io::html::TextTable matrix(const std::vector<EffectScene>& scenes) {
   io::html::TextTable table;
   table.title =
-      "Share of the step, defect rms if left out; in brackets what demanding costs where nothing calls for "
-      "it";
+      "Share of the step, defect rms if left out; in brackets what demanding costs where the scene has it "
+      "not";
   table.header = {"effect"};
   for (const EffectScene& scene : scenes) table.header.push_back(scene.name);
   for (const EffectRow& any : scenes.front().effects) {
@@ -144,12 +144,13 @@ io::html::PageSection overview(const std::string& stepper, const std::vector<Eff
       "step "
       "is shorter with it.";
   section.charts = {
-      bars("Share of the step time", "Effects that the scene calls for.", "share of the step [%]", "linear",
-           scenes, share_of_called_for, Floor::time),
+      bars("Share of the step time", "Effects that the scene has.", "share of the step [%]", "linear", scenes,
+           share_of_left_out, Floor::time),
       bars("Error if left out", "Defect of all bodies after one frame, against the scene as it is.",
            "defect, rms [mm]", "logarithmic", scenes, defect_mm, Floor::error),
-      bars("Demanded though nothing calls for it", "No bit of the result changes; this is what it costs.",
-           "share of the step [%]", "linear", scenes, share_of_unneeded, Floor::time),
+      bars("Demanded though the scene has it not",
+           "What it costs; where nothing calls for it no bit of the result changes.", "share of the step [%]",
+           "linear", scenes, share_of_demanded, Floor::time),
   };
   if (counted) {
     section.charts.push_back(

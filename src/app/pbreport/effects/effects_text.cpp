@@ -84,7 +84,7 @@ std::string note_of(const EffectRow& row) {
   if (!row.measured()) return row.reason;
   const std::string what = row.demanded() ? "demanded: " : "left out: ";
   const std::string bits = row.same_bits.value() ? "; no bit changes" : "";
-  if (row.called_for || row.same_bits.value()) return what + row.reason + bits;
+  if (!row.unneeded() || row.same_bits.value()) return what + row.reason + bits;
   return what + row.reason + "; AND YET THE RESULT CHANGES";
 }
 

@@ -11,6 +11,8 @@ namespace {
 
 using stepping::StepperSettings;
 
+constexpr const char* nothing_calls_for_it = "nothing calls for it";
+
 /// The plan of all worlds of the scene with some effects chosen.
 effects::RunPlan plan_of(const StudyScene& scene, std::uint64_t seed, const model::EffectChoices& effects) {
   const auto parsed = scenes::parse_scene(scene.source, scene.dt_s, std::nullopt, effects);
@@ -43,10 +45,15 @@ EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const
   try {
     const effects::RunPlan variant = plan_of(scene, seed, one.choices());
     const auto demanded = pass ? pass : pass_of(variant, effect);
-    one.called_for = demanded && !demanded->idle;
-    one.reason = one.called_for ? demanded->reason : "nothing calls for it";
+    const bool has_reason = demanded && !demanded->idle;
+    // An effect that has a reason only in the variant, and is not left out by the scene, comes on request
+    // alone.
+    const bool on_request = !pass && has_reason && !leaves_out(scene, effect);
+    one.called_for = has_reason && !on_request;
+    one.reason = has_reason ? demanded->reason : nothing_calls_for_it;
+    if (on_request) one.reason = "only on request; " + one.reason;
     if (pass && pass->idle) one.reason += "; the scene demands it";
-    if (!pass && one.called_for && leaves_out(scene, effect)) one.reason += "; the scene leaves it out";
+    if (!pass && one.called_for) one.reason += "; the scene leaves it out";
   } catch (const core::InputError& error) {
     one.kind = EffectCaseKind::refused;
     one.called_for = pass && !pass->idle;
