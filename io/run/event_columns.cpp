@@ -1,5 +1,8 @@
 #include "io/run/event_columns.h"
 
+#include <algorithm>
+#include <array>
+
 #include "core/error.h"
 #include "io/hdf5/read_columns.h"
 
@@ -11,6 +14,13 @@ namespace event_kind = stepping::event_kind;
 constexpr const char* num_rows = "num_events";
 constexpr const char* num_dropped = "num_dropped";
 constexpr const char* worlds_moved = "worlds_moved";
+
+/// What happens to the run; all other kinds happen to a world.
+bool is_of_the_run(const std::string& kind) {
+  constexpr std::array kinds = {event_kind::rebalance, event_kind::signal, event_kind::time_limit,
+                                event_kind::checkpoint};
+  return std::ranges::find(kinds, kind) != kinds.end();
+}
 
 /// Attribute with the number of events of a kind.
 std::string count_name(const std::string& kind) { return "num_" + kind; }
@@ -51,7 +61,7 @@ void EventColumns::add(const stepping::RunEvent& event) {
   core::require_invariant(count != told_.end(), "an event of a kind that the file does not count");
   ++count->second;
   if (event.kind == event_kind::rebalance) told_[worlds_moved] += static_cast<std::int64_t>(event.value);
-  if (rows_.num_rows() + rows_.num_waiting() == max_rows) {
+  if (!take_row(event.kind)) {
     ++told_[num_dropped];
     return;
   }
@@ -64,6 +74,14 @@ void EventColumns::add(const stepping::RunEvent& event) {
   rows_.put(5, 0, event.joint);
   rows_.put_text(6, event.name);
   rows_.put(7, 0, event.value);
+}
+
+bool EventColumns::take_row(const std::string& kind) {
+  const bool of_the_run = is_of_the_run(kind);
+  int& rows = of_the_run ? rows_of_the_run_ : rows_of_worlds_;
+  if (rows == (of_the_run ? max_rows_of_the_run : max_rows - max_rows_of_the_run)) return false;
+  ++rows;
+  return true;
 }
 
 EventCounts EventColumns::counts() const {

@@ -15,6 +15,10 @@ namespace pbmpi::io {
 class EventColumns {
  public:
   static constexpr int max_rows = 512;
+  /// Rows kept for what happens to the run and not to its worlds (rebalances, signals ...). How many of those
+  /// there are depends on clocks and ranks, so they must take no row from the others: these are the same for
+  /// any number of ranks, also where there is no room for all.
+  static constexpr int max_rows_of_the_run = 64;
   /// Bytes of the preallocated rows.
   static std::size_t bytes();
 
@@ -33,8 +37,12 @@ class EventColumns {
   static EventCounts no_counts();
 
  private:
+  /// Is there a row for one more event of this kind? It is then taken.
+  bool take_row(const std::string& kind);
+
   bool is_root_;
   GrowingTable rows_;
+  int rows_of_the_run_ = 0, rows_of_worlds_ = 0;
   EventCounts told_ = no_counts();
 };
 

@@ -279,17 +279,20 @@ TEST(RunFile, counts_the_events_for_which_it_has_no_room) {
   const Sample sample = sample_on(world());
   const std::string path = folder.file("run.h5");
   const auto file = begin_run(world(), sample, path, 0);
-  for (int i = 0; i < 510; ++i) file->event({i, "joint_broken", "é" + std::string(200, 'x')});
-  for (int i = 510; i < 520; ++i) file->event({.frame = i, .kind = "rebalance", .detail = "", .value = 3});
+  for (int i = 0; i < 66; ++i) file->event({.frame = i, .kind = "rebalance", .detail = "", .value = 3});
+  for (int i = 66; i < 516; ++i) file->event({i, "joint_broken", "é" + std::string(200, 'x')});
   file->close(false, "");
   if (!world().is_root()) return;
   const RunData run = read_run(path);
   ASSERT_EQ(run.events.size(), 512u) << "the preallocated rows (io/SCHEMA.md)";
-  EXPECT_EQ(run.events[509].detail, "é" + std::string(158, 'x')) << "cut to the column's 160 bytes";
-  EXPECT_EQ(run.num_events.at("joint_broken"), 510);
-  EXPECT_EQ(run.num_events.at("rebalance"), 10) << "of which two have a row";
+  EXPECT_EQ(run.events[63].kind, "rebalance");
+  EXPECT_EQ(run.events[64].frame, 66) << "rebalances leave 448 rows to what happens to worlds";
+  EXPECT_EQ(run.events[511].frame, 513);
+  EXPECT_EQ(run.events[511].detail, "é" + std::string(158, 'x')) << "cut to the column's 160 bytes";
+  EXPECT_EQ(run.num_events.at("joint_broken"), 450) << "of which two have no row";
+  EXPECT_EQ(run.num_events.at("rebalance"), 66) << "of which two have no row";
   EXPECT_EQ(run.num_events.at("signal"), 0);
-  EXPECT_EQ(run.worlds_moved, 30);
+  EXPECT_EQ(run.worlds_moved, 198);
 }
 
 TEST(RunFile, replaces_an_older_file_and_follows_a_link_to_it) {
