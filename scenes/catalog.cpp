@@ -2,10 +2,9 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/text.h"
 #include "scenes/embedded.h"
 #include "scenes/scene.h"
@@ -14,13 +13,7 @@ namespace pbmpi::scenes {
 namespace {
 
 SceneSource read_file(const std::string& path) {
-  const std::string advice = "; give the path of a readable TOML file";
-  core::require_input(!std::filesystem::is_directory(path),
-                      path + ": this is a folder, not a scene file" + advice);
-  std::ifstream file(path, std::ios::binary);
-  core::require_input(file.is_open(), path + ": cannot open this scene file" + advice);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  core::require_input(!file.bad(), path + ": cannot read this scene file" + advice);
+  std::string text = core::read_input_file(path, "give the path of a scene file (TOML)");
   return {std::filesystem::path(path).stem().string(), path, std::move(text)};
 }
 

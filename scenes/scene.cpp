@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -27,6 +29,14 @@
 
 namespace pbmpi::scenes {
 namespace {
+
+/// "12 cm", "0.3 mm".
+std::string length_text(double metres) {
+  std::ostringstream text;
+  text.precision(2);
+  metres >= 0.01 ? text << std::lround(metres * 100) << " cm" : text << 1000 * metres << " mm";
+  return text.str();
+}
 
 /// One [[actor]] of the file: one or more copies of one plan.
 struct ActorEntry {
@@ -60,7 +70,7 @@ class FileScene final : public Scene {
     read_world(scene, empty_);
     if (auto interest = scene.table("interest")) interest_.emplace(*interest);
     at_rest_ = scene.flag("at_rest", false);
-    most_overlap_m_ = scene.number_or_infinity("overlap", Sign::non_negative, overlap_tolerance_m);
+    if (scene.has("overlap")) most_overlap_m_ = scene.number_or_infinity("overlap", Sign::non_negative);
     read_case(scene);
     for (TableReader& actor : scene.tables("actor")) read_actor(actor);
     for (TableReader& pair : scene.tables("pair")) pairs_.emplace_back(pair);
@@ -131,7 +141,7 @@ class FileScene final : public Scene {
   void read_actor(TableReader& table) {
     ActorEntry actor;
     actor.name = table.text("name");
-    actor.where = table.where();
+    actor.where = place_of(table);
     table.set_what("actor " + core::in_quotes(actor.name));
     if (!names_.insert("actor " + actor.name).second) {
       table.fail("name", "a second actor of this name; rename one");
@@ -153,6 +163,16 @@ class FileScene final : public Scene {
     actor.plan = type.read(table, {empty_.gravity, defaults_.dt_s});
     table.finish();
     actors_.push_back(std::move(actor));
+  }
+
+  /// Where the scene's own file speaks of the actor, though a base may have placed it.
+  std::string place_of(const TableReader& table) const {
+    const std::string own = source_.file + ":";
+    if (table.where().starts_with(own)) return table.where();
+    for (const std::string& key : table.keys()) {
+      if (table.where(key).starts_with(own)) return table.where(key);
+    }
+    return table.where();
   }
 
   int read_space(TableReader& table) const {
@@ -185,7 +205,11 @@ class FileScene final : public Scene {
       place.velocity = actor.velocity + offset.velocity;
       place.space = defaults_.spaces == SpacesForm::one ? 0 : actor.space;
       place.copy = copy;
-      actor.plan(place, model);
+      try {
+        actor.plan(place, model);
+      } catch (const std::length_error& error) {
+        throw core::InputError(actor.where + ": actor " + core::in_quotes(actor.name) + ": " + error.what());
+      }
       actor.parts.put_into(model, place.name);
     }
   }
@@ -221,11 +245,14 @@ class FileScene final : public Scene {
     if (!overlap) return;
     const std::string& a = model.actors[overlap->actor_a].name;
     const std::string& b = model.actors[overlap->actor_b].name;
-    throw core::InputError(
-        where_of(b) + ": actor " + core::in_quotes(b) + ": in world " + std::to_string(world) +
-        " it overlaps " + core::in_quotes(a) + " by " + std::to_string(std::lround(overlap->depth_m * 100)) +
-        " cm at the start (it would be thrown out in one step); move one of them, or allow "
-        "it with 'overlap'");
+    // At the one of the two of which the scene's own file speaks, if the other stands in a base.
+    const std::string own = source_.file + ":";
+    const bool at_b = where_of(b).starts_with(own) || !where_of(a).starts_with(own);
+    throw core::InputError(where_of(at_b ? b : a) + ": actor " + core::in_quotes(b) + ": in world " +
+                           std::to_string(world) + " it overlaps " + core::in_quotes(a) + " by " +
+                           length_text(overlap->depth_m) +
+                           " at the start (it would be thrown out in one step); move one of them, or allow "
+                           "it with 'overlap'");
   }
 
   /// The place in the file of an actor or a copy of it.
@@ -247,7 +274,7 @@ class FileScene final : public Scene {
   std::set<std::string> names_;
   std::optional<InterestPlan> interest_;
   bool at_rest_ = false;
-  double most_overlap_m_ = overlap_tolerance_m;
+  std::optional<double> most_overlap_m_;  ///< none: what find_overlap() takes by itself
   std::optional<CaseReader> case_reader_;
   std::optional<stability::HardCase> hard_case_;
 };

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <numeric>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/number_text.h"
 #include "io/hdf5/file_types.h"
 
@@ -121,11 +121,7 @@ File open_run(const std::string& path) { return open_file(path, filetype, layout
 
 File open_file(const std::string& path, const std::string& type, std::int64_t major) {
   prepare_hdf5();
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  core::require_input(std::filesystem::exists(status), path + ": there is no such file; check the name");
-  core::require_input(!std::filesystem::is_directory(status),
-                      path + ": it is a directory; give the name of a file");
+  core::require_readable_file(path, "give the name of a file that pbmpi has written");
   const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
   // A file may be read while it is written, and on file systems without locks.
   check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");

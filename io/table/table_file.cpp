@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "io/file/output_target.h"
 #include "io/file/write_file.h"
 #include "io/hdf5/columns.h"
@@ -214,7 +215,7 @@ std::string filetype_of(const std::string& path) {
     const auto attributes = attributes_as_text(file.id(), "/");
     const auto found = attributes.find("filetype");
     return found == attributes.end() ? "" : found->second;
-  } catch (const core::RunError&) {
+  } catch (const std::runtime_error&) {
     return "";
   }
 }

@@ -1,6 +1,7 @@
 #include "mpi/comm/agreement.h"
 
 #include <algorithm>
+#include <new>
 #include <stdexcept>
 
 #include "core/error.h"
@@ -17,6 +18,9 @@ void ErrorHold::keep_current() {
   } catch (const core::RunError& error) {
     kind_ = ErrorKind::run;
     message_ = error.what();
+  } catch (const std::bad_alloc&) {
+    kind_ = ErrorKind::run;
+    message_ = out_of_memory;
   } catch (const std::exception& error) {
     kind_ = ErrorKind::other;
     message_ = error.what();

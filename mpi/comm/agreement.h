@@ -11,6 +11,10 @@
 
 namespace pbmpi::mpi {
 
+/// What is said of std::bad_alloc, which as an error of all ranks is a core::RunError.
+inline constexpr const char* out_of_memory =
+    "there is not enough memory; ask for fewer worlds, frames or bodies, or use more nodes";
+
 /// The class of an error, by which it is thrown again on the other ranks.
 enum class ErrorKind : std::int8_t {
   none,

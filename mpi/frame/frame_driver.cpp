@@ -35,7 +35,6 @@ void FrameDriver::save_to(SnapshotKeeper& keeper, const CheckpointPlan& plan) {
 
 WorldRunResult FrameDriver::run() {
   core::require_invariant(frame_ == settings_.first_frame, "FrameDriver::run: once a driver");
-  result_.times.reserve(num_frames() - frame_);
   joints_break_ = any_breakage(comm_, local_worlds());
   while (frame_ < num_frames() && !result_.stopped && result_.failure.empty()) run_frame();
   agree(comm_, errors_);  // errors of observers in the last frame

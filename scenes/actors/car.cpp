@@ -27,6 +27,7 @@ struct Car {
   double tyre_mu = 0.9;                   // as the ground's: dry asphalt
   model::Material body_material{0.4, 0};  // painted steel
   std::vector<std::array<double, 2>> steering;
+  std::string steering_where;  ///< place in the file
   SceneContext context;
 };
 
@@ -56,6 +57,7 @@ Car read(TableReader& actor, const SceneContext& context) {
   car.tyre_mu = actor.number("tyre_mu", Sign::non_negative, car.tyre_mu);
   car.body_material = read_material(actor, car.body_material);
   car.steering = actor.ascending_pairs("steering");
+  car.steering_where = actor.where("steering");
   for (const auto& [time_s, angle_deg] : car.steering) {
     // Front wheels of cars turn to about 40 degrees; beyond 60 the axis would no longer steer.
     if (std::abs(angle_deg) > 60) actor.fail("steering", "steering angles must lie within 60 degrees");
@@ -178,10 +180,12 @@ class CarBuilder {
     event.kind = model::EventKind::steer;
     event.joint = joint;
     event.angle = radians(angle_deg);
-    model_.events.push_back(event);
+    add_event(model_, event);
   }
 
-  std::int64_t step_at(double time_s) const { return std::llround(time_s / car_.context.dt_s); }
+  std::int64_t step_at(double time_s) const {
+    return scenes::step_at(time_s, car_.context.dt_s, car_.steering_where + ": steering");
+  }
 
   Vec3 velocity() const { return place_.velocity + car_.speed_m_s * forward_; }
 

@@ -21,6 +21,7 @@ struct Centipede {
   double torque_nm = 400;                          // of each of a leg's two motors
   model::Material material{0.8, 0};
   double dt_s = 0.01;
+  std::string where;  ///< place in the file
 };
 
 // A contact needs some depth to exist; see the car.
@@ -91,8 +92,8 @@ class CentipedeBuilder {
   /// Alternating groups, as insects walk: in one half of the stride a group is lifted and swings ahead, in
   /// the other it stands and pushes back. Both quarters of a swing have constant speed.
   void add_gait(int joint, bool first_group) {
-    const auto half = std::max<std::int64_t>(2, std::llround(c_.stride_s / 2 / c_.dt_s));
-    const std::int64_t end = std::llround(c_.walk_s / c_.dt_s);
+    const auto half = std::max<std::int64_t>(2, step_at(c_.stride_s / 2, c_.dt_s, c_.where + ": stride"));
+    const std::int64_t end = step_at(c_.walk_s, c_.dt_s, c_.where + ": walk");
     const double half_s = static_cast<double>(half) * c_.dt_s;
     const double swing_speed = radians(swing_deg) / half_s;
     const double lift_speed = 2 * radians(lift_deg) / 2 / half_s;
@@ -113,7 +114,7 @@ class CentipedeBuilder {
     event.joint = joint;
     event.axis = axis;
     event.motor = {speed_rad_s, c_.torque_nm, 0};
-    model_.events.push_back(event);
+    add_event(model_, event);
   }
 
   int add_part(const std::string& name, model::Shape shape, const std::array<double, 3>& size,
@@ -146,6 +147,7 @@ class CentipedeBuilder {
 ActorPlan read_centipede(TableReader& actor, const SceneContext& context) {
   Centipede centipede;
   centipede.dt_s = context.dt_s;
+  centipede.where = actor.where();
   centipede.num_segments = actor.integer("segments", 1, centipede.num_segments);
   centipede.stride_s = actor.number("stride", Sign::positive, centipede.stride_s);
   centipede.walk_s = actor.number("walk", Sign::non_negative, centipede.walk_s);

@@ -72,6 +72,14 @@ void build(const GenericBody& part, const Placement& place, model::Model& model)
   model.geoms.push_back(geom);
 }
 
+void refuse_motion(TableReader& actor) {
+  auto variation = actor.table("variation");
+  if (actor.has("velocity"))
+    actor.fail("velocity", "a static body does not move; leave out 'velocity' or 'static'");
+  if (variation && variation->has("velocity"))
+    variation->fail("velocity", "a static body does not move; its velocity cannot vary");
+}
+
 ActorPlan read_generic(TableReader& actor, model::Shape shape, const std::array<double, 3>& size) {
   GenericBody part;
   part.shape = shape;
@@ -80,7 +88,9 @@ ActorPlan read_generic(TableReader& actor, model::Shape shape, const std::array<
   part.is_static = actor.flag("static", false);
   part.orientation = read_rotation(actor);
   part.material = read_material(actor, {});
-  if (!part.is_static) {
+  if (part.is_static) {
+    refuse_motion(actor);
+  } else {
     part.mass_kg = read_mass(actor, shape, size);
     part.inertia = actor.has("inertia") ? read_inertia(actor) : solid_inertia(shape, size, part.mass_kg);
     part.angular_velocity = actor.vector("angular_velocity", Sign::any, Vec3(Vec3::Zero()));

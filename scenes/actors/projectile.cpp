@@ -1,5 +1,4 @@
 // Projectiles: bodies that lie ready from the start, and that a tank fires at their time.
-#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -66,7 +65,7 @@ model::Event launch(const Projectile& projectile, int body, int copy, const mode
   const Pose start = muzzle(projectile, model);
   model::Event event;
   event.kind = model::EventKind::launch;
-  event.step = std::llround((shot.first_s + copy * shot.interval_s) / projectile.dt_s);
+  event.step = step_at(shot.first_s + copy * shot.interval_s, projectile.dt_s, shot.where + ": shot");
   event.body = body;
   event.velocity = shot.speed_m_s * start.direction_to_outer(Vec3::UnitX());
   const bool lies_along_z = projectile.shape == model::Shape::cylinder;
@@ -88,7 +87,7 @@ void build(const Projectile& projectile, const Placement& place, model::Model& m
   geom.body = add_body(model, std::move(body));
   model.geoms.push_back(geom);
   if (!projectile.shot.tank.empty()) {
-    model.events.push_back(launch(projectile, geom.body, place.copy, model));
+    add_event(model, launch(projectile, geom.body, place.copy, model));
   }
 }
 

@@ -35,10 +35,14 @@ Offset draw(const Variation& variation, std::uint64_t seed, int world, std::uint
 WorldCount WorldCount::read(TableReader& table, std::string_view key) {
   WorldCount result;
   if (!table.has(key)) return result;
-  if (!table.is_array(key)) return WorldCount(table.integer(key, 1));
+  constexpr double most = 1e6;  // worlds or copies: beyond any memory
+  if (!table.is_array(key)) {
+    const int count = table.integer(key, 1);
+    if (count > most) table.fail(key, core::in_quotes(key) + " is at most a million");
+    return WorldCount(count);
+  }
   result.steps_.clear();
   for (const auto& [world, count] : table.ascending_pairs(key)) {
-    constexpr double most = 1e6;  // worlds or copies: beyond any memory
     if (world != std::floor(world) || count != std::floor(count) || count < 1 || world > most ||
         count > most) {
       table.fail(key, core::in_quotes(key) +

@@ -1,5 +1,6 @@
 // A wall of blocks in running bond, laid dry: each block is a body of its own.
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ constexpr double joint_width_m = 0.002;
 // Shares of a block's length: masons put no shorter piece than a quarter, and bear a lintel on a half.
 constexpr double shortest_piece = 0.25;
 constexpr double lintel_bearing = 0.5;
+constexpr std::size_t most_pieces = 1'000'000;  // of a course: beyond any memory
 
 struct Piece {
   double from_m = 0, to_m = 0;  ///< along the wall, from its middle
@@ -46,6 +48,8 @@ void lay(const Wall& wall, double from_m, double to_m, double phase_m, std::vect
   for (double k = std::floor((from_m - phase_m) / block); phase_m + k * block < to_m - least; ++k) {
     const double cut = phase_m + k * block;
     if (cut < start + least) continue;
+    if (pieces.size() >= most_pieces)
+      throw std::length_error("a course of the wall has more than a million blocks; make them longer");
     pieces.push_back({start, cut});
     start = cut;
   }

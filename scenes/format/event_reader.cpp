@@ -1,7 +1,5 @@
 #include "scenes/format/event_reader.h"
 
-#include <cmath>
-
 #include "scenes/format/lookup.h"
 #include "scenes/format/rotation_reader.h"
 #include "scenes/parts/parts.h"
@@ -43,7 +41,7 @@ EventPlan read_event(TableReader& table, double dt_s) {
   if (table.has("body") == table.has("release"))
     table.fail("body", "give either 'body', which is launched, or 'release', the name of a joint");
   model::Event event;
-  event.step = std::llround(table.number("at", Sign::non_negative) / dt_s);
+  event.step = step_at(table.number("at", Sign::non_negative), dt_s, table.where("at") + ": event");
   EventPlan plan = table.has("body") ? read_launch(table, event) : read_release(table, event);
   table.finish();
   return plan;

@@ -100,7 +100,7 @@ std::set<ActorPair> joined_actors(const model::Model& model) {
 
 class Search {
  public:
-  Search(const model::Model& model, double tolerance_m)
+  Search(const model::Model& model, std::optional<double> tolerance_m)
       : model_(&model), tolerance_m_(tolerance_m), joined_(joined_actors(model)) {
     for (const model::Geom& geom : model.geoms) {
       if (geom.shape != Shape::plane) boxes_.push_back(inner_box(geom, model));
@@ -115,7 +115,7 @@ class Search {
       for (const InnerBox& box : boxes_) {
         if (box.is_static || geom.actor == box.actor) continue;
         const double deep = depth_in_plane(box, pose_of(geom, *model_));
-        if (deep > tolerance_m_) return overlap(geom.actor, box.actor, deep);
+        if (deep > tolerance(box)) return overlap(geom.actor, box.actor, deep);
       }
     }
     return among_boxes();
@@ -130,7 +130,7 @@ class Search {
         const InnerBox& b = boxes_[j];
         if (!may_clash(a, b)) continue;
         const double deep = depth(a, b);
-        if (deep > tolerance_m_) return overlap(a.actor, b.actor, deep);
+        if (deep > std::min(tolerance(a), tolerance(b))) return overlap(a.actor, b.actor, deep);
       }
     }
     return std::nullopt;
@@ -143,17 +143,22 @@ class Search {
     return !joined_.contains(std::minmax(a.actor, b.actor));
   }
 
+  double tolerance(const InnerBox& box) const {
+    return tolerance_m_.value_or(
+        std::min(overlap_tolerance_m, overlap_tolerance_share * 2 * box.half.minCoeff()));
+  }
+
   static Overlap overlap(int a, int b, double deep) { return {std::min(a, b), std::max(a, b), deep}; }
 
   const model::Model* model_;
-  double tolerance_m_;
+  std::optional<double> tolerance_m_;
   std::set<ActorPair> joined_;
   std::vector<InnerBox> boxes_;
 };
 
 }  // namespace
 
-std::optional<Overlap> find_overlap(const model::Model& model, double tolerance_m) {
+std::optional<Overlap> find_overlap(const model::Model& model, std::optional<double> tolerance_m) {
   return Search(model, tolerance_m).run();
 }
 

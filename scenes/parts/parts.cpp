@@ -1,12 +1,19 @@
 #include "scenes/parts/parts.h"
 
+#include <cmath>
 #include <numbers>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "core/elementary.h"
+#include "core/error.h"
 
 namespace pbmpi::scenes {
 namespace {
+
+/// Bodies and events that a world may have.
+constexpr std::size_t most_things = 4'000'000;
 
 Pose pose_of(const model::Model& model, int body) {
   return body == model::no_body ? Pose{} : model.bodies[body].pose;
@@ -34,12 +41,33 @@ Quat rotation(double angle_rad, const Vec3& axis) {
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
+std::int64_t step_at(double time_s, double dt_s, const std::string& where) {
+  constexpr double most_steps = 9007199254740992;  // 2^53: beyond it a double does not tell two steps apart
+  const double step = std::round(time_s / dt_s);
+  if (!(std::abs(step) <= most_steps)) {
+    std::ostringstream text;
+    text << where << ": the time " << time_s << " s is more than 2^53 steps of " << dt_s
+         << " s away, and no run gets there; give an earlier one";
+    throw core::InputError(text.str());
+  }
+  return static_cast<std::int64_t>(step);
+}
+
+void add_event(model::Model& model, const model::Event& event) {
+  if (model.events.size() >= most_things)
+    throw std::length_error(
+        "the world has more than 4,000,000 events; shorten what its actors do at given times");
+  model.events.push_back(event);
+}
+
 int add_actor(model::Model& model, std::string name, model::ActorKind kind) {
   model.actors.push_back({std::move(name), kind, false});
   return static_cast<int>(model.actors.size()) - 1;
 }
 
 int add_body(model::Model& model, model::Body body) {
+  if (model.bodies.size() >= most_things)
+    throw std::length_error("the world has more than 4,000,000 bodies; place fewer");
   model.bodies.push_back(std::move(body));
   return model.num_bodies() - 1;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -21,7 +22,13 @@ Quat rotation(double angle_rad, const Vec3& axis);
 
 double radians(double degrees);
 
-/// Appends an actor or a body, and returns its index.
+/// The step that begins nearest to `time_s`. Throws core::InputError beyond 2^53 steps: "`where`: ...".
+std::int64_t step_at(double time_s, double dt_s, const std::string& where);
+
+/// Appends an event. Throws std::length_error for the 4,000,001st of a world.
+void add_event(model::Model& model, const model::Event& event);
+
+/// Appends an actor or a body, and returns its index. Throws std::length_error for the 4,000,001st body.
 int add_actor(model::Model& model, std::string name, model::ActorKind kind);
 int add_body(model::Model& model, model::Body body);
 

@@ -1,11 +1,11 @@
 #include "app/common/options.h"
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "app/common/version.h"
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/text.h"
 #include "stepping/step_options.h"
 
@@ -49,6 +49,7 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
                                      const po::positional_options_description& positional,
                                      const std::string& last) {
   po::variables_map values;
+  std::string where;  // what is being read, where it is no command line
   try {
     po::store(po::command_line_parser(args)
                   .options(description)
@@ -58,21 +59,21 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
               values);
     for (const std::string option : {"config", "preset"}) {  // boost keeps the value that is stored first
       if (values.count(option) == 0) continue;
-      const std::string path = values[option].as<std::string>();
-      std::ifstream file(path);
-      core::require_input(file.good(),
-                          path + ": cannot be read; --" + option + " wants a file of 'name = value' lines");
-      po::store(po::parse_config_file(file, description), values);
+      where = values[option].as<std::string>() + ": ";
+      std::istringstream lines(core::read_input_file(
+          values[option].as<std::string>(), "--" + option + " wants a file of 'name = value' lines"));
+      po::store(po::parse_config_file(lines, description), values);
+      where = "";
     }
     std::istringstream lines(last);
     po::store(po::parse_config_file(lines, description), values);
     po::notify(values);
   } catch (const po::unknown_option& error) {
-    throw core::InputError(unknown_option_message(error.get_option_name(), description));
+    throw core::InputError(where + unknown_option_message(error.get_option_name(), description));
   } catch (const po::too_many_positional_options_error&) {
     throw core::InputError("a word without a dash stands on the command line; see --help");
   } catch (const po::error& error) {
-    throw core::InputError(std::string(error.what()) + "; see --help");
+    throw core::InputError(where + error.what() + "; see --help");
   }
   core::require_separate(named_paths(values));
   return values;

@@ -1,8 +1,11 @@
 #include "app/common/run_program.h"
 
 #include <iostream>
+#include <new>
 
+#include "app/common/text_output.h"
 #include "core/awaited.h"
+#include "mpi/comm/agreement.h"
 #include "mpi/comm/session.h"
 
 namespace pbmpi::app {
@@ -16,11 +19,19 @@ int run_program(const std::string& name,
     return static_cast<int>(code);
   };
   try {
-    return static_cast<int>(program(world));
+    const core::ExitCode code = program(world);
+    // Of a run that was stopped the checkpoint counts, not what it printed.
+    if (world.is_root() && code == core::ExitCode::done) require_printed(std::cout, "the output");
+    return static_cast<int>(code);
   } catch (const core::InputError& error) {
     return report(error, core::ExitCode::bad_input);
   } catch (const core::RunError& error) {
     return report(error, core::ExitCode::failed);
+  } catch (const std::bad_alloc&) {
+    std::cerr << name << ": rank " << world.rank() << ": " << mpi::out_of_memory << std::endl;
+    // Other ranks may wait for this one.
+    if (world.size() > 1) mpi::Session::abort(static_cast<int>(core::ExitCode::failed));
+    return static_cast<int>(core::ExitCode::failed);
   } catch (const std::exception& error) {
     std::cerr << name << ": rank " << world.rank() << ": " << error.what() << std::endl;
     mpi::Session::abort(static_cast<int>(core::ExitCode::failed));

@@ -1,4 +1,5 @@
 #include "app/pbmpi/gather_plan.h"
+#include "app/common/json_text.h"
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -14,7 +15,7 @@ std::string to_line(const effects::RunPlan& plan) {
   Json tallies = Json::array();
   for (const effects::PassTally& tally : plan.tallies)
     tallies.push_back({tally.worlds, tally.idle_worlds, tally.counts});
-  return Json{plan.num_worlds, tallies}.dump() + "\n";
+  return json_text(Json{plan.num_worlds, tallies}) + "\n";
 }
 
 effects::RunPlan from_line(const std::string& line) {

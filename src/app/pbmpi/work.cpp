@@ -1,10 +1,15 @@
 #include "app/pbmpi/work.h"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <utility>
 #include <vector>
 
+#include "app/common/format.h"
 #include "app/common/load_scene.h"
 #include "app/common/version.h"
 #include "app/pbmpi/options/saved_options.h"
@@ -74,6 +79,38 @@ scenes::SceneSource scene_of(const mpi::Communicator& comm, const io::Checkpoint
   return {checkpoint.scene, checkpoint.scene_file, checkpoint.scene_text};
 }
 
+/// Throws core::InputError where the worlds of a rank cannot fit into the memory of its machine: they would
+/// be built for minutes before the memory ends. What a world takes beside its model is not counted.
+void require_memory(const mpi::Communicator& comm, const Work& work) {
+  const model::Model& model = *work.first_world;
+  const double bytes_each = static_cast<double>(
+      sizeof(model::Model) + model.bodies.size() * sizeof(model::Body) +
+      model.geoms.size() * sizeof(model::Geom) + model.joints.size() * sizeof(model::Joint) +
+      model.events.size() * sizeof(model::Event));
+  const double of_a_rank = bytes_each * work.spec.num_worlds / comm.size();
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  constexpr double gib = 1024.0 * 1024 * 1024;
+  core::require_input(
+      of_a_rank <= memory,
+      format("--replicas %d: the worlds of a rank need more than %.0f GiB, and its machine has %.0f; ask "
+             "for fewer, or use more nodes",
+             work.spec.num_worlds, of_a_rank / gib, memory / gib));
+}
+
+/// --dt alone changes the time that a frame stands for, and with it all that is said of frames.
+void note_length_of_frame(const mpi::Communicator& comm, const Options& options, const Work& work) {
+  if (!options.dt_s() || options.steps_per_frame || options.common.quiet) return;
+  const scenes::RunDefaults own = scenes::parse_scene(work.source)->defaults();
+  const double before_s = own.dt_s * own.steps_per_frame, now_s = *options.dt_s() * work.spec.steps_per_frame;
+  if (!comm.is_root() || std::abs(now_s - before_s) <= 1e-9 * before_s) return;
+  std::cerr << format(
+      "pbmpi: note: with --dt %g a frame of %d steps is %g s and not the scene's %g s of simulated time; "
+      "--steps-per-frame %.0f comes nearest to it\n",
+      *options.dt_s(), work.spec.steps_per_frame, now_s, before_s,
+      std::max(1.0, std::round(before_s / *options.dt_s())));
+}
+
 }  // namespace
 
 Work new_work(const mpi::Communicator& comm, const Options& options) {
@@ -82,6 +119,8 @@ Work new_work(const mpi::Communicator& comm, const Options& options) {
   work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces, options.effects);
   work.spec = resolve(options, *work.scene);
   work.first_world = work.scene->build(0, work.spec.scene_seed);
+  require_memory(comm, work);
+  note_length_of_frame(comm, options, work);
   return work;
 }
 

@@ -1,5 +1,7 @@
 /// pbreport: serial post-processing of pbmpi's files.
 #include <iostream>
+#include <new>
+#include <stdexcept>
 
 #include "app/common/options.h"
 #include "app/pbreport/commands.h"
@@ -17,6 +19,8 @@ int main(int argc, char** argv) {
     return static_cast<int>(pbmpi::app::run_pbreport(pbmpi::app::arguments(argc, argv), std::cout));
   } catch (const pbmpi::core::InputError& error) {
     return fail(error, ExitCode::bad_input);
+  } catch (const std::bad_alloc&) {
+    return fail(std::runtime_error("there is not enough memory for what is to be read"), ExitCode::failed);
   } catch (const std::exception& error) {
     return fail(error, ExitCode::failed);
   }

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/common/format.h"
+#include "app/common/json_text.h"
 #include "app/summary/run_summary.h"
 
 namespace pbmpi::app {
@@ -244,7 +245,7 @@ std::string to_json(const RunSummary& s) {
   json["output"] = s.output;
   json["checkpoint"] = s.checkpoint;
   json["state_hash"] = s.state_hash;
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace pbmpi::app

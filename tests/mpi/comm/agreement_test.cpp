@@ -65,6 +65,16 @@ TEST(AgreeOnErrors, lets_the_lowest_failing_rank_decide) {
   EXPECT_EQ(message, "rank 1: first");
 }
 
+TEST(AgreeOnErrors, memory_that_one_rank_lacks_is_an_error_of_the_run) {
+  const Communicator comm = Communicator::world();
+  const std::string message = message_of<core::RunError>([&] {
+    agree_on_errors(comm, [&] {
+      if (comm.rank() == comm.size() - 1) throw std::bad_alloc();
+    });
+  });
+  EXPECT_NE(message.find("not enough memory; ask for fewer"), std::string::npos);
+}
+
 TEST(AgreeOnErrors, passes_other_exceptions_on_as_runtime_error) {
   const Communicator comm = Communicator::world();
   EXPECT_EQ(message_of<std::runtime_error>(

@@ -18,6 +18,13 @@ void require_at_least(int value, int least, const char* option) {
                                     std::to_string(least));
 }
 
+/// Up to a number that no run reaches, so that sums and products of such numbers have room.
+void require_between(int value, int least, int most, const char* option) {
+  require_at_least(value, least, option);
+  require_input(value <= most, std::string(option) + " " + std::to_string(value) + ": it must be at most " +
+                                   std::to_string(most));
+}
+
 /// The estimate's own settings over those of the precise stepper, whose step and seed it shares.
 std::optional<stepping::StepperSettings> resolve_estimate(const Options& options,
                                                           const stepping::StepperSettings& precise) {
@@ -176,9 +183,10 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   if (spec.output && !options.no_xdmf) spec.sidecar = sidecar_of(*spec.output);
   require_separate_files(options, spec);
   require_at_least(spec.num_worlds, 1, "--replicas");
-  require_at_least(spec.warmup, 0, "--warmup");
-  require_at_least(spec.frames, 1, "--frames");
-  require_at_least(spec.steps_per_frame, 1, "--steps-per-frame");
+  constexpr int most_frames = 1'000'000'000, most_steps = 1'000'000;
+  require_between(spec.warmup, 0, most_frames, "--warmup");
+  require_between(spec.frames, 1, most_frames, "--frames");
+  require_between(spec.steps_per_frame, 1, most_steps, "--steps-per-frame");
   require_input(spec.total_frames() > from.frames,
                 "--resume " + from.path + ": all " + std::to_string(spec.total_frames()) + " frames (" +
                     std::to_string(spec.warmup) + " of warm-up) are done; give --frames above " +

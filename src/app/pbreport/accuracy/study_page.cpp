@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/common/format.h"
+#include "app/common/json_text.h"
 #include "app/pbreport/accuracy/study_text.h"
 #include "io/html/chart_page.h"
 #include "stepping/step_options.h"
@@ -79,7 +80,7 @@ io::html::Chart diagram(const SceneCases& scene, const char* title, const char* 
                        {"options",
                         {{"scales", {{"x", scale("time of the worst frame [ms]")}, {"y", scale(axis)}}},
                          {"plugins", {{"pbmpi", {{"bands", bands_of(scene, error)}}}}}}}};
-  return {title, "Each point is a setting; down and left is better.", config.dump()};
+  return {title, "Each point is a setting; down and left is better.", json_text(config)};
 }
 
 io::html::TextTable front_table(const SceneCases& scene, const AccuracyReportOptions& options) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/common/format.h"
+#include "app/common/json_text.h"
 #include "app/pbreport/study/error_text.h"
 #include "app/pbreport/study/study_file.h"
 
@@ -170,7 +171,7 @@ std::string study_to_json(const std::vector<SceneCases>& scenes, const AccuracyR
     if (chosen) one["run"] = run_command(scene.settings[*chosen]);
     json["scenes"].push_back(one);
   }
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 std::string preset_text(const StudyCase& one) {

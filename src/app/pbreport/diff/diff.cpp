@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "app/common/format.h"
+#include "app/common/json_text.h"
 #include "app/pbreport/diff/diff_options.h"
 #include "app/pbreport/diff/run_comparison.h"
 
@@ -81,7 +82,7 @@ std::string to_json(const DiffOptions& options, const RunComparison& c, bool sam
                            {"in_reference_only", breaks_json(c.breaks.in_reference_only)},
                            {"unknown_in_run", c.breaks.unknown_in_run},
                            {"unknown_in_reference", c.breaks.unknown_in_reference}};
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 template <class Counts, class Names>

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/common/format.h"
+#include "app/common/json_text.h"
 #include "app/pbreport/effects/effects_text.h"
 #include "app/pbreport/study/error_text.h"
 #include "io/html/chart_page.h"
@@ -99,7 +100,7 @@ io::html::Chart bars(const char* title, const char* text, const char* axis, cons
   if (floor == Floor::time) options["plugins"]["pbmpi"]["bands"] = time_noise(scenes);
   const json config = {
       {"type", "bar"}, {"data", {{"labels", labels}, {"datasets", datasets}}}, {"options", options}};
-  return {title, text, config.dump()};
+  return {title, text, json_text(config)};
 }
 
 std::string cell_of(const EffectScene& scene, const std::string& effect) {

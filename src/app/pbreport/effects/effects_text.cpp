@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/common/format.h"
+#include "app/common/json_text.h"
 #include "app/pbreport/study/error_text.h"
 #include "stepping/step_options.h"
 
@@ -120,7 +121,7 @@ std::string effects_to_json(const io::TableFile& file, const std::vector<EffectS
     for (const EffectRow& row : scene.effects) one["effects"].push_back(row_json(row));
     json["scenes"].push_back(std::move(one));
   }
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace pbmpi::app

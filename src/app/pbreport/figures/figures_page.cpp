@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/common/format.h"
+#include "app/common/json_text.h"
 
 namespace pbmpi::app {
 namespace {
@@ -49,7 +50,7 @@ io::html::Chart bars(const std::vector<FigureScene>& scenes, const char* title, 
                           {{"y",
                             {{"type", logarithmic ? "logarithmic" : "linear"},
                              {"title", {{"display", true}, {"text", axis}}}}}}}}}};
-  return {title, text, config.dump()};
+  return {title, text, json_text(config)};
 }
 
 double share(const analysis::ErrorSummary& errors, std::size_t band) {
@@ -99,7 +100,7 @@ io::html::Chart panel(const std::vector<FigureScene>& scenes, const char* title,
          {{"x", {{"stacked", true}}},
           {"y",
            {{"stacked", true}, {"max", 100}, {"title", {{"display", true}, {"text", "% of entries"}}}}}}}}}};
-  return {title, "Bars of a scene, left to right: " + order + "noise floor.", config.dump()};
+  return {title, "Bars of a scene, left to right: " + order + "noise floor.", json_text(config)};
 }
 
 io::html::TextTable rate_table(const std::vector<FigureScene>& scenes) {

@@ -6,6 +6,7 @@
 
 #include "analysis/error_bands.h"
 #include "app/common/format.h"
+#include "app/common/json_text.h"
 
 namespace pbmpi::app {
 namespace {
@@ -109,7 +110,7 @@ std::string stability_to_json(const StabilityMap& map) {
     for (const StabilityCell& cell : scene.cells) one["results"].push_back(cell_json(cell));
     json["cases"].push_back(std::move(one));
   }
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 std::string stability_to_markdown(const StabilityMap& map) {

@@ -1,6 +1,5 @@
 #include "app/pbreport/suite/suite_commands.h"
 
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,10 +7,12 @@
 #include <sstream>
 
 #include "app/common/format.h"
+#include "app/common/json_text.h"
 #include "app/common/options.h"
 #include "app/common/text_output.h"
 #include "app/pbreport/suite/characterise.h"
 #include "app/pbreport/suite/suite_json.h"
+#include "core/input_file.h"
 #include "io/html/suite_page.h"
 
 namespace pbmpi::app {
@@ -104,10 +105,7 @@ core::ExitCode finish(std::ostream& out) {
 std::string still_of(const std::string& folder, const std::string& scene) {
   if (folder.empty()) return "";
   const std::string path = folder + "/" + scene + ".png";
-  std::ifstream file(path, std::ios::binary);
-  core::require_input(file.good(),
-                      path + ": cannot be read; make it with jobs/stills.sh, or leave --stills out");
-  return std::string(std::istreambuf_iterator<char>(file), {});
+  return core::read_input_file(path, "make it with jobs/stills.sh, or leave --stills out");
 }
 
 }  // namespace
@@ -126,7 +124,7 @@ core::ExitCode run_islands(const std::vector<std::string>& args, std::ostream& o
     json.push_back(to_json(summary));
     if (!options.json) out << islands_text(summary);
   }
-  if (options.json) out << json.dump(2) << "\n";
+  if (options.json) out << json_text(json, 2) << "\n";
   return finish(out);
 }
 
@@ -154,7 +152,7 @@ core::ExitCode run_cores(const std::vector<std::string>& args, std::ostream& out
     json.push_back(to_json(summary));
     if (!options.json) out << cores_text(summary);
   }
-  if (options.json) out << json.dump(2) << "\n";
+  if (options.json) out << json_text(json, 2) << "\n";
   return finish(out);
 }
 
@@ -169,8 +167,8 @@ core::ExitCode run_figure6(const std::vector<std::string>& args, std::ostream& o
   for (const std::string& file : options.files) {
     const io::RunData run = io::read_run(file);
     const IslandSummary islands = summarize_islands(run);
-    scenes.push_back({to_json(islands).dump(), to_json(summarize_cores(run, file)).dump(), islands.scene,
-                      still_of(options.stills, islands.scene)});
+    scenes.push_back({json_text(to_json(islands)), json_text(to_json(summarize_cores(run, file))),
+                      islands.scene, still_of(options.stills, islands.scene)});
   }
   io::html::write_suite_page(options.html, scenes);
   out << options.html << "\n";

@@ -7,6 +7,7 @@
 #include "app/common/load_scene.h"
 #include "app/common/version.h"
 #include "core/awaited.h"
+#include "core/error.h"
 
 namespace pbmpi::app {
 
@@ -16,7 +17,18 @@ StudyRunner::StudyRunner(const mpi::Communicator& comm, std::string name, const 
     : comm_(comm), name_(std::move(name)), options_(options) {
   for (const std::string& scene : options.scenes)
     scenes_.push_back(study_scene(share_scene(comm, scene), options.overrides));
+  require_distinct_names();
   if (comm.is_root() && wants_progress(options.common)) progress_.emplace(std::cerr);
+}
+
+void StudyRunner::require_distinct_names() const {
+  std::map<std::string, std::string> file_of;
+  for (const StudyScene& scene : scenes_) {
+    const auto [first, is_new] = file_of.emplace(scene_text_parameter(scene.source.name), scene.source.file);
+    core::require_input(is_new, "--scene " + scene.source.file + ": the study has a scene " +
+                                    scene.source.name + " already (" + first->second +
+                                    "), and its rows are found by that name; rename a file, or name it once");
+  }
 }
 
 void StudyRunner::open_output(const std::function<void()>& check) {

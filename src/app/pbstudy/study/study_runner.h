@@ -53,6 +53,7 @@ class StudyRunner {
   void write(const std::function<StudyContent()>& content);
 
  private:
+  void require_distinct_names() const;
   io::TableFile file_with(StudyContent content) const;
   void print_end(const StudyContent& content) const;
   void case_done(int scene);
