@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cstdlib>
+#include <optional>
+#include <span>
 
 #include "core/error.h"
 #include "core/input_file.h"
 #include "core/number_text.h"
 #include "io/hdf5/file_types.h"
+#include "io/hdf5/seal.h"
 
 namespace pbmpi::io {
 namespace {
@@ -56,6 +59,25 @@ hsize_t num_points(const Dataspace& space) {
   return static_cast<hsize_t>(points);
 }
 
+/// Throws unless so many values of so many bytes fit into the file: before memory is made for them. pbmpi's
+/// files are not compressed. `count`: values, or a product that overflowed.
+void require_in_file(hid_t object, std::optional<hsize_t> count, std::size_t bytes, const std::string& path) {
+  hsize_t file_bytes = 0;
+  const auto file = owned<File>(H5Iget_file_id(object), "H5Iget_file_id");
+  check(H5Fget_filesize(file.id(), &file_bytes), "H5Fget_filesize");
+  if (!count || *count > file_bytes / std::max<std::size_t>(bytes, 1))
+    throw core::RunError(path + " says that it holds more than the file does");
+}
+
+/// The product of the extents, none if it overflows.
+std::optional<hsize_t> product(std::span<const hsize_t> dims) {
+  hsize_t count = 1;
+  for (const hsize_t dim : dims) {
+    if (__builtin_mul_overflow(count, dim, &count)) return std::nullopt;
+  }
+  return count;
+}
+
 /// The selection of the first rows of a dataset.
 struct FirstRows {
   Dataset dataset;
@@ -76,7 +98,11 @@ FirstRows select_first_rows(hid_t file, const std::string& path, std::int64_t nu
     }
     dims[0] = static_cast<hsize_t>(num_rows);
   }
-  const hsize_t values = std::accumulate(dims.begin() + 1, dims.end(), hsize_t{1}, std::multiplies<>());
+  const auto type = owned<Datatype>(H5Dget_type(rows.dataset.id()), "H5Dget_type");
+  require_in_file(file, product(dims), H5Tget_size(type.id()), path);
+  const std::optional<hsize_t> row = product(std::span(dims).subspan(1));
+  if (!row) throw core::RunError(path + " has rows without end");
+  const hsize_t values = *row;
   if (row_values != 0 && values != row_values) {
     throw core::RunError(path + " has rows of " + std::to_string(values) + " values, not " +
                          std::to_string(row_values));
@@ -98,7 +124,8 @@ void read(const FirstRows& rows, hid_t type, void* values, const std::string& pa
         "H5Dread(" + path + ")");
 }
 
-void require_type(const std::string& path, hid_t file, const std::string& type, std::int64_t layout) {
+/// Returns the minor version of the layout.
+std::int64_t require_type(const std::string& path, hid_t file, const std::string& type, std::int64_t layout) {
   const auto attributes = attributes_as_text(file, "/");
   const auto found = attributes.find("filetype");
   const bool is_run = type == filetype;
@@ -113,15 +140,21 @@ void require_type(const std::string& path, hid_t file, const std::string& type, 
                                            (major == 0 ? "unknown" : version->second) +
                                            ", this program reads version " + core::number_text(layout) +
                                            ".x; use the pbmpi that wrote it");
+  const std::size_t dot = version->second.find('.');
+  return dot == std::string::npos ? 0 : std::atoll(version->second.c_str() + dot + 1);
 }
 
 }  // namespace
 
 File open_run(const std::string& path) { return open_file(path, filetype, layout_major); }
 
-File open_file(const std::string& path, const std::string& type, std::int64_t major) {
+File open_file(const std::string& path, const std::string& type, std::int64_t major,
+               std::optional<std::int64_t> sealed_since) {
   prepare_hdf5();
-  core::require_readable_file(path, "give the name of a file that pbmpi has written");
+  const Seal seal = seal_of(path);
+  core::require_input(
+      seal != Seal::broken,
+      path + ": its bytes do not have the checksum that was written with them; the file is damaged");
   const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
   // A file may be read while it is written, and on file systems without locks.
   check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");
@@ -133,7 +166,10 @@ File open_file(const std::string& path, const std::string& type, std::int64_t ma
                            "); give a file that pbmpi has written");
   }
   try {
-    require_type(path, file.id(), type, major);
+    const std::int64_t minor = require_type(path, file.id(), type, major);
+    core::require_input(
+        !sealed_since || minor < *sealed_since || seal == Seal::intact,
+        path + ": its checksum is missing; the file is damaged, or another program has written into it");
   } catch (const core::RunError& e) {
     throw core::InputError(path + ": " + e.what() + "; the file is damaged");
   }
@@ -206,6 +242,7 @@ std::map<std::string, std::string> attributes_as_text(hid_t file, const std::str
     check(H5Aget_name(attribute.id(), name.size(), name.data()) < 0 ? -1 : 0, "H5Aget_name");
     const auto type = owned<Datatype>(H5Aget_type(attribute.id()), "H5Aget_type");
     const auto space = owned<Dataspace>(H5Aget_space(attribute.id()), "H5Aget_space");
+    require_in_file(file, num_points(space), H5Tget_size(type.id()), name.data());
     texts[name.data()] = values_as_text(type, num_points(space), [&](hid_t as, void* values) {
       check(H5Aread(attribute.id(), as, values), "H5Aread");
     });
@@ -228,6 +265,7 @@ std::map<std::string, std::string> scalars_as_text(hid_t file, const std::string
     const auto dataset = owned<Dataset>(H5Dopen2(owner.id(), name.data(), H5P_DEFAULT), "H5Dopen");
     const auto type = owned<Datatype>(H5Dget_type(dataset.id()), "H5Dget_type");
     const auto space = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
+    require_in_file(file, num_points(space), H5Tget_size(type.id()), name.data());
     texts[name.data()] = values_as_text(type, num_points(space), [&](hid_t as, void* values) {
       check(H5Dread(dataset.id(), as, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "H5Dread");
     });

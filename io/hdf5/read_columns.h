@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,11 @@ namespace pbmpi::io {
 /// core::InputError.
 File open_run(const std::string& path);
 
-/// open_run() for a file of type `type`, whose layout has the version `major`.
-File open_file(const std::string& path, const std::string& type, std::int64_t major);
+/// open_run() for a file of type `type`, whose layout has the version `major`. From its minor version
+/// `sealed_since` on it must have a seal (io/hdf5/seal.h); one that is broken is refused in any case, before
+/// HDF5 reads the file.
+File open_file(const std::string& path, const std::string& type, std::int64_t major,
+               std::optional<std::int64_t> sealed_since = std::nullopt);
 
 /// Is there a group or dataset of this path, whose parent exists?
 bool has_object(hid_t file, const std::string& path);

@@ -16,7 +16,7 @@ namespace pbmpi::io {
 namespace {
 
 /// Version of the layout; the first number changes when old programs would be misled.
-constexpr std::array<std::int64_t, 2> version = {1, 2};
+constexpr std::array<std::int64_t, 2> version = {1, 3};
 
 using core::Quat;
 using core::Vec3;

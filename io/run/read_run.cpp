@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "io/hdf5/read_columns.h"
@@ -58,13 +59,28 @@ VectorTable read_vector_table(hid_t file, const std::string& path, std::int64_t 
   return table;
 }
 
-BodyTable read_bodies(hid_t file) {
+/// Throws unless all values lie in [0, count).
+void require_indices(const std::vector<std::int64_t>& values, std::int64_t count, const std::string& path) {
+  for (const std::int64_t value : values) {
+    if (value < 0 || value >= count)
+      throw core::RunError(path + " has " + std::to_string(value) + ", of " + std::to_string(count));
+  }
+}
+
+BodyTable read_bodies(hid_t file, int num_worlds) {
   const std::string group = "/particles/bodies/";
   BodyTable bodies;
   bodies.id = read_integers(file, group + "id");
   const auto count = static_cast<std::int64_t>(bodies.id.size());
-  bodies.world = to_ints(read_integers(file, group + "world", count));
-  bodies.local_body = to_ints(read_integers(file, group + "local_body", count));
+  const auto world = read_integers(file, group + "world", count);
+  const auto local_body = read_integers(file, group + "local_body", count);
+  require_indices(world, num_worlds, group + "world");
+  require_indices(local_body, count, group + "local_body");
+  for (std::int64_t id = 0; id < count; ++id) {
+    if (bodies.id[static_cast<std::size_t>(id)] != id) throw core::RunError(group + "id is not 0, 1, 2 ...");
+  }
+  bodies.world = to_ints(world);
+  bodies.local_body = to_ints(local_body);
   bodies.name = read_texts(file, group + "name", count);
   bodies.kind = read_texts(file, group + "kind", count);
   bodies.actor = read_texts(file, group + "actor", count);
@@ -73,8 +89,9 @@ BodyTable read_bodies(hid_t file) {
   return bodies;
 }
 
-std::vector<GeomRow> read_geoms(hid_t file, std::int64_t num_bodies) {
+std::vector<GeomRow> read_geoms(hid_t file, std::int64_t num_bodies, int num_worlds) {
   const auto world = read_integers(file, "/geoms/world");
+  require_indices(world, num_worlds, "/geoms/world");
   const auto count = static_cast<std::int64_t>(world.size());
   const auto body = read_integers(file, "/geoms/body", count);
   const auto kind = read_texts(file, "/geoms/kind", count);
@@ -189,9 +206,11 @@ RunData read_all(hid_t file) {
   run.num_ranks = static_cast<int>(run.hosts.size());
   const std::vector<hsize_t> table = dims_of(file, "/observables/world/contacts");
   if (table.size() != 2) throw core::RunError("/observables/world/contacts is not a table");
+  if (table[1] < 1 || !std::in_range<int>(table[1]))
+    throw core::RunError("/observables/world/contacts has an impossible number of worlds");
   run.num_worlds = static_cast<int>(table[1]);
-  run.bodies = read_bodies(file);
-  run.geoms = read_geoms(file, static_cast<std::int64_t>(run.bodies.id.size()));
+  run.bodies = read_bodies(file, run.num_worlds);
+  run.geoms = read_geoms(file, static_cast<std::int64_t>(run.bodies.id.size()), run.num_worlds);
   read_motion(file, run.frames_committed / record_every, run);
   read_frames(file, run);
   read_profiles(file, run);

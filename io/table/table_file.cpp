@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <fstream>
 
 #include "core/error.h"
 #include "core/input_file.h"
@@ -10,6 +11,7 @@
 #include "io/file/write_file.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/read_columns.h"
+#include "io/hdf5/seal.h"
 
 namespace pbmpi::io {
 namespace {
@@ -69,10 +71,15 @@ void write_content(hid_t file, const std::string& filetype, const std::array<std
   }
 }
 
+/// Minor version of the layouts from which on files have a seal.
+constexpr std::int64_t sealed_since = 3;
+
 void write_all(const std::string& path, const std::string& filetype, const TableFile& content) {
-  auto file = owned<File>(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), "H5Fcreate");
-  write_content(file.id(), filetype, study_version, content);
-  if (!file.close()) check(-1, "H5Fclose");
+  const std::vector<std::byte> image = table_image(filetype, study_version, content);
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(reinterpret_cast<const char*>(image.data()), std::ssize(image));
+  file.close();
+  if (!file) throw core::RunError("not all of its bytes; is the disk full?");
 }
 
 std::vector<std::string> names_in(hid_t file, const std::string& path) {
@@ -188,11 +195,12 @@ std::vector<std::byte> table_image(const std::string& filetype, const std::array
   check(size < 0 ? -1 : 0, "H5Fget_file_image");
   std::vector<std::byte> image(static_cast<std::size_t>(size));
   check(H5Fget_file_image(file.id(), image.data(), image.size()) < 0 ? -1 : 0, "H5Fget_file_image");
+  if (version[1] >= sealed_since) add_seal(image);
   return image;
 }
 
 TableFile read_table_file(const std::string& path, const std::string& filetype, std::int64_t major) {
-  const File file = open_file(path, filetype, major);
+  const File file = open_file(path, filetype, major, sealed_since);
   try {
     return read_all(file.id());
   } catch (const core::RunError& error) {
@@ -211,6 +219,7 @@ std::string filetype_of(const std::string& path) {
   prepare_hdf5();
   if (content_of(path) != Content::hdf5) return "";  // a pipe is not even opened
   try {
+    if (seal_of(path) == Seal::broken) return "";  // nothing of it can be trusted
     const auto file = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "H5Fopen");
     const auto attributes = attributes_as_text(file.id(), "/");
     const auto found = attributes.find("filetype");

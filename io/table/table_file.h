@@ -63,9 +63,10 @@ class TableWriter {
 };
 
 /// Major and minor version of the layout of a study's file.
-inline constexpr std::array<std::int64_t, 2> study_version = {1, 2};
+inline constexpr std::array<std::int64_t, 2> study_version = {1, 3};
 
-/// The bytes of such a file, made in memory: what is written in one go leaves no half file behind.
+/// The bytes of such a file, made in memory: what is written in one go leaves no half file behind. Sealed
+/// (io/hdf5/seal.h) from minor version 3 on.
 std::vector<std::byte> table_image(const std::string& filetype, const std::array<std::int64_t, 2>& version,
                                    const TableFile& file);
 

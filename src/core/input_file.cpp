@@ -19,7 +19,7 @@ class InputFile {
   InputFile(const std::string& path, const std::string& advice) : path_(path), advice_(advice) {
     // Without O_NONBLOCK a pipe waits for a writer before anything can be asked of it.
     file_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (file_ < 0) refuse(std::generic_category().message(errno));
+    if (file_ < 0) refuse(errno == ENOENT ? "there is no such file" : std::generic_category().message(errno));
     struct stat status {};
     if (fstat(file_, &status) != 0) refuse(std::generic_category().message(errno));
     if (S_ISDIR(status.st_mode)) refuse("it is a directory");

@@ -7,7 +7,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness import COLD, PBMPI, SOURCE, ProgramTest
+from harness import COLD, PBMPI, ProgramTest, SOURCE, seal
 from test_breakage import SCENE as SIGN
 from test_sleeping import SCENE as STACKS
 
@@ -144,6 +144,7 @@ class Refused(ProgramTest):
         shutil.copy(self.path("run.ck.h5"), self.path("other.h5"))
         with h5py.File(self.path("other.h5"), "r+") as file:
             change(file)
+        seal(self.path("other.h5"))
         return "other.h5"
 
     def test_what_is_no_checkpoint(self):

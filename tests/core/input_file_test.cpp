@@ -47,7 +47,7 @@ TEST_F(InputFiles, pipes_devices_and_folders_are_refused_without_waiting) {
             path("pipe") + ": cannot be read: it is a pipe or a device and no regular file; give a file");
   EXPECT_NE(refusal("zero").find("a pipe or a device"), std::string::npos);
   EXPECT_NE(refusal("").find("it is a directory"), std::string::npos);
-  EXPECT_NE(refusal("absent").find("No such file"), std::string::npos);
+  EXPECT_NE(refusal("absent").find("there is no such file"), std::string::npos);
 }
 
 TEST_F(InputFiles, a_file_beyond_the_limit_is_refused_before_it_is_read) {

@@ -122,7 +122,7 @@ void write_damaged(const std::string& path, const std::string& table, const std:
   for (TableColumn& column : file.tables.at(table)) {
     if (column.name == name) change(std::get<std::vector<std::int64_t>>(column.values));
   }
-  replace_file(OutputLock(path), table_image("pbmpi-checkpoint", {1, 2}, file));
+  replace_file(OutputLock(path), table_image("pbmpi-checkpoint", {1, 3}, file));
 }
 
 TEST(CheckpointFile, whose_forces_do_not_fit_is_refused) {
@@ -149,6 +149,23 @@ TEST(CheckpointFile, replaces_the_one_before_also_behind_a_link) {
   write_checkpoint(OutputLock(link), checkpoint);
   EXPECT_TRUE(std::filesystem::is_symlink(link));
   EXPECT_EQ(read_checkpoint(path).frames, 13);
+}
+
+TEST(CheckpointFile, any_bit_that_changed_is_noticed) {
+  const Scratch scratch;
+  const std::string path = scratch.file("run.ck.h5");
+  const auto size = static_cast<std::size_t>(write_checkpoint(path, sample()));
+  for (std::size_t at = 0; at < size; at += 131) {
+    std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekg(static_cast<std::streamoff>(at));
+    const char was = static_cast<char>(file.get());
+    file.seekp(static_cast<std::streamoff>(at));
+    file.put(static_cast<char>(was ^ (1 << (at % 8)))).flush();
+    EXPECT_THROW(read_checkpoint(path), core::InputError) << "byte " << at;
+    file.seekp(static_cast<std::streamoff>(at));
+    file.put(was);
+  }
+  EXPECT_EQ(read_checkpoint(path).frames, sample().frames);
 }
 
 TEST(CheckpointFile, that_is_cut_off_anywhere_is_refused) {

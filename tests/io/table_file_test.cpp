@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <limits>
 
@@ -63,6 +64,37 @@ TEST(TableFile, other_files_are_refused) {
   EXPECT_NE(refusal(scratch.file("text.h5"), "pbmpi-study").find("HDF5"), std::string::npos);
   EXPECT_EQ(filetype_of(scratch.file("text.h5")), "");
   EXPECT_EQ(filetype_of(scratch.file("absent.h5")), "");
+}
+
+TEST(TableFile, any_bit_that_changed_is_noticed) {
+  const Scratch scratch;
+  const std::string path = scratch.file("study.h5");
+  TableWriter(path).write("pbmpi-test", sample());
+  const auto size = static_cast<std::size_t>(std::filesystem::file_size(path));
+  ASSERT_GT(size, 2000u);
+  for (std::size_t at = 0; at < size; at += 97) {
+    const auto flip = [&] {
+      std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+      file.seekg(static_cast<std::streamoff>(at));
+      const char flipped = static_cast<char>(file.get() ^ (1 << (at % 8)));
+      file.seekp(static_cast<std::streamoff>(at));
+      file.put(flipped);
+    };
+    flip();
+    EXPECT_NE(refusal(path, "pbmpi-test").find("damaged"), std::string::npos) << "byte " << at;
+    flip();
+  }
+  EXPECT_EQ(refusal(path, "pbmpi-test"), "");
+  std::filesystem::resize_file(path, size - 24);  // the seal
+  EXPECT_NE(refusal(path, "pbmpi-test").find("checksum is missing"), std::string::npos);
+}
+
+TEST(TableFile, of_layout_1_2_is_read_without_a_checksum) {
+  const Scratch scratch;
+  const std::string path = scratch.file("study.h5");
+  const std::vector<std::byte> image = table_image("pbmpi-test", {1, 2}, sample());
+  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(image.data()), std::ssize(image));
+  EXPECT_EQ(read_table_file(path, "pbmpi-test").parameters.size(), 2u);
 }
 
 TEST(TableFile, nothing_appears_before_it_is_written_and_bad_places_are_refused_at_once) {

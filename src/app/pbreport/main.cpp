@@ -5,10 +5,13 @@
 
 #include "app/common/options.h"
 #include "app/pbreport/commands.h"
+#include "app/pbreport/isolated.h"
 #include "core/error.h"
 #include "core/leftovers.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+int report(int argc, char** argv) {
   using pbmpi::core::ExitCode;
   const auto fail = [](const std::exception& error, ExitCode code) {
     std::cerr << "pbreport: " << error.what() << std::endl;
@@ -24,4 +27,10 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return fail(error, ExitCode::failed);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pbmpi::app::run_isolated([&] { return report(argc, argv); });
 }
