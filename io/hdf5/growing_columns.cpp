@@ -1,8 +1,11 @@
 #include "io/hdf5/growing_columns.h"
 
 #include <algorithm>
+#include <span>
 
 #include "io/hdf5/columns.h"
+#include "io/hdf5/file_checksum.h"
+#include "io/hdf5/seal.h"
 
 namespace pbmpi::io {
 namespace {
@@ -48,14 +51,39 @@ GrowingTable::GrowingTable(hid_t file, const FileRanks& ranks, const std::string
                            const std::vector<ColumnSpec>& columns, TableShape shape)
     : ranks_(ranks), shape_(shape), items_(std::max<hsize_t>(shape.num_items, 1)) {
   shape_.capacity = std::clamp<hsize_t>(shape.capacity, 1, std::max<hsize_t>(shape.num_rows, 1));
-  for (const ColumnSpec& spec : columns) {
-    Column column{group + "/" + spec.name, type_of(spec), {}, 0, nullptr};
-    column.item_bytes = H5Tget_size(column.type.id()) * spec.width;
-    column.dataset = create_growing(file, column.path, column.type,
-                                    dims_of(shape.num_rows, shape.num_items, spec.width), spec.unit);
-    // Not value-initialised: see the class comment.
-    column.waiting.reset(new std::byte[shape_.capacity * items_ * column.item_bytes]);
-    columns_.push_back(std::move(column));
+  std::string paths;
+  for (const ColumnSpec& spec : columns) paths += group + "/" + spec.name + "\n";
+  // Made first: what stands last in the file goes when a run is cut, if it is large.
+  Column checksums = make_column(file, row_checksum_path(group + "/" + columns.front().name),
+                                 number_type(H5T_NATIVE_UINT64), 0, 1, "");
+  write_attribute(checksums.dataset.id(), "columns", paths);
+  for (const ColumnSpec& spec : columns)
+    columns_.push_back(
+        make_column(file, group + "/" + spec.name, type_of(spec), shape.num_items, spec.width, spec.unit));
+  columns_.push_back(std::move(checksums));
+}
+
+GrowingTable::Column GrowingTable::make_column(hid_t file, const std::string& path, const Datatype& type,
+                                               hsize_t num_items, hsize_t width,
+                                               const std::string& unit) const {
+  Column column{
+      path, owned<Datatype>(H5Tcopy(type.id()), "H5Tcopy"), {}, 0, std::max<hsize_t>(num_items, 1), nullptr};
+  column.item_bytes = H5Tget_size(type.id()) * width;
+  column.dataset = create_growing(file, path, type, dims_of(shape_.num_rows, num_items, width), unit);
+  // Not value-initialised: see the class comment.
+  column.waiting.reset(new std::byte[shape_.capacity * column.items * column.item_bytes]);
+  return column;
+}
+
+void GrowingTable::add_checksums(Range rows) {
+  for (hsize_t row = rows.first; row < rows.first + rows.count; ++row) {
+    Checksum sum;
+    for (std::size_t i = 0; i + 1 < columns_.size(); ++i) {
+      Column& column = columns_[i];
+      sum.add({place(column, row, 0), column.items * column.item_bytes});
+    }
+    const std::uint64_t value = sum.value();
+    std::memcpy(place(columns_.back(), row, 0), &value, sizeof value);
   }
 }
 
@@ -77,7 +105,7 @@ std::size_t GrowingTable::row_bytes(const std::vector<ColumnSpec>& columns, hsiz
     const std::size_t value = column.text_bytes > 0 ? column.text_bytes : H5Tget_size(column.native_type);
     bytes += value * column.width * std::max<hsize_t>(num_items, 1);
   }
-  return bytes;
+  return bytes + sizeof(std::uint64_t);  // the row's checksum
 }
 
 void GrowingTable::pack(hsize_t row, std::vector<std::byte>& message) {
@@ -89,7 +117,7 @@ void GrowingTable::pack(hsize_t row, std::vector<std::byte>& message) {
   const std::size_t num_ranges = ranges.size();
   append(&num_ranges, sizeof num_ranges);
   append(ranges.data(), num_ranges * sizeof(Range));
-  for (Column& column : columns_) {
+  for (Column& column : std::span(columns_).first(columns_.size() - 1)) {
     for (const Range& range : ranges)
       append(place(column, row, range.first), range.count * column.item_bytes);
   }
@@ -104,7 +132,7 @@ const std::byte* GrowingTable::unpack(hsize_t row, const std::byte* message) {
   take(&num_ranges, sizeof num_ranges);
   std::vector<Range> ranges(num_ranges);
   take(ranges.data(), num_ranges * sizeof(Range));
-  for (Column& column : columns_) {
+  for (Column& column : std::span(columns_).first(columns_.size() - 1)) {
     for (const Range& range : ranges) take(place(column, row, range.first), range.count * column.item_bytes);
   }
   return message;
@@ -131,6 +159,7 @@ std::string GrowingTable::write(const PropertyList& transfer) {
   if (num_waiting_ == 0) return {};
   exchange_items();
   const Range rows = share_of_rows(num_waiting_, ranks_.rank(), ranks_.size());
+  add_checksums(rows);
   std::string error;
   collective_ = true;
   for (Column& column : columns_) {

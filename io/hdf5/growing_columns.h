@@ -33,8 +33,9 @@ struct TableShape {
 
 /// Columns of one group that get the same rows, of which each rank owns some items. Before they are written
 /// the ranks exchange items, so that each has some rows whole and writes them in one piece: that is what
-/// MPI-IO's collective buffering is for, which loses errors (parallel_file.cpp).
-/// A waiting row has room for all items; pages that a rank never touches take no memory.
+/// MPI-IO's collective buffering is for, which loses errors (parallel_file.cpp). Each row has a checksum,
+/// which that rank computes. A waiting row has room for all items; pages that a rank never touches take no
+/// memory.
 class GrowingTable {
  public:
   /// Makes the datasets. Collective.
@@ -82,10 +83,11 @@ class GrowingTable {
     Datatype type;
     Dataset dataset;
     std::size_t item_bytes;
+    hsize_t items;                         ///< of a row
     std::unique_ptr<std::byte[]> waiting;  ///< [capacity][items][width]
   };
   std::byte* place(Column& column, hsize_t row, hsize_t item) {
-    return column.waiting.get() + (row * items_ + item) * column.item_bytes;
+    return column.waiting.get() + (row * column.items + item) * column.item_bytes;
   }
   std::byte* place(std::size_t column, hsize_t item) {
     return place(columns_[column], num_waiting_ - 1, item);
@@ -97,11 +99,15 @@ class GrowingTable {
   void pack(hsize_t row, std::vector<std::byte>& message);
   const std::byte* unpack(hsize_t row, const std::byte* message);
   void write(Column& column, Range rows, const PropertyList& transfer);
+  /// Puts the checksums of rows that this rank has whole.
+  void add_checksums(Range rows);
+  Column make_column(hid_t file, const std::string& path, const Datatype& type, hsize_t num_items,
+                     hsize_t width, const std::string& unit) const;
 
   const FileRanks& ranks_;
   TableShape shape_;
   hsize_t items_;
-  std::vector<Column> columns_;
+  std::vector<Column> columns_;  ///< the last has the checksums of the rows (io/hdf5/file_checksum.h)
   std::vector<std::vector<Range>> owned_;  ///< [num_waiting] this rank's items of each row
   hsize_t num_waiting_ = 0;
   hsize_t written_ = 0;

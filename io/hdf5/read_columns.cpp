@@ -219,6 +219,62 @@ std::vector<std::string> read_texts(hid_t file, const std::string& path, std::in
   return texts;
 }
 
+RawRows raw_rows(hid_t file, const std::string& path, std::int64_t num_rows) {
+  RawRows rows;
+  rows.path = path;
+  rows.dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
+  rows.type = owned<Datatype>(H5Dget_type(rows.dataset.id()), "H5Dget_type");
+  if (H5Tis_variable_str(rows.type.id()) > 0 || H5Tdetect_class(rows.type.id(), H5T_VLEN) > 0)
+    throw core::RunError(path + " has a type that pbmpi does not write");
+  rows.dims = dims_of(file, path);
+  rows.num_rows = rows.dims.empty() ? 1 : rows.dims[0];
+  if (num_rows >= 0 && !rows.dims.empty()) {
+    if (rows.dims[0] < static_cast<hsize_t>(num_rows)) throw core::RunError(path + " has too few rows");
+    rows.num_rows = rows.dims[0] = static_cast<hsize_t>(num_rows);
+  }
+  const std::size_t bytes = H5Tget_size(rows.type.id());
+  require_in_file(file, product(rows.dims), bytes, path);
+  const auto width = product(std::span(rows.dims).subspan(rows.dims.empty() ? 0 : 1));
+  require_in_file(file, width, bytes, path);
+  rows.row_bytes = bytes * *width;
+  return rows;
+}
+
+void RawRows::read(hsize_t first, hsize_t count, void* values) const {
+  if (count == 0 || row_bytes == 0) return;
+  const auto in_file = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
+  if (dims.empty()) {
+    check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "H5Dread(" + path + ")");
+    return;
+  }
+  std::vector<hsize_t> start(dims.size(), 0), extent = dims;
+  start[0] = first;
+  extent[0] = count;
+  check(H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr),
+        "H5Sselect_hyperslab");
+  const auto in_memory = owned<Dataspace>(
+      H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), "H5Screate_simple");
+  check(H5Dread(dataset.id(), type.id(), in_memory.id(), in_file.id(), H5P_DEFAULT, values),
+        "H5Dread(" + path + ")");
+}
+
+std::vector<std::string> names_in(hid_t file, const std::string& path) {
+  const auto group = owned<Group>(H5Gopen2(file, path.c_str(), H5P_DEFAULT), "H5Gopen(" + path + ")");
+  H5G_info_t info;
+  check(H5Gget_info(group.id(), &info), "H5Gget_info");
+  std::vector<std::string> names;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    std::array<char, 256> name{};
+    check(H5Lget_name_by_idx(group.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(),
+                             H5P_DEFAULT) < 0
+              ? -1
+              : 0,
+          "H5Lget_name_by_idx");
+    names.emplace_back(name.data());
+  }
+  return names;
+}
+
 std::int64_t integer_attribute(hid_t file, const std::string& object, const std::string& name) {
   const auto attribute = owned<Attribute>(
       H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "H5Aopen(" + name + ")");

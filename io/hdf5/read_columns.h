@@ -35,6 +35,24 @@ std::vector<double> read_doubles(hid_t file, const std::string& path, std::int64
 std::vector<std::int64_t> read_integers(hid_t file, const std::string& path, std::int64_t num_rows = -1);
 std::vector<std::string> read_texts(hid_t file, const std::string& path, std::int64_t num_rows = -1);
 
+/// The first rows of a dataset as the bytes that the file has.
+struct RawRows {
+  std::string path;
+  Dataset dataset;
+  Datatype type;
+  std::vector<hsize_t> dims;  ///< row first; empty: a scalar, which counts as one row
+  hsize_t num_rows = 0;
+  std::size_t row_bytes = 0;
+
+  /// Rows [first, first + count) into `values`.
+  void read(hsize_t first, hsize_t count, void* values) const;
+};
+/// As read_doubles() counts rows.
+RawRows raw_rows(hid_t file, const std::string& path, std::int64_t num_rows = -1);
+
+/// Names in a group, in alphabetical order.
+std::vector<std::string> names_in(hid_t file, const std::string& group);
+
 std::int64_t integer_attribute(hid_t file, const std::string& object, const std::string& name);
 
 /// All attributes of an object as text; the values of an array are separated by a dot ("1.0").

@@ -5,6 +5,7 @@
 #include "core/utc.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/commit_record.h"
+#include "io/hdf5/file_checksum.h"
 #include "io/hdf5/file_types.h"
 #include "io/run/event_columns.h"
 #include "io/run/static_columns.h"
@@ -58,6 +59,7 @@ void write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   }
   write_attribute(root.id(), "record_every", std::int64_t{setup.record_every});
   write_attribute(root.id(), "first_frame", setup.first_frame);
+  create_checksum_attributes(root.id());
   const Group events = create_group(file, "/events");
   create_commit_attributes(root.id(), events.id(), EventColumns::no_counts());
 }

@@ -82,23 +82,6 @@ void write_all(const std::string& path, const std::string& filetype, const Table
   if (!file) throw core::RunError("not all of its bytes; is the disk full?");
 }
 
-std::vector<std::string> names_in(hid_t file, const std::string& path) {
-  const auto group = owned<Group>(H5Gopen2(file, path.c_str(), H5P_DEFAULT), "H5Gopen(" + path + ")");
-  H5G_info_t info;
-  check(H5Gget_info(group.id(), &info), "H5Gget_info");
-  std::vector<std::string> names;
-  for (hsize_t i = 0; i < info.nlinks; ++i) {
-    std::array<char, 256> name{};
-    check(H5Lget_name_by_idx(group.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(),
-                             H5P_DEFAULT) < 0
-              ? -1
-              : 0,
-          "H5Lget_name_by_idx");
-    names.emplace_back(name.data());
-  }
-  return names;
-}
-
 TableColumn read_column(hid_t file, const std::string& table, const std::string& name) {
   const std::string path = "/" + table + "/" + name;
   const auto dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");

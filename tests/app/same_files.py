@@ -6,7 +6,8 @@ import numpy
 OF_THE_CLOCK = {
     "/timings/frame/wall", "/timings/frame/deadline_met", "/timings/island/solve", "/timings/space/collide",
     "/timings/space/collide_spaces", "/estimate/delivered", "/estimate/precise", "/estimate/compute"}
-OF_THE_RANKS = ("/ranks/", "/timings/rank/", "/parameters/")
+OF_THE_RANKS = ("/ranks/", "/timings/rank/", "/parameters/", "/checksums/timings.", "/checksums/estimate.delivered",
+                "/checksums/estimate.compute", "/checksums/events.")
 # A rebalance follows measured times.
 EVENTS_OF_THE_CLOCK = {b"rebalance"}
 
