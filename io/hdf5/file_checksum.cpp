@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/seal.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/read_columns.h"
-#include "io/hdf5/seal.h"
 
 namespace pbmpi::io {
 namespace {
 
 constexpr const char *fixed_name = "checksum", *end_name = "end_checksum";
 
-void add_text(const std::string& text, Checksum& sum) {
+void add_text(const std::string& text, core::Checksum& sum) {
   sum.add(std::as_bytes(std::span(text)));
   sum.add(std::as_bytes(std::span("", 1)));  // ends it
 }
@@ -27,7 +27,7 @@ bool changes(const std::string& object, const std::string& attribute) {
   return object == "/events" || (object == "/" && std::ranges::find(names, attribute) != names.end());
 }
 
-void add_attributes(hid_t file, const std::string& object, bool that_change, Checksum& sum) {
+void add_attributes(hid_t file, const std::string& object, bool that_change, core::Checksum& sum) {
   for (const auto& [name, text] : attributes_as_text(file, object)) {
     if (changes(object, name) != that_change || name == fixed_name || name == end_name) continue;
     add_text(name, sum);
@@ -36,7 +36,7 @@ void add_attributes(hid_t file, const std::string& object, bool that_change, Che
 }
 
 /// Type, and of a dataset that is not chunked shape and bytes.
-void add_dataset(hid_t file, const std::string& path, Checksum& sum) {
+void add_dataset(hid_t file, const std::string& path, core::Checksum& sum) {
   const auto dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
   const auto type = owned<Datatype>(H5Dget_type(dataset.id()), "H5Dget_type");
   const auto creation = owned<PropertyList>(H5Dget_create_plist(dataset.id()), "H5Dget_create_plist");
@@ -55,7 +55,7 @@ void add_dataset(hid_t file, const std::string& path, Checksum& sum) {
 
 struct Walk {
   hid_t file;
-  Checksum sum;
+  core::Checksum sum;
   std::string error;
 };
 
@@ -76,7 +76,7 @@ herr_t visit(hid_t, const char* name, const H5L_info_t*, void* data) {
 }
 
 /// Never 0, which means that none is stored.
-std::int64_t stored_form(const Checksum& sum) {
+std::int64_t stored_form(const core::Checksum& sum) {
   return std::max<std::int64_t>(static_cast<std::int64_t>(sum.value() >> 1), 1);
 }
 
@@ -90,7 +90,7 @@ std::int64_t fixed_checksum(hid_t file) {
 }
 
 std::int64_t end_checksum(hid_t file) {
-  Checksum sum;
+  core::Checksum sum;
   add_attributes(file, "/", true, sum);
   add_attributes(file, "/events", true, sum);
   return stored_form(sum);
@@ -126,7 +126,7 @@ void check_table(hid_t file, const std::string& path, std::int64_t num_rows) {
   if (stored.row_bytes != sizeof(std::uint64_t)) throw core::RunError(path + " is no column of checksums");
   for (hsize_t first = 0; first < static_cast<hsize_t>(num_rows); first += piece) {
     const hsize_t count = std::min<hsize_t>(piece, static_cast<hsize_t>(num_rows) - first);
-    std::vector<Checksum> sums(count);
+    std::vector<core::Checksum> sums(count);
     for (const RawRows& column : columns) {
       std::vector<std::byte> values(count * column.row_bytes);
       column.read(first, count, values.data());

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <span>
 
+#include "core/seal.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/file_checksum.h"
-#include "io/hdf5/seal.h"
 
 namespace pbmpi::io {
 namespace {
@@ -77,7 +77,7 @@ GrowingTable::Column GrowingTable::make_column(hid_t file, const std::string& pa
 
 void GrowingTable::add_checksums(Range rows) {
   for (hsize_t row = rows.first; row < rows.first + rows.count; ++row) {
-    Checksum sum;
+    core::Checksum sum;
     for (std::size_t i = 0; i + 1 < columns_.size(); ++i) {
       Column& column = columns_[i];
       sum.add({place(column, row, 0), column.items * column.item_bytes});

@@ -9,8 +9,8 @@
 #include "core/error.h"
 #include "core/input_file.h"
 #include "core/number_text.h"
+#include "core/seal.h"
 #include "io/hdf5/file_types.h"
-#include "io/hdf5/seal.h"
 
 namespace pbmpi::io {
 namespace {
@@ -151,9 +151,9 @@ File open_run(const std::string& path) { return open_file(path, filetype, layout
 File open_file(const std::string& path, const std::string& type, std::int64_t major,
                std::optional<std::int64_t> sealed_since) {
   prepare_hdf5();
-  const Seal seal = seal_of(path);
+  const core::Seal seal = core::seal_of(path);
   core::require_input(
-      seal != Seal::broken,
+      seal != core::Seal::broken,
       path + ": its bytes do not have the checksum that was written with them; the file is damaged");
   const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
   // A file may be read while it is written, and on file systems without locks.
@@ -168,7 +168,7 @@ File open_file(const std::string& path, const std::string& type, std::int64_t ma
   try {
     const std::int64_t minor = require_type(path, file.id(), type, major);
     core::require_input(
-        !sealed_since || minor < *sealed_since || seal == Seal::intact,
+        !sealed_since || minor < *sealed_since || seal == core::Seal::intact,
         path + ": its checksum is missing; the file is damaged, or another program has written into it");
   } catch (const core::RunError& e) {
     throw core::InputError(path + ": " + e.what() + "; the file is damaged");

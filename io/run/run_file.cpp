@@ -178,7 +178,7 @@ void RunFile::Impl::finish(bool complete, const std::string& state_hash) {
   File file = open_alone(target_.open_path());
   const std::vector<ByteRange> unused = columns_->cut(file.id());
   if (!file.close()) check(-1, "H5Fclose");
-  store_end_checksum(open_serially(target_.path()).id());
+  store_end_checksum(open_serially(target_.open_path()).id());
   target_.release(unused);
 }
 

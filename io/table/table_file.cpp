@@ -7,11 +7,11 @@
 
 #include "core/error.h"
 #include "core/input_file.h"
+#include "core/seal.h"
 #include "io/file/output_target.h"
 #include "io/file/write_file.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/read_columns.h"
-#include "io/hdf5/seal.h"
 
 namespace pbmpi::io {
 namespace {
@@ -178,7 +178,7 @@ std::vector<std::byte> table_image(const std::string& filetype, const std::array
   check(size < 0 ? -1 : 0, "H5Fget_file_image");
   std::vector<std::byte> image(static_cast<std::size_t>(size));
   check(H5Fget_file_image(file.id(), image.data(), image.size()) < 0 ? -1 : 0, "H5Fget_file_image");
-  if (version[1] >= sealed_since) add_seal(image);
+  if (version[1] >= sealed_since) core::add_seal(image);
   return image;
 }
 
@@ -202,7 +202,7 @@ std::string filetype_of(const std::string& path) {
   prepare_hdf5();
   if (content_of(path) != Content::hdf5) return "";  // a pipe is not even opened
   try {
-    if (seal_of(path) == Seal::broken) return "";  // nothing of it can be trusted
+    if (core::seal_of(path) == core::Seal::broken) return "";  // nothing of it can be trusted
     const auto file = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "H5Fopen");
     const auto attributes = attributes_as_text(file.id(), "/");
     const auto found = attributes.find("filetype");

@@ -79,7 +79,7 @@ class ProgramTest(unittest.TestCase):
 
 
 def seal(path):
-    """Appends the checksum of io/hdf5/seal.h: for a file that a test has changed on purpose."""
+    """Appends the checksum of core/seal.h: for a file that a test has changed on purpose."""
     with open(path, "rb") as file:
         image = file.read()
     value = 0x9e3779b97f4a7c15

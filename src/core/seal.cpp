@@ -1,4 +1,4 @@
-#include "io/hdf5/seal.h"
+#include "core/seal.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "core/input_file.h"
 
-namespace pbmpi::io {
+namespace pbmpi::core {
 namespace {
 
 constexpr std::array<char, 8> magic = {'P', 'B', 'M', 'P', 'I', 'S', 'U', 'M'};
@@ -59,7 +59,7 @@ void add_seal(std::vector<std::byte>& image) {
 }
 
 Seal seal_of(const std::string& path) {
-  core::require_readable_file(path, "give the name of a file that pbmpi has written");
+  require_readable_file(path, "give the name of a file that pbmpi has written");
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = file.tellg(), end = size - static_cast<std::streamoff>(sizeof(Trailer));
   Trailer trailer;
@@ -79,4 +79,4 @@ Seal seal_of(const std::string& path) {
   return checksum.value() == trailer.checksum ? Seal::intact : Seal::broken;
 }
 
-}  // namespace pbmpi::io
+}  // namespace pbmpi::core

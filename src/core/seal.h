@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace pbmpi::io {
+namespace pbmpi::core {
 
 /// A checksum of bytes that come piece by piece. A change of 8 neighbouring bytes at most, a bit or a word,
 /// always changes it.
@@ -30,8 +30,8 @@ class Checksum {
 void add_seal(std::vector<std::byte>& image);
 
 enum class Seal { none, intact, broken };
-/// What the end of the file says of the rest of it. Throws core::InputError as core::require_readable_file()
+/// What the end of the file says of the rest of it. Throws InputError as require_readable_file()
 /// does.
 Seal seal_of(const std::string& path);
 
-}  // namespace pbmpi::io
+}  // namespace pbmpi::core
