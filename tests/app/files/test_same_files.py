@@ -1,11 +1,13 @@
 """A run's file is the same for 1 to 4 ranks, byte for byte, but for clocks and for what says how the work was dealt out.
 
 With --all every scene is stepped in every way; without, every scene in one way, and one scene in each of the others."""
+import os
 import sys
 import unittest
 
-from harness import ProgramTest
-from same_files import content, differences
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import ProgramTest  # noqa: E402
+from same_files import content, differences  # noqa: E402
 
 SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
 RANKS = (1, 2, 3, 4)

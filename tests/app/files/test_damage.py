@@ -1,12 +1,15 @@
 """What has changed in a file since it was written is noticed when it is read."""
+import os
 import random
 import shutil
+import sys
 import unittest
 
 import h5py
 import numpy as np
 
-from harness import ProgramTest
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import ProgramTest  # noqa: E402
 
 RECORDED = ("--replicas", 3, "--decompose", "worlds", "--feec", "--record-residuals")
 
