@@ -78,6 +78,8 @@ ALONE = {**os.environ, **AT_ONCE, "OMPI_MCA_ess_singleton_isolated": "1", "OMPI_
 class Mutants(ProgramTest):
     def setUp(self):
         super().setUp()
+        # A session folder of its own: all such processes of a machine would use the same one, at the same time.
+        self.alone = {**ALONE, "OMPI_MCA_orte_tmpdir_base": self.folder}
         self.scenes = []
         for path in sorted(glob.glob(f"{SOURCE}/scenes/*.toml") + glob.glob(f"{SOURCE}/scenes/hard/*/*.toml")):
             with open(path, "rb") as file:
@@ -94,7 +96,7 @@ class Mutants(ProgramTest):
     def ends_well(self, command, what):
         """The result, whose exit code is one of the program's own, with a message if it is not 0."""
         result = subprocess.run(command, cwd=self.folder, capture_output=True, timeout=LIMIT_S, check=False,
-                                env=ALONE)
+                                env=self.alone)
         errors = result.stderr.decode(errors="replace")
         self.assertIn(result.returncode, (0, 2), f"{what}: {command}: {errors}")
         self.assertIsNone(BAD_ENDS.search(errors), f"{what}: {errors}")
@@ -111,7 +113,7 @@ class Mutants(ProgramTest):
             return
         # The run may fail over numbers that are not finite (exit code 1), and must say so.
         result = self.run_command([PBMPI, "--scene", "mutant.toml", "--replicas", "1", "--iterations", "2", "--warmup", "0",
-                                   "--frames", "1", "--steps-per-frame", "2", "--no-output"], errors="replace", env=ALONE)
+                                   "--frames", "1", "--steps-per-frame", "2", "--no-output"], errors="replace", env=self.alone)
         self.assertIn(result.returncode, (0, 1, 2), f"{what}: {result.stderr}")
         self.assertIsNone(BAD_ENDS.search(result.stderr), f"{what}: {result.stderr}")
         self.assertTrue(result.returncode == 0 or "pbmpi: " in result.stderr, what)
