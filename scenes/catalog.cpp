@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "core/input_file.h"
+#include "core/system/input_file.h"
 #include "core/text.h"
 #include "scenes/embedded.h"
 #include "scenes/scene.h"

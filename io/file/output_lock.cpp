@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "core/paths.h"
+#include "core/system/paths.h"
 
 namespace pbmpi::io {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/leftovers.h"
+#include "core/system/leftovers.h"
 #include "io/file/descriptor.h"
 
 namespace pbmpi::io {

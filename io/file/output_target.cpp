@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "core/error.h"
-#include "core/paths.h"
+#include "core/system/paths.h"
 #include "io/file/write_file.h"
 
 namespace pbmpi::io {

@@ -12,7 +12,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/paths.h"
+#include "core/system/paths.h"
 
 namespace pbmpi::io {
 namespace {

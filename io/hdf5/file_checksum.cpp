@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/seal.h"
+#include "core/system/seal.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/read_columns.h"
 

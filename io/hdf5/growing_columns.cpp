@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "core/seal.h"
+#include "core/system/seal.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/file_checksum.h"
 

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "core/error.h"
-#include "core/input_file.h"
 #include "core/number_text.h"
-#include "core/seal.h"
+#include "core/system/input_file.h"
+#include "core/system/seal.h"
 #include "io/hdf5/file_types.h"
 
 namespace pbmpi::io {

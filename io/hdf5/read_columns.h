@@ -17,8 +17,8 @@ namespace pbmpi::io {
 File open_run(const std::string& path);
 
 /// open_run() for a file of type `type`, whose layout has the version `major`. From its minor version
-/// `sealed_since` on it must have a seal (core/seal.h); one that is broken is refused in any case, before
-/// HDF5 reads the file.
+/// `sealed_since` on it must have a seal (core/system/seal.h); one that is broken is refused in any case,
+/// before HDF5 reads the file.
 File open_file(const std::string& path, const std::string& type, std::int64_t major,
                std::optional<std::int64_t> sealed_since = std::nullopt);
 

@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/input_file.h"
-#include "core/seal.h"
+#include "core/system/input_file.h"
+#include "core/system/seal.h"
 #include "io/file/output_target.h"
 #include "io/file/write_file.h"
 #include "io/hdf5/columns.h"

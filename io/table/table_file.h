@@ -66,7 +66,7 @@ class TableWriter {
 inline constexpr std::array<std::int64_t, 2> study_version = {1, 3};
 
 /// The bytes of such a file, made in memory: what is written in one go leaves no half file behind. Sealed
-/// (core/seal.h) from minor version 3 on.
+/// (core/system/seal.h) from minor version 3 on.
 std::vector<std::byte> table_image(const std::string& filetype, const std::array<std::int64_t, 2>& version,
                                    const TableFile& file);
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <exception>
 
-#include "core/awaited.h"
+#include "core/system/awaited.h"
 #include "mpi/comm/check.h"
 
 namespace pbmpi::mpi {

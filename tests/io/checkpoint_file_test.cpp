@@ -154,7 +154,7 @@ TEST(CheckpointFile, replaces_the_one_before_also_behind_a_link) {
 TEST(CheckpointFile, any_bit_that_changed_is_noticed) {
   const Scratch scratch;
   const std::string path = scratch.file("run.ck.h5");
-  const auto size = static_cast<std::size_t>(write_checkpoint(path, sample()));
+  const auto size = static_cast<std::size_t>(write_checkpoint(OutputLock(path), sample()));
   for (std::size_t at = 0; at < size; at += 131) {
     std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
     file.seekg(static_cast<std::streamoff>(at));

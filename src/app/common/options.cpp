@@ -5,7 +5,7 @@
 
 #include "app/common/version.h"
 #include "core/error.h"
-#include "core/input_file.h"
+#include "core/system/input_file.h"
 #include "core/text.h"
 #include "stepping/step_options.h"
 

@@ -8,7 +8,7 @@
 
 #include <boost/program_options.hpp>
 
-#include "core/paths.h"
+#include "core/system/paths.h"
 
 namespace pbmpi::app {
 

@@ -4,7 +4,7 @@
 #include <new>
 
 #include "app/common/text_output.h"
-#include "core/awaited.h"
+#include "core/system/awaited.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/comm/session.h"
 

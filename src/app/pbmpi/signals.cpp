@@ -7,9 +7,9 @@
 #include <csignal>
 #include <cstring>
 
-#include "core/awaited.h"
 #include "core/clock.h"
-#include "core/leftovers.h"
+#include "core/system/awaited.h"
+#include "core/system/leftovers.h"
 
 namespace pbmpi::app {
 namespace {

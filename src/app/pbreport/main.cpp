@@ -7,7 +7,7 @@
 #include "app/pbreport/commands.h"
 #include "app/pbreport/isolated.h"
 #include "core/error.h"
-#include "core/leftovers.h"
+#include "core/system/leftovers.h"
 
 namespace {
 

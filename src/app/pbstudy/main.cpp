@@ -2,7 +2,7 @@
 #include "app/common/options.h"
 #include "app/common/run_program.h"
 #include "app/pbstudy/commands.h"
-#include "core/leftovers.h"
+#include "core/system/leftovers.h"
 #include "mpi/comm/session.h"
 
 int main(int argc, char** argv) {

@@ -12,7 +12,7 @@
 #include "app/common/text_output.h"
 #include "app/pbreport/suite/characterise.h"
 #include "app/pbreport/suite/suite_json.h"
-#include "core/input_file.h"
+#include "core/system/input_file.h"
 #include "io/html/suite_page.h"
 
 namespace pbmpi::app {

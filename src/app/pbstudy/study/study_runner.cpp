@@ -6,8 +6,8 @@
 #include "app/common/format.h"
 #include "app/common/load_scene.h"
 #include "app/common/version.h"
-#include "core/awaited.h"
 #include "core/error.h"
+#include "core/system/awaited.h"
 
 namespace pbmpi::app {
 

@@ -1,4 +1,4 @@
-#include "core/seal.h"
+#include "core/system/seal.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <utility>
 
-#include "core/input_file.h"
+#include "core/system/input_file.h"
 
 namespace pbmpi::core {
 namespace {

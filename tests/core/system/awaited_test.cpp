@@ -1,4 +1,4 @@
-#include "core/awaited.h"
+#include "core/system/awaited.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/leftovers.h"
+#include "core/system/leftovers.h"
 
 namespace pbmpi::core {
 namespace {

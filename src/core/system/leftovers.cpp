@@ -1,4 +1,4 @@
-#include "core/leftovers.h"
+#include "core/system/leftovers.h"
 
 #include <unistd.h>
 

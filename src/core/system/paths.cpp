@@ -1,4 +1,4 @@
-#include "core/paths.h"
+#include "core/system/paths.h"
 
 #include <sys/stat.h>
 

@@ -1,4 +1,4 @@
-#include "core/awaited.h"
+#include "core/system/awaited.h"
 
 #include <time.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "core/leftovers.h"
+#include "core/system/leftovers.h"
 
 namespace pbmpi::core {
 namespace {
