@@ -14,6 +14,15 @@ namespace fs = std::filesystem;
 
 bool is_stream(const struct stat& status) { return !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode); }
 
+/// Where a file would be made; a name that the file system refuses, e.g. since it is too long, as it is
+/// written.
+fs::path place_of(const std::string& path) {
+  const fs::path absolute = fs::absolute(followed(path));
+  std::error_code error;
+  fs::path place = fs::weakly_canonical(absolute, error);
+  return error ? absolute.lexically_normal() : place;
+}
+
 }  // namespace
 
 std::string followed(const std::string& path) {
@@ -35,9 +44,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
   const bool has_a = stat(a.c_str(), &of_a) == 0, has_b = stat(b.c_str(), &of_b) == 0;
   if (has_a != has_b || (has_a && (is_stream(of_a) || is_stream(of_b)))) return false;
   if (has_a) return of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
-  std::error_code ignored;
-  return fs::weakly_canonical(fs::absolute(followed(a)), ignored) ==
-         fs::weakly_canonical(fs::absolute(followed(b)), ignored);
+  return place_of(a) == place_of(b);
 }
 
 void require_separate(std::span<const NamedPath> paths) {
