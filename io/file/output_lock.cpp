@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/system/paths.h"
 
 namespace pbmpi::io {
@@ -69,8 +70,19 @@ std::string name_of(const Holder& holder) {
   return "process " + std::to_string(holder.process) + " on host " + holder.host;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why, const std::string& advice) {
-  throw core::InputError("cannot create " + path + ": " + why + "; " + advice);
+/// A name in the folder of `path` for a file that belongs to it: prefix + name + suffix, the name cut where
+/// that is too long for a file system.
+std::string beside(const std::string& path, const std::string& prefix, const std::string& suffix) {
+  constexpr std::size_t longest_name = 255, hash_digits = 16;
+  const fs::path file(path);
+  std::string name = file.filename().string();
+  const std::size_t added = prefix.size() + suffix.size();
+  if (name.size() <= longest_name && name.size() + added > longest_name) {
+    core::Hash64 hash;
+    for (const char letter : name) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
+    name = name.substr(0, longest_name - added - hash_digits) + core::to_hex(hash.value());
+  }
+  return (file.parent_path() / (prefix + name + suffix)).string();
 }
 
 /// Only what has the form of a temporary file of `path` is removed.
@@ -84,6 +96,14 @@ void remove_unfinished(const std::string& path, const Holder& holder) {
 
 }  // namespace
 
+void refuse_output(const std::string& path, const std::string& why, const std::string& advice) {
+  throw core::InputError("cannot create " + path + ": " + why + "; " + advice);
+}
+
+void refuse_output_in_folder(const std::string& path, int error) {
+  refuse_output(path, core::reason_of(error), "give the name of a file in a directory you can write to");
+}
+
 OutputLock::OutputLock(const std::string& path, bool has_locks)
     : path_(core::followed(path)),
       lock_path_(beside(path_, ".", ".lock")),
@@ -95,10 +115,10 @@ OutputLock::OutputLock(const std::string& path, bool has_locks)
     if (taken == Taken::yes) break;
     const Holder holder = read_holder(lock_path_);
     if (tries == most_tries || (taken == Taken::held && !is_ending(holder))) {
-      refuse(path_, name_of(holder) + " writes it",
-             has_locks
-                 ? "wait for it to end, or give another name"
-                 : "wait for it to end, or give another name; if that process is gone, remove " + lock_path_);
+      refuse_output(path_, name_of(holder) + " writes it",
+                    has_locks ? "wait for it to end, or give another name"
+                              : "wait for it to end, or give another name; if that process is gone, remove " +
+                                    lock_path_);
     }
     std::this_thread::sleep_for(50ms);
   }
@@ -121,10 +141,8 @@ OutputLock& OutputLock::operator=(OutputLock&& other) noexcept {
 }
 
 OutputLock::Taken OutputLock::take() {
-  Descriptor file(lock_path_, O_CREAT | O_RDWR);
-  if (!file.is_open()) {
-    refuse(path_, reason_of(errno), "give the name of a file in a directory you can write to");
-  }
+  core::Descriptor file(lock_path_, O_CREAT | O_RDWR);
+  if (!file.is_open()) refuse_output_in_folder(path_, errno);
   if (flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) return Taken::held;
     if (errno == EINTR) return Taken::again;
@@ -140,11 +158,10 @@ OutputLock::Taken OutputLock::take() {
 }
 
 OutputLock::Taken OutputLock::take_by_name() {
-  Descriptor file(lock_path_, O_CREAT | O_EXCL | O_RDWR);
+  core::Descriptor file(lock_path_, O_CREAT | O_EXCL | O_RDWR);
   if (!file.is_open()) {
     const int error = errno;
-    if (error != EEXIST)
-      refuse(path_, reason_of(error), "give the name of a file in a directory you can write to");
+    if (error != EEXIST) refuse_output_in_folder(path_, error);
     const Holder holder = read_holder(lock_path_);
     if (!is_dead(holder)) return Taken::held;
     remove_unfinished(path_, holder);

@@ -3,18 +3,22 @@
 
 #include <string>
 
+#include "core/system/descriptor.h"
 #include "core/system/leftovers.h"
-#include "io/file/descriptor.h"
 
 namespace pbmpi::io {
 
+/// Throws core::InputError: an output cannot be created.
+[[noreturn]] void refuse_output(const std::string& path, const std::string& why, const std::string& advice);
+/// `error`: the errno of making a file in its folder.
+[[noreturn]] void refuse_output_in_folder(const std::string& path, int error);
+
 /// While one lives nobody else may write `path`, by whatever links it is named: not on this host, nor on
 /// another one that sees the file system, as far as that passes locks on. It is a lock of the system (flock)
-/// on a file beside it,
-/// `.NAME.lock`, so that the death of the process frees it, whatever it dies of. The file goes with the lock;
-/// a killed process leaves it, of no effect. On a file system without locks the file itself is the lock; then
-/// one that is left by a dead process of this host counts for nothing, and one of another host must be
-/// removed by hand.
+/// on a file beside it, `.NAME.lock`, so that the death of the process frees it, whatever it dies of. The
+/// file goes with the lock; a killed process leaves it, of no effect. On a file system without locks the file
+/// itself is the lock; then one that is left by a dead process of this host counts for nothing, and one of
+/// another host must be removed by hand.
 ///
 /// A lock on the data would keep readers out, and on a network file system MPI-IO too.
 class OutputLock {
@@ -42,7 +46,7 @@ class OutputLock {
   void write_record();
 
   std::string path_, lock_path_, temporary_path_;
-  Descriptor file_;
+  core::Descriptor file_;
   core::Leftover lock_file_, temporary_file_;
 };
 

@@ -19,10 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why, const std::string& advice) {
-  throw core::InputError("cannot create " + path + ": " + why + "; " + advice);
-}
-
 bool has_free(const std::string& path, std::int64_t bytes) {
   struct statvfs system {};
   if (statvfs(path.c_str(), &system) != 0) return true;
@@ -32,9 +28,9 @@ bool has_free(const std::string& path, std::int64_t bytes) {
 
 /// errno of reserving `bytes` for the file, 0 if all went well. A file system that cannot reserve is only
 /// asked for its free space.
-int reserve_whole(const Descriptor& file, const std::string& path, std::int64_t bytes) {
+int reserve_whole(const core::Descriptor& file, const std::string& path, std::int64_t bytes) {
   // The limit is asked for first: a write beyond it raises SIGXFSZ.
-  if (largest_file_bytes() < static_cast<std::uint64_t>(bytes)) return EFBIG;
+  if (core::largest_file_bytes() < static_cast<std::uint64_t>(bytes)) return EFBIG;
   while (fallocate(file.get(), 0, 0, bytes) != 0) {
     if (errno == EOPNOTSUPP || errno == ENOSYS) return has_free(path, bytes) ? 0 : ENOSPC;
     if (errno != EINTR) return errno;
@@ -43,38 +39,38 @@ int reserve_whole(const Descriptor& file, const std::string& path, std::int64_t 
 }
 
 void refuse_space(const std::string& path, std::int64_t bytes, int error) {
-  refuse(path, "its " + std::to_string((bytes >> 20) + 1) + " MiB do not fit: " + reason_of(error),
-         "free some space, record fewer frames (--record-every) or write elsewhere (--output)");
+  refuse_output(path,
+                "its " + std::to_string((bytes >> 20) + 1) + " MiB do not fit: " + core::reason_of(error),
+                "free some space, record fewer frames (--record-every) or write elsewhere (--output)");
 }
 
 void require_replaceable(const fs::path& path) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
-  if (fs::is_directory(status)) refuse(path.string(), "it is a directory", "give the name of a file");
+  if (fs::is_directory(status)) refuse_output(path.string(), "it is a directory", "give the name of a file");
   if (!fs::exists(status)) return;
-  if (!fs::is_regular_file(status)) refuse(path.string(), "it is not a regular file", "give another name");
+  if (!fs::is_regular_file(status))
+    refuse_output(path.string(), "it is not a regular file", "give another name");
   if (access(path.c_str(), W_OK) != 0)
-    refuse(path.string(), reason_of(errno), "give another name or make it writable");
+    refuse_output(path.string(), core::reason_of(errno), "give another name or make it writable");
   if (content_of(path.string()) == Content::other)
-    refuse(path.string(), "it is there, and no HDF5 file", "give another name, or remove it first");
+    refuse_output(path.string(), "it is there, and no HDF5 file", "give another name, or remove it first");
 }
 
 }  // namespace
 
 OutputTarget::OutputTarget(const std::string& path, std::int64_t bytes) {
-  if (path.empty()) refuse("the output file", "its name is empty", "give the name of a file");
+  if (path.empty()) refuse_output("the output file", "its name is empty", "give the name of a file");
   const std::string target = core::followed(path);
   require_replaceable(target);
   std::error_code ignored;
   const fs::path folder = fs::path(target).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, ignored)) {
-    refuse(path, "there is no directory " + folder.string(), "make it first or give another name");
+    refuse_output(path, "there is no directory " + folder.string(), "make it first or give another name");
   }
   lock_ = OutputLock(path);
-  file_ = Descriptor(temporary_path(), O_CREAT | O_RDWR | O_TRUNC);
-  if (!file_.is_open()) {
-    refuse(path, reason_of(errno), "give the name of a file in a directory you can write to");
-  }
+  file_ = core::Descriptor(temporary_path(), O_CREAT | O_RDWR | O_TRUNC);
+  if (!file_.is_open()) refuse_output_in_folder(path, errno);
   // This only asks whether it would fit: what is kept ahead of the rows is up to SpaceAhead.
   if (const int error = reserve_whole(file_, temporary_path(), bytes); error != 0) {
     remove_unpublished();
@@ -101,14 +97,14 @@ void OutputTarget::remove_unpublished() {
 
 void OutputTarget::publish() {
   struct stat status {};
-  if (fstat(file_.get(), &status) != 0) refuse(path(), reason_of(errno), "try again");
+  if (fstat(file_.get(), &status) != 0) refuse_output(path(), core::reason_of(errno), "try again");
   constexpr std::int64_t block_bytes = 512;
-  const bool within_limit = static_cast<std::uint64_t>(status.st_size) <= largest_file_bytes();
+  const bool within_limit = static_cast<std::uint64_t>(status.st_size) <= core::largest_file_bytes();
   if (!within_limit || !has_free(temporary_path(), status.st_size - block_bytes * status.st_blocks))
     refuse_space(path(), status.st_size, within_limit ? ENOSPC : EFBIG);
   keep_rights(file_, path());
   if (std::rename(temporary_path().c_str(), path().c_str()) != 0) {
-    refuse(path(), reason_of(errno), "give another name");
+    refuse_output(path(), core::reason_of(errno), "give another name");
   }
   is_published_ = true;
 }
@@ -133,25 +129,25 @@ void OutputTarget::require_in_place() const {
 std::string OutputTarget::shortage() const {
   constexpr std::int64_t nothing_left = std::int64_t{64} * 1024;
   struct stat status {};
-  if (fstat(file_.get(), &status) == 0 && static_cast<std::uint64_t>(status.st_size) > largest_file_bytes())
-    return reason_of(EFBIG);
-  return has_free(path(), nothing_left) ? "" : reason_of(ENOSPC);
+  if (fstat(file_.get(), &status) == 0 &&
+      static_cast<std::uint64_t>(status.st_size) > core::largest_file_bytes())
+    return core::reason_of(EFBIG);
+  return has_free(path(), nothing_left) ? "" : core::reason_of(ENOSPC);
 }
 
-std::string OutputTarget::reserve(const std::vector<ByteRange>& ranges) const {
+std::string OutputTarget::reserve(const std::vector<core::ByteRange>& ranges) const {
   for (const auto& [offset, length] : ranges) {
     while (fallocate(file_.get(), FALLOC_FL_KEEP_SIZE, offset, length) != 0) {
-      if (errno == EOPNOTSUPP || errno == ENOSYS) return has_free(path(), length) ? "" : reason_of(ENOSPC);
-      if (errno != EINTR) return reason_of(errno);
+      if (errno == EOPNOTSUPP || errno == ENOSYS)
+        return has_free(path(), length) ? "" : core::reason_of(ENOSPC);
+      if (errno != EINTR) return core::reason_of(errno);
     }
   }
   return "";
 }
 
-void OutputTarget::release(const std::vector<ByteRange>& unused) const {
-  for (const auto& [offset, length] : unused) {
-    if (fallocate(file_.get(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, offset, length) != 0) return;
-  }
+void OutputTarget::release(const std::vector<core::ByteRange>& unused) const {
+  core::punch_holes(file_.get(), unused);
 }
 
 }  // namespace pbmpi::io

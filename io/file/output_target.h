@@ -3,16 +3,12 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "io/file/descriptor.h"
+#include "core/system/descriptor.h"
 #include "io/file/output_lock.h"
 
 namespace pbmpi::io {
-
-/// A range of bytes of a file: offset, length.
-using ByteRange = std::pair<std::int64_t, std::int64_t>;
 
 /// An HDF5 file that is made under a temporary name in its directory and appears under its own name when
 /// publish() is called. Until then the destructor removes it. While one lives, no other process may write the
@@ -44,15 +40,15 @@ class OutputTarget {
   std::string shortage() const;
   /// Takes disk space for bytes that are about to be written, where the file system can; elsewhere asks
   /// whether there is enough. Empty, or why it cannot be had.
-  std::string reserve(const std::vector<ByteRange>& ranges) const;
+  std::string reserve(const std::vector<core::ByteRange>& ranges) const;
   /// Gives disk space back that the file reserved and never used. Best effort.
-  void release(const std::vector<ByteRange>& unused) const;
+  void release(const std::vector<core::ByteRange>& unused) const;
 
  private:
   void remove_unpublished();
 
   OutputLock lock_;
-  Descriptor file_;  ///< open from the start, so that nobody can put another one in its place
+  core::Descriptor file_;  ///< open from the start, so that nobody can put another one in its place
   bool is_published_ = false;
 };
 

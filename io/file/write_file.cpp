@@ -22,15 +22,15 @@ namespace fs = std::filesystem;
 /// Flushes a folder, so that a new name in it outlives a power failure. File systems that cannot do it need
 /// not.
 void sync_folder(const fs::path& folder) {
-  const Descriptor opened(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
+  const core::Descriptor opened(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
   if (opened.is_open()) fsync(opened.get());
 }
 
 /// Returns 0, or the errno of what failed.
 int write_new(const OutputLock& lock, std::span<const std::byte> bytes) {
   // The limit is asked for first: a write beyond it raises SIGXFSZ.
-  if (largest_file_bytes() < bytes.size()) return EFBIG;
-  Descriptor file(lock.temporary_path(), O_CREAT | O_WRONLY | O_TRUNC);
+  if (core::largest_file_bytes() < bytes.size()) return EFBIG;
+  core::Descriptor file(lock.temporary_path(), O_CREAT | O_WRONLY | O_TRUNC);
   if (!file.is_open()) return errno;
   keep_rights(file, lock.path());
   if (const int error = file.write(bytes); error != 0) return error;
@@ -73,8 +73,8 @@ bool is_stream(const std::string& path) {
 /// Returns 0, or the errno of what failed.
 int write_stream(const std::string& path, std::span<const std::byte> bytes) {
   // What this process has open is written where it stands: opened anew it would begin at its start again.
-  if (const int own = open_file_of(path).own; own >= 0) return write_all(own, bytes);
-  Descriptor stream(path, O_WRONLY);
+  if (const int own = open_file_of(path).own; own >= 0) return core::write_all(own, bytes);
+  core::Descriptor stream(path, O_WRONLY);
   if (!stream.is_open()) return errno;
   const int error = stream.write(bytes);
   return error != 0 ? error : stream.close();
@@ -100,13 +100,14 @@ void write_file(const std::string& path, std::string_view text) {
   const auto bytes = std::as_bytes(std::span(text));
   if (path.empty()) refuse("a file without a name", "the name is empty");
   if (is_stream(path)) {
-    if (const int error = write_stream(path, bytes); error != 0) refuse(path, reason_of(error));
+    if (const int error = write_stream(path, bytes); error != 0) refuse(path, core::reason_of(error));
     return;
   }
   struct stat status {};
   if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-    refuse(path, S_ISDIR(status.st_mode) ? reason_of(EISDIR) : "it is a device");
-  if (access(path.c_str(), F_OK) == 0 && access(path.c_str(), W_OK) != 0) refuse(path, reason_of(errno));
+    refuse(path, S_ISDIR(status.st_mode) ? core::reason_of(EISDIR) : "it is a device");
+  if (access(path.c_str(), F_OK) == 0 && access(path.c_str(), W_OK) != 0)
+    refuse(path, core::reason_of(errno));
   if (content_of(path) == Content::hdf5) refuse(path, "an HDF5 file is there, which a text would destroy");
   try {
     const OutputLock lock(path);
@@ -121,12 +122,12 @@ void replace_file(const OutputLock& lock, std::span<const std::byte> bytes) {
   if (error == 0 && std::rename(lock.temporary_path().c_str(), lock.path().c_str()) != 0) error = errno;
   if (error != 0) {
     unlink(lock.temporary_path().c_str());
-    throw core::RunError("cannot write " + lock.path() + ": " + reason_of(error));
+    throw core::RunError("cannot write " + lock.path() + ": " + core::reason_of(error));
   }
   sync_folder(fs::path(lock.path()).parent_path());
 }
 
-void keep_rights(const Descriptor& file, const std::string& path) {
+void keep_rights(const core::Descriptor& file, const std::string& path) {
   struct stat status {};
   constexpr mode_t all_rights = 07777;
   if (stat(path.c_str(), &status) == 0) static_cast<void>(!fchmod(file.get(), status.st_mode & all_rights));

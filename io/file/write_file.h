@@ -21,10 +21,9 @@ Content content_of(const std::string& path);
 /// Puts `bytes` under the name `path`: written beside it under a name of this process's own, waited for until
 /// they are on the disk, and renamed, with the rights of the file that was there. A kill at any moment leaves
 /// the old file or the new one. Links are followed, also one that points to nothing. Devices, pipes and the
-/// process's own open files
-/// (/dev/stdout) are written to and stay what they are. Throws core::InputError with the system's reason, and
-/// then the old file stays: also if another process writes it, or if it is an HDF5 file, which a text never
-/// replaces.
+/// process's own open files (/dev/stdout) are written to and stay what they are. Throws core::InputError with
+/// the system's reason, and then the old file stays: also if another process writes it, or if it is an HDF5
+/// file, which a text never replaces.
 void write_file(const std::string& path, std::string_view text);
 
 /// The same for whoever holds the lock of the file, and for HDF5 files: these replace nothing else. Throws
@@ -32,6 +31,6 @@ void write_file(const std::string& path, std::string_view text);
 void replace_file(const OutputLock& lock, std::span<const std::byte> bytes);
 
 /// Gives the file that is to replace `path` the rights of what is there.
-void keep_rights(const Descriptor& file, const std::string& path);
+void keep_rights(const core::Descriptor& file, const std::string& path);
 
 }  // namespace pbmpi::io

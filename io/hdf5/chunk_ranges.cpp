@@ -39,11 +39,11 @@ hsize_t end_of_chunk(hid_t dataset, hsize_t row) {
   return (row + rows - 1) / rows * rows;
 }
 
-std::vector<ByteRange> bytes_of_rows(hid_t dataset, hsize_t first, hsize_t end) {
+std::vector<core::ByteRange> bytes_of_rows(hid_t dataset, hsize_t first, hsize_t end) {
   const Chunks chunks = chunks_of(dataset);
   end = std::min(end, chunks.dims[0]);
   const hsize_t rows = chunks.chunk[0];
-  std::vector<ByteRange> ranges;
+  std::vector<core::ByteRange> ranges;
   for (hsize_t begin = first - first % rows; begin < end; begin += rows) {
     if (chunks.cut_rows() && begin < first) continue;
     const hsize_t from = chunks.cut_rows() ? 0 : std::max(first, begin) - begin;

@@ -87,6 +87,15 @@ void write_attribute(hid_t object, const Parameter& value) {
   check(H5Awrite(attribute.id(), bytes.type.id(), bytes.data), "H5Awrite(" + value.name + ")");
 }
 
+void rewrite_attribute(hid_t file, const char* group, const std::string& name, const Datatype& type,
+                       const void* value) {
+  // Through the group, because HDF5 1.10 cannot write what H5Aopen_by_name has opened.
+  const auto owner = owned<Group>(H5Gopen2(file, group, H5P_DEFAULT), std::string("H5Gopen(") + group + ")");
+  const auto attribute =
+      owned<Attribute>(H5Aopen(owner.id(), name.c_str(), H5P_DEFAULT), "H5Aopen(" + name + ")");
+  check(H5Awrite(attribute.id(), type.id(), value), "H5Awrite(" + name + ")");
+}
+
 void write_version(hid_t object, const std::array<std::int64_t, 2>& version) {
   const hsize_t length = version.size();
   const auto space = owned<Dataspace>(H5Screate_simple(1, &length, nullptr), "H5Screate_simple");

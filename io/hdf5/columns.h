@@ -25,6 +25,10 @@ void write_attribute(hid_t object, const std::string& name, std::int64_t value);
 void write_attribute(hid_t object, const std::string& name, const std::string& value);
 void write_attribute(hid_t object, const Parameter& value);
 
+/// Overwrites, serially, an attribute of a group that is there. It keeps its type.
+void rewrite_attribute(hid_t file, const char* group, const std::string& name, const Datatype& type,
+                       const void* value);
+
 /// Makes and writes the attribute "version": major, minor.
 void write_version(hid_t object, const std::array<std::int64_t, 2>& version);
 

@@ -5,18 +5,8 @@
 namespace pbmpi::io {
 namespace {
 
-/// Through the group, because HDF5 1.10 cannot write what H5Aopen_by_name has opened.
-void rewrite(const File& file, const char* object, const std::string& name, const Datatype& type,
-             const void* value) {
-  const auto group =
-      owned<Group>(H5Gopen2(file.id(), object, H5P_DEFAULT), std::string("H5Gopen(") + object + ")");
-  const auto attribute =
-      owned<Attribute>(H5Aopen(group.id(), name.c_str(), H5P_DEFAULT), "H5Aopen(" + name + ")");
-  check(H5Awrite(attribute.id(), type.id(), value), "H5Awrite(" + name + ")");
-}
-
 void rewrite(const File& file, const char* object, const std::string& name, std::int64_t value) {
-  rewrite(file, object, name, number_type(H5T_NATIVE_INT64), &value);
+  rewrite_attribute(file.id(), object, name, number_type(H5T_NATIVE_INT64), &value);
 }
 
 }  // namespace
@@ -45,7 +35,7 @@ void CommitRecord::commit(std::int64_t num_frames, const EventCounts& events) {
 void CommitRecord::finish(bool complete, const std::string& state_hash, const EventCounts& events) {
   std::string padded = state_hash;
   padded.resize(hash_digits, ' ');
-  rewrite(file_, "/", "state_hash", text_type(hash_digits), padded.data());
+  rewrite_attribute(file_.id(), "/", "state_hash", text_type(hash_digits), padded.data());
   rewrite_counts(events);
   rewrite(file_, "/", "complete", complete ? 1 : 0);
   flush();

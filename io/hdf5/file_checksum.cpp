@@ -97,10 +97,7 @@ std::int64_t end_checksum(hid_t file) {
 }
 
 void store(hid_t file, const char* name, std::int64_t value) {
-  const auto root = owned<Group>(H5Gopen2(file, "/", H5P_DEFAULT), "H5Gopen(/)");
-  const auto attribute =
-      owned<Attribute>(H5Aopen(root.id(), name, H5P_DEFAULT), std::string("H5Aopen(") + name + ")");
-  check(H5Awrite(attribute.id(), H5T_NATIVE_INT64, &value), std::string("H5Awrite(") + name + ")");
+  rewrite_attribute(file, "/", name, number_type(H5T_NATIVE_INT64), &value);
 }
 
 void require_checksum(hid_t file, const char* name, std::int64_t (*compute)(hid_t), const char* what) {

@@ -30,7 +30,7 @@ std::vector<hsize_t> extent(hid_t dataset) {
 }
 
 /// Adds the bytes of the chunks that lie behind row `num_rows` altogether.
-void add_unused_chunks(hid_t dataset, hsize_t num_rows, std::vector<ByteRange>& unused) {
+void add_unused_chunks(hid_t dataset, hsize_t num_rows, std::vector<core::ByteRange>& unused) {
   const auto space = owned<Dataspace>(H5Dget_space(dataset), "H5Dget_space");
   hsize_t num_chunks = 0;
   check(H5Dget_num_chunks(dataset, space.id(), &num_chunks), "H5Dget_num_chunks");
@@ -46,6 +46,14 @@ void add_unused_chunks(hid_t dataset, hsize_t num_rows, std::vector<ByteRange>& 
 }
 
 }  // namespace
+
+std::vector<std::string> GrowingTable::datasets(const std::string& group,
+                                                const std::vector<ColumnSpec>& columns) {
+  std::vector<std::string> paths;
+  for (const ColumnSpec& column : columns) paths.push_back(group + "/" + column.name);
+  paths.push_back(row_checksum_path(paths.front()));
+  return paths;
+}
 
 GrowingTable::GrowingTable(hid_t file, const FileRanks& ranks, const std::string& group,
                            const std::vector<ColumnSpec>& columns, TableShape shape)
@@ -78,10 +86,7 @@ GrowingTable::Column GrowingTable::make_column(hid_t file, const std::string& pa
 void GrowingTable::add_checksums(Range rows) {
   for (hsize_t row = rows.first; row < rows.first + rows.count; ++row) {
     core::Checksum sum;
-    for (std::size_t i = 0; i + 1 < columns_.size(); ++i) {
-      Column& column = columns_[i];
-      sum.add({place(column, row, 0), column.items * column.item_bytes});
-    }
+    for (Column& column : own_columns()) sum.add({place(column, row, 0), column.items * column.item_bytes});
     const std::uint64_t value = sum.value();
     std::memcpy(place(columns_.back(), row, 0), &value, sizeof value);
   }
@@ -117,7 +122,7 @@ void GrowingTable::pack(hsize_t row, std::vector<std::byte>& message) {
   const std::size_t num_ranges = ranges.size();
   append(&num_ranges, sizeof num_ranges);
   append(ranges.data(), num_ranges * sizeof(Range));
-  for (Column& column : std::span(columns_).first(columns_.size() - 1)) {
+  for (Column& column : own_columns()) {
     for (const Range& range : ranges)
       append(place(column, row, range.first), range.count * column.item_bytes);
   }
@@ -132,7 +137,7 @@ const std::byte* GrowingTable::unpack(hsize_t row, const std::byte* message) {
   take(&num_ranges, sizeof num_ranges);
   std::vector<Range> ranges(num_ranges);
   take(ranges.data(), num_ranges * sizeof(Range));
-  for (Column& column : std::span(columns_).first(columns_.size() - 1)) {
+  for (Column& column : own_columns()) {
     for (const Range& range : ranges) take(place(column, row, range.first), range.count * column.item_bytes);
   }
   return message;
@@ -200,7 +205,7 @@ void GrowingTable::close() {
   for (Column& column : columns_) column.dataset.close();
 }
 
-void GrowingTable::cut(hid_t file, std::vector<ByteRange>& unused) const {
+void GrowingTable::cut(hid_t file, std::vector<core::ByteRange>& unused) const {
   for (const Column& column : columns_) {
     const auto dataset =
         owned<Dataset>(H5Dopen2(file, column.path.c_str(), H5P_DEFAULT), "H5Dopen(" + column.path + ")");

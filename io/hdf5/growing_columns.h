@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/file/output_target.h"
+#include "core/system/descriptor.h"
 #include "io/hdf5/hdf5_handle.h"
 #include "io/hdf5/parallel_file.h"
 #include "io/hdf5/rows.h"
@@ -38,6 +38,8 @@ struct TableShape {
 /// memory.
 class GrowingTable {
  public:
+  /// Paths of the datasets of a table: of its columns, and of its rows' checksums.
+  static std::vector<std::string> datasets(const std::string& group, const std::vector<ColumnSpec>& columns);
   /// Makes the datasets. Collective.
   GrowingTable(hid_t file, const FileRanks& ranks, const std::string& group,
                const std::vector<ColumnSpec>& columns, TableShape shape);
@@ -75,7 +77,7 @@ class GrowingTable {
   /// Cuts the datasets, which `file` has opened anew, to the rows written; adds to `unused` the bytes of the
   /// file that this frees. One rank alone: HDF5 1.10 gets stuck if ranks cut together a dataset whose chunks
   /// only some of them have written.
-  void cut(hid_t file, std::vector<ByteRange>& unused) const;
+  void cut(hid_t file, std::vector<core::ByteRange>& unused) const;
 
  private:
   struct Column {
@@ -99,6 +101,8 @@ class GrowingTable {
   void pack(hsize_t row, std::vector<std::byte>& message);
   const std::byte* unpack(hsize_t row, const std::byte* message);
   void write(Column& column, Range rows, const PropertyList& transfer);
+  /// The columns of the table, without the checksums.
+  std::span<Column> own_columns() { return std::span(columns_).first(columns_.size() - 1); }
   /// Puts the checksums of rows that this rank has whole.
   void add_checksums(Range rows);
   Column make_column(hid_t file, const std::string& path, const Datatype& type, hsize_t num_items,

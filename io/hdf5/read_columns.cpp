@@ -177,9 +177,11 @@ File open_file(const std::string& path, const std::string& type, std::int64_t ma
 }
 
 bool has_object(hid_t file, const std::string& path) {
-  const htri_t found = H5Lexists(file, path.c_str(), H5P_DEFAULT);
-  check(found < 0 ? -1 : 0, "H5Lexists(" + path + ")");
-  return found > 0;
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {  // H5Lexists wants each group
+    const htri_t found = H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT);
+    check(found < 0 ? -1 : 0, "H5Lexists(" + path + ")");
+    if (found == 0 || end == std::string::npos) return found > 0;
+  }
 }
 
 std::vector<hsize_t> dims_of(hid_t file, const std::string& path) {
@@ -307,22 +309,13 @@ std::map<std::string, std::string> attributes_as_text(hid_t file, const std::str
 }
 
 std::map<std::string, std::string> scalars_as_text(hid_t file, const std::string& group) {
-  const auto owner = owned<Group>(H5Gopen2(file, group.c_str(), H5P_DEFAULT), "H5Gopen(" + group + ")");
-  H5G_info_t info;
-  check(H5Gget_info(owner.id(), &info), "H5Gget_info");
   std::map<std::string, std::string> texts;
-  for (hsize_t i = 0; i < info.nlinks; ++i) {
-    std::array<char, 256> name{};
-    check(H5Lget_name_by_idx(owner.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(),
-                             H5P_DEFAULT) < 0
-              ? -1
-              : 0,
-          "H5Lget_name_by_idx");
-    const auto dataset = owned<Dataset>(H5Dopen2(owner.id(), name.data(), H5P_DEFAULT), "H5Dopen");
+  for (const std::string& name : names_in(file, group)) {
+    const auto dataset = owned<Dataset>(H5Dopen2(file, (group + "/" + name).c_str(), H5P_DEFAULT), "H5Dopen");
     const auto type = owned<Datatype>(H5Dget_type(dataset.id()), "H5Dget_type");
     const auto space = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
-    require_in_file(file, num_points(space), H5Tget_size(type.id()), name.data());
-    texts[name.data()] = values_as_text(type, num_points(space), [&](hid_t as, void* values) {
+    require_in_file(file, num_points(space), H5Tget_size(type.id()), name);
+    texts[name] = values_as_text(type, num_points(space), [&](hid_t as, void* values) {
       check(H5Dread(dataset.id(), as, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "H5Dread");
     });
   }

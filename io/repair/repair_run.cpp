@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/system/descriptor.h"
 #include "io/file/output_lock.h"
 #include "io/hdf5/chunk_ranges.h"
 #include "io/hdf5/read_columns.h"
+#include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
 
 namespace pbmpi::io {
@@ -32,16 +34,15 @@ std::vector<Cut> cuts_of(hid_t file, std::int64_t frames) {
   const std::int64_t recorded = frames / integer_attribute(file, "/", "record_every");
   for (const FrameTable& table : frame_tables({true, true, true, true})) {
     if (!has_object(file, table.group)) continue;
-    for (const ColumnSpec& column : table.columns)
-      add(table.group + "/" + column.name, table.rows == Rows::recorded ? recorded : frames);
+    for (const std::string& path : GrowingTable::datasets(table.group, table.columns))
+      add(path, table.rows == Rows::recorded ? recorded : frames);
   }
   const std::int64_t num_events = integer_attribute(file, "/events", "num_events");
-  for (const char* column : {"frame", "kind", "detail", "step", "world", "joint", "name", "value"})
-    add(std::string("/events/") + column, num_events);
+  for (const std::string& path : EventColumns::datasets()) add(path, num_events);
   return cuts;
 }
 
-std::int64_t bytes_on_disk(const Descriptor& file) {
+std::int64_t bytes_on_disk(const core::Descriptor& file) {
   struct stat status {};
   constexpr std::int64_t block_bytes = 512;
   return fstat(file.get(), &status) == 0 ? block_bytes * status.st_blocks : 0;
@@ -49,8 +50,8 @@ std::int64_t bytes_on_disk(const Descriptor& file) {
 
 /// Bytes of the file that no committed row needs.
 struct Unused {
-  std::vector<ByteRange> all;
-  std::vector<ByteRange> in_kept_chunks;  ///< of `all`, those in chunks that hold committed rows, too
+  std::vector<core::ByteRange> all;
+  std::vector<core::ByteRange> in_kept_chunks;  ///< of `all`, those in chunks that hold committed rows, too
 };
 
 Unused unused_bytes(hid_t file, const std::vector<Cut>& cuts) {
@@ -66,11 +67,6 @@ Unused unused_bytes(hid_t file, const std::vector<Cut>& cuts) {
   return unused;
 }
 
-void punch_holes(const Descriptor& disk, const std::vector<ByteRange>& ranges) {
-  for (const auto& [offset, length] : ranges)
-    static_cast<void>(!fallocate(disk.get(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, offset, length));
-}
-
 void shorten(hid_t file, const std::vector<Cut>& cuts) {
   for (const Cut& cut : cuts) {
     std::vector<hsize_t> dims = dims_of(file, cut.dataset);
@@ -81,9 +77,9 @@ void shorten(hid_t file, const std::vector<Cut>& cuts) {
 }
 
 Repair repair(const std::string& path) {
-  const Descriptor disk(path, O_RDWR);
+  const core::Descriptor disk(path, O_RDWR);
   core::require_input(disk.is_open(),
-                      path + ": it cannot be repaired: " + reason_of(errno) + "; make it writable");
+                      path + ": it cannot be repaired: " + core::reason_of(errno) + "; make it writable");
   const std::int64_t before = bytes_on_disk(disk);
   auto file = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "H5Fopen");
   Repair done;
@@ -92,10 +88,10 @@ Repair repair(const std::string& path) {
   if (cuts.empty()) return done;
   const Unused unused = unused_bytes(file.id(), cuts);
   // Holes first: they change nothing that a reader sees, so that a kill here leaves the file as it was.
-  punch_holes(disk, unused.all);
+  core::punch_holes(disk.get(), unused.all);
   shorten(file.id(), cuts);
   if (!file.close()) check(-1, "H5Fclose");
-  punch_holes(disk, unused.in_kept_chunks);  // HDF5 has written these chunks whole
+  core::punch_holes(disk.get(), unused.in_kept_chunks);  // HDF5 has written these chunks whole
   fsync(disk.get());
   done.bytes_freed = before - bytes_on_disk(disk);
   return done;

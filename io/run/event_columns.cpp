@@ -11,6 +11,7 @@ namespace {
 
 namespace event_kind = stepping::event_kind;
 
+constexpr const char* group = "/events";
 constexpr const char* num_rows = "num_events";
 constexpr const char* num_dropped = "num_dropped";
 constexpr const char* worlds_moved = "worlds_moved";
@@ -51,10 +52,12 @@ void read_subjects(hid_t file, std::int64_t count, std::vector<stepping::RunEven
 
 }  // namespace
 
+std::vector<std::string> EventColumns::datasets() { return GrowingTable::datasets(group, columns()); }
+
 std::size_t EventColumns::bytes() { return max_rows * GrowingTable::row_bytes(columns(), 1); }
 
 EventColumns::EventColumns(hid_t file, const FileRanks& ranks)
-    : is_root_(ranks.is_root()), rows_(file, ranks, "/events", columns(), {max_rows, 0, max_rows}) {}
+    : is_root_(ranks.is_root()), rows_(file, ranks, group, columns(), {max_rows, 0, max_rows}) {}
 
 void EventColumns::add(const stepping::RunEvent& event) {
   const auto count = told_.find(count_name(event.kind));

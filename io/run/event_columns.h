@@ -19,6 +19,8 @@ class EventColumns {
   /// there are depends on clocks and ranks, so they must take no row from the others: these are the same for
   /// any number of ranks, also where there is no room for all.
   static constexpr int max_rows_of_the_run = 64;
+  /// Paths of the datasets.
+  static std::vector<std::string> datasets();
   /// Bytes of the preallocated rows.
   static std::size_t bytes();
 

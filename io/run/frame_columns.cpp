@@ -109,8 +109,8 @@ std::string FrameColumns::write(const PropertyList& transfer) {
   return error;
 }
 
-std::vector<ByteRange> FrameColumns::cut(hid_t file) {
-  std::vector<ByteRange> unused;
+std::vector<core::ByteRange> FrameColumns::cut(hid_t file) {
+  std::vector<core::ByteRange> unused;
   for (GrowingTable* table : tables()) table->cut(file, unused);
   return unused;
 }

@@ -53,7 +53,7 @@ class FrameColumns {
   void close();
   /// Cuts all to what was written, in the closed file that one rank has opened anew; returns the bytes of the
   /// file that this frees.
-  std::vector<ByteRange> cut(hid_t file);
+  std::vector<core::ByteRange> cut(hid_t file);
 
  private:
   std::vector<GrowingTable*> tables();

@@ -57,13 +57,6 @@ class RunFile::Impl {
   bool open_ = false;
 };
 
-/// For reading what all ranks have written, and a few bytes in place.
-File open_serially(const std::string& path) {
-  const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
-  check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");
-  return owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "H5Fopen");
-}
-
 RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(setup)), ranks_(group) {
   prepare_hdf5();
   ranks_.together<core::InputError>([this] {
@@ -78,8 +71,8 @@ RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(s
     ranks_.together([this] { make_skeleton(); });
     ranks_.together<core::InputError>([this] {
       if (!ranks_.is_root()) return;
-      store_fixed_checksum(open_serially(target_.temporary_path()).id());
       record_ = CommitRecord(target_.temporary_path());
+      store_fixed_checksum(record_.id());
       target_.publish();
     });
   } catch (...) {
@@ -174,11 +167,11 @@ void RunFile::Impl::close(bool complete, const std::string& state_hash) {
 
 void RunFile::Impl::finish(bool complete, const std::string& state_hash) {
   record_.finish(complete, state_hash, columns_->event_counts());
+  store_end_checksum(record_.id());
   if (!record_.close()) check(-1, "H5Fclose");
   File file = open_alone(target_.open_path());
-  const std::vector<ByteRange> unused = columns_->cut(file.id());
+  const std::vector<core::ByteRange> unused = columns_->cut(file.id());
   if (!file.close()) check(-1, "H5Fclose");
-  store_end_checksum(open_serially(target_.open_path()).id());
   target_.release(unused);
 }
 

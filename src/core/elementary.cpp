@@ -61,37 +61,26 @@ double cosine_of(const Reduced& angle) {
   return 1 - (less + angle.rest * angle.tail);
 }
 
+/// The sine of an angle that lies `quarters` turns of a quarter further.
+double sine_after(double angle, int quarters) {
+  if (!std::isfinite(angle)) return std::numeric_limits<double>::quiet_NaN();
+  const Reduced reduced = reduce(angle);
+  switch ((reduced.quarter + quarters) % 4) {
+    case 0:
+      return sine_of(reduced);
+    case 1:
+      return cosine_of(reduced);
+    case 2:
+      return -sine_of(reduced);
+    default:
+      return -cosine_of(reduced);
+  }
+}
+
 }  // namespace
 
-double sine(double angle) {
-  if (!std::isfinite(angle)) return std::numeric_limits<double>::quiet_NaN();
-  const Reduced reduced = reduce(angle);
-  switch (reduced.quarter) {
-    case 0:
-      return sine_of(reduced);
-    case 1:
-      return cosine_of(reduced);
-    case 2:
-      return -sine_of(reduced);
-    default:
-      return -cosine_of(reduced);
-  }
-}
-
-double cosine(double angle) {
-  if (!std::isfinite(angle)) return std::numeric_limits<double>::quiet_NaN();
-  const Reduced reduced = reduce(angle);
-  switch (reduced.quarter) {
-    case 0:
-      return cosine_of(reduced);
-    case 1:
-      return -sine_of(reduced);
-    case 2:
-      return -cosine_of(reduced);
-    default:
-      return sine_of(reduced);
-  }
-}
+double sine(double angle) { return sine_after(angle, 0); }
+double cosine(double angle) { return sine_after(angle, 1); }
 
 double exponential(double x) {
   if (std::isnan(x)) return x;

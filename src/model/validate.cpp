@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -31,10 +33,14 @@ void require_pose(const Pose& pose, const std::string& who) {
                 who + ": the orientation is not a unit quaternion; normalise it");
 }
 
+std::optional<std::string> index_fault(int index, std::size_t count, const char* what) {
+  if (index >= 0 && static_cast<std::size_t>(index) < count) return std::nullopt;
+  return std::string(what) + " " + std::to_string(index) + " does not exist; there are " +
+         std::to_string(count);
+}
+
 void require_index(int index, std::size_t count, const std::string& who, const char* what) {
-  require_input(index >= 0 && static_cast<std::size_t>(index) < count,
-                who + ": " + what + " " + std::to_string(index) + " does not exist; there are " +
-                    std::to_string(count));
+  if (const auto fault = index_fault(index, count, what)) throw core::InputError(who + ": " + *fault);
 }
 
 void validate_body(const Model& model, const Body& body, const std::string& who) {
@@ -86,19 +92,15 @@ void validate_pair_materials(const Model& model, const std::string& where) {
 }
 
 /// What is wrong with a motor, or nothing.
-const char* fault_of(const AxisMotor& motor, const AxisTraits& axis) {
+std::optional<std::string> fault_of(const AxisMotor& motor, const AxisTraits& axis) {
   if (!(std::isfinite(motor.velocity) && motor.max_force >= 0))
-    return ": a motor needs a finite velocity and max_force >= 0";
+    return "a motor needs a finite velocity and max_force >= 0";
   if (!(std::isfinite(motor.hold_rate) && motor.hold_rate >= 0))
-    return ": a motor needs a finite hold_rate >= 0";
+    return "a motor needs a finite hold_rate >= 0";
   const bool is_axle = axis.has_motor && !axis.has_limit;
   if (is_axle && motor.hold_rate != 0)
-    return ": a hinge2's axle turns without end and has no pose to hold; remove hold_rate";
-  return nullptr;
-}
-
-void require_motor(const AxisMotor& motor, const AxisTraits& axis, const std::string& who) {
-  if (const char* fault = fault_of(motor, axis)) throw core::InputError(who + fault);
+    return "a hinge2's axle turns without end and has no pose to hold; remove hold_rate";
+  return std::nullopt;
 }
 
 void validate_joint(const Model& model, const Joint& joint, const std::string& who) {
@@ -115,7 +117,8 @@ void validate_joint(const Model& model, const Joint& joint, const std::string& w
                                                "; swap them");
   }
   for (std::size_t axis = 0; axis < joint.motors.size(); ++axis) {
-    require_motor(joint.motors[axis], traits_of(joint.kind).axes[axis], who);
+    if (const auto fault = fault_of(joint.motors[axis], traits_of(joint.kind).axes[axis]))
+      throw core::InputError(who + ": " + *fault);
   }
   require_input(joint.suspension.stiffness >= 0 && joint.suspension.damping >= 0,
                 who + ": a spring needs stiffness and damping >= 0");
@@ -124,37 +127,28 @@ void validate_joint(const Model& model, const Joint& joint, const std::string& w
                     std::to_string(joint.break_torque) + " N m; give at least 0, which is never");
 }
 
-void validate_event(const Model& model, const Event& event, const std::string& who) {
-  require_input(event.step >= 0,
-                who + ": it is scheduled at step " + std::to_string(event.step) + "; the first step is 0");
+/// What is wrong with an event, or nothing. Makes no text where nothing is wrong: a programme of
+/// an hour has a million events.
+std::optional<std::string> fault_of(const Model& model, const Event& event) {
+  if (event.step < 0)
+    return "it is scheduled at step " + std::to_string(event.step) + "; the first step is 0";
   if (event.kind == EventKind::launch) {
-    require_index(event.body, model.bodies.size(), who, "body");
-    require_input(event.velocity.allFinite() && event.angular_velocity.allFinite(),
-                  who + ": the launch velocity is not finite");
-    require_input(!event.pose || (event.pose->position.allFinite() &&
-                                  std::abs(event.pose->orientation.to_eigen().norm() - 1) <= unit_tolerance),
-                  who + ": the launch pose is not finite or its quaternion not of unit length");
-    return;
+    if (auto fault = index_fault(event.body, model.bodies.size(), "body")) return fault;
+    if (!event.velocity.allFinite() || !event.angular_velocity.allFinite())
+      return "the launch velocity is not finite";
+    if (event.pose && !(event.pose->position.allFinite() &&
+                        std::abs(event.pose->orientation.to_eigen().norm() - 1) <= unit_tolerance))
+      return "the launch pose is not finite or its quaternion not of unit length";
+    return std::nullopt;
   }
-  require_index(event.joint, model.joints.size(), who, "joint");
+  if (auto fault = index_fault(event.joint, model.joints.size(), "joint")) return fault;
+  const Joint& joint = model.joints[event.joint];
   if (event.kind == EventKind::release) {
-    require_input(event.step >= 1, who + ": a joint is released at step 1 at the soonest; leave the joint '" +
-                                       model.joints[event.joint].name + "' out instead");
-  } else {
-    require_index(event.axis, 2, who, "axis");
-    const JointTraits& joint = traits_of(model.joints[event.joint].kind);
-    require_motor(event.motor, joint.axes[static_cast<std::size_t>(event.axis)], who);
+    if (event.step >= 1) return std::nullopt;
+    return "a joint is released at step 1 at the soonest; leave the joint '" + joint.name + "' out instead";
   }
-}
-
-/// An event of a steered joint in which nothing is wrong. A programme of an hour has a million of them, and
-/// the messages that the other checks prepare would take seconds.
-bool is_steering(const Model& model, const Event& event) {
-  const bool has_joint = event.joint >= 0 && static_cast<std::size_t>(event.joint) < model.joints.size();
-  if (event.kind != EventKind::steer || event.step < 0 || !has_joint || event.axis < 0 || event.axis > 1)
-    return false;
-  const JointTraits& joint = traits_of(model.joints[event.joint].kind);
-  return fault_of(event.motor, joint.axes[static_cast<std::size_t>(event.axis)]) == nullptr;
+  if (auto fault = index_fault(event.axis, 2, "axis")) return fault;
+  return fault_of(event.motor, traits_of(joint.kind).axes[static_cast<std::size_t>(event.axis)]);
 }
 
 void validate_interest(const Model& model, const Interest& interest, const std::string& who) {
@@ -202,8 +196,8 @@ void validate(const Model& model, const std::string& where) {
   for (const Joint& joint : model.joints)
     validate_joint(model, joint, where + ": joint '" + joint.name + "'");
   for (std::size_t i = 0; i < model.events.size(); ++i) {
-    if (!is_steering(model, model.events[i]))
-      validate_event(model, model.events[i], where + ": event " + std::to_string(i));
+    if (const auto fault = fault_of(model, model.events[i]))
+      throw core::InputError(where + ": event " + std::to_string(i) + ": " + *fault);
   }
 }
 

@@ -36,6 +36,16 @@ class ProgramTest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
+    def small_disk(self, size):
+        """A folder on a disk of its own of that size, such as "4m". Skips the test where nothing can be mounted."""
+        if os.geteuid() != 0:
+            self.skipTest("mounting a small disk needs root")
+        disk = self.path("disk")
+        os.mkdir(disk)
+        subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", disk], check=True)
+        self.addCleanup(subprocess.run, ["umount", disk], check=True)
+        return disk
+
     def write(self, name, text):
         with open(self.path(name), "w", encoding="utf-8") as file:
             file.write(text)

@@ -107,12 +107,8 @@ class Checkpoint(ProgramTest):
             os.rename(self.path("run.ck.h5"), self.path("last.ck.h5"))
         self.check_hash("last.ck.h5")
 
-    @unittest.skipUnless(os.geteuid() == 0, "mounting a small disk needs root")
     def test_a_full_disk_is_warned_of_and_neither_the_run_nor_the_last_checkpoint_is_lost(self):
-        disk = self.path("disk")
-        os.mkdir(disk)
-        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", disk], check=True)
-        self.addCleanup(subprocess.run, ["umount", disk], check=True)
+        disk = self.small_disk("1m")
         with open(self.path("errors"), "w", encoding="utf-8") as errors:
             process = subprocess.Popen(["mpirun", "-n", "2", os.path.join(os.environ["PBMPI_BIN"], "pbmpi"), *map(str, LONG),
                                         "--output", "run.h5", "--checkpoint", "disk/ck.h5", "--checkpoint-every", "0.2",

@@ -94,12 +94,8 @@ class Faults(ProgramTest):
         self.assertIn("0.0 MiB given back", again.stdout)
         self.assertEqual(self.report("run.h5").returncode, 0)
 
-    @unittest.skipUnless(os.geteuid() == 0, "mounting a small disk needs root")
     def test_a_disk_that_fills_up_ends_the_run_between_two_writes(self):
-        disk = self.path("disk")
-        os.mkdir(disk)
-        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=400m", "tmpfs", disk], check=True)
-        self.addCleanup(subprocess.run, ["umount", disk], check=True)
+        disk = self.small_disk("400m")
         process = self.start(2, "--scene", "100CrSk", "--frames", "600", "--quiet", "--output", "disk/run.h5")
         wait_until(lambda: os.path.exists(self.path("disk/run.h5")) and self.check_file("disk/run.h5") > 2, "some frames")
         with open(self.path("disk/other"), "wb") as other:
@@ -109,12 +105,8 @@ class Faults(ProgramTest):
         self.assertIn("No space left on device", process.stderr.read())
         self.assertGreater(self.check_file("disk/run.h5"), 2)
 
-    @unittest.skipUnless(os.geteuid() == 0, "mounting a small disk needs root")
     def test_a_disk_too_small_for_the_file_is_refused_before_the_first_frame(self):
-        disk = self.path("disk")
-        os.mkdir(disk)
-        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", disk], check=True)
-        self.addCleanup(subprocess.run, ["umount", disk], check=True)
+        disk = self.small_disk("4m")
         result = self.pbmpi(2, "--scene", "100CrSk", "--frames", 200, "--quiet", "--output", "disk/full.h5")
         self.assertEqual(result.returncode, 2, result.stderr)
         lines = [line for line in result.stderr.splitlines() if line.startswith("pbmpi: ")]

@@ -100,6 +100,19 @@ std::vector<core::NamedPath> named_paths(const po::variables_map& values) {
   return paths;
 }
 
+po::variables_map parse_with_files(const std::vector<std::string>& args,
+                                   po::options_description description) {
+  description.add_options()("file", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("file", -1);
+  return parse_command_line(args, description, positional);
+}
+
+std::vector<std::string> given_files(const po::variables_map& values) {
+  return values.count("file") == 0 ? std::vector<std::string>{}
+                                   : values["file"].as<std::vector<std::string>>();
+}
+
 void add_seed_option(const std::string& meaning, po::options_description& description) {
   // As text: Boost would take -1 for 2^64 - 1.
   description.add_options()("seed", po::value<std::string>()->default_value("1")->value_name("N"),

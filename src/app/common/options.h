@@ -33,6 +33,12 @@ boost::program_options::variables_map parse_command_line(
     const boost::program_options::positional_options_description& positional = {},
     const std::string& last = "");
 
+/// parse_command_line() for a command that is given files to read, the words without a dash: given_files().
+boost::program_options::variables_map parse_with_files(
+    const std::vector<std::string>& args, boost::program_options::options_description description);
+/// The files of parse_with_files(), none if none is named.
+std::vector<std::string> given_files(const boost::program_options::variables_map& values);
+
 /// Adds --seed, 1 by default; `meaning`: for --help.
 void add_seed_option(const std::string& meaning, boost::program_options::options_description& description);
 /// Throws core::InputError unless it is a whole number from 0 to 2^64 - 1.

@@ -1,9 +1,11 @@
 #include "app/pbmpi/gather_plan.h"
-#include "app/common/json_text.h"
 
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "app/common/json_text.h"
 
 namespace pbmpi::app {
 namespace {

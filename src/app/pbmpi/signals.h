@@ -13,12 +13,10 @@ namespace pbmpi::app {
 /// While one of these lives, signals are heard like this. One at a time.
 /// - USR1 and USR2 are noted.
 /// - INT and TERM end the process at once while the run is being set up: there is nothing to save. Later the
-/// first one
-///   is noted, and the second one ends the process at once. What comes within 0.1 s of the first counts as
-///   the same one: mpirun may pass on what the whole process group got.
+///   first one is noted, and the second one ends the process at once. What comes within 0.1 s of the first
+///   counts as one with it: mpirun may pass on what the whole process group got.
 /// - If the frame in which INT or TERM came does not end within ten seconds, or three times the longest frame
-/// so far,
-///   the process ends all the same.
+///   so far, the process ends all the same.
 /// In a process that ends at once, core::Leftover's files go; the run's file holds the frames committed
 /// before.
 class SignalRequests {

@@ -84,19 +84,24 @@ extern "C" void tell(int) {
   alarm(std::max(std::min(next_notice_s, end_s) - waited_s, 1U));
 }
 
-void begin_wait(std::string_view what) {
+/// The first alarm comes after `next_notice_s`.
+void switch_on() noexcept {
   struct sigaction action {};
   action.sa_handler = tell;
   action.sa_flags = SA_RESTART;
   sigfillset(&action.sa_mask);
   sigaction(SIGALRM, &action, nullptr);
+  alarm(next_notice_s);
+}
+
+void begin_wait(std::string_view what) {
   constexpr unsigned usual_first_s = 30;
   copy_text(what, awaited);
   since_s = now_s();
   end_s = limit_s;
   end_signal = 0;
   next_notice_s = std::clamp(limit_s / 4, 1U, usual_first_s);
-  alarm(next_notice_s);
+  switch_on();
 }
 
 }  // namespace
@@ -123,12 +128,7 @@ void begin_deadline(const char* what, unsigned seconds, int signal) noexcept {
   since_s = now_s();
   end_s = next_notice_s = seconds;
   end_signal = signal;
-  struct sigaction action {};
-  action.sa_handler = tell;
-  action.sa_flags = SA_RESTART;
-  sigfillset(&action.sa_mask);
-  sigaction(SIGALRM, &action, nullptr);
-  alarm(seconds);
+  switch_on();
 }
 
 void end_deadline() noexcept {

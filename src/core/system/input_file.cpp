@@ -5,10 +5,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
-#include <utility>
 
 #include "core/error.h"
+#include "core/system/descriptor.h"
 
 namespace pbmpi::core {
 namespace {
@@ -16,21 +15,16 @@ namespace {
 /// An open regular file.
 class InputFile {
  public:
-  InputFile(const std::string& path, const std::string& advice) : path_(path), advice_(advice) {
-    // Without O_NONBLOCK a pipe waits for a writer before anything can be asked of it.
-    file_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (file_ < 0) refuse(errno == ENOENT ? "there is no such file" : std::generic_category().message(errno));
+  // Without O_NONBLOCK a pipe waits for a writer before anything can be asked of it.
+  InputFile(const std::string& path, const std::string& advice)
+      : path_(path), advice_(advice), file_(path, O_RDONLY | O_NONBLOCK) {
+    if (!file_.is_open()) refuse(errno == ENOENT ? "there is no such file" : reason_of(errno));
     struct stat status {};
-    if (fstat(file_, &status) != 0) refuse(std::generic_category().message(errno));
+    if (fstat(file_.get(), &status) != 0) refuse(reason_of(errno));
     if (S_ISDIR(status.st_mode)) refuse("it is a directory");
     if (!S_ISREG(status.st_mode)) refuse("it is a pipe or a device and no regular file");
     num_bytes_ = static_cast<std::size_t>(status.st_size);
   }
-  ~InputFile() {
-    if (file_ >= 0) close(file_);
-  }
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
 
   std::size_t num_bytes() const { return num_bytes_; }
 
@@ -38,9 +32,9 @@ class InputFile {
     std::string bytes(num_bytes_, '\0');
     std::size_t done = 0;
     while (done < bytes.size()) {
-      const ssize_t got = read(file_, bytes.data() + done, bytes.size() - done);
+      const ssize_t got = read(file_.get(), bytes.data() + done, bytes.size() - done);
       if (got < 0 && errno == EINTR) continue;
-      if (got < 0) refuse(std::generic_category().message(errno));
+      if (got < 0) refuse(reason_of(errno));
       if (got == 0) break;
       done += static_cast<std::size_t>(got);
     }
@@ -48,15 +42,14 @@ class InputFile {
     return bytes;
   }
 
-  [[noreturn]] void refuse(const std::string& why) {
-    if (file_ >= 0) close(std::exchange(file_, -1));
+  [[noreturn]] void refuse(const std::string& why) const {
     throw InputError(path_ + ": cannot be read: " + why + "; " + advice_);
   }
 
  private:
   const std::string& path_;
   const std::string& advice_;
-  int file_ = -1;
+  Descriptor file_;
   std::size_t num_bytes_ = 0;
 };
 

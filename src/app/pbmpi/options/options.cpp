@@ -121,8 +121,7 @@ po::options_description options_description() {
        "save the run this often, too")  //
       ("wait-limit", po::value<int>()->default_value(1800)->value_name("SECONDS"),
        "end with exit code 1 if ranks wait so long for each other while the run begins or ends; what they "
-       "wait for is "
-       "said on stderr long before")  //
+       "wait for is said on stderr long before")  //
       ("resume", po::value<std::string>()->value_name("FILE"),
        "go on from a checkpoint, with any number of ranks and the same bits. Scene and physics are the "
        "checkpoint's; options that would change them are refused. --frames and --warmup count from the start "

@@ -56,7 +56,7 @@ std::string study_help_text() {
 }
 
 AccuracyReportOptions parse_study_options(const std::vector<std::string>& args) {
-  const po::variables_map values = parse_study_report(args, visible_options());
+  const po::variables_map values = parse_with_files(args, visible_options());
   AccuracyReportOptions options;
   static_cast<ReportOfStudyOptions&>(options) = report_of_study_options(values, "a study", "accuracy.h5");
   if (options.help) return options;

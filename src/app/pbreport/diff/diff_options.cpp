@@ -39,17 +39,12 @@ std::string diff_help_text() {
 }
 
 DiffOptions parse_diff_options(const std::vector<std::string>& args) {
-  po::options_description all = visible_options();
-  all.add_options()("file", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("file", -1);
-  const po::variables_map values = parse_command_line(args, all, positional);
+  const po::variables_map values = parse_with_files(args, visible_options());
   DiffOptions options;
   options.help = values.count("help") != 0;
   options.json = values.count("json") != 0;
   if (options.help) return options;
-  const auto files =
-      values.count("file") != 0 ? values["file"].as<std::vector<std::string>>() : std::vector<std::string>{};
+  const auto files = given_files(values);
   core::require_input(files.size() == 2, "diff: " + std::to_string(files.size()) +
                                              " files are given; it compares two, RUN and REFERENCE (those of "
                                              "--floor come last)");

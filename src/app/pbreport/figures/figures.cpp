@@ -71,18 +71,14 @@ std::string to_text(const std::vector<FigureScene>& scenes) {
 }  // namespace
 
 core::ExitCode run_figures(const std::vector<std::string>& args, std::ostream& out) {
-  po::options_description all = visible_options();
-  all.add_options()("file", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("file", -1);
-  const po::variables_map values = parse_command_line(args, all, positional);
+  const po::variables_map values = parse_with_files(args, visible_options());
   if (values.count("help") != 0) {
     out << help_text();
     return core::ExitCode::done;
   }
   core::require_input(values.count("file") != 0,
                       "figures: no file given; name recorded runs (jobs/figure8_9.sh)");
-  const auto scenes = figure_scenes(values["file"].as<std::vector<std::string>>());
+  const auto scenes = figure_scenes(given_files(values));
   if (values.count("html") != 0)
     io::html::write_chart_page(values["html"].as<std::string>(), figures_page(scenes));
   if (values.count("quiet") == 0) out << to_text(scenes);

@@ -24,15 +24,11 @@ po::options_description visible_options() {
 }  // namespace
 
 core::ExitCode run_repair(const std::vector<std::string>& args, std::ostream& out) {
-  po::options_description all = visible_options();
-  all.add_options()("file", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("file", -1);
-  const po::variables_map values = parse_command_line(args, all, positional);
+  const po::variables_map values = parse_with_files(args, visible_options());
   if (values.count("help") != 0) {
     out << "pbreport repair cuts the file of a run that was killed to its committed frames, which stay as "
-           "they are, and gives "
-           "back\nthe disk space behind them. It removes what else the run left beside the file.\n\n"
+           "they are, and gives back\nthe disk space behind them. It removes what else the run left beside "
+           "the file.\n\n"
         << "Usage: pbreport repair RUN.h5...\n\n"
         << visible_options();
     require_printed(out, "the help");
@@ -40,7 +36,7 @@ core::ExitCode run_repair(const std::vector<std::string>& args, std::ostream& ou
   }
   core::require_input(values.count("file") != 0,
                       "repair: no file given; name the HDF5 file of a run that was killed");
-  for (const std::string& file : values["file"].as<std::vector<std::string>>()) {
+  for (const std::string& file : given_files(values)) {
     const io::Repair repair = io::repair_run(file);
     constexpr double mebibyte = 1024.0 * 1024.0;
     if (values.count("quiet") == 0) {

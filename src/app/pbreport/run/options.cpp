@@ -45,11 +45,7 @@ std::string report_options_text() {
 }
 
 ReportOptions parse_report_options(const std::vector<std::string>& args) {
-  po::options_description all = visible_options();
-  all.add_options()("file", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("file", -1);
-  const po::variables_map values = parse_command_line(args, all, positional);
+  const po::variables_map values = parse_with_files(args, visible_options());
 
   ReportOptions options;
   if (values.count("help") != 0) options.action = ReportAction::help;
@@ -61,7 +57,7 @@ ReportOptions parse_report_options(const std::vector<std::string>& args) {
   if (options.action != ReportAction::report) return options;
   require_input(values.count("file") != 0,
                 "no file given; name the HDF5 file of a run, e.g. pbreport 100CrSk.h5");
-  const auto files = values["file"].as<std::vector<std::string>>();
+  const auto files = given_files(values);
   require_input(files.size() == 1, "'" + files.back() + "' follows '" + files.front() +
                                        "': pbreport reads one file; see --help");
   options.file = files.front();

@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "app/common/options.h"
+
 namespace pbmpi::app {
 namespace {
 
@@ -29,7 +31,7 @@ std::string stability_report_help_text() {
 }
 
 ReportOfStudyOptions parse_stability_report_options(const std::vector<std::string>& args) {
-  return report_of_study_options(parse_study_report(args, visible_options()), "a study of stability",
+  return report_of_study_options(parse_with_files(args, visible_options()), "a study of stability",
                                  "stability.h5");
 }
 

@@ -32,13 +32,6 @@ void add_scene_choice(po::options_description& description) {
                             "these scenes of the study only");
 }
 
-po::variables_map parse_study_report(const std::vector<std::string>& args, po::options_description visible) {
-  visible.add_options()("file", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("file", -1);
-  return parse_command_line(args, visible, positional);
-}
-
 ReportOfStudyOptions report_of_study_options(const po::variables_map& values, const std::string& what,
                                              const std::string& example) {
   ReportOfStudyOptions options;
@@ -53,7 +46,7 @@ ReportOfStudyOptions report_of_study_options(const po::variables_map& values, co
   options.quiet = values.count("quiet") != 0;
   require_input(values.count("file") != 0,
                 "no file given; name the file of " + what + ", e.g. pbreport " + example);
-  const auto files = values["file"].as<std::vector<std::string>>();
+  const auto files = given_files(values);
   require_input(files.size() == 1, "'" + files.back() + "' follows '" + files.front() + "': give one study");
   options.file = files.front();
   return options;

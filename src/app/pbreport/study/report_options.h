@@ -28,10 +28,6 @@ void add_print_options(const std::string& markdown, boost::program_options::opti
 /// --scene.
 void add_scene_choice(boost::program_options::options_description& description);
 
-/// Parses `args`, of which the one word without a dash is the file.
-boost::program_options::variables_map parse_study_report(const std::vector<std::string>& args,
-                                                         boost::program_options::options_description visible);
-
 /// Throws core::InputError unless one file is named. `what`: e.g. "a study of effects", `example`: a file's
 /// name. With --help nothing else is read.
 ReportOfStudyOptions report_of_study_options(const boost::program_options::variables_map& values,

@@ -29,7 +29,9 @@ struct SuiteOptions {
 
 po::options_description described(bool page) {
   po::options_description all("Options");
-  all.add_options()("help,h", "print this help");
+  all.add_options()("help,h", "print this help")(
+      "config", po::value<std::string>()->value_name("FILE"),
+      "read options from FILE, one 'name = value' a line; the command line wins");
   if (page) {
     all.add_options()  //
         ("html", po::value<std::string>()->value_name("OUT"), "the page to write")(
@@ -42,15 +44,11 @@ po::options_description described(bool page) {
 }
 
 SuiteOptions parse(const std::vector<std::string>& args, bool page) {
-  po::options_description all = described(page);
-  all.add_options()("file", po::value<std::vector<std::string>>())("config", po::value<std::string>());
-  po::positional_options_description positional;
-  positional.add("file", -1);
-  const po::variables_map values = parse_command_line(args, all, positional);
+  const po::variables_map values = parse_with_files(args, described(page));
   SuiteOptions options;
   options.help = values.count("help") != 0;
   options.json = values.count("json") != 0;
-  if (values.count("file") != 0) options.files = values["file"].as<std::vector<std::string>>();
+  options.files = given_files(values);
   if (values.count("html") != 0) options.html = values["html"].as<std::string>();
   if (values.count("stills") != 0) options.stills = values["stills"].as<std::string>();
   core::require_input(options.help || !options.files.empty(),

@@ -6,8 +6,9 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
-namespace pbmpi::io {
+namespace pbmpi::core {
 
 /// Move-only. Programs that this one starts do not inherit it.
 class Descriptor {
@@ -44,8 +45,10 @@ std::string reason_of(int error);
 /// RLIMIT_FSIZE in bytes; a write beyond it raises SIGXFSZ.
 std::uint64_t largest_file_bytes();
 
-/// A name in the folder of `path` for a file that belongs to it: prefix + name + suffix, the name cut where
-/// that is too long for a file system.
-std::string beside(const std::string& path, const std::string& prefix, const std::string& suffix);
+/// A range of bytes of a file: offset, length.
+using ByteRange = std::pair<std::int64_t, std::int64_t>;
 
-}  // namespace pbmpi::io
+/// Gives the disk space of these ranges back, which then read as zeros. Best effort.
+void punch_holes(int fd, const std::vector<ByteRange>& ranges);
+
+}  // namespace pbmpi::core

@@ -1,4 +1,4 @@
-#include "io/file/descriptor.h"
+#include "core/system/descriptor.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -6,13 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <filesystem>
 #include <limits>
 #include <system_error>
 
-#include "core/hash.h"
-
-namespace pbmpi::io {
+namespace pbmpi::core {
 
 Descriptor::Descriptor(const std::string& path, int flags)
     : fd_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
@@ -49,17 +46,9 @@ std::uint64_t largest_file_bytes() {
              : std::numeric_limits<std::uint64_t>::max();
 }
 
-std::string beside(const std::string& path, const std::string& prefix, const std::string& suffix) {
-  constexpr std::size_t longest_name = 255, hash_digits = 16;
-  const std::filesystem::path file(path);
-  std::string name = file.filename().string();
-  const std::size_t added = prefix.size() + suffix.size();
-  if (name.size() <= longest_name && name.size() + added > longest_name) {
-    core::Hash64 hash;
-    for (const char letter : name) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
-    name = name.substr(0, longest_name - added - hash_digits) + core::to_hex(hash.value());
-  }
-  return (file.parent_path() / (prefix + name + suffix)).string();
+void punch_holes(int fd, const std::vector<ByteRange>& ranges) {
+  for (const auto& [offset, length] : ranges)
+    static_cast<void>(!fallocate(fd, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, offset, length));
 }
 
-}  // namespace pbmpi::io
+}  // namespace pbmpi::core
