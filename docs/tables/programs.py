@@ -95,8 +95,9 @@ def millimetres(metres, count=2):
 
 # The step of `sor` without memory, as options of pbmpi; how pbmpi's texts tell it from the default.
 COLD = ("--substeps 1 --iterations 20 --relax 0 --warm-start 0 --sor-factor 1.3 --contact-frequency 0 --joint-frequency 0 "
-        "--friction pyramid")
-COLD_IN_TEXT = ", factor 1.3, warm 0, relax 0, contacts 0 Hz, joints 0 Hz, pyramid"
+        "--contact-margin 0 --friction pyramid")
+COLD_IN_TEXT = (", factor 1.3, warm 0, relax 0, contacts 0 Hz, margin 0, joints 0 Hz, joints by sweeps, "
+                "pyramid")
 
 
 def is_cold(case):

@@ -20,6 +20,15 @@ struct Box {
       max[k] = std::max(max[k], other.max[k]);
     }
   }
+  /// Larger by this length on every side.
+  Box grown(double length) const {
+    Box larger = *this;
+    for (std::size_t k = 0; k < 3; ++k) {
+      larger.min[k] -= length;
+      larger.max[k] += length;
+    }
+    return larger;
+  }
   /// Touching counts.
   bool overlaps(const Box& other) const {
     return min[0] <= other.max[0] && other.min[0] <= max[0] && min[1] <= other.max[1] &&

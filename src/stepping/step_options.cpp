@@ -22,7 +22,7 @@ bool is_magnitude(double value) { return std::isfinite(value) && value >= 0; }
 bool converges(double factor) { return factor > 0 && factor < 2; }
 bool is_share(double value) { return value >= 0 && value <= 1; }
 
-constexpr std::array<StepOption, 18> options = {{
+constexpr std::array<StepOption, 19> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
      .placeholder = "sor|quick|direct",
@@ -97,6 +97,16 @@ constexpr std::array<StepOption, 18> options = {{
      .allows = is_length,
      .limit = "a damping ratio is above 0, and finite",
      .in_short = "damping *"},
+    {.name = "contact-margin",
+     .member = &Settings::contact_margin,
+     .placeholder = "X",
+     .meaning =
+         "sor: contacts are found between bodies that are no farther apart than X g dt^2, in units of twice "
+         "what falls in a step from rest; 0: where bodies touch; default: 1",
+     .needs = &Traits::tunes_sweeps,
+     .allows = is_magnitude,
+     .limit = "it must be 0 or more, and finite",
+     .in_short = "margin *"},
     {.name = "joint-frequency",
      .member = &Settings::joint_frequency,
      .placeholder = "HZ",
@@ -263,6 +273,7 @@ StepperSettings default_settings(StepperKind kind) {
   settings.sor_factor = 1;
   settings.warm_start = 1;
   settings.contact_frequency = settings.joint_frequency = 100;
+  settings.contact_margin = 1;
   settings.friction = Friction::cone;
   settings.joint_solver = JointSolver::hanging;
   return settings;

@@ -54,6 +54,7 @@ struct StepperSettings {
   double joint_frequency = 0;    ///< [Hz] sor: of joints as springs; 0: the scene's ERP and CFM
   double joint_damping = 2;      ///< sor: their damping ratio
   JointSolver joint_solver = JointSolver::sweeps;  ///< sor
+  double contact_margin = 0;                       ///< sor: contacts are found up to so many g dt^2 apart
   Friction friction = Friction::pyramid;           ///< sor
   RowOrder row_order = RowOrder::shuffled;
   Precision precision = Precision::double_;

@@ -36,6 +36,7 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.relax = 2;
   settings.contact_frequency = 1.0 / 7;
   settings.contact_damping = 1.0 / 9;
+  settings.contact_margin = 1.0 / 15;
   settings.joint_frequency = 1.0 / 11;
   settings.joint_damping = 1.0 / 13;
   settings.joint_solver = JointSolver::tree;
@@ -74,9 +75,10 @@ TEST(StepOptions, of_sor_have_a_memory_by_default_and_a_text_names_what_differs)
   EXPECT_EQ(setting_text(sor), "sor double, 4 x 1, contacts 60 Hz");
   StepperSettings cold;
   cold.kind = StepperKind::sor;
-  EXPECT_EQ(setting_text(cold),
-            "sor double, 1 x 20, factor 1.3, warm 0, relax 0, contacts 0 Hz, joints 0 Hz, joints by "
-            "sweeps, pyramid");
+  EXPECT_EQ(
+      setting_text(cold),
+      "sor double, 1 x 20, factor 1.3, warm 0, relax 0, contacts 0 Hz, margin 0, joints 0 Hz, joints by "
+      "sweeps, pyramid");
   for (const StepperKind kind : {StepperKind::quick, StepperKind::direct}) {
     for (const StepOption& option : step_options())
       EXPECT_EQ(text_of(option, default_settings(kind)), text_of(option, {.kind = kind})) << option.name;
@@ -97,8 +99,8 @@ TEST(StepOptions, impossible_values_are_refused_by_name) {
 
 TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
   for (const char* name : {"substeps", "sor-factor", "warm-start", "relax", "contact-frequency",
-                           "contact-damping", "joint-frequency", "joint-damping", "joint-solver", "friction",
-                           "row-order", "precision", "simd", "colliders"}) {
+                           "contact-damping", "contact-margin", "joint-frequency", "joint-damping",
+                           "joint-solver", "friction", "row-order", "precision", "simd", "colliders"}) {
     EXPECT_TRUE(fits(step_option(name), StepperKind::sor));
     EXPECT_FALSE(fits(step_option(name), StepperKind::quick));
     EXPECT_FALSE(fits(step_option(name), StepperKind::direct));

@@ -18,14 +18,15 @@ constexpr std::size_t most_listed_solids = 96;
 
 }  // namespace
 
-BroadPhase::BroadPhase(const model::Model& model, std::span<const int> geoms,
+BroadPhase::BroadPhase(const model::Model& model, std::span<const int> geoms, double margin_m,
                        std::span<const std::int32_t> broken_in)
-    : model_(&model), rule_(model, broken_in), boxes_(model.geoms.size()) {
+    : model_(&model), margin_m_(margin_m), rule_(model, broken_in), boxes_(model.geoms.size()) {
   for (const int index : geoms) {
     const Geom& geom = model.geoms[static_cast<std::size_t>(index)];
     (geom.shape == Shape::plane ? planes_ : solids_).push_back(index);
     if (geom.body == model::no_body && geom.shape != Shape::plane)
-      boxes_[static_cast<std::size_t>(index)] = geometry::geom_box(geom, geometry::static_pose());
+      boxes_[static_cast<std::size_t>(index)] =
+          geometry::geom_box(geom, geometry::static_pose()).grown(margin_m_);
   }
   order_ = solids_;
   listed_only_ = solids_.size() <= most_listed_solids;
@@ -42,7 +43,7 @@ void BroadPhase::update_boxes(std::span<const BodyPose> poses) {
     const Geom& geom = model_->geoms[static_cast<std::size_t>(index)];
     if (geom.body != model::no_body) {
       boxes_[static_cast<std::size_t>(index)] =
-          geometry::geom_box(geom, poses[static_cast<std::size_t>(geom.body)]);
+          geometry::geom_box(geom, poses[static_cast<std::size_t>(geom.body)]).grown(margin_m_);
     }
   }
 }

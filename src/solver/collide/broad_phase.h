@@ -15,8 +15,8 @@ namespace pbmpi::solver {
 /// Bounding boxes of some geoms against each other, planes against bounding boxes.
 class BroadPhase {
  public:
-  /// `model` is borrowed; `geoms` ascending; `broken_in`: as in model::State.
-  BroadPhase(const model::Model& model, std::span<const int> geoms,
+  /// `model` is borrowed; `geoms` ascending; boxes are larger by `margin_m`; `broken_in`: as in model::State.
+  BroadPhase(const model::Model& model, std::span<const int> geoms, double margin_m = 0,
              std::span<const std::int32_t> broken_in = {});
 
   /// The pairs (first < second, by geom index) whose boxes overlap, sorted. `poses`: [num_bodies].
@@ -29,6 +29,7 @@ class BroadPhase {
   void sweep(std::vector<model::GeomPair>& pairs);
 
   const model::Model* model_;
+  double margin_m_;
   model::TouchRule rule_;
   std::vector<geometry::Box> boxes_;  ///< [geoms]; planes have none
   std::vector<int> solids_;           ///< geoms that are not planes

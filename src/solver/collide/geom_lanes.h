@@ -44,17 +44,19 @@ class GeomLanes {
 
   /// `num_geoms` in all worlds; the columns are longer by a chunk, so that from() may read on.
   explicit GeomLanes(int num_geoms);
-  void set(int index, const model::Geom& geom, LanePlace body);
+  /// `margin_m`: of its world, PackedWorld::contact_margin_m.
+  void set(int index, const model::Geom& geom, LanePlace body, double margin_m);
 
   /// Poses and boxes of the geoms in these chunks of num_lanes columns, from the poses of the bodies.
   void update(std::span<const int> chunks, const BodyLanes<T>& bodies);
 
   Column position[3];             ///< world frame
   Column rotation[9];             ///< by rows; not of a sphere round its body's centre
-  Column box_min[3], box_max[3];  ///< a little larger than need be; a plane's is empty
+  Column box_min[3], box_max[3];  ///< with the margin, a little larger than need be; a plane's is empty
   /// Half sides of a box, half length (z) of a capsule or cylinder; 0 for the other shapes.
   Column half[3];
   Column radius;  ///< of a sphere, capsule or cylinder
+  Column margin;
 
  private:
   struct alignas(sizeof(V)) Chunk {
@@ -92,6 +94,8 @@ struct GeomSide {
   }
   PBMPI_LANES V half(int k) const { return geoms->half[k].gather(index); }
   PBMPI_LANES V radius() const { return geoms->radius.gather(index); }
+  /// The depth from which on geoms have a contact; negative is a gap.
+  PBMPI_LANES V least_depth() const { return -geoms->margin.gather(index); }
 };
 
 template <class T>
@@ -103,6 +107,7 @@ GeomLanes<T>::GeomLanes(int num_geoms) : chunks_(static_cast<std::size_t>(num_ge
   for (Column& column : box_min) column.resize(num_chunks);
   for (Column& column : box_max) column.resize(num_chunks);
   radius.resize(num_chunks);
+  margin.resize(num_chunks);
   for (Chunk& chunk : chunks_) {  // unused lanes get empty boxes
     chunk = Chunk{};
     chunk.infinite = T::broadcast(1);
@@ -110,7 +115,7 @@ GeomLanes<T>::GeomLanes(int num_geoms) : chunks_(static_cast<std::size_t>(num_ge
 }
 
 template <class T>
-void GeomLanes<T>::set(int index, const model::Geom& geom, LanePlace body) {
+void GeomLanes<T>::set(int index, const model::Geom& geom, LanePlace body, double margin_m) {
   Chunk& chunk = chunks_[static_cast<std::size_t>(index / T::num_lanes)];
   const int lane = index % T::num_lanes;
   chunk.body[lane] = BodyLanes<T>::body_index(body.slot, body.lane);
@@ -127,6 +132,7 @@ void GeomLanes<T>::set(int index, const model::Geom& geom, LanePlace body) {
   const geometry::Extent extent = geometry::extent_of(geom);
   for (std::size_t k = 0; k < 3; ++k) half[k].data()[index] = scalar(extent.half.data()[k]);
   radius.data()[index] = scalar(extent.ball + extent.disc);
+  margin.data()[index] = scalar(margin_m);
   T::set(chunk.ball, lane, scalar(extent.ball));
   T::set(chunk.disc, lane, scalar(extent.disc));
   T::set(chunk.infinite, lane, scalar(geom.shape == model::Shape::plane ? 1 : 0));
@@ -169,6 +175,7 @@ void GeomLanes<T>::update_chunk(int i, const BodyLanes<T>& bodies) {
     const V slack =
         (T::abs(centre) + reach) * T::broadcast(static_cast<Scalar>(sizeof(Scalar) == 4 ? 1e-6 : 1e-14));
     const V far = T::broadcast(static_cast<Scalar>(huge_bound));
+    reach += margin.chunk(i);
     box_min[k].chunk(i) = chunk.infinite > zero ? far : centre - reach - slack;
     box_max[k].chunk(i) = chunk.infinite > zero ? -far : centre + reach + slack;
   }

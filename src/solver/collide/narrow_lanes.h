@@ -94,7 +94,7 @@ void NarrowLanes<T>::collide_boxes(const GeomLanes<T>& geoms, const PairColumn& 
       touch.num_points = static_cast<short>(BoxManifold<T>::find(
           box_at(geoms, column.a.data()[i + lane]), box_at(geoms, column.b.data()[i + lane]),
           static_cast<int>(T::get(axis.code, lane)), T::get(axis.depth, lane),
-          writer.points + writer.next_point));
+          -geoms.margin.data()[column.a.data()[i + lane]], writer.points + writer.next_point));
       writer.next_point += touch.num_points;
     }
   }

@@ -21,19 +21,20 @@ class PlaneKernels {
 
  private:
   PBMPI_LANES static FoundPoint<V> sphere_on_plane(const L3& centre, const V& radius, const L3& origin,
-                                                   const L3& normal);
+                                                   const L3& normal, const V& least_depth);
 };
 
 template <class T>
 PBMPI_LANES FoundPoint<typename T::V> PlaneKernels<T>::sphere_on_plane(const L3& centre, const V& radius,
-                                                                       const L3& origin, const L3& normal) {
+                                                                       const L3& origin, const L3& normal,
+                                                                       const V& least_depth) {
   const V depth = radius - dot(centre - origin, normal);
-  return {flag<T>(depth >= T::broadcast(0)), centre - normal * radius, normal, depth};
+  return {flag<T>(depth >= least_depth), centre - normal * radius, normal, depth};
 }
 
 template <class T>
 void PlaneKernels<T>::sphere_plane(const Side& a, const Side& b, Found<V>& found) {
-  found.points[0] = sphere_on_plane(a.centre(), a.radius(), b.centre(), b.axis(2));
+  found.points[0] = sphere_on_plane(a.centre(), a.radius(), b.centre(), b.axis(2), a.least_depth());
   found.num_points = 1;
 }
 
@@ -41,10 +42,10 @@ void PlaneKernels<T>::sphere_plane(const Side& a, const Side& b, Found<V>& found
 template <class T>
 void PlaneKernels<T>::capsule_plane(const Side& a, const Side& b, Found<V>& found) {
   const L3 centre = a.centre(), axis = a.axis(2), origin = b.centre(), normal = b.axis(2);
-  const V length = a.half(2), radius = a.radius();
+  const V length = a.half(2), radius = a.radius(), least_depth = a.least_depth();
   const V end = dot(axis, normal) > T::broadcast(0) ? -length : length;
-  found.points[0] = sphere_on_plane(centre + axis * end, radius, origin, normal);
-  found.points[1] = sphere_on_plane(centre - axis * end, radius, origin, normal);
+  found.points[0] = sphere_on_plane(centre + axis * end, radius, origin, normal, least_depth);
+  found.points[1] = sphere_on_plane(centre - axis * end, radius, origin, normal, least_depth);
   found.points[1].touching *= found.points[0].touching;
   found.num_points = 2;
 }
@@ -52,7 +53,7 @@ void PlaneKernels<T>::capsule_plane(const Side& a, const Side& b, Found<V>& foun
 /// The deepest corner, its neighbours along the two edges that rise least, and the corner across.
 template <class T>
 void PlaneKernels<T>::box_plane(const Side& a, const Side& b, Found<V>& found) {
-  const V zero = T::broadcast(0);
+  const V zero = T::broadcast(0), least_depth = a.least_depth();
   const L3 centre = a.centre(), normal = b.axis(2);
   L3 edge[3], corner = centre;
   V rise[3], depth = -dot(centre - b.centre(), normal);
@@ -82,7 +83,8 @@ void PlaneKernels<T>::box_plane(const Side& a, const Side& b, Found<V>& found) {
                          corner + along_first + along_next};
   V before = T::broadcast(1);
   for (int i = 0; i < 4; ++i) {
-    const V touching = i < 3 ? (depths[i] >= zero ? before : zero) : (depths[i] > zero ? before : zero);
+    const V touching =
+        i < 3 ? (depths[i] >= least_depth ? before : zero) : (depths[i] > least_depth ? before : zero);
     found.points[i] = {touching, corners[i], normal, depths[i]};
     before = touching;
   }
@@ -94,7 +96,7 @@ void PlaneKernels<T>::box_plane(const Side& a, const Side& b, Found<V>& found) {
 /// follow where it looks along its own axes.)
 template <class T>
 void PlaneKernels<T>::cylinder_plane(const Side& a, const Side& b, Found<V>& found) {
-  const V zero = T::broadcast(0), one = T::broadcast(1);
+  const V zero = T::broadcast(0), one = T::broadcast(1), least_depth = a.least_depth();
   const L3 centre = a.centre(), axis = a.axis(2), origin = b.centre(), normal = b.axis(2);
   const V radius = a.radius(), slope = dot(axis, normal);
   const V end = slope > zero ? -a.half(2) : a.half(2);
@@ -113,7 +115,7 @@ void PlaneKernels<T>::cylinder_plane(const Side& a, const Side& b, Found<V>& fou
   V rest = T::broadcast(0);
   for (int i = 0; i < 5; ++i) {
     const V depth = -dot(points[i] - origin, normal);
-    const V touching = flag<T>(depth >= zero);
+    const V touching = flag<T>(depth >= least_depth);
     if (i ==
         4) {  // in the place of the upper rim's, which is off the plane when the whole lower disc is on it
       const auto instead = touching * (one - rest) > zero;

@@ -23,12 +23,13 @@ class RoundKernels {
 
  private:
   PBMPI_LANES static V clamp(const V& x, const V& bound) { return T::min(T::max(x, -bound), bound); }
-  PBMPI_LANES static FoundPoint<V> spheres(const L3& pa, const V& ra, const L3& pb, const V& rb);
+  PBMPI_LANES static FoundPoint<V> spheres(const L3& pa, const V& ra, const L3& pb, const V& rb,
+                                           const V& least_depth);
 };
 
 template <class T>
 PBMPI_LANES FoundPoint<typename T::V> RoundKernels<T>::spheres(const L3& pa, const V& ra, const L3& pb,
-                                                               const V& rb) {
+                                                               const V& rb, const V& least_depth) {
   const V zero = T::broadcast(0), one = T::broadcast(1), half = T::broadcast(Scalar(0.5));
   const L3 apart = pa - pb;
   const V distance = T::sqrt(dot(apart, apart));
@@ -36,19 +37,20 @@ PBMPI_LANES FoundPoint<typename T::V> RoundKernels<T>::spheres(const L3& pa, con
   const V inverse = one / (together ? one : distance);
   const L3 normal{together ? one : apart.x * inverse, apart.y * inverse, apart.z * inverse};
   const V k = together ? zero : half * (rb - ra - distance);
-  return {flag<T>(distance <= ra + rb), pa + normal * k, normal, ra + rb - distance};
+  return {flag<T>(distance <= ra + rb - least_depth), pa + normal * k, normal, ra + rb - distance};
 }
 
 template <class T>
 void RoundKernels<T>::sphere_sphere(const Side& a, const Side& b, Found<V>& found) {
-  found.points[0] = spheres(a.centre(), a.radius(), b.centre(), b.radius());
+  found.points[0] = spheres(a.centre(), a.radius(), b.centre(), b.radius(), a.least_depth());
   found.num_points = 1;
 }
 
 template <class T>
 void RoundKernels<T>::capsule_sphere(const Side& a, const Side& b, Found<V>& found) {
   const L3 pa = a.centre(), axis = a.axis(2), pb = b.centre();
-  found.points[0] = spheres(pa + axis * clamp(dot(axis, pb - pa), a.half(2)), a.radius(), pb, b.radius());
+  found.points[0] =
+      spheres(pa + axis * clamp(dot(axis, pb - pa), a.half(2)), a.radius(), pb, b.radius(), a.least_depth());
   found.num_points = 1;
 }
 
@@ -77,7 +79,7 @@ void RoundKernels<T>::sphere_box(const Side& a, const Side& b, Found<V>& found) 
   const V distance = T::sqrt(dot(gap, gap));
   const V inverse = one / (distance > zero ? distance : one);
   const V depth = within ? least + radius : radius - distance;
-  found.points[0] = {flag<T>(depth >= zero),
+  found.points[0] = {flag<T>(depth >= a.least_depth()),
                      {within ? pa.x : nearest.x, within ? pa.y : nearest.y, within ? pa.z : nearest.z},
                      {within ? outward.x : gap.x * inverse, within ? outward.y : gap.y * inverse,
                       within ? outward.z : gap.z * inverse},
@@ -91,6 +93,7 @@ void RoundKernels<T>::capsule_capsule(const Side& a, const Side& b, Found<V>& fo
   const V zero = T::broadcast(0), one = T::broadcast(1);
   const L3 pa = a.centre(), pb = b.centre(), da = a.axis(2), db = b.axis(2), apart = pa - pb;
   const V ha = a.half(2), hb = b.half(2), ra = a.radius(), rb = b.radius();
+  const V least_depth = a.least_depth();
   const V cosine = dot(da, db), along_a = dot(da, apart), along_b = dot(db, apart);
   const V sine2 = one - cosine * cosine;
   const V parallel = flag<T>(sine2 < T::broadcast(Scalar(1e-5)));
@@ -104,14 +107,14 @@ void RoundKernels<T>::capsule_capsule(const Side& a, const Side& b, Found<V>& fo
   const V beside = lo <= hi ? parallel : zero;
   const V turned = cosine < zero ? -one : one;
   const auto beside_at = [&](const V& along) {
-    return spheres(pa + da * along, ra, pb + db * ((along + along_a) * turned), rb);
+    return spheres(pa + da * along, ra, pb + db * ((along + along_a) * turned), rb, least_depth);
   };
   const FoundPoint<V> low_end = beside_at(lo), high_end = beside_at(hi);
   const V both = lo < hi ? beside * low_end.touching * high_end.touching : zero;
   const V middle = (lo + hi) * T::broadcast(Scalar(0.5));
   const V at_a = beside > zero ? middle : s;
   const V at_b = beside > zero ? (middle + along_a) * turned : t;
-  const FoundPoint<V> single = spheres(pa + da * at_a, ra, pb + db * at_b, rb);
+  const FoundPoint<V> single = spheres(pa + da * at_a, ra, pb + db * at_b, rb, least_depth);
   const auto two = both > zero;
   const auto choose = [&](const L3& first, const L3& otherwise) {
     return L3{two ? first.x : otherwise.x, two ? first.y : otherwise.y, two ? first.z : otherwise.z};
@@ -129,7 +132,7 @@ void RoundKernels<T>::capsule_box(const Side& a, const Side& b, Found<V>& found)
   const SegmentPlace<V> place = SegmentAtBox<T>(a, b).nearest_place();
   const V depth = radius - place.distance;
   const V inwards = T::broadcast(Scalar(0.5)) * (radius + place.distance);
-  found.points[0] = {flag<T>(depth >= T::broadcast(0)), place.point - place.normal * inwards, place.normal,
+  found.points[0] = {flag<T>(depth >= a.least_depth()), place.point - place.normal * inwards, place.normal,
                      depth};
   found.num_points = 1;
 }

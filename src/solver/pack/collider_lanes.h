@@ -52,6 +52,7 @@ class ColliderLanes {
     int first_column = 0;                      ///< of the swept geoms
     std::unique_ptr<MayTouchTable> may_touch;  ///< of the swept geoms; none if they are many and sorted
     std::unique_ptr<BroadPhase> sorting;
+    double margin_m = 0;
     std::optional<AwakeGeoms> awake;  ///< none without the pass "sleeping"
   };
 
@@ -98,12 +99,13 @@ ColliderLanes<T>::ColliderLanes(std::span<const PackedWorld> worlds, const World
     World& world = worlds_.emplace_back();
     world.model = &model;
     world.fallback = packed.fallback;
+    world.margin_m = packed.contact_margin_m;
     world.geoms = order_.swept(w);
     world.first_column = order_.first(w);
     if (sleeping) world.awake.emplace(model, world.geoms, T::num_lanes);
     for (std::size_t geom = 0; geom < model.geoms.size(); ++geom) {
       geoms_.set(order_.column(w, static_cast<int>(geom)), model.geoms[geom],
-                 lanes.places.body(w, model.geoms[geom].body));
+                 lanes.places.body(w, model.geoms[geom].body), packed.contact_margin_m);
     }
     find_touchable(world, {});
   }
@@ -114,7 +116,7 @@ void ColliderLanes<T>::find_touchable(World& world, std::span<const std::int32_t
   if (world.geoms.size() <= most_tested_geoms) {
     world.may_touch = std::make_unique<MayTouchTable>(*world.model, world.geoms, broken_in);
   } else {
-    world.sorting = std::make_unique<BroadPhase>(*world.model, world.geoms, broken_in);
+    world.sorting = std::make_unique<BroadPhase>(*world.model, world.geoms, world.margin_m, broken_in);
   }
 }
 

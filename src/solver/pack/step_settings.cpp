@@ -29,6 +29,10 @@ void start_memory(bool remembers, const model::Model& model, model::StepMemory& 
   }
 }
 
+double contact_margin_m(const stepping::StepperSettings& settings, const model::Model& model) {
+  return settings.contact_margin * model.gravity.norm() * settings.dt_s * settings.dt_s;
+}
+
 StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step) {
   StepParameters parameters;
   parameters.dt_s = settings.dt_s;

@@ -20,6 +20,9 @@ inline bool remembers(const stepping::StepperSettings& settings) { return settin
 /// is known, or none at all.
 void start_memory(bool remembers, const model::Model& model, model::StepMemory& memory);
 
+/// [m] Up to which the lanes are to find contacts in a world: PackedWorld::contact_margin_m.
+double contact_margin_m(const stepping::StepperSettings& settings, const model::Model& model);
+
 /// The parameters of a step of a run.
 StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step);
 

@@ -62,7 +62,7 @@ void CrossBroadPhase::enter(int space, int owner, std::span<const Box> boxes,
   for (const int body : bodies_->bodies(space)) {
     if (!reaches_in(bodies_->ball_box(body, poses[body]))) continue;
     for (const int geom : bodies_->geoms(body)) {
-      const Box box = geometry::geom_box(model_->geoms[geom], poses[body]);
+      const Box box = geometry::geom_box(model_->geoms[geom], poses[body]).grown(bodies_->margin_m());
       if (reaches_in(box)) entries_.push_back({box, geom, owner});
     }
   }

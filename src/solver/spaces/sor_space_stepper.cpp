@@ -113,7 +113,7 @@ SorSpaceStepper::SorSpaceStepper(const stepping::StepperSettings& settings,
       map_(model::make_space_map(*model_)),
       articulations_(find_articulations(*model_)),
       narrow_phase_(make_narrow_phase(*model_)),
-      bodies_(*model_, map_),
+      bodies_(*model_, map_, contact_margin_m(settings, *model_)),
       cross_(*model_, bodies_),
       packed_(*model_),
       rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::cut, packed_.state()),
@@ -127,6 +127,7 @@ std::vector<PackedWorld> SorSpaceStepper::packed_own_first() const {
   std::vector<PackedWorld> packed = {pack_own_first(*model_, map_, articulations_, is_own_)};
   packed[0].fallback = narrow_phase_.get();
   packed[0].lanes_collide = settings_.colliders == stepping::Colliders::lanes;
+  packed[0].contact_margin_m = contact_margin_m(settings_, *model_);
   return packed;
 }
 

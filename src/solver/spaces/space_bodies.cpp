@@ -9,8 +9,9 @@ namespace pbmpi::solver {
 
 using geometry::Box;
 
-SpaceBodies::SpaceBodies(const model::Model& model, const model::SpaceMap& map)
-    : bodies_of_space_(static_cast<std::size_t>(map.num_spaces())),
+SpaceBodies::SpaceBodies(const model::Model& model, const model::SpaceMap& map, double margin_m)
+    : margin_m_(margin_m),
+      bodies_of_space_(static_cast<std::size_t>(map.num_spaces())),
       geoms_of_body_(model.bodies.size()),
       radius_(model.bodies.size(), 0) {
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
@@ -29,7 +30,7 @@ Box SpaceBodies::ball_box(int body, const model::BodyPose& pose) const {
   Box box;
   for (std::size_t k = 0; k < 3; ++k) {
     // Wider than the box of a geom in it, whose slack is 1e-6 of its coordinates.
-    const double reach = radius_[body] + 2e-6 * (std::abs(pose.position[k]) + 2 * radius_[body]);
+    const double reach = radius_[body] + margin_m_ + 2e-6 * (std::abs(pose.position[k]) + 2 * radius_[body]);
     box.min[k] = pose.position[k] - reach;
     box.max[k] = pose.position[k] + reach;
   }

@@ -12,17 +12,20 @@ namespace pbmpi::solver {
 
 class SpaceBodies {
  public:
-  SpaceBodies(const model::Model& model, const model::SpaceMap& map);
+  SpaceBodies(const model::Model& model, const model::SpaceMap& map, double margin_m = 0);
 
+  /// [m] by which boxes of geoms are to be larger, so that those overlap that may have a contact.
+  double margin_m() const { return margin_m_; }
   std::span<const int> bodies(int space) const { return bodies_of_space_[space]; }  ///< that have a geom
   std::span<const int> geoms(int body) const { return geoms_of_body_[body]; }
-  /// About a ball, about the body's centre of mass, that holds its geoms: wider than their boxes by up to the
-  /// body's own size, and a tenth of their cost.
+  /// About a ball, about the body's centre of mass, that holds its geoms and the margin: wider than their
+  /// boxes by up to the body's own size, and a tenth of their cost.
   geometry::Box ball_box(int body, const model::BodyPose& pose) const;
   /// Holds the ball boxes of a space's bodies, and so the boxes of its geoms. `poses` [num_bodies]
   geometry::Box space_box(int space, std::span<const model::BodyPose> poses) const;
 
  private:
+  double margin_m_;
   std::vector<std::vector<int>> bodies_of_space_;
   std::vector<std::vector<int>> geoms_of_body_;
   std::vector<double> radius_;  ///< [num_bodies] m

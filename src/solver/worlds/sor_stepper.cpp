@@ -141,7 +141,8 @@ void SorStepper::make_groups() {
     std::vector<PackedWorld> packed;
     for (const SorWorld* world : group.worlds)
       packed.push_back({&world->model(), find_articulations(world->model()), &world->narrow_phase(),
-                        settings_.colliders == stepping::Colliders::lanes});
+                        settings_.colliders == stepping::Colliders::lanes,
+                        contact_margin_m(settings_, world->model())});
     group.pack = make_pack(packed, settings_.simd, settings_.precision);
     for (std::size_t i = 0; i < group.worlds.size(); ++i) {
       group.worlds[i]->enter(*group.pack, static_cast<int>(i));

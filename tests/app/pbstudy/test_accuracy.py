@@ -98,7 +98,7 @@ class Accuracy(ProgramTest):
                   "--warm-start", 0.9, "--row-order", "fixed", "--precision", "double", "--estimates", 0, *FAST, *ONE_DT)
         result = self.report("study.h5", "--tolerance", "1m", "--write-preset", "warm.preset")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("sor double, 2 x 3, factor 1.3, warm 0.9, relax 0, contacts 0 Hz, joints 0 Hz, joints by sweeps, pyramid, "
+        self.assertIn("sor double, 2 x 3, factor 1.3, warm 0.9, relax 0, contacts 0 Hz, margin 0, joints 0 Hz, joints by sweeps, pyramid, "
                       "fixed order", result.stdout)
         with_preset = self.pbmpi(1, "--preset", "warm.preset", "--output", "run.h5")
         self.assertEqual(with_preset.returncode, 0, with_preset.stderr)

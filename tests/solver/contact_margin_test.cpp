@@ -1,0 +1,186 @@
+/// Contacts that are found before bodies touch (PackedWorld::contact_margin_m).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "model/names.h"
+#include "ode/collide/narrow_phase.h"
+#include "ode/objects/engine.h"
+#include "solver/layout/articulation.h"
+#include "solver/pack/pack.h"
+#include "solver/pack/simd.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::Contact;
+using model::Shape;
+using model::Vec3;
+
+constexpr double margin_m = 0.01;
+
+struct Pair {
+  Shape a, b;
+};
+
+/// Two geoms, each of a body of its own but for a plane.
+model::Model pair_model(const Pair& pair) {
+  model::Model model;
+  int index = 0;
+  for (const Shape shape : {pair.a, pair.b}) {
+    model.actors.emplace_back().name = std::to_string(index);
+    model::Body& body = model.bodies.emplace_back();
+    body.name = std::to_string(index);
+    body.actor = index;
+    model::Geom& geom = model.geoms.emplace_back();
+    geom.shape = shape;
+    geom.actor = index;
+    geom.body = shape == Shape::plane ? model::no_body : index;
+    geom.size = {0.3, 0.5, 0.4};
+    ++index;
+  }
+  return model;
+}
+
+/// A pair whose poses a test sets, in a pack with a margin and in one without.
+class TwoGeoms {
+ public:
+  explicit TwoGeoms(const Pair& pair)
+      : model_(pair_model(pair)),
+        fallback_(ode::make_narrow_phase(model_)),
+        ahead_(pack(margin_m)),
+        touching_(pack(0)),
+        state_(model::initial_state(model_)) {}
+
+  model::State& state() { return state_; }
+  std::vector<Contact> contacts_ahead() { return contacts(*ahead_); }
+  std::vector<Contact> touching() { return contacts(*touching_); }
+
+ private:
+  std::unique_ptr<Pack> pack(double margin) {
+    PackedWorld world{&model_, find_articulations(model_), fallback_.get()};
+    world.contact_margin_m = margin;
+    return make_pack({&world, 1}, stepping::Simd::automatic, stepping::Precision::double_);
+  }
+  std::vector<Contact> contacts(Pack& pack) {
+    pack.load(0, state_);
+    std::vector<Contact> found;
+    pack.collide({&found, 1});
+    return found;
+  }
+
+  ode::Engine engine_;
+  model::Model model_;
+  std::unique_ptr<model::NarrowPhase> fallback_;
+  std::unique_ptr<Pack> ahead_, touching_;
+  model::State state_;
+};
+
+const Contact& deepest(const std::vector<Contact>& contacts) {
+  return *std::max_element(contacts.begin(), contacts.end(),
+                           [](const Contact& a, const Contact& b) { return a.depth < b.depth; });
+}
+
+class ContactMargin : public testing::TestWithParam<Pair> {
+ protected:
+  void throw_dice(TwoGeoms& geoms) {
+    for (std::size_t body = 0; body < 2; ++body) {
+      for (int k = 0; k < 3; ++k) geoms.state().position[body][k] = 0.7 * number_(engine_);
+      model::Quat& q = geoms.state().orientation[body];
+      do {
+        q = {number_(engine_), number_(engine_), number_(engine_), number_(engine_)};
+      } while (q.to_eigen().norm() < 0.1);
+      const double norm = q.to_eigen().norm();
+      q = {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
+    }
+  }
+
+ private:
+  std::mt19937_64 engine_{11};
+  std::uniform_real_distribution<double> number_{-1, 1};
+};
+
+TEST_P(ContactMargin, finds_a_gap_of_which_less_can_be_closed_without_touching) {
+  TwoGeoms geoms(GetParam());
+  int gaps = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    throw_dice(geoms);
+    const std::vector<Contact> ahead = geoms.contacts_ahead(), touching = geoms.touching();
+    if (!touching.empty()) {
+      ASSERT_FALSE(ahead.empty());
+      EXPECT_NEAR(deepest(ahead).depth, deepest(touching).depth, 1e-9);
+      continue;
+    }
+    if (ahead.empty()) continue;
+    const Contact& nearest = deepest(ahead);
+    ASSERT_LE(nearest.depth, 0);
+    ASSERT_GE(nearest.depth, -margin_m);
+    const int mover = nearest.body_a;
+    const Vec3 start = geoms.state().position[mover];
+    geoms.state().position[mover] = start + 0.99 * nearest.depth * nearest.normal;
+    EXPECT_TRUE(geoms.touching().empty()) << "try " << i;
+    ++gaps;
+  }
+  EXPECT_GT(gaps, 20);
+}
+
+/// What touches, drawn apart along its normal, has a gap. Boxes may then be farther apart along another axis.
+TEST_P(ContactMargin, finds_what_was_drawn_apart_by_half_of_it_and_not_by_twice) {
+  if (GetParam().a == Shape::box && GetParam().b == Shape::box) GTEST_SKIP() << "boxes have many axes";
+  TwoGeoms geoms(GetParam());
+  int drawn = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    throw_dice(geoms);
+    const std::vector<Contact> touching = geoms.touching();
+    if (touching.empty() || deepest(touching).depth > 0.1) continue;
+    const Contact contact = deepest(touching);
+    const Vec3 start = geoms.state().position[contact.body_a];
+    geoms.state().position[contact.body_a] = start + (contact.depth + margin_m / 2) * contact.normal;
+    const std::vector<Contact> near = geoms.contacts_ahead();
+    ASSERT_FALSE(near.empty()) << "try " << i;
+    EXPECT_NEAR(deepest(near).depth, -margin_m / 2, 2e-3);  // round shapes turn their normal a little
+    geoms.state().position[contact.body_a] = start + (contact.depth + 2 * margin_m) * contact.normal;
+    EXPECT_TRUE(geoms.contacts_ahead().empty() || deepest(geoms.contacts_ahead()).depth >= -margin_m);
+    ++drawn;
+  }
+  EXPECT_GT(drawn, 100);
+}
+
+std::string pair_name(const testing::TestParamInfo<Pair>& info) {
+  return std::string(name_of(info.param.a)) + "_" + std::string(name_of(info.param.b));
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryKind, ContactMargin,
+                         testing::Values(Pair{Shape::sphere, Shape::plane},
+                                         Pair{Shape::capsule, Shape::plane}, Pair{Shape::box, Shape::plane},
+                                         Pair{Shape::cylinder, Shape::plane},
+                                         Pair{Shape::sphere, Shape::sphere},
+                                         Pair{Shape::capsule, Shape::sphere}, Pair{Shape::sphere, Shape::box},
+                                         Pair{Shape::capsule, Shape::capsule},
+                                         Pair{Shape::capsule, Shape::box}, Pair{Shape::box, Shape::box}),
+                         pair_name);
+
+TEST(ContactMarginOfATiltedBox, has_all_four_corners_where_without_it_two_are_lost) {
+  TwoGeoms geoms({Shape::box, Shape::plane});
+  const double angle = 0.01;  // its far corners rise by 3 mm
+  geoms.state().position[0] = {0, 0, 0.2 - 0.0005};
+  geoms.state().orientation[0] = {std::cos(angle / 2), 0, std::sin(angle / 2), 0};
+  EXPECT_EQ(geoms.touching().size(), 2u);
+  EXPECT_EQ(geoms.contacts_ahead().size(), 4u);
+}
+
+TEST(ContactMarginOfBoxes, has_the_four_corners_of_a_box_that_hangs_just_over_another) {
+  TwoGeoms geoms({Shape::box, Shape::box});
+  for (const double yaw : {0.0, 0.001, 0.3}) {
+    geoms.state().position[0] = {0, 0, 0.4 + 0.002};
+    geoms.state().position[1] = {0, 0, 0};
+    geoms.state().orientation[0] = {std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)};
+    EXPECT_TRUE(geoms.touching().empty());
+    ASSERT_EQ(geoms.contacts_ahead().size(), 4u) << "turned by " << yaw;
+    for (const Contact& contact : geoms.contacts_ahead()) EXPECT_NEAR(contact.depth, -0.002, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace pbmpi::solver
