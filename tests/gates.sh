@@ -28,7 +28,7 @@ tidy() {
     xargs -P "$(nproc)" -n 4 clang-tidy -p build/clang --quiet 2> >(grep -v -E '^[0-9]+ warnings? generated\.$' >&2)
 }
 
-# Unit tests (one program a folder, no ranks), then each program on a scene with every kind of joint and contact.
+# Unit tests (one program a folder, no ranks), then every scene in many settings, and each program on one.
 sanitize() {
   local tests=(core model geometry effects stepping analysis estimate scenes app pbstudy pbreport io_html io_table_file
     io_rows partition rebalance rebalancer space_plan)
@@ -39,6 +39,7 @@ sanitize() {
   export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
   ctest --preset asan-ubsan --parallel "$(nproc)" -R "^($(IFS='|'; echo "${tests[*]}"))_test[.]"
   local bin=$PWD/build/asan-ubsan/bin folder
+  PBMPI_BIN=$bin python3 tests/app/golden/test_many_hashes.py --ranks 2
   folder=$(mktemp -d)
   trap 'rm -rf "$folder"' RETURN
   (

@@ -1,5 +1,6 @@
 """Kills runs at random moments, each followed at once by a run of the same name, and starts pairs of runs that want the same
-output. None may hang, every file opens, and every committed row is that of the undisturbed run.
+output. None may hang, every file opens, every committed row is that of the undisturbed run, and what a killed run has saved leads
+to its state.
 usage: kills.py BIN [KILLS PAIRS]   (12 and 4; the full form is 200 and 50)"""
 import os
 import random
@@ -15,12 +16,12 @@ import numpy
 
 LIMIT_S = 90  # against a hang; a run takes a few seconds
 AT_ONCE = {**os.environ, "OMPI_MCA_odls_base_sigkill_timeout": "0"}
-WORLDS = ["--scene", "CrashSk", "--replicas", "6", "--frames", "450"]
-SPACES = ["--scene", "Fight", "--decompose", "spaces", "--frames", "260"]
+WORLDS = ["--scene", "CrashSk", "--replicas", "6", "--frames", "1200"]
+SPACES = ["--scene", "Fight", "--decompose", "spaces", "--frames", "700"]
 KINDS = {
     "worlds": ("pbmpi", WORLDS),
     "spaces": ("pbmpi", SPACES),
-    "checkpoints": ("pbmpi", [*WORLDS, "--checkpoint", "ck.h5", "--checkpoint-every", "0.3"]),
+    "checkpoints": ("pbmpi", [*WORLDS, "--checkpoint", "ck.h5", "--checkpoint-every", "0.1"]),
     "study": ("pbstudy", ["accuracy", "--scene", "CrashSk", "--frames", "5", "--iterations", "5", "--repeats", "1",
                           "--floor-seeds", "1", "--reference-iterations", "20", "--rest-seconds", "0"]),
 }
@@ -38,13 +39,18 @@ class Kind:
         self.must_end(self.start(), "the undisturbed run")
         self.took_s = time.monotonic() - started
         self.rows = self.read() if program == "pbmpi" else None
+        self.state_hash = self.hash_of("run.h5") if program == "pbmpi" else None
+        self.resumed = 0
 
     def path(self, name):
         return os.path.join(self.folder, name)
 
     def start(self, *more, output="run.h5"):
-        return subprocess.Popen(["mpirun", "-n", "2", self.program, *self.options, "--quiet", "--output", output, *more],
-                                cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=AT_ONCE,
+        return self.launch("2", [*self.options, "--output", output, *more])
+
+    def launch(self, ranks, options):
+        return subprocess.Popen(["mpirun", "-n", ranks, self.program, *options, "--quiet"], cwd=self.folder,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=AT_ONCE,
                                 start_new_session=True)
 
     def end(self, process, what):
@@ -59,6 +65,20 @@ class Kind:
     def must_end(self, process, what):
         code, errors = self.end(process, what)
         assert code == 0, f"{self.name}: {what} ended with {code}: {errors}"
+
+    def hash_of(self, name):
+        with h5py.File(self.path(name)) as file:
+            return file.attrs["state_hash"]
+
+    def resume(self):
+        """What a killed run has saved goes on to the undisturbed run's end."""
+        options = ["--resume", "saved.h5", "--output", "resumed.h5"]
+        self.must_end(self.launch("3", options), "the resumed run")
+        assert self.hash_of("resumed.h5") == self.state_hash, f"{self.name}: a resumed run has another hash"
+        self.resumed += 1
+        for name in ("saved.h5", "resumed.h5", "resumed.xdmf"):
+            if os.path.exists(self.path(name)):
+                os.remove(self.path(name))
 
     def read(self, name="run.h5"):
         """Committed frames and their rows."""
@@ -117,12 +137,16 @@ def kill_one(kind, rng):
     left = kind.path("left.h5")
     if os.path.exists(kind.path("run.h5")):
         os.link(kind.path("run.h5"), left)  # what it leaves, whatever the next run puts in its place
+    if os.path.exists(kind.path("ck.h5")):
+        os.link(kind.path("ck.h5"), kind.path("saved.h5"))
     kind.must_end(kind.start(), "the run after a kill")
     kind.end(process, "the killed run")
     committed = 0
     if os.path.exists(left):
         committed = kind.check("left.h5")
         os.remove(left)
+    if os.path.exists(kind.path("saved.h5")):
+        kind.resume()
     done = kind.check()
     assert kind.rows is None or done == kind.rows[0], f"{kind.name}: the run after a kill is not complete"
     beside = sorted(name for name in os.listdir(kind.folder) if name not in ("run.h5", "run.xdmf", "ck.h5"))
@@ -167,6 +191,7 @@ def main():
             pair(kinds[attempt % len(kinds)], rng)
     finally:
         shutil.rmtree(root, ignore_errors=True)
+    print(sum(kind.resumed for kind in kinds), "checkpoints of killed runs led to the undisturbed run's state")
     for name, frames in committed.items():
         print(f"{name}: {len(frames)} kills, committed frames of the killed runs {frames}")
     print(f"{num_kills} kills and {num_pairs} pairs: none hangs, all files open, no row differs or is lost")

@@ -1,0 +1,95 @@
+"""Every scene has one hash in each of many settings: for 1 to 4 ranks, as whole worlds and cut into spaces, with every
+instruction set. More than a thousand runs in all, of few frames each.
+
+`--ranks 2,3` starts these alone, and no other instruction sets: the form for programs with sanitizers, whose reports count as
+failures."""
+import concurrent.futures
+import json
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import COLD, ProgramTest  # noqa: E402
+
+SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
+SOR = {
+    "default": (),
+    "single": ("--precision", "single"),
+    "seed 2": ("--seed", 2),
+    "solver seed 3, single": ("--solver-seed", 3, "--precision", "single"),
+    "cold": COLD,
+    "4 x 2, pyramid": ("--substeps", 4, "--iterations", 2, "--friction", "pyramid"),
+    "tree": ("--joint-solver", "tree"),
+    "joints one by one, no margin": ("--joint-solver", "sweeps", "--contact-margin", 0),
+    "half the step": ("--dt", 0.005),
+    "ODE's colliders": ("--colliders", "ode"),
+    "sleeping": ("--effects", "+sleeping,+drag"),
+    "field of interest": ("--effects", "+field_of_interest,+restitution"),
+}
+ODE = {"quick": SCENES, "direct": ("2-Cars", "CrashSk", "100CrSk")}  # the big matrix of the others takes minutes
+SIMDS = ("off", "sse2", "avx2", "avx512")
+RUNS_AT_ONCE = 3  # a run waits for most of its time until MPI is up
+FEW = ("--frames", 4, "--warmup", 1, "--no-output", "--report", "json")
+
+
+RANKS = None
+if "--ranks" in sys.argv:
+    at = sys.argv.index("--ranks")
+    RANKS = tuple(map(int, sys.argv[at + 1].split(",")))
+    del sys.argv[at:at + 2]
+
+
+class ManyHashes(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.runs = 0
+
+    def hash_of(self, ranks, args):
+        result = self.pbmpi(ranks, *args, *FEW)
+        self.runs += 1
+        if result.returncode == 2 and "lacks the instruction set" in result.stderr:
+            return None
+        self.assertEqual(result.returncode, 0, (args, result.stderr))
+        self.assertNotIn("runtime error", result.stderr)
+        return json.loads(result.stdout)["state_hash"]
+
+    def one_hash(self, what, cases):
+        """`cases`: ranks and arguments, which must all lead to one hash."""
+        with concurrent.futures.ThreadPoolExecutor(RUNS_AT_ONCE) as pool:
+            hashes = list(pool.map(lambda case: self.hash_of(*case), cases))
+        known = {state_hash for state_hash in hashes if state_hash is not None}
+        self.assertEqual(len(known), 1, (what, list(zip(cases, hashes))))
+
+    def test_ranks_and_cuts_leave_every_hash(self):
+        for scene in SCENES:
+            for name, options in SOR.items():
+                with self.subTest(scene=scene, setting=name):
+                    args = ("--scene", scene, "--replicas", 3 if scene == "100CrSk" else 1, *options)
+                    self.one_hash((scene, name), [(ranks, (*args, "--decompose", cut)) for ranks in RANKS or (1, 2, 3, 4)
+                                                  for cut in ("worlds", "spaces") if scene != "100CrSk" or cut == "worlds"])
+        print(self.runs, "runs of sor")
+
+    def test_ranks_leave_every_hash_of_ODE(self):
+        for stepper, scenes in ODE.items():
+            for scene in scenes:
+                with self.subTest(scene=scene, stepper=stepper):
+                    worlds = 3 if scene in ("2-Cars", "CrashSk", "100CrSk") else 1
+                    args = ("--scene", scene, "--stepper", stepper, "--replicas", worlds)
+                    self.one_hash((scene, stepper), [(ranks, args) for ranks in RANKS or (1, 2, 3, 4)])
+        print(self.runs, "runs of ODE's steppers")
+
+    @unittest.skipIf(RANKS, "instruction sets are not asked for")
+    def test_instruction_sets_leave_every_hash(self):
+        for scene in SCENES:
+            for name in ("default", "single", "cold"):
+                with self.subTest(scene=scene, setting=name):
+                    args = ("--scene", scene, *SOR[name])
+                    cuts = ("worlds",) if scene == "100CrSk" else ("worlds", "spaces")
+                    self.one_hash((scene, name), [(ranks, (*args, "--simd", simd, "--decompose", cut))
+                                                  for simd in SIMDS for ranks in (1, 2) for cut in cuts])
+        print(self.runs, "runs over instruction sets")
+
+
+if __name__ == "__main__":
+    unittest.main()
