@@ -17,22 +17,10 @@ model::BodyPose body_pose(const core::Vec3& position, const core::Quat& q) {
   return pose;
 }
 
-model::BodyPose pose_of(const model::State& state, const model::Geom& geom) {
-  return geom.body == model::no_body
-             ? geometry::geom_pose(geom, geometry::static_pose())
-             : geometry::geom_pose(geom, body_pose(state.position[geom.body], state.orientation[geom.body]));
-}
-
 /// `body`, `pose`: the body's; `geom_at`: the geom's.
 core::Vec3 velocity_of_centre(const model::BodyPose& geom_at, const core::Vec3& body_position,
                               const core::Vec3& velocity, const core::Vec3& angular_velocity) {
   return velocity + angular_velocity.cross(core::Vec3(geom_at.position) - body_position);
-}
-
-bool moves_past_half(const model::Geom& geom, const model::BodyPose& geom_at, const core::Vec3& way) {
-  const double length = way.norm();
-  return std::isfinite(length) && length > geometry::least_half_extent(geom) &&
-         length > geometry::half_extent(geom, geom_at.rotation, way / length);
 }
 
 /// A way of the geom's centre, longer by what the geom reaches ahead of it.
@@ -40,6 +28,21 @@ core::Vec3 with_front(const model::Geom& geom, const model::BodyPose& geom_at, c
   const double length = way.norm();
   if (length == 0) return way;
   return way + geometry::half_extent(geom, geom_at.rotation, way / length) / length * way;
+}
+
+model::BodyPose pose_of(const model::State& state, const model::Geom& geom) {
+  return geom.body == model::no_body
+             ? geometry::geom_pose(geom, geometry::static_pose())
+             : geometry::geom_pose(geom, body_pose(state.position[geom.body], state.orientation[geom.body]));
+}
+
+constexpr int no_family = -1;
+
+/// The geoms of an actor that does not collide with itself, or else of a body. Most of what is near a limb is
+/// of its own family.
+int family_of(const model::Model& model, const model::Geom& geom) {
+  const auto actor = static_cast<std::size_t>(geom.actor);
+  return model.actors[actor].self_collision ? static_cast<int>(model.actors.size()) + geom.body : geom.actor;
 }
 
 bool by_geoms(const model::Contact& a, const model::Contact& b) { return a.geoms < b.geoms; }
@@ -62,16 +65,18 @@ std::vector<SlowBound> slow_bounds(const model::Model& model) {
 }
 
 FastBodies::FastBodies(const model::Model& model, std::span<const char> of_bodies)
-    : model_(&model), rule_(model), fast_of_geom_(model.geoms.size(), -1) {
+    : model_(&model), rule_(model), fast_of_geom_(model.geoms.size(), -1), met_poses_(model.geoms.size()) {
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
     const model::Geom& geom = model.geoms[i];
     const int index = static_cast<int>(i);
     const double arm = geom.local.position.norm(), radius = geometry::bounding_radius(geom) + arm;
     if (geom.body == model::no_body) {
-      balls_.push_back({index, model::no_body, geom.local.position, geometry::bounding_radius(geom)});
+      balls_.push_back(
+          {index, model::no_body, geom.local.position, geometry::bounding_radius(geom), no_family});
     } else if (of_bodies.empty() || of_bodies[geom.body] != 0) {
-      balls_.push_back({index, geom.body, core::Vec3::Zero(), radius});
-      watched_.push_back({index, geom.body, geometry::least_half_extent(geom), arm, radius});
+      const int family = family_of(model, geom);
+      balls_.push_back({index, geom.body, core::Vec3::Zero(), radius, family});
+      watched_.push_back({index, geom.body, family, geometry::least_half_extent(geom), arm, radius});
     }
   }
   for (const model::Body& body : model.bodies) ease_of_turning_.push_back(3 / body.inertia.trace());
@@ -100,9 +105,13 @@ bool FastBodies::look(const model::State& state, double dt_s) {
     const model::Geom& geom = model_->geoms[watched.geom];
     const model::BodyPose at = pose_of(state, geom);
     const core::Vec3 way = dt_s * velocity_of_centre(at, state.position[watched.body], velocity, spin);
-    if (!moves_past_half(geom, at, way)) continue;
+    const double length = way.norm();
+    if (!std::isfinite(length) || !(length > watched.least_half)) continue;
+    const double half = geometry::half_extent(geom, at.rotation, way / length);
+    if (!(length > half)) continue;
     fast_of_geom_[watched.geom] = static_cast<int>(fast_.size());
-    fast_.push_back({watched.geom, watched.radius, at, way, with_front(geom, at, way)});
+    const core::Vec3 reach = way + half / length * way;
+    fast_.push_back({watched.geom, watched.family, watched.radius, at, way, reach});
     bodies_.push_back(watched.body);
   }
   std::sort(bodies_.begin(), bodies_.end());
@@ -117,13 +126,28 @@ bool FastBodies::is_near(const model::State& state, const core::Vec3& middle, do
   return (centre - middle).squaredNorm() <= reach * reach;
 }
 
+const model::BodyPose& FastBodies::met_pose(const model::State& state, int geom) {
+  std::optional<model::BodyPose>& pose = met_poses_[static_cast<std::size_t>(geom)];
+  if (!pose) {
+    pose = pose_of(state, model_->geoms[static_cast<std::size_t>(geom)]);
+    if (model_->geoms[static_cast<std::size_t>(geom)].body != model::no_body) met_.push_back(geom);
+  }
+  return *pose;
+}
+
+/// The state may be another than that of the last call.
+void FastBodies::forget_met() {
+  for (const int geom : met_) met_poses_[static_cast<std::size_t>(geom)].reset();
+  met_.clear();
+}
+
 /// The contact acts where the way meets the surface, or below the fast geom's centre: a lever that comes from
 /// meeting at a slant would turn a body instead of stopping it, so that it is dealt out by how easily the two
 /// turn, the less to the one that turns easily.
 void FastBodies::meet(const model::State& state, const Fast& fast, const core::Vec3& way, int other) {
   const core::Vec3 centre(fast.pose.position);
   const model::Geom& geom = model_->geoms[fast.geom];
-  const auto entry = geometry::enter(model_->geoms[other], pose_of(state, model_->geoms[other]), centre, way);
+  const auto entry = geometry::enter(model_->geoms[other], met_pose(state, other), centre, way);
   if (!entry) return;
   const core::Vec3 hit = centre + entry->share * way;
   const double height = entry->normal.dot(centre - hit);
@@ -166,11 +190,12 @@ void FastBodies::look_from(const model::State& state, const Fast& fast, const Ba
     }
   };
   // The front is within the geom's ball; the way of what is fast, too, is in its swept ball.
-  set.swept.for_each_near(geometry::swept_box(centre, fast.radius, fast.way), meet_if_near);
+  set.swept.for_each_near(geometry::swept_box(centre, fast.radius, fast.way), fast.family, meet_if_near);
 }
 
 /// Keeps their memory.
 void FastBodies::clear_sets(std::size_t count) {
+  forget_met();
   sets_.resize(count);
   for (BallSet& set : sets_) {
     set.swept.clear();
@@ -182,7 +207,8 @@ void FastBodies::put_ball(const model::State& state, int index, BallSet& set) co
   const Ball& ball = balls_[index];
   const core::Vec3& centre = ball.body == model::no_body ? ball.centre : state.position[ball.body];
   const int fast = fast_of_geom_[ball.geom];
-  set.swept.add(centre, ball.radius, fast >= 0 ? fast_[fast].way : core::Vec3(core::Vec3::Zero()));
+  set.swept.add(centre, ball.radius, fast >= 0 ? fast_[fast].way : core::Vec3(core::Vec3::Zero()),
+                ball.family);
   set.balls.push_back(index);
 }
 

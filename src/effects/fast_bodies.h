@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -66,6 +67,7 @@ class FastBodies {
     int body = model::no_body;
     core::Vec3 centre = core::Vec3::Zero();  ///< of a static geom
     double radius = 0;                       ///< [m]
+    int family = 0;                          ///< geoms of one family never touch
   };
   /// Balls of now, on the ways of those that are fast.
   struct BallSet {
@@ -75,13 +77,14 @@ class FastBodies {
   /// A geom that moves.
   struct Watched {
     int geom = 0, body = 0;
+    int family = 0;         ///< as of its ball
     double least_half = 0;  ///< half the least extent [m]
     double arm = 0;         ///< from its body's centre of mass [m]
     double radius = 0;      ///< of its ball [m]
   };
   /// A geom that is fast in this step.
   struct Fast {
-    int geom = 0;
+    int geom = 0, family = 0;
     double radius = 0;     ///< of its ball [m]
     model::BodyPose pose;  ///< of the geom
     core::Vec3 way;        ///< of its centre in this step [m], world frame
@@ -97,6 +100,9 @@ class FastBodies {
   template <class Accepts>
   void look_from(const model::State& state, const Fast& fast, const BallSet& set, const Accepts& accepts);
   void meet(const model::State& state, const Fast& fast, const core::Vec3& way, int other);
+  /// The pose of a geom that a way may meet, computed once a call of add() or add_across().
+  const model::BodyPose& met_pose(const model::State& state, int geom);
+  void forget_met();
 
   const model::Model* model_;
   model::TouchRule rule_;
@@ -106,7 +112,9 @@ class FastBodies {
   std::vector<Fast> fast_;               ///< ascending
   std::vector<int> fast_of_geom_;        ///< [geoms] index into fast_, or -1
   std::vector<int> bodies_;
-  std::vector<BallSet> sets_;  ///< of add(), add_across(): one for each group
+  std::vector<std::optional<model::BodyPose>> met_poses_;  ///< [geoms] none: not asked for yet
+  std::vector<int> met_;                                   ///< those that move of which there is one
+  std::vector<BallSet> sets_;                              ///< of add(), add_across(): one for each group
   std::vector<model::Contact> found_;
 };
 

@@ -20,10 +20,13 @@ void SweptBalls::clear() {
   groups_.clear();
 }
 
-void SweptBalls::add(const core::Vec3& centre, double radius, const core::Vec3& way) {
-  if (boxes_.size() % group_size == 0) groups_.emplace_back();
+void SweptBalls::add(const core::Vec3& centre, double radius, const core::Vec3& way, int family) {
+  const std::size_t i = boxes_.size();
+  if (groups_.empty() || groups_.back().family != family || i - groups_.back().begin == group_size)
+    groups_.push_back({.family = family, .begin = i, .end = i, .box = {}});
   boxes_.push_back(swept_box(centre, radius, way));
-  groups_.back().include(boxes_.back());
+  groups_.back().box.include(boxes_.back());
+  groups_.back().end = i + 1;
 }
 
 }  // namespace pbmpi::geometry

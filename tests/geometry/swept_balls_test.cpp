@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include <algorithm>
 #include <limits>
 
@@ -18,22 +20,22 @@ core::Vec3 point(int i, std::uint64_t k, double side) {
   return {side * number(i, k), side * number(i, k + 1), side * number(i, k + 2)};
 }
 
-std::vector<int> near(const SweptBalls& balls, const Box& box) {
+std::vector<int> near(const SweptBalls& balls, const Box& box, int but_family = -1) {
   std::vector<int> found;
-  balls.for_each_near(box, [&](int index) { found.push_back(index); });
+  balls.for_each_near(box, but_family, [&](int index) { found.push_back(index); });
   return found;
 }
 
 // Of a ball in 100 places of its way, wherever it then overlaps the box.
 TEST(SweptBalls, are_found_where_they_come_near_on_their_way) {
   SweptBalls balls;
-  const int count = 50;  // three groups and a part of one
+  const int count = 50;
   std::vector<core::Vec3> centre, way;
   for (int i = 0; i < count; ++i) {
     centre.push_back(point(i, 0, 10));
     way.push_back(i % 3 == 0 ? core::Vec3(point(i, 3, 4) - core::Vec3(2, 2, 2))
                              : core::Vec3(core::Vec3::Zero()));
-    balls.add(centre.back(), 0.2, way.back());
+    balls.add(centre.back(), 0.2, way.back(), i / 7);
   }
   std::size_t num_found = 0;
   for (int query = 0; query < 40; ++query) {
@@ -59,19 +61,30 @@ TEST(SweptBalls, are_found_where_they_come_near_on_their_way) {
   EXPECT_LT(num_found, 40u * count / 2) << "most balls are far from a small box";
 }
 
+TEST(SweptBalls, of_the_family_that_is_left_out_are_not_found) {
+  SweptBalls balls;
+  for (int i = 0; i < 60; ++i) balls.add({0, 0, 0}, 1, core::Vec3::Zero(), i / 20 % 2);  // 0, 1, 0
+  const Box box = swept_box({0, 0, 0}, 1, core::Vec3::Zero());
+  std::vector<int> middle(20);
+  std::iota(middle.begin(), middle.end(), 20);
+  EXPECT_EQ(near(balls, box).size(), 60u);
+  EXPECT_EQ(near(balls, box, 0), middle);
+  EXPECT_EQ(near(balls, box, 1).size(), 40u);
+}
+
 TEST(SweptBalls, are_forgotten_when_cleared) {
   SweptBalls balls;
-  balls.add({0, 0, 0}, 1, core::Vec3::Zero());
+  balls.add({0, 0, 0}, 1, core::Vec3::Zero(), 0);
   balls.clear();
-  balls.add({5, 0, 0}, 1, core::Vec3::Zero());
+  balls.add({5, 0, 0}, 1, core::Vec3::Zero(), 0);
   EXPECT_TRUE(near(balls, swept_box({0, 0, 0}, 1, core::Vec3::Zero())).empty());
   EXPECT_EQ(near(balls, swept_box({5, 0, 0}, 1, core::Vec3::Zero())), std::vector<int>{0});
 }
 
 TEST(SweptBalls, are_everywhere_if_endless_and_nowhere_if_not_finite) {
   SweptBalls balls;
-  balls.add({0, 0, 0}, std::numeric_limits<double>::infinity(), core::Vec3::Zero());
-  balls.add(core::Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), 1, core::Vec3::Zero());
+  balls.add({0, 0, 0}, std::numeric_limits<double>::infinity(), core::Vec3::Zero(), 0);
+  balls.add(core::Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), 1, core::Vec3::Zero(), 0);
   EXPECT_EQ(near(balls, swept_box({5, 100, 0}, 1, core::Vec3::Zero())), std::vector<int>{0});
 }
 
