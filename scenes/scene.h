@@ -64,6 +64,10 @@ struct SceneSource {
 };
 SceneSource find_scene(const std::string& name_or_path);
 
+/// The scenes on which this one stands: its `base`, the base of that, and so on; none without. Throws
+/// core::InputError as parse_scene() does.
+std::vector<SceneSource> bases_of(const SceneSource& source);
+
 /// Parses a scene. Throws core::InputError ("file:line:column: ...") for malformed TOML, unknown keys and
 /// impossible values. Rank 0 finds and reads the text, and every rank parses the same text.
 /// `dt_s` replaces the file's own time step: programmes given in seconds (steering) become steps with it.

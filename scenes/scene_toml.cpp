@@ -1,5 +1,7 @@
 #include "scenes/scene_toml.h"
 
+#include <optional>
+
 #include "core/error.h"
 #include "scenes/format/table_reader.h"
 
@@ -67,23 +69,35 @@ void drop_replaced_expectations(toml::table& base, const toml::table& over) {
   if (old && over["case"]["expect"]) old->erase("expect");
 }
 
-}  // namespace
-
-toml::table parse_with_base(const SceneSource& source) {
-  toml::table scene = parse_text(source);
+/// The scene that `base` names, if this one has a base.
+std::optional<SceneSource> base_of(const toml::table& scene) {
   const toml::node* base_node = scene.get("base");
-  if (!base_node) return scene;
+  if (!base_node) return std::nullopt;
   const std::string place = to_string(base_node->source());
   const auto base_name = base_node->value<std::string>();
   core::require_input(base_name && !base_name->ends_with(".toml"),
                       place + ": 'base' must name a scene that pbmpi brings (so that one file says it all)");
-  SceneSource base_source;
   try {
-    base_source = find_scene(*base_name);
+    return find_scene(*base_name);
   } catch (const core::InputError& error) {
     throw core::InputError(place + ": base: " + error.what());
   }
-  toml::table result = parse_with_base(base_source);
+}
+
+}  // namespace
+
+std::vector<SceneSource> bases_of(const SceneSource& source) {
+  std::vector<SceneSource> bases;
+  for (auto base = base_of(parse_text(source)); base; base = base_of(parse_text(bases.back())))
+    bases.push_back(*base);
+  return bases;
+}
+
+toml::table parse_with_base(const SceneSource& source) {
+  toml::table scene = parse_text(source);
+  const std::optional<SceneSource> base = base_of(scene);
+  if (!base) return scene;
+  toml::table result = parse_with_base(*base);
   drop_replaced_expectations(result, scene);
   scene.erase("base");
   lay_over(result, std::move(scene));

@@ -11,19 +11,6 @@
 
 namespace pbmpi::io {
 
-/// Numbers of rows and items of a run's file.
-struct RunShape {
-  std::int64_t num_bodies = 0;
-  int num_worlds = 0;
-  int num_ranks = 1;
-  std::int64_t num_frames = 0;
-  int record_every = 1;
-  OptionalColumns optional;
-  std::int64_t first_frame = 0;  ///< number of the file's first frame
-
-  std::int64_t num_recorded() const { return num_frames / record_every; }
-};
-
 /// What the items of a row belong to; `run`: a row has one, and the columns are one-dimensional.
 enum class Items { run, ranks, worlds, bodies };
 

@@ -1,5 +1,6 @@
 #include "io/run/run_file.h"
 
+#include <array>
 #include <optional>
 
 #include "core/clock.h"
@@ -15,6 +16,28 @@
 #include "io/table/table_file.h"
 
 namespace pbmpi::io {
+namespace {
+
+/// Collective.
+RunShape shape_of(const FileRanks& ranks, const RunSetup& setup) {
+  std::array<std::int64_t, 2> counts{};
+  for (const stepping::LocalWorld& world : setup.worlds) {
+    counts[0] += static_cast<std::int64_t>(world.model->geoms.size());
+    counts[1] += static_cast<std::int64_t>(world.model->joints.size());
+  }
+  ranks.sum(counts);
+  return {.num_bodies = setup.table.num_bodies(),
+          .num_worlds = setup.table.num_worlds(),
+          .num_ranks = ranks.size(),
+          .num_frames = setup.num_frames,
+          .record_every = setup.record_every,
+          .optional = setup.optional,
+          .first_frame = setup.first_frame,
+          .num_geoms = counts[0],
+          .num_joints = counts[1]};
+}
+
+}  // namespace
 
 class RunFile::Impl {
  public:
@@ -47,6 +70,7 @@ class RunFile::Impl {
 
   RunSetup setup_;
   FileRanks ranks_;
+  RunShape shape_;
   OutputTarget target_;  ///< root only
   File file_;
   CommitRecord record_;  ///< root only
@@ -59,10 +83,9 @@ class RunFile::Impl {
 
 RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(setup)), ranks_(group) {
   prepare_hdf5();
+  shape_ = shape_of(ranks_, setup_);
   ranks_.together<core::InputError>([this] {
-    const std::int64_t bytes =
-        estimate_file_bytes(setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(),
-                            setup_.num_frames, setup_.record_every, setup_.optional);
+    const std::int64_t bytes = estimate_file_bytes(shape_);
     if (!ranks_.is_root()) return;
     require_kind(setup_.path, filetype);
     target_ = OutputTarget(setup_.path, bytes);
@@ -88,10 +111,7 @@ void RunFile::Impl::make_skeleton() {
   file_ = ranks_.create(ranks_.broadcast(target_.temporary_path()));
   transfer_ = collective_transfer();
   write_skeleton(ranks_, file_.id(), setup_);
-  const RunShape shape{setup_.table.num_bodies(), setup_.table.num_worlds(), ranks_.size(),
-                       setup_.num_frames,         setup_.record_every,       setup_.optional,
-                       setup_.first_frame};
-  columns_.emplace(file_.id(), ranks_, setup_.table, shape);
+  columns_.emplace(file_.id(), ranks_, setup_.table, shape_);
   check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
 }
 

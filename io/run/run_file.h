@@ -4,38 +4,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "io/hdf5/file_group.h"
-#include "io/hdf5/parameter.h"
+#include "io/setup/run_setup.h"
 #include "stepping/frame.h"
 
 namespace pbmpi::io {
-
-/// Groups that a file has only if the run measures what they hold.
-struct OptionalColumns {
-  bool profile = false;    ///< every frame has step profiles: /timings/island and /timings/space
-  bool estimate = false;   ///< every frame has an EstimateRecord: /estimate
-  bool residuals = false;  ///< every frame has Observables::residuals: /observables/residual
-  bool interest = false;   ///< every frame has Observables::bodies_inside: /observables/interest
-};
-
-/// Everything that is known before the first frame. Equal on every rank, except `worlds`.
-struct RunSetup {
-  std::string path;  ///< final name of the file
-  std::vector<Parameter>
-      attributes;  ///< of the root: pbmpi_version, git_revision, seed, scene, command_line ...
-  std::vector<Parameter> parameters;  ///< of /parameters
-  stepping::WorldTable table;
-  std::vector<stepping::LocalWorld> worlds;  ///< this rank's worlds at the start, by ascending id
-  std::vector<std::string> hosts;            ///< [num_ranks]
-  std::int64_t first_frame = 0;              ///< of a run that goes on: frames done before
-  std::int64_t num_frames = 0;               ///< of this file, warm-up included
-  int record_every = 1;                      ///< bodies of each so many frames of this file are stored
-  double flush_interval_s = 1;
-  OptionalColumns optional;
-};
 
 /// The file of one run. Every call is collective over the file's ranks. Throws core::InputError from the
 /// constructor if the file cannot be created, core::RunError if a write fails (the same error on every rank,
@@ -76,8 +50,6 @@ class RunFile final : public stepping::FrameObserver {
 };
 
 /// Bytes of the file for these numbers, within 10 %: what --describe prints.
-std::int64_t estimate_file_bytes(std::int64_t num_bodies, int num_worlds, int num_ranks,
-                                 std::int64_t num_frames, int record_every,
-                                 const OptionalColumns& optional = {});
+std::int64_t estimate_file_bytes(const RunShape& shape);
 
 }  // namespace pbmpi::io

@@ -8,7 +8,7 @@
 #include "io/hdf5/file_checksum.h"
 #include "io/hdf5/file_types.h"
 #include "io/run/event_columns.h"
-#include "io/run/static_columns.h"
+#include "io/setup/static_columns.h"
 
 namespace pbmpi::io {
 namespace {

@@ -46,7 +46,8 @@ STANDS_ON = {
     "io/file": ["src/core/system"],
     "io/hdf5": ["io/file"],
     "io/table": ["io/hdf5"],
-    "io/run": ["io/table", "src/stepping"],
+    "io/setup": ["io/hdf5", "src/stepping"],
+    "io/run": ["io/setup", "io/table"],
     "io/html": ["io/run"],
     "io/repair": ["io/run"],
     "src/app/common": ["mpi/worlds", "mpi/spaces", "scenes", "src/ode", "src/solver/worlds", "src/solver/spaces"],
@@ -79,7 +80,7 @@ OUTSIDE = [
     (r"ode/ode\.h|drawstuff/.*|ode/(collision|common|contact|mass|misc|objects|odeinit)\.h",
      {"src/ode": None, "src/ode/objects": None, "src/ode/collide": None, "src/ode/effects": None}),
     (r"mpi\.h", {"mpi/comm": 1, "io/hdf5": 1}),
-    (r"hdf5.*\.h|H5.*\.h", {"io/hdf5": None, "io/table": None, "io/run": None}),
+    (r"hdf5.*\.h|H5.*\.h", {"io/hdf5": None, "io/table": None, "io/setup": None, "io/run": None}),
     (r"boost/.*", {folder: None for folder in STANDS_ON if folder.startswith("src/app/")}),
 ]
 

@@ -34,6 +34,28 @@ def positions(frames):
     return in_frame[None] + 0.25 * np.asarray(frames, dtype=float)[:, None, None]
 
 
+def check_models(f, world, body):
+    """What is written once of bodies, joints, materials and worlds."""
+    bodies, joints = f["particles/bodies"], f["joints"]
+    inertia = np.array([[[4 + b, 0.5, 0.25], [0.5, 5, 0.125], [0.25, 0.125, 6 + w]] for w, b in zip(world, body)])
+    assert np.array_equal(bodies["inertia"][:], inertia)
+    assert np.array_equal(bodies["initial_velocity"][:], np.stack([body, 0 * body, world], axis=1))
+    first = np.searchsorted(world, np.arange(NUM_WORLDS))
+    of_world = [2 - w % 2 for w in range(NUM_WORLDS)]
+    assert np.array_equal(joints["world"][:], np.repeat(np.arange(NUM_WORLDS), of_world))
+    necks = joints["local_joint"][:] == 0
+    assert list(joints["name"].asstr()[:2]) == ["human1.neck", "human1.rope"]
+    assert set(joints["kind"].asstr()[:][necks]) == {"universal"} and set(joints["kind"].asstr()[:][~necks]) == {"ball"}
+    assert np.array_equal(joints["body_a"][:][necks], first + 1) and np.array_equal(joints["body_b"][:][necks], first)
+    assert np.array_equal(joints["body_a"][:][~necks], first[::2] + 2) and set(joints["body_b"][:][~necks]) == {-1}
+    assert np.array_equal(joints["anchor_a"][:][necks], [[0.5 * w, 0.25, 0] for w in range(NUM_WORLDS)])
+    assert np.array_equal(joints["limit_low"][0], [-1, -np.inf]) and np.array_equal(joints["limit_high"][0], [2, np.inf])
+    assert list(joints["motor_max_force"][0]) == [8, 0] and joints["motor_hold_rate"][0, 0] == 0.25
+    assert np.array_equal(f["pair_materials/mu"][:], 0.25 * np.arange(NUM_WORLDS))
+    assert set(f["pair_materials/actor_b"].asstr()[:]) == {"human1"} and set(f["geoms/actor"].asstr()[:]) == {"floor", "human1"}
+    assert np.array_equal(f["worlds/gravity"][:], [[0, 0, -9.81]] * NUM_WORLDS)
+
+
 def check(path):
     """Asserts that all committed rows are finite and right, and returns how many frames are committed."""
     with h5py.File(path, "r") as f:
@@ -42,6 +64,7 @@ def check(path):
         bodies = f["particles/bodies"]
         world, body = world_and_body()
         assert np.array_equal(bodies["world"][:], world) and np.array_equal(bodies["local_body"][:], body)
+        check_models(f, world, body)
         recorded = np.arange(committed // every) * every + every - 1
         expected = positions(recorded)
         rows = slice(0, len(recorded))

@@ -24,11 +24,30 @@ std::shared_ptr<const model::Model> sample_model(const Sample& sample, int world
     body.name = (world == 0 ? "human1.left_upper_arm_é" : "human1.b") + std::to_string(b);
     body.actor = 1;
     body.mass_kg = 2.0 + b;
+    body.inertia = (model::Mat3() << 4 + b, 0.5, 0.25, 0.5, 5, 0.125, 0.25, 0.125, 6 + world).finished();
+    body.velocity = Vec3(b, 0, world);
     body.pose.position = Vec3(world, b, 0.5);
     made->bodies.push_back(body);
     const model::Shape shape = b % 2 == 0 ? model::Shape::capsule : model::Shape::box;
     made->geoms.push_back({b, 1, 0, shape, {0.1, 0.2, 0.3}, {Vec3(0, 0, 0.01 * b), {}}, {}});
   }
+  model::Joint neck;
+  neck.name = "human1.neck";
+  neck.kind = model::JointKind::universal;
+  neck.body_a = 1;
+  neck.body_b = 0;
+  neck.anchor_a = Vec3(0.5 * world, 0.25, 0);
+  neck.anchor_b = Vec3(0, 0, 0.125);
+  neck.limits[0] = {-1, 2};
+  neck.motors[0] = {0.5, 8, 0.25};
+  made->joints.push_back(neck);
+  if (world % 2 == 0) {
+    model::Joint rope;
+    rope.name = "human1.rope";
+    rope.body_a = 2;
+    made->joints.push_back(rope);
+  }
+  made->pair_materials.push_back({0, 1, {0.25 * world, 0.5}});
   return made;
 }
 

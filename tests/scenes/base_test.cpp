@@ -43,6 +43,16 @@ TEST(Base, an_unknown_key_in_the_derived_file_is_told_at_its_own_place) {
       << message;
 }
 
+TEST(Base, all_texts_on_which_a_scene_stands_are_named_the_nearest_first) {
+  const SceneSource mine{"mine", "mine.toml", "title = \"t\"\nbase = \"100CrSk\"\n"};
+  const std::vector<SceneSource> bases = bases_of(mine);
+  ASSERT_EQ(bases.size(), 2u);
+  EXPECT_EQ(bases[0].name, "100CrSk");
+  EXPECT_EQ(bases[1].name, "CrashSk");
+  EXPECT_EQ(bases[1].text, find_scene("CrashSk").text);
+  EXPECT_TRUE(bases_of(bases[1]).empty());
+}
+
 TEST(Base, the_hundred_crashes_are_the_crash_with_other_poses_of_the_humans) {
   const auto hundred = parse_scene(find_scene("100CrSk"));
   const auto one = parse_scene(find_scene("CrashSk"))->build(0, 1);

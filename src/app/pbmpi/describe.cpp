@@ -160,9 +160,15 @@ std::string describe(const Work& work, int num_ranks) {
   }
   out << "memory: about " << in_units(world_bytes) << " a world (measured on world 0)\n";
   if (spec.output) {
-    const auto bytes =
-        io::estimate_file_bytes(census.table.num_bodies(), spec.num_worlds, num_ranks, spec.frames_to_do(),
-                                spec.record_every, optional_columns(work));
+    const std::int64_t bytes =
+        io::estimate_file_bytes({.num_bodies = census.table.num_bodies(),
+                                 .num_worlds = spec.num_worlds,
+                                 .num_ranks = num_ranks,
+                                 .num_frames = spec.frames_to_do(),
+                                 .record_every = spec.record_every,
+                                 .optional = optional_columns(work),
+                                 .num_geoms = static_cast<std::int64_t>(census.geoms),
+                                 .num_joints = static_cast<std::int64_t>(census.joints)});
     out << "output: " << *spec.output << ", about " << in_units(static_cast<double>(bytes)) << '\n';
   } else {
     out << "output: none\n";

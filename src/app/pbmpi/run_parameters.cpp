@@ -4,6 +4,7 @@
 #include <utility>
 #include <variant>
 
+#include "app/common/load_scene.h"
 #include "app/common/stepper_factory.h"
 #include "app/common/version.h"
 #include "effects/effect_choices.h"
@@ -81,6 +82,9 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
     parameters.push_back(is_simd ? Parameter::of("simd", simd_text(spec.stepper))
                                  : step_parameter("", option, spec.stepper));
   }
+  const scenes::SceneSource scene{work.scene->name(), work.scene->name(), work.scene->text()};
+  for (const scenes::SceneSource& base : scenes::bases_of(scene))
+    parameters.push_back(Parameter::of(scene_text_parameter(base.name), base.text));
   if (const auto interest = interest_of(*work.first_world))
     parameters.push_back(Parameter::of("field_of_interest", *interest));
   if (spec.estimate) {

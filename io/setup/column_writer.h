@@ -1,0 +1,52 @@
+/// Columns that are written once, each rank its own rows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+#include "io/hdf5/hdf5_handle.h"
+#include "io/hdf5/parallel_file.h"
+#include "io/hdf5/rows.h"
+
+namespace pbmpi::io {
+
+/// Which rows of a table a rank writes.
+struct OwnRows {
+  std::vector<Range> ranges;
+  hsize_t num_rows = 0;  ///< of all ranks
+};
+
+/// Writes columns of one group: this rank has the rows of OwnRows, in order. Every call is collective.
+class ColumnWriter {
+ public:
+  /// `ranks` is borrowed.
+  ColumnWriter(const FileRanks& ranks, hid_t file, std::string group, OwnRows rows);
+
+  /// `item`: extents of a value; {} = one number.
+  void numbers(const std::string& name, const std::vector<double>& values, const std::string& unit = "",
+               const std::vector<hsize_t>& item = {});
+  void numbers(const std::string& name, const std::vector<std::int32_t>& values);
+  void numbers(const std::string& name, const std::vector<std::int64_t>& values);
+  /// `length` bytes each; 0 = as many as the longest on any rank.
+  void texts(const std::string& name, const std::vector<std::string>& values, std::size_t length = 0);
+
+ private:
+  void write(const std::string& name, const Datatype& type, const void* data,
+             const std::vector<hsize_t>& item, const std::string& unit);
+
+  const FileRanks& ranks_;
+  hid_t file_;
+  std::string group_;
+  OwnRows rows_;
+  PropertyList transfer_;
+};
+
+/// Appends the numbers of a vector, of a quaternion (w, x, y, z), of a matrix row by row.
+void append(std::vector<double>& values, const core::Vec3& v);
+void append(std::vector<double>& values, const core::Quat& q);
+void append(std::vector<double>& values, const core::Mat3& m);
+
+}  // namespace pbmpi::io

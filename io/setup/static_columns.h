@@ -1,0 +1,41 @@
+/// The columns that are written once: bodies, geoms, joints, what they stand in, and ranks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+#include "io/setup/column_writer.h"
+#include "io/setup/run_setup.h"
+
+namespace pbmpi::io {
+
+/// Makes and writes /particles/bodies (without the moving part), /geoms, /pair_materials, /joints, /worlds
+/// and /ranks. Collective.
+void write_static_columns(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+
+/// Their bytes, with names of usual length.
+std::int64_t estimate_static_bytes(const RunShape& shape);
+
+/// Parts of write_static_columns(), in its order.
+void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+void write_geoms(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+void write_pair_materials(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+void write_joints(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+void write_worlds(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+
+/// This rank's rows of a table in (world, thing) order, of which a world has `count` of its model.
+/// Collective.
+OwnRows rows_in_world_order(const FileRanks& ranks, const RunSetup& setup,
+                            const std::function<std::size_t(const model::Model&)>& count);
+
+/// Bytes of the longest of these names.
+template <std::size_t N>
+constexpr std::size_t longest(const std::array<std::string_view, N>& names) {
+  std::size_t length = 1;
+  for (const std::string_view name : names) length = name.size() > length ? name.size() : length;
+  return length;
+}
+
+}  // namespace pbmpi::io
