@@ -113,13 +113,14 @@ Dataset create_fixed(hid_t file, const std::string& path, const Datatype& type,
 }
 
 Dataset create_growing(hid_t file, const std::string& path, const Datatype& type,
-                       const std::vector<hsize_t>& dims, const std::string& unit) {
+                       const std::vector<hsize_t>& dims, const std::string& unit, hsize_t rows_a_chunk) {
   const int rank = static_cast<int>(dims.size());
   std::vector<hsize_t> most = dims;
   most[0] = H5S_UNLIMITED;
   const auto space = owned<Dataspace>(H5Screate_simple(rank, dims.data(), most.data()), "H5Screate_simple");
   const PropertyList creation = allocated_now();
   std::vector<hsize_t> chunk = chunk_shape(dims, H5Tget_size(type.id()));
+  if (rows_a_chunk > 0) chunk = dims, chunk[0] = rows_a_chunk;
   for (hsize_t& edge : chunk) edge = std::max<hsize_t>(edge, 1);
   check(H5Pset_chunk(creation.id(), rank, chunk.data()), "H5Pset_chunk(" + path + ")");
   return create(file, path, type, space, creation, unit);

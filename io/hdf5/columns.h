@@ -36,8 +36,9 @@ void write_version(hid_t object, const std::array<std::int64_t, 2>& version);
 /// groups on the way to `path` are made. A growing one is chunked, and its rows (first index) can be cut.
 Dataset create_fixed(hid_t file, const std::string& path, const Datatype& type,
                      const std::vector<hsize_t>& dims, const std::string& unit);
+/// `rows_a_chunk`: 0 = as chunk_shape() has it.
 Dataset create_growing(hid_t file, const std::string& path, const Datatype& type,
-                       const std::vector<hsize_t>& dims, const std::string& unit);
+                       const std::vector<hsize_t>& dims, const std::string& unit, hsize_t rows_a_chunk = 0);
 /// A scalar dataset; `write` on one rank is enough.
 void create_scalar(hid_t file, const std::string& path, const Parameter& value, bool write);
 

@@ -206,15 +206,16 @@ void GrowingTable::close() {
 }
 
 void GrowingTable::cut(hid_t file, std::vector<core::ByteRange>& unused) const {
-  for (const Column& column : columns_) {
-    const auto dataset =
-        owned<Dataset>(H5Dopen2(file, column.path.c_str(), H5P_DEFAULT), "H5Dopen(" + column.path + ")");
-    std::vector<hsize_t> dims = extent(dataset.id());
-    if (dims[0] == written_) continue;
-    add_unused_chunks(dataset.id(), written_, unused);
-    dims[0] = written_;
-    check(H5Dset_extent(dataset.id(), dims.data()), "H5Dset_extent(" + column.path + ")");
-  }
+  for (const Column& column : columns_) cut_rows(file, column.path, written_, unused);
+}
+
+void cut_rows(hid_t file, const std::string& path, hsize_t num_rows, std::vector<core::ByteRange>& unused) {
+  const auto dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
+  std::vector<hsize_t> dims = extent(dataset.id());
+  if (dims[0] == num_rows) return;
+  add_unused_chunks(dataset.id(), num_rows, unused);
+  dims[0] = num_rows;
+  check(H5Dset_extent(dataset.id(), dims.data()), "H5Dset_extent(" + path + ")");
 }
 
 }  // namespace pbmpi::io

@@ -74,9 +74,7 @@ class GrowingTable {
 
   /// Closes the datasets.
   void close();
-  /// Cuts the datasets, which `file` has opened anew, to the rows written; adds to `unused` the bytes of the
-  /// file that this frees. One rank alone: HDF5 1.10 gets stuck if ranks cut together a dataset whose chunks
-  /// only some of them have written.
+  /// cut_rows() for all its datasets, to the rows written.
   void cut(hid_t file, std::vector<core::ByteRange>& unused) const;
 
  private:
@@ -117,5 +115,10 @@ class GrowingTable {
   hsize_t written_ = 0;
   bool collective_ = false;
 };
+
+/// Cuts a growing dataset, of a file that was opened anew, to its first rows; adds to `unused` the bytes of
+/// the file that this frees. One rank alone: HDF5 1.10 gets stuck if ranks cut together a dataset whose
+/// chunks only some of them have written.
+void cut_rows(hid_t file, const std::string& path, hsize_t num_rows, std::vector<core::ByteRange>& unused);
 
 }  // namespace pbmpi::io

@@ -13,6 +13,7 @@
 #include "io/file/output_lock.h"
 #include "io/hdf5/chunk_ranges.h"
 #include "io/hdf5/read_columns.h"
+#include "io/run/contact_rows.h"
 #include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
 
@@ -32,10 +33,16 @@ std::vector<Cut> cuts_of(hid_t file, std::int64_t frames) {
       cuts.push_back({path, static_cast<hsize_t>(rows)});
   };
   const std::int64_t recorded = frames / integer_attribute(file, "/", "record_every");
-  for (const FrameTable& table : frame_tables({true, true, true, true})) {
+  for (const FrameTable& table : all_frame_tables()) {
     if (!has_object(file, table.group)) continue;
     for (const std::string& path : GrowingTable::datasets(table.group, table.columns))
       add(path, table.rows == Rows::recorded ? recorded : frames);
+  }
+  if (const std::vector<ContactSpan> spans = read_contact_spans(file, frames);
+      has_object(file, "/contacts")) {
+    for (const std::string& path : GrowingTable::datasets("/contacts/frame", ContactRows::frame_columns()))
+      add(path, frames);
+    add(ContactRows::points, spans.empty() ? 0 : spans.back().first + spans.back().count);
   }
   const std::int64_t num_events = integer_attribute(file, "/events", "num_events");
   for (const std::string& path : EventColumns::datasets()) add(path, num_events);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/hdf5/columns.h"
+#include "io/setup/static_columns.h"
 
 namespace pbmpi::io {
 namespace {
@@ -44,30 +45,34 @@ void link_step_and_time(hid_t file) {
 
 FrameBytes frame_bytes(const RunShape& shape) {
   FrameBytes bytes = {0, 0};
-  for (const FrameTable& table : frame_tables(shape.optional))
+  for (const FrameTable& table : frame_tables(shape))
     (table.rows == Rows::frames ? bytes.every_frame : bytes.recorded) += row_bytes(table, shape);
   return bytes;
 }
 
-FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const stepping::WorldTable& table,
-                           const RunShape& shape)
+FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const RunSetup& setup, const RunShape& shape)
     : ranks_(ranks),
-      table_(table),
+      table_(setup.table),
       record_every_(shape.record_every),
       bytes_each_(mean_bytes(shape)),
       first_frame_(shape.first_frame),
       frames_held_(frames_to_hold(shape)),
-      groups_(frame_tables(shape.optional)),
-      events_(file, ranks) {
+      groups_(frame_tables(shape)),
+      events_(file, ranks),
+      joint_offset_(offsets(ranks, setup, [](const auto& m) { return m.joints.size(); })) {
   for (const FrameTable& group : groups_)
     rows_.emplace_back(file, ranks, group.group, group.columns, table_shape(group, shape));
   link_step_and_time(file);
+  if (shape.optional.contacts)
+    contacts_.emplace(file, ranks, shape, offsets(ranks, setup, [](const auto& m) { return m.geoms.size(); }),
+                      static_cast<hsize_t>(frames_held_));
 }
 
 void FrameColumns::add(const stepping::FrameRecord& frame) {
   core::require_invariant(frame.frame == first_frame_ + frames_added_, "frames come in order");
   ++frames_added_;
-  const FrameSource source{frame, table_, ranks_.rank()};
+  const FrameSource source{frame, table_, joint_offset_, ranks_.rank()};
+  if (contacts_) contacts_->add(source);
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     if (groups_[i].rows == Rows::recorded && !is_recorded(frame)) continue;
     begin_row(groups_[i], source, rows_[i]);
@@ -89,6 +94,7 @@ std::vector<ColumnRows> FrameColumns::column_rows() const {
       all.push_back({groups_[i].group + "/" + column.name, rows,
                      groups_[i].rows == Rows::recorded ? record_every_ : 1});
   }
+  if (contacts_) all.push_back({ContactRows::points, contacts_->num_rows(), 1});
   return all;
 }
 
@@ -105,6 +111,11 @@ std::string FrameColumns::write(const PropertyList& transfer) {
     if (error.empty()) error = failed;
     wrote_collectively_ = wrote_collectively_ && table->wrote_collectively();
   }
+  if (contacts_) {
+    const std::string failed = contacts_->write(transfer);
+    if (error.empty()) error = failed;
+    wrote_collectively_ = wrote_collectively_ && contacts_->wrote_collectively();
+  }
   frames_written_ = frames_added_;
   return error;
 }
@@ -112,11 +123,13 @@ std::string FrameColumns::write(const PropertyList& transfer) {
 std::vector<core::ByteRange> FrameColumns::cut(hid_t file) {
   std::vector<core::ByteRange> unused;
   for (GrowingTable* table : tables()) table->cut(file, unused);
+  if (contacts_) contacts_->cut(file, unused);
   return unused;
 }
 
 void FrameColumns::close() {
   for (GrowingTable* table : tables()) table->close();
+  if (contacts_) contacts_->close();
 }
 
 }  // namespace pbmpi::io

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/hdf5/growing_columns.h"
 #include "io/hdf5/parallel_file.h"
+#include "io/run/contact_rows.h"
 #include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
 
@@ -30,8 +32,8 @@ struct ColumnRows {
 /// Makes the growing datasets, takes in frames and events, and writes what waits.
 class FrameColumns {
  public:
-  /// Collective.
-  FrameColumns(hid_t file, const FileRanks& ranks, const stepping::WorldTable& table, const RunShape& shape);
+  /// Collective. `setup` counts for the tables of worlds.
+  FrameColumns(hid_t file, const FileRanks& ranks, const RunSetup& setup, const RunShape& shape);
 
   void add(const stepping::FrameRecord& frame);
   void add(const stepping::RunEvent& event) { events_.add(event); }
@@ -46,6 +48,10 @@ class FrameColumns {
   /// Frames that make a step of this many bytes, one at least.
   hsize_t frames_in(std::size_t bytes) const;
 
+  /// Collective, before column_rows() and write(): finds out where rows go whose number is not fixed.
+  void settle() {
+    if (contacts_) contacts_->settle();
+  }
   /// Collective. The first error of this rank, empty if there was none.
   std::string write(const PropertyList& transfer);
   bool wrote_collectively() const { return wrote_collectively_; }
@@ -63,7 +69,7 @@ class FrameColumns {
   }
 
   const FileRanks& ranks_;
-  const stepping::WorldTable& table_;
+  stepping::WorldTable table_;
   int record_every_;
   std::size_t bytes_each_;  ///< of a frame, on average
   std::int64_t first_frame_;
@@ -73,6 +79,8 @@ class FrameColumns {
   std::vector<FrameTable> groups_;
   std::deque<GrowingTable> rows_;  ///< [groups]
   EventColumns events_;
+  std::vector<std::int64_t> joint_offset_;  ///< [num_worlds + 1]
+  std::optional<ContactRows> contacts_;
 };
 
 }  // namespace pbmpi::io

@@ -22,6 +22,10 @@ std::vector<Range> own_items(Items items, const FrameSource& source) {
       for (const stepping::LocalWorld& world : source.frame.worlds)
         append_range(ranges, source.first_body(world), world.state->position.size());
       break;
+    case Items::joints:
+      for (const stepping::LocalWorld& world : source.frame.worlds)
+        append_range(ranges, source.first_joint(world), world.model->joints.size());
+      break;
   }
   return ranges;
 }
@@ -38,6 +42,8 @@ std::int64_t num_items(const FrameTable& table, const RunShape& shape) {
       return shape.num_worlds;
     case Items::bodies:
       return shape.num_bodies;
+    case Items::joints:
+      return shape.num_joints;
   }
   return 0;
 }
@@ -54,11 +60,26 @@ void begin_row(const FrameTable& table, const FrameSource& source, GrowingTable&
 std::vector<FrameTable> frame_tables(const OptionalColumns& optional) {
   std::vector<FrameTable> tables;
   // The largest optional one last: only space at the end of the file goes when a run is cut.
-  for (const auto& group :
-       {body_tables(), observable_tables(optional), timing_tables(optional), estimate_tables(optional)}) {
+  for (const auto& group : {body_tables(), observable_tables(optional), joint_tables(optional),
+                            timing_tables(optional), estimate_tables(optional)}) {
     tables.insert(tables.end(), group.begin(), group.end());
   }
   return tables;
+}
+
+std::vector<FrameTable> frame_tables(const RunShape& shape) {
+  std::vector<FrameTable> tables = frame_tables(shape.optional);
+  if (shape.num_joints == 0) std::erase_if(tables, [](const auto& t) { return t.items == Items::joints; });
+  return tables;
+}
+
+std::vector<FrameTable> all_frame_tables() {
+  return frame_tables(OptionalColumns{.profile = true,
+                                      .estimate = true,
+                                      .residuals = true,
+                                      .contacts = true,
+                                      .breaks = true,
+                                      .interest = true});
 }
 
 }  // namespace pbmpi::io

@@ -12,7 +12,7 @@
 namespace pbmpi::io {
 
 /// What the items of a row belong to; `run`: a row has one, and the columns are one-dimensional.
-enum class Items { run, ranks, worlds, bodies };
+enum class Items { run, ranks, worlds, bodies, joints };
 
 /// Which frames have a row: all, or those in which the bodies are stored.
 enum class Rows { frames, recorded };
@@ -21,11 +21,15 @@ enum class Rows { frames, recorded };
 struct FrameSource {
   const stepping::FrameRecord& frame;
   const stepping::WorldTable& table;
+  const std::vector<std::int64_t>& joint_offset;  ///< [num_worlds + 1] as WorldTable::body_offset
   int rank = 0;
 
   hsize_t own_rank() const { return static_cast<hsize_t>(rank); }
   hsize_t first_body(const stepping::LocalWorld& world) const {
     return static_cast<hsize_t>(table.body_offset[world.id]);
+  }
+  hsize_t first_joint(const stepping::LocalWorld& world) const {
+    return static_cast<hsize_t>(joint_offset[world.id]);
   }
 };
 
@@ -51,10 +55,15 @@ void begin_row(const FrameTable& table, const FrameSource& source, GrowingTable&
 /// Groups of the file, in the order in which they are made.
 std::vector<FrameTable> body_tables();
 std::vector<FrameTable> observable_tables(const OptionalColumns& optional);
+std::vector<FrameTable> joint_tables(const OptionalColumns& optional);
 std::vector<FrameTable> timing_tables(const OptionalColumns& optional);
 std::vector<FrameTable> estimate_tables(const OptionalColumns& optional);
 
-/// All of them for this run.
+/// All of them.
 std::vector<FrameTable> frame_tables(const OptionalColumns& optional);
+/// All of them for this run.
+std::vector<FrameTable> frame_tables(const RunShape& shape);
+/// All that a file of any run can have.
+std::vector<FrameTable> all_frame_tables();
 
 }  // namespace pbmpi::io

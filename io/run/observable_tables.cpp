@@ -1,4 +1,5 @@
-/// Group /observables: the columns of stepping/observable_table.h.
+/// Group /observables: the columns of stepping/observable_table.h; what joints hold with, and in which step
+/// they broke.
 #include "io/run/frame_table.h"
 #include "stepping/observable_table.h"
 
@@ -45,6 +46,37 @@ void put_residuals(const FrameSource& source, GrowingTable& row) {
   }
 }
 
+void put_broken(const FrameSource& source, GrowingTable& row) {
+  for (const stepping::LocalWorld& world : source.frame.worlds) {
+    const std::vector<std::int32_t>& broken_in = world.state->broken_in;
+    for (std::size_t j = 0; j < world.model->joints.size(); ++j)
+      row.put(0, source.first_joint(world) + j, broken_in.empty() ? model::unbroken : broken_in[j]);
+  }
+}
+
+/// What is remembered is part of the state, and so of its hash. Otherwise what does not act has no force.
+model::JointForce force_of(const stepping::LocalWorld& world, std::size_t joint) {
+  const model::State& state = *world.state;
+  if (!state.memory.joints.empty()) return state.memory.joints[joint];
+  const auto body = static_cast<std::size_t>(world.model->joints[joint].body_a);
+  const bool sleeps = !state.rest.empty() && state.rest[body].asleep();
+  if (world.contacts == nullptr || world.contacts->joints.empty() || sleeps || state.is_broken(joint))
+    return {};
+  return world.contacts->joints[joint];
+}
+
+void put_forces(const FrameSource& source, GrowingTable& row) {
+  for (const stepping::LocalWorld& world : source.frame.worlds) {
+    for (std::size_t j = 0; j < world.model->joints.size(); ++j) {
+      const hsize_t item = source.first_joint(world) + j;
+      const model::JointForce force = force_of(world, j);
+      row.put(0, item, force.force);
+      row.put(1, item, force.torque);
+      row.put(2, item, std::array{force.control[0], force.control[1]});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<FrameTable> observable_tables(const OptionalColumns& optional) {
@@ -57,6 +89,24 @@ std::vector<FrameTable> observable_tables(const OptionalColumns& optional) {
   if (optional.interest) {
     tables.push_back({"/observables/interest", specs_of(stepping::interest_observables), Items::worlds,
                       Rows::frames, put_interest});
+  }
+  return tables;
+}
+
+std::vector<FrameTable> joint_tables(const OptionalColumns& optional) {
+  std::vector<FrameTable> tables;
+  if (optional.breaks) {
+    tables.push_back(
+        {"/observables/joint", {{"broken_in", H5T_NATIVE_INT32}}, Items::joints, Rows::frames, put_broken});
+  }
+  if (optional.contacts) {
+    tables.push_back({"/observables/joint",
+                      {{"force", H5T_NATIVE_DOUBLE, 3, "N"},
+                       {"torque", H5T_NATIVE_DOUBLE, 3, "N m"},
+                       {"control", H5T_NATIVE_DOUBLE, 2}},
+                      Items::joints,
+                      Rows::frames,
+                      put_forces});
   }
   return tables;
 }

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "io/hdf5/file_checksum.h"
 #include "io/hdf5/read_columns.h"
+#include "io/run/contact_rows.h"
 #include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
 #include "io/run/run_data.h"
@@ -199,15 +200,17 @@ void read_profiles(hid_t file, RunData& run) {
 /// Every committed row has its checksum.
 void check_committed_rows(hid_t file, std::int64_t num_frames, std::int64_t num_recorded) {
   std::map<std::string, std::int64_t> rows;
-  for (const FrameTable& table : frame_tables({true, true, true, true})) {
+  for (const FrameTable& table : all_frame_tables()) {
     const std::string path = row_checksum_path(table.group + "/" + table.columns.front().name);
     rows[path.substr(path.rfind('/') + 1)] = table.rows == Rows::frames ? num_frames : num_recorded;
   }
+  rows["contacts.frame.first"] = num_frames;
   rows["events.frame"] = integer_attribute(file, "/events", "num_events");
   check_rows(file, [&](const std::string& name) {
     const auto found = rows.find(name);  // a newer layout may have other tables
     return found == rows.end() ? std::nullopt : std::optional(found->second);
   });
+  check_contacts(file, read_contact_spans(file, num_frames));
 }
 
 RunData read_all(hid_t file) {

@@ -34,7 +34,8 @@ RunShape shape_of(const FileRanks& ranks, const RunSetup& setup) {
           .optional = setup.optional,
           .first_frame = setup.first_frame,
           .num_geoms = counts[0],
-          .num_joints = counts[1]};
+          .num_joints = counts[1],
+          .substep_s = setup.substep_s};
 }
 
 }  // namespace
@@ -111,7 +112,7 @@ void RunFile::Impl::make_skeleton() {
   file_ = ranks_.create(ranks_.broadcast(target_.temporary_path()));
   transfer_ = collective_transfer();
   write_skeleton(ranks_, file_.id(), setup_);
-  columns_.emplace(file_.id(), ranks_, setup_.table, shape_);
+  columns_.emplace(file_.id(), ranks_, setup_, shape_);
   check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
 }
 
@@ -143,6 +144,7 @@ void RunFile::Impl::add(const stepping::RunEvent& event) {
 
 void RunFile::Impl::flush() {
   if (!columns_->empty()) {
+    columns_->settle();
     write_together([this] {
       if (ranks_.is_root()) reserve_ahead();
     });

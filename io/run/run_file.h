@@ -49,7 +49,8 @@ class RunFile final : public stepping::FrameObserver {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Bytes of the file for these numbers, within 10 %: what --describe prints.
+/// Bytes of the file for these numbers, within 10 %, if it has about one contact a body: what --describe
+/// prints.
 std::int64_t estimate_file_bytes(const RunShape& shape);
 
 }  // namespace pbmpi::io

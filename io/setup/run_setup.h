@@ -15,6 +15,8 @@ struct OptionalColumns {
   bool profile = false;    ///< every frame has step profiles: /timings/island and /timings/space
   bool estimate = false;   ///< every frame has an EstimateRecord: /estimate
   bool residuals = false;  ///< every frame has Observables::residuals: /observables/residual
+  bool contacts = false;   ///< every frame has StepContacts: /contacts and forces in /observables/joint
+  bool breaks = false;     ///< joints can break in any world: /observables/joint/broken_in
   bool interest = false;   ///< every frame has Observables::bodies_inside: /observables/interest
 };
 
@@ -28,6 +30,7 @@ struct RunShape {
   OptionalColumns optional;
   std::int64_t first_frame = 0;  ///< number of the file's first frame
   std::int64_t num_geoms = 0, num_joints = 0;
+  double substep_s = 0;  ///< in which the forces of contacts act
 
   std::int64_t num_recorded() const { return num_frames / record_every; }
 };
@@ -45,6 +48,7 @@ struct RunSetup {
   std::int64_t num_frames = 0;               ///< of this file, warm-up included
   int record_every = 1;                      ///< bodies of each so many frames of this file are stored
   double flush_interval_s = 1;
+  double substep_s = 0;  ///< dt over the substeps: forces of contacts times it are impulses
   OptionalColumns optional;
 };
 

@@ -17,22 +17,23 @@ void write_ranks(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
 
 }  // namespace
 
+std::vector<std::int64_t> offsets(const FileRanks& ranks, const RunSetup& setup,
+                                  const std::function<std::size_t(const model::Model&)>& count) {
+  std::vector<std::int64_t> offset(static_cast<std::size_t>(setup.table.num_worlds()) + 1, 0);
+  for (const stepping::LocalWorld& local : setup.worlds)
+    offset[local.id + 1] = static_cast<std::int64_t>(count(*local.model));
+  ranks.sum(offset);
+  for (std::size_t w = 1; w < offset.size(); ++w) offset[w] += offset[w - 1];
+  return offset;
+}
+
 OwnRows rows_in_world_order(const FileRanks& ranks, const RunSetup& setup,
                             const std::function<std::size_t(const model::Model&)>& count) {
-  std::vector<std::int64_t> counts(static_cast<std::size_t>(setup.table.num_worlds()), 0);
-  for (const stepping::LocalWorld& local : setup.worlds)
-    counts[local.id] = static_cast<std::int64_t>(count(*local.model));
-  ranks.sum(counts);
+  const std::vector<std::int64_t> offset = offsets(ranks, setup, count);
   OwnRows own;
-  auto world = setup.worlds.begin();
-  for (std::size_t w = 0; w < counts.size(); ++w) {
-    const auto rows = static_cast<hsize_t>(counts[w]);
-    if (world != setup.worlds.end() && world->id == static_cast<int>(w)) {
-      append_range(own.ranges, own.num_rows, rows);
-      ++world;
-    }
-    own.num_rows += rows;
-  }
+  for (const stepping::LocalWorld& local : setup.worlds)
+    append_range(own.ranges, static_cast<hsize_t>(offset[local.id]), count(*local.model));
+  own.num_rows = static_cast<hsize_t>(offset.back());
   return own;
 }
 

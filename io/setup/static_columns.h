@@ -25,6 +25,10 @@ void write_pair_materials(const FileRanks& ranks, hid_t file, const RunSetup& se
 void write_joints(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 void write_worlds(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 
+/// [num_worlds + 1] where the things of each world begin, of which it has `count` of its model. Collective.
+std::vector<std::int64_t> offsets(const FileRanks& ranks, const RunSetup& setup,
+                                  const std::function<std::size_t(const model::Model&)>& count);
+
 /// This rank's rows of a table in (world, thing) order, of which a world has `count` of its model.
 /// Collective.
 OwnRows rows_in_world_order(const FileRanks& ranks, const RunSetup& setup,

@@ -98,7 +98,9 @@ void SpaceDriver::watch(const stability::GuardSettings& settings) {
 
 std::vector<stepping::LocalWorld> SpaceDriver::local_worlds() const {
   if (!comm().is_root()) return {};
-  return {{0, &stepper_->model(), &stepper_->state(), &observables_}};
+  const bool stands = is_frozen_ || !stepper_->shows_contacts();
+  return {{0, &stepper_->model(), &stepper_->state(), &observables_, nullptr,
+           stands ? nullptr : &step_.findings().contacts}};
 }
 
 std::vector<int> SpaceDriver::idle_ranks() const {

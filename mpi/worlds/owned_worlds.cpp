@@ -102,7 +102,7 @@ std::vector<stepping::LocalWorld> OwnedWorlds::views() const {
   worlds.reserve(ids_.size());
   for (const int world : ids_) {
     worlds.push_back({world, &stepper_->model(world), &stepper_->state(world), &stepper_->observables(world),
-                      stepper_->profile(world)});
+                      stepper_->profile(world), stepper_->contacts(world)});
   }
   return worlds;
 }

@@ -76,6 +76,11 @@ const stepping::StepProfile* OdeStepper::profile(int world) const {
   return slot.profile ? &*slot.profile : nullptr;
 }
 
+const stepping::StepContacts* OdeStepper::contacts(int world) const {
+  const Slot& slot = get(world);
+  return settings_.contacts && slot.world ? &slot.world->contacts() : nullptr;
+}
+
 void OdeStepper::advance_slot(Slot& slot, int num_steps, core::LapTimer& timer) {
   if (!slot.world) return;
   try {

@@ -30,6 +30,7 @@ class OdeStepper final : public stepping::WorldStepper {
   double cost_s(int world) const override { return get(world).cost_s; }
   void profile_last_step() override;
   const stepping::StepProfile* profile(int world) const override;
+  const stepping::StepContacts* contacts(int world) const override;
 
  private:
   /// What is known of a world after the last advance().

@@ -1,6 +1,7 @@
 #include "ode/world.h"
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/error.h"
@@ -37,6 +38,14 @@ std::optional<int> iterations_of(const stepping::StepperSettings& settings) {
   return settings.kind == stepping::StepperKind::quick ? std::optional(settings.iterations) : std::nullopt;
 }
 
+std::vector<int> joints_in(std::span<const int> joints) { return {joints.begin(), joints.end()}; }
+
+std::vector<int> all_joints(const model::Model& model) {
+  std::vector<int> joints(model.joints.size());
+  std::iota(joints.begin(), joints.end(), 0);
+  return joints;
+}
+
 }  // namespace
 
 World::World(int id, const model::Model& model, const model::State& state, std::int64_t step,
@@ -53,7 +62,7 @@ World::World(int id, const model::Model& model, const model::State& state, std::
       events_(model, bodies_, joints_, held_poses_),
       state_(state),
       rules_(model, settings.dt_s, iterations_of(settings), effects::StepRules::World::whole, state_),
-      loads_(model, joints_, rules_.breakable_joints()),
+      loads_(model, joints_, settings.contacts ? all_joints(model) : joints_in(rules_.breakable_joints())),
       contacts_(model, plan_, bodies_),
       row_counter_(model, joints_),
       step_(step) {
@@ -134,6 +143,8 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
     copy_out(bodies_, before_last_);
     before_last_.broken_in = broken_in();
   }
+  contacts_.keep(is_last && settings_.contacts);
+  if (is_last && settings_.contacts) note_centres();
   if (broad_phase_) {
     collide();
     timer.lap(core::Phase::collide);
@@ -147,6 +158,7 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
   timer.lap(core::Phase::islands);
   solve();
   contacts_.clear();
+  if (is_last && settings_.contacts) show_contacts();
   timer.lap(core::Phase::solve);
   rules_.after_solve(*this, step_);
   timer.lap(core::Phase::islands);
@@ -156,6 +168,8 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
 /// A step of a world in which all bodies sleep, and that no event wakes, changes nothing.
 void World::sleep_on(bool is_last) {
   contacts_.forget();
+  shown_.contacts.clear();
+  shown_.forces.clear();
   rules_.sleep_on();
   if (is_last && moved_) row_counter_.count(contacts_.touches(), rest(), broken_in(), counts_);
   ++step_;
@@ -221,6 +235,18 @@ void World::solve_enabled(int iterations) {
   } else {
     dWorldStep(world_.get(), settings_.dt_s);
   }
+}
+
+void World::note_centres() {
+  centres_.clear();
+  for (const dBodyID body : bodies_) centres_.emplace_back(dBodyGetPosition(body));
+}
+
+void World::show_contacts() {
+  shown_.clear();
+  contacts_.show(centres_, shown_.contacts, shown_.forces);
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint)
+    shown_.joints.push_back(loads_.force(static_cast<int>(joint)));
 }
 
 void World::read(model::State& state, stepping::Observables& observables) {

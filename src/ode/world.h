@@ -50,6 +50,8 @@ class World final : private effects::RuledWorld {
   /// Measures the last step again (stepping::StepProfile); the world is then as it was, bit for bit. Needs
   /// the setting `profile` and a step taken before.
   stepping::StepProfile profile_last_step();
+  /// Of the last step, with the setting `contacts`.
+  const stepping::StepContacts& contacts() const { return shown_; }
   /// As in model::State.
   std::span<const model::Rest> rest() const;
   const std::vector<std::int32_t>& broken_in() const { return state_.broken_in; }
@@ -75,6 +77,8 @@ class World final : private effects::RuledWorld {
   void set_broken(const std::vector<std::int32_t>& broken_in);
   void solve();
   void solve_enabled(int iterations);
+  void note_centres();
+  void show_contacts();
   void profile_collision(stepping::StepProfile& profile);
   void profile_islands(stepping::StepProfile& profile);
   double time_solve(const std::vector<dBodyID>& enabled, int iterations, const model::State& before);
@@ -101,6 +105,8 @@ class World final : private effects::RuledWorld {
   RowCounter row_counter_;
   stepping::Observables counts_;  ///< rows and islands of the last step
   model::State before_last_;      ///< with `profile`: before the last step's collision detection, events done
+  std::vector<model::Vec3> centres_;  ///< [bodies] with `contacts`: before the last step
+  stepping::StepContacts shown_;      ///< with `contacts`: of the last step
   std::int64_t step_;
   bool moved_ = true;  ///< since the last read()
 };

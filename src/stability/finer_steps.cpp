@@ -36,6 +36,7 @@ FinerResult step_finer(const GuardSettings& settings, int world, const model::Mo
   stepping::StepperSettings shorter = settings.stepper;
   shorter.dt_s /= finer;
   shorter.profile = false;
+  shorter.contacts = false;
   const auto stepper = settings.make_stepper(shorter);
   stepper->add(world, std::make_shared<const model::Model>(in_finer_steps(model, finer)),
                to_finer_steps(before, finer), step * finer);

@@ -84,6 +84,10 @@ const stepping::StepProfile* GuardedStepper::profile(int world) const {
   return worlds_.at(world).now.is_frozen() ? nullptr : inner_->profile(world);
 }
 
+const stepping::StepContacts* GuardedStepper::contacts(int world) const {
+  return worlds_.at(world).now.is_frozen() ? nullptr : inner_->contacts(world);
+}
+
 void GuardedStepper::begin_step(int iterations, core::PhaseTimes& times) {
   core::require_invariant(anytime_ != nullptr, "begin_step: the stepper cannot be looked at in mid-solve");
   anytime_->begin_step(iterations, times);

@@ -35,6 +35,7 @@ class GuardedStepper final : public stepping::AnytimeStepper, public stepping::R
   double cost_s(int world) const override;
   void profile_last_step() override { inner_->profile_last_step(); }
   const stepping::StepProfile* profile(int world) const override;
+  const stepping::StepContacts* contacts(int world) const override;
 
   void begin_step(int iterations, core::PhaseTimes& times) override;
   const model::State& look(int world) const override;

@@ -33,6 +33,7 @@ class WorldGuard::Replay {
         events_(&events) {
     stepping::StepperSettings settings = guard.settings_->stepper;
     settings.profile = false;
+    settings.contacts = false;
     stepper_ = guard.settings_->make_stepper(settings);
     stepper_->add(guard.world_, guard.model_, start.state, first_step);
   }

@@ -12,6 +12,7 @@
 #include "model/state.h"
 #include "stepping/observables.h"
 #include "stepping/run_event.h"
+#include "stepping/step_contacts.h"
 #include "stepping/step_profile.h"
 
 namespace pbmpi::stepping {
@@ -31,6 +32,8 @@ struct LocalWorld {
   const model::State* state = nullptr;
   const Observables* observables = nullptr;
   const StepProfile* profile = nullptr;  ///< null unless the run profiles its frames
+  /// Of the frame's last step; null unless the run records them, and where a world has stopped.
+  const StepContacts* contacts = nullptr;
 };
 
 /// The estimate of a frame, which was there before the precise result (FEEC).

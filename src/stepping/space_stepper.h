@@ -17,6 +17,7 @@
 #include "model/space_map.h"
 #include "model/state.h"
 #include "stepping/observables.h"
+#include "stepping/step_contacts.h"
 
 namespace pbmpi::stepping {
 
@@ -105,6 +106,15 @@ class SpaceStepper {
   /// What the last solve(), whose arguments are given again, shows of contacts, rows and islands. The rest is
   /// zero; join() of stepping/observable_table.h makes those of the world.
   virtual Observables count(std::span<const int> units, std::span<const model::Contact> contacts) const = 0;
+  virtual bool shows_contacts() const { return false; }  ///< StepperSettings::contacts
+  /// If so, contacts and forces of the last solve(), whose contacts are given again; forces of joints of
+  /// these units only, others are zero.
+  virtual StepContacts contacts_of(std::span<const int> units,
+                                   std::span<const model::Contact> contacts) const {
+    static_cast<void>(units);
+    static_cast<void>(contacts);
+    return {};
+  }
 };
 
 /// Makes the engine of one world.

@@ -9,6 +9,7 @@
 #include "model/model.h"
 #include "model/state.h"
 #include "stepping/observables.h"
+#include "stepping/step_contacts.h"
 #include "stepping/step_profile.h"
 
 namespace pbmpi::stepping {
@@ -62,6 +63,7 @@ struct StepperSettings {
   Colliders colliders = Colliders::lanes;
   bool profile = false;    ///< ODE's: keep what profile_last_step() needs
   bool residuals = false;  ///< sor: measure Observables::residuals
+  bool contacts = false;   ///< keep what WorldStepper::contacts() shows; moves no bit
   std::uint64_t seed = 1;  ///< of the run; a step's random numbers come from (seed, world, step)
 };
 
@@ -94,6 +96,13 @@ class WorldStepper {
   virtual const Observables& observables(int world) const = 0;
   /// Seconds that the last advance() spent on this world.
   virtual double cost_s(int world) const = 0;
+
+  /// Contacts and forces of the last step of the last advance(); null unless StepperSettings::contacts asks
+  /// for them, or of a world that has stopped.
+  virtual const StepContacts* contacts(int world) const {
+    static_cast<void>(world);
+    return nullptr;
+  }
 
   /// Measures the last step of the last advance() again, island by island; no state changes by a bit. For
   /// steppers made with StepperSettings::profile, others do nothing.

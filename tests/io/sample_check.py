@@ -56,6 +56,38 @@ def check_models(f, world, body):
     assert np.array_equal(f["worlds/gravity"][:], [[0, 0, -9.81]] * NUM_WORLDS)
 
 
+def check_contacts(f, committed):
+    """The contacts of each frame, and what joints hold with."""
+    assert all(d == 0 for d in f["contacts/frame/dropped"][:committed])
+    names = f["contacts/point"].attrs["columns"].decode().split()
+    first_body = np.searchsorted(f["particles/bodies/world"][:], np.arange(NUM_WORLDS))
+    first_geom = np.searchsorted(f["geoms/world"][:], np.arange(NUM_WORLDS))
+    next_row = 0
+    for k in range(committed):
+        first, count = int(f["contacts/frame/first"][k]), int(f["contacts/frame/count"][k])
+        assert first == next_row, (k, first, next_row)
+        next_row += count
+        rows = [(w, i) for w in range(NUM_WORLDS) for i in range((w + k) % 4)]
+        assert count == len(rows)
+        point = dict(zip(names, f["contacts/point"][first:first + count].T))
+        w, i = np.array(rows, dtype=float).reshape(-1, 2).T
+        world, geom = w.astype(int), first_geom[w.astype(int)]
+        expected = {"world": w, "geom_a": geom, "geom_b": geom + 1 + i, "body_a": first_body[world] + i % 2, "body_b": -1 + 0 * w,
+                    "awake": 1 + 0 * w, "position_x": w, "position_y": k + 0 * w, "position_z": i, "normal_x": 0 * w,
+                    "normal_z": 1 + 0 * w, "depth": 0.25 * i, "mu": 0.5 + 0 * w, "arm_x": 0.5 + 0 * w, "arm_z": k + 0 * w,
+                    "normal_force": 8 * (i + 1), "friction_x": w, "friction_y": -k + 0 * w, "impulse_x": 0.5 * w,
+                    "impulse_y": -0.5 * k + 0 * w, "impulse_z": 4 * (i + 1)}
+        for name, values in expected.items():
+            assert np.array_equal(point[name], values), (k, name)
+    joint, frames = f["observables/joint"], np.arange(committed)
+    world, first = f["joints/world"][:], f["joints/local_joint"][:] == 0
+    broken = first[None] & (frames >= 3)[:, None]
+    assert np.array_equal(joint["broken_in"][:committed], np.where(broken, 7, -1))
+    force = np.stack([world + 0 * frames[:, None], frames[:, None] + 0 * world, 1 + 0 * world + 0 * frames[:, None]], axis=2)
+    assert np.array_equal(joint["force"][:committed], np.where(broken[:, :, None], 0, force))
+    assert np.array_equal(joint["control"][:committed, :, 1], np.where(broken, 0, -frames[:, None]))
+
+
 def check(path):
     """Asserts that all committed rows are finite and right, and returns how many frames are committed."""
     with h5py.File(path, "r") as f:
@@ -65,6 +97,7 @@ def check(path):
         world, body = world_and_body()
         assert np.array_equal(bodies["world"][:], world) and np.array_equal(bodies["local_body"][:], body)
         check_models(f, world, body)
+        check_contacts(f, committed)
         recorded = np.arange(committed // every) * every + every - 1
         expected = positions(recorded)
         rows = slice(0, len(recorded))

@@ -60,6 +60,8 @@ model::State sample_state(const Sample& sample, int world, std::int64_t frame) {
     state.velocity[b] = -state.position[b];
     state.angular_velocity[b] = 2 * state.position[b];
   }
+  state.broken_in.assign(static_cast<std::size_t>(2 - world % 2), model::unbroken);
+  if (frame >= 3) state.broken_in[0] = 7;
   return state;
 }
 
@@ -90,6 +92,35 @@ stepping::StepProfile sample_profile(const Sample& sample, int world, std::int64
   return profile;
 }
 
+stepping::StepContacts sample_contacts(const Sample& sample, int world, std::int64_t frame) {
+  stepping::StepContacts shown;
+  const auto k = static_cast<double>(frame);
+  for (int i = 0; i < (world + static_cast<int>(frame)) % 4; ++i) {
+    model::Contact contact;
+    contact.body_a = i % 2;
+    contact.geoms = {0, 1 + i};
+    contact.position = Vec3(world, k, i);
+    contact.normal = Vec3::UnitZ();
+    contact.depth = 0.25 * i;
+    contact.mu = 0.5;
+    model::ContactForce force;
+    force.geoms = contact.geoms;
+    force.body_a = contact.body_a;
+    force.arm = Vec3(0.5, 0, k);
+    force.normal = 8.0 * (i + 1);
+    force.friction = Vec3(world, -k, 0);
+    shown.contacts.push_back(contact);
+    shown.forces.push_back(force);
+  }
+  shown.joints.resize(sample_model(sample, world)->joints.size());
+  for (model::JointForce& force : shown.joints) {
+    force.force = Vec3(world, k, 1);
+    force.torque = Vec3(0, 0.5 * k, 0);
+    force.control[1] = -k;
+  }
+  return shown;
+}
+
 RankWorlds::RankWorlds(const Sample& sample, std::int64_t frame) {
   std::vector<int> ids;
   for (int w = 0; w < sample.num_worlds; ++w) {
@@ -100,9 +131,10 @@ RankWorlds::RankWorlds(const Sample& sample, std::int64_t frame) {
     states.push_back(sample_state(sample, w, frame));
     observables.push_back(sample_observables(w, frame));
     profiles.push_back(sample_profile(sample, w, frame));
+    contacts.push_back(sample_contacts(sample, w, frame));
   }
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    worlds.push_back({ids[i], models[i].get(), &states[i], &observables[i], &profiles[i]});
+    worlds.push_back({ids[i], models[i].get(), &states[i], &observables[i], &profiles[i], &contacts[i]});
   }
 }
 
@@ -125,6 +157,9 @@ RunSetup sample_setup(const Sample& sample, const RankWorlds& at_start, const st
   setup.optional.profile = sample.profile;
   setup.flush_interval_s = 1e9;
   setup.optional.estimate = true;
+  setup.optional.contacts = sample.contacts;
+  setup.optional.breaks = true;
+  setup.substep_s = 0.5;
   setup.optional.residuals = true;
   setup.optional.interest = true;
   return setup;

@@ -23,8 +23,9 @@ struct Sample {
   int bodies_per_world = 3;  ///< world w has w % 2 more
   int num_ranks = 1;
   int rank = 0;
-  bool profile = true;  ///< with step profiles
-  Placement owner;      ///< empty: world w belongs to rank w % num_ranks
+  bool profile = true;   ///< with step profiles
+  bool contacts = true;  ///< with contacts
+  Placement owner;       ///< empty: world w belongs to rank w % num_ranks
 
   int owner_of(int world, std::int64_t frame) const {
     return owner ? owner(world, frame) : world % num_ranks;
@@ -36,6 +37,8 @@ model::State sample_state(const Sample& sample, int world, std::int64_t frame);
 stepping::Observables sample_observables(int world, std::int64_t frame);
 /// The first body and the others are one island each.
 stepping::StepProfile sample_profile(const Sample& sample, int world, std::int64_t frame);
+/// (world + frame) % 4 contacts; contact i has 1/16 of (world, frame, i) as its numbers, see the source.
+stepping::StepContacts sample_contacts(const Sample& sample, int world, std::int64_t frame);
 double sample_wall_s(std::int64_t frame);
 /// Seconds of a phase of a rank.
 double sample_phase_s(int rank, int phase, std::int64_t frame);
@@ -49,6 +52,7 @@ struct RankWorlds {
   std::vector<model::State> states;
   std::vector<stepping::Observables> observables;
   std::vector<stepping::StepProfile> profiles;
+  std::vector<stepping::StepContacts> contacts;
   std::vector<stepping::LocalWorld> worlds;
 };
 

@@ -4,12 +4,50 @@
 
 #include "model/joint_gap.h"
 #include "model/mechanics.h"
+#include "model/memory_rows.h"
 #include "mpi/spaces/step/wire.h"
 #include "stepping/observable_table.h"
 
 namespace pbmpi::mpi {
 
 using core::Phase;
+
+namespace {
+
+/// Forces as rows of numbers.
+template <class Force>
+std::vector<double> rows_of(const std::vector<Force>& forces, std::size_t width) {
+  std::vector<double> rows(forces.size() * width);
+  double* to = rows.data();
+  for (const Force& force : forces) to = model::put_row(force, to);
+  return rows;
+}
+
+template <class Force>
+std::vector<Force> forces_of(std::span<const double> rows, std::size_t width) {
+  std::vector<Force> forces(rows.size() / width);
+  const double* from = rows.data();
+  for (Force& force : forces) from = model::take_row(from, force);
+  return forces;
+}
+
+void put_contacts(const stepping::StepContacts& shown, MessageWriter& message) {
+  std::vector<WireContact> contacts;
+  for (const model::Contact& contact : shown.contacts) contacts.push_back(to_wire(contact));
+  message.put(contacts);
+  message.put(rows_of(shown.forces, model::numbers_of_contact_force));
+  message.put(rows_of(shown.joints, model::numbers_of_joint_force));
+}
+
+stepping::StepContacts read_contacts(MessageReader& message) {
+  stepping::StepContacts shown;
+  for (const WireContact& contact : message.get<WireContact>()) shown.contacts.push_back(from_wire(contact));
+  shown.forces = forces_of<model::ContactForce>(message.get<double>(), model::numbers_of_contact_force);
+  shown.joints = forces_of<model::JointForce>(message.get<double>(), model::numbers_of_joint_force);
+  return shown;
+}
+
+}  // namespace
 
 void FrameReport::send(const StepWork& work, std::int64_t bodies_shipped, core::PhaseTimes& times) {
   core::LapTimer timer(times);
@@ -25,6 +63,9 @@ void FrameReport::send(const StepWork& work, std::int64_t bodies_shipped, core::
   own.island_of_unit = islands_->islands().of_unit;
   own.unit_weight = islands_->unit_weight();
   own.unit_near = islands_->unit_near();
+  own_contacts_.clear();
+  if (shared_->records)
+    shared_->guard([&] { own_contacts_ = shared_->stepper->contacts_of(work.units, work.contacts); });
   if (shared_->is_root()) return receive(own, timer);
   post(own);
   timer.lap(Phase::gather);
@@ -65,6 +106,7 @@ void FrameReport::post(const Account& own) {
   message.put(own.island_of_unit);
   message.put(own.unit_weight);
   if (shared_->field != nullptr) message.put(own.unit_near);
+  if (shared_->records) put_contacts(own_contacts_, message);
   shared_->mail->post(message.take(), Communicator::root, frame_tag);
 }
 
@@ -92,11 +134,13 @@ void FrameReport::receive(const Account& own, core::LapTimer& timer) {
   clear();
   model::DisjointSets islands(shared_->stepper->map().num_units());
   add(Communicator::root, own, islands);
+  take_contacts(own_contacts_);
   for (int rank = 1; rank < shared_->comm->size(); ++rank) {
     MessageReader message(shared_->mail->take(rank, frame_tag));
     timer.lap(Phase::wait);
     take_rows(rank, message);
     add(rank, read_account(message), islands);
+    if (shared_->records) take_contacts(read_contacts(message));
     timer.lap(Phase::gather);
   }
   crossing_->note_whole_state();
@@ -129,6 +173,29 @@ void FrameReport::add(int rank, const Account& account, model::DisjointSets& isl
     int& lowest = lowest_unit[account.island_of_unit[i]];
     if (lowest < 0) lowest = units[i];
     islands.unite(lowest, units[i]);
+  }
+}
+
+/// The contacts of a pair of geoms are solved by one rank, in their order, and so is a joint.
+void FrameReport::take_contacts(const stepping::StepContacts& part) {
+  stepping::StepContacts& all = findings_.contacts;
+  const auto earlier = std::move(all);
+  all.clear();
+  std::size_t a = 0, b = 0;
+  while (a < earlier.contacts.size() || b < part.contacts.size()) {
+    const bool from_part = a == earlier.contacts.size() ||
+                           (b < part.contacts.size() && part.contacts[b].geoms < earlier.contacts[a].geoms);
+    const stepping::StepContacts& from = from_part ? part : earlier;
+    std::size_t& at = from_part ? b : a;
+    all.contacts.push_back(from.contacts[at]);
+    all.forces.push_back(from.forces[at++]);
+  }
+  all.joints = earlier.joints.empty() ? part.joints : earlier.joints;
+  for (std::size_t joint = 0; joint < part.joints.size(); ++joint) {
+    const model::JointForce& force = part.joints[joint];
+    const bool acts = force.force != model::Vec3::Zero() || force.torque != model::Vec3::Zero() ||
+                      force.control[0] != 0 || force.control[1] != 0;
+    if (acts) all.joints[joint] = force;
   }
 }
 

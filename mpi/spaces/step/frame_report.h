@@ -21,6 +21,7 @@ struct FrameFindings {
   std::vector<double> weight;  ///< [num_units] rows of joints and contacts, and bodies
   std::vector<char> near;      ///< [num_units] has its island a body inside the field? empty without a field
   std::vector<double> energy_j;         ///< [num_bodies]
+  stepping::StepContacts contacts;      ///< of all ranks, if they are recorded
   std::vector<core::PhaseTimes> times;  ///< [num_ranks] of this frame so far
   std::int64_t bodies_shipped = 0;      ///< in this frame, from any rank to another, step by step
 };
@@ -55,6 +56,7 @@ class FrameReport {
   };
   std::vector<double> own_energies() const;
   double own_joint_gap() const;
+  void take_contacts(const stepping::StepContacts& part);
   void post(const Account& own);
   void receive(const Account& own, core::LapTimer& timer);
   void take_rows(int rank, MessageReader& message);
@@ -67,6 +69,7 @@ class FrameReport {
   RankIslands* islands_;
   CrossingSearch* crossing_;
   FrameFindings findings_;
+  stepping::StepContacts own_contacts_;
 };
 
 }  // namespace pbmpi::mpi

@@ -23,6 +23,7 @@ void SpaceStep::own(const SpaceOwnership& ownership, const model::State& state, 
   shared_.has_fast_bodies = plan.has(effects::EffectId::fast_bodies);
   shared_.joints_break = plan.has(effects::EffectId::breakable_joints);
   shared_.remembers = shared_.stepper->remembers();
+  shared_.records = shared_.stepper->shows_contacts();
   shared_.crosses = ownership.is_divided() && shared_.stepper->model().spaces_meet;
   work_.units = shared_.own_units();
   shared_.guard([&] { shared_.stepper->own(shared_.own_spaces(), state, step); });

@@ -44,6 +44,7 @@ struct StepContext {
   bool has_fast_bodies = false;  ///< the effect "fast_bodies"
   bool joints_break = false;     ///< the effect "breakable_joints"
   bool remembers = false;        ///< a step hands on forces to the next
+  bool records = false;          ///< the frame's last step is recorded with its contacts and forces
 
   bool is_root() const { return comm->is_root(); }
   const std::vector<int>& own_spaces() const { return ownership->spaces[comm->rank()]; }

@@ -40,6 +40,8 @@ io::OptionalColumns optional_columns(const Work& work) {
   columns.profile = spec.record_islands;
   columns.estimate = spec.estimate.has_value();
   columns.residuals = spec.stepper.residuals;
+  columns.contacts = spec.stepper.contacts;
+  columns.breaks = effects::StepPlan(*work.first_world).has(effects::EffectId::breakable_joints);
   columns.interest = traits_of(spec.stepper.kind).iterates && interest_of(*work.first_world).has_value();
   return columns;
 }
@@ -71,6 +73,7 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
       Parameter::of("budget", spec.budget_s),
       Parameter::of("record_every", std::int64_t{spec.record_every}),
       Parameter::of("record_islands", std::int64_t{spec.record_islands ? 1 : 0}),
+      Parameter::of("record_contacts", std::int64_t{spec.stepper.contacts ? 1 : 0}),
       Parameter::of("ranks", static_cast<std::int64_t>(provenance.hosts.size())),
       Parameter::of("build", build_description),
       Parameter::of("library_mpi", mpi::library_version()),

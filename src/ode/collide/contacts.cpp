@@ -19,7 +19,50 @@ Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan,
   contact_.surface.bounce_vel = model.contact_law.bounce_velocity;
 }
 
+model::Contact to_contact(const model::Model& model, const GeomPair& pair, const dContactGeom& found) {
+  const model::Geom& a = model.geoms[pair.first];
+  const model::Geom& b = model.geoms[pair.second];
+  const bool swapped = a.body == model::no_body;  // the normal points into the first geom; a must be real
+  model::Contact contact;
+  contact.body_a = swapped ? b.body : a.body;
+  contact.body_b = swapped ? a.body : b.body;
+  contact.position = model::Vec3(found.pos);
+  contact.normal = swapped ? model::Vec3(-model::Vec3(found.normal)) : model::Vec3(found.normal);
+  contact.depth = found.depth;
+  const model::Material material = model::pair_material(model, pair, a.material, b.material);
+  contact.mu = material.mu;
+  contact.restitution = material.restitution;
+  contact.geoms = pair;
+  return contact;
+}
+
+void Contacts::watch(dJointID joint, const model::Contact& contact) {
+  if (!keeps_) return;
+  kept_.push_back({contact, {}});
+  if (!friction_) kept_.back().contact.mu = 0;
+  dJointSetFeedback(joint, &kept_.back().feedback);
+}
+
+/// The feedback is what acts on the joint's first body that is real: body a.
+void Contacts::show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
+                    std::vector<model::ContactForce>& forces) const {
+  for (const Kept& kept : kept_) {
+    const model::Contact& contact = kept.contact;
+    model::ContactForce force;
+    force.geoms = contact.geoms;
+    force.body_a = contact.body_a;
+    force.body_b = contact.body_b;
+    force.arm = contact.position - before[static_cast<std::size_t>(contact.body_a)];
+    const model::Vec3 whole(kept.feedback.f1);
+    force.normal = whole.dot(contact.normal);
+    force.friction = whole - force.normal * contact.normal;
+    contacts.push_back(contact);
+    forces.push_back(force);
+  }
+}
+
 void Contacts::make(dWorldID world, const std::vector<GeomPair>& pairs, const std::vector<dGeomID>& geoms) {
+  kept_.clear();
   touches_.clear();
   deepest_m_ = 0;
   for (const GeomPair& pair : pairs) {
@@ -39,8 +82,9 @@ void Contacts::make_ahead(dWorldID world, const std::vector<model::Contact>& con
     std::copy_n(contact.normal.data(), 3, contact_.geom.normal);
     contact_.geom.depth = 0;
     touches_.push_back({contact.body_a, contact.body_b, 1, 1, is_cross_space(contact.geoms)});
-    dJointAttach(dJointCreateContact(world, joints_.get(), &contact_), body_id(contact.body_a),
-                 body_id(contact.body_b));
+    const dJointID joint = dJointCreateContact(world, joints_.get(), &contact_);
+    dJointAttach(joint, body_id(contact.body_a), body_id(contact.body_b));
+    watch(joint, contact);
   }
 }
 
@@ -64,7 +108,9 @@ void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
   for (int i = 0; i < num_contacts; ++i) {
     contact_.geom = found_[i];
     deepest_m_ = std::max(deepest_m_, found_[i].depth);
-    dJointAttach(dJointCreateContact(world, joints_.get(), &contact_), body_id(body_a), body_id(body_b));
+    const dJointID joint = dJointCreateContact(world, joints_.get(), &contact_);
+    dJointAttach(joint, body_id(body_a), body_id(body_b));
+    if (keeps_) watch(joint, to_contact(*model_, pair, found_[i]));
   }
 }
 

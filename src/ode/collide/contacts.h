@@ -1,10 +1,12 @@
 /// The narrow phase: contact points of pairs of geoms, and their contact joints.
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "effects/effects.h"
 #include "model/contact.h"
+#include "model/step_memory.h"
 #include "ode/collide/broad_phase.h"
 
 namespace pbmpi::ode {
@@ -17,6 +19,9 @@ struct Touch {
   int rows_per_contact = 1;  ///< 3 with friction
   bool cross_space = false;  ///< two real bodies whose geoms lie in different collision spaces
 };
+
+/// What dCollide found of a pair, as a contact: body a is a real one, the normal points into it.
+model::Contact to_contact(const model::Model& model, const GeomPair& pair, const dContactGeom& found);
 
 /// Makes the contact joints of a step. Friction, restitution and the counting of contacts across spaces are
 /// there only if the plan has them.
@@ -32,8 +37,16 @@ class Contacts {
   /// Removes the contact joints. touches() and deepest_m() stay until the next make().
   void clear() { dJointGroupEmpty(joints_.get()); }
 
+  /// From the next make() on: are contacts and their forces to be shown?
+  void keep(bool keep) { keeps_ = keep; }
+  /// Appends what is kept of the contacts, with their forces in the step that was solved since then.
+  /// `before`: the centres of the bodies before it [m].
+  void show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
+            std::vector<model::ContactForce>& forces) const;
+
   /// Forgets touches(), too: the step has no contacts.
   void forget() {
+    kept_.clear();
     touches_.clear();
     deepest_m_ = 0;
   }
@@ -46,6 +59,7 @@ class Contacts {
   dBodyID body_id(int body) const { return body == model::no_body ? nullptr : bodies_[body]; }
   void join(dWorldID world, const GeomPair& pair, int num_contacts);
   int set_surface(const GeomPair& pair);
+  void watch(dJointID joint, const model::Contact& contact);
   bool is_cross_space(const GeomPair& pair) const;
 
   const model::Model* model_;
@@ -56,6 +70,12 @@ class Contacts {
   JointGroupHandle joints_;
   dContact contact_{};               ///< the one that is being filled
   std::vector<dContactGeom> found_;  ///< [max_per_pair]
+  struct Kept {
+    model::Contact contact;
+    dJointFeedback feedback;
+  };
+  bool keeps_ = false;
+  std::deque<Kept> kept_;  ///< ODE writes into them while it solves
   std::vector<Touch> touches_;
   double deepest_m_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "geometry/geometry.h"
+#include "ode/collide/contacts.h"
 #include "ode/objects/engine.h"
 #include "ode/objects/geoms.h"
 
@@ -36,7 +37,7 @@ class NarrowPhase final : public model::NarrowPhase {
       bring(pair.second, poses);
       const int count = dCollide(geoms_[pair.first], geoms_[pair.second], static_cast<int>(found_.size()),
                                  found_.data(), sizeof(dContactGeom));
-      for (int i = 0; i < count; ++i) contacts.push_back(to_contact(pair, found_[i]));
+      for (int i = 0; i < count; ++i) contacts.push_back(to_contact(*model_, pair, found_[i]));
     }
   }
 
@@ -55,24 +56,6 @@ class NarrowPhase final : public model::NarrowPhase {
     if (geom.body == model::no_body || placed_[index] == time_) return;
     place(geoms_[index], geom, poses[geom.body]);
     placed_[index] = time_;
-  }
-
-  model::Contact to_contact(const model::GeomPair& pair, const dContactGeom& found) const {
-    const model::Geom& a = model_->geoms[pair.first];
-    const model::Geom& b = model_->geoms[pair.second];
-    const bool swapped =
-        a.body == model::no_body;  // the normal points into the first geom; a must be a real body
-    model::Contact contact;
-    contact.body_a = swapped ? b.body : a.body;
-    contact.body_b = swapped ? a.body : b.body;
-    contact.position = model::Vec3(found.pos);
-    contact.normal = swapped ? model::Vec3(-model::Vec3(found.normal)) : model::Vec3(found.normal);
-    contact.depth = found.depth;
-    const model::Material material = model::pair_material(*model_, pair, a.material, b.material);
-    contact.mu = material.mu;
-    contact.restitution = material.restitution;
-    contact.geoms = pair;
-    return contact;
   }
 
   Engine engine_;

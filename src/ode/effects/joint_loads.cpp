@@ -38,13 +38,25 @@ void JointLoads::note_places() {
     one.from_centre = place_from_centre(model_->joints[one.joint], joints_[one.joint]);
 }
 
+const JointLoads::Measured& JointLoads::find(int joint) const {
+  return *std::ranges::lower_bound(measured_, joint, {}, &Measured::joint);
+}
+
+model::JointForce JointLoads::force(int joint) const {
+  const Measured& measured = find(joint);
+  model::JointForce force;
+  force.force = Vec3(measured.feedback.f1);
+  force.torque = Vec3(measured.feedback.t1) - measured.from_centre.cross(force.force);
+  return force;
+}
+
 /// The torque of a fixed joint is taken where its first body stands after the step.
 effects::Reaction JointLoads::reaction(int joint) const {
-  const auto found = std::ranges::lower_bound(measured_, joint, {}, &Measured::joint);
+  const Measured& found = find(joint);
   const Joint& measured = model_->joints[joint];
   const Vec3 from_centre =
-      measured.kind == JointKind::fixed ? place_from_centre(measured, joints_[joint]) : found->from_centre;
-  const Vec3 force(found->feedback.f1), torque(found->feedback.t1);
+      measured.kind == JointKind::fixed ? place_from_centre(measured, joints_[joint]) : found.from_centre;
+  const Vec3 force(found.feedback.f1), torque(found.feedback.t1);
   return {force.norm(), (torque - from_centre.cross(force)).norm()};
 }
 

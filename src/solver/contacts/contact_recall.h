@@ -33,6 +33,7 @@ class ContactRecall {
   }
   /// [contacts], to be replaced by those with which the step ends.
   std::span<model::ContactForce> forces() { return forces_; }
+  std::span<const model::ContactForce> forces() const { return forces_; }
   /// What is to be remembered after the step.
   void store(std::vector<model::ContactForce>& memory) const;
 

@@ -32,6 +32,7 @@ struct StepParameters {
   bool cone = false;            ///< friction that is the same in all directions
   bool shuffled = true;         ///< false: the joints of an articulation and the contacts keep their order
   bool residuals = false;       ///< measure them at the end of the solve
+  bool show_forces = false;     ///< hand out the forces with which the step ends, whatever the warm start
   std::uint64_t order_key = 0;  ///< (seed, step): the order of joints within an articulation, and of contacts
 };
 

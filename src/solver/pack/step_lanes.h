@@ -51,6 +51,7 @@ class StepLanes {
   }
   bool relaxes() const { return parameters_.relax > 0; }
   bool remembers() const { return parameters_.warm_start > 0; }
+  bool hands_out_forces() const { return remembers() || parameters_.show_forces; }
   void start_step();
   void start_substep();
   void push_carried();
@@ -104,7 +105,7 @@ void StepLanes<T>::sort_contacts(Contacts contacts, Forces forces) {
     const auto w = static_cast<std::size_t>(world);
     contacts_.add_world(
         worlds_.model(world).num_bodies(), contacts[w],
-        remembers() && !forces.empty() ? forces[w] : std::span<model::ContactForce>(),
+        hands_out_forces() && !forces.empty() ? forces[w] : std::span<model::ContactForce>(),
         [&](int body) { return worlds_.moves(world, body); },
         [&](int body) { return worlds_.places.body(world, body); });
   }
@@ -242,7 +243,7 @@ void StepLanes<T>::bounce() {
 
 template <class T>
 void StepLanes<T>::remember() {
-  if (!remembers()) return;
+  if (!hands_out_forces()) return;
   contacts_.remember(laws_.contacts());
   const V per_h = T::broadcast(1 / laws_.h());
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {

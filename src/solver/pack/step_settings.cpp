@@ -46,6 +46,7 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   parameters.joint_solver = settings.joint_solver;
   parameters.cone = settings.friction == stepping::Friction::cone;
   parameters.residuals = settings.residuals;
+  parameters.show_forces = settings.contacts;
   parameters.shuffled = settings.row_order == stepping::RowOrder::shuffled;
   parameters.order_key = core::mix_key(settings.seed, static_cast<std::uint64_t>(step), 0);
   return parameters;

@@ -62,6 +62,9 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   void solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
              core::PhaseTimes& times) override;
   stepping::Observables count(std::span<const int> units, std::span<const Contact> contacts) const override;
+  bool shows_contacts() const override { return settings_.contacts; }
+  stepping::StepContacts contacts_of(std::span<const int> units,
+                                     std::span<const Contact> contacts) const override;
 
  private:
   stepping::Simd simd() const {
@@ -319,7 +322,7 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   core::LapTimer timer(times);
   show_sleepers();
   activate(units);
-  if (remembers()) recall(contacts);
+  if (remembers() || settings_.contacts) recall(contacts);
   focus(contacts);
   if (rules_.sleepers() != nullptr && active_.bodies().empty()) return;
   packed_.load(active_.bodies(), *pack_);
@@ -348,6 +351,24 @@ stepping::Observables SorSpaceStepper::count(std::span<const int> units,
       count_islands(*model_, map_, articulations_, units, contacts, joint_rows, rules_.sleepers());
   counts.bodies_inside = bodies_inside_;
   return counts;
+}
+
+stepping::StepContacts SorSpaceStepper::contacts_of(std::span<const int> units,
+                                                    std::span<const Contact> contacts) const {
+  stepping::StepContacts shown;
+  shown.contacts.assign(contacts.begin(), contacts.end());
+  const std::span<const model::ContactForce> forces = recall_.forces();
+  shown.forces.assign(forces.begin(), forces.begin() + std::ssize(contacts));
+  model::State stored;
+  stored.resize(model_->num_bodies());
+  stored.memory.joints.resize(model_->joints.size());
+  pack_->store(0, stored);
+  shown.joints.resize(model_->joints.size());
+  for (const int unit : units) {
+    for (const int joint : articulations_[unit].joints)
+      shown.joints[joint] = stored.memory.joints[static_cast<std::size_t>(joint)];
+  }
+  return shown;
 }
 
 }  // namespace

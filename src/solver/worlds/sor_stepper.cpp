@@ -60,6 +60,7 @@ class SorStepper final : public stepping::AnytimeStepper {
     return worlds_.at(world)->observables();
   }
   double cost_s(int world) const override { return worlds_.at(world)->cost_s; }
+  const stepping::StepContacts* contacts(int world) const override { return worlds_.at(world)->contacts(); }
 
   void advance(int num_steps, core::PhaseTimes& times) override {
     if (groups_.empty()) make_groups();

@@ -73,7 +73,8 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
       state_(state),
       rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::whole, state_),
       narrow_phase_(make_narrow_phase(*model_)),
-      remembers_(remembers(settings)) {
+      remembers_(remembers(settings)),
+      shows_contacts_(settings.contacts) {
   set_state(state, step);
 }
 
@@ -122,7 +123,7 @@ bool SorWorld::after_collision(Pack& pack, int index, bool may_be_fast,
 void SorWorld::before_solve(Pack& pack, int index, std::vector<model::Contact>& contacts) {
   InPack world(*this, pack, index, &contacts, nullptr);
   rules_.before_solve(world);
-  if (!remembers_) return;
+  if (!remembers_ && !shows_contacts_) return;
   const auto is_asleep = [&](int body) {
     return rules_.sleepers() != nullptr && body != model::no_body && state_.rest[body].asleep();
   };
@@ -183,8 +184,20 @@ void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
   observables_.max_island_rows = *std::max_element(island_rows_.begin(), island_rows_.end());
 }
 
+/// While all of the pack sleeps there are no contacts, and the forces are those of an older step.
+void SorWorld::show_contacts(const Pack& pack, int index, std::span<const model::Contact> contacts) {
+  shown_.contacts.assign(contacts.begin(), contacts.end());
+  shown_.forces.assign(recall_.forces().begin(), recall_.forces().begin() + std::ssize(contacts));
+  model::State stored;
+  stored.resize(model_->num_bodies());
+  stored.memory.joints.resize(model_->joints.size());
+  pack.store(index, stored);
+  shown_.joints = std::move(stored.memory.joints);
+}
+
 void SorWorld::observe(const Pack& pack, int index, const FocusedStep& step,
                        std::span<const model::Contact> contacts) {
+  if (shows_contacts_) show_contacts(pack, index, contacts);
   if (!std::exchange(moved_, false)) return stepping::observe_sleep(observables_);
   pack.store(index, state_);
   count_rows(pack, index, step, contacts);

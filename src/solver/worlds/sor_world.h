@@ -32,6 +32,8 @@ class SorWorld {
   const PackLaws& laws() const { return laws_; }
   const model::State& state() const { return state_; }
   const stepping::Observables& observables() const { return observables_; }
+  /// Null unless the run asks for them.
+  const stepping::StepContacts* contacts() const { return shows_contacts_ ? &shown_ : nullptr; }
 
   /// Forgets where the world was; a pack that holds it must be loaded anew.
   void set_state(const model::State& state, std::int64_t step);
@@ -54,7 +56,7 @@ class SorWorld {
   /// Instead of all but begin_step(), if no world of the pack moves.
   void sleep_on();
 
-  /// With which the contacts of the step start and end; none without a warm start. After before_solve().
+  /// With which the contacts of the step start and end; none if nobody asks. After before_solve().
   std::span<model::ContactForce> forces() { return recall_.forces(); }
   /// Null without the pass "field_of_interest".
   const effects::FieldOfInterest* field() const { return rules_.field(); }
@@ -83,6 +85,7 @@ class SorWorld {
   class InPack;
   void forget(int body) { model::forget(*model_, body, state_.memory); }
   void show_awake(Pack& pack, int index) const;
+  void show_contacts(const Pack& pack, int index, std::span<const model::Contact> contacts);
   void count_rows(const Pack& pack, int index, const FocusedStep& step,
                   std::span<const model::Contact> contacts);
 
@@ -93,9 +96,11 @@ class SorWorld {
   std::int64_t step_;
   effects::StepRules rules_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
-  bool remembers_;  ///< from step to step
+  bool remembers_;       ///< from step to step
+  bool shows_contacts_;  ///< StepperSettings::contacts
   ContactRecall recall_;
   stepping::Observables observables_;
+  stepping::StepContacts shown_;            ///< of the last step, if it is shown
   bool moved_ = true;                       ///< since the last observe()
   std::vector<std::pair<int, int>> links_;  ///< scratch of count_rows(), as what follows
   std::vector<int> link_rows_, island_rows_;

@@ -11,7 +11,7 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import PBREPORT, ProgramTest  # noqa: E402
 
-RECORDED = ("--replicas", 3, "--decompose", "worlds", "--feec", "--record-residuals")
+RECORDED = ("--replicas", 3, "--decompose", "worlds", "--feec", "--record-residuals", "--record-contacts")
 
 
 class Damage(ProgramTest):
@@ -41,6 +41,16 @@ class Damage(ProgramTest):
                     at = (len(file[column]) - 1,) + (0,) * (file[column].ndim - 1)
                     file[column][at] = file[column][at] + 1
                 self.refused(change, "row", columns[0])
+
+    def test_a_changed_contact_is_noticed(self):
+        with h5py.File(self.path("run.h5")) as file:
+            shape = file["contacts/point"].shape
+        self.assertGreater(shape[0], 20)
+        for row in (0, shape[0] // 2, shape[0] - 1):
+            for column in (0, 12, shape[1] - 1):
+                def change(file, at=(row, column)):
+                    file["contacts/point"][at] = file["contacts/point"][at] + 1
+                self.refused(change, "row", "contacts")
 
     def test_a_changed_parameter_column_attribute_or_name_is_noticed(self):
         def attribute(file):

@@ -11,15 +11,16 @@ from same_files import content, differences  # noqa: E402
 
 SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
 RANKS = (1, 2, 3, 4)
-SOR, QUICK = ("--stepper", "sor", "--record-residuals"), ("--stepper", "quick", "--record-islands")
+CUT = ("--stepper", "sor", "--record-contacts")
+SOR, QUICK = (*CUT, "--record-residuals"), ("--stepper", "quick", "--record-islands", "--record-contacts")
 # Too few iterations in too long a step: joints gape in each of them, more often than /events has rows.
 COARSE = ("--iterations", 1, "--substeps", 1, "--dt", 0.03, "--frames", 20)
 # Name: options, and the scene of the short form. One world of several spaces is cut at these by 2 ranks and more.
 WAYS = {
-    "spaces": ((*SOR, "--replicas", 1, "--frames", 20), None),
-    "spaces in single precision": ((*SOR, "--precision", "single", "--replicas", 1, "--frames", 20), "Battle2"),
+    "spaces": ((*CUT, "--replicas", 1, "--frames", 20), None),
+    "spaces in single precision": ((*CUT, "--precision", "single", "--replicas", 1, "--frames", 20), "Battle2"),
     "spaces that sleep, with a field of interest": (
-        (*SOR, "--replicas", 1, "--frames", 40, "--effects", "+sleeping,+field_of_interest,+drag"), "Environ"),
+        (*CUT, "--warm-start", 0, "--replicas", 1, "--frames", 40, "--effects", "+sleeping,+field_of_interest,+drag"), "Environ"),
     "worlds, estimated": ((*SOR, "--replicas", 5, "--decompose", "worlds", "--feec", "--record-every", 3), "Fight"),
     "worlds that are refined": ((*SOR, *COARSE, "--replicas", 7, "--decompose", "worlds", "--on-blowup", "refine"), "CrashSk"),
     "worlds that are frozen": ((*SOR, *COARSE, "--replicas", 3, "--decompose", "worlds", "--on-blowup", "freeze"), "CrashWa"),

@@ -103,6 +103,10 @@ po::options_description options_description() {
       ("record-islands",
        "quick, direct: after each frame measure its last step again, island by island (slow; outside of the "
        "frame's time, and the states stay the same)")  //
+      ("record-contacts",
+       "store the contacts of the last step of each frame (geoms, place, normal, depth, forces) and the "
+       "forces "
+       "of its joints")  //
       ("record-residuals",
        "sor: store how far the last step of each frame is from the solution of its constraints")  //
       ("report", po::value<std::string>()->default_value("text")->value_name("text|json"),
@@ -220,6 +224,7 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   options.paths = named_paths(values);
   options.record_every = values["record-every"].as<int>();
   options.record_islands = values.count("record-islands") != 0;
+  options.record_contacts = values.count("record-contacts") != 0;
   options.record_residuals = values.count("record-residuals") != 0;
   if (values.count("spaces") != 0)
     options.spaces = choice<scenes::SpacesForm>(values, "spaces", spaces_names);

@@ -38,6 +38,7 @@ struct Options {
   bool no_output = false;
   bool record_islands = false;
   bool record_residuals = false;
+  bool record_contacts = false;
   std::optional<scenes::SpacesForm> spaces;
   model::EffectChoices effects;
   int record_every = 1;

@@ -37,6 +37,7 @@ std::optional<stepping::StepperSettings> resolve_estimate(const Options& options
   estimate.iterations = 1;
   estimate.substeps = 1;
   estimate.residuals = false;
+  estimate.contacts = false;
   for (const auto& [name, text] : options.estimate)
     set(stepping::step_option(name), text, "--estimate-" + name, estimate);
   const bool has_precision = traits_of(estimate.kind).has_precision;
@@ -142,6 +143,7 @@ stepping::StepperSettings resolve_step(const Options& options, const scenes::Run
   if (!options.step.has("solver-seed")) step.seed = options.seed;
   step.profile = options.record_islands;
   step.residuals = options.record_residuals;
+  step.contacts = options.record_contacts;
   require_fitting(step);
   return step;
 }
@@ -158,6 +160,8 @@ void require_recordable(const Options& options, stepping::StepperKind kind) {
                 "--record-islands measures the last step of a frame again, and --on-blowup " +
                     std::string(stability::on_blowup_names[static_cast<std::size_t>(options.on_blowup)]) +
                     " may have replaced it; use --on-blowup report or stop");
+  require_input(!options.record_contacts || !options.no_output,
+                "--record-contacts writes into the run's file; drop --no-output");
   require_input(!options.record_residuals || traits.shows_residuals,
                 "--record-residuals: ODE's steppers do not show their rows; use --stepper sor");
   require_input(!options.record_residuals || !options.no_output,

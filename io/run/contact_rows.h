@@ -1,0 +1,92 @@
+/// Group /contacts of a run's file: the contacts of the last step of each frame, as many rows as there are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/hdf5/growing_columns.h"
+#include "io/run/frame_table.h"
+
+namespace pbmpi::io {
+
+/// Columns of /contacts/point, each a double; the attribute `columns` of the dataset lists them.
+inline constexpr std::array<const char*, 24> contact_columns = {
+    "world",      "geom_a",     "geom_b",     "body_a",    "body_b",    "awake",
+    "position_x", "position_y", "position_z", "normal_x",  "normal_y",  "normal_z",
+    "depth",      "mu",         "arm_x",      "arm_y",     "arm_z",     "normal_force",
+    "friction_x", "friction_y", "friction_z", "impulse_x", "impulse_y", "impulse_z"};
+
+/// The rows of one frame in /contacts/point, and their checksum (core/system/seal.h).
+struct ContactSpan {
+  std::int64_t first = 0, count = 0;
+  std::uint64_t checksum = 0;
+};
+
+/// One dataset [rows][columns], the last of the file, so that what a run does not use of it goes when it is
+/// cut; and a row a frame that says where the frame's rows are. A frame that finds no room has no rows and is
+/// counted as dropped.
+class ContactRows {
+ public:
+  static constexpr const char* points = "/contacts/point";
+  /// Columns of the frames' table in the group /contacts/frame.
+  static std::vector<ColumnSpec> frame_columns();
+  /// Rows for which a file has room; and how many a frame is expected to have.
+  static hsize_t capacity(const RunShape& shape);
+  static std::int64_t expected_bytes(const RunShape& shape);
+
+  /// Collective. `geom_offset`: [num_worlds + 1], where the geoms of each world begin; kept.
+  ContactRows(hid_t file, const FileRanks& ranks, const RunShape& shape,
+              std::vector<std::int64_t> geom_offset, hsize_t frames_held);
+
+  /// Keeps this rank's contacts of a frame.
+  void add(const FrameSource& source);
+  /// Collective: brings waiting rows to the ranks that write them, and finds out where they go.
+  void settle();
+  /// Collective, after settle(). The first error of this rank, empty if there was none.
+  std::string write(const PropertyList& transfer);
+
+  bool wrote_collectively() const { return collective_; }
+  GrowingTable& frames() { return frames_; }
+  /// Rows written or settled.
+  hsize_t num_rows() const { return settled_; }
+  void close();
+  void cut(hid_t file, std::vector<core::ByteRange>& unused) const;
+
+ private:
+  using Row = std::array<double, contact_columns.size()>;
+  /// This rank's rows of a frame, world by world.
+  struct Part {
+    std::vector<std::int64_t> num_rows;  ///< [num_worlds]
+    std::vector<Row> rows;
+  };
+
+  void add_world(const FrameSource& source, const stepping::LocalWorld& world, Part& part) const;
+  /// Rows of each world of each waiting frame, over all ranks: [frames][num_worlds].
+  std::vector<std::int64_t> count_rows() const;
+  /// Each rank's waiting rows of the frames that it writes.
+  std::vector<Row> exchange(const std::vector<std::int64_t>& counts, Range frames) const;
+
+  const FileRanks& ranks_;
+  std::vector<std::int64_t> geom_offset_;
+  hsize_t capacity_;
+  double substep_s_;
+  Dataset dataset_;
+  GrowingTable frames_;
+  std::vector<Part> waiting_;  ///< [frames]
+  std::vector<Row> own_rows_;  ///< settled, of this rank's frames
+  hsize_t first_own_ = 0;      ///< where they go
+  hsize_t settled_ = 0, written_ = 0;
+  bool collective_ = true;
+};
+
+/// Spans of the first frames; none if the file has no contacts. Throws core::RunError where they do not
+/// follow each other.
+std::vector<ContactSpan> read_contact_spans(hid_t file, std::int64_t num_frames);
+
+/// Throws core::RunError unless the rows of each span have its checksum.
+void check_contacts(hid_t file, const std::vector<ContactSpan>& spans);
+
+}  // namespace pbmpi::io

@@ -1,0 +1,25 @@
+/// What touched and what held in a step.
+#pragma once
+
+#include <vector>
+
+#include "model/contact.h"
+#include "model/step_memory.h"
+
+namespace pbmpi::stepping {
+
+/// Contacts and joints of a step, with the forces with which they ended its last substep. With the effect
+/// "sleeping" those of what is awake.
+struct StepContacts {
+  std::vector<model::Contact> contacts;     ///< in canonical order, those ahead of fast bodies included
+  std::vector<model::ContactForce> forces;  ///< [contacts]
+  std::vector<model::JointForce> joints;    ///< [num_joints]; of one that is broken no matter what
+
+  void clear() {
+    contacts.clear();
+    forces.clear();
+    joints.clear();
+  }
+};
+
+}  // namespace pbmpi::stepping
