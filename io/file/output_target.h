@@ -27,8 +27,8 @@ class OutputTarget {
   const std::string& path() const { return lock_.path(); }
   const std::string& temporary_path() const { return lock_.temporary_path(); }
   /// Renames the file. Throws core::InputError, also if the disk has no room for the length that it has by
-  /// now.
-  void publish();
+  /// now, but for so many bytes of it that it is not expected to need.
+  void publish(std::int64_t spare_bytes = 0);
   /// Drops the unpublished file; the right to write it goes to the caller.
   OutputLock take_lock();
   /// A name of the very file that was published, also when another one has taken its place since.

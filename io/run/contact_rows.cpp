@@ -54,6 +54,11 @@ std::int64_t ContactRows::expected_bytes(const RunShape& shape) {
   return shape.num_frames * shape.num_bodies * static_cast<std::int64_t>(bytes_a_row);
 }
 
+std::int64_t ContactRows::spare_bytes(const RunShape& shape) {
+  const auto most = static_cast<std::int64_t>(capacity(shape) * bytes_a_row);
+  return std::max<std::int64_t>(most - expected_bytes(shape), 0);
+}
+
 ContactRows::ContactRows(hid_t file, const FileRanks& ranks, const RunShape& shape,
                          std::vector<std::int64_t> geom_offset, hsize_t frames_held)
     : ranks_(ranks),

@@ -33,9 +33,10 @@ class ContactRows {
   static constexpr const char* points = "/contacts/point";
   /// Columns of the frames' table in the group /contacts/frame.
   static std::vector<ColumnSpec> frame_columns();
-  /// Rows for which a file has room; and how many a frame is expected to have.
+  /// Rows for which a file has room; bytes of those that are expected, and of the others.
   static hsize_t capacity(const RunShape& shape);
   static std::int64_t expected_bytes(const RunShape& shape);
+  static std::int64_t spare_bytes(const RunShape& shape);
 
   /// Collective. `geom_offset`: [num_worlds + 1], where the geoms of each world begin; kept.
   ContactRows(hid_t file, const FileRanks& ranks, const RunShape& shape,

@@ -97,7 +97,7 @@ RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(s
       if (!ranks_.is_root()) return;
       record_ = CommitRecord(target_.temporary_path());
       store_fixed_checksum(record_.id());
-      target_.publish();
+      target_.publish(setup_.optional.contacts ? ContactRows::spare_bytes(shape_) : 0);
     });
   } catch (...) {
     close_all();

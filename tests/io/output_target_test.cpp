@@ -132,6 +132,16 @@ TEST(OutputLock, has_names_that_fit_for_the_longest_file_name) {
   std::filesystem::remove(lock.temporary_path());
 }
 
+TEST(OutputTarget, asks_the_disk_for_no_room_that_will_hardly_be_needed) {
+  const Scratch scratch;
+  constexpr std::int64_t more_than_a_disk = std::int64_t{1} << 43;
+  OutputTarget target(scratch.file("run.h5"), 1);
+  std::filesystem::resize_file(target.temporary_path(), more_than_a_disk);
+  EXPECT_THROW(target.publish(), core::InputError);
+  target.publish(more_than_a_disk);
+  EXPECT_TRUE(std::filesystem::exists(scratch.file("run.h5")));
+}
+
 TEST(OutputTarget, refuses_more_than_the_disk_holds_and_leaves_nothing_behind) {
   const Scratch scratch;
   // 4 EiB, more than any file system here; some say "too large" before they look at what is free.
