@@ -20,13 +20,23 @@ PropertyList allocated_now() {
   return creation;
 }
 
+/// In ASCII, as H5MD's module of units wants it.
+void write_unit(hid_t dataset, const std::string& unit) {
+  const Datatype type = text_type(unit.size());
+  check(H5Tset_cset(type.id(), H5T_CSET_ASCII), "H5Tset_cset");
+  const auto space = owned<Dataspace>(H5Screate(H5S_SCALAR), "H5Screate");
+  const auto attribute = owned<Attribute>(
+      H5Acreate2(dataset, "unit", type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), "H5Acreate(unit)");
+  check(H5Awrite(attribute.id(), type.id(), unit.data()), "H5Awrite(unit)");
+}
+
 Dataset create(hid_t file, const std::string& path, const Datatype& type, const Dataspace& space,
                const PropertyList& creation, const std::string& unit) {
   const PropertyList links = with_parents();
   auto dataset = owned<Dataset>(
       H5Dcreate2(file, path.c_str(), type.id(), space.id(), links.id(), creation.id(), H5P_DEFAULT),
       "H5Dcreate(" + path + ")");
-  if (!unit.empty()) write_attribute(dataset.id(), "unit", unit);
+  if (!unit.empty()) write_unit(dataset.id(), unit);
   return dataset;
 }
 
@@ -85,6 +95,16 @@ void write_attribute(hid_t object, const Parameter& value) {
       H5Acreate2(object, value.name.c_str(), bytes.type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
       "H5Acreate(" + value.name + ")");
   check(H5Awrite(attribute.id(), bytes.type.id(), bytes.data), "H5Awrite(" + value.name + ")");
+}
+
+void write_reference(hid_t object, const std::string& name, hid_t file, const std::string& path) {
+  hobj_ref_t reference{};
+  check(H5Rcreate(&reference, file, path.c_str(), H5R_OBJECT, -1), "H5Rcreate(" + path + ")");
+  const auto space = owned<Dataspace>(H5Screate(H5S_SCALAR), "H5Screate");
+  const auto attribute = owned<Attribute>(
+      H5Acreate2(object, name.c_str(), H5T_STD_REF_OBJ, space.id(), H5P_DEFAULT, H5P_DEFAULT),
+      "H5Acreate(" + name + ")");
+  check(H5Awrite(attribute.id(), H5T_STD_REF_OBJ, &reference), "H5Awrite(" + name + ")");
 }
 
 void rewrite_attribute(hid_t file, const char* group, const std::string& name, const Datatype& type,

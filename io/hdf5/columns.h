@@ -25,6 +25,9 @@ void write_attribute(hid_t object, const std::string& name, std::int64_t value);
 void write_attribute(hid_t object, const std::string& name, const std::string& value);
 void write_attribute(hid_t object, const Parameter& value);
 
+/// Makes and writes a scalar attribute that refers to the object at `path` of `file`.
+void write_reference(hid_t object, const std::string& name, hid_t file, const std::string& path);
+
 /// Overwrites, serially, an attribute of a group that is there. It keeps its type.
 void rewrite_attribute(hid_t file, const char* group, const std::string& name, const Datatype& type,
                        const void* value);

@@ -29,14 +29,35 @@ TableShape table_shape(const FrameTable& table, const RunShape& shape) {
           held / static_cast<hsize_t>(shape.record_every) + 1};
 }
 
+void link(hid_t file, const std::string& from, const std::string& to) {
+  check(H5Lcreate_hard(file, from.c_str(), file, to.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        "H5Lcreate_hard(" + to + ")");
+}
+
 /// H5MD wants step and time beside each value; all four elements share one pair.
 void link_step_and_time(hid_t file) {
   for (const char* element : {"orientation", "velocity", "angular_velocity"}) {
     for (const char* column : {"step", "time"}) {
       const std::string from = std::string("/particles/bodies/position/") + column;
       const std::string to = std::string("/particles/bodies/") + element + "/" + column;
-      check(H5Lcreate_hard(file, from.c_str(), file, to.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-            "H5Lcreate_hard(" + to + ")");
+      link(file, from, to);
+    }
+  }
+}
+
+/// Each column of a table of observables as an element of H5MD, with the step and the time of its frames:
+/// /observables/world/energy is also /observables/energy/value.
+void link_observables(hid_t file, const std::vector<FrameTable>& tables) {
+  const std::string root = "/observables/";
+  for (const FrameTable& table : tables) {
+    if (!table.group.starts_with(root)) continue;
+    const std::string prefix = table.items == Items::joints ? "joint_" : "";
+    for (const ColumnSpec& column : table.columns) {
+      const std::string element = root + prefix + column.name;
+      create_group(file, element);
+      link(file, table.group + "/" + column.name, element + "/value");
+      for (const char* name : {"step", "time"})
+        link(file, std::string("/timings/frame/") + name, element + "/" + name);
     }
   }
 }
@@ -63,6 +84,7 @@ FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const RunSetup& s
   for (const FrameTable& group : groups_)
     rows_.emplace_back(file, ranks, group.group, group.columns, table_shape(group, shape));
   link_step_and_time(file);
+  link_observables(file, groups_);
   if (shape.optional.contacts)
     contacts_.emplace(file, ranks, shape, offsets(ranks, setup, [](const auto& m) { return m.geoms.size(); }),
                       static_cast<hsize_t>(frames_held_));

@@ -44,6 +44,9 @@ void write_h5md(hid_t file, const RunSetup& setup) {
   const Group creator = create_group(file, "/h5md/creator");
   write_attribute(creator.id(), "name", std::string("pbmpi"));
   write_attribute(creator.id(), "version", text_or(setup.attributes, "pbmpi_version", "unknown"));
+  const Group units = create_group(file, "/h5md/modules/units");
+  write_version(units.id(), {1, 0});
+  write_attribute(units.id(), "system", std::string("SI"));
   const Group box = create_group(file, "/particles/bodies/box");
   write_attribute(box.id(), "dimension", std::int64_t{3});
   write_boundary(box.id());

@@ -23,8 +23,9 @@ void ColumnWriter::numbers(const std::string& name, const std::vector<std::int32
   write(name, number_type(H5T_NATIVE_INT32), values.data(), {}, "");
 }
 
-void ColumnWriter::numbers(const std::string& name, const std::vector<std::int64_t>& values) {
-  write(name, number_type(H5T_NATIVE_INT64), values.data(), {}, "");
+void ColumnWriter::numbers(const std::string& name, const std::vector<std::int64_t>& values,
+                           const std::vector<hsize_t>& item) {
+  write(name, number_type(H5T_NATIVE_INT64), values.data(), item, "");
 }
 
 void ColumnWriter::texts(const std::string& name, const std::vector<std::string>& values,

@@ -29,7 +29,8 @@ class ColumnWriter {
   void numbers(const std::string& name, const std::vector<double>& values, const std::string& unit = "",
                const std::vector<hsize_t>& item = {});
   void numbers(const std::string& name, const std::vector<std::int32_t>& values);
-  void numbers(const std::string& name, const std::vector<std::int64_t>& values);
+  void numbers(const std::string& name, const std::vector<std::int64_t>& values,
+               const std::vector<hsize_t>& item = {});
   /// `length` bytes each; 0 = as many as the longest on any rank.
   void texts(const std::string& name, const std::vector<std::string>& values, std::size_t length = 0);
 

@@ -1,4 +1,7 @@
 /// What holds bodies, and in what they stand: /joints, /worlds.
+#include <algorithm>
+
+#include "io/hdf5/columns.h"
 #include "io/setup/static_columns.h"
 #include "model/names.h"
 
@@ -112,6 +115,24 @@ void write_joints(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
     }
     columns.numbers(column.name, values, column.unit, column.item);
   }
+}
+
+void write_connectivity(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+  const auto holds_two = [](const model::Joint& joint) { return joint.body_b != model::no_body; };
+  std::vector<std::int64_t> pairs;
+  for (const LocalWorld& local : setup.worlds) {
+    for (const model::Joint& joint : local.model->joints) {
+      if (!holds_two(joint)) continue;
+      const std::int64_t first = setup.table.body_offset[local.id];
+      pairs.insert(pairs.end(), {first + joint.body_a, first + joint.body_b});
+    }
+  }
+  const OwnRows own = rows_in_world_order(ranks, setup, [&](const model::Model& m) {
+    return static_cast<std::size_t>(std::count_if(m.joints.begin(), m.joints.end(), holds_two));
+  });
+  ColumnWriter(ranks, file, "/connectivity", own).numbers("joints", pairs, {2});
+  const auto dataset = owned<Dataset>(H5Dopen2(file, "/connectivity/joints", H5P_DEFAULT), "H5Dopen");
+  write_reference(dataset.id(), "particles_group", file, "/particles/bodies");
 }
 
 void write_worlds(const FileRanks& ranks, hid_t file, const RunSetup& setup) {

@@ -38,7 +38,7 @@ OwnRows rows_in_world_order(const FileRanks& ranks, const RunSetup& setup,
 }
 
 std::int64_t estimate_static_bytes(const RunShape& shape) {
-  constexpr std::int64_t body_bytes = 160 + 120, geom_bytes = 150, joint_bytes = 420, world_bytes = 100;
+  constexpr std::int64_t body_bytes = 160 + 120, geom_bytes = 150, joint_bytes = 440, world_bytes = 100;
   return shape.num_bodies * body_bytes + shape.num_geoms * geom_bytes + shape.num_joints * joint_bytes +
          shape.num_worlds * world_bytes;
 }
@@ -48,6 +48,7 @@ void write_static_columns(const FileRanks& ranks, hid_t file, const RunSetup& se
   write_geoms(ranks, file, setup);
   write_pair_materials(ranks, file, setup);
   write_joints(ranks, file, setup);
+  write_connectivity(ranks, file, setup);
   write_worlds(ranks, file, setup);
   write_ranks(ranks, file, setup);
 }

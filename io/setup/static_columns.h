@@ -11,8 +11,8 @@
 
 namespace pbmpi::io {
 
-/// Makes and writes /particles/bodies (without the moving part), /geoms, /pair_materials, /joints, /worlds
-/// and /ranks. Collective.
+/// Makes and writes /particles/bodies (without the moving part), /geoms, /pair_materials, /joints,
+/// /connectivity, /worlds and /ranks. Collective.
 void write_static_columns(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 
 /// Their bytes, with names of usual length.
@@ -23,6 +23,8 @@ void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 void write_geoms(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 void write_pair_materials(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 void write_joints(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+/// /connectivity/joints, as H5MD has it: the joints between two bodies.
+void write_connectivity(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 void write_worlds(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 
 /// [num_worlds + 1] where the things of each world begin, of which it has `count` of its model. Collective.

@@ -11,6 +11,8 @@ import numpy as np
 
 import sample_check
 
+NUM_NECKS = 20  # one joint between two bodies in each of run_writer's worlds
+
 
 def datasets(path):
     """Path -> values, hard links included (h5py's own visitor names an object once)."""
@@ -60,8 +62,61 @@ def schema_names_all(schema, path):
     with open(schema) as text:
         of_runs = text.read().split("\n# ")[0]
     listed = set(re.findall(r"^\| `(/[^`]*)`", of_runs, re.M))
-    present = {p for p in datasets(path) if not p.startswith("/parameters/")}
+    present = {p for p in datasets(path) if not p.startswith("/parameters/") and not re.fullmatch("/observables/.*/(value|step|time)", p)}
     assert present == listed, (sorted(present - listed), sorted(listed - present))
+
+
+def is_ascii(attributes, name):
+    kind = h5py.h5a.open(attributes._id, name.encode()).get_type()
+    return isinstance(kind, h5py.h5t.TypeStringID) and kind.get_cset() == h5py.h5t.CSET_ASCII
+
+
+def follows_h5md(path):
+    """The rules of H5MD 1.1 (nongnu.org/h5md/h5md.html) and of its module units 1.0, as far as they say "must"."""
+    def is_element(group):
+        """Time-dependent data: value, with step and time of its first extent; the units of value and time."""
+        if not isinstance(group, h5py.Group) or "value" not in group:
+            return False
+        value, step, time = group["value"], group["step"], group["time"]
+        assert step.dtype.kind in "iu" and step.shape == value.shape[:1] and np.all(np.diff(step[:].astype(int)) > 0), group.name
+        assert time.dtype.kind == "f" and time.shape == value.shape[:1] and np.all(np.diff(time[:]) > 0), group.name
+        assert time.attrs["unit"] == b"s", group.name
+        return True
+
+    with h5py.File(path, "r") as f:
+        h5md = f["h5md"]
+        assert h5md.attrs["version"].dtype.kind == "i" and list(h5md.attrs["version"]) == [1, 1]
+        assert h5md["author"].attrs["name"] and h5md["creator"].attrs["name"] and h5md["creator"].attrs["version"]
+        units = h5md["modules/units"]
+        assert list(units.attrs["version"]) == [1, 0] and units.attrs["system"] == b"SI"
+        for group in f["particles"].values():
+            box = group["box"]
+            assert box.attrs["dimension"] == 3 and list(box.attrs["boundary"]) == [b"none"] * 3
+            assert "edges" not in box.attrs and "edges" not in box, "only a periodic box has edges"
+            assert is_element(group["position"]) and group["position/value"].shape[1:] == (len(group["id"]), 3)
+            for name in ("velocity", "orientation", "angular_velocity"):
+                assert is_element(group[name]) and group[name]["value"].shape[1] == len(group["id"])
+            assert group["mass"].shape == group["id"].shape and len(set(group["id"][:])) == len(group["id"])
+        elements = {name for name, group in f["observables"].items() if is_element(group)}
+        tables = {name: set(group) for name, group in f["observables"].items() if name not in elements}
+        expected = {("joint_" if table == "joint" else "") + column: f"{table}/{column}" for table in tables for column in tables[table]}
+        assert elements == set(expected) and {"energy", "joint_force", "bodies_inside"} <= elements
+        for name, column in expected.items():
+            assert f["observables"][name]["value"] == f["observables"][column], "one dataset under two names"
+        ids = set(f["particles/bodies/id"][:])
+        for bonds in f["connectivity"].values():
+            assert bonds.dtype.kind == "i" and bonds.ndim == 2 and set(bonds[:].ravel()) <= ids
+            assert f[bonds.attrs["particles_group"]] == f["particles/bodies"]
+        between_two = f["joints/body_b"][:] >= 0
+        joined = np.stack([f["joints/body_a"][:], f["joints/body_b"][:]], axis=1)[between_two]
+        assert np.array_equal(f["connectivity/joints"][:], joined) and len(joined) == NUM_NECKS
+        with_unit = []
+        f.visititems(lambda name, thing: with_unit.append(thing) if "unit" in thing.attrs else None)
+        assert len(with_unit) > 30
+        for thing in with_unit:
+            assert is_ascii(thing.attrs, "unit"), thing.name
+            for factor in thing.attrs["unit"].decode().split(" "):
+                assert re.fullmatch("(kg|m|s|rad|N|J|B)-?[1-9]?", factor), (thing.name, factor)
 
 
 def attributes_are_there(path):
@@ -116,6 +171,7 @@ def main():
         result = sample_check.run_writer(mpiexec, 2, writer, path, 12, 12)
         assert result.returncode == 0, result.stderr
         attributes_are_there(path)
+        follows_h5md(path)
         xdmf_points_into(path)
         schema_names_all(schema, path)
         variables = schema_examples(schema, path)
