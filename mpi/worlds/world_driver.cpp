@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/marks.h"
+
 namespace pbmpi::mpi {
 namespace {
 
@@ -50,6 +52,7 @@ double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core
   estimated_worlds_ = worlds_.views();
   errors().guard([&] {
     const int steps = settings().steps_per_frame;
+    const core::SectionMark mark(core::SectionMark::Section::estimate);
     estimator_->estimate(estimated_worlds_, frame * steps, steps, times);
     for (stepping::LocalWorld& world : estimated_worlds_) {
       world.state = &estimator_->state(world.id);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/marks.h"
 #include "core/random.h"
 #include "ode/objects/bodies.h"
 #include "ode/objects/joints.h"
@@ -178,6 +179,7 @@ void World::sleep_on(bool is_last) {
 std::span<const model::Rest> World::rest() const { return state_.rest; }
 
 void World::collide() {
+  const core::PhaseMark mark(core::PhaseMark::MarkedPhase::collision);
   const std::vector<GeomPair>& pairs = broad_phase_->find_pairs();
   do {
     contacts_.clear();
@@ -216,6 +218,7 @@ void World::add_contacts_ahead(effects::FastBodies& fast, const model::State& be
 
 /// Islands outside of a field of interest by themselves: ODE takes what is enabled.
 void World::solve() {
+  const core::PhaseMark mark(core::PhaseMark::MarkedPhase::forward_step);
   if (!focus_ || !focus_->is_cut())
     return solve_enabled(focus_ ? focus_->iterations() : settings_.iterations);
   focus_->enable_outside();

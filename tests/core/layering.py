@@ -20,6 +20,9 @@ STANDS_ON = {
     "src/stability/cases": ["src/stability", "src/analysis"],
     "src/analysis": ["src/model"],
     "src/estimate": ["src/stepping"],
+    "src/prediction/code": [],
+    "src/prediction/timing": ["src/prediction/code"],
+    "src/prediction/tool": ["src/prediction/timing", "src/core"],
     "src/ode/objects": ["src/effects"],
     "src/ode/collide": ["src/ode/objects"],
     "src/ode/effects": ["src/ode/collide"],
@@ -84,7 +87,7 @@ OUTSIDE = [
     (r"boost/.*", {folder: None for folder in STANDS_ON if folder.startswith("src/app/")}),
 ]
 
-SUFFIXES = {".h", ".hpp", ".cpp", ".cc", ".inc"}
+SUFFIXES = {".c", ".h", ".hpp", ".cpp", ".cc", ".inc"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 

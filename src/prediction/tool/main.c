@@ -1,0 +1,63 @@
+// A Valgrind tool: what last-value prediction would do for a program, exact and fuzzy, and how many cycles
+// the processor of the paper's Table 3 would take with it and without it.
+#include <pub_tool_basics.h>
+#include <pub_tool_libcassert.h>
+#include <pub_tool_options.h>
+#include <pub_tool_tooliface.h>
+#include "core/mark_codes.h"
+#include "prediction/tool/instrument.h"
+#include "prediction/tool/options.h"
+#include "prediction/tool/predictor.h"
+#include "prediction/tool/run_time.h"
+
+static Bool take_request(ThreadId tid, UWord* request, UWord* answer) {
+  (void)tid;
+  *answer = 0;
+  switch (request[0]) {
+    case pbvalue_request_section:
+      enter_section(request[1]);
+      return True;
+    case pbvalue_request_phase:
+      enter_phase(request[1]);
+      return True;
+    default:
+      return False;
+  }
+}
+
+static void begin(void) {
+  check_options();
+  make_table();
+  begin_program();
+}
+
+static void finish(Int exit_code) {
+  (void)exit_code;
+  write_report();
+}
+
+static void print_debug_usage(void) {}
+
+/// Micro-operations are to be those of the machine code: no loop is unrolled, no jump followed, and no
+/// expression of one instruction taken from another.
+static void keep_close_to_machine_code(void) {
+  VG_(clo_vex_control).iropt_level = 1;
+  VG_(clo_vex_control).iropt_unroll_thresh = 0;
+  VG_(clo_vex_control).guest_chase = False;
+}
+
+static void register_tool(void) {
+  VG_(details_name)("pbvalue");
+  VG_(details_version)("1");
+  VG_(details_description)("last-value prediction, exact and fuzzy");
+  VG_(details_copyright_author)
+  ("Part of pbmpi; with Valgrind's core, under the GNU GPL, version 2 or later.");
+  VG_(details_bug_reports_to)("pbmpi's maintainers");
+  VG_(details_avg_translation_sizeB)(600);
+  VG_(basic_tool_funcs)(begin, instrument, finish);
+  VG_(needs_command_line_options)(process_option, print_usage, print_debug_usage);
+  VG_(needs_client_requests)(take_request);
+  keep_close_to_machine_code();
+}
+
+VG_DETERMINE_INTERFACE_VERSION(register_tool)

@@ -1,0 +1,31 @@
+/// The command line of pbvalue.
+#pragma once
+
+#include <pub_tool_basics.h>
+
+#include "prediction/code/values.h"
+
+typedef enum { scope_collision, scope_step, scope_all, scope_frame, scope_program } Scope;
+typedef enum { replace_lru, replace_fifo, replace_random } Replacement;
+enum { predict_fp = 1, predict_int = 2 };
+
+typedef struct {
+  const HChar* out_file;      ///< null: nothing is written
+  Verification verification;  ///< of floating-point values; integers are always verified exactly
+  UInt predict;               ///< predict_fp | predict_int
+  Scope scope;
+  Int table_entries;  ///< a power of two; 0: one for each micro-operation of the program
+  Int table_ways;
+  Int tag_bits;  ///< 64: the whole key; 0: none, whoever comes to an entry takes it for its own
+  Replacement replacement;
+  Int confidence_max, confidence_use, confidence_up, confidence_down;
+  Int first_modelled;  ///< sections before this one (per kind, from 0) are not given to the cycle models
+} Options;
+
+extern Options options;
+
+/// True if it was one of ours. Ends the program with a message if its value cannot be.
+Bool process_option(const HChar* argument);
+void print_usage(void);
+/// Ends the program with a message if two options do not go together.
+void check_options(void);

@@ -1,0 +1,84 @@
+"""Runs of the unmodified pbmpi under pbvalue: counts beside callgrind's, and results that exact prediction leaves."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+from pbvalue import BIN, ToolTest, total
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(SOURCE, "jobs"))
+
+import figure3
+
+PBMPI = os.path.join(BIN, "pbmpi")
+MIX = {"floating point": "floating_point", "integer": "integer", "branch": "branch", "store": "store", "load": "load"}
+
+
+class Runs(ToolTest):
+    def run_scene(self, *options, scene=("2-Cars", "--stepper", "quick")):
+        """(report, summary) of a run under the tool."""
+        report, out = self.run_tool([PBMPI, "--scene", *scene, "--no-output", "--report", "json"], *options)
+        return report, json.loads(out)
+
+    def native(self, scene=("2-Cars", "--stepper", "quick")):
+        out = subprocess.run([PBMPI, "--scene", *scene, "--no-output", "--report", "json"], capture_output=True, check=True, timeout=60)
+        return json.loads(out.stdout)
+
+    def test_exact_prediction_leaves_every_bit_of_a_result(self):
+        native = self.native()["state_hash"]
+        for options in (("--predict=none",), ("--predict=all",), ("--scope=frame", "--predict=all", "--table-entries=0"),
+                        ("--threshold=0",)):
+            report, summary = self.run_scene(*options)
+            self.assertEqual(summary["state_hash"], native, options)
+            if options != ("--predict=none",):
+                self.assertGreater(total(report, "fp_load", "exact"), 1000, options)
+
+    def test_exact_prediction_leaves_the_vectors_of_sor(self):
+        scene = ("2-Cars", "--stepper", "sor")
+        report, summary = self.run_scene("--scope=frame", "--predict=all", scene=scene)
+        self.assertEqual(summary["state_hash"], self.native(scene)["state_hash"])
+        self.assertGreater(total(report, "fp_operation", "exact"), 1000)
+
+    def test_a_threshold_changes_the_result(self):
+        report, summary = self.run_scene("--threshold=1e-6")
+        self.assertNotEqual(summary["state_hash"], self.native()["state_hash"])
+        self.assertGreater(total(report, "fp_operation", "fuzzy"), 0)
+        for section in report["sections"]:
+            for numbers in section["classes"].values():
+                self.assertLessEqual(numbers["error_max"], 1e-6)
+
+    def test_each_frame_is_a_section_and_each_estimate_one(self):
+        report, _ = self.run_scene(scene=("2-Cars", "--stepper", "quick", "--feec"))
+        self.assertEqual([s["section"] for s in report["sections"]], ["estimate", "precise"] * 8)
+        for section in report["sections"]:
+            self.assertTrue(section["complete"])
+            inside = section["collision_instructions"] + section["forward_instructions"]
+            self.assertTrue(0.5 * section["instructions"] < inside < section["instructions"])
+
+    @unittest.skipUnless(shutil.which("objdump"), "no objdump")
+    def test_instructions_and_their_mix_are_those_of_callgrind(self):
+        frame = "pbmpi::ode::OdeStepper::advance(int, pbmpi::core::PhaseTimes&)"
+        for scene in ("2-Cars", "CrashSk"):
+            prefix = self.path(scene + ".callgrind")
+            subprocess.run(["valgrind", "--quiet", "--tool=callgrind", f"--callgrind-out-file={prefix}", f"--toggle-collect={frame}",
+                            f"--dump-after={frame}", "--dump-instr=yes", "--dump-line=no", "--compress-pos=no", "--compress-strings=no",
+                            PBMPI, "--scene", scene, "--stepper", "quick", "--no-output", "--quiet"],
+                           capture_output=True, check=True, timeout=250)
+            dumps = sorted((p for p in figure3.pathlib.Path(self.folder).glob(scene + ".callgrind.*")), key=lambda p: int(p.suffix[1:]))
+            expected = figure3.summarize(dumps[figure3.WARMUP:], {})
+            report, _ = self.run_scene("--predict=none", scene=(scene, "--stepper", "quick"))
+            sections = report["sections"][figure3.WARMUP:]
+            self.assertEqual(len(sections), expected["frames"])
+            counted = sum(s["instructions"] for s in sections) / len(sections)
+            self.assertAlmostEqual(counted / expected["instructions_per_frame"], 1, delta=0.01)
+            operations = sum(sum(s["mix"].values()) for s in sections)
+            for name, key in MIX.items():
+                share = sum(s["mix"][key] for s in sections) / operations
+                self.assertAlmostEqual(share, expected["mix"][name], delta=0.01 * expected["mix"][name] + 1e-4, msg=(scene, name))
+
+
+if __name__ == "__main__":
+    unittest.main()
