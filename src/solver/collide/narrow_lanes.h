@@ -1,9 +1,11 @@
 /// Collides pairs of geoms in lanes: one kernel for each kind of pair. What counts as touching, and which
 /// points a pair gets, is as in ODE 0.16 (ode/src/{sphere,capsule,box,plane}.cpp), but for capsules deep in a
-/// box (segment_box_lanes.h); the normal points into a.
+/// box (segment_box_lanes.h) and for cylinders (cylinder_axes.h); the normal points into a.
 #pragma once
 
 #include "solver/collide/box_lanes.h"
+#include "solver/collide/cylinder_axes.h"
+#include "solver/collide/cylinder_manifold.h"
 #include "solver/collide/plane_kernels.h"
 #include "solver/collide/round_kernels.h"
 
@@ -32,6 +34,13 @@ class NarrowLanes {
     run(geoms, table.column(PairKind::capsule_capsule), writer, Rounds::capsule_capsule);
     run(geoms, table.column(PairKind::capsule_box), writer, Rounds::capsule_box);
     collide_boxes(geoms, table.column(PairKind::box_box), writer);
+    using Axes = CylinderAxes<T>;
+    run(geoms, table.column(PairKind::cylinder_sphere), writer, Rounds::cylinder_sphere);
+    run_cylinders(geoms, table.column(PairKind::cylinder_capsule), writer, Axes::with_capsule,
+                  Shape::capsule);
+    run_cylinders(geoms, table.column(PairKind::cylinder_box), writer, Axes::with_box, Shape::box);
+    run_cylinders(geoms, table.column(PairKind::cylinder_cylinder), writer, Axes::with_cylinder,
+                  Shape::cylinder);
   }
 
  private:
@@ -59,6 +68,13 @@ class NarrowLanes {
 
   static void collide_boxes(const GeomLanes<T>& geoms, const PairColumn& column, Writer& writer);
   static BoxPose<Scalar> box_at(const GeomLanes<T>& geoms, int index);
+
+  using Shape = model::Shape;
+  using Axis = void(const Side& a, const Side& b, LeastAxis<T>& least);
+  /// a is a cylinder, b of the given shape.
+  static void run_cylinders(const GeomLanes<T>& geoms, const PairColumn& column, Writer& writer, Axis* axis,
+                            Shape shape);
+  static SolidPose<Scalar> solid_at(const GeomLanes<T>& geoms, int index, Shape shape);
 };
 
 template <class T>
@@ -109,6 +125,37 @@ BoxPose<typename T::Scalar> NarrowLanes<T>::box_at(const GeomLanes<T>& geoms, in
     for (int axis = 0; axis < 3; ++axis) box.axis[axis][k] = geoms.rotation[3 * k + axis].data()[index];
   }
   return box;
+}
+
+template <class T>
+void NarrowLanes<T>::run_cylinders(const GeomLanes<T>& geoms, const PairColumn& column, Writer& writer,
+                                   Axis* axis, Shape shape) {
+  const V zero = T::broadcast(0), one = T::broadcast(1);
+  for (int i = 0; i < column.count; i += T::num_lanes) {
+    LeastAxis<T> least = LeastAxis<T>::none();
+    axis({&geoms, column.a.data() + i}, {&geoms, column.b.data() + i}, least);
+    // What is not finite has found no axis.
+    const V found = least.overlap < T::broadcast(static_cast<Scalar>(huge_bound)) ? one : zero;
+    const V least_depth = GeomSide<T>{&geoms, column.a.data() + i}.least_depth();
+    unsigned touching = T::bits(least.overlap >= least_depth ? found : zero) & lanes_used(column, i);
+    for (; touching != 0; touching &= touching - 1) {
+      const int lane = __builtin_ctz(touching);
+      const L3& n = least.normal;
+      const Scalar normal[3] = {T::get(n.x, lane), T::get(n.y, lane), T::get(n.z, lane)};
+      Touch& touch = writer.touches[column.touch.data()[i + lane]];
+      touch.first_point = writer.next_point;
+      touch.num_points = static_cast<short>(CylinderManifold<T>::find(
+          solid_at(geoms, column.a.data()[i + lane], Shape::cylinder),
+          solid_at(geoms, column.b.data()[i + lane], shape), normal, T::get(least.overlap, lane),
+          geoms.margin.data()[column.a.data()[i + lane]], writer.points + writer.next_point));
+      writer.next_point += touch.num_points;
+    }
+  }
+}
+
+template <class T>
+SolidPose<typename T::Scalar> NarrowLanes<T>::solid_at(const GeomLanes<T>& geoms, int index, Shape shape) {
+  return {box_at(geoms, index), geoms.radius.data()[index], shape};
 }
 
 }  // namespace pbmpi::solver

@@ -32,7 +32,11 @@ constexpr std::array<std::array<Pairing, model::num_shapes>, model::num_shapes> 
                                 {Shape::sphere, Shape::box, PairKind::sphere_box},
                                 {Shape::capsule, Shape::capsule, PairKind::capsule_capsule},
                                 {Shape::capsule, Shape::box, PairKind::capsule_box},
-                                {Shape::box, Shape::box, PairKind::box_box}};
+                                {Shape::box, Shape::box, PairKind::box_box},
+                                {Shape::cylinder, Shape::sphere, PairKind::cylinder_sphere},
+                                {Shape::cylinder, Shape::capsule, PairKind::cylinder_capsule},
+                                {Shape::cylinder, Shape::box, PairKind::cylinder_box},
+                                {Shape::cylinder, Shape::cylinder, PairKind::cylinder_cylinder}};
   std::array<std::array<Pairing, model::num_shapes>, model::num_shapes> all{};
   for (const Kernel& kernel : kernels) {
     const auto a = static_cast<std::size_t>(kernel.a), b = static_cast<std::size_t>(kernel.b);

@@ -27,9 +27,13 @@ enum class PairKind {
   capsule_capsule,
   capsule_box,
   box_box,
+  cylinder_sphere,
+  cylinder_capsule,
+  cylinder_box,
+  cylinder_cylinder,
   other
 };
-inline constexpr int num_pair_kinds = 11;
+inline constexpr int num_pair_kinds = 15;
 
 /// A point that a kernel found.
 struct TouchPoint {

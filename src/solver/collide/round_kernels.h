@@ -1,4 +1,4 @@
-/// Spheres and capsules against each other and against boxes, in lanes.
+/// Spheres and capsules against each other and against boxes, and spheres against cylinders, in lanes.
 #pragma once
 
 #include "solver/collide/found_points.h"
@@ -20,6 +20,7 @@ class RoundKernels {
   static void sphere_box(const Side& a, const Side& b, Found<V>& found);
   static void capsule_capsule(const Side& a, const Side& b, Found<V>& found);
   static void capsule_box(const Side& a, const Side& b, Found<V>& found);
+  static void cylinder_sphere(const Side& a, const Side& b, Found<V>& found);
 
  private:
   PBMPI_LANES static V clamp(const V& x, const V& bound) { return T::min(T::max(x, -bound), bound); }
@@ -134,6 +135,35 @@ void RoundKernels<T>::capsule_box(const Side& a, const Side& b, Found<V>& found)
   const V inwards = T::broadcast(Scalar(0.5)) * (radius + place.distance);
   found.points[0] = {flag<T>(depth >= a.least_depth()), place.point - place.normal * inwards, place.normal,
                      depth};
+  found.num_points = 1;
+}
+
+/// From the cylinder's nearest point to a centre outside of it; a centre inside leaves through the end or the
+/// side, whichever is nearer.
+template <class T>
+void RoundKernels<T>::cylinder_sphere(const Side& a, const Side& b, Found<V>& found) {
+  const V zero = T::broadcast(0), one = T::broadcast(1), half = T::broadcast(Scalar(0.5));
+  const L3 axis = a.axis(2), own = a.axis(0), centre = b.centre(), apart = centre - a.centre();
+  const V length = a.half(2), radius = a.radius(), ball = b.radius();
+  const V height = dot(axis, apart);
+  const L3 across = apart - axis * height;
+  const V distance = T::sqrt(dot(across, across));
+  const auto central = distance <= zero;
+  const V inverse = one / (central ? one : distance);
+  const L3 aside{central ? own.x : across.x * inverse, central ? own.y : across.y * inverse,
+                 central ? own.z : across.z * inverse};
+  const V beyond_end = height - clamp(height, length), beyond_side = T::max(distance - radius, zero);
+  const V gap = T::sqrt(beyond_end * beyond_end + beyond_side * beyond_side);
+  const auto inside = gap <= zero;
+  const V to_end = length - T::abs(height), to_side = radius - distance;
+  const V through_end = to_end < to_side ? (height < zero ? -one : one) : zero;
+  const V through_side = to_end < to_side ? zero : one;
+  const V unit = one / (inside ? one : gap);
+  const L3 out = axis * (inside ? through_end : beyond_end * unit) +
+                 aside * (inside ? through_side : beyond_side * unit);
+  const V apart_by = inside ? -T::min(to_end, to_side) : gap;
+  found.points[0] = {flag<T>(apart_by <= ball - a.least_depth()), centre - out * (half * (ball + apart_by)),
+                     -out, ball - apart_by};
   found.num_points = 1;
 }
 

@@ -125,9 +125,11 @@ TEST_P(ContactMargin, finds_a_gap_of_which_less_can_be_closed_without_touching) 
   EXPECT_GT(gaps, 20);
 }
 
-/// What touches, drawn apart along its normal, has a gap. Boxes may then be farther apart along another axis.
+/// What touches, drawn apart along its normal, has a gap. Boxes and cylinders may then be farther apart along
+/// another axis.
 TEST_P(ContactMargin, finds_what_was_drawn_apart_by_half_of_it_and_not_by_twice) {
-  if (GetParam().a == Shape::box && GetParam().b == Shape::box) GTEST_SKIP() << "boxes have many axes";
+  const auto has_edges = [](Shape shape) { return shape == Shape::box || shape == Shape::cylinder; };
+  if (has_edges(GetParam().a) && has_edges(GetParam().b)) GTEST_SKIP() << "they have many axes";
   TwoGeoms geoms(GetParam());
   int drawn = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -151,15 +153,16 @@ std::string pair_name(const testing::TestParamInfo<Pair>& info) {
   return std::string(name_of(info.param.a)) + "_" + std::string(name_of(info.param.b));
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKind, ContactMargin,
-                         testing::Values(Pair{Shape::sphere, Shape::plane},
-                                         Pair{Shape::capsule, Shape::plane}, Pair{Shape::box, Shape::plane},
-                                         Pair{Shape::cylinder, Shape::plane},
-                                         Pair{Shape::sphere, Shape::sphere},
-                                         Pair{Shape::capsule, Shape::sphere}, Pair{Shape::sphere, Shape::box},
-                                         Pair{Shape::capsule, Shape::capsule},
-                                         Pair{Shape::capsule, Shape::box}, Pair{Shape::box, Shape::box}),
-                         pair_name);
+INSTANTIATE_TEST_SUITE_P(
+    EveryKind, ContactMargin,
+    testing::Values(Pair{Shape::sphere, Shape::plane}, Pair{Shape::capsule, Shape::plane},
+                    Pair{Shape::box, Shape::plane}, Pair{Shape::cylinder, Shape::plane},
+                    Pair{Shape::sphere, Shape::sphere}, Pair{Shape::capsule, Shape::sphere},
+                    Pair{Shape::sphere, Shape::box}, Pair{Shape::capsule, Shape::capsule},
+                    Pair{Shape::capsule, Shape::box}, Pair{Shape::box, Shape::box},
+                    Pair{Shape::cylinder, Shape::sphere}, Pair{Shape::cylinder, Shape::capsule},
+                    Pair{Shape::cylinder, Shape::box}, Pair{Shape::cylinder, Shape::cylinder}),
+    pair_name);
 
 TEST(ContactMarginOfATiltedBox, has_all_four_corners_where_without_it_two_are_lost) {
   TwoGeoms geoms({Shape::box, Shape::plane});
@@ -168,6 +171,21 @@ TEST(ContactMarginOfATiltedBox, has_all_four_corners_where_without_it_two_are_lo
   geoms.state().orientation[0] = {std::cos(angle / 2), 0, std::sin(angle / 2), 0};
   EXPECT_EQ(geoms.touching().size(), 2u);
   EXPECT_EQ(geoms.contacts_ahead().size(), 4u);
+}
+
+TEST(ContactMarginOfCylinders, has_the_four_places_of_one_that_stands_just_over_another_or_a_box) {
+  for (const Shape below : {Shape::cylinder, Shape::box}) {
+    TwoGeoms geoms({Shape::cylinder, below});
+    const double top = below == Shape::box ? 0.2 : 0.25;  // half its height
+    geoms.state().position[0] = {0.01, 0.02, top + 0.25 + 0.002};
+    geoms.state().position[1] = {0, 0, 0};
+    EXPECT_TRUE(geoms.touching().empty());
+    ASSERT_EQ(geoms.contacts_ahead().size(), 4u);
+    for (const Contact& contact : geoms.contacts_ahead()) {
+      EXPECT_NEAR(contact.depth, -0.002, 1e-9);
+      EXPECT_NEAR(contact.position.z(), top + 0.001, 1e-9);
+    }
+  }
 }
 
 TEST(ContactMarginOfBoxes, has_the_four_corners_of_a_box_that_hangs_just_over_another) {

@@ -10,6 +10,7 @@
 #include "model/names.h"
 #include "ode/collide/narrow_phase.h"
 #include "ode/objects/engine.h"
+#include "solver/collide/geom_pairs.h"
 #include "solver/layout/articulation.h"
 #include "solver/pack/pack.h"
 #include "solver/pack/simd.h"
@@ -20,58 +21,10 @@ namespace {
 using model::Contact;
 using model::Shape;
 using model::Vec3;
+using Kind = ShapePair;
 
 constexpr int num_worlds = 500;
 constexpr int rounds = 225;  // x 500 pairs x 9 kinds: just over a million
-
-struct Kind {
-  Shape a, b;
-};
-
-/// Numbers in [0, 1), one after the other.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : seed_(seed) {}
-  double operator()() { return static_cast<double>(core::mix_key(seed_, next_++, 0) >> 11) * 0x1.0p-53; }
-  double between(double low, double high) { return low + (high - low) * (*this)(); }
-  Vec3 in_cube(double half) {
-    const double x = between(-half, half), y = between(-half, half), z = between(-half, half);
-    return {x, y, z};
-  }
-  model::Quat rotation() {
-    for (;;) {
-      const double w = between(-1, 1), x = between(-1, 1), y = between(-1, 1), z = between(-1, 1);
-      const double norm = std::sqrt(w * w + x * x + y * y + z * z);
-      if (norm > 0.1 && norm < 1) return {w / norm, x / norm, y / norm, z / norm};
-    }
-  }
-
- private:
-  std::uint64_t seed_, next_ = 0;
-};
-
-model::Geom make_geom(Shape shape, int body, Dice& dice) {
-  model::Geom geom;
-  geom.shape = shape;
-  geom.body = shape == Shape::plane ? model::no_body : body;
-  geom.actor = body;
-  geom.size = {dice.between(0.1, 0.6), dice.between(0.1, 0.9), dice.between(0.1, 0.9)};
-  if (shape == Shape::plane) geom.local = {dice.in_cube(0.3), dice.rotation()};
-  return geom;
-}
-
-/// Two geoms near each other; sizes differ from world to world.
-model::Model make_model(const Kind& kind, Dice& dice) {
-  model::Model model;
-  for (int i = 0; i < 2; ++i) {
-    model.actors.emplace_back().name = std::to_string(i);
-    model::Body& body = model.bodies.emplace_back();
-    body.name = std::to_string(i);
-    body.actor = i;
-    model.geoms.push_back(make_geom(i == 0 ? kind.a : kind.b, i, dice));
-  }
-  return model;
-}
 
 class NarrowOracle : public testing::TestWithParam<Kind> {
  protected:
@@ -176,35 +129,6 @@ TEST_P(NarrowOracle, agrees_with_dcollide) {
   }
   EXPECT_GT(touching, rounds * num_worlds / 20) << "too few pairs touch to say much";
   EXPECT_LE(other_axis, touching / 1000);
-}
-
-/// Contacts of two geoms at rest, the first on a body that lies at `pose`.
-std::vector<Contact> contacts_of(const model::Geom& moving, const model::Pose& pose, const model::Geom& other,
-                                 stepping::Precision precision = stepping::Precision::double_) {
-  model::Model model;
-  for (int i = 0; i < 2; ++i) {
-    model.actors.emplace_back().name = std::to_string(i);
-    model::Body& body = model.bodies.emplace_back();
-    body.name = std::to_string(i);
-    body.actor = i;
-  }
-  model.geoms = {moving, other};
-  model.bodies[0].pose = pose;
-  const auto fallback = ode::make_narrow_phase(model);
-  const PackedWorld world{&model, find_articulations(model), fallback.get()};
-  const auto pack = make_pack({&world, 1}, stepping::Simd::automatic, precision);
-  std::vector<Contact> contacts;
-  pack->collide({&contacts, 1});
-  return contacts;
-}
-
-model::Geom geom_of(Shape shape, int body, const std::array<double, 3>& size) {
-  model::Geom geom;
-  geom.shape = shape;
-  geom.body = body;
-  geom.actor = body == model::no_body ? 1 : body;
-  geom.size = size;
-  return geom;
 }
 
 TEST(NarrowLanes, a_box_that_lies_on_a_larger_one_touches_at_its_four_corners) {
