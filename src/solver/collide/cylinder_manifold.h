@@ -31,9 +31,9 @@ class CylinderManifold {
     const Frame frame = frame_along(normal, b.frame.centre);
     const Feature low(a, frame, Scalar(-1)), high(b, frame, Scalar(1));
     const Scalar size = a.radius + b.radius + a.frame.half[2] + b.frame.half[2];
-    CylinderManifold manifold(low, high, overlap + margin, size);
+    CylinderManifold manifold(low, high, overlap + margin, margin, size);
     manifold.look();
-    return manifold.write(frame, margin, points);
+    return manifold.write(frame, points);
   }
 
  private:
@@ -44,10 +44,11 @@ class CylinderManifold {
   static constexpr int most_spots = 24;
   static constexpr int num_rim_spots = 8;
 
-  CylinderManifold(const Feature& low, const Feature& high, Scalar overlap, Scalar size)
+  CylinderManifold(const Feature& low, const Feature& high, Scalar overlap, Scalar margin, Scalar size)
       : low_(low),
         high_(high),
         overlap_(overlap),
+        margin_(margin),
         slack_(size * static_cast<Scalar>(sizeof(Scalar) == 4 ? 1e-5 : 1e-9)),
         least_way_(size * Scalar(1e-3)) {}
 
@@ -68,12 +69,13 @@ class CylinderManifold {
   void rim_in(const Feature& disc, const Feature& face);
   void rim_on_rim();
   void single();
-  int write(const Frame& frame, Scalar margin, TouchPoint* points);
+  int write(const Frame& frame, TouchPoint* points);
   int choose(int* chosen) const;
   int beyond_triangle(const int* corners, Scalar turn, Scalar least) const;
 
   const Feature &low_, &high_;
-  Scalar overlap_;
+  Scalar overlap_;    ///< [m] of the solids brought together
+  Scalar margin_;     ///< [m] by this
   Scalar slack_;      ///< [m] rounding must not part what touches
   Scalar least_way_;  ///< [m] between two points
   Spot spots_[most_spots];
@@ -121,7 +123,10 @@ void CylinderManifold<T>::look() {
   } else {
     line_on_line();
   }
-  if (num_spots_ == 0) single();
+  // What touches keeps a spot where it does, however many there are at which a gap is within the margin.
+  const bool all_are_gaps =
+      std::all_of(spots_, spots_ + num_spots_, [&](const Spot& spot) { return spot.depth < margin_; });
+  if (num_spots_ == 0 || (all_are_gaps && overlap_ > margin_ && num_spots_ < most_spots)) single();
 }
 
 /// Where a corner or a rim is, or else (rounding has left nothing of two faces) half way between both.
@@ -157,17 +162,19 @@ void CylinderManifold<T>::line_on_line() {
     return Spot{Scalar(0.5) * (p.x + u.x * s + q.x + v.x * t), Scalar(0.5) * (p.y + u.y * s + q.y + v.y * t),
                 Scalar(0.5) * (low_z + high_z), high_z - low_z};
   };
+  // Of what touches, the ends are where it touches: a gap within the margin must not draw them apart.
+  const Scalar reach = overlap_ > margin_ ? overlap_ - margin_ : overlap_;
   const Scalar crossed = u.x * v.y - u.y * v.x, length = std::sqrt(uu);
   const Scalar offset = std::abs(crossed) / std::sqrt(vv);  // from one end of low to the other
   Scalar crossing = Scalar(0.5) * (first + last), least_way = least_way_;
-  if (offset > overlap_) {
+  if (offset > reach) {
     crossing = (apart_x * v.y - apart_y * v.x) / crossed;
-    least_way = 4 * overlap_;
+    least_way = 4 * reach;
   }
   const Scalar touching = std::min(std::max(crossing, first), std::max(first, last));
-  if (offset > overlap_) {
-    first = std::max(first, crossing - overlap_ / offset);
-    last = std::min(last, crossing + overlap_ / offset);
+  if (offset > reach) {
+    first = std::max(first, crossing - reach / offset);
+    last = std::min(last, crossing + reach / offset);
   }
   if ((last - first) * length > least_way) {
     for (const Scalar s : {first, last}) {
@@ -317,18 +324,18 @@ int CylinderManifold<T>::beyond_triangle(const int* corners, Scalar turn, Scalar
 }
 
 template <class T>
-int CylinderManifold<T>::write(const Frame& frame, Scalar margin, TouchPoint* points) {
+int CylinderManifold<T>::write(const Frame& frame, TouchPoint* points) {
   int chosen[Touch::most_points];
   const int kept = choose(chosen);
   for (int i = 0; i < kept; ++i) {
     const Spot& spot = spots_[chosen[i]];
     for (int k = 0; k < 3; ++k) {
-      const Scalar z = spot.z + Scalar(0.5) * margin;
+      const Scalar z = spot.z + Scalar(0.5) * margin_;
       points[i].position[k] =
           frame.origin[k] + spot.x * frame.axis[0][k] + spot.y * frame.axis[1][k] + z * frame.axis[2][k];
       points[i].normal[k] = frame.axis[2][k];
     }
-    points[i].depth = std::min(std::max(spot.depth, Scalar(0)), overlap_) - margin;
+    points[i].depth = std::min(std::max(spot.depth, Scalar(0)), overlap_) - margin_;
   }
   return kept;
 }
