@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -77,7 +78,8 @@ struct RunData {
   std::vector<std::vector<IslandRow>> islands;  ///< [T] of all worlds; empty unless the run recorded them
   std::map<std::string, Table> space_times;     ///< cross_contacts, collide, collide_spaces; as islands
   EstimateData estimate;
-  std::vector<std::string> hosts;                  ///< [R]
+  std::vector<std::int32_t> broken_in;  ///< [J] as after the last frame; empty: none can break, or not known
+  std::vector<std::string> hosts;       ///< [R]
   std::vector<stepping::RunEvent> events;          ///< that have a row in the file, as they came
   std::map<std::string, std::int64_t> num_events;  ///< kind -> number, those without a row included
   std::int64_t worlds_moved = 0;                   ///< in all rebalances: worlds, or spaces
@@ -86,5 +88,38 @@ struct RunData {
 /// Reads the committed frames of a pbmpi-run file (also one that was cut off by a kill). Throws
 /// core::InputError: missing, not HDF5, of another file type, of a newer major version.
 RunData read_run(const std::string& path);
+
+/// A contact of the last step of a frame, world frame.
+struct ContactRow {
+  std::int64_t body_a = 0, body_b = -1;  ///< global ids; -1 = static
+  core::Vec3 position, normal;           ///< [m]; unit, into body a
+  double depth_m = 0, mu = 0;
+  double normal_force = 0;  ///< [N] on body a
+  core::Vec3 friction;      ///< [N] on body a
+};
+
+/// What was recorded of a frame beside poses; of contacts those that acted.
+struct RecordedContacts {
+  std::vector<ContactRow> contacts;
+  std::vector<core::Vec3> velocity, angular_velocity;  ///< [N] m/s, rad/s
+};
+
+/// Reads contacts frame by frame: of a long run they are too many to hold.
+class ContactReader {
+ public:
+  /// Throws core::InputError as read_run() does.
+  explicit ContactReader(const std::string& path);
+  ~ContactReader();
+  ContactReader(const ContactReader&) = delete;
+  ContactReader& operator=(const ContactReader&) = delete;
+
+  bool has_any() const;  ///< the run recorded contacts, and has a frame
+  RecordedContacts read(std::size_t recorded_row) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  std::string path_;
+};
 
 }  // namespace pbmpi::io

@@ -29,11 +29,13 @@ int position_band(double error_m);
 int orientation_band(double angle_rad);
 
 /// A set of errors, every one of which is in one category. rms, p99 and max are over the finite ones, 0 if
-/// there is none.
+/// there is none. What is broken has no error, and is a class of its own, so that every method has as many
+/// entries.
 struct ErrorSummary {
-  std::int64_t count = 0;
+  std::int64_t count = 0;            ///< of all categories, and what is broken
   double rms = 0, p99 = 0, max = 0;  ///< [m] or [rad]
   BandCounts bands{};
+  std::int64_t broken = 0;
 };
 
 ErrorSummary summarize_positions(std::span<const double> errors_m);

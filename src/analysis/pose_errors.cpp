@@ -96,6 +96,8 @@ void PoseErrors::append(const PoseErrors& more) {
   add(body_orientation_rad, more.body_orientation_rad);
   add(joint_position_m, more.joint_position_m);
   add(joint_orientation_rad, more.joint_orientation_rad);
+  joints.insert(joints.end(), more.joints.begin(), more.joints.end());
+  broken_joints += more.broken_joints;
 }
 
 PoseErrors compare_bodies(PoseView poses, PoseView reference) {
@@ -110,8 +112,12 @@ PoseErrors compare_bodies(PoseView poses, PoseView reference) {
 PoseErrors compare(const Model& model, PoseView poses, PoseView reference) {
   PoseErrors errors = compare_bodies(poses, reference);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    if (!poses.holds(i) || !reference.holds(i)) continue;
+    if (!poses.holds(i) || !reference.holds(i)) {
+      ++errors.broken_joints;
+      continue;
+    }
     const Joint& joint = model.joints[i];
+    errors.joints.push_back(i);
     errors.joint_position_m.push_back(
         distance(joint_gap(model, joint, poses), joint_gap(model, joint, reference)));
     errors.joint_orientation_rad.push_back(

@@ -28,13 +28,16 @@ double rotation_angle(const model::Quat& a, const model::Quat& b);
 /// fixed: rotation against the start.
 double joint_axis_angle(const model::Model& model, const model::Joint& joint, PoseView poses);
 
-/// Errors of every body and of every joint of a world, whatever the method: always as many entries, but that
-/// a joint which is broken in either result is left out. An entry that cannot be computed is NaN.
+/// Errors of every body and of every joint of a world, whatever the method: always as many entries. A joint
+/// that is broken in either result has no error of its place and turn; it counts as broken. An entry that
+/// cannot be computed is NaN.
 struct PoseErrors {
   std::vector<double> body_position_m;        ///< [num_bodies] distance
   std::vector<double> body_orientation_rad;   ///< [num_bodies] angle
   std::vector<double> joint_position_m;       ///< [joints that hold] distance of the two gap vectors
   std::vector<double> joint_orientation_rad;  ///< [joints that hold] difference of the two axis angles
+  std::vector<std::size_t> joints;            ///< [joints that hold] which they are
+  std::int64_t broken_joints = 0;             ///< all others
 
   void append(const PoseErrors& more);
 };

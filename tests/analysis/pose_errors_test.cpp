@@ -1,3 +1,4 @@
+#include "analysis/error_table.h"
 #include "analysis/pose_errors.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,7 @@ TEST(PoseErrors, a_state_has_no_error_against_itself_and_an_entry_for_every_body
   for (const double angle : errors.body_orientation_rad) EXPECT_NEAR(angle, 0, rounding);
 }
 
-TEST(PoseErrors, a_joint_that_is_broken_in_either_result_is_left_out) {
+TEST(PoseErrors, a_joint_that_is_broken_in_either_result_is_a_class_of_its_own) {
   const model::Model model = support::chain(3);
   const State reference = model::initial_state(model);
   State moved = reference;
@@ -51,6 +52,13 @@ TEST(PoseErrors, a_joint_that_is_broken_in_either_result_is_left_out) {
     EXPECT_EQ(errors.joint_orientation_rad.size(), 2u);
     ASSERT_EQ(errors.joint_position_m.size(), 2u);
     for (const double gap : errors.joint_position_m) EXPECT_NEAR(gap, 0, rounding);
+    EXPECT_EQ(errors.joints, (std::vector<std::size_t>{0, 1}));
+    EXPECT_EQ(errors.broken_joints, 1);
+    const ErrorTable table = summarize(errors);
+    EXPECT_EQ(table.joint_position.count, 3) << "as many entries as without the break";
+    EXPECT_EQ(table.joint_position.broken, 1);
+    EXPECT_EQ(table.joint_position.bands, (BandCounts{2, 0, 0, 0, 0}));
+    EXPECT_EQ(table.body_position.broken, 0);
   }
 }
 

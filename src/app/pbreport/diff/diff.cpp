@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 
 #include "app/common/format.h"
 #include "app/common/json_text.h"
+#include "app/pbreport/diff/diff_file.h"
 #include "app/pbreport/diff/diff_options.h"
 #include "app/pbreport/diff/run_comparison.h"
+#include "io/file/write_file.h"
 
 namespace pbmpi::app {
 namespace {
@@ -36,7 +39,8 @@ Range floor_of(const RunComparison& c, const NamedSummary& column, double analys
 }
 
 Json summary_json(const analysis::ErrorSummary& s) {
-  return {{"count", s.count}, {"rms", s.rms}, {"p99", s.p99}, {"max", s.max}, {"bands", s.bands}};
+  return {{"count", s.count}, {"rms", s.rms},     {"p99", s.p99},
+          {"max", s.max},     {"bands", s.bands}, {"broken", s.broken}};
 }
 
 Json table_json(const ErrorTable& table) {
@@ -53,6 +57,16 @@ Json invariants_json(const RunInvariants& kept) {
           {"energy_first_j", kept.energy_first_j},
           {"energy_last_j", kept.energy_last_j},
           {"stretch", {{"max", kept.max_stretch}, {"bands", kept.stretch}}}};
+}
+
+Json constraints_json(const ConstraintErrors& errors) {
+  Json json;
+  for (const NamedConstraint& column : constraint_columns) {
+    if (const analysis::ErrorSummary* summary = column.summary(errors))
+      json[std::string(column.name) + "_" + column.unit] = summary_json(*summary);
+  }
+  json["passages"] = errors.passages;
+  return json;
 }
 
 Json breaks_json(const std::vector<BrokenJoint>& broken) {
@@ -74,9 +88,17 @@ std::string to_json(const DiffOptions& options, const RunComparison& c, bool sam
   for (const ErrorTable& table : c.drift_by_frame) json["drift_by_frame"].push_back(table_json(table));
   if (c.defect) json["estimate_defect"] = table_json(*c.defect);
   if (c.estimate_drift) json["estimate_drift"] = table_json(*c.estimate_drift);
+  json["drift_by_actor"] = Json::array();
+  for (const ActorErrors& actor : c.drift_by_actor) {
+    Json one = {{"world", actor.world}, {"actor", actor.name}, {"kind", actor.kind}};
+    one.update(table_json(actor.drift));
+    json["drift_by_actor"].push_back(std::move(one));
+  }
   json["noise_floor"] = Json::array();
   for (const ErrorTable& table : c.floor) json["noise_floor"].push_back(table_json(table));
   json["invariants"] = {{"run", invariants_json(c.run)}, {"reference", invariants_json(c.reference)}};
+  json["constraints"] = {{"run", constraints_json(*c.run_constraints)},
+                         {"reference", constraints_json(*c.reference_constraints)}};
   json["joints_broken"] = {{"in_both", c.breaks.in_both},
                            {"in_run_only", breaks_json(c.breaks.in_run_only)},
                            {"in_reference_only", breaks_json(c.breaks.in_reference_only)},
@@ -94,17 +116,32 @@ std::string bands_text(const Counts& counts, const Names& names) {
   return text;
 }
 
+std::string summary_text(const std::string& what, const char* name, const char* unit,
+                         const analysis::ErrorSummary& s) {
+  const bool is_position = std::string_view(unit) == "m";
+  const std::string bands = is_position ? bands_text(s.bands, analysis::position_band_names)
+                                        : bands_text(s.bands, analysis::orientation_band_names);
+  const std::string broken = s.broken > 0 ? ", " + std::to_string(s.broken) + " broken" : "";
+  return format("%s %-17s rms %10.4g  p99 %10.4g  max %10.4g %-3s  (%s)\n", what.c_str(), name, s.rms, s.p99,
+                s.max, unit, (bands + broken).c_str());
+}
+
 std::string errors_text(const std::string& what, const ErrorTable& table) {
   std::string text;
-  for (const NamedSummary& column : error_columns) {
-    const analysis::ErrorSummary& s = table.*column.summary;
-    const bool is_position = std::string_view(column.unit) == "m";
-    text += format("%s %-17s rms %10.4g  p99 %10.4g  max %10.4g %-3s  (%s)\n", what.c_str(), column.name,
-                   s.rms, s.p99, s.max, column.unit,
-                   (is_position ? bands_text(s.bands, analysis::position_band_names)
-                                : bands_text(s.bands, analysis::orientation_band_names))
-                       .c_str());
+  for (const NamedSummary& column : error_columns)
+    text += summary_text(what, column.name, column.unit, table.*column.summary);
+  return text;
+}
+
+std::string constraints_text(const std::string& whose, const ConstraintErrors& errors) {
+  std::string text;
+  for (const NamedConstraint& column : constraint_columns) {
+    if (const analysis::ErrorSummary* summary = column.summary(errors))
+      text += summary_text("constraints of the " + whose + ":", column.name, column.unit, *summary);
   }
+  if (errors.passages > 0)
+    text += format("constraints of the %s: %lld bodies went through something\n", whose.c_str(),
+                   static_cast<long long>(errors.passages));
   return text;
 }
 
@@ -169,6 +206,8 @@ std::string to_text(const DiffOptions& options, const RunComparison& c, bool sam
     text += floor_text(c);
   }
   text += invariants_text("run", c.run) + invariants_text("reference", c.reference);
+  text +=
+      constraints_text("run", *c.run_constraints) + constraints_text("reference", *c.reference_constraints);
   return text + breaks_text(c.breaks);
 }
 
@@ -188,6 +227,11 @@ core::ExitCode run_diff(const std::vector<std::string>& args, std::ostream& out)
     out << diff_help_text();
     return core::ExitCode::done;
   }
+  std::optional<io::OutputLock> output;  // a place that cannot be written is told before the work
+  if (options.output) {
+    output.emplace(*options.output);
+    io::require_kind(*options.output, diff_filetype);
+  }
   const io::RunData run = io::read_run(options.run);
   const io::RunData reference = io::read_run(options.reference);
   require_comparable(run, options.run, reference, options.reference);
@@ -198,7 +242,13 @@ core::ExitCode run_diff(const std::vector<std::string>& args, std::ostream& out)
     require_other_seed(floor.back(), path, reference);
   }
   const RunModels models = rebuild_models(reference, options.reference);
-  const RunComparison comparison = compare_runs(models, run, reference, floor);
+  RunComparison comparison = compare_runs(models, run, reference, floor);
+  comparison.run_constraints = constraint_errors(models, run, options.run);
+  comparison.reference_constraints = constraint_errors(models, reference, options.reference);
+  if (output) {
+    const io::TableFile file = diff_file(comparison, options.run, options.reference);
+    io::replace_file(*output, io::table_image(diff_filetype, io::study_version, file));
+  }
   const bool same_hash = state_hash(run) == state_hash(reference);
   out << (options.json ? to_json(options, comparison, same_hash) : to_text(options, comparison, same_hash))
       << std::flush;

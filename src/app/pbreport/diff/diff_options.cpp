@@ -4,6 +4,7 @@
 
 #include "app/common/options.h"
 #include "core/error.h"
+#include "core/system/paths.h"
 
 namespace pbmpi::app {
 namespace {
@@ -15,6 +16,8 @@ po::options_description visible_options() {
   what.add_options()  //
       ("floor", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE..."),
        "the noise floor: runs like REFERENCE in all but --solver-seed")  //
+      ("output,o", po::value<std::string>()->value_name("FILE"),
+       "write errors and categories of each frame, and of each actor, into an HDF5 file")  //
       ("json", "print one JSON document");
   po::options_description general("General");
   general.add_options()("help,h", "print this help")  //
@@ -51,6 +54,14 @@ DiffOptions parse_diff_options(const std::vector<std::string>& args) {
   options.run = files[0];
   options.reference = files[1];
   if (values.count("floor") != 0) options.floor = values["floor"].as<std::vector<std::string>>();
+  if (values.count("output") != 0) {
+    options.output = values["output"].as<std::string>();
+    std::vector<core::NamedPath> paths = {{"RUN", options.run, false},
+                                          {"REFERENCE", options.reference, false},
+                                          {"--output", *options.output, true}};
+    for (const std::string& path : options.floor) paths.push_back({"--floor", path, false});
+    core::require_separate(paths);
+  }
   return options;
 }
 

@@ -1,6 +1,7 @@
 /// The command line of "pbreport diff".
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ struct DiffOptions {
   std::string run, reference;
   std::vector<std::string> floor;  ///< the reference with other solver seeds
   bool json = false;
+  std::optional<std::string> output;  ///< HDF5 file of the errors by frame and by actor
 };
 
 /// Throws core::InputError with one clear message.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "app/pbreport/run/summary_from_file.h"
 
@@ -11,15 +13,15 @@ namespace {
 using stepping::column_of;
 using stepping::Observables;
 
-RecordedPoses precise(const io::RunData& run, std::size_t row) {
-  return {&run.position[row], &run.orientation[row]};
+RecordedPoses precise(const RunModels& models, const io::RunData& run, std::size_t row) {
+  return {&run.position[row], &run.orientation[row], broken_at(models, run, row)};
 }
 
-RecordedPoses estimated(const io::RunData& run, std::size_t row) {
-  return {&run.estimate.position[row], &run.estimate.orientation[row]};
+RecordedPoses estimated(const RunModels& models, const io::RunData& run, std::size_t row) {
+  return {&run.estimate.position[row], &run.estimate.orientation[row], broken_at(models, run, row)};
 }
 
-using PosesOf = RecordedPoses (*)(const io::RunData&, std::size_t);
+using PosesOf = RecordedPoses (*)(const RunModels&, const io::RunData&, std::size_t);
 
 /// Errors of the measured frames that both have, one after the other.
 std::vector<analysis::PoseErrors> errors_by_frame(const RunModels& models, const io::RunData& run,
@@ -27,7 +29,7 @@ std::vector<analysis::PoseErrors> errors_by_frame(const RunModels& models, const
   std::vector<analysis::PoseErrors> frames;
   const std::size_t rows = std::min(run.position.size(), reference.position.size());
   for (const std::size_t row : measured_rows(reference, rows)) {
-    frames.push_back(compare_recorded(models, poses(run, row), precise(reference, row)));
+    frames.push_back(compare_recorded(models, poses(models, run, row), precise(models, reference, row)));
   }
   return frames;
 }
@@ -36,6 +38,51 @@ analysis::ErrorTable summarize_all(const std::vector<analysis::PoseErrors>& fram
   analysis::PoseErrors all;
   for (const analysis::PoseErrors& frame : frames) all.append(frame);
   return analysis::summarize(all);
+}
+
+/// Which actor each body belongs to, in order of their first bodies; `actors` without errors.
+std::vector<std::size_t> actors_of_bodies(const io::BodyTable& bodies, std::vector<ActorErrors>& actors) {
+  std::vector<std::size_t> of_body;
+  std::map<std::pair<int, std::string>, std::size_t> known;
+  for (std::size_t i = 0; i < bodies.id.size(); ++i) {
+    const auto [entry, is_new] = known.try_emplace({bodies.world[i], bodies.actor[i]}, actors.size());
+    if (is_new) actors.push_back({bodies.world[i], bodies.actor[i], bodies.kind[i], {}});
+    of_body.push_back(entry->second);
+  }
+  return of_body;
+}
+
+/// The first body of each joint, over all worlds.
+std::vector<std::size_t> bodies_of_joints(const RunModels& models) {
+  std::vector<std::size_t> bodies;
+  for (std::size_t world = 0; world < models.worlds.size(); ++world) {
+    for (const model::Joint& joint : models.worlds[world]->joints)
+      bodies.push_back(models.first_body[world] + static_cast<std::size_t>(joint.body_a));
+  }
+  return bodies;
+}
+
+std::vector<ActorErrors> drift_by_actor(const RunModels& models, const io::RunData& run,
+                                        const std::vector<analysis::PoseErrors>& frames) {
+  std::vector<ActorErrors> actors;
+  const std::vector<std::size_t> of_body = actors_of_bodies(run.bodies, actors);
+  const std::vector<std::size_t> body_of_joint = bodies_of_joints(models);
+  std::vector<analysis::PoseErrors> errors(actors.size());
+  for (const analysis::PoseErrors& frame : frames) {
+    for (std::size_t i = 0; i < of_body.size(); ++i) {
+      errors[of_body[i]].body_position_m.push_back(frame.body_position_m[i]);
+      errors[of_body[i]].body_orientation_rad.push_back(frame.body_orientation_rad[i]);
+    }
+    for (const std::size_t body : body_of_joint) ++errors[of_body[body]].broken_joints;
+    for (std::size_t i = 0; i < frame.joints.size(); ++i) {
+      analysis::PoseErrors& of_actor = errors[of_body[body_of_joint[frame.joints[i]]]];
+      of_actor.joint_position_m.push_back(frame.joint_position_m[i]);
+      of_actor.joint_orientation_rad.push_back(frame.joint_orientation_rad[i]);
+      --of_actor.broken_joints;
+    }
+  }
+  for (std::size_t i = 0; i < actors.size(); ++i) actors[i].drift = analysis::summarize(errors[i]);
+  return actors;
 }
 
 RunInvariants invariants_of(const RunModels& models, const io::RunData& run) {
@@ -47,7 +94,7 @@ RunInvariants invariants_of(const RunModels& models, const io::RunData& run) {
   kept.energy_last_j = observed.last(column_of(&Observables::energy_j));
   std::vector<double> stretch;
   for (const std::size_t row : measured_rows(run, run.position.size())) {
-    const std::vector<double> more = recorded_stretch(models, precise(run, row));
+    const std::vector<double> more = recorded_stretch(models, precise(models, run, row));
     stretch.insert(stretch.end(), more.begin(), more.end());
   }
   kept.stretch = analysis::count_stretch(stretch);
@@ -67,6 +114,10 @@ RunComparison compare_runs(const RunModels& models, const io::RunData& run, cons
   result.drift = summarize_all(frames);
   for (const analysis::PoseErrors& frame : frames)
     result.drift_by_frame.push_back(analysis::summarize(frame));
+  for (const std::size_t row :
+       measured_rows(reference, std::min(run.position.size(), reference.position.size())))
+    result.steps.push_back(reference.recorded_step[row]);
+  result.drift_by_actor = drift_by_actor(models, reference, frames);
   if (!run.estimate.position.empty()) {
     result.defect = summarize_all(errors_by_frame(models, run, estimated, run));
     result.estimate_drift = summarize_all(errors_by_frame(models, run, estimated, reference));

@@ -45,10 +45,12 @@ RunModels rebuild_models(const io::RunData& run, const std::string& path) {
   const auto seed = std::strtoull(parameter(run, "seed", path).c_str(), nullptr, 10);
   const auto scene = scenes::parse_scene({name, name + ".toml", parameter(run, "scene_text", path)}, dt_s);
   RunModels models;
-  std::size_t first = 0;
+  std::size_t first = 0, first_joint = 0;
   for (int world = 0; world < run.num_worlds; ++world) {
     models.worlds.push_back(scene->build(world, seed));
     models.first_body.push_back(first);
+    models.first_joint.push_back(first_joint);
+    first_joint += models.worlds.back()->joints.size();
     for (const model::Body& body : models.worlds.back()->bodies) {
       core::require_input(first < run.bodies.name.size() && run.bodies.name[first] == body.name,
                           path +
@@ -63,19 +65,46 @@ RunModels rebuild_models(const io::RunData& run, const std::string& path) {
 analysis::PoseView RecordedPoses::world(const RunModels& models, std::size_t world) const {
   const auto count = static_cast<std::size_t>(models.worlds[world]->num_bodies());
   return {std::span(*position).subspan(models.first_body[world], count),
-          std::span(*orientation).subspan(models.first_body[world], count)};
+          std::span(*orientation).subspan(models.first_body[world], count),
+          broken_in.empty()
+              ? std::span<const std::int32_t>()
+              : std::span(broken_in).subspan(models.first_joint[world], models.worlds[world]->joints.size())};
 }
 
-analysis::PoseErrors compare_recorded(const RunModels& models, RecordedPoses poses, RecordedPoses reference) {
+std::vector<std::int32_t> broken_at(const RunModels& models, const io::RunData& run, std::size_t row) {
+  std::vector<std::int32_t> broken(models.first_joint.back() + models.worlds.back()->joints.size(),
+                                   model::unbroken);
+  const std::int64_t steps_done = run.recorded_step[row];
+  const auto note = [&](std::size_t joint, std::int64_t step) {
+    if (step >= 0 && step < steps_done && joint < broken.size())
+      broken[joint] = static_cast<std::int32_t>(step);
+  };
+  if (run.broken_in.empty()) {  // before layout 1.5
+    for (const stepping::RunEvent& event : run.events) {
+      if (event.kind == stepping::event_kind::joint_broken && event.world >= 0 && event.joint >= 0)
+        note(models.first_joint.at(static_cast<std::size_t>(event.world)) +
+                 static_cast<std::size_t>(event.joint),
+             event.step);
+    }
+  }
+  for (std::size_t joint = 0; joint < run.broken_in.size(); ++joint) note(joint, run.broken_in[joint]);
+  const bool any = std::ranges::any_of(broken, [](std::int32_t step) { return step != model::unbroken; });
+  return any ? broken : std::vector<std::int32_t>();
+}
+
+analysis::PoseErrors compare_recorded(const RunModels& models, const RecordedPoses& poses,
+                                      const RecordedPoses& reference) {
   analysis::PoseErrors errors;
   for (std::size_t world = 0; world < models.worlds.size(); ++world) {
-    errors.append(
-        analysis::compare(*models.worlds[world], poses.world(models, world), reference.world(models, world)));
+    analysis::PoseErrors of_world =
+        analysis::compare(*models.worlds[world], poses.world(models, world), reference.world(models, world));
+    for (std::size_t& joint : of_world.joints) joint += models.first_joint[world];
+    errors.append(of_world);
   }
   return errors;
 }
 
-std::vector<double> recorded_stretch(const RunModels& models, RecordedPoses poses) {
+std::vector<double> recorded_stretch(const RunModels& models, const RecordedPoses& poses) {
   std::vector<double> all;
   for (std::size_t world = 0; world < models.worlds.size(); ++world) {
     const model::Model& model = *models.worlds[world];

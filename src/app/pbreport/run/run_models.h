@@ -13,7 +13,8 @@ namespace pbmpi::app {
 
 struct RunModels {
   std::vector<std::shared_ptr<const model::Model>> worlds;
-  std::vector<std::size_t> first_body;  ///< [num_worlds] in the file's order
+  std::vector<std::size_t> first_body;   ///< [num_worlds] in the file's order
+  std::vector<std::size_t> first_joint;  ///< [num_worlds] likewise
 };
 
 /// Throws core::InputError if the text cannot be read, or gives other bodies than the file has.
@@ -23,16 +24,22 @@ RunModels rebuild_models(const io::RunData& run, const std::string& path);
 struct RecordedPoses {
   const std::vector<core::Vec3>* position = nullptr;
   const std::vector<core::Quat>* orientation = nullptr;
+  std::vector<std::int32_t> broken_in = {};  ///< [J] as in model::State; empty: all joints hold
 
   /// The poses of one world.
   analysis::PoseView world(const RunModels& models, std::size_t world) const;
 };
 
-/// Every body and joint of every world, in order.
-analysis::PoseErrors compare_recorded(const RunModels& models, RecordedPoses poses, RecordedPoses reference);
+/// Joints that are broken in a recorded row, as the file's column or its events tell, [J]; empty if none is
+/// known to be.
+std::vector<std::int32_t> broken_at(const RunModels& models, const io::RunData& run, std::size_t row);
+
+/// Every body and joint of every world, in order; joints by their rows in the file.
+analysis::PoseErrors compare_recorded(const RunModels& models, const RecordedPoses& poses,
+                                      const RecordedPoses& reference);
 
 /// Stretch of every human segment of every world.
-std::vector<double> recorded_stretch(const RunModels& models, RecordedPoses poses);
+std::vector<double> recorded_stretch(const RunModels& models, const RecordedPoses& poses);
 
 /// Rows of the recorded frames that are measured (not warm-up), below `num_rows`.
 std::vector<std::size_t> measured_rows(const io::RunData& run, std::size_t num_rows);

@@ -55,7 +55,9 @@ class CaseRow {
       summary.p99 = real(name + "p99");
       summary.max = real(name + "max");
       summary.bands = bands(name + "bands");
-      summary.count = std::accumulate(summary.bands.begin(), summary.bands.end(), std::int64_t{0});
+      if (has(name + "broken"))  // since version 1.4
+        summary.broken = file_->column<std::int64_t>("cases", name + "broken")[index_];
+      summary.count = std::accumulate(summary.bands.begin(), summary.bands.end(), summary.broken);
     }
     return table;
   }

@@ -59,6 +59,10 @@ void add_errors(const std::string& prefix, analysis::ErrorTable Result::*table,
       bands.insert(bands.end(), counts.begin(), counts.end());
     }
     columns.push_back({name + "bands", "", std::move(bands), analysis::num_bands});
+    if (!std::string_view(named.name).starts_with("joint")) continue;
+    columns.push_back(column<std::int64_t>(name + "broken", "", results, [&](const Result& result) {
+      return (result.*table.*named.summary).broken;
+    }));
   }
 }
 
