@@ -100,7 +100,8 @@ void OutputTarget::publish(std::int64_t spare_bytes) {
   if (fstat(file_.get(), &status) != 0) refuse_output(path(), core::reason_of(errno), "try again");
   constexpr std::int64_t block_bytes = 512;
   const bool within_limit = static_cast<std::uint64_t>(status.st_size) <= core::largest_file_bytes();
-  if (!within_limit || !has_free(temporary_path(), status.st_size - spare_bytes - block_bytes * status.st_blocks))
+  if (!within_limit ||
+      !has_free(temporary_path(), status.st_size - spare_bytes - block_bytes * status.st_blocks))
     refuse_space(path(), status.st_size, within_limit ? ENOSPC : EFBIG);
   keep_rights(file_, path());
   if (std::rename(temporary_path().c_str(), path().c_str()) != 0) {

@@ -1,5 +1,5 @@
-#include "analysis/error_table.h"
 #include "analysis/pose_errors.h"
+#include "analysis/error_table.h"
 
 #include <gtest/gtest.h>
 
