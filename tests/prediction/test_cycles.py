@@ -69,6 +69,8 @@ class Cycles(ToolTest):
         self.assertFalse(section["modelled"])
         self.assertNotIn("cycles", section)
         self.assertGreaterEqual(section["instructions"], 1600)
+        report, _ = self.run_tool([KERNELS, "chain", 100], "--modelled=estimate", *MODELS)
+        self.assertFalse(report["sections"][0]["modelled"])
 
 
 if __name__ == "__main__":

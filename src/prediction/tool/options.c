@@ -5,6 +5,7 @@
 #include <pub_tool_libcprint.h>
 #include <pub_tool_libcproc.h>
 #include <pub_tool_options.h>
+#include "core/mark_codes.h"
 #include "prediction/timing/core_model.h"
 
 Options options = {.out_file = NULL,
@@ -19,7 +20,8 @@ Options options = {.out_file = NULL,
                    .confidence_use = 2,
                    .confidence_up = 1,
                    .confidence_down = 1,
-                   .first_modelled = 0};
+                   .first_modelled = 0,
+                   .modelled = 1 << pbvalue_precise | 1 << pbvalue_estimate};
 
 Bool parse_real(const HChar* text, Double* value) {
   HChar* rest = NULL;
@@ -65,6 +67,10 @@ Bool process_option(const HChar* argument) {
              VG_XACT_CLO(argument, "--replacement=lru", options.replacement, replace_lru) ||
              VG_XACT_CLO(argument, "--replacement=fifo", options.replacement, replace_fifo) ||
              VG_XACT_CLO(argument, "--replacement=random", options.replacement, replace_random) ||
+             VG_XACT_CLO(argument, "--modelled=precise", options.modelled, 1u << pbvalue_precise) ||
+             VG_XACT_CLO(argument, "--modelled=estimate", options.modelled, 1u << pbvalue_estimate) ||
+             VG_XACT_CLO(argument, "--modelled=all", options.modelled,
+                         1u << pbvalue_precise | 1u << pbvalue_estimate) ||
              VG_BINT_CLO(argument, "--table-entries", options.table_entries, 0, 1 << 24) ||
              VG_BINT_CLO(argument, "--table-ways", options.table_ways, 1, 64) ||
              VG_BINT_CLO(argument, "--tag-bits", options.tag_bits, 0, 64) ||
@@ -115,6 +121,7 @@ void print_usage(void) {
    "its\n"
    "                                    ceiling, from where on it is used, steps after right and wrong ones\n"
    "                                    [3, 2, 1, 1]\n"
+   "    --modelled=precise|estimate|all  the sections that they see [all]\n"
    "    --first-modelled=N              the first section that the cycle models see, of each kind [0]\n");
   print_model_usage();
 }

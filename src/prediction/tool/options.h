@@ -20,6 +20,7 @@ typedef struct {
   Replacement replacement;
   Int confidence_max, confidence_use, confidence_up, confidence_down;
   Int first_modelled;  ///< sections before this one (per kind, from 0) are not given to the cycle models
+  UInt modelled;       ///< bit i: sections of kind i (PbvalueSection) are given to the cycle models
 } Options;
 
 extern Options options;

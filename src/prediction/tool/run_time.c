@@ -116,7 +116,8 @@ void enter_section(UWord entered) {
   if (section != pbvalue_no_section) close_record();
   section = entered;
   if (section != pbvalue_no_section) {
-    modelled = num_models() > 0 && sections_seen[section]++ >= options.first_modelled;
+    const Bool is_late_enough = sections_seen[section]++ >= options.first_modelled;
+    modelled = num_models() > 0 && is_late_enough && (options.modelled >> section & 1u) != 0;
     open_record();
   }
   update_flags();
