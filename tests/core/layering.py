@@ -65,14 +65,18 @@ STANDS_ON = {
     "src/app/pbreport/study": ["src/app/common", "src/analysis", "io/table"],
     "src/app/pbreport/accuracy": ["src/app/pbreport/study", "io/html"],
     "src/app/pbreport/effects": ["src/app/pbreport/study", "io/html"],
+    "src/app/pbreport/prediction": ["src/app/pbreport/study", "io/html"],
     "src/app/pbreport/stability": ["src/app/pbreport/study", "io/html"],
     "src/app/pbreport": ["src/app/pbreport/repair", "src/app/pbreport/run", "src/app/pbreport/suite", "src/app/pbreport/figures",
-                         "src/app/pbreport/accuracy", "src/app/pbreport/effects", "src/app/pbreport/stability"],
+                         "src/app/pbreport/accuracy", "src/app/pbreport/effects", "src/app/pbreport/prediction",
+                         "src/app/pbreport/stability"],
     "src/app/pbstudy/study": ["src/app/common", "src/analysis", "io/table"],
     "src/app/pbstudy/accuracy": ["src/app/pbstudy/study"],
     "src/app/pbstudy/effects": ["src/app/pbstudy/study"],
+    "src/app/pbstudy/prediction": ["src/app/pbstudy/study"],
     "src/app/pbstudy/stability": ["src/app/pbstudy/study"],
-    "src/app/pbstudy": ["src/app/pbstudy/accuracy", "src/app/pbstudy/effects", "src/app/pbstudy/stability"],
+    "src/app/pbstudy": ["src/app/pbstudy/accuracy", "src/app/pbstudy/effects",
+                         "src/app/pbstudy/prediction", "src/app/pbstudy/stability"],
 }
 
 # A folder is one part of the program; one with more files than these is more than one.

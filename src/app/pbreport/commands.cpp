@@ -7,6 +7,7 @@
 #include "app/pbreport/diff/diff.h"
 #include "app/pbreport/effects/effects.h"
 #include "app/pbreport/figures/figures.h"
+#include "app/pbreport/prediction/prediction.h"
 #include "app/pbreport/repair/repair.h"
 #include "app/pbreport/run/options.h"
 #include "app/pbreport/run/report.h"
@@ -21,7 +22,7 @@ void print_help(std::ostream& out) {
   out << "pbreport shows what a run of pbmpi amounts to.\n\n"
       << "Usage: pbreport [COMMAND] FILE [options]\n\nCommands:\n";
   for (const ReportCommand& command : report_commands()) {
-    out << "  " << command.name << std::string(10 - std::min<std::size_t>(9, command.name.size()), ' ')
+    out << "  " << command.name << std::string(12 - std::min<std::size_t>(11, command.name.size()), ' ')
         << command.meaning << "\n";
   }
   out << report_options_text() << "\nExit codes: 0 done; 1 failed; 2 bad usage or bad input.\n\nExamples:\n"
@@ -44,6 +45,7 @@ using Run = core::ExitCode (*)(const std::vector<std::string>& args, std::ostrea
 Run command_for_the_files_of(const std::vector<std::string>& args) {
   const std::string study = study_named_in(args);
   if (study == "effects") return run_effects_report;
+  if (study == "prediction") return run_prediction_report;
   if (study == "stability") return run_stability_report;
   return study.empty() ? report_commands().front().run : run_study;
 }
@@ -63,6 +65,8 @@ const std::vector<ReportCommand>& report_commands() {
       {"effects", "what effects cost: the file of pbstudy effects", run_effects_report},
       {"stability", "which settings hold the hard cases: the file of pbstudy stability",
        run_stability_report},
+      {"prediction", "what value prediction gains and changes: the file of pbstudy prediction",
+       run_prediction_report},
       {"repair", "gives back the disk space that a killed run keeps", run_repair},
   };
   return commands;

@@ -6,6 +6,7 @@
 #include "app/common/options.h"
 #include "app/pbstudy/accuracy/accuracy.h"
 #include "app/pbstudy/effects/effects.h"
+#include "app/pbstudy/prediction/prediction.h"
 #include "app/pbstudy/stability/stability.h"
 #include "core/text.h"
 
@@ -42,6 +43,8 @@ const std::vector<StudyCommand>& study_commands() {
   static const std::vector<StudyCommand> commands = {
       {"accuracy", "what accuracy costs in time: errors and times of many settings", run_accuracy},
       {"effects", "what each effect costs, and what leaving it out does to the result", run_effects},
+      {"prediction", "what value prediction gains a frame, and what it does to the result (Valgrind)",
+       run_prediction},
       {"stability", "which settings hold the cases that are known to be hard", run_stability},
   };
   return commands;

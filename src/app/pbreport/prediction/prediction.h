@@ -1,0 +1,15 @@
+/// "pbreport prediction": the file of pbstudy prediction.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace pbmpi::app {
+
+/// Throws core::InputError and core::RunError.
+core::ExitCode run_prediction_report(const std::vector<std::string>& args, std::ostream& out);
+
+}  // namespace pbmpi::app

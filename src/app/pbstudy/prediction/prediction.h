@@ -1,0 +1,15 @@
+/// "pbstudy prediction": what value prediction would do for a frame, and to its result.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "mpi/comm/communicator.h"
+
+namespace pbmpi::app {
+
+/// Collective. Throws core::InputError and core::RunError, the same on every rank.
+core::ExitCode run_prediction(const mpi::Communicator& comm, const std::vector<std::string>& args);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,76 @@
+#include "app/pbstudy/prediction/prediction_options.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "app/pbstudy/study/option_lists.h"
+#include "core/error.h"
+
+namespace pbmpi::app {
+namespace {
+
+namespace po = boost::program_options;
+
+po::options_description options_description() {
+  po::options_description what("What to measure");
+  add_scene_option(what);
+  what.add_options()  //
+      ("threshold", list_of<double>(),
+       "thresholds of fuzzy prediction; the first is that of Figure 8; default: 1e-6 1e-8 1e-10 1e-12")  //
+      ("detail-scene", po::value<std::string>()->default_value("CrashSk")->value_name("NAME|none"),
+       "the scene of the sensitivity table and of collision and forward step alone, if it is among the "
+       "scenes")  //
+      ("full", "all worlds of 100CrSk (default: 10 of 100), and cycles of all thresholds and of sor");
+  po::options_description how("How to measure");
+  how.add_options()  //
+      ("replicas", po::value<int>()->value_name("N"),
+       "worlds of a case; default: the scene's, at most 10")                                  //
+      ("frames", po::value<int>()->value_name("N"), "measured frames; default: the scene's")  //
+      ("warmup", po::value<int>()->value_name("N"),
+       "frames before them, without cycles; default: the scene's")  //
+      ("budget", po::value<double>()->default_value(1.0 / 300)->value_name("SECONDS"),
+       "the time that a frame may take")                                                                    //
+      ("tool-option", list_of<std::string>(), "options for pbvalue, e.g. --tool-option=--table-entries=0")  //
+      ("time-limit", po::value<double>()->default_value(1800)->value_name("SECONDS"),
+       "a run that takes longer has not ended");
+  add_seed_option("of the scene's variation and of the solver", how);
+  po::options_description all;
+  all.add(what).add(how).add(what_to_write("prediction.h5")).add(common_options_description());
+  return all;
+}
+
+}  // namespace
+
+std::string prediction_help_text() {
+  std::ostringstream text;
+  text
+      << "pbstudy prediction runs pbmpi under the Valgrind tool pbvalue (docs/prediction.md): the results of "
+         "instructions are predicted, exactly (EVP) and within a threshold (FVP), and those that are near go "
+         "on into the simulation. It counts hits, instructions and the cycles of the paper's processor, and "
+         "compares the result with the unpredicted run.\n\n"
+         "Usage: mpirun -n RANKS pbstudy prediction [--scene NAME...] [options]\n\n"
+      << options_description()
+      << "\nThe cases are dealt out over the ranks; a rank works on one at a time.\n"
+         "Then: pbreport prediction.h5 --html prediction.html\n";
+  return text.str();
+}
+
+PredictionOptions parse_prediction_options(const std::vector<std::string>& args) {
+  const po::variables_map values = parse_command_line(args, options_description());
+  PredictionOptions options;
+  static_cast<StudyOptions&>(options) = study_options(values, "pbstudy prediction", args);
+  if (options.help) return options;
+  options.thresholds = list<double>(values, "threshold", {1e-6, 1e-8, 1e-10, 1e-12});
+  for (const double threshold : options.thresholds)
+    core::require_input(threshold > 0 && std::isfinite(threshold), "--threshold: it must be above 0");
+  options.detail_scene = values["detail-scene"].as<std::string>();
+  options.tool_options = list<std::string>(values, "tool-option", {});
+  options.budget_s = values["budget"].as<double>();
+  options.time_limit_s = values["time-limit"].as<double>();
+  core::require_input(options.budget_s > 0, "--budget: it must be above 0");
+  core::require_input(options.time_limit_s > 0, "--time-limit: it must be above 0");
+  options.full = values.count("full") != 0;
+  return options;
+}
+
+}  // namespace pbmpi::app

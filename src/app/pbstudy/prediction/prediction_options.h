@@ -1,0 +1,24 @@
+/// The command line of "pbstudy prediction".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/pbstudy/study/study_options.h"
+
+namespace pbmpi::app {
+
+struct PredictionOptions : StudyOptions {
+  std::vector<double> thresholds;         ///< of fuzzy prediction, the first one that of Figure 8
+  std::string detail_scene;               ///< the scene of the sensitivity table and of the scopes; "none"
+  std::vector<std::string> tool_options;  ///< for pbvalue, after the study's own
+  double budget_s = 0;                    ///< of a frame
+  double time_limit_s = 0;                ///< of a run
+  bool full = false;                      ///< every world of every scene, cycles of every threshold
+};
+
+std::string prediction_help_text();
+/// Throws core::InputError.
+PredictionOptions parse_prediction_options(const std::vector<std::string>& args);
+
+}  // namespace pbmpi::app
