@@ -9,7 +9,7 @@ packages=(g++ cmake ninja-build pkg-config git ca-certificates
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3 python3-h5py python3-pandas python3-selenium
   chromium chromium-driver hdf5-tools slurm-wlm munge procps valgrind binutils doxygen qemu-user-static)
 
-gate_packages=(clang clang-format clang-tidy libclang-rt-14-dev)
+gate_packages=(clang clang-format clang-tidy libclang-rt-14-dev g++-aarch64-linux-gnu)
 
 if [[ ${1:-} == --tests ]]; then
   packages+=("${test_packages[@]}")

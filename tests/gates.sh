@@ -4,6 +4,7 @@
 #   avx       no AVX instruction outside the packs that are compiled for it (needs the build of tests/run.sh)
 #   clang     clang++ builds the programs without a warning, and without headers parsed ahead; they have the golden hashes
 #   tidy      clang-tidy finds nothing in the sources of the programs
+#   arm64     the nine scenes (but Environ in double) have their golden hashes on arm64, too: a cross build, run by QEMU
 #   sanitize  unit tests and the programs, built with the sanitizers of addresses and of undefined behaviour
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -26,6 +27,17 @@ tidy() {
   cmake --preset clang -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF >/dev/null
   git ls-files 'src/*.cpp' 'mpi/*.cpp' 'io/*.cpp' 'scenes/*.cpp' |
     xargs -P "$(nproc)" -n 4 clang-tidy -p build/clang --quiet 2> >(grep -v -E '^[0-9]+ warnings? generated\.$' >&2)
+}
+
+# Environ in double differs from its second or third frame on, in all widths alike; why is not known yet.
+# Debian's packages for arm64 are unpacked to build/arm64-sysroot, 0.7 GB; nothing is installed.
+arm64() {
+  tests/gates/arm64_sysroot.sh build/arm64-sysroot
+  cmake --preset arm64
+  cmake --build --preset arm64 --target pbmpi
+  . jobs/mpi_environment.sh
+  PBMPI_GOLDEN_WITHOUT=Environ/double PBMPI_BIN=$PWD/build/arm64/bin PBMPI_EMULATOR="qemu-aarch64-static -L $PWD/build/arm64-sysroot" \
+    python3 tests/app/golden/test_golden.py
 }
 
 # Unit tests (one program a folder, no ranks), then every scene in many settings, and each program on one.
@@ -57,11 +69,11 @@ sanitize() {
 }
 
 gates=("$@")
-[[ ${#gates[@]} -gt 0 ]] || gates=(format avx clang tidy sanitize)
+[[ ${#gates[@]} -gt 0 ]] || gates=(format avx clang arm64 tidy sanitize)
 jobs/install_packages.sh --gates
 for gate in "${gates[@]}"; do
   case $gate in
-    format | avx | clang | tidy | sanitize) ;;
+    format | avx | clang | arm64 | tidy | sanitize) ;;
     *) echo "$0: there is no gate '$gate'; see its head" >&2; exit 2 ;;
   esac
   echo "gate $gate: begins at $(date +%T)"

@@ -6,7 +6,9 @@
 /// is off: a lane's bits are those of the scalar code.
 #pragma once
 
+#if defined(__x86_64__)
 #include <immintrin.h>
+#endif
 
 #include <cmath>
 #include <cstdint>
@@ -70,18 +72,14 @@ struct LaneTraits {
   PBMPI_LANES static V sqrt(const V& a) {
     if constexpr (num_lanes == 1) {
       return std::sqrt(a);
-    } else if constexpr (is_512 && is_single) {
-      return V(_mm512_sqrt_ps(__m512(a)));
-    } else if constexpr (is_512) {
-      return V(_mm512_sqrt_pd(__m512d(a)));
-    } else if constexpr (is_256 && is_single) {
-      return V(_mm256_sqrt_ps(__m256(a)));
-    } else if constexpr (is_256) {
-      return V(_mm256_sqrt_pd(__m256d(a)));
-    } else if constexpr (is_single) {
-      return V(_mm_sqrt_ps(__m128(a)));
     } else {
-      return V(_mm_sqrt_pd(__m128d(a)));
+#if defined(__x86_64__)
+      return sqrt_x86(a);
+#else
+      V result;
+      for (int lane = 0; lane < num_lanes; ++lane) result[lane] = std::sqrt(a[lane]);
+      return result;
+#endif
     }
   }
   /// Is any lane other than 0?
@@ -96,10 +94,12 @@ struct LaneTraits {
   PBMPI_LANES static unsigned bits(const V& flags) {
     if constexpr (num_lanes == 1) {
       return flags != 0 ? 1u : 0u;
+#if defined(__x86_64__)
     } else if constexpr (is_512 && is_single) {
       return _mm512_cmp_ps_mask(__m512(flags), _mm512_setzero_ps(), _CMP_NEQ_UQ);
     } else if constexpr (is_512) {
       return _mm512_cmp_pd_mask(__m512d(flags), _mm512_setzero_pd(), _CMP_NEQ_UQ);
+#endif
     } else {
       unsigned result = 0;
       for (int lane = 0; lane < num_lanes; ++lane) result |= flags[lane] != 0 ? 1u << lane : 0u;
@@ -110,11 +110,13 @@ struct LaneTraits {
   PBMPI_LANES static V gather(const Scalar* base, const std::int32_t* index) {
     if constexpr (num_lanes == 1) {
       return base[index[0]];
+#if defined(__x86_64__)
     } else if constexpr (is_512 && is_single) {
       return V(_mm512_i32gather_ps(_mm512_loadu_si512(index), base, sizeof(Scalar)));
     } else if constexpr (is_512) {
       return V(_mm512_i32gather_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)), base,
                                    sizeof(Scalar)));
+#endif
     } else {
       V result;
       for (int lane = 0; lane < num_lanes; ++lane) result[lane] = base[index[lane]];
@@ -126,6 +128,24 @@ struct LaneTraits {
   static constexpr bool is_single = std::is_same_v<Scalar, float>;
   static constexpr bool is_512 = sizeof(Scalar) * num_lanes == 64;
   static constexpr bool is_256 = sizeof(Scalar) * num_lanes == 32;
+
+#if defined(__x86_64__)
+  PBMPI_LANES static V sqrt_x86(const V& a) {
+    if constexpr (is_512 && is_single) {
+      return V(_mm512_sqrt_ps(__m512(a)));
+    } else if constexpr (is_512) {
+      return V(_mm512_sqrt_pd(__m512d(a)));
+    } else if constexpr (is_256 && is_single) {
+      return V(_mm256_sqrt_ps(__m256(a)));
+    } else if constexpr (is_256) {
+      return V(_mm256_sqrt_pd(__m256d(a)));
+    } else if constexpr (is_single) {
+      return V(_mm_sqrt_ps(__m128(a)));
+    } else {
+      return V(_mm_sqrt_pd(__m128d(a)));
+    }
+  }
+#endif
 };
 
 /// Three components, each a lane vector.

@@ -71,6 +71,7 @@ struct TwistTranspose {
     }
   }
 
+#if defined(__x86_64__)
  private:
   /// Four numbers of each row, four rows in a register, so that lane 4 b + i lies in block b of register i.
   PBMPI_LANES static Vec3L<V> load_half_512_single(const Scalar* rows, const std::int32_t* at) {
@@ -208,6 +209,7 @@ struct TwistTranspose {
     transpose(c, r);
     for (int i = 0; i < 8; ++i) _mm512_store_pd(rows + at[i], r[i]);
   }
+#endif
 };
 
 /// A row for each lane of each slot of bodies.

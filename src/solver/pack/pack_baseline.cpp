@@ -1,4 +1,4 @@
-/// Packs for every x86-64: one lane, and SSE2.
+/// Packs for every CPU: one lane, and registers of 128 bits (on x86-64 SSE2).
 #include "solver/pack/pack_before_target.h"
 #include "solver/pack/pack_lanes.h"
 

@@ -12,12 +12,18 @@ bool has_simd(Simd simd) {
   switch (simd) {
     case Simd::off:
     case Simd::sse2:
-      return true;  // part of x86-64
+      return true;  // part of x86-64; elsewhere registers of as many bits, such as those of arm64
+#if defined(__x86_64__)
     case Simd::avx2:
       return __builtin_cpu_supports("avx2") != 0;
     case Simd::avx512:
       return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
              __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("avx512bw") != 0;
+#else
+    case Simd::avx2:
+    case Simd::avx512:
+      return false;
+#endif
     case Simd::automatic:
       return true;
   }
@@ -42,10 +48,16 @@ std::unique_ptr<Pack> make_pack(std::span<const PackedWorld> worlds, Simd simd, 
       return single ? make_single_off(worlds) : make_double_off(worlds);
     case Simd::sse2:
       return single ? make_single_sse2(worlds) : make_double_sse2(worlds);
+#if defined(__x86_64__)
     case Simd::avx2:
       return single ? make_single_avx2(worlds) : make_double_avx2(worlds);
     case Simd::avx512:
       return single ? make_single_avx512(worlds) : make_double_avx512(worlds);
+#else
+    case Simd::avx2:
+    case Simd::avx512:
+      throw core::RunError("internal error: make_pack() with an instruction set that this CPU lacks");
+#endif
     case Simd::automatic:
       break;
   }

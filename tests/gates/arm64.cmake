@@ -1,0 +1,27 @@
+# A cross build for arm64 Linux, against the packages that arm64_sysroot.sh has unpacked to build/arm64-sysroot.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+
+get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/../../build/arm64-sysroot REALPATH)
+set(CMAKE_SYSROOT ${root})
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(ENV{PKG_CONFIG_SYSROOT_DIR} ${root})
+set(ENV{PKG_CONFIG_LIBDIR} ${root}/usr/lib/aarch64-linux-gnu/pkgconfig:${root}/usr/share/pkgconfig)
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static -L ${root})
+
+# FindMPI and FindHDF5 would ask compiler wrappers, which run on that machine only.
+set(mpi ${root}/usr/lib/aarch64-linux-gnu/openmpi)
+set(MPI_CXX_COMPILER ${CMAKE_CXX_COMPILER})
+set(MPI_CXX_LIB_NAMES mpi CACHE STRING "")
+set(MPI_mpi_LIBRARY ${mpi}/lib/libmpi.so CACHE FILEPATH "")
+set(MPI_CXX_HEADER_DIR ${mpi}/include CACHE PATH "")
+set(HDF5_C_COMPILER_EXECUTABLE HDF5_C_COMPILER_EXECUTABLE-NOTFOUND CACHE FILEPATH "")
+set(HDF5_DIFF_EXECUTABLE HDF5_DIFF_EXECUTABLE-NOTFOUND CACHE FILEPATH "")
+set(HDF5_C_INCLUDE_DIR ${root}/usr/include/hdf5/openmpi CACHE PATH "")
+set(HDF5_C_LIBRARY_hdf5 ${root}/usr/lib/aarch64-linux-gnu/hdf5/openmpi/libhdf5.so CACHE FILEPATH "")
