@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <fstream>
 
+#include "app/pbreport/effects/effects.h"
 #include "app/pbreport/effects/effects_data.h"
 #include "app/pbreport/effects/effects_markdown.h"
-#include "app/pbreport/effects/effects_options.h"
 #include "app/pbreport/effects/effects_page.h"
 #include "app/pbreport/effects/effects_text.h"
 #include "core/error.h"
@@ -99,7 +99,7 @@ TEST(EffectsMarkdown, shows_it_if_demanding_changed_the_result) {
 
 std::string refusal(const std::vector<std::string>& args) {
   try {
-    parse_effects_report_options(args);
+    parse_options(effects_report(), args);
   } catch (const core::InputError& error) {
     return error.what();
   }

@@ -10,6 +10,7 @@
 #include "geometry/geometry.h"
 #include "ode/collide/narrow_phase.h"
 #include "solver/pack/simd.h"
+#include "solver/pack/step_settings.h"
 #include "solver/worlds/sor_stepper.h"
 
 namespace pbmpi::testing_support {
@@ -23,12 +24,17 @@ bool equal_bits(const mpi::WireContact& a, const mpi::WireContact& b) {
 
 ContactOracle::ContactOracle(const mpi::Communicator& comm, std::shared_ptr<const model::Model> model,
                              const stepping::StepperSettings& settings)
-    : comm_(&comm), model_(std::move(model)), dt_s_(settings.dt_s), rule_(*model_) {
+    : comm_(&comm),
+      model_(std::move(model)),
+      dt_s_(settings.dt_s),
+      margin_m_(solver::contact_margin_m(settings, *model_)),
+      rule_(*model_) {
   if (effects::StepPlan(*model_).has(effects::EffectId::fast_bodies)) fast_bodies_.emplace(*model_);
   whole_ = solver::make_sor_stepper(settings, ode::make_narrow_phase);
   whole_->add(0, model_, model::initial_state(*model_), 0);
   narrow_phase_ = ode::make_narrow_phase(*model_);
-  const solver::PackedWorld world{model_.get(), solver::find_articulations(*model_), narrow_phase_.get()};
+  solver::PackedWorld world{model_.get(), solver::find_articulations(*model_), narrow_phase_.get()};
+  world.contact_margin_m = margin_m_;
   pack_ = solver::make_pack({&world, 1}, settings.simd, settings.precision);
 }
 
@@ -48,7 +54,8 @@ std::vector<model::Contact> ContactOracle::brute_force(std::int64_t step) {
   for (std::size_t i = 0; i < geoms.size(); ++i) {
     if (geoms[i].shape != model::Shape::plane)
       boxes[i] =
-          geometry::geom_box(geoms[i], geoms[i].body < 0 ? geometry::static_pose() : poses[geoms[i].body]);
+          geometry::geom_box(geoms[i], geoms[i].body < 0 ? geometry::static_pose() : poses[geoms[i].body])
+              .grown(margin_m_);
   }
   std::vector<model::GeomPair> pairs;
   for (std::size_t i = 0; i < geoms.size(); ++i) {

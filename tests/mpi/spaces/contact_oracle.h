@@ -39,6 +39,7 @@ class ContactOracle {
   const mpi::Communicator* comm_;
   std::shared_ptr<const model::Model> model_;
   double dt_s_;
+  double margin_m_;  ///< up to which contacts are found
   model::TouchRule rule_;
   std::optional<effects::FastBodies> fast_bodies_;  ///< none without the pass
   std::unique_ptr<stepping::WorldStepper> whole_;

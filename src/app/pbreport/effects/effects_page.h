@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/pbreport/effects/effects_data.h"
-#include "app/pbreport/effects/effects_options.h"
+#include "app/pbreport/study/report_options.h"
 
 namespace pbmpi::app {
 

@@ -1,35 +1,26 @@
 #include "app/pbreport/prediction/prediction.h"
 
-#include <ostream>
-
-#include "app/common/text_output.h"
-#include "app/pbreport/prediction/prediction_options.h"
 #include "app/pbreport/prediction/prediction_page.h"
 #include "app/pbreport/prediction/prediction_text.h"
-#include "app/pbreport/study/study_file.h"
-#include "io/file/write_file.h"
+#include "app/pbreport/study/study_report.h"
 
 namespace pbmpi::app {
 
 core::ExitCode run_prediction_report(const std::vector<std::string>& args, std::ostream& out) {
-  const ReportOfStudyOptions options = parse_prediction_report_options(args);
-  if (options.help) {
-    out << prediction_report_help_text();
-    return core::ExitCode::done;
-  }
-  const io::TableFile file = read_study(options.file, "prediction");
-  const PredictionStudy study = prediction_study(file, options.scenes);
-  if (options.csv) io::write_file(*options.csv, study_to_csv(file));
-  if (options.html) write_prediction_page(*options.html, file, study);
-  if (options.json) {
-    out << prediction_to_json(study);
-  } else if (options.markdown) {
-    out << prediction_to_markdown(study);
-  } else if (!options.quiet) {
-    out << prediction_to_text(study);
-  }
-  require_printed(out, "the report");
-  return core::ExitCode::done;
+  const StudyReport report{"prediction",
+                           "what value prediction gains a frame and does to its result, and what of the "
+                           "paper's statements about it "
+                           "is confirmed",
+                           "the bars of Figure 8, hits, errors, and the verdicts",
+                           "print frame rates and verdicts as tables instead"};
+  return run_study_report(
+      report, args, out, [](const io::TableFile& file, const ReportOfStudyOptions& options) {
+        const PredictionStudy study = prediction_study(file, options.scenes);
+        return StudyViews{
+            [study, &file](const std::string& path) { write_prediction_page(path, file, study); },
+            [study] { return prediction_to_json(study); }, [study] { return prediction_to_markdown(study); },
+            [study] { return prediction_to_text(study); }};
+      });
 }
 
 }  // namespace pbmpi::app

@@ -1,0 +1,62 @@
+#include "app/pbreport/study/study_report.h"
+
+#include <sstream>
+
+#include "app/common/options.h"
+#include "app/common/text_output.h"
+#include "app/pbreport/study/study_file.h"
+#include "io/file/write_file.h"
+
+namespace pbmpi::app {
+namespace {
+
+namespace po = boost::program_options;
+
+po::options_description visible_options(const StudyReport& report) {
+  po::options_description all("Options");
+  add_scene_choice(all);
+  add_output_options(report.page, all);
+  add_print_options(report.table, all);
+  add_general_options("--json or --markdown", all);
+  return all;
+}
+
+}  // namespace
+
+std::string help_text(const StudyReport& report) {
+  std::ostringstream text;
+  text << "pbreport " << report.name << " shows " << report.shows << ": the file of pbstudy " << report.name
+       << ". The word " << report.name << " may be left out.\n\n"
+       << "Usage: pbreport [" << report.name << "] " << report.name << ".h5 [options]\n\n"
+       << visible_options(report);
+  return text.str();
+}
+
+ReportOfStudyOptions parse_options(const StudyReport& report, const std::vector<std::string>& args) {
+  return report_of_study_options(parse_with_files(args, visible_options(report)), "a study of " + report.name,
+                                 report.name + ".h5");
+}
+
+core::ExitCode run_study_report(const StudyReport& report, const std::vector<std::string>& args,
+                                std::ostream& out, const ReadStudy& read) {
+  const ReportOfStudyOptions options = parse_options(report, args);
+  if (options.help) {
+    out << help_text(report);
+    return core::ExitCode::done;
+  }
+  const io::TableFile file = read_study(options.file, report.name);
+  const StudyViews views = read(file, options);
+  if (options.csv) io::write_file(*options.csv, study_to_csv(file));
+  if (options.html) views.write_page(*options.html);
+  if (options.json) {
+    out << views.json();
+  } else if (options.markdown) {
+    out << views.markdown();
+  } else if (!options.quiet) {
+    out << views.text();
+  }
+  require_printed(out, "the report");
+  return core::ExitCode::done;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,39 @@
+/// The command that reports a study, where it has no options of its own.
+#pragma once
+
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "app/pbreport/study/report_options.h"
+#include "core/error.h"
+#include "io/table/table_file.h"
+
+namespace pbmpi::app {
+
+/// What such commands differ in, in words.
+struct StudyReport {
+  std::string name;   ///< of the study, of the command and, with .h5, of the file
+  std::string shows;  ///< "pbreport NAME shows ..."
+  std::string page;   ///< what --html writes
+  std::string table;  ///< what --markdown prints
+};
+
+/// A study that has been read, in the forms that a user may ask for.
+struct StudyViews {
+  std::function<void(const std::string& path)> write_page;
+  std::function<std::string()> json, markdown, text;
+};
+
+using ReadStudy = std::function<StudyViews(const io::TableFile& file, const ReportOfStudyOptions& options)>;
+
+std::string help_text(const StudyReport& report);
+/// Throws core::InputError with one clear message.
+ReportOfStudyOptions parse_options(const StudyReport& report, const std::vector<std::string>& args);
+/// `read` is called with the file, which outlives the views. Throws core::InputError for what cannot be read
+/// or written.
+core::ExitCode run_study_report(const StudyReport& report, const std::vector<std::string>& args,
+                                std::ostream& out, const ReadStudy& read);
+
+}  // namespace pbmpi::app
