@@ -25,7 +25,7 @@ std::vector<std::string> environment_for(const Child& child) {
     if (!text.starts_with("OMPI_") && !text.starts_with("PMIX_")) all.push_back(text);
   }
   for (const auto& [name, value] : child.environment) {
-    std::erase_if(all, [&](const std::string& entry) { return entry.starts_with(name + "="); });
+    std::erase_if(all, [start = name + "="](const std::string& entry) { return entry.starts_with(start); });
     all.push_back(name + "=" + value);
   }
   return all;
