@@ -213,26 +213,31 @@ void require_end(const Run& run, const std::string& what) {
                          run.errors);
 }
 
-/// The bands and sizes of `tables` as one; no p99, which their p99 do not give.
+/// The bands and sizes of `tables` as one; no p99, which their p99 do not give. The rms is over entries that
+/// have a finite error, as in each table.
 analysis::ErrorTable joined(const json& tables, std::size_t first, std::size_t last) {
   analysis::ErrorTable all;
   for (const analysis::NamedSummary& named : analysis::error_columns) {
     analysis::ErrorSummary& sum = all.*named.summary;
     sum = {};
+    std::int64_t num_finite = 0;
     double squares = 0;
     for (std::size_t i = first; i < std::min(last, tables.size()); ++i) {
       const json& one = tables[i].at(std::string(named.name) + "_" + named.unit);
-      const auto count = one.at("count").get<std::int64_t>();
       const auto real = [&](const char* key) {
         return one.at(key).is_null() ? INFINITY : one.at(key).get<double>();
       };
+      const auto count = one.at("count").get<std::int64_t>(), broken = one.at("broken").get<std::int64_t>();
+      const std::int64_t finite = count - broken - one.at("bands").back().get<std::int64_t>();
       sum.count += count;
-      if (count > 0) squares += static_cast<double>(count) * real("rms") * real("rms");
+      sum.broken += broken;
+      num_finite += finite;
+      if (finite > 0) squares += static_cast<double>(finite) * real("rms") * real("rms");
       sum.max = std::max(sum.max, real("max"));
       for (std::size_t band = 0; band < sum.bands.size(); ++band)
         sum.bands[band] += one.at("bands")[band].get<std::int64_t>();
     }
-    sum.rms = sum.count > 0 ? std::sqrt(squares / static_cast<double>(sum.count)) : 0;
+    sum.rms = num_finite > 0 ? std::sqrt(squares / static_cast<double>(num_finite)) : 0;
     sum.p99 = NAN;
   }
   return all;
