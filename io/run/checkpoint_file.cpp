@@ -63,8 +63,8 @@ struct Columns {
     frozen_in.push_back(state.guard.frozen_in);
     num_contact_forces.push_back(std::ssize(state.memory.contacts));
     num_joint_forces.push_back(std::ssize(state.memory.joints));
-    append_rows(contact_force_rows, state.memory.contacts, model::numbers_of_contact_force);
-    append_rows(joint_force_rows, state.memory.joints, model::numbers_of_joint_force);
+    model::append_rows(contact_force_rows, state.memory.contacts, model::numbers_of_contact_force);
+    model::append_rows(joint_force_rows, state.memory.joints, model::numbers_of_joint_force);
   }
 };
 

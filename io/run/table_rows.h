@@ -17,14 +17,6 @@
 
 namespace pbmpi::io {
 
-/// Appends forces as put_row() makes them.
-template <class Force>
-void append_rows(std::vector<double>& rows, const std::vector<Force>& forces, std::size_t width) {
-  rows.resize(rows.size() + width * forces.size());
-  double* to = rows.data() + rows.size() - width * forces.size();
-  for (const Force& force : forces) to = model::put_row(force, to);
-}
-
 /// Cuts such rows into a column for each of their parts.
 template <std::size_t N>
 std::vector<TableColumn> columns_of(const std::array<model::RowPart, N>& parts,

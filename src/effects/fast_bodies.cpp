@@ -17,6 +17,12 @@ model::BodyPose body_pose(const core::Vec3& position, const core::Quat& q) {
   return pose;
 }
 
+model::BodyPose pose_of(const model::State& state, const model::Geom& geom) {
+  return geom.body == model::no_body
+             ? geometry::geom_pose(geom, geometry::static_pose())
+             : geometry::geom_pose(geom, body_pose(state.position[geom.body], state.orientation[geom.body]));
+}
+
 /// `body`, `pose`: the body's; `geom_at`: the geom's.
 core::Vec3 velocity_of_centre(const model::BodyPose& geom_at, const core::Vec3& body_position,
                               const core::Vec3& velocity, const core::Vec3& angular_velocity) {
@@ -28,12 +34,6 @@ core::Vec3 with_front(const model::Geom& geom, const model::BodyPose& geom_at, c
   const double length = way.norm();
   if (length == 0) return way;
   return way + geometry::half_extent(geom, geom_at.rotation, way / length) / length * way;
-}
-
-model::BodyPose pose_of(const model::State& state, const model::Geom& geom) {
-  return geom.body == model::no_body
-             ? geometry::geom_pose(geom, geometry::static_pose())
-             : geometry::geom_pose(geom, body_pose(state.position[geom.body], state.orientation[geom.body]));
 }
 
 constexpr int no_family = -1;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/hash.h"
 #include "model/model.h"
@@ -39,6 +40,13 @@ inline constexpr std::size_t numbers_of_joint_force = row_width(joint_force_part
 /// Writes a row, every bit kept; returns where the next one begins.
 double* put_row(const ContactForce& force, double* to);
 double* put_row(const JointForce& force, double* to);
+/// Appends a row of `width` numbers for each force.
+template <class Force>
+void append_rows(std::vector<double>& rows, const std::vector<Force>& forces, std::size_t width) {
+  rows.resize(rows.size() + width * forces.size());
+  double* to = rows.data() + rows.size() - width * forces.size();
+  for (const Force& force : forces) to = put_row(force, to);
+}
 /// Inverse of put_row(). The indices must be within the range of int.
 const double* take_row(const double* from, ContactForce& force);
 const double* take_row(const double* from, JointForce& force);

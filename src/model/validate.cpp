@@ -127,8 +127,8 @@ void validate_joint(const Model& model, const Joint& joint, const std::string& w
                     std::to_string(joint.break_torque) + " N m; give at least 0, which is never");
 }
 
-/// What is wrong with an event, or nothing. Makes no text where nothing is wrong: a programme of
-/// an hour has a million events.
+/// What is wrong with an event, or nothing. Makes no text where nothing is wrong: a programme of an hour has
+/// a million events.
 std::optional<std::string> fault_of(const Model& model, const Event& event) {
   if (event.step < 0)
     return "it is scheduled at step " + std::to_string(event.step) + "; the first step is 0";

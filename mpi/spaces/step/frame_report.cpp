@@ -14,12 +14,10 @@ using core::Phase;
 
 namespace {
 
-/// Forces as rows of numbers.
 template <class Force>
 std::vector<double> rows_of(const std::vector<Force>& forces, std::size_t width) {
-  std::vector<double> rows(forces.size() * width);
-  double* to = rows.data();
-  for (const Force& force : forces) to = model::put_row(force, to);
+  std::vector<double> rows;
+  model::append_rows(rows, forces, width);
   return rows;
 }
 

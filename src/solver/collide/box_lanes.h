@@ -3,6 +3,7 @@
 
 #include "solver/collide/geom_lanes.h"
 #include "solver/collide/pair_table.h"
+#include "solver/collide/spread.h"
 
 namespace pbmpi::solver {
 
@@ -209,36 +210,18 @@ int BoxManifold<T>::choose(const Corner* corners, int count, int* chosen) {
     for (int i = 0; i < count; ++i) chosen[i] = i;
     return count;
   }
-  int deepest = 0, farthest = 0, left = 0, right = 0;
+  int deepest = 0;
   for (int i = 1; i < count; ++i) {
     if (corners[i].depth > corners[deepest].depth) deepest = i;
   }
-  const Corner& origin = corners[deepest];
-  Scalar most = -1, most_left = 0, most_right = 0;
-  for (int i = 0; i < count; ++i) {
-    const Scalar du = corners[i].u - origin.u, dv = corners[i].v - origin.v;
-    if (du * du + dv * dv > most) {
-      most = du * du + dv * dv;
-      farthest = i;
-    }
-  }
-  const Scalar lu = corners[farthest].u - origin.u, lv = corners[farthest].v - origin.v;
-  for (int i = 0; i < count; ++i) {
-    const Scalar area = lu * (corners[i].v - origin.v) - lv * (corners[i].u - origin.u);
-    if (area > most_left) {
-      most_left = area;
-      left = i;
-    }
-    if (area < most_right) {
-      most_right = area;
-      right = i;
-    }
-  }
+  const Spread<T> spread = Spread<T>::from(deepest, count, [&](int i) {
+    return typename Spread<T>::Place{corners[i].u, corners[i].v};
+  });
   int kept = 0;
   chosen[kept++] = deepest;
-  if (farthest != deepest) chosen[kept++] = farthest;
-  if (most_left > 0) chosen[kept++] = left;
-  if (most_right < 0) chosen[kept++] = right;
+  if (spread.farthest != deepest) chosen[kept++] = spread.farthest;
+  if (spread.area_left > 0) chosen[kept++] = spread.left;
+  if (spread.area_right < 0) chosen[kept++] = spread.right;
   return kept;
 }
 

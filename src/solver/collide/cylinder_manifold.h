@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/collide/pair_table.h"
+#include "solver/collide/spread.h"
 #include "solver/collide/support_feature.h"
 
 namespace pbmpi::solver {
@@ -265,39 +266,21 @@ void CylinderManifold<T>::rim_on_rim() {
 /// lie on one side, the one farthest beyond the triangle of these.
 template <class T>
 int CylinderManifold<T>::choose(int* chosen) const {
-  int deepest = 0, farthest = 0, left = 0, right = 0;
+  int deepest = 0;
   for (int i = 1; i < num_spots_; ++i) {
     if (spots_[i].depth > spots_[deepest].depth + slack_) deepest = i;
   }
-  const Spot& origin = spots_[deepest];
-  Scalar most = 0, most_left = 0, most_right = 0;
-  for (int i = 0; i < num_spots_; ++i) {
-    const Scalar dx = spots_[i].x - origin.x, dy = spots_[i].y - origin.y;
-    if (dx * dx + dy * dy > most) {
-      most = dx * dx + dy * dy;
-      farthest = i;
-    }
-  }
-  const Scalar near = most * Scalar(1e-3);  // nearer to the line than this a point adds nothing
-  const Scalar lx = spots_[farthest].x - origin.x, ly = spots_[farthest].y - origin.y;
-  for (int i = 0; i < num_spots_; ++i) {
-    const Scalar area = lx * (spots_[i].y - origin.y) - ly * (spots_[i].x - origin.x);
-    if (area > most_left) {
-      most_left = area;
-      left = i;
-    }
-    if (area < most_right) {
-      most_right = area;
-      right = i;
-    }
-  }
+  const Spread<T> spread = Spread<T>::from(deepest, num_spots_, [&](int i) {
+    return typename Spread<T>::Place{spots_[i].x, spots_[i].y};
+  });
+  const Scalar near = spread.square * Scalar(1e-3);  // nearer to the line than this a point adds nothing
   int kept = 0;
   chosen[kept++] = deepest;
-  if (most > least_way_ * least_way_) chosen[kept++] = farthest;
-  if (most_left > near) chosen[kept++] = left;
-  if (-most_right > near) chosen[kept++] = right;
+  if (spread.square > least_way_ * least_way_) chosen[kept++] = spread.farthest;
+  if (spread.area_left > near) chosen[kept++] = spread.left;
+  if (-spread.area_right > near) chosen[kept++] = spread.right;
   if (kept == 3) {
-    const int fourth = beyond_triangle(chosen, most_left > near ? Scalar(1) : Scalar(-1), near);
+    const int fourth = beyond_triangle(chosen, spread.area_left > near ? Scalar(1) : Scalar(-1), near);
     if (fourth >= 0) chosen[kept++] = fourth;
   }
   return kept;

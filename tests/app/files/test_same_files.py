@@ -6,10 +6,9 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import ProgramTest  # noqa: E402
+from harness import SCENES, ProgramTest  # noqa: E402
 from same_files import content, differences  # noqa: E402
 
-SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
 RANKS = (1, 2, 3, 4)
 CUT = ("--stepper", "sor", "--record-contacts")
 SOR, QUICK = (*CUT, "--record-residuals"), ("--stepper", "quick", "--record-islands", "--record-contacts")

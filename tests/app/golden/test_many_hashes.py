@@ -10,9 +10,8 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import COLD, ProgramTest  # noqa: E402
+from harness import COLD, SCENES, ProgramTest  # noqa: E402
 
-SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
 SOR = {
     "default": (),
     "single": ("--precision", "single"),

@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <fstream>
 
-#include "app/pbreport/effects/effects.h"
 #include "app/pbreport/effects/effects_data.h"
 #include "app/pbreport/effects/effects_markdown.h"
 #include "app/pbreport/effects/effects_page.h"
 #include "app/pbreport/effects/effects_text.h"
+#include "app/pbreport/study/study_report.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
@@ -99,7 +99,7 @@ TEST(EffectsMarkdown, shows_it_if_demanding_changed_the_result) {
 
 std::string refusal(const std::vector<std::string>& args) {
   try {
-    parse_options(effects_report(), args);
+    parse_options({"effects", "costs", "a page", "a table"}, args);
   } catch (const core::InputError& error) {
     return error.what();
   }

@@ -5,12 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/pbreport/study/study_report.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
-
-const StudyReport& effects_report();
 
 /// Throws core::InputError: bad usage, a file that is no study of effects, an output that cannot be written.
 core::ExitCode run_effects_report(const std::vector<std::string>& args, std::ostream& out);
