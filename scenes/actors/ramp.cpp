@@ -25,7 +25,7 @@ ActorPlan read_ramp(TableReader& actor, const SceneContext&) {
   ramp.material = read_material(actor, {0.7, 0});                     // rubber on dry rough wood, about 0.7
   return [ramp](const Placement& place, model::Model& model) {
     const double slope = core::angle_of(ramp.height_m, ramp.length_m);
-    const double board = std::hypot(ramp.height_m, ramp.length_m);
+    const double board = std::sqrt(ramp.height_m * ramp.height_m + ramp.length_m * ramp.length_m);
     const Vec3 along(core::cosine(slope), 0, core::sine(slope));
     const Vec3 normal(-core::sine(slope), 0, core::cosine(slope));
     model::Geom geom;

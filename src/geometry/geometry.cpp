@@ -86,7 +86,7 @@ double half_extent(const model::Geom& geom, const double rotation[9], const core
         rotation[k] * direction.x() + rotation[3 + k] * direction.y() + rotation[6 + k] * direction.z();
   }
   const Extent extent = extent_of(geom);
-  const double rim = extent.disc > 0 ? extent.disc * std::hypot(along[0], along[1]) : 0;
+  const double rim = extent.disc > 0 ? extent.disc * std::sqrt(along[0] * along[0] + along[1] * along[1]) : 0;
   return reach_of_box(extent, along) + extent.ball + rim;
 }
 
@@ -100,7 +100,7 @@ double least_half_extent(const model::Geom& geom) {
 double bounding_radius(const model::Geom& geom) {
   if (geom.shape == model::Shape::plane) return model::infinity;
   const auto& [half, ball, disc] = extent_of(geom);
-  return std::hypot(core::Vec3(half[0], half[1], half[2]).norm(), disc) + ball;
+  return std::sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2] + disc * disc) + ball;
 }
 
 }  // namespace pbmpi::geometry

@@ -32,7 +32,7 @@ double inner_radius(const Geom& geom) {
       return geom.size[0] - off.norm();
     }
     case Shape::cylinder:
-      return std::min(geom.size[0] - std::hypot(centre.x(), centre.y()), side(2));
+      return std::min(geom.size[0] - std::sqrt(centre.x() * centre.x() + centre.y() * centre.y()), side(2));
     case Shape::box:
       return std::min({side(0), side(1), side(2)});
     case Shape::plane:

@@ -1,7 +1,8 @@
-"""Fails if a source file includes what its folder may not see, or a folder holds more files than a part should.
+"""Fails if a source file includes or calls what its folder may not, or a folder holds more files than a part should.
 
 Usage: layering.py PROJECT_ROOT. The arrows are those of the architecture: a folder names the folders that it stands on,
-and sees what these see; the outside libraries only some may touch.
+and sees what these see; the outside libraries only some may touch. What a state of sor depends on calls no function of the
+C library that has other code for other CPUs.
 """
 
 import pathlib
@@ -91,6 +92,10 @@ OUTSIDE = [
     (r"boost/.*", {folder: None for folder in STANDS_ON if folder.startswith("src/app/")}),
 ]
 
+# Functions that differ in their last bits from CPU to CPU, and the folders below which a state may depend on them.
+CPU_CALL = re.compile(r"\bstd::(a?(?:sin|cos|tan)h?|atan2|hypot|exp2?|expm1|log(?:2|10|1p)?|pow|cbrt|fma)\(")
+STEPPED = ("src/core", "src/model", "src/geometry", "src/effects", "src/stepping", "src/solver", "src/estimate", "scenes", "mpi")
+
 SUFFIXES = {".c", ".h", ".hpp", ".cpp", ".cc", ".inc"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"]', re.MULTILINE)
 
@@ -134,6 +139,12 @@ def check_outside(folder, include):
     return None
 
 
+def check_calls(folder, text):
+    if any(folder == top or folder.startswith(top + "/") for top in STEPPED):
+        for name in CPU_CALL.findall(text):
+            yield f"std::{name}() has other bits on other CPUs; core/elementary.h has its own, or do without"
+
+
 def check_counts(users):
     """Outside headers that only so many files of a folder may include."""
     for (pattern, folder), files in sorted(users.items()):
@@ -152,7 +163,7 @@ def check_sizes(root, tops):
 
 
 def find_violations(root):
-    """One line for each forbidden include below `root`, and the number of files looked at."""
+    """One line for each thing forbidden below `root`, and the number of files looked at."""
     root = pathlib.Path(root).resolve()
     violations, users, num_files = [], {}, 0
     tops = sorted({folder.split("/")[0] for folder in STANDS_ON})
@@ -166,7 +177,9 @@ def find_violations(root):
             if folder is None:
                 violations.append(f"{path}: it lies in no folder of the architecture")
                 continue
-            for include in INCLUDE.findall(source.read_text(encoding="utf-8")):
+            text = source.read_text(encoding="utf-8")
+            violations.extend(f"{path}: {reason}" for reason in check_calls(folder, text))
+            for include in INCLUDE.findall(text):
                 target = target_of(root, source, include)
                 reason = check_inside(folder, target) if target else check_outside(folder, include)
                 if reason:
@@ -187,7 +200,7 @@ def main():
         print(line, file=sys.stderr)
     if num_files == 0:
         sys.exit(f"{sys.argv[1]}: no source file found")
-    print(f"{num_files} files, {len(violations)} forbidden includes")
+    print(f"{num_files} files, {len(violations)} forbidden includes or calls")
     return 1 if violations else 0
 
 

@@ -1,4 +1,4 @@
-"""Feeds layering.py small trees with one forbidden include each, and one without."""
+"""Feeds layering.py small trees with one forbidden thing each, and one without."""
 
 import pathlib
 import subprocess
@@ -12,7 +12,7 @@ CLEAN = {
     "src/core/error.h": "#include <string>\n",
     "src/model/model.h": '#include "core/error.h"\n#include <Eigen/Core>\n',
     "src/stepping/stepper.h": '#include "model/model.h"\n',
-    "src/ode/world.cpp": '#include "model/model.h"\n#include <ode/ode.h>\n',
+    "src/ode/world.cpp": '#include "model/model.h"\n#include <ode/ode.h>\ndouble f(double x) { return std::expm1(x); }\n',
     "src/solver/joints/rows.h": '#include "model/model.h"\n',
     "src/solver/contacts/rows.h": '#include "model/model.h"\n',
     "src/solver/worlds/sor.h": '#include "solver/joints/rows.h"\n#include "stepping/stepper.h"\n',
@@ -46,6 +46,8 @@ FORBIDDEN = {
     "mpi_sees_hdf5": ("mpi/comm/bad.cpp", "#include <hdf5.h>\n"),
     "scenes_sees_boost": ("scenes/bad.cpp", "#include <boost/any.hpp>\n"),
     "file_outside_the_folders": ("src/other/bad.cpp", "#include <string>\n"),
+    "geometry_calls_hypot": ("src/geometry/bad.cpp", "double f(double x) { return std::hypot(x, 1); }\n"),
+    "a_part_of_the_solver_calls_sin": ("src/solver/joints/bad.h", "inline double f(double x) { return std::sin(x); }\n"),
 }
 
 
@@ -64,7 +66,7 @@ class Layering(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(f"{len(CLEAN)} files, 0 forbidden", result.stdout)
 
-    def test_refuses_each_forbidden_include(self):
+    def test_refuses_each_forbidden_thing(self):
         for name, (path, text) in FORBIDDEN.items():
             with self.subTest(name):
                 result = check(CLEAN | {path: text})

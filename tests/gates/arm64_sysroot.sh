@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Unpacks Debian's arm64 packages that pbmpi is built on into a folder, for a cross build: `arm64_sysroot.sh FOLDER`. Nothing
-# is installed on this machine, and no program of that architecture runs. Does nothing if the folder has them.
+# is installed on this machine, and no program of that architecture runs. Does nothing if the folder has them. DEBIAN_MIRROR
+# names another mirror.
 set -euo pipefail
 
 root=$(realpath -m "$1")
@@ -13,7 +14,7 @@ state=$root/apt
 mkdir -p "$state"/lists/partial "$state"/archives/partial "$root"
 : >"$state/status" # nothing is installed, so that apt fetches all that the packages need
 . /etc/os-release
-echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian $VERSION_CODENAME main" >"$state/sources.list"
+echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] ${DEBIAN_MIRROR:-http://deb.debian.org/debian} $VERSION_CODENAME main" >"$state/sources.list"
 apt=(apt-get -qq -o APT::Architecture=arm64 -o APT::Architectures=arm64 -o APT::Install-Recommends=false -o APT::Sandbox::User=root
   -o Debug::NoLocking=1 -o Dir::State="$state" -o Dir::State::lists="$state/lists" -o Dir::State::status="$state/status"
   -o Dir::Cache="$state" -o Dir::Cache::archives="$state/archives" -o Dir::Etc::SourceList="$state/sources.list"

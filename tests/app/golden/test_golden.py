@@ -4,8 +4,7 @@ that has none above SSE2. What changes them is a change of results: then the lis
 
 The hashes are those of g++ and of clang++ (tests/gates.sh clang): nothing that a state depends on is left to the
 compiler, or to a library that has other code for other CPUs. Nor to the kind of CPU: with PBMPI_EMULATOR, a command that
-runs the programs of PBMPI_BIN, those of a cross build are compared, without those that PBMPI_GOLDEN_WITHOUT names, e.g.
-Environ/double (tests/gates.sh arm64)."""
+runs the programs of PBMPI_BIN, those of a cross build are compared (tests/gates.sh arm64)."""
 import concurrent.futures
 import itertools
 import json
@@ -15,11 +14,9 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import PBMPI, ProgramTest  # noqa: E402
+from harness import PBMPI, SCENES, ProgramTest  # noqa: E402
 
-SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
 LIST = os.path.join(os.path.dirname(os.path.abspath(__file__)), "golden_hashes.txt")
-WITHOUT = {tuple(name.split("/")) for name in os.environ.get("PBMPI_GOLDEN_WITHOUT", "").split()}
 EMULATOR = os.environ.get("PBMPI_EMULATOR", "").split()
 RUNS_AT_ONCE = 4  # a run waits for most of its time until MPI is up
 HEAD = "# State hash of each scene after its frames under sor: scene, precision, hash. Written by test_golden.py.\n"
@@ -55,8 +52,7 @@ class GoldenHashes(ProgramTest):
         expected = golden()
         self.assertEqual(found.keys(), expected.keys())
         for case, state_hash in found.items():
-            if case not in WITHOUT:
-                self.assertEqual(state_hash, expected[case], case)
+            self.assertEqual(state_hash, expected[case], case)
 
     # QEMU's CPUs pick other code in the C library, too: without AVX and FMA, and with both.
     @unittest.skipIf(EMULATOR, "the CPU is another one already")
