@@ -35,6 +35,7 @@ bool StepRules::start() {
 
 void StepRules::begin_step(RuledWorld& world, std::int64_t step) {
   has_before_ = false;
+  num_fast_ = 0;
   wake_called(world, step);
   world.fire_events(step);
   change_velocities(world);
@@ -81,6 +82,7 @@ void StepRules::look_ahead(RuledWorld& world) {
   world.store(all_bodies_, before_);
   has_before_ = true;
   if (fast_bodies_->look(before_, dt_s_)) world.add_contacts_ahead(*fast_bodies_, before_);
+  num_fast_ = static_cast<int>(fast_bodies_->bodies().size());
 }
 
 bool StepRules::wake_touched(RuledWorld& world) {

@@ -90,6 +90,8 @@ class StepRules {
   std::span<const int> breakable_joints() const {
     return breakage_ ? breakage_->joints() : std::span<const int>();
   }
+  /// Bodies that were fast in the step at hand, from after_collision() on; 0 for a cut world.
+  int num_fast() const { return num_fast_; }
   int num_inside() const { return field_ ? static_cast<int>(field_->inside().size()) : 0; }
   bool joints_can_break() const { return breakage_.has_value(); }
 
@@ -114,6 +116,7 @@ class StepRules {
   std::vector<int> all_bodies_;
   std::vector<VelocityRule> velocity_rules_;
   std::optional<FastBodies> fast_bodies_;  ///< none without the pass, or in a cut world
+  int num_fast_ = 0;
   std::optional<FieldOfInterest> field_;   ///< none without the pass
   std::optional<SpaceSleepers> sleepers_;  ///< likewise
   std::optional<Breakage> breakage_;       ///< likewise

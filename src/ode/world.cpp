@@ -259,6 +259,7 @@ void World::read(model::State& state, stepping::Observables& observables) {
   state.broken_in = broken_in();
   observables = counts_;
   observables.contacts = contacts_.count();
+  observables.fast_bodies = rules_.num_fast();
   observables.bodies_inside = rules_.num_inside();
   observables.max_penetration_m = contacts_.deepest_m();
   stepping::observe_state(*model_, state, observables);

@@ -28,6 +28,7 @@ struct Observables {
   int rows = 0;                  ///< scalar constraint rows of joints and contacts
   int islands = 0;               ///< sets of connected bodies
   int max_island_rows = 0;       ///< rows of the island that has most
+  int fast_bodies = 0;           ///< those that armed that effect; 0 without it
   int bodies_inside = 0;         ///< awake ones in the field of interest; 0 without that effect
   double energy_j = 0;           ///< kinetic + potential (height above z = 0 against gravity)
   double max_penetration_m = 0;  ///< deepest contact

@@ -5,13 +5,23 @@ import re
 import unittest
 
 import h5py
+import numpy as np
 
-from harness import PBREPORT, SOURCE, ProgramTest
+from harness import PBREPORT, SCENES, SOURCE, ProgramTest
 
 PLAN = ("--scene", "CrashSk", "--frames", 2)
+BALLS = 6
+FALLING = 'title = "balls that are thrown down ever faster, every second one in a space of its own"\nspaces = ["even", "odd"]\n' + "".join(f"""
+[[actor]]
+name = "ball{i}"
+type = "sphere"
+radius = 0.1
+density = 1000
+position = [{i}, 0, 2]
+velocity = [0, 0, {-2.0 * i}]
+space = "{"even" if i % 2 == 0 else "odd"}"
+""" for i in range(BALLS))
 
-
-SUITE = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
 
 def passes(description):
     """What --describe prints of the plan: the count of each pass, or None where its reason begins with none."""
@@ -32,6 +42,19 @@ class Effects(ProgramTest):
         if scene not in self.descriptions:
             self.descriptions[scene] = self.pbmpi(1, "--scene", scene, "--describe").stdout
         return self.descriptions[scene]
+
+    def test_the_file_says_how_many_bodies_were_fast_enough_to_look_ahead_for(self):
+        self.write("falling.toml", FALLING)
+        run = ("--scene", "falling.toml", "--dt", 0.01, "--steps-per-frame", 1, "--frames", 200, "--warmup", 0)
+        for stepper, ranks, cut in (("sor", 1, "worlds"), ("sor", 2, "spaces"), ("quick", 1, "worlds"), ("direct", 1, "worlds")):
+            with self.subTest(stepper=stepper, ranks=ranks, cut=cut):
+                self.summary(ranks, *run, "--stepper", stepper, "--decompose", cut, "-o", f"{stepper}{ranks}.h5")
+                with h5py.File(self.path(f"{stepper}{ranks}.h5")) as file:
+                    speed = np.linalg.norm(file["particles/bodies/velocity/value"][:], axis=2)
+                    counted = file["observables/world/fast_bodies"][:, 0]
+                at_start = np.vstack([2.0 * np.arange(BALLS), speed[:-1]])  # of each frame's one step
+                self.assertEqual(list(counted), list((at_start * 0.01 > 0.1).sum(axis=1)))
+                self.assertEqual((counted.min(), counted.max() > 2), (0, True), "all are slow at first, several fast later")
 
     def test_demanding_an_unneeded_effect_is_recorded_and_changes_no_bit(self):
         for stepper in ("quick", "sor"):
@@ -102,12 +125,12 @@ class Effects(ProgramTest):
 
     def test_the_nine_plans_are_nine_and_each_pass_of_each_has_something_to_do(self):
         plans = {}
-        for scene in SUITE:
+        for scene in SCENES:
             counts = passes(self.described(scene))
             self.assertGreaterEqual(len(counts), 8, counts)
             self.assertEqual([name for name, count in counts.items() if not count], [], scene)
             plans.setdefault(tuple(counts.items()), []).append(scene)
-        self.assertEqual(len(plans), len(SUITE), sorted(plans.values()))
+        self.assertEqual(len(plans), len(SCENES), sorted(plans.values()))
 
     def test_a_plan_counts_what_is_in_all_worlds_also_where_they_differ(self):
         scene = os.path.join(SOURCE, "tests", "scenes", "Unequal.toml")  # 4 worlds of 48 boxes, 12 of one

@@ -5,14 +5,11 @@ import unittest
 
 import h5py
 
-from harness import SOURCE, ProgramTest
+from harness import SCENES, SOURCE, ProgramTest
 
 sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
 
 from many_bodies import many_bodies  # noqa: E402
-
-
-SUITE = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
 
 
 class Scenes(ProgramTest):
@@ -28,7 +25,7 @@ class Scenes(ProgramTest):
             self.assertEqual(set(self.islands(scene)), {count}, scene)
 
     def test_each_of_the_nine_runs_to_its_end_on_two_ranks(self):
-        for scene in SUITE:
+        for scene in SCENES:
             with self.subTest(scene=scene):
                 summary = self.summary(2, "--scene", scene, "--no-output")
                 self.assertEqual(summary["frames"]["measured"], 5)
@@ -61,7 +58,7 @@ class Scenes(ProgramTest):
     def test_list_scenes_has_a_line_for_each(self):
         result = self.pbmpi(1, "--list-scenes")
         suite, hard_cases = result.stdout.split("Hard cases", 1)
-        self.assertCountEqual([line.split()[0] for line in suite.splitlines()], SUITE)
+        self.assertCountEqual([line.split()[0] for line in suite.splitlines()], SCENES)
         self.assertIn("hard/rest/", hard_cases)
         self.assertIn(" column20 ", hard_cases)
 

@@ -62,10 +62,10 @@ TEST(ObservableTable, joins_no_numbers_to_zero) {
 
 TEST(Observables, of_a_world_that_sleeps_keep_what_follows_from_its_state) {
   Observables seen;
-  seen.contacts = seen.rows = seen.islands = seen.max_island_rows = seen.bodies_inside = 5;
+  seen.contacts = seen.rows = seen.islands = seen.max_island_rows = seen.fast_bodies = seen.bodies_inside = 5;
   seen.max_penetration_m = seen.joint_gap_m = seen.energy_j = 0.5;
   observe_sleep(seen);
-  EXPECT_EQ(seen.contacts + seen.rows + seen.max_island_rows + seen.bodies_inside, 0);
+  EXPECT_EQ(seen.contacts + seen.rows + seen.max_island_rows + seen.fast_bodies + seen.bodies_inside, 0);
   EXPECT_EQ(seen.max_penetration_m, 0);
   EXPECT_EQ(seen.islands, 5);
   EXPECT_EQ(seen.joint_gap_m, 0.5);

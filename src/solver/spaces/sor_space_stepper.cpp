@@ -103,7 +103,8 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   std::optional<SpaceFastBodies> fast_bodies_;  ///< none without the pass
   FocusedStep focused_;                         ///< of the last solve()
   ContactRecall recall_;                        ///< likewise
-  int bodies_inside_ = 0;                       ///< likewise
+  int fast_own_bodies_ = 0;                     ///< in the last step
+  int bodies_inside_ = 0;                       ///< of the last solve()
   std::int64_t last_step_ = 0;                  ///< solved
   std::optional<std::int64_t> launched_step_;   ///< the last one of launch_others()
 };
@@ -229,7 +230,7 @@ void SorSpaceStepper::change_velocities(bool own) {
 }
 
 void SorSpaceStepper::fire_events(std::int64_t step) {
-  bodies_inside_ = 0;  // while all sleep there is no solve()
+  fast_own_bodies_ = bodies_inside_ = 0;  // while all sleep nothing collides, and there is no solve()
   show_sleepers();
   if (rules_.sleepers() != nullptr) rules_.sleepers()->wake_called(step);
   for (const Event& event : events_of(*model_, step)) {
@@ -261,7 +262,7 @@ void SorSpaceStepper::collide(std::vector<Contact>& contacts) {
   show_sleepers();
   packed_.lend(own_bodies_, *pack_);
   pack_->collide(std::span(&contacts, 1));
-  if (fast_bodies_) fast_bodies_->add_own(state(), contacts);
+  if (fast_bodies_) fast_own_bodies_ = fast_bodies_->add_own(state(), contacts);
 }
 
 void SorSpaceStepper::collide_pairs(std::vector<Contact>& contacts) {
@@ -349,6 +350,7 @@ stepping::Observables SorSpaceStepper::count(std::span<const int> units,
   };
   stepping::Observables counts =
       count_islands(*model_, map_, articulations_, units, contacts, joint_rows, rules_.sleepers());
+  counts.fast_bodies = fast_own_bodies_;
   counts.bodies_inside = bodies_inside_;
   return counts;
 }

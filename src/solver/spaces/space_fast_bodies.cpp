@@ -10,10 +10,11 @@ std::vector<int> SpaceFastBodies::find_own(const model::State& state) {
   return own_->bodies();
 }
 
-void SpaceFastBodies::add_own(const model::State& state, std::vector<model::Contact>& contacts) {
+int SpaceFastBodies::add_own(const model::State& state, std::vector<model::Contact>& contacts) {
   if (own_->look(state, dt_s_))
     own_->add(
         state, [](int, int) { return true; }, contacts);
+  return static_cast<int>(own_->bodies().size());
 }
 
 void SpaceFastBodies::add_across(const model::State& state, std::span<const int> owner,

@@ -26,7 +26,8 @@ class SpaceFastBodies {
   }
   /// Own bodies that are fast, ascending.
   std::vector<int> find_own(const model::State& state);
-  void add_own(const model::State& state, std::vector<model::Contact>& contacts);
+  /// Returns how many own bodies are fast.
+  int add_own(const model::State& state, std::vector<model::Contact>& contacts);
   /// `owner` [num_spaces]
   void add_across(const model::State& state, std::span<const int> owner,
                   std::vector<model::Contact>& contacts);

@@ -202,6 +202,7 @@ void SorWorld::observe(const Pack& pack, int index, const FocusedStep& step,
   pack.store(index, state_);
   count_rows(pack, index, step, contacts);
   observables_.contacts = static_cast<int>(contacts.size());
+  observables_.fast_bodies = rules_.num_fast();
   observables_.bodies_inside = rules_.num_inside();
   observables_.max_penetration_m = 0;
   for (const model::Contact& contact : contacts) {
