@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "app/pbstudy/prediction/prediction_table.h"
+#include "app/pbstudy/prediction/unpredicted_runs.h"
 #include "app/pbstudy/study/study_runner.h"
 
 namespace pbmpi::app {
@@ -29,9 +30,11 @@ Measured run_cases(const mpi::Communicator& comm, const PredictionOptions& optio
                    const std::vector<PredictionCase>& cases, const std::vector<StudyScene>& scenes,
                    StudyRunner& runner) {
   Measured own, all;
+  UnpredictedRuns unpredicted(options);
   all.results = runner.run<PredictionResult>(cases, deal_out(cases, comm.size()), [&](std::size_t i) {
-    const PredictionOutcome outcome = run_prediction_case(
-        cases[i], scenes[static_cast<std::size_t>(cases[i].scene)], options, static_cast<int>(i));
+    const PredictionOutcome outcome =
+        run_prediction_case(cases[i], scenes[static_cast<std::size_t>(cases[i].scene)], options,
+                            static_cast<int>(i), unpredicted);
     own.frames.insert(own.frames.end(), outcome.frames.begin(), outcome.frames.end());
     own.variants.insert(own.variants.end(), outcome.variants.begin(), outcome.variants.end());
     return outcome.result;

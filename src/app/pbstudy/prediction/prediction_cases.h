@@ -11,8 +11,9 @@ namespace pbmpi::app {
 
 /// A scene, a way to step it, and what is predicted.
 struct PredictionCase {
-  int scene = 0;     ///< index into the study's scenes
-  std::string name;  ///< "20Iter", "FVP6", "FEEC+FVP6", ...
+  int scene = 0;                  ///< index into the study's scenes
+  std::string name;               ///< "20Iter", "FVP6", "FEEC+FVP6", ...
+  std::string program = "pbmpi";  ///< of this build
   std::string stepper = "quick";
   int iterations = 0;    ///< of quick
   bool feec = false;     ///< cycles are those of the estimate

@@ -61,11 +61,15 @@ struct PredictionOutcome {
   std::vector<VariantCycles> variants;
 };
 
+class UnpredictedRuns;
+
 /// Throws core::InputError where this build has no pbvalue.
 void require_tool();
 
-/// Throws core::RunError if a run ends as none should. `case_index` goes into the rows.
+/// Throws core::RunError if a run ends as none should. `case_index` goes into the rows; `unpredicted` holds
+/// what cases share, and is for all of them.
 PredictionOutcome run_prediction_case(const PredictionCase& one, const StudyScene& scene,
-                                      const PredictionOptions& options, int case_index);
+                                      const PredictionOptions& options, int case_index,
+                                      UnpredictedRuns& unpredicted);
 
 }  // namespace pbmpi::app

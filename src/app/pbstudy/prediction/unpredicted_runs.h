@@ -1,0 +1,45 @@
+/// The runs without prediction that all cases of a scene and a stepper are compared with.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "analysis/error_table.h"
+#include "app/pbstudy/prediction/child_runs.h"
+
+namespace pbmpi::app {
+
+struct UnpredictedRun {
+  std::string file;
+  double islands_mean = 0;
+  analysis::ErrorTable floor;  ///< drift of the measured frames that another solver seed makes
+};
+
+/// Each is run when it is asked for first, and its file lies there as long as this object.
+class UnpredictedRuns {
+ public:
+  explicit UnpredictedRuns(const PredictionOptions& options)
+      : options_(options), runs_(options.time_limit_s) {}
+
+  /// With the scene's iterations and without FEEC, whatever those of the case. Throws core::RunError if one
+  /// ends as none should.
+  const UnpredictedRun& of(const PredictionCase& one, const StudyScene& scene);
+
+ private:
+  UnpredictedRun run(const PredictionCase& one, const StudyScene& scene);
+
+  const PredictionOptions& options_;
+  ChildRuns runs_;
+  std::map<std::pair<int, std::string>, UnpredictedRun> done_;  ///< by scene, and by program with stepper
+};
+
+/// Options of pbmpi that set iterations (quick) and seeds.
+std::vector<std::string> seed_options(const PredictionOptions& options, int solver_seed_offset = 0);
+std::vector<std::string> iteration_options(const PredictionCase& one, int iterations);
+
+/// Mean or largest number of islands of a run; NaN if it is unknown. `which`: "mean" or "max".
+double islands(const nlohmann::json& summary, const char* which);
+
+}  // namespace pbmpi::app
