@@ -2,11 +2,12 @@
  *
  * Usage: kernels NAME [COUNT] [< values]. COUNT: rounds of the loop. The kernels of values read numbers from
  * standard input, move each through one instruction of a register in the marked section, and write what
- * arrived. Those of cycles print nothing. */
+ * arrived. Those of cycles print nothing; random_bytes prints COUNT bytes. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/auxv.h>
 #include <valgrind/valgrind.h>
 
 #include "core/mark_codes.h"
@@ -105,6 +106,11 @@ static void link_list(long bytes) {
   }
 }
 
+/* What the kernel gave this process to make its canary of: 16 bytes. */
+static void show_random_bytes(long count) {
+  fwrite((const void*)getauxval(AT_RANDOM), 1, (size_t)count, stdout);
+}
+
 static const struct {
   const char* name;
   void (*run)(long);
@@ -123,6 +129,7 @@ static const struct {
     {"walk_l2", walk, 0, 32 << 10},
     {"walk_l1", walk, 0, 8 << 10},
     {"through_memory", through_memory, 0, 0},
+    {"random_bytes", show_random_bytes, 0, 0},
 };
 
 int main(int argc, char** argv) {

@@ -159,6 +159,10 @@ class Hits(ToolTest):
                 report, _ = self.run_tool([KERNELS, "doubles", 0, phase], f"--scope={scope}", data=data)
                 self.assertEqual(total(report, "fp_load", "executed"), 10 if phase in phases else 0, (scope, phase))
 
+    def test_each_process_has_the_same_random_bytes(self):
+        shown = {self.run_tool([KERNELS, "random_bytes", 16])[1] for _ in range(2)}
+        self.assertEqual(shown, {b"\x50" * 16})
+
     def test_options_that_cannot_be_are_refused(self):
         for option in ("--threshold=small", "--threshold=-1", "--table-entries=3", "--table-ways=3", "--confidence-use=9",
                        "--scope=half", "--model=a:window=0", "--model=a:wide=1", "--model=a:width=", "--model=a:width=2;window=3",
