@@ -38,10 +38,23 @@ class Runs(ToolTest):
 
     def test_exact_prediction_leaves_the_vectors_of_sor(self):
         scene = ("2-Cars", "--stepper", "sor")
-        for scope in ("frame",):
+        for scope in ("frame", "all"):
             report, summary = self.run_scene(f"--scope={scope}", "--predict=all", scene=scene)
             self.assertEqual(summary["state_hash"], self.native(scene)["state_hash"])
             self.assertGreater(total(report, "fp_operation", "exact"), 1000)
+
+    def test_sor_marks_its_phases(self):
+        executed = {}
+        for scope in ("collision", "step", "all", "frame"):
+            report, _ = self.run_scene(f"--scope={scope}", scene=("CrashSk", "--stepper", "sor"))
+            executed[scope] = total(report, "fp_operation", "executed")
+            for section in report["sections"]:
+                self.assertGreater(section["collision_instructions"], 0)
+                self.assertGreater(section["forward_instructions"], section["collision_instructions"])
+                self.assertLess(section["collision_instructions"] + section["forward_instructions"], section["instructions"])
+        self.assertAlmostEqual((executed["collision"] + executed["step"]) / executed["all"], 1, delta=1e-3)
+        self.assertLess(executed["collision"], executed["step"])
+        self.assertLess(executed["all"], executed["frame"])
 
     def test_a_threshold_changes_the_result(self):
         report, summary = self.run_scene("--threshold=1e-6")

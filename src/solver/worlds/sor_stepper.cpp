@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/marks.h"
 #include "solver/layout/articulation.h"
 #include "solver/pack/step_settings.h"
 #include "solver/worlds/sor_world.h"
@@ -16,6 +17,7 @@ namespace {
 
 using core::LapTimer;
 using core::Phase;
+using core::PhaseMark;
 
 /// Bytes of velocities and rows that a pack may have for each body, about: what a sweep reads again and again
 /// should stay in a core's second cache (measured on 100CrSk: 500 to 2,000 bodies in float are alike, twice
@@ -163,7 +165,10 @@ void SorStepper::begin_step(int iterations, core::PhaseTimes& times) {
   for (Group& group : groups_) {
     const double start_s = core::now_s();
     begin(group, iterations, times);
-    if (!group.sleeps) group.pack->iterate(iterations, times);
+    if (!group.sleeps) {
+      const PhaseMark mark(PhaseMark::MarkedPhase::forward_step);
+      group.pack->iterate(iterations, times);
+    }
     look(group, times);
     group.begun_s = core::now_s() - start_s;
   }
@@ -206,6 +211,7 @@ void SorStepper::begin(Group& group, std::optional<int> look_after, core::PhaseT
   // Worlds of a pack may stand at different steps only if they came to this stepper at different times; the
   // order of the rows then follows each world's own step, so it is the key of the first that all must share.
   StepParameters parameters = step_parameters(settings_, group.worlds.front()->step());
+  const PhaseMark mark(PhaseMark::MarkedPhase::forward_step);
   if (group.focused.is_cut()) group.focused.step_outside(*group.pack, parameters, look_after, times);
   parameters.iterations = group.focused.iterations();
   group.pack->begin_step(group.focused.contacts(), group.focused.forces(), parameters, times);
@@ -223,6 +229,7 @@ void SorStepper::focus(Group& group) const {
 
 /// All worlds of the group collide again while bodies wake in any of them.
 void SorStepper::collide(Group& group) const {
+  const PhaseMark mark(PhaseMark::MarkedPhase::collision);
   group.pack->find_fast(settings_.dt_s, group.may_be_fast);
   bool woke = true;
   while (woke) {
@@ -235,7 +242,10 @@ void SorStepper::collide(Group& group) const {
 }
 
 void SorStepper::finish(Group& group, core::PhaseTimes& times) {
-  if (!group.sleeps) group.pack->finish_step(times);
+  if (!group.sleeps) {
+    const PhaseMark mark(PhaseMark::MarkedPhase::forward_step);
+    group.pack->finish_step(times);
+  }
   LapTimer timer(times);
   for (std::size_t i = 0; i < group.worlds.size(); ++i) {
     if (group.sleeps) {
