@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "ode/objects/warning_sink.h"
 #include "stepping/stepper.h"
@@ -21,5 +22,8 @@ namespace pbmpi::ode {
 /// set of message handlers a process.
 std::unique_ptr<stepping::WorldStepper> make_ode_stepper(const stepping::StepperSettings& settings,
                                                          WarningSink warn = warn_on_stderr);
+
+/// "single" or "double": the precision of the ODE that this program is built with.
+std::string precision_text();
 
 }  // namespace pbmpi::ode

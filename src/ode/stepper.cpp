@@ -128,4 +128,6 @@ std::unique_ptr<stepping::WorldStepper> make_ode_stepper(const stepping::Stepper
   return std::make_unique<OdeStepper>(settings, std::move(warn));
 }
 
+std::string precision_text() { return is_single_precision ? "single" : "double"; }
+
 }  // namespace pbmpi::ode

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "ode/objects/bodies.h"
 #include "ode/objects/joints.h"
+#include "ode/objects/numbers.h"
 #include "stepping/observable_table.h"
 
 namespace pbmpi::ode {
@@ -242,7 +243,7 @@ void World::solve_enabled(int iterations) {
 
 void World::note_centres() {
   centres_.clear();
-  for (const dBodyID body : bodies_) centres_.emplace_back(dBodyGetPosition(body));
+  for (const dBodyID body : bodies_) centres_.push_back(vec3(dBodyGetPosition(body)));
 }
 
 void World::show_contacts() {

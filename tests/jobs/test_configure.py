@@ -26,6 +26,14 @@ class Configure(unittest.TestCase):
         self.assertIn("PBMPI_HAS_CALLGRIND=0", self.configured("-DCMAKE_IGNORE_PATH=/usr/include"))
         self.assertIn("PBMPI_HAS_CALLGRIND=1", self.configured("-DCMAKE_IGNORE_PATH="))
 
+    def test_ode_in_single_precision_is_optional_and_missed_by_name(self):
+        result = subprocess.run(["cmake", "-S", SOURCE, "-B", self.build, "-G", "Ninja", "-DPBMPI_BUILD_TESTS=OFF",
+                                 "-DPBMPI_BUILD_BENCHMARKS=OFF", f"-DPBMPI_ODE_SINGLE={self.build}/none"],
+                                check=True, capture_output=True, text=True, timeout=120)
+        self.assertRegex(result.stdout, r"pbmpi_ode_single .* is left out: .*\n?.*jobs/ode_single.sh")
+        with open(os.path.join(self.build, "build.ninja"), encoding="utf-8") as file:
+            self.assertNotIn("bin/pbmpi_ode_single", file.read())
+
 
 if __name__ == "__main__":
     unittest.main()

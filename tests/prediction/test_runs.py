@@ -6,6 +6,9 @@ import subprocess
 import sys
 import unittest
 
+import h5py
+import numpy
+
 from pbvalue import BIN, ToolTest, total
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -13,7 +16,8 @@ sys.path.insert(0, os.path.join(SOURCE, "jobs"))
 
 import figure3
 
-PBMPI = os.path.join(BIN, "pbmpi")
+PBMPI, SINGLE = os.path.join(BIN, "pbmpi"), os.path.join(BIN, "pbmpi_ode_single")
+OPTIONS = ("--scene", "2-Cars", "--stepper", "quick", "--no-output", "--report", "json")
 MIX = {"floating point": "floating_point", "integer": "integer", "branch": "branch", "store": "store", "load": "load"}
 
 
@@ -78,6 +82,29 @@ class Runs(ToolTest):
             self.assertTrue(section["complete"])
             inside = section["collision_instructions"] + section["forward_instructions"]
             self.assertTrue(0.5 * section["instructions"] < inside < section["instructions"])
+
+    @unittest.skipUnless(os.path.exists(SINGLE), "this build has no ODE in single precision")
+    def test_quick_in_single_precision_is_near_quick_and_holds_single_numbers(self):
+        positions = {}
+        for program in (PBMPI, SINGLE):
+            subprocess.run([program, "--scene", "2-Cars", "--stepper", "quick", "--warmup", "0", "--frames", "1", "--no-xdmf", "--quiet",
+                            "--output", self.path("run.h5")], check=True, timeout=60)
+            with h5py.File(self.path("run.h5")) as file:
+                positions[program] = file["particles/bodies/position/value"][:]
+                self.assertEqual(file["parameters/library_ode"][()].endswith(b", single precision"), program == SINGLE)
+            os.remove(self.path("run.h5"))
+        single, double = positions[SINGLE], positions[PBMPI]
+        self.assertTrue((single == single.astype(numpy.float32)).all())
+        self.assertFalse((double == double.astype(numpy.float32)).all())
+        # A last place at 10 m is 1e-6 m; the frame's 60 sweeps over the rows may add up some of them.
+        self.assertLess(abs(single - double).max(), 1e-5)
+
+    @unittest.skipUnless(os.path.exists(SINGLE), "this build has no ODE in single precision")
+    def test_exact_prediction_leaves_every_bit_in_single_precision(self):
+        native = subprocess.run([SINGLE, *OPTIONS], capture_output=True, check=True, timeout=60)
+        report, out = self.run_tool([SINGLE, *OPTIONS], "--predict=all")
+        self.assertEqual(json.loads(out)["state_hash"], json.loads(native.stdout)["state_hash"])
+        self.assertGreater(total(report, "fp_load", "exact"), 1000)
 
     @unittest.skipUnless(shutil.which("objdump"), "no objdump")
     def test_instructions_and_their_mix_are_those_of_callgrind(self):

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/common/version.h"
 #include "model/names.h"
 #include "ode/collide/narrow_phase.h"
 #include "ode/ode_stepper.h"
@@ -35,6 +36,11 @@ std::string simd_text(const stepping::StepperSettings& settings) {
       settings.simd == stepping::Simd::automatic ? solver::best_simd() : settings.simd;
   const int lanes = solver::num_lanes(simd, settings.precision);
   return std::string(name_of(simd)) + ", " + std::to_string(lanes) + (lanes == 1 ? " lane" : " lanes");
+}
+
+std::string ode_text() {
+  const std::string version = ode_version;
+  return ode::precision_text() == "single" ? version + ", single precision" : version;
 }
 
 }  // namespace pbmpi::app

@@ -24,4 +24,7 @@ std::unique_ptr<stepping::SpaceStepper> make_space_stepper(const stepping::Stepp
 /// The vector instructions that the stepper uses and its lanes, e.g. "avx512, 16 lanes"; empty for ODE's.
 std::string simd_text(const stepping::StepperSettings& settings);
 
+/// ODE's version, with its precision if that is single.
+std::string ode_text();
+
 }  // namespace pbmpi::app

@@ -78,7 +78,7 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
       Parameter::of("build", build_description),
       Parameter::of("library_mpi", mpi::library_version()),
       Parameter::of("library_hdf5", hdf5_version),
-      Parameter::of("library_ode", ode_version),
+      Parameter::of("library_ode", ode_text()),
   };
   for (const stepping::StepOption& option : stepping::step_options()) {
     const bool is_simd = option.name == "simd";  // the file says what was used, not what was asked for

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ode/objects/numbers.h"
+
 namespace pbmpi::ode {
 
 Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan,
@@ -26,8 +28,8 @@ model::Contact to_contact(const model::Model& model, const GeomPair& pair, const
   model::Contact contact;
   contact.body_a = swapped ? b.body : a.body;
   contact.body_b = swapped ? a.body : b.body;
-  contact.position = model::Vec3(found.pos);
-  contact.normal = swapped ? model::Vec3(-model::Vec3(found.normal)) : model::Vec3(found.normal);
+  contact.position = vec3(found.pos);
+  contact.normal = swapped ? model::Vec3(-vec3(found.normal)) : vec3(found.normal);
   contact.depth = found.depth;
   const model::Material material = model::pair_material(model, pair, a.material, b.material);
   contact.mu = material.mu;
@@ -53,7 +55,7 @@ void Contacts::show(std::span<const model::Vec3> before, std::vector<model::Cont
     force.body_a = contact.body_a;
     force.body_b = contact.body_b;
     force.arm = contact.position - before[static_cast<std::size_t>(contact.body_a)];
-    const model::Vec3 whole(kept.feedback.f1);
+    const model::Vec3 whole = vec3(kept.feedback.f1);
     force.normal = whole.dot(contact.normal);
     force.friction = whole - force.normal * contact.normal;
     contacts.push_back(contact);
@@ -107,7 +109,7 @@ void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
   touches_.push_back({body_a, body_b, num_contacts, set_surface(pair), is_cross_space(pair)});
   for (int i = 0; i < num_contacts; ++i) {
     contact_.geom = found_[i];
-    deepest_m_ = std::max(deepest_m_, found_[i].depth);
+    deepest_m_ = std::max<double>(deepest_m_, found_[i].depth);
     const dJointID joint = dJointCreateContact(world, joints_.get(), &contact_);
     dJointAttach(joint, body_id(body_a), body_id(body_b));
     if (keeps_) watch(joint, to_contact(*model_, pair, found_[i]));

@@ -6,6 +6,7 @@
 #include "ode/collide/contacts.h"
 #include "ode/objects/engine.h"
 #include "ode/objects/geoms.h"
+#include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -45,7 +46,8 @@ class NarrowPhase final : public model::NarrowPhase {
   static void place(dGeomID id, const model::Geom& geom, const model::BodyPose& body) {
     const model::BodyPose pose = geometry::geom_pose(geom, body);
     const double* r = pose.rotation;
-    const dMatrix3 rotation = {r[0], r[1], r[2], 0, r[3], r[4], r[5], 0, r[6], r[7], r[8], 0};
+    const dMatrix3 rotation = {real(r[0]), real(r[1]), real(r[2]), 0,          real(r[3]), real(r[4]),
+                               real(r[5]), 0,          real(r[6]), real(r[7]), real(r[8]), 0};
     dGeomSetPosition(id, pose.position[0], pose.position[1], pose.position[2]);
     dGeomSetRotation(id, rotation);
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ode/objects/numbers.h"
+
 namespace pbmpi::ode {
 
 using model::Joint;
@@ -13,7 +15,7 @@ namespace {
 Vec3 to_world(dBodyID body, const Vec3& local) {
   dVector3 turned;
   dBodyVectorToWorld(body, local.x(), local.y(), local.z(), turned);
-  return Vec3(turned);
+  return vec3(turned);
 }
 
 }  // namespace
@@ -30,7 +32,7 @@ JointLoads::JointLoads(const model::Model& model, const std::vector<dJointID>& j
 Vec3 JointLoads::place_from_centre(const Joint& joint, dJointID id) const {
   const dBodyID a = dJointGetBody(id, 0), b = dJointGetBody(id, 1);
   if (joint.kind != JointKind::slider) return to_world(a, joint.anchor_a);
-  return b == nullptr ? Vec3::Zero() : Vec3(0.5 * (Vec3(dBodyGetPosition(b)) - Vec3(dBodyGetPosition(a))));
+  return b == nullptr ? Vec3::Zero() : Vec3(0.5 * (vec3(dBodyGetPosition(b)) - vec3(dBodyGetPosition(a))));
 }
 
 void JointLoads::note_places() {
@@ -45,8 +47,8 @@ const JointLoads::Measured& JointLoads::find(int joint) const {
 model::JointForce JointLoads::force(int joint) const {
   const Measured& measured = find(joint);
   model::JointForce force;
-  force.force = Vec3(measured.feedback.f1);
-  force.torque = Vec3(measured.feedback.t1) - measured.from_centre.cross(force.force);
+  force.force = vec3(measured.feedback.f1);
+  force.torque = vec3(measured.feedback.t1) - measured.from_centre.cross(force.force);
   return force;
 }
 
@@ -56,7 +58,7 @@ effects::Reaction JointLoads::reaction(int joint) const {
   const Joint& measured = model_->joints[joint];
   const Vec3 from_centre =
       measured.kind == JointKind::fixed ? place_from_centre(measured, joints_[joint]) : found.from_centre;
-  const Vec3 force(found.feedback.f1), torque(found.feedback.t1);
+  const Vec3 force = vec3(found.feedback.f1), torque = vec3(found.feedback.t1);
   return {force.norm(), (torque - from_centre.cross(force)).norm()};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "effects/effects.h"
+#include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -17,7 +18,7 @@ dMass mass_of(const model::Body& body) {
 
 /// The setters mark the body's geoms as moved; what they rounded is then written over.
 void set_orientation_bits(dBodyID body, const model::Quat& orientation) {
-  const dQuaternion q = {orientation.w, orientation.x, orientation.y, orientation.z};
+  const dQuaternion q = {real(orientation.w), real(orientation.x), real(orientation.y), real(orientation.z)};
   dBodySetQuaternion(body, q);
   std::copy_n(q, 4, const_cast<dReal*>(dBodyGetQuaternion(body)));
   // As dxStepBody does after it has integrated q.

@@ -58,11 +58,14 @@ std::int64_t MessageLog::total() const {
 
 Engine::Engine() {
   if (dInitODE2(0) == 0) throw core::RunError("ode: dInitODE2 failed");
-  if (dAllocateODEDataForThread(dAllocateMaskAll) == 0 || dCheckConfiguration("ODE_double_precision") == 0) {
+  const std::string precision = is_single_precision ? "single" : "double";
+  if (dAllocateODEDataForThread(dAllocateMaskAll) == 0 ||
+      dCheckConfiguration(("ODE_" + precision + "_precision").c_str()) == 0) {
     const std::string build = dGetConfiguration();
     dCloseODE();
-    throw core::RunError("ode: the library found at run time is not a double-precision build (" + build +
-                         "); install Debian's libode8");
+    throw core::RunError(
+        "ode: the library found at run time is not a " + precision + "-precision build (" + build + "); " +
+        (is_single_precision ? "build with jobs/ode_single.sh again" : "install Debian's libode8"));
   }
 }
 

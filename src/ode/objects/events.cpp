@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "model/joint_traits.h"
 #include "ode/objects/joints.h"
+#include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -11,7 +12,8 @@ namespace {
 /// nothing.
 void place(dBodyID body, const model::Pose& pose) {
   dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
-  const dQuaternion q = {pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z};
+  const dQuaternion q = {real(pose.orientation.w), real(pose.orientation.x), real(pose.orientation.y),
+                         real(pose.orientation.z)};
   dBodySetQuaternion(body, q);
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "model/state.h"
+#include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -44,7 +45,7 @@ dGeomID make_plane(const model::Geom& geom, dSpaceID space) {
 void place(const model::Geom& geom, const std::vector<dBodyID>& bodies, dGeomID id) {
   const model::Vec3& position = geom.local.position;
   const model::Quat& orientation = geom.local.orientation;
-  const dQuaternion q = {orientation.w, orientation.x, orientation.y, orientation.z};
+  const dQuaternion q = {real(orientation.w), real(orientation.x), real(orientation.y), real(orientation.z)};
   if (geom.body == model::no_body) {
     if (geom.shape == model::Shape::plane) return;
     dGeomSetPosition(id, position.x(), position.y(), position.z());

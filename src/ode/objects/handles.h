@@ -9,7 +9,15 @@
 
 namespace pbmpi::ode {
 
-static_assert(std::is_same_v<dReal, double>, "pbmpi needs ODE in double precision (Debian: libode-dev)");
+#ifdef dIDESINGLE  // ODE's own macro, set for the library pbmpi_ode_single and nowhere else
+inline constexpr bool is_single_precision = true;
+#else
+inline constexpr bool is_single_precision = false;
+#endif
+static_assert(
+    std::is_same_v<dReal, float> == is_single_precision,
+    "ODE's headers have the wrong precision: double (Debian: libode-dev), or single in the folder of "
+    "PBMPI_ODE_SINGLE");
 
 struct DestroyWorld {
   void operator()(dWorldID id) const { dWorldDestroy(id); }

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "model/joint_traits.h"
+#include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -36,7 +37,7 @@ void set_universal_axes(dJointID joint, const Vec3& axis1, const Vec3& axis2) {
   dVector3 now;
   dJointGetUniversalAxis2(joint, now);
   const Vec3 normal = axis1.cross(axis2).normalized();
-  const bool clear = normal.cross(Vec3(now)).norm() > 0.1;
+  const bool clear = normal.cross(vec3(now)).norm() > 0.1;
   const Vec3 detour = clear ? normal : Vec3((normal + axis1.cross(normal)).normalized());
   dJointSetUniversalAxis1(joint, detour.x(), detour.y(), detour.z());
   dJointSetUniversalAxis2(joint, axis2.x(), axis2.y(), axis2.z());
@@ -44,8 +45,8 @@ void set_universal_axes(dJointID joint, const Vec3& axis1, const Vec3& axis2) {
 }
 
 void set_hinge2_axes(dJointID joint, const Vec3& axis1, const Vec3& axis2) {
-  const dVector3 first = {axis1.x(), axis1.y(), axis1.z(), 0};
-  const dVector3 second = {axis2.x(), axis2.y(), axis2.z(), 0};
+  const dVector3 first = {real(axis1.x()), real(axis1.y()), real(axis1.z()), 0};
+  const dVector3 second = {real(axis2.x()), real(axis2.y()), real(axis2.z()), 0};
   dJointSetHinge2Axes(joint, first, second);
 }
 
@@ -100,7 +101,7 @@ void require_expressible(const model::Joint& joint) {
                       "joint '" + joint.name + "': a hinge2 needs two bodies; name the wheel");
 }
 
-Vec3 position_of(dBodyID body) { return Vec3(dBodyGetPosition(body)); }
+Vec3 position_of(dBodyID body) { return vec3(dBodyGetPosition(body)); }
 
 void set_position(dBodyID body, const Vec3& position) {
   dBodySetPosition(body, position.x(), position.y(), position.z());
