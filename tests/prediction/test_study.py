@@ -9,6 +9,7 @@ import h5py
 from pbvalue import BIN, ToolTest
 
 PBSTUDY, PBREPORT = os.path.join(BIN, "pbstudy"), os.path.join(BIN, "pbreport")
+HAS_SINGLE = os.path.exists(os.path.join(BIN, "pbmpi_ode_single"))
 BARS = ["20Iter", "19Iter", "FEEC", "FVP6", "EVP", "FEEC+FVP6"]
 
 
@@ -25,7 +26,8 @@ class Study(ToolTest):
         result = self.command("mpirun", "-n", 2, PBSTUDY, "prediction", "--scene", "2-Cars", "--frames", 2, "--warmup", 1,
                               "--threshold", "1e-6", "--detail-scene", "2-Cars")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("9 cases of 1 scene in prediction.h5", result.stdout)
+        self.assertIn(f"{11 if HAS_SINGLE else 9} cases of 1 scene in prediction.h5", result.stdout)
+        self.assertEqual("no pbmpi_ode_single" in result.stdout, not HAS_SINGLE)
         with h5py.File(self.path("prediction.h5")) as file:
             cases = {name.decode(): i for i, name in enumerate(file["cases/name"])}
             self.check_cases(file["cases"], cases)
@@ -34,7 +36,9 @@ class Study(ToolTest):
         self.check_report()
 
     def check_cases(self, table, cases):
-        self.assertEqual(list(cases), ["20Iter", "19Iter", "FEEC", "FEEC+FVP6", "FVP6", "FVP6 collision", "FVP6 step", "sor", "sor FVP6"])
+        self.assertEqual(list(cases), ["20Iter", "19Iter", "FEEC", "FEEC+FVP6", "FVP6", "FVP6 collision", "FVP6 step", "sor", "sor FVP6",
+                                       *(["single", "single FVP6"] if HAS_SINGLE else [])])
+        self.assertEqual([name for name, i in cases.items() if table["precision"][i] == b"single"], [n for n in cases if n.startswith("single")])
         for name, i in cases.items():
             if name == "sor FVP6" and not table["ended"][i]:
                 self.assertNotEqual(table["exit_code"][i], 0)  # guesses in the whole frame, and a memory of them
@@ -42,7 +46,7 @@ class Study(ToolTest):
             self.assertEqual(table["ended"][i], 1, name)
             self.assertEqual(table["frames_done"][i], 3, name)
             self.assertEqual(table["errors_known"][i], 1, name)
-            is_exact = name in ("20Iter", "FEEC", "sor")  # FEEC leaves the precise state
+            is_exact = name in ("20Iter", "FEEC", "sor", "single")  # FEEC leaves the precise state
             self.assertEqual(table["same_hash"][i], int(is_exact), name)
             self.assertEqual(table["nonfinite_step"][i], -1, name)
             self.assertEqual(table["drift_body_position_bands"][i].sum(), (3 if "FEEC" in name else 2) * 10, "10 bodies a frame")
@@ -57,14 +61,14 @@ class Study(ToolTest):
         for name, own in rows.items():
             self.assertEqual(len(own), 6 if "FEEC" in name else 3, name)
             for i in own:
-                is_modelled = table["frame"][i] >= 1 and not name.startswith("sor") and bool(table["is_estimate"][i]) == ("FEEC" in name)
+                is_modelled = table["frame"][i] >= 1 and not name.startswith(("sor", "single")) and bool(table["is_estimate"][i]) == ("FEEC" in name)
                 self.assertEqual(table["cycles"][i] > 0, is_modelled, (name, i))
                 fuzzy = table["fp_load_fuzzy"][i] + table["fp_operation_fuzzy"][i]
-                if name in ("20Iter", "19Iter", "FEEC", "sor"):
+                if name in ("20Iter", "19Iter", "FEEC", "sor", "single"):
                     self.assertEqual(fuzzy, 0, name)
                 self.assertLessEqual(table["fp_operation_error_max"][i], 1e-6)
         sums = {name: sum(int(table["fp_operation_fuzzy"][i]) for i in own) for name, own in rows.items()}
-        for name in {"FVP6", "FVP6 step", "FEEC+FVP6", "sor FVP6"} & sums.keys():
+        for name in {"FVP6", "FVP6 step", "FEEC+FVP6", "sor FVP6", "single FVP6"} & sums.keys():
             self.assertGreater(sums[name], 0, name)
         executed = {name: sum(int(table["fp_load_executed"][i]) for i in rows[name]) for name in rows}
         self.assertLess(executed["FVP6 collision"], executed["FVP6"])
@@ -79,13 +83,18 @@ class Study(ToolTest):
 
     def check_report(self):
         text = self.report()
-        for word in (*BARS, "noise floor", "The paper's statements", "What other processors would change"):
+        for word in (*BARS, "noise floor", "Hits of floating-point results by engine", "quick double", "The paper's statements", "What other processors would change"):
             self.assertIn(word, text)
         data = json.loads(self.report("--json"))
         self.assertAlmostEqual(data["budget_s"], 1 / 300)
         scene = data["scenes"][0]
         self.assertEqual(list(scene["figure_8"]), BARS)
         self.assertAlmostEqual(sum(scene["mix"].values()), 1)
+        self.assertEqual(list(scene["engines"]), [*(["quick single"] if HAS_SINGLE else []), "quick double", "sor"])
+        for engine in scene["engines"].values():
+            self.assertTrue(0 < engine["exact"]["coverage"] < engine["exact"]["hit_rate"] <= 1)
+        if HAS_SINGLE:  # fewer bits, so that more values repeat
+            self.assertGreater(scene["engines"]["quick single"]["exact"]["coverage"], scene["engines"]["quick double"]["exact"]["coverage"])
         for bar in BARS:
             self.assertGreater(scene["figure_8"][bar]["hz"], 300, "2-Cars is small")
             self.assertEqual(scene["figure_8"][bar]["satisfied"], 1)
@@ -100,7 +109,7 @@ class Study(ToolTest):
         with open(self.path("page.html"), encoding="utf-8") as page:
             self.assertIn("Figure 8 on the modelled processor", page.read())
         with open(self.path("cases.csv"), encoding="utf-8") as csv:
-            self.assertEqual(len(csv.readlines()), 10)
+            self.assertEqual(len(csv.readlines()), 12 if HAS_SINGLE else 10)
         self.assertIn("| 2-Cars |", self.report("--markdown"))
 
     def test_a_run_that_blows_up_has_its_step(self):

@@ -32,7 +32,24 @@ TEST(PredictionCases, are_figure_8_then_the_other_thresholds_then_sor) {
   EXPECT_TRUE(cases[2].feec);
   EXPECT_TRUE(cases[4].has_cycles);
   EXPECT_FALSE(cases[5].has_cycles) << "in the full form only";
-  EXPECT_EQ(cases[8].scope, "frame") << "the step of sor marks no phases";
+  EXPECT_EQ(cases[8].stepper, "sor");
+  EXPECT_EQ(cases[8].scope, "all");
+}
+
+TEST(PredictionCases, have_quick_in_single_precision_where_the_build_has_it) {
+  PredictionOptions options = parse_prediction_options({"--scene", "2-Cars"});
+  options.has_ode_single = true;
+  const auto cases =
+      make_prediction_cases({study_scene(scenes::find_scene("2-Cars"), options.overrides)}, options);
+  ASSERT_EQ(cases.size(), 12U);
+  EXPECT_EQ(cases[10].name, "single");
+  EXPECT_EQ(cases[11].name, "single FVP6");
+  for (const std::size_t i : {std::size_t{10}, std::size_t{11}}) {
+    EXPECT_EQ(cases[i].program, ode_single_program);
+    EXPECT_EQ(cases[i].precision, "single");
+    EXPECT_EQ(cases[i].stepper, "quick");
+    EXPECT_EQ(cases[i].iterations, cases[0].iterations);
+  }
 }
 
 TEST(PredictionCases, have_single_phases_and_variants_in_the_scene_of_details) {

@@ -85,6 +85,7 @@ PredictionRun read_run(const CaseRow& row, const Frames& frames, std::size_t ind
   PredictionRun run;
   run.name = row.text("name");
   run.stepper = row.text("stepper");
+  run.precision = row.has("precision") ? row.text("precision") : "double";
   run.scope = row.text("scope");
   run.threshold = row.real("threshold");
   run.feec = row.integer("feec") != 0;
@@ -164,6 +165,18 @@ PredictionStudy prediction_study(const io::TableFile& file, const std::vector<st
   study.scenes = chosen_scenes(study.scenes, names);
   study.sensitivity = read_sensitivity(file, names);
   return study;
+}
+
+std::vector<EngineHits> engine_hits(const PredictionScene& scene, const std::string& fvp) {
+  std::vector<EngineHits> all;
+  const auto add = [&](const std::string& engine, const PredictionRun* exact, const PredictionRun* fuzzy) {
+    if (exact != nullptr && fuzzy != nullptr)
+      all.push_back({engine, exact->all(), fuzzy->all(), fuzzy->measured});
+  };
+  add("quick single", scene.find("single"), scene.find("single " + fvp));
+  add("quick double", &scene.base(), scene.find(fvp));
+  add("sor", scene.find("sor"), scene.find("sor " + fvp));
+  return all;
 }
 
 std::vector<Bar> figure_8(const PredictionScene& scene, const std::string& fvp) {

@@ -33,7 +33,7 @@ struct FrameRate {
 
 /// One case of the study.
 struct PredictionRun {
-  std::string name, stepper, scope;
+  std::string name, stepper, precision, scope;
   double threshold = 0;
   bool feec = false, ended = false, same_hash = false, errors_known = false;
   int exit_code = 0;                  ///< -1: the time limit
@@ -87,6 +87,15 @@ inline constexpr std::array<const char*, 5> mix_names = {"floating point", "inte
 
 /// `names`: these scenes only; empty: all. Throws core::InputError.
 PredictionStudy prediction_study(const io::TableFile& file, const std::vector<std::string>& names);
+
+/// Predictions of one engine in a scene, beside each other.
+struct EngineHits {
+  std::string engine;  ///< "quick single" (as in the paper), "quick double", "sor"
+  HitCounts exact, fuzzy;
+  int frames = 0;  ///< measured, of the fuzzy run: fewer where it was lost
+};
+/// Those that the study has.
+std::vector<EngineHits> engine_hits(const PredictionScene& scene, const std::string& fvp);
 
 /// 20Iter, 19Iter, FEEC, FVP6, EVP, FEEC+FVP6.
 std::vector<Bar> figure_8(const PredictionScene& scene, const std::string& fvp);

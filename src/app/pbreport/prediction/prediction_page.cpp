@@ -67,6 +67,22 @@ io::html::TextTable sensitivity(const PredictionStudy& study) {
   return table;
 }
 
+io::html::TextTable engines(const PredictionStudy& study) {
+  io::html::TextTable table{"Hits of floating-point results by engine, exact and " + study.fvp,
+                            {"scene", "engine", "exact: coverage", "hit rate", "fuzzy: coverage", "hit rate",
+                             "mean accepted error"},
+                            {}};
+  for (const PredictionScene& scene : study.scenes) {
+    for (const EngineHits& hits : engine_hits(scene, study.fvp)) {
+      table.rows.push_back(
+          {scene.name, hits.engine, cell(hits.exact.coverage(), "%.1f %%", 100),
+           cell(hits.exact.hit_rate(), "%.1f %%", 100), cell(hits.fuzzy.coverage(), "%.1f %%", 100),
+           cell(hits.fuzzy.hit_rate(), "%.1f %%", 100), cell(hits.fuzzy.mean_error(), "%.1e", 1)});
+    }
+  }
+  return table;
+}
+
 io::html::PageSection section_of(const PredictionScene& scene) {
   io::html::PageSection section;
   section.title = scene.name;
@@ -108,7 +124,7 @@ void write_prediction_page(const std::string& path, const io::TableFile& file, c
       1e3 * study.budget_s);
   overview.charts = {bars(study, &FrameRate::hz, 1, "Frame rate", "Hz", "logarithmic"),
                      bars(study, &FrameRate::satisfied, 100, "Frames satisfied", "%", "linear")};
-  overview.tables = {verdicts(study)};
+  overview.tables = {verdicts(study), engines(study)};
   if (!study.sensitivity.empty()) overview.tables.push_back(sensitivity(study));
   page.sections.push_back(std::move(overview));
   for (const PredictionScene& scene : study.scenes) page.sections.push_back(section_of(scene));

@@ -52,6 +52,51 @@ std::string runs_text(const PredictionScene& scene) {
   return text;
 }
 
+const std::vector<std::string> engine_head = {"engine",          "exact: coverage", "hit rate",
+                                              "fuzzy: coverage", "hit rate",        "mean accepted error"};
+
+std::vector<std::string> engine_cells(const EngineHits& hits) {
+  return {hits.engine,
+          number_or_dash(hits.exact.coverage(), "%.1f %%", 100),
+          number_or_dash(hits.exact.hit_rate(), "%.1f %%", 100),
+          number_or_dash(hits.fuzzy.coverage(), "%.1f %%", 100),
+          number_or_dash(hits.fuzzy.hit_rate(), "%.1f %%", 100),
+          number_or_dash(hits.fuzzy.mean_error(), "%.1e")};
+}
+
+std::string engines_text(const PredictionStudy& study) {
+  std::string text = "\nHits of floating-point results by engine (" + study.fvp + "):\n";
+  const auto add_row = [&](const std::string& scene, const std::vector<std::string>& cells) {
+    text += format("  %-10s %-13s %15s %9s %15s %9s %s\n", scene.c_str(), cells[0].c_str(), cells[1].c_str(),
+                   cells[2].c_str(), cells[3].c_str(), cells[4].c_str(), cells[5].c_str());
+  };
+  add_row("scene", engine_head);
+  for (const PredictionScene& scene : study.scenes) {
+    for (const EngineHits& hits : engine_hits(scene, study.fvp)) add_row(scene.name, engine_cells(hits));
+  }
+  return text;
+}
+
+std::string markdown_row(const std::vector<std::string>& cells) {
+  std::string text = "|";
+  for (const std::string& cell : cells) text += " " + cell + " |";
+  return text + "\n";
+}
+
+std::string engines_markdown(const PredictionStudy& study) {
+  std::vector<std::string> head = engine_head;
+  head.insert(head.begin(), "scene");
+  std::string text = "\n" + markdown_row(head) + markdown_row(std::vector<std::string>(head.size(), "---"));
+  for (const PredictionScene& scene : study.scenes) {
+    for (const EngineHits& hits : engine_hits(scene, study.fvp)) {
+      std::vector<std::string> cells = engine_cells(hits);
+      cells.insert(cells.begin(), scene.name);
+      text += markdown_row(cells);
+    }
+  }
+  return text;
+}
+
 std::string sensitivity_text(const PredictionStudy& study) {
   if (study.sensitivity.empty()) return {};
   std::string text = "\nWhat other processors would change (cycles without and with prediction):\n";
@@ -83,6 +128,7 @@ Json rate_json(const FrameRate& rate) {
 Json run_json(const PredictionRun& run) {
   return {{"name", run.name},
           {"stepper", run.stepper},
+          {"precision", run.precision},
           {"scope", run.scope},
           {"threshold", run.threshold},
           {"ended", run.ended},
@@ -109,6 +155,8 @@ Json scene_json(const PredictionScene& scene, const std::string& fvp) {
   json["collision_share"] = number(scene.base().collision_share);
   for (std::size_t i = 0; i < mix_names.size(); ++i) json["mix"][mix_names[i]] = number(scene.base().mix[i]);
   for (const Bar& bar : figure_8(scene, fvp)) json["figure_8"][bar.name] = rate_json(bar.rate);
+  for (const EngineHits& hits : engine_hits(scene, fvp))
+    json["engines"][hits.engine] = {{"exact", hits_json(hits.exact)}, {"fuzzy", hits_json(hits.fuzzy)}};
   for (const PredictionRun& run : scene.runs) json["cases"].push_back(run_json(run));
   return json;
 }
@@ -129,7 +177,7 @@ std::string prediction_to_text(const PredictionStudy& study) {
              study.scenes.size(), 1e3 * study.budget_s);
   for (const PredictionScene& scene : study.scenes)
     text += "\n" + head_of(scene) + "\n" + bars_text(scene, study.fvp) + runs_text(scene);
-  text += sensitivity_text(study) + "\nThe paper's statements:\n";
+  text += engines_text(study) + sensitivity_text(study) + "\nThe paper's statements:\n";
   for (const PaperVerdict& verdict : judge_paper(study)) {
     text +=
         format("  %-13s %s: ", std::string(finding_names[static_cast<std::size_t>(verdict.finding)]).c_str(),
@@ -175,11 +223,11 @@ std::string prediction_to_markdown(const PredictionStudy& study) {
       text += " " + number_or_dash(bar.rate.hz, "%.0f") + " |";
     text += "\n";
   }
-  text += "\n| statement | finding | number |\n|---|---|---|\n";
+  text += engines_markdown(study) + "\n| statement | finding | number |\n|---|---|---|\n";
   for (const PaperVerdict& verdict : judge_paper(study)) {
-    text += "| " + verdict.statement + " | " +
-            std::string(finding_names[static_cast<std::size_t>(verdict.finding)]) + " | " + verdict.number +
-            " |\n";
+    text +=
+        markdown_row({verdict.statement,
+                      std::string(finding_names[static_cast<std::size_t>(verdict.finding)]), verdict.number});
   }
   return text;
 }

@@ -44,6 +44,8 @@ std::string scene_file(const ChildRuns& runs, const StudyScene& scene) {
 
 std::string tool_folder() { return fs::path(core::folder_of_program()).parent_path() / "lib" / "pbvalue"; }
 
+bool has_program(const std::string& name) { return fs::exists(program(name)); }
+
 int ChildRun::nonfinite_frame() const {
   static const std::regex pattern("non-finite bod(?:y|ies) in frame ([0-9]+)");
   std::smatch match;

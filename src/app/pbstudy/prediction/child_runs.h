@@ -13,6 +13,8 @@ namespace pbmpi::app {
 
 /// The folder that VALGRIND_LIB names.
 std::string tool_folder();
+/// Is it built?
+bool has_program(const std::string& name);
 
 /// A run of a program, over.
 struct ChildRun {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iostream>
 
+#include "app/common/format.h"
+#include "app/pbstudy/prediction/child_runs.h"
 #include "app/pbstudy/prediction/prediction_table.h"
 #include "app/pbstudy/prediction/unpredicted_runs.h"
 #include "app/pbstudy/study/study_runner.h"
@@ -44,6 +46,13 @@ Measured run_cases(const mpi::Communicator& comm, const PredictionOptions& optio
   return all;
 }
 
+/// The same answer on every rank.
+bool has_on_root(const mpi::Communicator& comm, const char* program) {
+  std::int32_t has = has_program(program) ? 1 : 0;
+  comm.bcast_value(has);
+  return has != 0;
+}
+
 std::vector<StudyScene> in_their_form(std::vector<StudyScene> scenes, const PredictionOptions& options) {
   for (StudyScene& scene : scenes) {
     if (!options.full && !options.overrides.replicas)
@@ -55,12 +64,13 @@ std::vector<StudyScene> in_their_form(std::vector<StudyScene> scenes, const Pred
 }  // namespace
 
 core::ExitCode run_prediction(const mpi::Communicator& comm, const std::vector<std::string>& args) {
-  const PredictionOptions options = parse_prediction_options(args);
+  PredictionOptions options = parse_prediction_options(args);
   if (options.help) {
     if (comm.is_root()) std::cout << prediction_help_text() << std::flush;
     return core::ExitCode::done;
   }
   require_tool();
+  options.has_ode_single = has_on_root(comm, ode_single_program);
   StudyRunner runner(comm, "prediction", options);
   const std::vector<StudyScene> scenes = in_their_form(runner.scenes(), options);
   const std::vector<PredictionCase> cases = make_prediction_cases(scenes, options);
@@ -73,6 +83,10 @@ core::ExitCode run_prediction(const mpi::Communicator& comm, const std::vector<s
     content.tables = prediction_tables(rows);
     content.parameters = {io::Parameter::of("budget_s", options.budget_s),
                           io::Parameter::of("figure_threshold", options.thresholds.front())};
+    if (!options.has_ode_single)
+      content.note =
+          format("no runs of quick in single precision: this build has no %s (jobs/ode_single.sh)\n",
+                 ode_single_program);
     content.next = " --html prediction.html";
     return content;
   });

@@ -28,6 +28,19 @@ class CaseList {
     cases_.push_back(one);
     return cases_.back();
   }
+  /// Exact and with the threshold of Figure 8.
+  void add_engine(const std::string& name, double threshold, bool has_cycles) {
+    for (const double one_threshold : {0.0, threshold}) {
+      PredictionCase& one =
+          add(one_threshold > 0 ? name + " " + name_of_threshold(threshold) : name, one_threshold);
+      one.has_cycles = has_cycles;
+      if (name == "sor") one.stepper = "sor";
+      if (name == "single") {
+        one.program = ode_single_program;
+        one.precision = "single";
+      }
+    }
+  }
   /// Valgrind takes about as long to start as to step a hundred bodies; cycles take several times as long as
   /// hits, and a pair of variants again as long.
   void estimate_costs() {
@@ -62,12 +75,8 @@ void add_scene(int index, const StudyScene& scene, const PredictionOptions& opti
   if (in_detail) {
     for (const char* scope : {"collision", "step"}) list.add(fvp + " " + scope, first).scope = scope;
   }
-  for (const double threshold : {0.0, first}) {
-    PredictionCase& one = list.add(threshold > 0 ? "sor " + fvp : "sor", threshold);
-    one.stepper = "sor";
-    one.scope = "frame";
-    one.has_cycles = options.full;
-  }
+  list.add_engine("sor", first, options.full);
+  if (options.has_ode_single) list.add_engine("single", first, options.full);
   list.estimate_costs();
 }
 

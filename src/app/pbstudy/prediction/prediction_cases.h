@@ -9,12 +9,15 @@
 
 namespace pbmpi::app {
 
+/// pbmpi on ODE in single precision, which the paper ran; a build may lack it.
+inline constexpr const char* ode_single_program = "pbmpi_ode_single";
+
 /// A scene, a way to step it, and what is predicted.
 struct PredictionCase {
   int scene = 0;                  ///< index into the study's scenes
   std::string name;               ///< "20Iter", "FVP6", "FEEC+FVP6", ...
   std::string program = "pbmpi";  ///< of this build
-  std::string stepper = "quick";
+  std::string stepper = "quick", precision = "double";
   int iterations = 0;    ///< of quick
   bool feec = false;     ///< cycles are those of the estimate
   double threshold = 0;  ///< 0: exact

@@ -67,6 +67,7 @@ std::vector<io::TableColumn> prediction_columns(const PredictionRows& rows) {
       column<std::int64_t>("warmup", "", cases, [&](Case c) { return scene(c).warmup; }),
       column<std::int64_t>("frames", "", cases, [&](Case c) { return scene(c).frames; }),
       column<std::string>("stepper", "", cases, [](Case c) { return c.stepper; }),
+      column<std::string>("precision", "", cases, [](Case c) { return c.precision; }),
       column<std::int64_t>("iterations", "", cases,
                            [](Case c) { return c.stepper == "quick" ? c.iterations : 0; }),
       column<std::int64_t>("feec", "", cases, [](Case c) { return c.feec ? 1 : 0; }),
