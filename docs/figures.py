@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-from tables import accuracy, effects, guards, programs, scenes, speed, stability
+from tables import accuracy, effects, guards, prediction, programs, scenes, speed, stability
 
 # page: below the root. make: computes the lines of the table. has_clock: whether times are among its figures. commands: for
 # a reader who wants to measure it by hand.
@@ -42,6 +42,8 @@ ENTRIES = {
     "guards": Entry("docs/guards.md", guards.guards, False, ["pbmpi --scene CASE --steps-per-frame 3 --stepper ..."]),
     "speed": Entry("docs/speed.md", speed.against_bare, True,
                    ["bench_worlds SCENE 0 10 3", "pbstudy accuracy --scene SCENE"]),
+    "prediction_small": Entry("docs/prediction.md", prediction.small, False,
+                              ["pbstudy prediction --scene 2-Cars --detail-scene none"]),
     "spaces": Entry("docs/spaces.md", speed.spaces, True, ["tests/bench/decompose.py 3"]),
 }
 
