@@ -26,16 +26,55 @@ void sync_folder(const fs::path& folder) {
   if (opened.is_open()) fsync(opened.get());
 }
 
+/// Pieces of bytes, one after the other; `put` returns 0, or the errno of what failed, and then takes no
+/// more.
+using BytePieces = std::function<int(const std::function<int(std::span<const std::byte>)>& put)>;
+
+BytePieces one_piece(std::span<const std::byte> bytes) {
+  return [bytes](const auto& put) { return put(bytes); };
+}
+
+BytePieces bytes_of(const TextPieces& pieces) {
+  return [&pieces](const auto& put) {
+    int error = 0;
+    pieces([&](std::string_view text) {
+      if (error == 0) error = put(std::as_bytes(std::span(text)));
+    });
+    return error;
+  };
+}
+
 /// Returns 0, or the errno of what failed.
-int write_new(const OutputLock& lock, std::span<const std::byte> bytes) {
-  // The limit is asked for first: a write beyond it raises SIGXFSZ.
-  if (core::largest_file_bytes() < bytes.size()) return EFBIG;
+int write_new(const OutputLock& lock, const BytePieces& pieces) {
   core::Descriptor file(lock.temporary_path(), O_CREAT | O_WRONLY | O_TRUNC);
   if (!file.is_open()) return errno;
   keep_rights(file, lock.path());
-  if (const int error = file.write(bytes); error != 0) return error;
+  std::size_t written = 0;
+  const int error = pieces([&](std::span<const std::byte> bytes) {
+    written += bytes.size();
+    // The limit is asked for first: a write beyond it raises SIGXFSZ.
+    return core::largest_file_bytes() < written ? EFBIG : file.write(bytes);
+  });
+  if (error != 0) return error;
   if (fsync(file.get()) != 0) return errno;
   return file.close();
+}
+
+/// The new file takes the place of the old one when it is whole.
+void replace(const OutputLock& lock, const BytePieces& pieces) {
+  int error = 0;
+  try {
+    error = write_new(lock, pieces);
+  } catch (...) {
+    unlink(lock.temporary_path().c_str());
+    throw;
+  }
+  if (error == 0 && std::rename(lock.temporary_path().c_str(), lock.path().c_str()) != 0) error = errno;
+  if (error != 0) {
+    unlink(lock.temporary_path().c_str());
+    throw core::RunError("cannot write " + lock.path() + ": " + core::reason_of(error));
+  }
+  sync_folder(fs::path(lock.path()).parent_path());
 }
 
 /// A name below /proc/PROCESS/fd, such as /dev/stdout, stands for an open file; a new file under that name
@@ -71,12 +110,13 @@ bool is_stream(const std::string& path) {
 }
 
 /// Returns 0, or the errno of what failed.
-int write_stream(const std::string& path, std::span<const std::byte> bytes) {
+int write_stream(const std::string& path, const BytePieces& pieces) {
   // What this process has open is written where it stands: opened anew it would begin at its start again.
-  if (const int own = open_file_of(path).own; own >= 0) return core::write_all(own, bytes);
+  if (const int own = open_file_of(path).own; own >= 0)
+    return pieces([own](std::span<const std::byte> bytes) { return core::write_all(own, bytes); });
   core::Descriptor stream(path, O_WRONLY);
   if (!stream.is_open()) return errno;
-  const int error = stream.write(bytes);
+  const int error = pieces([&](std::span<const std::byte> bytes) { return stream.write(bytes); });
   return error != 0 ? error : stream.close();
 }
 
@@ -97,10 +137,14 @@ Content content_of(const std::string& path) {
 }
 
 void write_file(const std::string& path, std::string_view text) {
-  const auto bytes = std::as_bytes(std::span(text));
+  write_file(path, [text](const auto& put) { put(text); });
+}
+
+void write_file(const std::string& path, const TextPieces& pieces) {
   if (path.empty()) refuse("a file without a name", "the name is empty");
   if (is_stream(path)) {
-    if (const int error = write_stream(path, bytes); error != 0) refuse(path, core::reason_of(error));
+    if (const int error = write_stream(path, bytes_of(pieces)); error != 0)
+      refuse(path, core::reason_of(error));
     return;
   }
   struct stat status {};
@@ -111,20 +155,14 @@ void write_file(const std::string& path, std::string_view text) {
   if (content_of(path) == Content::hdf5) refuse(path, "an HDF5 file is there, which a text would destroy");
   try {
     const OutputLock lock(path);
-    replace_file(lock, bytes);
+    replace(lock, bytes_of(pieces));
   } catch (const core::RunError& error) {
     throw core::InputError(std::string(error.what()) + "; choose another place");
   }
 }
 
 void replace_file(const OutputLock& lock, std::span<const std::byte> bytes) {
-  int error = write_new(lock, bytes);
-  if (error == 0 && std::rename(lock.temporary_path().c_str(), lock.path().c_str()) != 0) error = errno;
-  if (error != 0) {
-    unlink(lock.temporary_path().c_str());
-    throw core::RunError("cannot write " + lock.path() + ": " + core::reason_of(error));
-  }
-  sync_folder(fs::path(lock.path()).parent_path());
+  replace(lock, one_piece(bytes));
 }
 
 void keep_rights(const core::Descriptor& file, const std::string& path) {

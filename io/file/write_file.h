@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,11 @@ Content content_of(const std::string& path);
 /// the system's reason, and then the old file stays: also if another process writes it, or if it is an HDF5
 /// file, which a text never replaces.
 void write_file(const std::string& path, std::string_view text);
+
+/// Hands out a text piece by piece, where it is too long to be held.
+using TextPieces = std::function<void(const std::function<void(std::string_view)>& put)>;
+/// The same for such a text. What `pieces` throws leaves the old file, too.
+void write_file(const std::string& path, const TextPieces& pieces);
 
 /// The same for whoever holds the lock of the file, and for HDF5 files: these replace nothing else. Throws
 /// core::RunError.

@@ -1,6 +1,11 @@
 #include "io/run/frame_table.h"
 
+#include <map>
+
+#include "io/hdf5/file_checksum.h"
+#include "io/hdf5/read_columns.h"
 #include "io/hdf5/rows.h"
+#include "io/run/contact_rows.h"
 
 namespace pbmpi::io {
 namespace {
@@ -28,6 +33,22 @@ std::vector<Range> own_items(Items items, const FrameSource& source) {
       break;
   }
   return ranges;
+}
+
+/// Every committed row has its checksum.
+void check_committed_rows(hid_t file, std::int64_t num_frames, std::int64_t num_recorded) {
+  std::map<std::string, std::int64_t> rows;
+  for (const FrameTable& table : all_frame_tables()) {
+    const std::string path = row_checksum_path(table.group + "/" + table.columns.front().name);
+    rows[path.substr(path.rfind('/') + 1)] = table.rows == Rows::frames ? num_frames : num_recorded;
+  }
+  rows["contacts.frame.first"] = num_frames;
+  rows["events.frame"] = integer_attribute(file, "/events", "num_events");
+  check_rows(file, [&](const std::string& name) {
+    const auto found = rows.find(name);  // a newer layout may have other tables
+    return found == rows.end() ? std::nullopt : std::optional(found->second);
+  });
+  check_contacts(file, read_contact_spans(file, num_frames));
 }
 
 }  // namespace
@@ -80,6 +101,14 @@ std::vector<FrameTable> all_frame_tables() {
                                       .contacts = true,
                                       .breaks = true,
                                       .interest = true});
+}
+
+void check_run(hid_t file) {
+  check_checksums(file);
+  const std::int64_t num_frames = integer_attribute(file, "/", "frames_committed");
+  const std::int64_t record_every = integer_attribute(file, "/", "record_every");
+  if (num_frames < 0 || record_every < 1) throw core::RunError("impossible root attributes");
+  check_committed_rows(file, num_frames, num_frames / record_every);
 }
 
 }  // namespace pbmpi::io

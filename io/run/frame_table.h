@@ -66,4 +66,8 @@ std::vector<FrameTable> frame_tables(const RunShape& shape);
 /// All that a file of any run can have.
 std::vector<FrameTable> all_frame_tables();
 
+/// Throws core::RunError unless what is written once, what the end of the run has written and every committed
+/// row have their checksums, as far as the file's layout has them.
+void check_run(hid_t file);
+
 }  // namespace pbmpi::io

@@ -2,9 +2,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/hdf5/file_checksum.h"
 #include "io/hdf5/read_columns.h"
-#include "io/run/contact_rows.h"
 #include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
 #include "io/run/run_data.h"
@@ -209,32 +207,14 @@ void read_profiles(hid_t file, RunData& run) {
   }
 }
 
-/// Every committed row has its checksum.
-void check_committed_rows(hid_t file, std::int64_t num_frames, std::int64_t num_recorded) {
-  std::map<std::string, std::int64_t> rows;
-  for (const FrameTable& table : all_frame_tables()) {
-    const std::string path = row_checksum_path(table.group + "/" + table.columns.front().name);
-    rows[path.substr(path.rfind('/') + 1)] = table.rows == Rows::frames ? num_frames : num_recorded;
-  }
-  rows["contacts.frame.first"] = num_frames;
-  rows["events.frame"] = integer_attribute(file, "/events", "num_events");
-  check_rows(file, [&](const std::string& name) {
-    const auto found = rows.find(name);  // a newer layout may have other tables
-    return found == rows.end() ? std::nullopt : std::optional(found->second);
-  });
-  check_contacts(file, read_contact_spans(file, num_frames));
-}
-
 RunData read_all(hid_t file) {
-  check_checksums(file);
+  check_run(file);
   RunData run;
   run.attributes = attributes_as_text(file, "/");
   run.parameters = scalars_as_text(file, "/parameters");
   run.complete = integer_attribute(file, "/", "complete") != 0;
   run.frames_committed = integer_attribute(file, "/", "frames_committed");
   const std::int64_t record_every = integer_attribute(file, "/", "record_every");
-  if (run.frames_committed < 0 || record_every < 1) throw core::RunError("impossible root attributes");
-  check_committed_rows(file, run.frames_committed, run.frames_committed / record_every);
   run.hosts = read_texts(file, "/ranks/host");
   run.num_ranks = static_cast<int>(run.hosts.size());
   const std::vector<hsize_t> table = dims_of(file, "/observables/world/contacts");

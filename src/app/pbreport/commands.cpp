@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "app/pbreport/accuracy/study.h"
+#include "app/pbreport/csv/csv.h"
 #include "app/pbreport/diff/diff.h"
 #include "app/pbreport/effects/effects.h"
 #include "app/pbreport/figures/figures.h"
@@ -67,6 +68,8 @@ const std::vector<ReportCommand>& report_commands() {
        run_stability_report},
       {"prediction", "what value prediction gains and changes: the file of pbstudy prediction",
        run_prediction_report},
+      {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ...",
+       run_csv},
       {"repair", "gives back the disk space that a killed run keeps", run_repair},
   };
   return commands;

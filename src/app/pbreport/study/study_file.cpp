@@ -1,7 +1,7 @@
 #include "app/pbreport/study/study_file.h"
 
-#include "app/common/format.h"
 #include "core/error.h"
+#include "io/table/csv_text.h"
 
 namespace pbmpi::app {
 namespace {
@@ -11,28 +11,6 @@ std::string kind_of(const io::TableFile& file) {
   const auto study = file.attributes.find("study");
   return study == file.attributes.end() ? "accuracy" : study->second;
 }
-
-/// One value of a column as text.
-class CellText {
- public:
-  explicit CellText(std::size_t index) : index_(index) {}
-  std::string operator()(const std::vector<double>& values) const { return format("%.17g", values[index_]); }
-  std::string operator()(const std::vector<std::int64_t>& values) const {
-    return std::to_string(values[index_]);
-  }
-  std::string operator()(const std::vector<std::string>& values) const { return quoted(values[index_]); }
-
- private:
-  /// RFC 4180: a text with a comma or a quote stands in quotes.
-  static std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string result = "\"";
-    for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
-    return result + "\"";
-  }
-
-  std::size_t index_;
-};
 
 }  // namespace
 
@@ -65,7 +43,7 @@ std::string study_to_csv(const io::TableFile& file) {
     std::string line;
     for (const io::TableColumn& column : columns) {
       for (std::size_t k = 0; k < column.width; ++k) {
-        line += (line.empty() ? "" : ",") + std::visit(CellText(row * column.width + k), column.values);
+        line += (line.empty() ? "" : ",") + io::csv_value(column, row * column.width + k);
       }
     }
     text += line + "\n";

@@ -1,0 +1,17 @@
+/// Comma-separated values (RFC 4180) from which numbers are read back to the same bits.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "io/table/table_file.h"
+
+namespace pbmpi::io {
+
+/// A text with a comma, a quote or the end of a line stands in quotes.
+std::string csv_text(const std::string& text);
+
+/// One value of a column.
+std::string csv_value(const TableColumn& column, std::size_t index);
+
+}  // namespace pbmpi::io

@@ -1,0 +1,15 @@
+/// "pbreport csv RUN": a table of a run as comma-separated values.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace pbmpi::app {
+
+/// Throws core::InputError: bad usage, no file of a run, a table, body, actor or world that it does not have.
+core::ExitCode run_csv(const std::vector<std::string>& args, std::ostream& out);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,17 @@
+/// A table of a run as text.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "app/pbreport/csv/csv_options.h"
+#include "io/extract/run_tables.h"
+
+namespace pbmpi::app {
+
+/// Hands out the chosen rows, a line each item of each row, the names of the columns and their units first.
+/// Throws core::InputError for what the run does not have.
+void put_table(const io::RunTables& run, const io::RunTable& table, const CsvOptions& options,
+               const std::function<void(std::string_view)>& put);
+
+}  // namespace pbmpi::app
