@@ -12,20 +12,6 @@ namespace {
 namespace event_kind = stepping::event_kind;
 
 constexpr const char* group = "/events";
-constexpr const char* num_rows = "num_events";
-constexpr const char* num_dropped = "num_dropped";
-constexpr const char* worlds_moved = "worlds_moved";
-
-/// What happens to the run; all other kinds happen to a world.
-bool is_of_the_run(const std::string& kind) {
-  constexpr std::array kinds = {event_kind::rebalance, event_kind::signal, event_kind::time_limit,
-                                event_kind::checkpoint};
-  return std::ranges::find(kinds, kind) != kinds.end();
-}
-
-/// Attribute with the number of events of a kind.
-std::string count_name(const std::string& kind) { return "num_" + kind; }
-
 /// EventColumns::add() puts values in this order.
 const std::vector<ColumnSpec>& columns() {
   static const std::vector<ColumnSpec> specs = {{"frame", H5T_NATIVE_INT64}, {"kind", 0, 1, "", 24},
@@ -51,6 +37,14 @@ void read_subjects(hid_t file, std::int64_t count, std::vector<stepping::RunEven
 }
 
 }  // namespace
+
+bool EventColumns::is_of_the_run(const std::string& kind) {
+  constexpr std::array kinds = {event_kind::rebalance, event_kind::signal, event_kind::time_limit,
+                                event_kind::checkpoint};
+  return std::ranges::find(kinds, kind) != kinds.end();
+}
+
+std::string EventColumns::count_name(const std::string& kind) { return "num_" + kind; }
 
 std::vector<std::string> EventColumns::datasets() { return GrowingTable::datasets(group, columns()); }
 
@@ -100,18 +94,18 @@ EventCounts EventColumns::no_counts() {
 }
 
 void read_events(hid_t file, RunData& run) {
-  const std::int64_t count = integer_attribute(file, "/events", num_rows);
+  const std::int64_t count = integer_attribute(file, "/events", EventColumns::num_rows);
   const auto frame = read_integers(file, "/events/frame", count);
   const auto kind = read_texts(file, "/events/kind", count);
   const auto detail = read_texts(file, "/events/detail", count);
   for (std::size_t i = 0; i < frame.size(); ++i) run.events.push_back({frame[i], kind[i], detail[i]});
   if (has_object(file, "/events/step")) {
     read_subjects(file, count, run.events);
-    run.worlds_moved = integer_attribute(file, "/events", worlds_moved);
+    run.worlds_moved = integer_attribute(file, "/events", EventColumns::worlds_moved);
     const auto attributes = attributes_as_text(file, "/events");  // older layouts count fewer kinds
     for (const char* one : event_kind::all) {
-      if (attributes.contains(count_name(one)))
-        run.num_events[one] = integer_attribute(file, "/events", count_name(one));
+      if (attributes.contains(EventColumns::count_name(one)))
+        run.num_events[one] = integer_attribute(file, "/events", EventColumns::count_name(one));
     }
   } else {
     for (const stepping::RunEvent& event : run.events) ++run.num_events[event.kind];

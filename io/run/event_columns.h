@@ -35,6 +35,13 @@ class EventColumns {
   const GrowingTable& rows() const { return rows_; }
   /// Rows written, rows for which there was no room, and events told of each kind.
   EventCounts counts() const;
+  /// Does a kind of events happen to the run? All others happen to a world.
+  static bool is_of_the_run(const std::string& kind);
+  /// Name of the count of a kind; of the counts that no kind has.
+  static std::string count_name(const std::string& kind);
+  static constexpr const char* num_rows = "num_events";
+  static constexpr const char* num_dropped = "num_dropped";
+  static constexpr const char* worlds_moved = "worlds_moved";
   /// Names of all counts, each zero: for the attributes of a file that begins.
   static EventCounts no_counts();
 

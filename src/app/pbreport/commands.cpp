@@ -8,6 +8,7 @@
 #include "app/pbreport/diff/diff.h"
 #include "app/pbreport/effects/effects.h"
 #include "app/pbreport/figures/figures.h"
+#include "app/pbreport/join/join.h"
 #include "app/pbreport/prediction/prediction.h"
 #include "app/pbreport/repair/repair.h"
 #include "app/pbreport/run/options.h"
@@ -70,6 +71,7 @@ const std::vector<ReportCommand>& report_commands() {
        run_prediction_report},
       {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ...",
        run_csv},
+      {"join", "a run and what went on from its checkpoints as one file", run_join},
       {"repair", "gives back the disk space that a killed run keeps", run_repair},
   };
   return commands;

@@ -1,0 +1,74 @@
+#include "app/pbreport/join/join.h"
+
+#include <ostream>
+
+#include "app/common/format.h"
+#include "app/common/options.h"
+#include "app/common/text_output.h"
+#include "io/join/join_runs.h"
+
+namespace pbmpi::app {
+namespace {
+
+namespace po = boost::program_options;
+
+po::options_description visible_options() {
+  po::options_description all("Options");
+  all.add_options()("output,o", po::value<std::string>()->value_name("FILE"), "the file to write")  //
+      ("common", "leave out what not all files have, e.g. contacts")                                //
+      ("help,h", "print this help")                                                                 //
+      ("config", po::value<std::string>()->value_name("FILE"),
+       "read options from FILE, one 'name = value' a line; the command line wins")  //
+      ("quiet,q", "print nothing but errors");
+  return all;
+}
+
+std::string to_text(const io::JoinedRun& joined, const std::string& output) {
+  std::string text;
+  for (const io::JoinedRun::Part& part : joined.parts) {
+    text += format("%s: frames %lld to %lld, %lld of them taken", part.path.c_str(),
+                   static_cast<long long>(part.first_frame),
+                   static_cast<long long>(part.first_frame + part.num_frames - 1),
+                   static_cast<long long>(part.num_used));
+    for (const std::string& one : part.differs) text += "; " + one;
+    text += "\n";
+  }
+  for (const std::string& name : joined.left_out)
+    text += "left_out: " + name + ", which not all files have\n";
+  return text + format("%s: frames %lld to %lld, %s\nstate_hash: %s\n", output.c_str(),
+                       static_cast<long long>(joined.first_frame),
+                       static_cast<long long>(joined.first_frame + joined.num_frames - 1),
+                       joined.complete ? "complete" : "incomplete",
+                       joined.state_hash.empty() ? "none (the run was cut off)" : joined.state_hash.c_str());
+}
+
+void print_help(std::ostream& out) {
+  out << "pbreport join makes one file of that of a run and those of the runs that went on from its "
+         "checkpoints: as "
+         "if the run\nhad never been stopped. Files may come in any order. Frames that several of them have "
+         "(of a "
+         "run that was killed after its\nlast checkpoint) must be equal bit for bit, times apart; the later "
+         "file's "
+         "are taken.\n\n"
+      << "Usage: pbreport join RUN.h5 RUN.from12.h5... --output ALL.h5 [options]\n\n"
+      << visible_options() << "\nExamples:\n  pbreport join 100CrSk.h5 100CrSk.from*.h5 -o all.h5\n";
+}
+
+}  // namespace
+
+core::ExitCode run_join(const std::vector<std::string>& args, std::ostream& out) {
+  const po::variables_map values = parse_with_files(args, visible_options());
+  if (values.count("help") != 0) {
+    print_help(out);
+    require_printed(out, "the help");
+    return core::ExitCode::done;
+  }
+  const auto output = output_path(values, "output");
+  core::require_input(output.has_value(), "join: no place for the joined file; name it with --output FILE");
+  const io::JoinedRun joined = io::join_runs(given_files(values), *output, values.count("common") != 0);
+  if (values.count("quiet") == 0) out << to_text(joined, *output);
+  require_printed(out, "what was joined");
+  return core::ExitCode::done;
+}
+
+}  // namespace pbmpi::app
