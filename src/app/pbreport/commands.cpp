@@ -7,6 +7,7 @@
 #include "app/pbreport/csv/csv.h"
 #include "app/pbreport/diff/diff.h"
 #include "app/pbreport/effects/effects.h"
+#include "app/pbreport/ensemble/ensemble.h"
 #include "app/pbreport/figures/figures.h"
 #include "app/pbreport/join/join.h"
 #include "app/pbreport/prediction/prediction.h"
@@ -71,6 +72,7 @@ const std::vector<ReportCommand>& report_commands() {
        run_prediction_report},
       {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ...",
        run_csv},
+      {"ensemble", "mean, spread and quantiles over runs that differ in their seeds", run_ensemble},
       {"join", "a run and what went on from its checkpoints as one file", run_join},
       {"repair", "gives back the disk space that a killed run keeps", run_repair},
   };

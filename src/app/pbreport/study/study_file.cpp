@@ -30,26 +30,7 @@ io::TableFile read_study(const std::string& path, const std::string& kind) {
   return file;
 }
 
-std::string study_to_csv(const io::TableFile& file) {
-  const std::vector<io::TableColumn>& columns = file.tables.at("cases");
-  std::string text;
-  for (const io::TableColumn& column : columns) {
-    for (std::size_t k = 0; k < column.width; ++k) {
-      text += (text.empty() ? "" : ",") + column.name + (column.width > 1 ? "_" + std::to_string(k) : "");
-    }
-  }
-  text += "\n";
-  for (std::size_t row = 0; row < columns.front().num_rows(); ++row) {
-    std::string line;
-    for (const io::TableColumn& column : columns) {
-      for (std::size_t k = 0; k < column.width; ++k) {
-        line += (line.empty() ? "" : ",") + io::csv_value(column, row * column.width + k);
-      }
-    }
-    text += line + "\n";
-  }
-  return text;
-}
+std::string study_to_csv(const io::TableFile& file) { return io::csv_table(file.tables.at("cases")); }
 
 std::string text_parameter(const io::TableFile& file, const std::string& name, const std::string& absent) {
   for (const io::Parameter& parameter : file.parameters) {

@@ -1,0 +1,33 @@
+/// The command line of "pbreport ensemble".
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pbmpi::app {
+
+/// What a sample is: a run, its worlds joined, or each world of each run.
+enum class SampleOf { runs, worlds };
+
+enum class EnsembleForm { text, json, markdown };
+
+struct EnsembleOptions {
+  bool help = false;
+  std::vector<std::string> files;
+  SampleOf over = SampleOf::runs;
+  std::vector<double> quantiles = {0.05, 0.25, 0.5, 0.75, 0.95};
+  std::vector<std::string> allowed;  ///< parameters that may differ
+  bool by_body = false;
+  EnsembleForm form = EnsembleForm::text;
+  bool quiet = false;
+  std::string table = "frames";            ///< of csv
+  std::optional<std::string> csv, output;  ///< output: HDF5
+};
+
+/// Throws core::InputError with one clear message.
+EnsembleOptions parse_ensemble_options(const std::vector<std::string>& args);
+
+std::string ensemble_help_text();
+
+}  // namespace pbmpi::app

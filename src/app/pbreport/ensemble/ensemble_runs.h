@@ -1,0 +1,45 @@
+/// The runs of an ensemble: what they have in common, and in what they differ.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/pbreport/ensemble/ensemble_options.h"
+#include "io/extract/run_tables.h"
+
+namespace pbmpi::app {
+
+class EnsembleRuns {
+ public:
+  /// Opens all. Throws core::InputError: runs of other bodies, scenes or settings (those that the options
+  /// allow apart), the same seeds twice, frames at other times.
+  explicit EnsembleRuns(const EnsembleOptions& options);
+
+  const std::vector<io::RunTables>& runs() const { return runs_; }
+  const io::RunTables& first() const { return runs_.front(); }
+  /// Frames, and frames with positions, that all have.
+  std::int64_t num_frames() const { return num_frames_; }
+  std::int64_t num_recorded() const { return num_frames_ / first().record_every(); }
+  SampleOf over() const { return over_; }
+  /// Bodies of a sample: all, or those of a world.
+  std::int64_t num_bodies() const;
+  /// "ranks is 1 in a.h5 and 2 in b.h5": of what differs beside the seeds, allowed or of no matter for
+  /// results.
+  const std::vector<std::string>& differences() const { return differences_; }
+
+ private:
+  void require_comparable(const io::RunTables& run, const EnsembleOptions& options);
+  void require_new_sample(std::size_t index) const;
+  void require_equal_worlds() const;
+
+  SampleOf over_;
+  std::vector<io::RunTables> runs_;
+  std::vector<std::string> differences_;
+  std::int64_t num_frames_ = 0;
+};
+
+/// A value of /parameters or the root's attributes; empty if it has none.
+std::string value_in(const std::map<std::string, std::string>& values, const std::string& name);
+
+}  // namespace pbmpi::app

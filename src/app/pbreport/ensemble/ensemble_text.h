@@ -1,0 +1,18 @@
+/// An ensemble for people and for other programs.
+#pragma once
+
+#include <string>
+
+#include "app/pbreport/ensemble/ensemble_tables.h"
+
+namespace pbmpi::app {
+
+/// Runs, and what is in the last frame that all have.
+std::string ensemble_text(const EnsembleRuns& runs, const Ensemble& found, const EnsembleOptions& options);
+std::string ensemble_markdown(const EnsembleRuns& runs, const Ensemble& found,
+                              const EnsembleOptions& options);
+
+/// Tables as objects of columns; what is not finite is null.
+std::string to_json(const io::TableFile& file);
+
+}  // namespace pbmpi::app
