@@ -26,6 +26,7 @@ json to_json(const PageSection& section) {
 std::string field(std::string_view name, const ChartPage& page) {
   if (name == "title") return escape_html(page.title);
   if (name == "subtitle") return escape_html(page.subtitle);
+  if (name == "provenance") return provenance_json(page.provenance);
   if (name != "sections") return std::string(asset(name));
   json sections = json::array();
   for (const PageSection& section : page.sections) sections.push_back(to_json(section));

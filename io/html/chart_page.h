@@ -4,11 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "io/html/provenance.h"
+
 namespace pbmpi::io::html {
 
 /// One chart: a configuration of Chart.js 3 as JSON text (type, data, options). Two additions: in
-/// "options.pbmpi", {"bands": [{"from", "to", "label", "align", "colour"}]} draws horizontal bands behind the
-/// data, at values of the y axis.
+/// "options.plugins.pbmpi", {"bands": [{"from", "to", "label", "colour"}]} draws bands behind the data, at
+/// values of the y axis or of the one that "axis" names; a line where both ends are equal, dashed by "dash".
+/// What is off the scale gets an arrow. {"key": [{"label", "shape", "radius", "colour"}]} adds to the key
+/// below the chart, which names data sets and bands with their values ("showValue": false: without). A
+/// point's "label" is what is read off it. A data set with "unread" is passed over by the keyboard.
 struct Chart {
   std::string title;
   std::string text;    ///< one line below the title
@@ -33,6 +38,7 @@ struct ChartPage {
   std::string title;
   std::string subtitle;
   std::vector<PageSection> sections;
+  Provenance provenance = {};
 };
 
 std::string make_chart_page(const ChartPage& page);

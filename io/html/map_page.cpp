@@ -54,6 +54,7 @@ std::string field(std::string_view name, const MapPage& page) {
   if (name == "title") return escape_html(page.title);
   if (name == "subtitle") return escape_html(page.subtitle);
   if (name == "map") return map_json(page);
+  if (name == "provenance") return provenance_json(page.provenance);
   return std::string(asset(name));
 }
 

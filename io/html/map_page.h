@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/html/provenance.h"
 #include "io/run/run_data.h"
 
 namespace pbmpi::io::html {
@@ -34,6 +35,7 @@ struct MapPage {
   std::string title, subtitle;
   std::vector<std::string> columns;
   std::vector<MapRow> rows;
+  Provenance provenance = {};
 };
 
 /// By way of a temporary file beside it. Throws core::InputError if it cannot be written.

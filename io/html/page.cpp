@@ -7,6 +7,7 @@
 #include "io/html/escape.h"
 #include "io/html/fill_template.h"
 #include "io/html/plot_data.h"
+#include "io/html/provenance.h"
 #include "io/html/replay_data.h"
 
 namespace pbmpi::io::html {
@@ -52,6 +53,7 @@ std::string field(std::string_view name, const RunData& run, const PageOptions& 
   if (name == "title") return escape_html(text_or(run.attributes, "scene", "run"));
   if (name == "about") return about_json(run, options);
   if (name == "plots") return plots_json(run, options.budget_s);
+  if (name == "provenance") return provenance_json(provenance_of(run, options.maker));
   if (name == "replay") return replay_json(run, select_replay(run, options.max_pose_bytes));
   return std::string(asset(name));
 }

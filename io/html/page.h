@@ -23,6 +23,7 @@ struct PageOptions {
   /// shows fewer worlds or every k-th frame, and says so.
   std::int64_t max_pose_bytes = 28'000'000;
   double budget_s = stepping::default_frame_budget_s;  ///< deadline of a frame
+  std::string maker = {};                              ///< the program that makes the page, with its version
 };
 
 /// The page's text.

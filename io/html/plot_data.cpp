@@ -7,6 +7,7 @@
 #include "core/clock.h"
 #include "core/statistics.h"
 #include "io/html/escape.h"
+#include "io/html/replay_data.h"
 
 namespace pbmpi::io::html {
 namespace {
@@ -21,11 +22,26 @@ void for_each_bin(std::size_t count, std::size_t per_bin, Visit visit) {
   }
 }
 
-json band_json(const RunData& run, const std::string& observable, std::size_t per_bin) {
+json to_json(const Band& band, double scale = 1) {
+  const auto scaled = [scale](std::vector<double> values) {
+    for (double& value : values) value *= scale;
+    return values;
+  };
+  return {{"sum", scaled(band.sum)},
+          {"min", scaled(band.min)},
+          {"mean", scaled(band.mean)},
+          {"max", scaled(band.max)}};
+}
+
+/// Null if the run has no such observable.
+json band_json(const RunData& run, const std::string& observable, std::size_t per_bin, double scale = 1) {
   const auto found = run.observables.find(observable);
-  if (found == run.observables.end()) return nullptr;
-  const Band band = band_of(found->second, per_bin);
-  return {{"sum", band.sum}, {"min", band.min}, {"mean", band.mean}, {"max", band.max}};
+  return found == run.observables.end() ? json() : to_json(band_of(found->second, per_bin), scale);
+}
+json length_json(const RunData& run, const std::string& observable, std::size_t per_bin) {
+  const auto found = run.vector_observables.find(observable);
+  return found == run.vector_observables.end() ? json()
+                                               : to_json(band_of(lengths_of(found->second), per_bin));
 }
 
 /// Mean over the measured frames (over all, if none is measured) of one phase, for each rank [ms].
@@ -88,11 +104,21 @@ std::vector<double> largest_of_bins(const std::vector<double>& values, std::size
   return largest;
 }
 
+Table lengths_of(const VectorTable& table) {
+  Table lengths;
+  for (const std::vector<core::Vec3>& worlds : table) {
+    std::vector<double>& row = lengths.emplace_back();
+    for (const core::Vec3& vector : worlds) row.push_back(vector.norm());
+  }
+  return lengths;
+}
+
 std::string plots_json(const RunData& run, double budget_s) {
   const std::size_t num_frames = run.frame_wall_s.size();
   const std::size_t per_bin = std::max<std::size_t>(1, (num_frames + max_plot_points - 1) / max_plot_points);
   json plots;
   plots["num_frames"] = num_frames;
+  plots["first_frame"] = integer_attribute_of(run, "first_frame", 0);
   plots["per_bin"] = per_bin;
   std::vector<double> wall_ms = largest_of_bins(run.frame_wall_s, per_bin);
   for (double& wall : wall_ms) wall *= 1e3;
@@ -106,6 +132,12 @@ std::string plots_json(const RunData& run, double budget_s) {
   plots["num_ranks"] = run.num_ranks;
   plots["islands"] = band_json(run, "islands", per_bin);
   plots["contacts"] = band_json(run, "contacts", per_bin);
+  constexpr double mm = 1e3;
+  plots["energy"] = band_json(run, "energy", per_bin);
+  plots["linear_momentum"] = length_json(run, "linear_momentum", per_bin);
+  plots["angular_momentum"] = length_json(run, "angular_momentum", per_bin);
+  plots["joint_gap_mm"] = band_json(run, "joint_gap", per_bin, mm);
+  plots["max_penetration_mm"] = band_json(run, "max_penetration", per_bin, mm);
   return dump(plots);
 }
 

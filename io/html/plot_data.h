@@ -24,6 +24,9 @@ Band band_of(const Table& table, std::size_t per_bin);
 /// The largest of each bin: a spike must not vanish in a mean.
 std::vector<double> largest_of_bins(const std::vector<double>& values, std::size_t per_bin);
 
+/// Length of a vector observable, [T][W].
+Table lengths_of(const VectorTable& table);
+
 /// JSON of all plots, for io/html/plots.js.
 std::string plots_json(const RunData& run, double budget_s);
 

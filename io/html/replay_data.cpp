@@ -1,6 +1,7 @@
 #include "io/html/replay_data.h"
 
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "io/html/base64.h"
@@ -73,13 +74,18 @@ void add_poses(json& replay, const RunData& run, const Selection& selection) {
   replay["orientation"] = base64_of(orientation);
 }
 
+/// Frames are numbered from the start of the simulation, whose pose is that of frame 0.
 void add_times(json& replay, const RunData& run, const Selection& selection) {
+  const std::int64_t first = integer_attribute_of(run, "first_frame", 0);
+  const std::int64_t every = integer_attribute_of(run, "record_every", 1);
   std::vector<double> time_s{0};
-  std::vector<std::int64_t> step{0};
+  std::vector<std::int64_t> step{0}, number{0};
   for (std::size_t record : selection.records) {
     time_s.push_back(run.recorded_time_s[record]);
     step.push_back(run.recorded_step[record]);
+    number.push_back(first + every * static_cast<std::int64_t>(record + 1));
   }
+  replay["number"] = number;
   replay["time_s"] = time_s;
   replay["step"] = step;
 }
@@ -109,6 +115,16 @@ void add_geoms(json& replay, const RunData& run, const Selection& selection) {
 }
 
 }  // namespace
+
+std::int64_t integer_attribute_of(const RunData& run, const std::string& name, std::int64_t absent) {
+  const auto found = run.attributes.find(name);
+  std::int64_t value = absent;
+  if (found != run.attributes.end()) {
+    const char* const begin = found->second.data();
+    std::from_chars(begin, begin + found->second.size(), value);
+  }
+  return value;
+}
 
 Selection select_replay(const RunData& run, std::int64_t max_pose_bytes) {
   const std::size_t num_records = run.position.size();

@@ -20,6 +20,9 @@ struct Selection {
 /// Three bytes are 4 characters of the page; a pose is 7 single-precision numbers.
 inline constexpr std::int64_t three_poses_bytes = std::int64_t{7} * 4 * 4;
 
+/// A root attribute of the run that is a whole number; `absent` if it has none.
+std::int64_t integer_attribute_of(const RunData& run, const std::string& name, std::int64_t absent);
+
 /// Bytes that the poses of so many bodies take in the page.
 constexpr std::int64_t pose_bytes(std::int64_t count) { return (three_poses_bytes * count + 2) / 3; }
 

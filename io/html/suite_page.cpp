@@ -30,9 +30,12 @@ std::string suite_json(const std::vector<SuiteScene>& scenes) {
 
 }  // namespace
 
-void write_suite_page(const std::string& path, const std::vector<SuiteScene>& scenes) {
+void write_suite_page(const std::string& path, const std::vector<SuiteScene>& scenes,
+                      const Provenance& provenance) {
   write_file(path, fill_template(asset("suite_html"), [&](std::string_view name) {
-               return name == "suite" ? suite_json(scenes) : std::string(asset(name));
+               if (name == "suite") return suite_json(scenes);
+               if (name == "provenance") return provenance_json(provenance);
+               return std::string(asset(name));
              }));
 }
 

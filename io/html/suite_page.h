@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "io/html/provenance.h"
+
 namespace pbmpi::io::html {
 
 struct SuiteScene {
@@ -14,6 +16,7 @@ struct SuiteScene {
 };
 
 /// Throws core::InputError if `path` cannot be written.
-void write_suite_page(const std::string& path, const std::vector<SuiteScene>& scenes);
+void write_suite_page(const std::string& path, const std::vector<SuiteScene>& scenes,
+                      const Provenance& provenance);
 
 }  // namespace pbmpi::io::html

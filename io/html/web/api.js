@@ -1,6 +1,6 @@
 'use strict';
 // Starts the page, and opens the replay to scripts (tests, stills) as window.pbreplay and through the address:
-//   #frame=3        recorded frame, 0 = initial pose
+//   #frame=3        the third recorded frame, 0 = initial pose
 //   &world=0|all    what is shown
 //   &camera=px,py,pz,tx,ty,tz   position and target [m]
 //   &follow=1|0     whether the camera moves with the bodies; default: if they go far
@@ -13,6 +13,7 @@ pb.publish = (replay) => ({
   numFrames: replay.data.numFrames,
   numWorlds: replay.data.numWorlds,
   currentFrame: () => replay.currentFrame(),
+  frameNumber: () => replay.numberOf(replay.currentFrame()),  // as labels and plots count
   time: () => replay.poses.timeAt(replay.frame),
   setFrame: (frame) => { replay.pause(); replay.setFrame(frame); },
   world: () => replay.world,
@@ -51,6 +52,7 @@ pb.readAddress = (replay) => {
 pb.start = () => {
   pb.showHeader();
   pb.showPlots();
+  pb.showProvenance();
   const data = pb.decodeReplay(pb.json('replay-data'));
   let stage;
   try {
@@ -63,6 +65,8 @@ pb.start = () => {
     return;
   }
   const replay = new pb.Replay(data, stage);
+  replay.onFrame = (frame) => pb.framePlots.setCursor(frame);
+  pb.framePlots.onChoose = (frame) => { replay.pause(); replay.setFrame(replay.placeOf(frame)); };
   pb.readAddress(replay);
   window.addEventListener('hashchange', () => pb.readAddress(replay));
   window.pbreplay = pb.publish(replay);
@@ -71,3 +75,4 @@ pb.start = () => {
 };
 
 pb.start();
+document.body.dataset.ready = 'yes';

@@ -1,9 +1,5 @@
 'use strict';
-// What the page carries: JSON, with arrays of numbers in base64 (little-endian).
-
-const pb = {};
-
-pb.json = (id) => JSON.parse(document.getElementById(id).textContent);
+// What a page of a replay carries: arrays of numbers in base64 (little-endian).
 
 pb.bytes = (base64) => {
   const text = atob(base64);
@@ -17,7 +13,7 @@ pb.integers = (base64) => new Int32Array(pb.bytes(base64).buffer);
 pb.about = pb.json('about-data');
 
 // The replay's arrays. Frame 0 is the initial pose.
-//   timeS, step [F]; position [F][N][3] m; orientation [F][N][4] (w, x, y, z); bodyWorld [N]
+//   timeS, step, number [F], the last counting frames from the start of the simulation; position [F][N][3] m; orientation [F][N][4] (w, x, y, z); bodyWorld [N]
 //   geoms: kind, shape, world, body (-1 = static) [G]; size [G][3] m; local [G][7] position, orientation
 pb.decodeReplay = (raw) => {
   return {
@@ -27,6 +23,7 @@ pb.decodeReplay = (raw) => {
     numFrames: raw.time_s.length,
     timeS: raw.time_s,
     step: raw.step,
+    number: raw.number,
     bodyNames: raw.body_names,
     bodyWorld: pb.integers(raw.body_world),
     position: pb.floats(raw.position),
@@ -42,12 +39,6 @@ pb.decodeReplay = (raw) => {
       local: pb.floats(raw.geoms.local),
     },
   };
-};
-
-pb.element = (tag, properties, ...children) => {
-  const node = Object.assign(document.createElement(tag), properties);
-  node.append(...children);
-  return node;
 };
 
 // Kinds of actors, in colours that people with any colour vision can tell apart: Okabe and Ito, "Color

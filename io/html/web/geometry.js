@@ -75,12 +75,12 @@ pb.shadedMaterial = (colour) => {
 pb.checkerPlane = (side) => {
   const canvas = pb.element('canvas', {width: 256, height: 256});
   const context = canvas.getContext('2d');
-  context.fillStyle = '#e9eef3';
+  context.fillStyle = pb.themeColour('ground');
   context.fillRect(0, 0, 256, 256);
-  context.fillStyle = '#dde4eb';
+  context.fillStyle = pb.themeColour('ground-other');
   context.fillRect(0, 0, 128, 128);
   context.fillRect(128, 128, 128, 128);
-  context.strokeStyle = '#cbd4dd';
+  context.strokeStyle = pb.themeColour('ground-line');
   context.lineWidth = 2;
   for (const at of [0, 128]) {
     context.strokeRect(at, -8, 128, 272);

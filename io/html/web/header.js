@@ -12,26 +12,20 @@ pb.showHeader = () => {
   badge.classList.toggle('cut-off', !about.complete);
   byId('state-hash').textContent = attribute('state_hash').trim() || 'none';
 
-  byId('facts').append(...about.facts.map((fact) => pb.element('dl', {className: 'fact', style: 'margin:0'},
+  byId('facts').append(...about.facts.map((fact) => pb.element('dl', {className: 'fact'},
       pb.element('dt', {}, fact.label),
       pb.element('dd', {},
           pb.element('div', {className: 'value'}, fact.value),
           pb.element('div', {className: 'detail'}, fact.note)))));
 
-  const cell = (text) => text.includes('\n') ? pb.element('td', {}, pb.element('pre', {}, text)) :
-                                               pb.element('td', {}, text);
-  const table = (entries) => pb.element('table', {}, ...entries.map(
-      ([name, text]) => pb.element('tr', {}, pb.element('th', {scope: 'row'}, name), cell(text))));
   const entries = Object.entries({...about.attributes, ...about.parameters});
   const isEnvironment = ([name]) => name.startsWith('env_');
-  byId('settings-tables').append(table(entries.filter((entry) => !isEnvironment(entry))));
+  const fill = (id, label, lines) => pb.scrollable(byId(id), label).append(pb.definitionTable(lines));
+  fill('settings-tables', 'Settings and provenance', entries.filter((entry) => !isEnvironment(entry)));
   const environment = entries.filter(isEnvironment).map(([name, text]) => [name.slice('env_'.length), text]);
   byId('environment').hidden = environment.length === 0;
-  byId('environment-table').append(table(environment));
+  fill('environment-table', 'Job environment', environment);
 
   byId('events').hidden = about.events.length === 0;
   byId('event-list').append(...about.events.map((event) => pb.element('li', {}, event)));
-
-  const made = [`pbmpi ${attribute('pbmpi_version')}`, attribute('git_revision'), attribute('created')];
-  byId('provenance').textContent = made.filter((part) => part).join(' · ');
 };

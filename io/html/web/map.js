@@ -9,7 +9,20 @@ pb.Map = class {
     this.byId = (id) => document.getElementById(id);
     this.byId('replay').hidden = true;
     this.byId('map').append(this.head(), ...this.groups());
+    this.byId('map').addEventListener('keydown', (event) => this.go(event));
     window.addEventListener('hashchange', () => this.readAddress());
+  }
+
+  // Arrows go from field to field, over the headings of groups, too.
+  go(event) {
+    const [, row, column] = (event.target.id.match(/^field-(\d+)-(\d+)$/) || []).map(Number);
+    const step = {ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0]}[event.key];
+    if (row === undefined || !step) return;
+    event.preventDefault();
+    const rows = [...this.byId('map').querySelectorAll('tr:has(button)')];
+    const line = rows.indexOf(event.target.closest('tr')) + step[0];
+    const next = rows[line] && rows[line].querySelectorAll('button')[column + step[1]];
+    if (next) next.focus();
   }
 
   readAddress() {
@@ -20,7 +33,7 @@ pb.Map = class {
   }
 
   head() {
-    return pb.element('thead', {}, pb.element('tr', {}, pb.element('th', {}, 'case'),
+    return pb.element('thead', {}, pb.element('tr', {}, pb.element('th', {scope: 'col'}, 'case'),
         ...this.data.columns.map((column) => pb.element('th', {scope: 'col'}, column))));
   }
 
@@ -39,8 +52,8 @@ pb.Map = class {
   field(row, cell, column) {
     const look = cell.verdict === 'n/a' ? 'na' : cell.verdict;
     const button = pb.element('button', {
-      type: 'button', id: `field-${this.data.rows.indexOf(row)}-${column}`, className: cell.severity > 0.5 ? `${look} far` : look, title: cell.label || cell.verdict,
-    }, cell.label || (cell.verdict === 'pass' ? '' : cell.verdict));
+      type: 'button', id: `field-${this.data.rows.indexOf(row)}-${column}`, className: cell.severity > 0.5 ? `${look} far` : look,
+    }, cell.label || (cell.verdict === 'pass' ? '\u2713' : cell.verdict));
     button.setAttribute('aria-label', `${row.name}, ${this.data.columns[column]}: ${cell.verdict} ${cell.label}`);
     button.addEventListener('click', () => this.choose(row, cell, column, button));
     return button;
@@ -59,24 +72,26 @@ pb.Map = class {
   }
 
   showCurves(curves) {
-    for (const chart of this.charts) chart.destroy();
+    for (const end of this.charts) end();
     this.byId('curves').replaceChildren();
     this.charts = curves.map((curve) => this.chart(curve));
   }
 
+  // Returns what ends the chart.
   chart(curve) {
-    const canvas = pb.element('canvas', {role: 'img'});
-    canvas.setAttribute('aria-label', `${curve.title} over time`);
-    this.byId('curves').append(pb.element('article', {className: 'chart'}, pb.element('h3', {}, `${curve.title} [${curve.unit}]`),
-        pb.element('div', {className: 'area', style: 'height:190px'}, canvas)));
+    const area = pb.element('div', {className: 'area', style: 'height:190px'});
+    this.byId('curves').append(pb.element('article', {className: 'chart'}, pb.element('h3', {}, `${curve.title} [${curve.unit}]`), area));
     const times = pb.floats(curve.time_s), values = pb.floats(curve.value);
-    return new Chart(canvas, {
+    const text = (item) => `${curve.title.toLowerCase()} ${pb.shortNumber(item.raw.y)} ${curve.unit} at ${pb.shortNumber(item.raw.x)} s`;
+    return pb.draw(area, `${curve.title} over time`, () => ({
       type: 'line',
-      data: {datasets: [{data: Array.from(times, (x, i) => ({x, y: values[i]})), borderColor: '#0072b2', borderWidth: 1.5,
-                         pointRadius: 0}]},
-      options: {animation: false, maintainAspectRatio: false, plugins: {legend: {display: false}},
-                scales: {x: {type: 'linear', title: {display: true, text: 's'}}}},
-    });
+      data: {datasets: [{label: curve.title, data: Array.from(times, (x, i) => ({x, y: values[i]})), borderColor: '#0072b2',
+                         borderWidth: 1.5, pointRadius: 0}]},
+      options: {interaction: {mode: 'nearest', axis: 'x', intersect: false},
+                plugins: {legend: {display: false}, tooltip: {callbacks: {title: () => [], label: text}}},
+                scales: {x: {type: 'linear', min: 0, title: {display: true, text: 's'}},
+                         y: values.every((value) => value === 0) ? {min: 0, suggestedMax: 1} : {}}},
+    }), pb.readByKeyboard);
   }
 
   showReplay(row, replay) {
@@ -103,4 +118,5 @@ pb.Map = class {
 
 pb.map = new pb.Map(pb.json('map-data'));
 pb.map.readAddress();
+pb.showProvenance();
 document.body.dataset.ready = 'yes';

@@ -20,6 +20,8 @@ pb.Replay = class {
     this.stage = stage;
     this.byId = (id) => document.getElementById(id);
     this.lastTick = 0;
+    this.onFrame = () => {};
+    stage.onRepaint = () => this.refresh();
     this.listen();
     this.show(replay);
   }
@@ -73,8 +75,11 @@ pb.Replay = class {
 
   key(event) {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
-    // A focused button, select or fold-out has its own use for these keys; the slider's arrows mean ours.
-    if (['BUTTON', 'SELECT', 'SUMMARY', 'TEXTAREA'].includes(event.target.tagName) && event.key !== 'r') return;
+    // A focused button, select, fold-out, table or chart has its own use for these keys; the slider's arrows mean ours.
+    const own = event.target.closest('button, select, summary, textarea, [role=region]');
+    if (own && event.key !== 'r' || event.defaultPrevented || this.byId('replay').hidden) return;
+    // The check box takes the space bar.
+    if (event.target.type === 'checkbox' && event.key === ' ') return;
     const actions = {
       ' ': () => this.toggle(), ArrowLeft: () => this.step(-1), ArrowRight: () => this.step(1),
       Home: () => this.setFrame(0), End: () => this.setFrame(this.data.numFrames - 1), r: () => this.resetCamera(),
@@ -122,6 +127,21 @@ pb.Replay = class {
   // The last recorded frame that has been reached.
   currentFrame() {
     return Math.floor(this.frame + 1e-9);
+  }
+
+  // The frame's number as plots count it: where not all frames were recorded, or the replay shows every k-th only, numbers
+  // have gaps.
+  numberOf(frame) {
+    return this.data.number ? this.data.number[frame] : frame;
+  }
+
+  // The shown frame that is nearest to a number.
+  placeOf(number) {
+    let nearest = 0;
+    for (let frame = 1; frame < this.data.numFrames; ++frame) {
+      if (Math.abs(this.numberOf(frame) - number) < Math.abs(this.numberOf(nearest) - number)) nearest = frame;
+    }
+    return nearest;
   }
 
   setFrame(frame) {
@@ -192,10 +212,11 @@ pb.Replay = class {
     const digits = this.data.timeS[this.data.numFrames - 1] < 100 ? 3 : 1;
     this.byId('scrub').value = this.frame;
     this.byId('frame-label').textContent =
-        `frame ${frame} of ${this.data.numFrames - 1} · step ${this.data.step[frame]} · ${time.toFixed(digits)} s`;
+        `frame ${this.numberOf(frame)} of ${this.numberOf(this.data.numFrames - 1)} · step ${this.data.step[frame]} · ${time.toFixed(digits)} s`;
     this.byId('view-label').textContent = `${this.world === 'all' ? `${this.data.numWorlds} worlds` :
         this.data.numWorlds > 1 ? `world ${this.world}` : pb.about.scene} · t = ${time.toFixed(digits)} s`;
     this.dirty = true;
+    this.onFrame(this.numberOf(frame));
   }
 
   setFollow(follow) {

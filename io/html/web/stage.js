@@ -10,7 +10,6 @@ pb.Stage = class {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.scene = new THREE.Scene();
-    this.scene.background = new THREE.Color('#e6ecf2');
     this.camera = new THREE.PerspectiveCamera(38, 1, 0.05, 4000);
     this.camera.up.set(0, 0, 1);
     this.controls = new THREE.OrbitControls(this.camera, canvas);
@@ -22,7 +21,10 @@ pb.Stage = class {
     this.scene.add(this.sun, this.sun.target);
     this.groups = [];
     this.planes = [];
+    pb.onLookChange(() => { if (this.offsets) { this.clear(); this.showWorlds(this.offsets); this.onRepaint(); } });
   }
+
+  onRepaint() {}
 
   // Draws these worlds, each moved by its offset [x, y] m in the picture.
   showWorlds(offsets) {
@@ -92,7 +94,8 @@ pb.Stage = class {
       this.planes.push(plane);
       this.scene.add(plane);
     }
-    this.scene.fog = new THREE.Fog('#e6ecf2', 0.12 * side, 0.48 * side);
+    this.scene.background = new THREE.Color(pb.themeColour('sky'));
+    this.scene.fog = new THREE.Fog(pb.themeColour('sky'), 0.12 * side, 0.48 * side);
   }
 
   // A sample of the places where bodies of the shown worlds are, over all frames.
@@ -109,16 +112,18 @@ pb.Stage = class {
   }
 
   // Where things happen: the box round the points, without those that fly far out: a quarter of the middle 98 %'s
-  // width beyond these.
+  // width beyond these, and the width of where all begins (at least 3 m) beyond that.
   actionBox() {
     const box = new THREE.Box3(new THREE.Vector3(), new THREE.Vector3());
+    const start = this.startBox();
     for (const axis of ['x', 'y', 'z']) {
       const values = this.points.map((point) => point[axis]).sort((a, b) => a - b);
       if (values.length === 0) continue;
       const low = values[Math.floor(0.01 * values.length)];
       const high = values[Math.ceil(0.99 * values.length) - 1];
-      box.min[axis] = Math.max(values[0], low - 0.25 * (high - low));
-      box.max[axis] = Math.min(values[values.length - 1], high + 0.25 * (high - low));
+      const reach = Math.max(3, start.max[axis] - start.min[axis]);
+      box.min[axis] = Math.max(values[0], low - 0.25 * (high - low), start.min[axis] - reach);
+      box.max[axis] = Math.min(values[values.length - 1], high + 0.25 * (high - low), start.max[axis] + reach);
     }
     return box.expandByScalar(0.5);
   }
@@ -205,10 +210,13 @@ pb.Stage = class {
 
   // Do the bodies on the whole go farther than they stand apart at the start?
   drifts() {
+    return this.driftM > this.startBox().getSize(new THREE.Vector3()).length();
+  }
+
+  startBox() {
     const {numBodies, position, orientation} = this.replay;
     const start = {position: position.subarray(0, 3 * numBodies), orientation: orientation.subarray(0, 4 * numBodies)};
-    const box = new THREE.Box3().setFromPoints(this.pointsOf(start));
-    return this.driftM > box.getSize(new THREE.Vector3()).length();
+    return new THREE.Box3().setFromPoints(this.pointsOf(start));
   }
 
   moveCamera(by) {

@@ -1,7 +1,7 @@
 'use strict';
 // The page of all scenes.
 
-const scenes = JSON.parse(document.getElementById('suite-data').textContent);
+const scenes = pb.json('suite-data');
 
 const kinds = [
   {key: 'serial', label: 'serial', colour: '#7a8490'},
@@ -9,36 +9,24 @@ const kinds = [
   {key: 'spaces_parallel', label: 'islands and spaces parallel', colour: '#e69f00'},
 ];
 
-Chart.defaults.animation = false;
-Chart.defaults.maintainAspectRatio = false;
-Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
+const level = (hz, colour) => ({from: hz, to: hz, label: `line at ${hz} Hz`, colour, dash: [6, 4], showValue: false});
 
-const level = (hz, colour) => ({
-  type: 'line', label: `${hz} Hz`, data: scenes.map(() => hz), borderColor: colour, borderDash: [6, 4], borderWidth: 1.5,
-  pointRadius: 0, backgroundColor: colour,
-});
-
-const bars = (value) => kinds.map((kind) => ({
-  label: kind.label, data: scenes.map((scene) => value(scene.cores[kind.key])), backgroundColor: kind.colour,
-}));
-
-const chart = (id, datasets, y) => new Chart(document.getElementById(id), {
+const chart = (id, label, value, y, bands) => pb.draw(document.getElementById(id), label, () => ({
   type: 'bar',
-  data: {labels: scenes.map((scene) => scene.name), datasets},
-  options: {plugins: {legend: {position: 'bottom'}}, scales: {x: {grid: {display: false}}, y}},
-});
+  data: {
+    labels: scenes.map((scene) => scene.name),
+    datasets: kinds.map((kind) => ({label: kind.label, data: scenes.map((scene) => value(scene.cores[kind.key])), backgroundColor: kind.colour})),
+  },
+  options: {plugins: {pbmpi: {bands}}, scales: {x: {grid: {display: false}}, y: {...y}}},
+}), pb.readByKeyboard);
 
-chart('rates', [level(30, '#d55e00'), level(300, '#009e73'), ...bars((rate) => rate.harmonic_mean_hz)],
-      {type: 'logarithmic', title: {display: true, text: 'Hz'}});
-chart('satisfied', bars((rate) => 100 * rate.satisfied_fraction),
-      {min: 0, max: 100, title: {display: true, text: '%'}});
+chart('rates', 'Frame rate of each scene', (rate) => rate.harmonic_mean_hz,
+      {type: 'logarithmic', title: {display: true, text: 'Hz'}}, [level(30, '#d55e00'), level(300, '#009e73')]);
+chart('satisfied', 'Share of satisfied frames of each scene', (rate) => 100 * rate.satisfied_fraction,
+      {min: 0, max: 100, title: {display: true, text: '%'}}, []);
 
-const row = (cells, tag, className) => {
-  const tr = document.createElement('tr');
-  if (className) tr.className = className;
-  for (const cell of cells) tr.append(Object.assign(document.createElement(tag), {textContent: cell}));
-  return tr;
-};
+const row = (cells, tag, className = '') => pb.element('tr', {className}, ...cells.map((cell) =>
+    pb.element(tag, tag === 'th' ? {scope: 'col'} : {}, String(cell))));
 const number = (value, digits) => value === null ? '\u2013' : value.toFixed(digits);
 const difference = (value) => value === null ? '\u2013' : `${value >= 0 ? '+' : '\u2212'}${Math.abs(100 * value).toFixed(0)} %`;
 const percent = (value) => `${(100 * value).toFixed(0)} %`;
@@ -64,11 +52,12 @@ for (const {name, cores: c} of scenes) {
                     ...kinds.map((kind) => number(c[kind.key].harmonic_mean_hz, 1)), percent(c.collide_share.serial),
                     percent(c.collide_share.islands_parallel)], 'td'));
 }
+for (const id of ['islands', 'cores']) pb.scrollable(document.getElementById(id).parentElement, id);
 
-for (const {name, still} of scenes) {
-  if (still === null) continue;
-  const figure = document.createElement('figure');
-  figure.append(Object.assign(document.createElement('img'), {src: still, alt: name}),
-                Object.assign(document.createElement('figcaption'), {textContent: name}));
-  document.getElementById('stills').append(figure);
+const stills = scenes.filter((scene) => scene.still !== null);
+document.getElementById('gallery').hidden = stills.length === 0;
+for (const {name, still} of stills) {
+  document.getElementById('stills').append(pb.element('figure', {}, pb.element('img', {src: still, alt: name}), pb.element('figcaption', {}, name)));
 }
+pb.showProvenance();
+document.body.dataset.ready = 'yes';

@@ -133,7 +133,7 @@ class Accuracy(ProgramTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         page = self.drawn("page.html")
         self.assertEqual(page.count("<canvas"), 4, "rms, p99, max, joint gap")
-        self.assertTrue(re.search(r"<td>sor (double|single), 1 x 20, factor 1.3, warm 0, [^<]*, dt 0.01 s</td>", page),
+        self.assertTrue(re.search(r'<td class="words">sor (double|single), 1 x 20, factor 1.3, warm 0, [^<]*, dt 0.01 s</td>', page),
                         "which precision is on the front follows the times")
 
     def test_half_the_step_is_part_of_the_matrix(self):

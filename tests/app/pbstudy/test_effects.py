@@ -93,8 +93,8 @@ class Effects(ProgramTest):
         with h5py.File(self.path("study.h5")) as file:
             counted = "instructions_with" in file["cases"]
         self.assertEqual(page.count("<canvas"), 4 if counted else 3, "share, error, demanded, and counts if there are")
-        self.assertIn("<th>CrashSk</th><th>2-Cars</th>", page)
-        self.assertIn("<td>friction</td>", page)
+        self.assertIn('<th class="" scope="col">CrashSk</th><th class="" scope="col">2-Cars</th>', page)
+        self.assertIn('<td class="">friction</td>', page)
         self.assertNotIn("src=\"http", page)
 
     @unittest.skipUnless(valgrind_runs_it(), "no valgrind, or a program that it cannot run")

@@ -265,10 +265,36 @@ class PageTest(unittest.TestCase):
         self.open()
         titles = [h.text for h in self.driver.find_elements(By.CSS_SELECTOR, ".plot h2")]
         self.assertEqual(titles, ["Frame time", "Phases", "Islands", "Islands per world", "Contacts",
-                                  "Contacts per world"])
+                                  "Contacts per world", "Energy", "Momentum", "Joint gap", "Penetration"])
         for canvas in self.driver.find_elements(By.CSS_SELECTOR, ".plot canvas"):
             drawn = base64.b64decode(self.js("return arguments[0].toDataURL()", canvas).split(",", 1)[1])
             self.assertGreater(len(colours(drawn)), 20)
+
+    def test_the_plots_show_the_frame_of_the_replay_and_choose_it(self):
+        self.open("#world=0&frame=5")
+        cursors = "return [...pb.framePlots.charts].map((chart) => chart.cursor)"
+        self.assertEqual(set(self.js(cursors)), {5})
+        self.assertEqual(len(self.js(cursors)), 9, "all plots but that of the phases")
+        # A click at frame 3 of a plot.
+        at = self.js("const chart = [...pb.framePlots.charts][0];"
+                     "chart.canvas.scrollIntoView({block: 'center'});"
+                     "const box = chart.canvas.getBoundingClientRect();"
+                     "return [chart.scales.x.getPixelForValue(3) - box.width / 2, 0]")
+        canvas = self.driver.find_element(By.CSS_SELECTOR, ".plot canvas")
+        webdriver.ActionChains(self.driver).move_to_element_with_offset(canvas, round(at[0]), 0).click().perform()
+        self.assertEqual(self.frame(), 3)
+        self.assertEqual(self.js("return pbreplay.frameNumber()"), 3)
+        self.assertEqual(set(self.js(cursors)), {3})
+
+    def test_a_focused_plot_says_its_value_at_the_frame_that_the_arrows_choose(self):
+        self.open("#world=0&frame=1")
+        canvas = self.driver.find_elements(By.CSS_SELECTOR, ".plot canvas")[8]  # joint gap: 0.1 mm a frame
+        self.js("arguments[0].focus()", canvas)
+        canvas.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        self.assertEqual(self.frame(), 3)
+        said = self.js("return arguments[0].parentElement.querySelector('.readout').innerText", canvas)
+        self.assertIn("frame 3", said)
+        self.assertIn("mean: 0.3", said)
 
     def test_header_tells_the_run(self):
         self.open()

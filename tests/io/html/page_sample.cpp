@@ -134,6 +134,7 @@ void add_columns(RunData& run, const SampleSize& size) {
     run.deadline_met.push_back(wall <= 0.1 / 30);
     std::vector<double> islands, contacts, rows, zeros(static_cast<std::size_t>(size.num_worlds)), gap, depth,
         energy;
+    std::vector<Vec3> momentum;
     for (int world = 0; world < size.num_worlds; ++world) {
       islands.push_back(std::max(1, 3 - (frame + world) / 4));
       contacts.push_back(8 + 3 * frame + world % 3);
@@ -141,6 +142,7 @@ void add_columns(RunData& run, const SampleSize& size) {
       gap.push_back(1e-4 * (frame + 1));
       depth.push_back(2e-3);
       energy.push_back(1000 - 10 * frame);
+      momentum.emplace_back(30, 40, 0);
     }
     run.observables["islands"].push_back(islands);
     run.observables["contacts"].push_back(contacts);
@@ -149,6 +151,7 @@ void add_columns(RunData& run, const SampleSize& size) {
     run.observables["joint_gap"].push_back(gap);
     run.observables["max_penetration"].push_back(depth);
     run.observables["energy"].push_back(energy);
+    run.vector_observables["linear_momentum"].push_back(momentum);
     const std::map<std::string, double> share = {{"collide", 0.25}, {"islands", 0.05},   {"rows", 0.1},
                                                  {"solve", 0.35},   {"integrate", 0.05}, {"cross_space", 0},
                                                  {"gather", 0.04},  {"wait", 0.1},       {"output", 0.02}};

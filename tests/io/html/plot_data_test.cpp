@@ -50,6 +50,23 @@ TEST(PlotData, leaves_out_phases_in_which_no_rank_spent_time) {
   EXPECT_EQ(plots["phases"].size(), 8u);  // of the sample's nine phases, cross_space is zero
 }
 
+TEST(PlotData, shows_what_a_simulation_should_keep_with_lengths_in_mm) {
+  const auto plots =
+      nlohmann::json::parse(plots_json(sample_run({.num_worlds = 2, .num_records = 4}), 0.1 / 30));
+  EXPECT_EQ(plots["energy"]["mean"], (Numbers{1000, 990, 980, 970}));
+  EXPECT_EQ(plots["linear_momentum"]["max"], (Numbers{50, 50, 50, 50}));  // (30, 40, 0)
+  EXPECT_TRUE(plots["angular_momentum"].is_null());                       // the sample has none
+  EXPECT_DOUBLE_EQ(plots["joint_gap_mm"]["max"][3].get<double>(), 0.4);
+  EXPECT_DOUBLE_EQ(plots["max_penetration_mm"]["min"][0].get<double>(), 2);
+}
+
+TEST(PlotData, counts_frames_from_the_start_of_the_simulation) {
+  RunData run = sample_run();
+  EXPECT_EQ(nlohmann::json::parse(plots_json(run, 1))["first_frame"], 0);
+  run.attributes["first_frame"] = "30";  // goes on from a checkpoint
+  EXPECT_EQ(nlohmann::json::parse(plots_json(run, 1))["first_frame"], 30);
+}
+
 TEST(PlotData, draws_a_long_run_in_bins) {
   RunData run;
   run.num_ranks = 0;

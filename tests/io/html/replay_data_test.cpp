@@ -84,6 +84,18 @@ TEST(ReplayData, the_first_frame_is_the_initial_pose) {
   EXPECT_EQ(replay["position"].get<std::string>().substr(0, 16), base64_of(first));
 }
 
+TEST(ReplayData, numbers_frames_as_the_plots_do) {
+  RunData run = sample_run({.num_records = 3});
+  const auto numbers = [&] {
+    return nlohmann::json::parse(replay_json(run, select_replay(run, 1'000'000'000)))["number"];
+  };
+  EXPECT_EQ(numbers(), (std::vector<int>{0, 1, 2, 3}));
+  run.attributes["record_every"] = "5";
+  run.attributes["first_frame"] = "30";
+  EXPECT_EQ(numbers(), (std::vector<int>{0, 35, 40, 45}))
+      << "the start, then every fifth frame after the thirtieth";
+}
+
 TEST(ReplayData, carries_the_geoms_of_the_shown_worlds_only) {
   const RunData run = sample_run({.num_worlds = 2, .num_records = 8});
   const Selection one = select_replay(run, room_for(bodies_of(run) / 2, 9));

@@ -32,7 +32,7 @@ core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out
   const std::vector<SceneCases> scenes = study_scenes(file, options.scenes);
   if (options.preset) write_preset(scenes, options);
   if (options.csv) io::write_file(*options.csv, study_to_csv(file));
-  if (options.html) write_study_page(*options.html, scenes, options);
+  if (options.html) write_study_page(*options.html, file, scenes, options);
   if (options.json) {
     out << study_to_json(scenes, options);
   } else if (!options.quiet) {

@@ -9,7 +9,7 @@
 namespace pbmpi::app {
 
 /// Throws core::InputError if the page cannot be written.
-void write_study_page(const std::string& path, const std::vector<SceneCases>& scenes,
-                      const AccuracyReportOptions& options);
+void write_study_page(const std::string& path, const io::TableFile& file,
+                      const std::vector<SceneCases>& scenes, const AccuracyReportOptions& options);
 
 }  // namespace pbmpi::app

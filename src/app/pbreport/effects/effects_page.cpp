@@ -7,6 +7,7 @@
 
 #include "app/common/format.h"
 #include "app/common/json_text.h"
+#include "app/common/options.h"
 #include "app/pbreport/effects/effects_text.h"
 #include "app/pbreport/study/error_text.h"
 #include "io/html/chart_page.h"
@@ -209,6 +210,7 @@ void write_effects_page(const std::string& path, const io::TableFile& file,
   io::html::ChartPage page;
   page.title = "What effects cost";
   page.subtitle = options.file + "; " + instructions_text(file);
+  page.provenance = io::html::provenance_of(options.file, file, version_line("pbreport"));
   for (const std::string& stepper : steppers_of(scenes)) {
     std::vector<EffectScene> of_stepper;
     std::copy_if(scenes.begin(), scenes.end(), std::back_inserter(of_stepper),

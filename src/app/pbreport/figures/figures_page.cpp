@@ -91,16 +91,19 @@ io::html::Chart panel(const std::vector<FigureScene>& scenes, const char* title,
     for (const FigureScene& scene : scenes) floor.push_back(floor_share(scene, column, band));
     add("noise floor", band, std::move(floor));
   }
+  json key = json::array();
+  for (std::size_t band = 0; band < names.size(); ++band)
+    key.push_back({{"label", names[band]}, {"shape", "bar"}, {"colour", band_colours[band]}});
   const json config = {
       {"type", "bar"},
       {"data", {{"labels", scene_names(scenes)}, {"datasets", datasets}}},
       {"options",
-       {{"plugins", {{"legend", {{"display", false}}}}},
+       {{"plugins", {{"legend", {{"display", false}}}, {"pbmpi", {{"key", std::move(key)}}}}},
         {"scales",
          {{"x", {{"stacked", true}}},
           {"y",
            {{"stacked", true}, {"max", 100}, {"title", {{"display", true}, {"text", "% of entries"}}}}}}}}}};
-  return {title, "Bars of a scene, left to right: " + order + "noise floor.", json_text(config)};
+  return {title, "Bars of a scene, in this order: " + order + "noise floor.", json_text(config)};
 }
 
 io::html::TextTable rate_table(const std::vector<FigureScene>& scenes) {
@@ -205,8 +208,7 @@ io::html::ChartPage figures_page(const std::vector<FigureScene>& scenes) {
       "noise floor: "
       "20 iterations with other solver seeds. A method whose bar looks like that one is as good as can be "
       "told.\n\n"
-      "Categories from good to bad: green, yellow, orange, red, black (inf/NaN). The shortest rotation is at "
-      "most half "
+      "The shortest rotation is at most half "
       "a turn, so that the orientation category beyond 50 % stays empty.";
   const auto& columns = analysis::error_columns;
   errors.charts = {

@@ -13,14 +13,16 @@ core::ExitCode run_prediction_report(const std::vector<std::string>& args, std::
                            "is confirmed",
                            "the bars of Figure 8, hits, errors, and the verdicts",
                            "print frame rates and verdicts as tables instead"};
-  return run_study_report(
-      report, args, out, [](const io::TableFile& file, const ReportOfStudyOptions& options) {
-        const PredictionStudy study = prediction_study(file, options.scenes);
-        return StudyViews{
-            [study, &file](const std::string& path) { write_prediction_page(path, file, study); },
-            [study] { return prediction_to_json(study); }, [study] { return prediction_to_markdown(study); },
-            [study] { return prediction_to_text(study); }};
-      });
+  return run_study_report(report, args, out,
+                          [](const io::TableFile& file, const ReportOfStudyOptions& options) {
+                            const PredictionStudy study = prediction_study(file, options.scenes);
+                            return StudyViews{[study, options, &file](const std::string& path) {
+                                                write_prediction_page(path, file, study, options.file);
+                                              },
+                                              [study] { return prediction_to_json(study); },
+                                              [study] { return prediction_to_markdown(study); },
+                                              [study] { return prediction_to_text(study); }};
+                          });
 }
 
 }  // namespace pbmpi::app

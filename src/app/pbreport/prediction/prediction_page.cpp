@@ -4,6 +4,7 @@
 
 #include "app/common/format.h"
 #include "app/common/json_text.h"
+#include "app/common/options.h"
 #include "app/pbreport/prediction/prediction_text.h"
 #include "app/pbreport/prediction/prediction_verdicts.h"
 #include "app/pbreport/study/error_text.h"
@@ -112,10 +113,12 @@ io::html::PageSection section_of(const PredictionScene& scene) {
 
 }  // namespace
 
-void write_prediction_page(const std::string& path, const io::TableFile& file, const PredictionStudy& study) {
+void write_prediction_page(const std::string& path, const io::TableFile& file, const PredictionStudy& study,
+                           const std::string& file_path) {
   io::html::ChartPage page;
   page.title = "Value prediction";
   page.subtitle = file.attributes.at("command_line");
+  page.provenance = io::html::provenance_of(file_path, file, version_line("pbreport"));
   io::html::PageSection overview;
   overview.title = "Figure 8 on the modelled processor";
   overview.text = format(

@@ -8,6 +8,7 @@
 namespace pbmpi::app {
 
 /// Throws core::InputError if it cannot be written.
-void write_prediction_page(const std::string& path, const io::TableFile& file, const PredictionStudy& study);
+void write_prediction_page(const std::string& path, const io::TableFile& file, const PredictionStudy& study,
+                           const std::string& file_path);
 
 }  // namespace pbmpi::app

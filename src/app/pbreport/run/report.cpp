@@ -22,6 +22,7 @@ core::ExitCode run_report(const ReportOptions& options, std::ostream& out) {
     io::html::PageOptions page;
     page.facts = facts_of(summary);
     page.budget_s = summary.budget_s;
+    page.maker = version_line("pbreport");
     io::html::write_page(*options.html, run, page);
   }
   if (options.xdmf) io::write_xdmf(options.file, *options.xdmf);

@@ -6,6 +6,7 @@
 
 #include "app/common/format.h"
 #include "app/common/load_scene.h"
+#include "app/common/options.h"
 #include "app/pbreport/study/study_file.h"
 #include "io/html/map_page.h"
 #include "model/names.h"
@@ -109,13 +110,15 @@ std::string detail_of(const StabilityCell& cell) {
 
 }  // namespace
 
-void write_stability_page(const std::string& path, const io::TableFile& file, const StabilityMap& map) {
+void write_stability_page(const std::string& path, const io::TableFile& file, const StabilityMap& map,
+                          const std::string& file_path) {
   const RowsOfCase curves(file, "curves"), poses(file, "poses");
   io::html::MapPage page;
   page.title = "Stability";
   page.subtitle = format("%zu hard cases, %zu settings; %s", map.scenes.size(), map.settings.size(),
                          file.attributes.at("command_line").c_str());
   page.columns = map.settings;
+  page.provenance = io::html::provenance_of(file_path, file, version_line("pbreport"));
   for (const StabilityScene& scene : map.scenes) {
     const io::RunData still = still_of(file, scene.name);
     io::html::MapRow row{scene.name, scene.group, scene.oracle, scene.source, {}};

@@ -8,6 +8,7 @@
 namespace pbmpi::app {
 
 /// Throws core::InputError if the page cannot be written.
-void write_stability_page(const std::string& path, const io::TableFile& file, const StabilityMap& map);
+void write_stability_page(const std::string& path, const io::TableFile& file, const StabilityMap& map,
+                          const std::string& file_path);
 
 }  // namespace pbmpi::app

@@ -162,13 +162,15 @@ core::ExitCode run_figure6(const std::vector<std::string>& args, std::ostream& o
     return finish(out);
   }
   std::vector<io::html::SuiteScene> scenes;
+  std::vector<io::html::FileAttributes> runs;
   for (const std::string& file : options.files) {
     const io::RunData run = io::read_run(file);
     const IslandSummary islands = summarize_islands(run);
     scenes.push_back({json_text(to_json(islands)), json_text(to_json(summarize_cores(run, file))),
                       islands.scene, still_of(options.stills, islands.scene)});
+    runs.emplace_back(file, run.attributes);
   }
-  io::html::write_suite_page(options.html, scenes);
+  io::html::write_suite_page(options.html, scenes, io::html::provenance_of(runs, version_line("pbreport")));
   out << options.html << "\n";
   return finish(out);
 }

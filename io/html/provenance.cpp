@@ -1,0 +1,64 @@
+#include "io/html/provenance.h"
+
+#include <nlohmann/json.hpp>
+
+#include "io/html/escape.h"
+
+namespace pbmpi::io::html {
+namespace {
+
+using Attributes = std::map<std::string, std::string>;
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) {
+    if (!part.empty()) text += (text.empty() ? "" : " · ") + part;
+  }
+  return text;
+}
+
+std::string text_of(const Attributes& attributes, const std::string& name) {
+  const auto found = attributes.find(name);
+  return found == attributes.end() ? "" : found->second;
+}
+
+std::string origin(const Attributes& attributes) {
+  const std::string version = text_of(attributes, "pbmpi_version");
+  return joined({version.empty() ? "" : "pbmpi " + version, text_of(attributes, "git_revision"),
+                 text_of(attributes, "created")});
+}
+
+std::string page_by(const std::string& maker) { return maker.empty() ? "" : "page by " + maker; }
+
+}  // namespace
+
+Provenance provenance_of(const std::string& path, const TableFile& file, const std::string& maker) {
+  Provenance provenance{joined({origin(file.attributes), page_by(maker)}), {{"file", path}}};
+  for (const auto& [name, text] : file.attributes) provenance.entries.emplace_back(name, text);
+  for (const Parameter& parameter : file.parameters)
+    provenance.entries.emplace_back(parameter.name, parameter.text);
+  return provenance;
+}
+
+Provenance provenance_of(const RunData& run, const std::string& maker) {
+  return {joined({origin(run.attributes), page_by(maker)}), {}};
+}
+
+Provenance provenance_of(const std::vector<FileAttributes>& runs, const std::string& maker) {
+  Provenance provenance{
+      joined({std::to_string(runs.size()) + (runs.size() == 1 ? " run" : " runs"), page_by(maker)}), {}};
+  for (const auto& [path, attributes] : runs) {
+    const std::string hash = text_of(attributes, "state_hash");
+    provenance.entries.emplace_back(path, joined({text_of(attributes, "command_line"), origin(attributes),
+                                                  hash.empty() ? "" : "state " + hash}));
+  }
+  return provenance;
+}
+
+std::string provenance_json(const Provenance& provenance) {
+  nlohmann::json entries = nlohmann::json::array();
+  for (const auto& [name, text] : provenance.entries) entries.push_back({name, text});
+  return dump({{"line", provenance.line}, {"entries", entries}});
+}
+
+}  // namespace pbmpi::io::html

@@ -1,0 +1,34 @@
+'use strict';
+// A page of charts and tables, from JSON.
+
+pb.addChart = (parent, chart) => {
+  const area = pb.element('div', {className: 'area'});
+  parent.append(pb.element('article', {className: 'chart'}, pb.element('h3', {}, chart.title), pb.element('p', {}, chart.text), area));
+  pb.draw(area, `${chart.title}: ${chart.text}`, () => structuredClone(chart.config), pb.readByKeyboard);
+};
+
+// A column is one of numbers if all its cells are short; such cells do not wrap.
+pb.addTable = (parent, table) => {
+  const wide = table.header.map((_, column) => table.rows.some((row) => (row[column] || '').length > 24));
+  const line = (tag, cells) => pb.element('tr', {}, ...cells.map((cell, column) =>
+      pb.element(tag, {className: wide[column] ? 'words' : ''}, cell)));
+  const head = line('th', table.header);
+  for (const cell of head.children) cell.scope = 'col';
+  parent.append(pb.element('h3', {className: 'table-title'}, table.title), pb.scrollable(pb.element('div', {className: 'table'},
+      pb.element('table', {}, pb.element('thead', {}, head), pb.element('tbody', {}, ...table.rows.map((cells) => line('td', cells))))),
+      table.title));
+};
+
+for (const section of pb.json('sections-data')) {
+  const card = pb.element('section', {className: 'card section'}, pb.element('h2', {}, section.title));
+  for (const text of section.text.split('\n\n')) {
+    if (text) card.append(pb.element('p', {}, text));
+  }
+  document.getElementById('sections').append(card);
+  const grid = pb.element('div', {className: 'chart-grid'});
+  card.append(grid);
+  for (const chart of section.charts) pb.addChart(grid, chart);
+  for (const table of section.tables) pb.addTable(card, table);
+}
+pb.showProvenance();
+document.body.dataset.ready = 'yes';

@@ -1,0 +1,191 @@
+#include "app/pbreport/accuracy/diagrams.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/common/format.h"
+#include "app/common/json_text.h"
+#include "app/pbreport/accuracy/study_text.h"
+#include "stepping/step_options.h"
+
+namespace pbmpi::app {
+namespace {
+
+using nlohmann::json;
+
+/// Colours that people with any colour vision can tell apart: Okabe and Ito, "Color Universal Design" (2008).
+const std::map<std::string, std::string>& stepper_colours() {
+  static const std::map<std::string, std::string> colours = {
+      {"quick", "#0072b2"}, {"direct", "#cc79a7"}, {"sor double", "#e69f00"}, {"sor single", "#009e73"}};
+  return colours;
+}
+
+/// "2 substeps of 20 iterations": which is which in "2 x 20".
+std::string sweeps_text(const StudyCase& one) {
+  const auto counted = [](int count, const char* noun) {
+    return format("%d %s%s", count, noun, count == 1 ? "" : "s");
+  };
+  if (!stepping::traits_of(one.stepper.kind).iterates) return "";
+  return " (" + counted(one.stepper.substeps, "substep") + " of " +
+         counted(one.stepper.iterations, "iteration") + ")";
+}
+
+json point(const StudyCase& one, double y_mm) {
+  return {
+      {"x", 1e3 * one.time_s},
+      {"y", y_mm},
+      {"label", setting_text(one) + sweeps_text(one) + format(": %.3f ms, %.4g mm", 1e3 * one.time_s, y_mm)}};
+}
+
+/// Shapes that a point has by its number of substeps, the fewest first; more numbers than shapes share the
+/// last.
+constexpr std::array<const char*, 5> shapes = {"circle", "triangle", "rect", "rectRot", "star"};
+
+/// The numbers of substeps in the study, rising, and the most iterations.
+struct SweepScale {
+  std::vector<int> substeps;
+  int most_iterations = 1;
+
+  explicit SweepScale(const SceneCases& scene) {
+    for (const StudyCase& one : scene.settings) {
+      substeps.push_back(one.stepper.substeps);
+      most_iterations = std::max(most_iterations, one.stepper.iterations);
+    }
+    std::ranges::sort(substeps);
+    substeps.erase(std::unique(substeps.begin(), substeps.end()), substeps.end());
+  }
+  const char* shape(int count) const {
+    const auto place = static_cast<std::size_t>(std::ranges::lower_bound(substeps, count) - substeps.begin());
+    return shapes[std::min(place, shapes.size() - 1)];
+  }
+  /// In pixels: 3 for one iteration, 6.5 for the most, even in the logarithm between.
+  double radius(int iterations) const {
+    const double share = std::log2(std::max(1, iterations)) / std::max(1.0, std::log2(most_iterations));
+    return 3 + 3.5 * share;
+  }
+  json key() const {
+    json entries = json::array();
+    for (std::size_t i = 0; i < substeps.size(); ++i) {
+      if (i >= shapes.size()) break;
+      const bool is_last = i + 1 == shapes.size() && substeps.size() > shapes.size();
+      const char* noun = substeps[i] == 1 ? "substep" : "substeps";
+      entries.push_back(
+          {{"label", format("%d %s%s", substeps[i], noun, is_last ? " or more" : "")}, {"shape", shapes[i]}});
+    }
+    entries.push_back({{"label", "1 iteration"}, {"shape", "circle"}, {"radius", radius(1)}});
+    if (most_iterations > 1)
+      entries.push_back({{"label", format("%d iterations", most_iterations)},
+                         {"shape", "circle"},
+                         {"radius", radius(most_iterations)}});
+    return entries;
+  }
+};
+
+json line(double value, const char* axis, const char* label, const char* colour, const json& dash) {
+  return {{"from", value},  {"to", value},      {"axis", axis},
+          {"label", label}, {"colour", colour}, {"dash", dash}};
+}
+
+/// Noise floor, what the reference leaves open, and what was asked for. `ranked`: the diagram shows the error
+/// by which settings are ranked.
+json bands_of(const SceneCases& scene, ErrorOf error_mm, bool ranked, const AccuracyReportOptions& options) {
+  double floor = 0;
+  for (const StudyCase& one : scene.floor) floor = std::max(floor, error_mm(one));
+  json bands = {
+      {{"from", 0}, {"to", floor}, {"label", "noise floor [mm]"}, {"colour", "rgba(120, 130, 142, .30)"}}};
+  const auto add_line = [&](const std::optional<StudyCase>& halved, const char* label, const json& dash) {
+    if (halved) bands.push_back(line(error_mm(*halved), "y", label, "#7a8490", dash));
+  };
+  add_line(scene.halved_iterations, "reference with half the iterations [mm]", json::array());
+  add_line(scene.halved_substeps, "reference with half the substeps [mm]", {2, 3});
+  add_line(scene.halved_dt, "reference with half the step [mm]", {8, 4});
+  if (options.budget_s) bands.push_back(line(1e3 * *options.budget_s, "x", "budget [ms]", "#d55e00", {6, 4}));
+  if (options.tolerance_m && ranked)
+    bands.push_back(line(1e3 * *options.tolerance_m, "y", "tolerance [mm]", "#d55e00", {6, 4}));
+  return bands;
+}
+
+/// A set of points for each stepper: the shape says how many substeps, the size how many iterations.
+json setting_sets(const SceneCases& scene, ErrorOf error_mm, const SweepScale& scale) {
+  struct Points {
+    json data = json::array(), shape = json::array(), radius = json::array();
+  };
+  std::map<std::string, Points> by_stepper;
+  for (const StudyCase& one : scene.settings) {
+    if (!one.finite()) continue;
+    Points& points = by_stepper[stepper_text(one.stepper)];
+    points.data.push_back(point(one, error_mm(one)));
+    points.shape.push_back(scale.shape(one.stepper.substeps));
+    points.radius.push_back(scale.radius(one.stepper.iterations));
+  }
+  json sets = json::array();
+  for (const auto& [stepper, points] : by_stepper) {
+    sets.push_back({{"label", stepper},
+                    {"data", points.data},
+                    {"backgroundColor", stepper_colours().at(stepper)},
+                    {"keyShape", "bar"},
+                    {"pointStyle", points.shape},
+                    {"pointRadius", points.radius}});
+  }
+  return sets;
+}
+
+json front_set(const SceneCases& scene, ErrorOf error_mm) {
+  json front = json::array();
+  for (const std::size_t i : scene.pareto_front(error_mm))
+    front.push_back(point(scene.settings[i], error_mm(scene.settings[i])));
+  return {{"label", "Pareto front"}, {"data", front},    {"showLine", true}, {"borderColor", "#3d4650"},
+          {"borderWidth", 1.5},      {"pointRadius", 0}, {"unread", true},   {"pointHitRadius", 0}};
+}
+
+/// A ring round the chosen setting; none: nothing was asked for, or nothing keeps it.
+std::optional<json> chosen_set(const SceneCases& scene, ErrorOf error_mm,
+                               const AccuracyReportOptions& options) {
+  const auto chosen = chosen_setting(scene, options);
+  if (!chosen) return std::nullopt;
+  const StudyCase& one = scene.settings[*chosen];
+  json where = point(one, error_mm(one));
+  where["label"] = "chosen: " + where["label"].get<std::string>();
+  return json{{"label", "chosen"},        {"data", json::array({where})},
+              {"borderColor", "#d55e00"}, {"backgroundColor", "transparent"},
+              {"borderWidth", 2.5},       {"pointRadius", 10},
+              {"keyShape", "ring"},       {"unread", true}};
+}
+
+/// Looks of FEEC into the frame's last solve.
+std::optional<json> estimate_set(const SceneCases& scene, ErrorOf error_mm) {
+  json points = json::array();
+  for (const StudyCase& one : scene.estimates) {
+    if (one.finite()) points.push_back(point(one, error_mm(one)));
+  }
+  if (points.empty()) return std::nullopt;
+  return json{{"label", "estimates (FEEC)"}, {"data", points},   {"borderColor", "#56b4e9"},
+              {"pointStyle", "crossRot"},    {"pointRadius", 5}, {"borderWidth", 2.2}};
+}
+
+}  // namespace
+
+io::html::Chart diagram(const SceneCases& scene, const AccuracyReportOptions& options, const char* title,
+                        const char* axis, ErrorOf error_mm, ErrorMeasure measure) {
+  const SweepScale scale(scene);
+  json datasets = setting_sets(scene, error_mm, scale);
+  datasets.insert(datasets.begin(), front_set(scene, error_mm));
+  if (auto estimates = estimate_set(scene, error_mm)) datasets.push_back(std::move(*estimates));
+  if (auto chosen = chosen_set(scene, error_mm, options)) datasets.push_back(std::move(*chosen));
+  const auto axis_of = [](const std::string& text) {
+    return json{{"type", "logarithmic"}, {"title", {{"display", true}, {"text", text}}}};
+  };
+  const json marks = {{"bands", bands_of(scene, error_mm, measure == options.measure, options)},
+                      {"key", scale.key()}};
+  const json config = {{"type", "scatter"},
+                       {"data", {{"datasets", datasets}}},
+                       {"options",
+                        {{"scales", {{"x", axis_of("time of the worst frame [ms]")}, {"y", axis_of(axis)}}},
+                         {"plugins", {{"pbmpi", marks}}}}}};
+  return {title, "Each point is a setting; down and left is better.", json_text(config)};
+}
+
+}  // namespace pbmpi::app
