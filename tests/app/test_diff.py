@@ -160,6 +160,82 @@ class Diff(ProgramTest):
         for word in words:
             self.assertIn(word, result.stderr)
 
+    def contact_errors(self, path):
+        """Of each measured frame: depths and slips [m] of contacts, and which bodies each is between."""
+        found = []
+        with h5py.File(path) as file:
+            names = file["contacts/point"].attrs["columns"].decode().split()
+            bodies = file["particles/bodies"]
+            dt = file["parameters/dt"][()]
+            for frame in np.flatnonzero(file["timings/frame/measured"][:]):
+                first, count = (file["contacts/frame"][name][frame] for name in ("first", "count"))
+                point = dict(zip(names, file["contacts/point"][first:first + count].T))
+                a, b = point["body_a"].astype(int), point["body_b"].astype(int)
+                place, normal, friction = (np.stack([point[f"{name}_{axis}"] for axis in "xyz"], 1)
+                                           for name in ("position", "normal", "friction"))
+
+                def speed(body):
+                    arm = place - bodies["position/value"][frame][body]
+                    moving = bodies["velocity/value"][frame][body] + np.cross(bodies["angular_velocity/value"][frame][body], arm)
+                    return np.where(body[:, None] < 0, 0, moving)
+                along = speed(a) - speed(b)
+                along -= (along * normal).sum(1, keepdims=True) * normal
+                force = point["normal_force"]
+                sticks = (force > 0) & (np.linalg.norm(friction, axis=1) < 0.99 * point["mu"] * force)
+                found.append((np.maximum(point["depth"], 0), dt * np.linalg.norm(along, axis=1), sticks, a, b))
+        return found
+
+    def test_constraints_by_frame_and_by_actor_against_the_recomputation(self):
+        args = ["--scene", "CrashWa", "--frames", 12, "--record-contacts"]
+        few = self.record("few.h5", *args, "--iterations", 3)
+        many = self.record("many.h5", *args, ranks=2)
+        result = self.report("diff", few, many, "--output", "diff.h5", "--html", "diff.html", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        constraints = self.json(result)["constraints"]
+        frames = self.contact_errors(few)
+        with h5py.File(self.path("diff.h5")) as file, h5py.File(few) as run:
+            table = file["frames"]
+            self.assertEqual(len(table["step"]), len(frames))
+            for i, (depth, slip, sticks, _, _) in enumerate(frames):
+                for name, errors in (("run_penetration", depth), ("run_slip", slip[sticks])):
+                    self.assertEqual(table[name + "_count"][i], errors.size)
+                    self.assertEqual(table[name + "_bands"][i].tolist(), bands(errors, [0.01, 0.1, 1.0]))
+                    self.assertAlmostEqual(table[name + "_max"][i], errors.max(), delta=1e-12)
+                    self.assertAlmostEqual(table[name + "_rms"][i], np.sqrt(np.mean(errors**2)), delta=1e-12)
+                    self.assertEqual(table[name + "_max"].attrs["unit"], b"m")
+            self.assertGreater(table["run_penetration_max"][:].max(), 0)
+            for whose in ("run", "reference"):  # the parts add up to the whole
+                for name, unit in (("joint_gap", "m"), ("joint_bend", "rad"), ("penetration", "m"), ("slip", "m")):
+                    whole = constraints[whose][f"{name}_{unit}"]
+                    self.assertEqual(table[f"{whose}_{name}_count"][:].sum(), whole["count"])
+                    self.assertEqual(table[f"{whose}_{name}_bands"][:].sum(0).tolist(), whole["bands"])
+                    self.assertEqual(table[f"{whose}_{name}_max"][:].max(), whole["max"])
+            actors = file["actors"]
+            for name in ("joint_gap", "joint_bend"):  # a joint has one actor
+                self.assertEqual(actors[f"run_{name}_count"][:].sum(), constraints["run"][name + ("_m" if "gap" in name else "_rad")]["count"])
+            actor_of = run["particles/bodies/actor"][:]
+            for row, actor in enumerate(actors["actor"][:]):
+                of_actor = [(np.r_[actor_of, b""][a] == actor) | (np.r_[actor_of, b""][b] == actor) for _, _, _, a, b in frames]
+                depth = np.concatenate([frame[0][mine] for frame, mine in zip(frames, of_actor)])
+                slip = np.concatenate([frame[1][mine & frame[2]] for frame, mine in zip(frames, of_actor)])
+                for name, errors in (("run_penetration", depth), ("run_slip", slip)):
+                    self.assertEqual(actors[name + "_count"][row], errors.size, actor)
+                    self.assertAlmostEqual(actors[name + "_max"][row], errors.max(initial=0), delta=1e-12)
+        page = self.drawn("diff.html")
+        for words in ("joint gap", "joint bend", "penetration", "slip", "body position", "By actor"):
+            self.assertIn(words, page)
+
+    def test_a_page_has_no_curves_of_contacts_that_were_not_recorded(self):
+        run, reference = self.record("run.h5", "--scene", "CrashSk", "--iterations", 5), self.record("all.h5", "--scene", "CrashSk")
+        result = self.report("diff", run, reference, "--output", "diff.h5", "--html", "diff.html")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with h5py.File(self.path("diff.h5")) as file:
+            self.assertIn("run_joint_gap_max", file["frames"])
+            self.assertFalse([name for name in file["frames"] if "slip" in name])
+        with open(self.path("diff.html"), encoding="utf-8") as file:
+            self.assertNotIn('"title":"slip"', file.read())
+        self.refused(run, reference, "--html", run, words=["run.h5"])
+
     def test_files_that_cannot_be_compared_are_refused(self):
         one = self.record("one.h5", "--scene", "CrashSk")
         self.refused(one, words=["two"])

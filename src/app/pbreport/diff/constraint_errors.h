@@ -2,9 +2,11 @@
 /// recorded.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "analysis/error_bands.h"
 #include "app/pbreport/run/run_models.h"
@@ -24,7 +26,7 @@ struct ConstraintErrors {
   std::int64_t passages = 0;  ///< bodies that went through something, as the run's guards saw it
 };
 
-/// The four sums by the names that they have in reports; `path` is that of the run's file.
+/// The four sums by the names that they have in reports.
 struct NamedConstraint {
   const char* name;
   const char* unit;
@@ -37,6 +39,17 @@ inline constexpr std::array<NamedConstraint, 4> constraint_columns = {{
     {"slip", "m", [](const ConstraintErrors& e) { return e.slip ? &*e.slip : nullptr; }},
 }};
 
-ConstraintErrors constraint_errors(const RunModels& models, const io::RunData& run, const std::string& path);
+/// The same, and part by part.
+struct RunConstraints {
+  ConstraintErrors all;
+  std::vector<ConstraintErrors> by_frame;  ///< [rows] that were asked for, without passages
+  /// [actors] as actors_of() has them, without passages, over the frames of `all`. A joint counts for the
+  /// actor of its first body, a contact for those of both.
+  std::vector<ConstraintErrors> by_actor;
+};
+
+/// `rows`: recorded rows that by_frame is to have; `path`: the run's file.
+RunConstraints constraint_errors(const RunModels& models, const io::RunData& run, const std::string& path,
+                                 const std::vector<std::size_t>& rows);
 
 }  // namespace pbmpi::app

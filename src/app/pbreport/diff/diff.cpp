@@ -9,6 +9,7 @@
 #include "app/common/json_text.h"
 #include "app/pbreport/diff/diff_file.h"
 #include "app/pbreport/diff/diff_options.h"
+#include "app/pbreport/diff/diff_page.h"
 #include "app/pbreport/diff/run_comparison.h"
 #include "io/file/write_file.h"
 
@@ -90,15 +91,15 @@ std::string to_json(const DiffOptions& options, const RunComparison& c, bool sam
   if (c.estimate_drift) json["estimate_drift"] = table_json(*c.estimate_drift);
   json["drift_by_actor"] = Json::array();
   for (const ActorErrors& actor : c.drift_by_actor) {
-    Json one = {{"world", actor.world}, {"actor", actor.name}, {"kind", actor.kind}};
+    Json one = {{"world", actor.actor.world}, {"actor", actor.actor.name}, {"kind", actor.actor.kind}};
     one.update(table_json(actor.drift));
     json["drift_by_actor"].push_back(std::move(one));
   }
   json["noise_floor"] = Json::array();
   for (const ErrorTable& table : c.floor) json["noise_floor"].push_back(table_json(table));
   json["invariants"] = {{"run", invariants_json(c.run)}, {"reference", invariants_json(c.reference)}};
-  json["constraints"] = {{"run", constraints_json(*c.run_constraints)},
-                         {"reference", constraints_json(*c.reference_constraints)}};
+  json["constraints"] = {{"run", constraints_json(c.run_constraints->all)},
+                         {"reference", constraints_json(c.reference_constraints->all)}};
   json["joints_broken"] = {{"in_both", c.breaks.in_both},
                            {"in_run_only", breaks_json(c.breaks.in_run_only)},
                            {"in_reference_only", breaks_json(c.breaks.in_reference_only)},
@@ -206,8 +207,8 @@ std::string to_text(const DiffOptions& options, const RunComparison& c, bool sam
     text += floor_text(c);
   }
   text += invariants_text("run", c.run) + invariants_text("reference", c.reference);
-  text +=
-      constraints_text("run", *c.run_constraints) + constraints_text("reference", *c.reference_constraints);
+  text += constraints_text("run", c.run_constraints->all) +
+          constraints_text("reference", c.reference_constraints->all);
   return text + breaks_text(c.breaks);
 }
 
@@ -243,12 +244,15 @@ core::ExitCode run_diff(const std::vector<std::string>& args, std::ostream& out)
   }
   const RunModels models = rebuild_models(reference, options.reference);
   RunComparison comparison = compare_runs(models, run, reference, floor);
-  comparison.run_constraints = constraint_errors(models, run, options.run);
-  comparison.reference_constraints = constraint_errors(models, reference, options.reference);
+  comparison.run_constraints = constraint_errors(models, run, options.run, comparison.rows);
+  comparison.reference_constraints = constraint_errors(models, reference, options.reference, comparison.rows);
   if (output) {
     const io::TableFile file = diff_file(comparison, options.run, options.reference);
     io::replace_file(*output, io::table_image(diff_filetype, io::study_version, file));
   }
+  if (options.html)
+    write_diff_page(*options.html, comparison, {options.run, run.attributes},
+                    {options.reference, reference.attributes});
   const bool same_hash = state_hash(run) == state_hash(reference);
   out << (options.json ? to_json(options, comparison, same_hash) : to_text(options, comparison, same_hash))
       << std::flush;

@@ -18,6 +18,8 @@ po::options_description visible_options() {
        "the noise floor: runs like REFERENCE in all but --solver-seed")  //
       ("output,o", po::value<std::string>()->value_name("FILE"),
        "write errors and categories of each frame, and of each actor, into an HDF5 file")  //
+      ("html", po::value<std::string>()->value_name("OUT"),
+       "one self-contained page: errors and constraints as curves over the frames")  //
       ("json", "print one JSON document");
   po::options_description general("General");
   general.add_options()("help,h", "print this help")  //
@@ -53,6 +55,7 @@ DiffOptions parse_diff_options(const std::vector<std::string>& args) {
                                              "--floor come last)");
   options.run = files[0];
   options.reference = files[1];
+  options.html = output_path(values, "html");
   if (values.count("floor") != 0) options.floor = values["floor"].as<std::vector<std::string>>();
   if (values.count("output") != 0) {
     options.output = values["output"].as<std::string>();

@@ -12,6 +12,7 @@ struct DiffOptions {
   std::string run, reference;
   std::vector<std::string> floor;  ///< the reference with other solver seeds
   bool json = false;
+  std::optional<std::string> html;    ///< page of curves
   std::optional<std::string> output;  ///< HDF5 file of the errors by frame and by actor
 };
 

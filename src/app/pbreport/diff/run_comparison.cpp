@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 
 #include "app/pbreport/run/summary_from_file.h"
 
@@ -40,34 +38,12 @@ analysis::ErrorTable summarize_all(const std::vector<analysis::PoseErrors>& fram
   return analysis::summarize(all);
 }
 
-/// Which actor each body belongs to, in order of their first bodies; `actors` without errors.
-std::vector<std::size_t> actors_of_bodies(const io::BodyTable& bodies, std::vector<ActorErrors>& actors) {
-  std::vector<std::size_t> of_body;
-  std::map<std::pair<int, std::string>, std::size_t> known;
-  for (std::size_t i = 0; i < bodies.id.size(); ++i) {
-    const auto [entry, is_new] = known.try_emplace({bodies.world[i], bodies.actor[i]}, actors.size());
-    if (is_new) actors.push_back({bodies.world[i], bodies.actor[i], bodies.kind[i], {}});
-    of_body.push_back(entry->second);
-  }
-  return of_body;
-}
-
-/// The first body of each joint, over all worlds.
-std::vector<std::size_t> bodies_of_joints(const RunModels& models) {
-  std::vector<std::size_t> bodies;
-  for (std::size_t world = 0; world < models.worlds.size(); ++world) {
-    for (const model::Joint& joint : models.worlds[world]->joints)
-      bodies.push_back(models.first_body[world] + static_cast<std::size_t>(joint.body_a));
-  }
-  return bodies;
-}
-
 std::vector<ActorErrors> drift_by_actor(const RunModels& models, const io::RunData& run,
                                         const std::vector<analysis::PoseErrors>& frames) {
-  std::vector<ActorErrors> actors;
-  const std::vector<std::size_t> of_body = actors_of_bodies(run.bodies, actors);
+  const RecordedActors recorded = actors_of(run.bodies);
+  const std::vector<std::size_t>& of_body = recorded.of_body;
   const std::vector<std::size_t> body_of_joint = bodies_of_joints(models);
-  std::vector<analysis::PoseErrors> errors(actors.size());
+  std::vector<analysis::PoseErrors> errors(recorded.list.size());
   for (const analysis::PoseErrors& frame : frames) {
     for (std::size_t i = 0; i < of_body.size(); ++i) {
       errors[of_body[i]].body_position_m.push_back(frame.body_position_m[i]);
@@ -81,7 +57,9 @@ std::vector<ActorErrors> drift_by_actor(const RunModels& models, const io::RunDa
       --of_actor.broken_joints;
     }
   }
-  for (std::size_t i = 0; i < actors.size(); ++i) actors[i].drift = analysis::summarize(errors[i]);
+  std::vector<ActorErrors> actors;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    actors.push_back({recorded.list[i], analysis::summarize(errors[i])});
   return actors;
 }
 
@@ -114,9 +92,11 @@ RunComparison compare_runs(const RunModels& models, const io::RunData& run, cons
   result.drift = summarize_all(frames);
   for (const analysis::PoseErrors& frame : frames)
     result.drift_by_frame.push_back(analysis::summarize(frame));
-  for (const std::size_t row :
-       measured_rows(reference, std::min(run.position.size(), reference.position.size())))
+  result.rows = measured_rows(reference, std::min(run.position.size(), reference.position.size()));
+  for (const std::size_t row : result.rows) {
     result.steps.push_back(reference.recorded_step[row]);
+    result.times_s.push_back(reference.recorded_time_s[row]);
+  }
   result.drift_by_actor = drift_by_actor(models, reference, frames);
   if (!run.estimate.position.empty()) {
     result.defect = summarize_all(errors_by_frame(models, run, estimated, run));

@@ -7,6 +7,7 @@
 
 #include "analysis/error_table.h"
 #include "analysis/invariants.h"
+#include "app/pbreport/diff/actors.h"
 #include "app/pbreport/diff/constraint_errors.h"
 #include "app/pbreport/run/broken_joints.h"
 #include "app/pbreport/run/run_models.h"
@@ -23,8 +24,7 @@ struct RunInvariants {
 
 /// The errors of an actor's bodies, and of the joints whose first body is one of them.
 struct ActorErrors {
-  int world = 0;
-  std::string name, kind;
+  RecordedActor actor;
   analysis::ErrorTable drift;
 };
 
@@ -32,13 +32,15 @@ struct RunComparison {
   std::size_t num_frames = 0;  ///< measured frames compared
   analysis::ErrorTable drift;
   std::vector<analysis::ErrorTable> drift_by_frame;    ///< [num_frames]
+  std::vector<std::size_t> rows;                       ///< [num_frames] recorded rows of both files
   std::vector<std::int64_t> steps;                     ///< [num_frames] done by then
+  std::vector<double> times_s;                         ///< [num_frames] simulated by then
   std::vector<ActorErrors> drift_by_actor;             ///< of all frames, in the order of their bodies
   std::optional<analysis::ErrorTable> defect;          ///< of the run's estimates, with FEEC
   std::optional<analysis::ErrorTable> estimate_drift;  ///< of the run's estimates against the reference
   std::vector<analysis::ErrorTable> floor;             ///< drift of each floor run against the reference
   RunInvariants run, reference;
-  std::optional<ConstraintErrors> run_constraints, reference_constraints;  ///< if asked for
+  std::optional<RunConstraints> run_constraints, reference_constraints;  ///< if asked for
   BreakComparison breaks;
 };
 

@@ -92,6 +92,15 @@ std::vector<std::int32_t> broken_at(const RunModels& models, const io::RunData& 
   return any ? broken : std::vector<std::int32_t>();
 }
 
+std::vector<std::size_t> bodies_of_joints(const RunModels& models) {
+  std::vector<std::size_t> bodies;
+  for (std::size_t world = 0; world < models.worlds.size(); ++world) {
+    for (const model::Joint& joint : models.worlds[world]->joints)
+      bodies.push_back(models.first_body[world] + static_cast<std::size_t>(joint.body_a));
+  }
+  return bodies;
+}
+
 analysis::PoseErrors compare_recorded(const RunModels& models, const RecordedPoses& poses,
                                       const RecordedPoses& reference) {
   analysis::PoseErrors errors;

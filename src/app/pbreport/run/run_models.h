@@ -34,6 +34,9 @@ struct RecordedPoses {
 /// known to be.
 std::vector<std::int32_t> broken_at(const RunModels& models, const io::RunData& run, std::size_t row);
 
+/// [J] the first body of each joint, over all worlds.
+std::vector<std::size_t> bodies_of_joints(const RunModels& models);
+
 /// Every body and joint of every world, in order; joints by their rows in the file.
 analysis::PoseErrors compare_recorded(const RunModels& models, const RecordedPoses& poses,
                                       const RecordedPoses& reference);
