@@ -1,6 +1,8 @@
 """pbreport join: the file of a run that was stopped and resumed is that of a run that never was."""
 import os
+import signal
 import sys
+import time
 import unittest
 
 import h5py
@@ -8,7 +10,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "files"))
-from harness import ProgramTest, SOURCE  # noqa: E402
+from harness import ProgramTest, SOURCE, rank_pids, wait_until  # noqa: E402
 from same_files import content, differences  # noqa: E402
 from test_breakage import SCENE as SIGN  # noqa: E402
 
@@ -25,10 +27,12 @@ def events_of_worlds(path):
 
 
 def structure(path):
-    """Every object with its type, its attributes' names and types, and the names under which it stands."""
+    """Every object with its type, its attributes' names and types, and the names under which it stands; but for the environment."""
     found = {}
 
     def visit(name, thing):
+        if name.startswith("parameters/env_"):
+            return
         attributes = sorted((key, str(thing.attrs.get_id(key).dtype)) for key in thing.attrs)
         chunked = isinstance(thing, h5py.Dataset) and thing.chunks is not None
         found[name] = (type(thing).__name__, attributes, chunked)
@@ -44,7 +48,7 @@ def structure(path):
         found["/"] = sorted(file.attrs)
         links = []
         names(file, "/", links)
-        found["links"] = sorted(links)
+        found["links"] = sorted(link for link in links if not link.startswith("/parameters/env_"))
     return found
 
 
@@ -125,6 +129,24 @@ class Join(ProgramTest):
         with h5py.File(self.path("all.h5")) as file, h5py.File(self.path(parts[1])) as rest:
             np.testing.assert_array_equal(file["timings/frame/wall"][7:], rest["timings/frame/wall"][:])
         self.join("killed.h5", parts[0], parts[1])
+        self.assert_like_whole()
+
+    def test_a_run_that_was_killed_at_any_moment_is_joined_with_the_rest(self):
+        args = ["--scene", "CrashSk", "--replicas", 8, "--record-contacts"]
+        process = self.start(2, *args, "--frames", 100000, "--output", "killed.h5", "--checkpoint", "ck.h5", "--checkpoint-every", 0.5)
+        wait_until(lambda: os.path.exists(self.path("ck.h5")), "a checkpoint")
+        time.sleep(0.8)
+        for pid in rank_pids(process).values():
+            os.kill(pid, signal.SIGKILL)
+        process.wait()
+        with h5py.File(self.path("killed.h5")) as file, h5py.File(self.path("ck.h5")) as saved:
+            killed, saved = int(file.attrs["frames_committed"]), int(saved["parameters/frames_done"][()])
+            self.assertGreater(len(file["timings/frame/wall"]), killed, "its datasets are longer than what was written")
+        frames = max(killed, saved) + 5 - WARMUP
+        self.summary(1, "--resume", "ck.h5", "--frames", frames, "--record-contacts", "--output", "rest.h5")
+        text = self.join("killed.h5", "rest.h5")
+        self.assertIn(f"killed.h5: frames 0 to {killed - 1}, {saved} of them taken", text)
+        self.summary(2, *args, "--frames", frames, "--output", "whole.h5")
         self.assert_like_whole()
 
     def test_joints_that_broke_in_frames_of_both_are_told_once(self):
