@@ -144,14 +144,15 @@ class Mutants(ProgramTest):
             with open(path, "rb") as file:
                 self.try_config(file.read(), os.path.basename(path))
 
-    def try_files(self, name, command, sealed):
+    def try_files(self, name, command, sealed, share=3):
         """`command` is refused over a mutant of the file `name`, or says what it says over the file itself. With `sealed`
-        half of the mutants have a checksum that fits: of those it is only asked that they end well."""
+        half of the mutants have a checksum that fits: of those it is only asked that they end well. One mutant
+        for every `share` of the scenes."""
         reference = self.ends_well(command, "the file itself")
         self.assertEqual(reference.returncode, 0, reference.stderr)
         whole = self.read(name)
         refused = 0
-        for number in range(MUTANTS // 3):
+        for number in range(MUTANTS // share):
             draw = random.Random(f"{name} {number}")
             what = f"{name} {number}"
             forged = sealed and number % 2 == 1
@@ -162,13 +163,24 @@ class Mutants(ProgramTest):
             refused += result.returncode == 2
             if result.returncode == 0 and not forged:
                 self.assertEqual(result.stdout, reference.stdout, what)
-        self.assertGreater(refused, MUTANTS // 20)
+        self.assertGreater(refused, MUTANTS // (7 * share))
         self.save(name, whole)
 
     def test_files_of_runs(self):
         self.assertEqual(self.pbmpi(2, "--scene", "CrashSk", "--replicas", 2, "--decompose", "worlds", "--feec",
                                     "--record-residuals", "--output", "run.h5", "--quiet").returncode, 0)
         self.try_files("run.h5", [PBREPORT, "run.h5", "--json"], False)
+
+    def test_files_of_runs_that_are_handed_on(self):
+        args = ["--scene", "CrashSk", "--record-contacts", "--quiet"]
+        for more in (["--frames", 3, "--output", "run.h5", "--checkpoint", "run.ck.h5"],
+                     ["--frames", 3, "--solver-seed", 2, "--output", "other.h5"]):
+            self.assertEqual(self.pbmpi(1, *args, *more).returncode, 0)
+        self.assertEqual(self.pbmpi(1, "--resume", "run.ck.h5", "--frames", 5, "--record-contacts", "--output", "rest.h5",
+                                    "--quiet").returncode, 0)
+        for command in (["csv", "run.h5"], ["csv", "run.h5", "--table", "contacts"], ["csv", "run.h5", "--table", "events"],
+                        ["ensemble", "run.h5", "other.h5", "--json"], ["join", "run.h5", "rest.h5", "-o", "all.h5"]):
+            self.try_files("run.h5", [PBREPORT, *command], False, 10)
 
     def test_files_of_studies(self):
         result = self.run_command([PBSTUDY, "effects", "--scene", "2-Cars", "--effect", "gravity", "friction", "--repeats", "1",
