@@ -56,10 +56,7 @@ pb.edge = (dataset, type) => {
   const colour = isLine ? dataset.borderColor : dataset.borderColor || dataset.backgroundColor;
   if (colour === undefined) return;
   dataset.borderColor = map(colour, pb.visible);
-  if (isLine) return;
-  dataset.borderWidth ??= 1.2;
-  const hollow = (one) => /^#/.test(one) && pb.contrast(one, pb.themeColour('card')) < 1.5 ? pb.visible(one) : one;
-  if (dataset.backgroundColor) dataset.backgroundColor = map(dataset.backgroundColor, hollow);
+  if (!isLine) dataset.borderWidth ??= 1.2;
 };
 
 pb.withDefaults = (config) => {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "app/common/format.h"
 #include "app/common/json_text.h"
@@ -43,13 +44,11 @@ io::html::Chart bars(const std::vector<FigureScene>& scenes, const char* title, 
                         {"data", per_scene(scenes, label, number)},
                         {"backgroundColor", method_colours[colour++ % method_colours.size()]}});
   }
+  json y = {{"type", logarithmic ? "logarithmic" : "linear"}, {"title", {{"display", true}, {"text", axis}}}};
+  if (std::string_view(axis) == "%") y["max"] = 100;
   const json config = {{"type", "bar"},
                        {"data", {{"labels", scene_names(scenes)}, {"datasets", datasets}}},
-                       {"options",
-                        {{"scales",
-                          {{"y",
-                            {{"type", logarithmic ? "logarithmic" : "linear"},
-                             {"title", {{"display", true}, {"text", axis}}}}}}}}}};
+                       {"options", {{"scales", {{"y", y}}}}}};
   return {title, text, json_text(config)};
 }
 

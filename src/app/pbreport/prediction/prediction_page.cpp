@@ -1,6 +1,7 @@
 #include "app/pbreport/prediction/prediction_page.h"
 
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "app/common/format.h"
 #include "app/common/json_text.h"
@@ -35,10 +36,11 @@ io::html::Chart bars(const PredictionStudy& study, double FrameRate::*number, do
     }
     datasets.push_back({{"label", first[i].name}, {"data", points}, {"backgroundColor", colours[i]}});
   }
-  const json config = {
-      {"type", "bar"},
-      {"data", {{"labels", labels}, {"datasets", datasets}}},
-      {"options", {{"scales", {{"y", {{"type", kind}, {"title", {{"display", true}, {"text", axis}}}}}}}}}};
+  json y = {{"type", kind}, {"title", {{"display", true}, {"text", axis}}}};
+  if (std::string_view(axis) == "%") y["max"] = 100;
+  const json config = {{"type", "bar"},
+                       {"data", {{"labels", labels}, {"datasets", datasets}}},
+                       {"options", {{"scales", {{"y", y}}}}}};
   return {title, "", json_text(config)};
 }
 
