@@ -1,0 +1,287 @@
+"""Every kind of page in Chromium, as wide as a desk and as a phone, light and dark: no text on other text, beyond its box or
+the window; every contrast is enough; all that a mouse reaches the keyboard reaches. Broken pages show that this is noticed.
+
+With PBMPI_PAGE_SHOTS=FOLDER the pictures stay there."""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import browser  # noqa: E402
+from harness import BIN, PBMPI, SOURCE  # noqa: E402
+
+SKIPPED = 77
+TIMEOUT_S = 280  # a hang, not a slow run
+BALL = """title = "a ball that falls on a plane"
+[[actor]]
+name = "ground"
+type = "ground"
+[[actor]]
+name = "ball"
+type = "sphere"
+radius = 0.1
+mass = 1
+position = [0, 0, 0.2]
+"""
+STABILITY = ["hard/free/tumbling_box", "hard/rest/column10", "hard/joints/chain20_100"]
+CHOSEN = "#case=hard/rest/column10&setting=quick, 1 x 20"
+
+
+def values_are_predicted():
+    """Valgrind and its tool are there, and the program has no sanitizer in it."""
+    with open(PBMPI, "rb") as program:
+        return shutil.which("valgrind") is not None and b"__asan_init" not in program.read()
+
+
+class Files:
+    """Small files of each kind, and the pages of them."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.pages = {}
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run(self, program, *args):
+        done = subprocess.run([os.path.join(BIN, program), *map(str, args)], cwd=self.folder, capture_output=True, text=True,
+                              timeout=TIMEOUT_S, check=False)
+        if done.returncode != 0:
+            raise AssertionError(f"{program} {args}: {done.stderr}")
+
+    def page(self, name, *args):
+        """`args`: of pbreport, without the page."""
+        self.run("pbreport", *args, "--html", name + ".html")
+        self.pages[name] = self.path(name + ".html")
+
+    def make(self):
+        self.run("pbmpi", "--scene", "100CrSk", "--replicas", 4, "--frames", 6, "--output", "many.h5", "--quiet")
+        self.page("run of many worlds", "many.h5", "--quiet")
+        self.run("pbmpi", "--scene", "CrashSk", "--frames", 6, "--record-every", 3, "--feec", "--output", "one.h5", "--quiet")
+        self.page("run of one world", "one.h5", "--quiet")
+        self.studies()
+        self.figures()
+
+    def studies(self):
+        self.run("pbstudy", "accuracy", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, 2, "--frames", 2, "--repeats", 1,
+                 "--reference-iterations", 80, "--floor-seeds", 1, "--rest-seconds", 0, "--output", "accuracy.h5", "--quiet")
+        self.page("accuracy", "accuracy.h5", "--quiet", "--budget", "1000s")
+        self.run("pbstudy", "effects", "--scene", "CrashSk", "Battle", "--stepper", "sor", "--frames", 1, "--repeats", 1, "--floor-seeds", 1,
+                 "--output", "effects.h5", "--quiet")
+        self.page("effects", "effects.h5", "--quiet")
+        self.run("pbstudy", "stability", "--scene", *STABILITY, "--setting", "quick", "sor", "--output", "stability.h5", "--quiet")
+        self.page("stability", "stability.h5", "--quiet")
+        if not values_are_predicted():
+            print("no Valgrind: the page of prediction is left out")
+            return
+        with open(self.path("ball.toml"), "w", encoding="utf-8") as file:
+            file.write(BALL)
+        self.run("pbstudy", "prediction", "--scene", "ball.toml", "--frames", 1, "--warmup", 0, "--threshold", 1e-6, "--detail-scene", "none",
+                 "--output", "prediction.h5", "--quiet")
+        self.page("prediction", "prediction.h5", "--quiet")
+
+    def figures(self):
+        for name, *options in (["iter20"], ["iter1", "--iterations", 1], ["feec", "--feec"], ["seed", "--solver-seed", 5]):
+            self.run("pbmpi", "--scene", "CrashSk", "--stepper", "quick", *options, "--output", name + ".h5", "--quiet")
+        self.page("figures 8 and 9", "figures", "iter20.h5", "iter1.h5", "feec.h5", "seed.h5", "--quiet")
+        for scene in ("CrashSk", "Fight"):
+            self.run("pbmpi", "--scene", scene, "--stepper", "quick", "--record-islands", "--output", scene + ".h5", "--quiet")
+        stills = self.path("stills")
+        os.mkdir(stills)
+        for scene in ("CrashSk", "Fight"):
+            shutil.copy(os.path.join(SOURCE, "scenes", "gallery", scene + ".png"), stills)
+        self.page("figure 6", "figure6", "CrashSk.h5", "Fight.h5", "--stills", stills)
+
+
+class Pages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="pbmpi-test-")
+        cls.files = Files(cls.folder)
+        cls.files.make()
+        cls.browser = browser.Browser(cls.folder)
+        cls.shots = os.environ.get("PBMPI_PAGE_SHOTS") or os.path.join(cls.folder, "shots")
+        os.makedirs(cls.shots, exist_ok=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        shutil.rmtree(cls.folder, ignore_errors=True)
+
+    def open(self, name, width="desk", mode="light", address=""):
+        self.browser.open(self.files.pages[name], width, mode, address)
+
+    def js(self, script, *args):
+        return self.browser.js(script, *args)
+
+    def test_no_text_overlaps_or_leaves_its_box_and_every_contrast_is_enough(self):
+        for name in self.files.pages:
+            for width in browser.WIDTHS:
+                backs = set()
+                for mode in browser.MODES:
+                    with self.subTest(page=name, width=width, mode=mode):
+                        self.open(name, width, mode, CHOSEN if name == "stability" else "")
+                        self.js("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
+                        self.assertEqual(self.browser.problems(), [])
+                        self.assertEqual(self.browser.complaints(), [])
+                        backs.add(self.js("return getComputedStyle(document.body).backgroundColor"))
+                        with open(os.path.join(self.shots, f"{name}, {width}, {mode}.png"), "wb") as file:
+                            file.write(self.browser.screenshot())
+                self.assertEqual(len(backs), 2, f"{name}: dark is another colour than light")
+
+    def test_the_check_sees_text_in_charts_and_out_of_them(self):
+        self.open("accuracy")
+        texts = self.js("return [...canvasTexts.entries()].filter(([canvas]) => canvas.isConnected).map(([, texts]) => texts.length)")
+        self.assertEqual(len(texts), 4)
+        self.assertGreater(min(texts), 4, "labels and titles of two axes")
+
+    def broken(self, script, kind, name="accuracy", width="desk", mode="light"):
+        """The page is right, and after the script it is not, in this way."""
+        self.open(name, width, mode)
+        self.assertEqual(self.browser.problems(), [])
+        self.js(script)
+        problems = self.browser.problems()
+        self.assertTrue(any(problem.startswith(kind + ":") for problem in problems), f"{kind}: {problems}")
+
+    STYLE = "document.head.append(Object.assign(document.createElement('style'), {textContent: arguments_text}));"
+
+    def styled(self, rule, kind, **where):
+        self.broken(self.STYLE.replace("arguments_text", repr(rule)), kind, **where)
+
+    def test_text_on_other_text_is_noticed(self):
+        self.styled(".key { margin-top: -60px; }", "overlap")
+        self.styled("h1 { margin-bottom: -24px; }", "overlap", name="stability", width="phone")
+
+    def test_labels_of_a_chart_on_each_other_are_noticed(self):
+        self.broken("const chart = Object.values(Chart.instances)[0]; chart.options.scales.x.ticks.font = {size: 90}; chart.update();",
+                    "overlap")
+
+    def test_text_beyond_its_box_is_noticed(self):
+        self.styled(".chart p { width: 60px; white-space: nowrap; }", "box")
+
+    def test_text_beyond_the_window_is_noticed(self):
+        self.styled(".chart h3 { width: 2000px; text-align: right; } .card { overflow: visible; }", "view")
+        self.styled(".sub { position: relative; left: 300px; }", "view", width="phone")
+
+    def test_text_beyond_its_chart_is_noticed(self):
+        self.broken("const chart = Object.values(Chart.instances)[0];"
+                    "chart.ctx.fillStyle = '#000000'; chart.ctx.fillText('a label that has no room', chart.width - 30, 50);", "box")
+
+    def test_a_weak_contrast_is_noticed_in_light_and_dark(self):
+        self.styled(".chart p { color: #9aa4ae; }", "contrast")
+        self.styled(".chart p { color: #5b6775; }", "contrast", mode="dark")
+        self.broken("Object.values(Chart.instances)[0].options.scales.x.ticks.color = '#b0b8c0'; Object.values(Chart.instances)[0].update();",
+                    "contrast")
+        self.broken("const chart = Object.values(Chart.instances)[0]; const set = chart.data.datasets[1];"
+                    "set.borderColor = set.backgroundColor = '#f0e442'; chart.update();", "contrast")
+
+    def test_what_only_a_mouse_reaches_is_noticed(self):
+        self.broken("document.querySelectorAll('.table').forEach((one) => one.removeAttribute('tabindex'))", "keyboard", width="phone")
+        self.broken("document.querySelector('.area canvas').tabIndex = -1", "keyboard")
+
+    def test_a_bar_beyond_its_frame_is_noticed(self):
+        self.broken("const chart = Object.values(Chart.instances)[0], axis = chart.options.indexAxis === 'y' ? 'x' : 'y';"
+                    "chart.options.scales[axis].max = 0.01; chart.update();", "bar", name="effects")
+
+    def test_a_decade_without_a_label_is_noticed(self):
+        self.broken("const chart = Object.values(Chart.instances)[0];"
+                    "chart.options.scales.y.ticks.callback = () => ''; chart.update();", "decade")
+
+    def test_a_line_off_the_scale_that_the_key_keeps_quiet_about_is_noticed(self):
+        self.open("accuracy")
+        keys = self.js("return [...document.querySelectorAll('.key')].map((key) => key.innerText)")
+        self.assertTrue(all("budget [ms]: 1000000, above the scale" in key for key in keys), keys)
+        self.broken("for (const one of document.querySelectorAll('.key li')) if (one.innerText.startsWith('budget')) one.remove();", "scale")
+
+    def test_every_page_says_what_it_was_made_from(self):
+        for name in self.files.pages:
+            self.open(name)
+            foot = self.js("const place = document.getElementById('provenance');"
+                           "place.querySelectorAll('details').forEach((one) => { one.open = true; }); return place.innerText")
+            self.assertIn("page by pbreport", foot, name)
+            whole = foot + self.js("document.querySelectorAll('details').forEach((one) => { one.open = true; });"
+                                   "return document.body.innerText")
+            self.assertRegex(whole, r"pbmpi \d+\.\d+", name)
+            self.assertIn("command_line" if "figure" not in name else "--scene CrashSk", whole, name)
+
+    def test_the_chosen_setting_and_the_estimates_are_in_each_diagram(self):
+        self.open("accuracy")
+        for chart in self.js("return Object.values(Chart.instances).map((chart) => chart.data.datasets.map((one) => "
+                             "({label: one.label, texts: one.data.map((point) => point.label)})))"):
+            sets = {one["label"]: one["texts"] for one in chart}
+            self.assertEqual(len(sets["chosen"]), 1)
+            self.assertTrue(any(sets["chosen"][0].removeprefix("chosen: ") == text for label in sets if label.startswith(("sor", "quick"))
+                                for text in sets[label]), "the ring lies round one of the settings")
+            self.assertEqual(len(sets["estimates (FEEC)"]), 4)
+            self.assertIn("look at", sets["estimates (FEEC)"][0])
+            said = " ".join(sets["sor double"])
+            self.assertIn("(2 substeps of 20 iterations)", said)
+            self.assertIn("(1 substep of 1 iteration)", said)
+        shapes = self.js("const set = Object.values(Chart.instances)[0].data.datasets.find((one) => one.label === 'sor double');"
+                         "return set.data.map((point, i) => [point.label, set.pointStyle[i], set.pointRadius[i]])")
+        self.assertEqual({shape for label, shape, _ in shapes if "(2 substeps" in label}, {"triangle"})
+        self.assertEqual({shape for label, shape, _ in shapes if "(1 substep " in label}, {"circle"})
+        self.assertLess(max(radius for label, _, radius in shapes if "1 iteration)" in label),
+                        min(radius for label, _, radius in shapes if "20 iterations)" in label))
+
+    def test_the_keyboard_reads_a_chart_off_and_hides_its_sets(self):
+        from selenium.webdriver.common.keys import Keys
+        self.open("accuracy", "phone")
+        canvas = self.browser.driver.find_element("css selector", ".area canvas")
+        self.js("arguments[0].focus()", canvas)
+        canvas.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        box = self.js("const box = arguments[0].parentElement.querySelector('.readout'), place = box.getBoundingClientRect();"
+                      "return [box.innerText, place.left, place.right]", canvas)
+        self.assertIn(" ms, ", box[0])
+        self.assertGreaterEqual(box[1], 0)
+        self.assertLessEqual(box[2], browser.WIDTHS["phone"], "what is read off stays in the window")
+        canvas.send_keys(Keys.ESCAPE)
+        self.assertTrue(self.js("return arguments[0].parentElement.querySelector('.readout').hidden", canvas))
+        button = self.browser.driver.find_element("css selector", ".key button")
+        button.send_keys(Keys.SPACE)
+        self.assertEqual(button.get_attribute("aria-pressed"), "false")
+        self.assertFalse(self.js("return Object.values(Chart.instances)[0].isDatasetVisible(0)"))
+
+    def test_the_focus_is_seen_wherever_the_tab_key_goes(self):
+        from selenium.webdriver.common.keys import Keys
+        for name in ("run of one world", "stability", "accuracy"):
+            self.open(name)
+            reached = set()
+            for _ in range(24):
+                self.browser.driver.switch_to.active_element.send_keys(Keys.TAB)
+                tag, style, width = self.js("const one = document.activeElement, style = getComputedStyle(one);"
+                                            "return [one.tagName, style.outlineStyle, parseFloat(style.outlineWidth)]")
+                if tag == "BODY":
+                    break
+                reached.add(tag)
+                self.assertNotEqual(style, "none", f"{name}: {tag}")
+                self.assertGreaterEqual(width, 1, f"{name}: {tag}")
+            self.assertIn("CANVAS" if name != "stability" else "BUTTON", reached)
+
+    def test_arrows_go_from_field_to_field_of_the_map(self):
+        from selenium.webdriver.common.keys import Keys
+        self.open("stability")
+        field = self.browser.driver.find_element("id", "field-0-0")
+        self.js("arguments[0].focus()", field)
+        for key, place in ((Keys.ARROW_DOWN, "field-1-0"), (Keys.ARROW_RIGHT, "field-1-1"), (Keys.ARROW_UP, "field-0-1"),
+                           (Keys.ARROW_LEFT, "field-0-0"), (Keys.ARROW_LEFT, "field-0-0")):
+            self.browser.driver.switch_to.active_element.send_keys(key)
+            self.assertEqual(self.js("return document.activeElement.id"), place)
+
+    def test_frames_of_replay_and_plots_have_the_same_numbers(self):
+        self.open("run of one world", address="#frame=2")
+        self.assertIn("frame 6 of 9", self.js("return document.getElementById('frame-label').innerText"),
+                      "the second of the recorded, which are every third of 3 + 6")
+        self.assertEqual(self.js("return [...pb.framePlots.charts].map((chart) => chart.cursor).filter((at) => at !== 6)"), [])
+        self.assertEqual(self.js("return [...pb.framePlots.charts][0].data.datasets[0].data.map((point) => point.x)"), list(range(1, 10)))
+
+
+if __name__ == "__main__":
+    if not browser.is_there():
+        print("chromium, chromium-driver or python3-selenium is not installed: skipped")
+        sys.exit(SKIPPED)
+    unittest.main(verbosity=2)
