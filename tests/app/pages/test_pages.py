@@ -88,13 +88,10 @@ class Files:
         for name, *options in (["iter20"], ["iter1", "--iterations", 1], ["feec", "--feec"], ["seed", "--solver-seed", 5]):
             self.run("pbmpi", "--scene", "CrashSk", "--stepper", "quick", *options, "--output", name + ".h5", "--quiet")
         self.page("figures 8 and 9", "figures", "iter20.h5", "iter1.h5", "feec.h5", "seed.h5", "--quiet")
-        for scene in ("CrashSk", "Fight"):
+        scenes = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "Fight")
+        for scene in scenes:
             self.run("pbmpi", "--scene", scene, "--stepper", "quick", "--record-islands", "--output", scene + ".h5", "--quiet")
-        stills = self.path("stills")
-        os.mkdir(stills)
-        for scene in ("CrashSk", "Fight"):
-            shutil.copy(os.path.join(SOURCE, "scenes", "gallery", scene + ".png"), stills)
-        self.page("figure 6", "figure6", "CrashSk.h5", "Fight.h5", "--stills", stills)
+        self.page("figure 6", "figure6", *(scene + ".h5" for scene in scenes), "--stills", os.path.join(SOURCE, "scenes", "gallery"))
 
 
 class Pages(unittest.TestCase):
@@ -227,6 +224,15 @@ class Pages(unittest.TestCase):
         self.assertEqual({shape for label, shape, _ in shapes if "(1 substep " in label}, {"circle"})
         self.assertLess(max(radius for label, _, radius in shapes if "1 iteration)" in label),
                         min(radius for label, _, radius in shapes if "20 iterations)" in label))
+
+    def test_bars_lie_where_their_names_have_no_room_on_the_same_axis(self):
+        for width, values in (("desk", "y"), ("phone", "x")):
+            self.open("figure 6", width)
+            kind, low, high = self.js("const axis = Object.values(Chart.instances)[0].scales[arguments[0]];"
+                                      "return [axis.type, axis.min, axis.max]", values)
+            self.assertEqual(kind, "logarithmic", width)
+            rates = self.js("return Object.values(Chart.instances)[0].data.datasets.flatMap((one) => one.data)")
+            self.assertTrue(all(low < rate < high for rate in rates))
 
     def test_the_keyboard_reads_a_chart_off_and_hides_its_sets(self):
         from selenium.webdriver.common.keys import Keys

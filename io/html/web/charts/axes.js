@@ -59,12 +59,13 @@ pb.makeLogScale = (scale, values, room) => {
     return;
   }
   Object.assign(scale, {type: 'logarithmic', ...limits});
-  let labels = new Map();
+  let labels = new Map(), crowded = false;
   scale.afterBuildTicks = (axis) => {
-    const ticks = axis.isHorizontal() ? pb.logTicks(axis.min, axis.max, axis.maxWidth, 44, 26) :
+    const ticks = axis.isHorizontal() ? pb.logTicks(axis.min, axis.max, axis.maxWidth, 44, 22) :
                                         pb.logTicks(axis.min, axis.max, axis.maxHeight, 16, 13);
+    crowded = axis.isHorizontal() && 30 * Math.log10(axis.max / axis.min) > axis.maxWidth;
     labels = new Map(ticks.map((tick) => [tick.value, tick.label]));
     axis.ticks = ticks.map(({value}) => ({value}));
   };
-  scale.ticks = {...scale.ticks, autoSkip: false, maxRotation: 0, callback: (value) => labels.get(value) ?? ''};
+  scale.ticks = {...scale.ticks, autoSkip: false, maxRotation: 0, font: () => ({size: crowded ? 9.5 : 12}), callback: (value) => labels.get(value) ?? ''};
 };

@@ -1,14 +1,22 @@
 'use strict';
 // Charts of all pages: Chart.js with axes, marks, key and reading as the sources before this one have them.
 
-pb.numbersOf = (dataset, axis) => dataset.data.map((point) => point === null ? NaN : typeof point === 'object' ? Number(point[axis]) : axis === 'y' ? point : NaN);
+// The axis of values: x, if bars lie. Plain numbers and bands without an axis belong to it.
+pb.valueAxis = (config) => config.options.indexAxis === 'y' ? 'x' : 'y';
+
+// The number that a point has on an axis; NaN: none.
+pb.numberOf = (config, point, axis) => {
+  if (point === null || typeof point !== 'object') return axis === pb.valueAxis(config) && point !== null ? point : NaN;
+  return Number(point[axis]);
+};
 
 // Bands no more than a decade away from the data stretch a logarithmic axis; what is farther off gets an arrow.
 pb.valuesOnLogAxis = (config, axis) => {
-  const values = config.data.datasets.flatMap((dataset) => pb.numbersOf(dataset, axis)).filter((value) => value > 0 && isFinite(value));
+  const numbers = config.data.datasets.flatMap((dataset) => dataset.data.map((point) => pb.numberOf(config, point, axis)));
+  const values = numbers.filter((value) => value > 0 && isFinite(value));
   const low = Math.min(...values) / 10, high = Math.max(...values) * 10;
   const bands = config.options.plugins.pbmpi?.bands || [];
-  const near = bands.filter((band) => (band.axis || 'y') === axis).flatMap((band) => [band.from, band.to]);
+  const near = bands.filter((band) => pb.bandAxis(config, band) === axis).flatMap((band) => [band.from, band.to]);
   return [...values, ...near.filter((value) => value >= low && value <= high)];
 };
 
@@ -18,14 +26,13 @@ pb.markOffScale = (config, axis, scale) => {
     const shapes = dataset.data.map((_, index) => Array.isArray(dataset.pointStyle) ? dataset.pointStyle[index] : dataset.pointStyle || 'circle');
     const turns = dataset.data.map(() => 0);
     dataset.data = dataset.data.map((point, index) => {
-      const value = point === null ? NaN : typeof point === 'object' ? point[axis] : point;
-      if (!(value <= 0)) return point;
+      if (!(pb.numberOf(config, point, axis) <= 0)) return point;
       if (typeof point !== 'object') return null;
       shapes[index] = 'triangle';
       turns[index] = axis === 'y' ? 180 : -90;
-      return {...point, [axis]: scale.min, label: `${point.label || dataset.label} (${value}: below the scale)`};
+      return {...point, [axis]: scale.min, label: `${point.label || dataset.label} (${point[axis]}: below the scale)`};
     });
-    if (turns.some((turn) => turn !== 0)) Object.assign(dataset, {keyShape: dataset.keyShape || shapes.find((_, i) => turns[i] === 0), pointStyle: shapes, pointRotation: turns, clip: 12});
+    if (turns.some((turn) => turn !== 0)) Object.assign(dataset, {keyShape: dataset.keyShape || shapes.find((_, i) => turns[i] === 0), pointStyle: shapes, pointRotation: turns});
   }
 };
 
@@ -92,17 +99,19 @@ pb.draw = (area, label, make, drawn = () => {}) => {
     const config = pb.withDefaults(make());
     const bars = config.type === 'bar';
     if (bars && config.data.labels && !config.options.indexAxis) pb.layDown(config, area);
-    const values = config.options.indexAxis === 'y' ? 'x' : 'y';
     for (const axis of ['x', 'y']) {
       const scale = config.options.scales[axis];
       if (scale.type === 'logarithmic') {
-        pb.makeLogScale(scale, pb.valuesOnLogAxis(config, bars && axis === 'x' ? 'x' : axis), bars ? 2 : 1.25);
+        pb.makeLogScale(scale, pb.valuesOnLogAxis(config, axis), bars ? 2 : 1.25);
         if (scale.type === 'logarithmic') pb.markOffScale(config, axis, scale);
-      } else if (bars && axis === values && scale.max === undefined) {
+      } else if (bars && axis === pb.valueAxis(config) && scale.max === undefined) {
         scale.grace = '4%';
       }
     }
-    for (const dataset of config.data.datasets) pb.edge(dataset, config.type);
+    for (const dataset of config.data.datasets) {
+      pb.edge(dataset, config.type);
+      if (config.type === 'scatter') dataset.clip = 10;  // a point on the frame is drawn whole
+    }
     const box = pb.element('div', {className: 'readout', hidden: true});
     box.setAttribute('role', 'status');
     const tooltip = config.options.plugins.tooltip || {};

@@ -65,8 +65,9 @@ io::html::PageSection section_of(const SceneCases& scene, const AccuracyReportOp
   section.title = scene.name;
   section.text = format(
       "%zu settings.%s Defect: error of all bodies after one frame from the reference's own state. "
-      "Noise floor: the reference with %zu other solver seeds.",
-      scene.settings.size(), blown_up_text(scene).c_str(), scene.floor.size());
+      "Noise floor: the reference with %zu other solver %s.",
+      scene.settings.size(), blown_up_text(scene).c_str(), scene.floor.size(),
+      scene.floor.size() == 1 ? "seed" : "seeds");
   if (const auto chosen = chosen_setting(scene, options)) {
     const StudyCase& one = scene.settings[*chosen];
     section.text +=
