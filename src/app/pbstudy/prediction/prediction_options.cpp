@@ -20,7 +20,9 @@ po::options_description options_description() {
       ("detail-scene", po::value<std::string>()->default_value("CrashSk")->value_name("NAME|none"),
        "the scene of the sensitivity table and of collision and forward step alone, if it is among the "
        "scenes")  //
-      ("full", "all worlds of 100CrSk (default: 10 of 100), and cycles of all thresholds and of sor");
+      ("full",
+       "all worlds of 100CrSk (default: 10 of 100), and cycles of all thresholds, of sor and of quick in "
+       "single precision");
   po::options_description how("How to measure");
   how.add_options()  //
       ("replicas", po::value<int>()->value_name("N"),
