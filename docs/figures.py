@@ -44,6 +44,10 @@ ENTRIES = {
                    ["bench_worlds SCENE 0 10 3", "pbstudy accuracy --scene SCENE"]),
     "prediction_small": Entry("docs/prediction.md", prediction.small, False,
                               ["pbstudy prediction --scene 2-Cars --detail-scene none"]),
+    "prediction_bars": Entry("docs/prediction.md", prediction.bars, True, ["mpirun -n 2 pbstudy prediction"]),
+    "prediction_engines": Entry("docs/prediction.md", prediction.engines, True, ["mpirun -n 2 pbstudy prediction"]),
+    "prediction_errors": Entry("docs/prediction.md", prediction.errors, True, ["mpirun -n 2 pbstudy prediction"]),
+    "prediction_statements": Entry("docs/prediction.md", prediction.statements, True, ["mpirun -n 2 pbstudy prediction"]),
     "spaces": Entry("docs/spaces.md", speed.spaces, True, ["tests/bench/decompose.py 3"]),
 }
 

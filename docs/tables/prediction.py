@@ -46,6 +46,11 @@ def engines():
     return programs.table(["scene", "engine", "exact: of all results", "of those guessed", "1e-6: of all results", "of those guessed"], rows)
 
 
+def drift(metres):
+    """A kilometre from where it should be nothing is left to measure, though the numbers are finite."""
+    return "> 1 km" if metres > 1000 else programs.millimetres(metres)
+
+
 def errors():
     """Drift of positions by threshold, beside the noise floor, and what blew up."""
     rows = []
@@ -55,7 +60,7 @@ def errors():
         for name in ("FVP6", "FVP8", "FVP10", "FVP12", "sor FVP6", "single FVP6"):
             run = runs.get(name)
             lost = run is not None and (not run["ended"] or run["nonfinite_frame"] is not None)
-            cells.append("-" if run is None else "lost" if lost else programs.millimetres(run["drift_m"]["rms"]))
+            cells.append("-" if run is None else "lost" if lost else drift(run["drift_m"]["rms"]))
         rows.append([scene["scene"], programs.millimetres(runs["FVP6"]["noise_floor_m"]["rms"]), *cells])
     return programs.table(["scene", "noise floor [mm]", "FVP6", "FVP8", "FVP10", "FVP12", "`sor` FVP6", "single FVP6"], rows)
 

@@ -93,8 +93,6 @@ class Study(ToolTest):
         self.assertEqual(list(scene["engines"]), [*(["quick single"] if HAS_SINGLE else []), "quick double", "sor"])
         for engine in scene["engines"].values():
             self.assertTrue(0 < engine["exact"]["coverage"] < engine["exact"]["hit_rate"] <= 1)
-        if HAS_SINGLE:  # fewer bits, so that more values repeat
-            self.assertGreater(scene["engines"]["quick single"]["exact"]["coverage"], scene["engines"]["quick double"]["exact"]["coverage"])
         for bar in BARS:
             self.assertGreater(scene["figure_8"][bar]["hz"], 300, "2-Cars is small")
             self.assertEqual(scene["figure_8"][bar]["satisfied"], 1)
