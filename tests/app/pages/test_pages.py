@@ -63,6 +63,9 @@ class Files:
         self.page("run of many worlds", "many.h5", "--quiet")
         self.run("pbmpi", "--scene", "CrashSk", "--frames", 6, "--record-every", 3, "--feec", "--output", "one.h5", "--quiet")
         self.page("run of one world", "one.h5", "--quiet")
+        for seed in (1, 2):
+            self.run("pbmpi", "--scene", "CrashSk", "--frames", 6, "--seed", seed, "--record-contacts", "--output", f"seed{seed}.h5", "--quiet")
+        self.page("difference", "diff", "seed1.h5", "seed2.h5")
         self.studies()
         self.figures()
 
