@@ -50,6 +50,7 @@ void add_unused_chunks(hid_t dataset, hsize_t num_rows, std::vector<core::ByteRa
 std::vector<std::string> GrowingTable::datasets(const std::string& group,
                                                 const std::vector<ColumnSpec>& columns) {
   std::vector<std::string> paths;
+  paths.reserve(columns.size() + 1);
   for (const ColumnSpec& column : columns) paths.push_back(group + "/" + column.name);
   paths.push_back(row_checksum_path(paths.front()));
   return paths;
