@@ -1,6 +1,7 @@
 #include "mpi/spaces/step/frame_report.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "model/joint_gap.h"
 #include "model/mechanics.h"
@@ -176,9 +177,8 @@ void FrameReport::add(int rank, const Account& account, model::DisjointSets& isl
 
 /// The contacts of a pair of geoms are solved by one rank, in their order, and so is a joint.
 void FrameReport::take_contacts(const stepping::StepContacts& part) {
+  const stepping::StepContacts earlier = std::exchange(findings_.contacts, {});
   stepping::StepContacts& all = findings_.contacts;
-  const auto earlier = std::move(all);
-  all.clear();
   std::size_t a = 0, b = 0;
   while (a < earlier.contacts.size() || b < part.contacts.size()) {
     const bool from_part = a == earlier.contacts.size() ||
