@@ -95,6 +95,7 @@ std::vector<PredictionCase> make_prediction_cases(const std::vector<StudyScene>&
 
 std::vector<int> deal_out(const std::vector<PredictionCase>& cases, int num_ranks) {
   std::vector<double> cost;
+  cost.reserve(cases.size());
   for (const PredictionCase& one : cases) cost.push_back(one.cost);
   return mpi::lpt_placement(cost, num_ranks);
 }
