@@ -206,7 +206,8 @@ class Pages(unittest.TestCase):
             whole = foot + self.js("document.querySelectorAll('details').forEach((one) => { one.open = true; });"
                                    "return document.body.innerText")
             self.assertRegex(whole, r"pbmpi \d+\.\d+", name)
-            self.assertIn("command_line" if "figure" not in name else "--scene CrashSk", whole, name)
+            of_several_runs = "figure" in name or name == "difference"
+            self.assertIn("--scene CrashSk" if of_several_runs else "command_line", whole, name)
 
     def test_the_chosen_setting_and_the_estimates_are_in_each_diagram(self):
         self.open("accuracy")
