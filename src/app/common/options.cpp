@@ -113,6 +113,12 @@ std::vector<std::string> given_files(const po::variables_map& values) {
                                    : values["file"].as<std::vector<std::string>>();
 }
 
+void add_help_options(po::options_description& description) {
+  description.add_options()("help,h", "print this help")  //
+      ("config", po::value<std::string>()->value_name("FILE"),
+       "read options from FILE, one 'name = value' a line; the command line wins");
+}
+
 void add_seed_option(const std::string& meaning, po::options_description& description) {
   // As text: Boost would take -1 for 2^64 - 1.
   description.add_options()("seed", po::value<std::string>()->default_value("1")->value_name("N"),

@@ -39,6 +39,9 @@ boost::program_options::variables_map parse_with_files(
 /// The files of parse_with_files(), none if none is named.
 std::vector<std::string> given_files(const boost::program_options::variables_map& values);
 
+/// Adds --help and --config.
+void add_help_options(boost::program_options::options_description& description);
+
 /// Adds --seed, 1 by default; `meaning`: for --help.
 void add_seed_option(const std::string& meaning, boost::program_options::options_description& description);
 /// Throws core::InputError unless it is a whole number from 0 to 2^64 - 1.

@@ -20,8 +20,7 @@ po::options_description visible_options() {
       ("list", "print the tables that the file has")  //
       ("frames", po::value<std::string>()->value_name("FIRST:LAST[:EVERY]"),
        "these frames only, both ends included, counted from 0 at the start of the first run; either end may "
-       "be "
-       "left out")                                                                                     //
+       "be left out")                                                                                  //
       ("measured", "no warm-up frames")                                                                //
       ("world", po::value<std::vector<int>>()->multitoken()->value_name("N..."), "these worlds only")  //
       ("body", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME..."),
@@ -31,9 +30,7 @@ po::options_description visible_options() {
       ("output,o", po::value<std::string>()->value_name("FILE"),
        "write into FILE instead of standard output");
   po::options_description general("General");
-  general.add_options()("help,h", "print this help")  //
-      ("config", po::value<std::string>()->value_name("FILE"),
-       "read options from FILE, one 'name = value' a line; the command line wins");
+  add_help_options(general);
   po::options_description all;
   all.add(what).add(general);
   return all;

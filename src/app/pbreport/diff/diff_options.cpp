@@ -22,9 +22,7 @@ po::options_description visible_options() {
        "one self-contained page: errors and constraints as curves over the frames")  //
       ("json", "print one JSON document");
   po::options_description general("General");
-  general.add_options()("help,h", "print this help")  //
-      ("config", po::value<std::string>()->value_name("FILE"),
-       "read options from FILE, one 'name = value' a line; the command line wins");
+  add_help_options(general);
   po::options_description all;
   all.add(what).add(general);
   return all;

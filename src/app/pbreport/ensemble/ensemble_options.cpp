@@ -30,10 +30,8 @@ po::options_description visible_options() {
        "which for --csv: runs, frames, positions, bodies, worlds, body_frames")  //
       ("by-body", "also the table body_frames: each body in each recorded frame");
   po::options_description general("General");
-  general.add_options()("help,h", "print this help")  //
-      ("config", po::value<std::string>()->value_name("FILE"),
-       "read options from FILE, one 'name = value' a line; the command line wins")  //
-      ("quiet,q", "print nothing but errors and what --json or --markdown asks for");
+  add_help_options(general);
+  general.add_options()("quiet,q", "print nothing but errors and what --json or --markdown asks for");
   po::options_description all;
   all.add(what).add(write).add(general);
   return all;
@@ -43,16 +41,15 @@ po::options_description visible_options() {
 
 std::string ensemble_help_text() {
   std::ostringstream text;
-  text << "pbreport ensemble compares runs of one scene that differ in --seed or --solver-seed: mean, spread "
-          "and "
-          "quantiles of observables\nand positions frame by frame, contacts and times of each world. Runs "
-          "that "
-          "differ in what decides over their results are refused.\n\n"
-       << "Usage: pbreport ensemble RUN.h5... [options]\n\n"
-       << visible_options() << "\nExamples:\n"
-       << "  pbreport ensemble seed*.h5\n"
-       << "  pbreport ensemble seed*.h5 --output ensemble.h5 --csv frames.csv\n"
-       << "  pbreport ensemble 100CrSk.h5 --over worlds --markdown\n";
+  text
+      << "pbreport ensemble compares runs of one scene that differ in --seed or --solver-seed: mean, spread "
+         "and quantiles of observables\nand positions frame by frame, contacts and times of each world. Runs "
+         "that differ in what decides over their results are refused.\n\n"
+      << "Usage: pbreport ensemble RUN.h5... [options]\n\n"
+      << visible_options() << "\nExamples:\n"
+      << "  pbreport ensemble seed*.h5\n"
+      << "  pbreport ensemble seed*.h5 --output ensemble.h5 --csv frames.csv\n"
+      << "  pbreport ensemble 100CrSk.h5 --over worlds --markdown\n";
   return text.str();
 }
 

@@ -15,12 +15,10 @@ namespace po = boost::program_options;
 
 po::options_description visible_options() {
   po::options_description all("Options");
-  all.add_options()                                                                                       //
-      ("html", po::value<std::string>()->value_name("OUT"), "one self-contained page with both figures")  //
-      ("help,h", "print this help")                                                                       //
-      ("config", po::value<std::string>()->value_name("FILE"),
-       "read options from FILE, one 'name = value' a line; the command line wins")  //
-      ("quiet,q", "print nothing but errors");
+  all.add_options()  //
+      ("html", po::value<std::string>()->value_name("OUT"), "one self-contained page with both figures");
+  add_help_options(all);
+  all.add_options()("quiet,q", "print nothing but errors");
   return all;
 }
 

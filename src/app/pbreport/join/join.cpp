@@ -15,11 +15,9 @@ namespace po = boost::program_options;
 po::options_description visible_options() {
   po::options_description all("Options");
   all.add_options()("output,o", po::value<std::string>()->value_name("FILE"), "the file to write")  //
-      ("common", "leave out what not all files have, e.g. contacts")                                //
-      ("help,h", "print this help")                                                                 //
-      ("config", po::value<std::string>()->value_name("FILE"),
-       "read options from FILE, one 'name = value' a line; the command line wins")  //
-      ("quiet,q", "print nothing but errors");
+      ("common", "leave out what not all files have, e.g. contacts");
+  add_help_options(all);
+  all.add_options()("quiet,q", "print nothing but errors");
   return all;
 }
 

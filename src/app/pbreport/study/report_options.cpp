@@ -9,10 +9,9 @@ namespace po = boost::program_options;
 using core::require_input;
 
 void add_general_options(const std::string& printed, po::options_description& description) {
-  description.add_options()("help,h", "print this help")  //
-      ("config", po::value<std::string>()->value_name("FILE"),
-       "read options from FILE, one 'name = value' a line; the command line wins")  //
-      ("quiet,q", ("print nothing but errors and what " + printed + " asks for").c_str());
+  add_help_options(description);
+  description.add_options()("quiet,q",
+                            ("print nothing but errors and what " + printed + " asks for").c_str());
 }
 
 void add_output_options(const std::string& page, po::options_description& description) {

@@ -29,9 +29,7 @@ struct SuiteOptions {
 
 po::options_description described(bool page) {
   po::options_description all("Options");
-  all.add_options()("help,h", "print this help")(
-      "config", po::value<std::string>()->value_name("FILE"),
-      "read options from FILE, one 'name = value' a line; the command line wins");
+  add_help_options(all);
   if (page) {
     all.add_options()  //
         ("html", po::value<std::string>()->value_name("OUT"), "the page to write")(
