@@ -66,13 +66,6 @@ std::string to_text(const std::vector<FigureScene>& scenes) {
   return text;
 }
 
-io::html::Provenance provenance_of_runs(const std::vector<std::string>& files) {
-  std::vector<io::html::FileAttributes> runs;
-  runs.reserve(files.size());
-  for (const std::string& file : files) runs.emplace_back(file, io::read_run(file).attributes);
-  return io::html::provenance_of(runs, version_line("pbreport"));
-}
-
 }  // namespace
 
 core::ExitCode run_figures(const std::vector<std::string>& args, std::ostream& out) {
@@ -83,11 +76,10 @@ core::ExitCode run_figures(const std::vector<std::string>& args, std::ostream& o
   }
   core::require_input(values.count("file") != 0,
                       "figures: no file given; name recorded runs (jobs/figure8_9.sh)");
-  const std::vector<std::string> files = given_files(values);
-  const auto scenes = figure_scenes(files);
+  const auto [scenes, files] = recorded_figures(given_files(values));
   if (values.count("html") != 0) {
     io::html::ChartPage page = figures_page(scenes);
-    page.provenance = provenance_of_runs(files);
+    page.provenance = io::html::provenance_of(files, version_line("pbreport"));
     io::html::write_chart_page(values["html"].as<std::string>(), page);
   }
   if (values.count("quiet") == 0) out << to_text(scenes);

@@ -142,24 +142,26 @@ const FigureMethod* FigureScene::find(const std::string& label) const {
   return found == methods.end() ? nullptr : &*found;
 }
 
-std::vector<FigureScene> figure_scenes(const std::vector<std::string>& paths) {
+RecordedFigures recorded_figures(const std::vector<std::string>& paths) {
+  RecordedFigures found;
   std::vector<std::string> names;
   std::map<std::string, std::vector<std::string>> by_scene;  // runs of one scene at a time are in memory
   for (const std::string& path : paths) {
-    const std::string name = parameter(io::read_run(path), "scene");
+    const io::RunData run = io::read_run(path);
+    const std::string name = parameter(run, "scene");
+    found.files.emplace_back(path, run.attributes);
     if (!by_scene.contains(name)) names.push_back(name);
     by_scene[name].push_back(path);
   }
-  std::vector<FigureScene> scenes;
   for (const std::string& name : names) {
     std::vector<Recorded> runs;
     for (const std::string& path : by_scene[name]) runs.push_back(read(path));
     std::vector<const Recorded*> pointers;
     pointers.reserve(runs.size());
     for (const Recorded& run : runs) pointers.push_back(&run);
-    scenes.push_back(make_scene(name, pointers));
+    found.scenes.push_back(make_scene(name, pointers));
   }
-  return scenes;
+  return found;
 }
 
 }  // namespace pbmpi::app

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/error_table.h"
+#include "io/html/provenance.h"
 
 namespace pbmpi::app {
 
@@ -32,8 +33,13 @@ struct FigureScene {
   }
 };
 
+struct RecordedFigures {
+  std::vector<FigureScene> scenes;
+  std::vector<io::html::FileAttributes> files;  ///< in the order in which they were named
+};
+
 /// Sorts the runs by scene and by what their files say of stepper, iterations, seed and estimate. Throws
 /// core::InputError for a file that is no run, or a scene without a run of `quick` with 20 iterations.
-std::vector<FigureScene> figure_scenes(const std::vector<std::string>& paths);
+RecordedFigures recorded_figures(const std::vector<std::string>& paths);
 
 }  // namespace pbmpi::app
