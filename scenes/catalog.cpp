@@ -19,21 +19,17 @@ SceneSource read_file(const std::string& path) {
 
 bool is_hard_case(std::string_view name) { return name.starts_with("hard/"); }
 
-std::vector<SceneInfo> list_embedded(bool hard_cases) {
+}  // namespace
+
+std::vector<SceneInfo> list_scenes(SceneGroup group) {
   std::vector<SceneInfo> list;
   for (const EmbeddedScene& scene : embedded_scenes()) {
-    if (is_hard_case(scene.name) != hard_cases) continue;
+    if (scene.group != group) continue;
     const toml::table table = toml::parse(scene.text);
     list.push_back({std::string(scene.name), table["title"].value_or(std::string())});
   }
   return list;
 }
-
-}  // namespace
-
-std::vector<SceneInfo> list_scenes() { return list_embedded(false); }
-
-std::vector<SceneInfo> list_hard_cases() { return list_embedded(true); }
 
 SceneSource find_scene(const std::string& name_or_path) {
   if (name_or_path.ends_with(".toml")) return read_file(name_or_path);
@@ -42,7 +38,7 @@ SceneSource find_scene(const std::string& name_or_path) {
     if (scene.name == name_or_path) {
       return {name_or_path, name_or_path + ".toml", std::string(scene.text)};
     }
-    if (is_hard_case(scene.name) == is_hard_case(name_or_path)) names.emplace_back(scene.name);
+    if ((scene.group == SceneGroup::hard) == is_hard_case(name_or_path)) names.emplace_back(scene.name);
   }
   // All hard cases would be too long a list.
   const bool none_is_near = is_hard_case(name_or_path) && core::nearest_name(name_or_path, names).empty();

@@ -1,10 +1,16 @@
-# Writes OUTPUT, a C++ source that holds the text of FOLDER/<scene>.toml for each scene in SCENES, in that order.
+# Writes OUTPUT, a C++ source that holds the text of FOLDER/<scene>.toml for each scene in SCENES, in that order. The folder
+# tells a scene's group; a scene of effects/ goes by its name alone.
 set(entries "")
 foreach(scene IN LISTS SCENES)
   file(READ ${FOLDER}/${scene}.toml text)
-  string(APPEND entries "    {\"${scene}\", R\"scene_toml(${text})scene_toml\"},\n")
+  set(group paper)
+  if(scene MATCHES "^(effects|hard)/")
+    set(group ${CMAKE_MATCH_1})
+  endif()
+  string(REGEX REPLACE "^effects/" "" name ${scene})
+  string(APPEND entries "    {SceneGroup::${group}, \"${name}\", R\"scene_toml(${text})scene_toml\"},\n")
 endforeach()
-file(WRITE ${OUTPUT} "// Generated from scenes/*.toml and scenes/hard/*/*.toml by embed_scenes.cmake.
+file(WRITE ${OUTPUT} "// Generated from the scene files by embed_scenes.cmake.
 #include \"scenes/embedded.h\"
 
 namespace pbmpi::scenes {

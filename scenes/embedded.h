@@ -4,15 +4,18 @@
 #include <span>
 #include <string_view>
 
+#include "scenes/scene.h"
+
 namespace pbmpi::scenes {
 
 struct EmbeddedScene {
+  SceneGroup group;
   std::string_view name;
   std::string_view text;
 };
 
-/// First the paper's, in the order of its Table 1, then the hard cases by name. The source is generated from
-/// scenes/*.toml and scenes/hard/*/*.toml at build time.
+/// Group by group, in the order of list_scenes(). The source is generated at build time from scenes/*.toml,
+/// scenes/effects/*.toml and scenes/hard/*/*.toml.
 std::span<const EmbeddedScene> embedded_scenes();
 
 }  // namespace pbmpi::scenes

@@ -15,6 +15,7 @@
 #include "effects/effects.h"
 #include "model/validate.h"
 #include "scenes/actors/actor.h"
+#include "scenes/actors/copies.h"
 #include "scenes/actors/variation.h"
 #include "scenes/format/case_reader.h"
 #include "scenes/format/event_reader.h"
@@ -47,9 +48,7 @@ struct ActorEntry {
   double heading_deg = 0;
   Vec3 velocity = Vec3::Zero();
   int space = 0;
-  bool has_copies = false;
-  WorldCount copies;
-  Vec3 spacing = Vec3::Zero();
+  Copies copies;
   Variation variation;
   PartVelocities parts;
 };
@@ -150,9 +149,7 @@ class FileScene final : public Scene {
     actor.position = table.vector("position", Sign::any, Vec3(Vec3::Zero()));
     actor.heading_deg = table.number("heading", Sign::any, 0.0);
     actor.space = read_space(table);
-    actor.has_copies = table.has("copies");
-    actor.copies = WorldCount::read(table, "copies");
-    if (actor.has_copies) actor.spacing = table.vector("spacing", Sign::any);
+    actor.copies = Copies(table);
     actor.variation = read_variation(table);
     actor.parts = PartVelocities(table);
     if (type.moves) {
@@ -199,8 +196,8 @@ class FileScene final : public Scene {
       const std::uint64_t key = (static_cast<std::uint64_t>(index) << 20) + static_cast<std::uint64_t>(copy);
       const Offset offset = draw(actor.variation, seed, world, key);
       Placement place;
-      place.name = actor.has_copies ? actor.name + "." + std::to_string(copy + 1) : actor.name;
-      place.pose.position = actor.position + copy * actor.spacing + offset.position;
+      place.name = actor.copies.are_numbered() ? actor.name + "." + std::to_string(copy + 1) : actor.name;
+      place.pose.position = actor.position + actor.copies.offset(copy) + offset.position;
       place.pose.orientation = rotation(radians(actor.heading_deg + offset.heading_deg), Vec3::UnitZ());
       place.velocity = actor.velocity + offset.velocity;
       place.space = defaults_.spaces == SpacesForm::one ? 0 : actor.space;
@@ -258,7 +255,8 @@ class FileScene final : public Scene {
   /// The place in the file of an actor or a copy of it.
   std::string where_of(const std::string& name) const {
     for (const ActorEntry& actor : actors_) {
-      if (name == actor.name || (actor.has_copies && name.starts_with(actor.name + "."))) return actor.where;
+      if (name == actor.name || (actor.copies.are_numbered() && name.starts_with(actor.name + ".")))
+        return actor.where;
     }
     return source_.file;
   }

@@ -48,11 +48,14 @@ struct SceneInfo {
   std::string title;
 };
 
-/// The nine scenes of the paper, in the order of its Table 1.
-std::vector<SceneInfo> list_scenes();
+/// Why pbmpi brings a scene.
+enum class SceneGroup {
+  paper,    ///< the nine of PhysicsBench, in the order of the paper's Table 1
+  effects,  ///< they call for the effects that none of the nine calls for; in alphabetical order
+  hard,     ///< hard cases, "hard/GROUP/NAME", in alphabetical order
+};
 
-/// The hard cases that pbmpi brings besides, "hard/GROUP/NAME", in alphabetical order.
-std::vector<SceneInfo> list_hard_cases();
+std::vector<SceneInfo> list_scenes(SceneGroup group);
 
 /// The text of scene `name_or_path`: a path if it ends in ".toml", else a scene that pbmpi brings (their
 /// texts are part of the program, so that it needs no data folder). Throws core::InputError: unknown name

@@ -1,6 +1,7 @@
 #include "scenes/scene_toml.h"
 
 #include <optional>
+#include <string_view>
 
 #include "core/error.h"
 #include "scenes/format/table_reader.h"
@@ -28,6 +29,9 @@ toml::table* find_by_name(toml::array& entries, const toml::node& name) {
   return nullptr;
 }
 
+/// A compound's geoms have no names: a file that gives some replaces all of its base's.
+constexpr std::string_view whole_array = "geoms";
+
 bool is_array_of_tables(const toml::node& node) {
   const toml::array* array = node.as_array();
   return array && !array->empty() && (*array)[0].is_table();
@@ -54,7 +58,7 @@ void lay_over(toml::table& base, toml::table&& over) {
     toml::node* old = base.get(key.str());
     if (old && old->is_table() && node.is_table()) {
       lay_over(*old->as_table(), std::move(*node.as_table()));
-    } else if (old && is_array_of_tables(*old) && is_array_of_tables(node)) {
+    } else if (old && is_array_of_tables(*old) && is_array_of_tables(node) && key.str() != whole_array) {
       lay_over(*old->as_array(), std::move(*node.as_array()));
     } else {
       base.erase(key.str());  // the key, too, must tell the new place

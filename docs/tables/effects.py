@@ -1,6 +1,8 @@
-"""Tables of what effects cost: `pbstudy effects`, and the script about the field of interest."""
+"""Tables of what effects cost and save: `pbstudy effects`, the script about the field of interest, and runs."""
 import re
 import sys
+
+import h5py
 
 from tables import programs
 
@@ -23,3 +25,25 @@ def interest():
             rows.append([about.split(":")[0], f"`{stepper}`", f"x {ratio}", rms, floor])
     head = ["all iterations within 10 m of", "stepper", "time of a step", "defect rms [mm]", "noise floor [mm]"]
     return programs.table(head, rows)
+
+
+def saved():
+    """What is left to do in Warehouse with sleeping, and in Stadium with a field of interest."""
+    rows = []
+    with programs.Folder() as folder:
+        for scene, effect, stepper in (("Warehouse", "sleeping", "sor"), ("Stadium", "field_of_interest", "quick")):
+            for sign in "+-":
+                path = folder / f"{scene}{sign}.h5"
+                programs.pbmpi("--scene", scene, "--stepper", stepper, "--effects", sign + effect, "--quiet", "-o", path)
+                rows.append([f"{scene}, {'with' if sign == '+' else 'without'} `{effect}`", f"`{stepper}`", *left_to_do(path)])
+    return programs.table(["scene", "stepper", "bodies that move", "of these with all iterations", "rows of a step"], rows)
+
+
+def left_to_do(path):
+    """Bodies that move, those that get all iterations, and rows of the last step of a frame: means over the measured frames."""
+    with h5py.File(path) as file:
+        measured = file["timings/frame/measured"][:].astype(bool)
+        moving = (file["particles/bodies/velocity/value"][:][measured] != 0).any(axis=2).sum(axis=1).mean()
+        inside = file["observables/interest/bodies_inside"][:][measured].mean() if "interest" in file["observables"] else moving
+        rows = file["observables/world/rows"][:][measured].mean()
+    return f"{moving:.0f}", f"{inside:.0f}", f"{rows:.0f}"

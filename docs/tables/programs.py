@@ -12,6 +12,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ.get("PBMPI_BIN", SOURCE / "build/release/bin")).resolve()
 BENCH = BIN.parent / "tests/bench/bench_worlds"
 SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
+EFFECT_SCENES = ("Bowling", "Feathers", "Stadium", "Warehouse")
 
 # Open MPI refuses root, and more ranks than cores, unless told otherwise.
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",

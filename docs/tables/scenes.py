@@ -1,4 +1,4 @@
-"""Tables of the nine scenes: their islands beside the paper's, and their step plans."""
+"""Tables of the scenes: islands of the nine beside the paper's, and the step plans of all."""
 import json
 import re
 
@@ -38,7 +38,8 @@ def effect_names():
 
 
 def plans():
-    """What calls for each pass of a step, in each scene."""
-    plans_of = {scene: plan_of(scene) for scene in programs.SCENES}
-    rows = [[f"`{effect}`", *(plans_of[scene].get(effect, "") for scene in programs.SCENES)] for effect in effect_names()]
-    return programs.table(["", *programs.SCENES], rows)
+    """What calls for each pass of a step, in each scene: how many things, or yes where nothing is counted."""
+    scenes = programs.SCENES + programs.EFFECT_SCENES
+    plans_of = {scene: {name: count or "yes" for name, count in plan_of(scene).items()} for scene in scenes}
+    rows = [[f"`{effect}`", *(plans_of[scene].get(effect, "") for scene in scenes)] for effect in effect_names()]
+    return programs.table(["", *scenes], rows)

@@ -58,5 +58,6 @@ ActorPlan read_box(TableReader& actor, const SceneContext& context);
 ActorPlan read_sphere(TableReader& actor, const SceneContext& context);
 ActorPlan read_capsule(TableReader& actor, const SceneContext& context);
 ActorPlan read_cylinder(TableReader& actor, const SceneContext& context);
+ActorPlan read_compound(TableReader& actor, const SceneContext& context);
 
 }  // namespace pbmpi::scenes

@@ -1,9 +1,10 @@
-// One rigid body of one shape, or a static obstacle of that shape.
+// One rigid body of one shape or of several, or a static obstacle.
 #include "core/error.h"
 #include "core/text.h"
 #include "model/names.h"
 #include "scenes/actors/actor.h"
 #include "scenes/format/rotation_reader.h"
+#include "scenes/format/shape_reader.h"
 #include "scenes/parts/mass_properties.h"
 
 namespace pbmpi::scenes {
@@ -11,11 +12,9 @@ namespace {
 
 struct GenericBody {
   model::ActorKind kind = model::ActorKind::prop;
-  model::Shape shape = model::Shape::box;
-  std::array<double, 3> size{};
+  std::vector<Solid> solids;
   bool is_static = false;
-  double mass_kg = 0;
-  model::Mat3 inertia = model::Mat3::Identity();
+  MassProperties mass;
   Quat orientation;  ///< in the actor's frame
   Vec3 angular_velocity = Vec3::Zero();
   model::Material material;
@@ -30,12 +29,12 @@ model::ActorKind read_kind(TableReader& actor) {
              "unknown kind " + core::in_quotes(name) + core::suggestion(name, {names.begin(), names.end()}));
 }
 
-double read_mass(TableReader& actor, model::Shape shape, const std::array<double, 3>& size) {
+double read_mass(TableReader& actor, const std::vector<Solid>& solids) {
   if (actor.has("mass") == actor.has("density")) {
     actor.fail("density", "give either 'mass' [kg] or 'density' [kg/m^3]");
   }
   if (actor.has("mass")) return actor.number("mass", Sign::positive);
-  return actor.number("density", Sign::positive) * volume(shape, size);
+  return actor.number("density", Sign::positive) * volume(solids);
 }
 
 /// About the centre, in the body's axes. No mass distribution has a moment above the sum of the other two.
@@ -48,28 +47,39 @@ model::Mat3 read_inertia(TableReader& actor) {
   return moments.asDiagonal();
 }
 
-void build(const GenericBody& part, const Placement& place, model::Model& model) {
-  model::Geom geom;
-  geom.actor = add_actor(model, place.name, part.kind);
-  geom.space = place.space;
-  geom.shape = part.shape;
-  geom.size = part.size;
-  geom.material = part.material;
-  const Pose pose = compose(place.pose, {Vec3::Zero(), part.orientation});
-  if (part.is_static) {
-    geom.local = pose;
-  } else {
+/// Composing two rotations rounds; a geom that fills its frame keeps the bits of the frame.
+Pose pose_of(const Solid& solid, const Pose& frame) {
+  const bool fills_frame = solid.pose.position.isZero() && solid.pose.orientation == Quat{};
+  return fills_frame ? frame : compose(frame, solid.pose);
+}
+
+void build(const GenericBody& generic, const Placement& place, model::Model& model) {
+  const int actor = add_actor(model, place.name, generic.kind);
+  const Pose frame = compose(place.pose, {Vec3::Zero(), generic.orientation});
+  int index = model::no_body;
+  if (!generic.is_static) {
     model::Body body;
     body.name = place.name;
-    body.actor = geom.actor;
-    body.mass_kg = part.mass_kg;
-    body.inertia = part.inertia;
-    body.pose = pose;
+    body.actor = actor;
+    body.mass_kg = generic.mass.mass_kg;
+    body.inertia = generic.mass.inertia;
+    body.pose = {frame.point_to_outer(generic.mass.centre), frame.orientation};
     body.velocity = place.velocity;
-    body.angular_velocity = part.angular_velocity;
-    geom.body = add_body(model, std::move(body));
+    body.angular_velocity = generic.angular_velocity;
+    index = add_body(model, std::move(body));
   }
-  model.geoms.push_back(geom);
+  for (const Solid& solid : generic.solids) {
+    model::Geom geom;
+    geom.body = index;
+    geom.actor = actor;
+    geom.space = place.space;
+    geom.shape = solid.shape;
+    geom.size = solid.size;
+    geom.local = generic.is_static ? pose_of(solid, frame)
+                                   : Pose{solid.pose.position - generic.mass.centre, solid.pose.orientation};
+    geom.material = generic.material;
+    model.geoms.push_back(geom);
+  }
 }
 
 void refuse_motion(TableReader& actor) {
@@ -80,43 +90,58 @@ void refuse_motion(TableReader& actor) {
     variation->fail("velocity", "a static body does not move; its velocity cannot vary");
 }
 
-ActorPlan read_generic(TableReader& actor, model::Shape shape, const std::array<double, 3>& size) {
-  GenericBody part;
-  part.shape = shape;
-  part.size = size;
-  part.kind = read_kind(actor);
-  part.is_static = actor.flag("static", false);
-  part.orientation = read_rotation(actor);
-  part.material = read_material(actor, {});
-  if (part.is_static) {
+ActorPlan read_generic(TableReader& actor, std::vector<Solid> solids) {
+  GenericBody body;
+  body.solids = std::move(solids);
+  body.kind = read_kind(actor);
+  body.is_static = actor.flag("static", false);
+  body.orientation = read_rotation(actor);
+  body.material = read_material(actor, {});
+  if (body.is_static) {
     refuse_motion(actor);
   } else {
-    part.mass_kg = read_mass(actor, shape, size);
-    part.inertia = actor.has("inertia") ? read_inertia(actor) : solid_inertia(shape, size, part.mass_kg);
-    part.angular_velocity = actor.vector("angular_velocity", Sign::any, Vec3(Vec3::Zero()));
+    body.mass = mass_properties(body.solids, read_mass(actor, body.solids));
+    if (actor.has("inertia")) body.mass.inertia = read_inertia(actor);
+    body.angular_velocity = actor.vector("angular_velocity", Sign::any, Vec3(Vec3::Zero()));
   }
-  return [part](const Placement& place, model::Model& model) { build(part, place, model); };
+  return [body](const Placement& place, model::Model& model) { build(body, place, model); };
+}
+
+ActorPlan read_one(TableReader& actor, model::Shape shape) {
+  return read_generic(actor, {{shape, read_size(actor, shape), {}}});
+}
+
+Solid read_solid(TableReader& geom) {
+  geom.set_what("geom of a compound");
+  Solid solid;
+  solid.shape = read_shape(geom, solid_shapes);
+  solid.size = read_size(geom, solid.shape);
+  solid.pose = {geom.vector("position", Sign::any, Vec3(Vec3::Zero())), read_rotation(geom)};
+  geom.finish();
+  return solid;
 }
 
 }  // namespace
 
-ActorPlan read_box(TableReader& actor, const SceneContext&) {
-  const Vec3 size = actor.vector("size", Sign::positive);
-  return read_generic(actor, model::Shape::box, {size.x(), size.y(), size.z()});
-}
+ActorPlan read_box(TableReader& actor, const SceneContext&) { return read_one(actor, model::Shape::box); }
 
 ActorPlan read_sphere(TableReader& actor, const SceneContext&) {
-  return read_generic(actor, model::Shape::sphere, {actor.number("radius", Sign::positive)});
+  return read_one(actor, model::Shape::sphere);
 }
 
 ActorPlan read_capsule(TableReader& actor, const SceneContext&) {
-  const double radius = actor.number("radius", Sign::positive);
-  return read_generic(actor, model::Shape::capsule, {radius, actor.number("length", Sign::positive)});
+  return read_one(actor, model::Shape::capsule);
 }
 
 ActorPlan read_cylinder(TableReader& actor, const SceneContext&) {
-  const double radius = actor.number("radius", Sign::positive);
-  return read_generic(actor, model::Shape::cylinder, {radius, actor.number("length", Sign::positive)});
+  return read_one(actor, model::Shape::cylinder);
+}
+
+ActorPlan read_compound(TableReader& actor, const SceneContext&) {
+  std::vector<Solid> solids;
+  for (TableReader& geom : actor.tables("geoms")) solids.push_back(read_solid(geom));
+  if (solids.empty()) actor.fail("geoms", "'geoms' is missing or empty; give at least one { shape = ... }");
+  return read_generic(actor, std::move(solids));
 }
 
 }  // namespace pbmpi::scenes

@@ -1,11 +1,12 @@
 // Projectiles: bodies that lie ready from the start, and that a tank fires at their time.
+#include <array>
 #include <numbers>
 #include <string>
 
 #include "core/error.h"
 #include "core/text.h"
-#include "model/names.h"
 #include "scenes/actors/actor.h"
+#include "scenes/format/shape_reader.h"
 #include "scenes/parts/mass_properties.h"
 
 namespace pbmpi::scenes {
@@ -29,6 +30,7 @@ struct Projectile {
   double dt_s = 0.01;
 };
 
+constexpr std::array shapes = {model::Shape::sphere, model::Shape::cylinder, model::Shape::box};
 // A contact needs some depth to exist; see the car.
 constexpr double initial_depth_m = 1e-4;
 
@@ -91,23 +93,6 @@ void build(const Projectile& projectile, const Placement& place, model::Model& m
   }
 }
 
-void read_shape(TableReader& actor, Projectile& projectile) {
-  const std::string name = actor.text("shape");
-  if (name == "sphere") {
-    projectile.size = {actor.number("radius", Sign::positive)};
-  } else if (name == "cylinder") {
-    projectile.shape = model::Shape::cylinder;
-    projectile.size = {actor.number("radius", Sign::positive), actor.number("length", Sign::positive)};
-  } else if (name == "box") {
-    projectile.shape = model::Shape::box;
-    const Vec3 size = actor.vector("size", Sign::positive);
-    projectile.size = {size.x(), size.y(), size.z()};
-  } else {
-    actor.fail("shape", "unknown shape " + core::in_quotes(name) +
-                            core::suggestion(name, {"sphere", "cylinder", "box"}));
-  }
-}
-
 void read_shot(TableReader& actor, Shot& shot) {
   if (!actor.has("fired_by")) return;
   shot.tank = actor.text("fired_by");
@@ -124,7 +109,8 @@ void read_shot(TableReader& actor, Shot& shot) {
 ActorPlan read_projectile(TableReader& actor, const SceneContext& context) {
   Projectile projectile;
   projectile.dt_s = context.dt_s;
-  read_shape(actor, projectile);
+  projectile.shape = read_shape(actor, shapes);
+  projectile.size = read_size(actor, projectile.shape);
   projectile.mass_kg = actor.number("density", Sign::positive) * volume(projectile.shape, projectile.size);
   projectile.material = read_material(actor, projectile.material);
   read_shot(actor, projectile.shot);

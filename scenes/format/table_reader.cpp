@@ -59,11 +59,36 @@ double TableReader::checked_number(std::string_view key, const toml::node& node,
   return value;
 }
 
+int TableReader::checked_integer(std::string_view key, const toml::node& node, int least) const {
+  if (!node.is_integer()) fail_at(node, core::in_quotes(key) + " must be a whole number");
+  const std::int64_t value = node.as_integer()->get();
+  if (value < least || value > std::numeric_limits<int>::max()) {
+    fail_at(node, core::in_quotes(key) + " is " + std::to_string(value) + "; it must be at least " +
+                      std::to_string(least) + " and below 2^31");
+  }
+  return static_cast<int>(value);
+}
+
+core::Vec3 TableReader::checked_vector(std::string_view key, const toml::node& node, Sign sign,
+                                       Range range) const {
+  const toml::array* array = node.as_array();
+  if (!array || array->size() != 3)
+    fail_at(node, core::in_quotes(key) + " must have three numbers [x, y, z]");
+  core::Vec3 result;
+  for (int i = 0; i < 3; ++i) result[i] = checked_number(key, (*array)[i], sign, range);
+  return result;
+}
+
 bool TableReader::has(std::string_view key) { return find(key) != nullptr; }
 
 bool TableReader::is_array(std::string_view key) {
   const toml::node* node = find(key);
   return node && node->is_array();
+}
+
+bool TableReader::is_nested_array(std::string_view key) {
+  const toml::node* node = find(key);
+  return node && node->is_array() && !node->as_array()->empty() && node->as_array()->front().is_array();
 }
 
 double TableReader::number(std::string_view key, Sign sign, std::optional<double> fallback) {
@@ -78,14 +103,7 @@ double TableReader::number_or_infinity(std::string_view key, Sign sign, std::opt
 
 int TableReader::integer(std::string_view key, int least, std::optional<int> fallback) {
   if (fallback && !has(key)) return *fallback;
-  const toml::node& node = need(key);
-  if (!node.is_integer()) fail_at(node, core::in_quotes(key) + " must be a whole number");
-  const std::int64_t value = node.as_integer()->get();
-  if (value < least || value > std::numeric_limits<int>::max()) {
-    fail_at(node, core::in_quotes(key) + " is " + std::to_string(value) + "; it must be at least " +
-                      std::to_string(least) + " and below 2^31");
-  }
-  return static_cast<int>(value);
+  return checked_integer(key, need(key), least);
 }
 
 bool TableReader::flag(std::string_view key, bool fallback) {
@@ -105,19 +123,11 @@ std::string TableReader::text(std::string_view key, const std::optional<std::str
 
 core::Vec3 TableReader::vector(std::string_view key, Sign sign, const std::optional<core::Vec3>& fallback) {
   if (fallback && !has(key)) return *fallback;
-  const toml::array& array = need_array(key, "[x, y, z]");
-  if (array.size() != 3) fail_at(array, core::in_quotes(key) + " must have three numbers [x, y, z]");
-  core::Vec3 result;
-  for (int i = 0; i < 3; ++i) result[i] = checked_number(key, array[i], sign);
-  return result;
+  return checked_vector(key, need_array(key, "[x, y, z]"), sign);
 }
 
 core::Vec3 TableReader::vector_or_infinity(std::string_view key) {
-  const toml::array& array = need_array(key, "[x, y, z]");
-  if (array.size() != 3) fail_at(array, core::in_quotes(key) + " must have three numbers [x, y, z]");
-  core::Vec3 result;
-  for (int i = 0; i < 3; ++i) result[i] = checked_number(key, array[i], Sign::any, Range::infinite);
-  return result;
+  return checked_vector(key, need_array(key, "[x, y, z]"), Sign::any, Range::infinite);
 }
 
 core::Vec3 TableReader::direction(std::string_view key, const std::optional<core::Vec3>& fallback) {
@@ -134,6 +144,22 @@ std::vector<std::string> TableReader::texts(std::string_view key) {
     }
     result.push_back(node.as_string()->get());
   }
+  return result;
+}
+
+std::vector<int> TableReader::integers(std::string_view key, int least) {
+  std::vector<int> result;
+  for (const toml::node& node : need_array(key, "[a, b]"))
+    result.push_back(checked_integer(key, node, least));
+  if (result.empty()) fail(key, core::in_quotes(key) + " is empty; give at least one number");
+  return result;
+}
+
+std::vector<core::Vec3> TableReader::vectors(std::string_view key, Sign sign) {
+  std::vector<core::Vec3> result;
+  for (const toml::node& node : need_array(key, "[[x, y, z], [x, y, z]]"))
+    result.push_back(checked_vector(key, node, sign));
+  if (result.empty()) fail(key, core::in_quotes(key) + " is empty; give at least one [x, y, z]");
   return result;
 }
 

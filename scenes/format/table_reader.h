@@ -25,6 +25,8 @@ class TableReader {
 
   bool has(std::string_view key);
   bool is_array(std::string_view key);
+  /// Is it an array that begins with an array?
+  bool is_nested_array(std::string_view key);
   double number(std::string_view key, Sign sign, std::optional<double> fallback = std::nullopt);
   /// A number that may also be infinite (`inf` in TOML).
   double number_or_infinity(std::string_view key, Sign sign, std::optional<double> fallback = std::nullopt);
@@ -37,6 +39,10 @@ class TableReader {
   /// A vector scaled to unit length; refuses zero.
   core::Vec3 direction(std::string_view key, const std::optional<core::Vec3>& fallback = std::nullopt);
   std::vector<std::string> texts(std::string_view key);
+  /// [a, b, ...], not empty.
+  std::vector<int> integers(std::string_view key, int least);
+  /// [[x, y, z], ...], not empty.
+  std::vector<core::Vec3> vectors(std::string_view key, Sign sign);
   /// [a, b]
   std::array<double, 2> pair(std::string_view key);
   /// [[a, b], [c, d], ...] with a < c < ...; empty without the key.
@@ -68,6 +74,9 @@ class TableReader {
   enum class Range { finite, infinite };
   double checked_number(std::string_view key, const toml::node& node, Sign sign,
                         Range range = Range::finite) const;
+  int checked_integer(std::string_view key, const toml::node& node, int least) const;
+  core::Vec3 checked_vector(std::string_view key, const toml::node& node, Sign sign,
+                            Range range = Range::finite) const;
   [[noreturn]] void fail_at(const toml::node& node, const std::string& problem) const;
 
   const toml::table* table_;

@@ -70,4 +70,25 @@ model::Mat3 solid_inertia(Shape shape, const std::array<double, 3>& size, double
   return model::Mat3::Identity();
 }
 
+double volume(const std::vector<Solid>& solids) {
+  double sum = 0;
+  for (const Solid& solid : solids) sum += volume(solid.shape, solid.size);
+  return sum;
+}
+
+MassProperties mass_properties(const std::vector<Solid>& solids, double mass_kg) {
+  const double whole = volume(solids);
+  const auto share_of = [&](const Solid& solid) { return volume(solid.shape, solid.size) / whole; };
+  MassProperties sum{mass_kg, model::Vec3::Zero(), model::Mat3::Zero()};
+  for (const Solid& solid : solids) sum.centre += share_of(solid) * solid.pose.position;
+  for (const Solid& solid : solids) {
+    const double mass = share_of(solid) * mass_kg;
+    const model::Mat3 axes = solid.pose.orientation.to_eigen().toRotationMatrix();
+    const model::Vec3 arm = solid.pose.position - sum.centre;
+    sum.inertia += axes * solid_inertia(solid.shape, solid.size, mass) * axes.transpose();
+    sum.inertia += mass * (arm.squaredNorm() * model::Mat3::Identity() - arm * arm.transpose());  // Steiner
+  }
+  return sum;
+}
+
 }  // namespace pbmpi::scenes

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "model/model.h"
 
@@ -12,5 +13,24 @@ double volume(model::Shape shape, const std::array<double, 3>& size);
 
 /// Inertia [kg m^2] about the centre of mass, in the shape's own axes (capsule and cylinder lie along z).
 model::Mat3 solid_inertia(model::Shape shape, const std::array<double, 3>& size, double mass_kg);
+
+/// A part of a rigid body, in a frame that all its parts share; `size` as in model::Geom.
+struct Solid {
+  model::Shape shape = model::Shape::box;
+  std::array<double, 3> size{};
+  core::Pose pose;
+};
+
+/// The sum over the parts [m^3]: where two overlap counts twice.
+double volume(const std::vector<Solid>& solids);
+
+struct MassProperties {
+  double mass_kg = 0;
+  model::Vec3 centre = model::Vec3::Zero();       ///< of mass [m], in the parts' frame
+  model::Mat3 inertia = model::Mat3::Identity();  ///< [kg m^2] about the centre, axes of the parts' frame
+};
+
+/// Parts of one density, which have `mass_kg` in all.
+MassProperties mass_properties(const std::vector<Solid>& solids, double mass_kg);
 
 }  // namespace pbmpi::scenes

@@ -5,7 +5,7 @@ import unittest
 
 import h5py
 
-from harness import SCENES, SOURCE, ProgramTest
+from harness import EFFECT_SCENES, SCENES, SOURCE, ProgramTest
 
 sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
 
@@ -30,6 +30,16 @@ class Scenes(ProgramTest):
                 summary = self.summary(2, "--scene", scene, "--no-output")
                 self.assertEqual(summary["frames"]["measured"], 5)
                 self.assertEqual(summary["invariants"]["nonfinite_bodies"], 0)
+
+    def test_each_scene_of_effects_has_one_hash_for_1_to_4_ranks(self):
+        for scene, cut in (("Bowling", "worlds"), ("Feathers", "worlds"), ("Stadium", "spaces"), ("Warehouse", "spaces")):
+            for precision in ("double", "single"):
+                with self.subTest(scene=scene, precision=precision):
+                    run = ("--scene", scene, "--precision", precision, "--iterations", 5, "--warmup", 0, "--frames", 2,
+                           "--replicas", 4 if cut == "worlds" else 1, "--no-output")
+                    hashes = {self.summary(1, *run, "--decompose", "worlds")["state_hash"]}
+                    hashes |= {self.summary(ranks, *run, "--decompose", cut)["state_hash"] for ranks in (2, 3, 4)}
+                    self.assertEqual(len(hashes), 1)
 
     def test_CrashSk_goes_from_three_islands_to_one(self):
         islands = self.islands("CrashSk")
@@ -57,8 +67,10 @@ class Scenes(ProgramTest):
 
     def test_list_scenes_has_a_line_for_each(self):
         result = self.pbmpi(1, "--list-scenes")
-        suite, hard_cases = result.stdout.split("Hard cases", 1)
-        self.assertCountEqual([line.split()[0] for line in suite.splitlines()], SCENES)
+        listed, hard_cases = result.stdout.split("Hard cases", 1)
+        suite, effects = listed.split("Scenes of single effects (docs/effects.md):\n", 1)
+        self.assertEqual([line.split()[0] for line in suite.splitlines()], list(SCENES))
+        self.assertEqual([line.split()[0] for line in effects.splitlines()], list(EFFECT_SCENES))
         self.assertIn("hard/rest/", hard_cases)
         self.assertIn(" column20 ", hard_cases)
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "helpers.h"
 
 namespace pbmpi::scenes {
@@ -62,6 +64,16 @@ TEST(Base, the_hundred_crashes_are_the_crash_with_other_poses_of_the_humans) {
   ASSERT_EQ(one->num_bodies(), 37);
   EXPECT_EQ(body(*world, "car.chassis").pose.position, body(*one, "car.chassis").pose.position);
   EXPECT_NE(body(*world, "human1.head").pose.position, body(*one, "human1.head").pose.position);
+}
+
+TEST(Base, of_a_compound_gives_its_geoms_all_or_none) {
+  const std::string head = "title = \"t\"\nbase = \"Bowling\"\n[[actor]]\nname = \"pin\"\n";
+  EXPECT_EQ(body(*build(head + "mass = 1.6\n"), "pin.1").mass_kg, 1.6);
+  const auto blocks =
+      build(head + "geoms = [{ shape = \"box\", size = [0.1, 0.1, 0.3], position = [0, 0, 0.15] }]\n");
+  EXPECT_EQ(std::ranges::count(blocks->geoms, model::Shape::box, &model::Geom::shape),
+            5 + 10);  // lane and pit, pins
+  EXPECT_EQ(std::ranges::count(blocks->geoms, model::Shape::cylinder, &model::Geom::shape), 0);
 }
 
 TEST(Base, of_a_hard_case_gives_its_bounds_key_by_key_and_its_expectations_all_or_none) {

@@ -10,7 +10,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import COLD, SCENES, ProgramTest  # noqa: E402
+from harness import COLD, EFFECT_SCENES, SCENES, ProgramTest  # noqa: E402
 
 SOR = {
     "default": (),
@@ -26,7 +26,7 @@ SOR = {
     "sleeping": ("--effects", "+sleeping,+drag"),
     "field of interest": ("--effects", "+field_of_interest,+restitution"),
 }
-ODE = {"quick": SCENES, "direct": ("2-Cars", "CrashSk", "100CrSk")}  # the big matrix of the others takes minutes
+ODE = {"quick": SCENES + EFFECT_SCENES, "direct": ("2-Cars", "CrashSk", "100CrSk")}  # the big matrix of the others takes minutes
 SIMDS = ("off", "sse2", "avx2", "avx512")
 RUNS_AT_ONCE = 3  # a run waits for most of its time until MPI is up
 FEW = ("--frames", 4, "--warmup", 1, "--no-output", "--report", "json")
@@ -61,7 +61,7 @@ class ManyHashes(ProgramTest):
         self.assertEqual(len(known), 1, (what, list(zip(cases, hashes))))
 
     def test_ranks_and_cuts_leave_every_hash(self):
-        for scene in SCENES:
+        for scene in SCENES + EFFECT_SCENES:
             for name, options in SOR.items():
                 with self.subTest(scene=scene, setting=name):
                     args = ("--scene", scene, "--replicas", 3 if scene == "100CrSk" else 1, *options)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace pbmpi::scenes {
@@ -67,6 +68,28 @@ TEST(MassProperties, of_a_capsule_are_those_of_its_small_cubes) {
 TEST(MassProperties, of_a_capsule_without_length_are_those_of_a_sphere) {
   const auto capsule = solid_inertia(Shape::capsule, {0.3, 1e-12, 0}, 2);
   EXPECT_TRUE(capsule.isApprox(solid_inertia(Shape::sphere, {0.3, 0, 0}, 2), 1e-9));  // of the length, 1e-12
+}
+
+// A bar that is sawn into three, one of which is given as lying and turned back.
+TEST(MassProperties, of_parts_are_those_of_the_whole) {
+  const core::Quat quarter_turn{std::sqrt(0.5), 0, std::sqrt(0.5), 0};  // about y: z goes to x
+  const std::vector<Solid> parts = {{Shape::box, {1, 0.2, 0.3}, {{0.5, 0, 0}, {}}},
+                                    {Shape::box, {2, 0.2, 0.3}, {{2, 0, 0}, {}}},
+                                    {Shape::box, {0.3, 0.2, 3}, {{4.5, 0, 0}, quarter_turn}}};
+  const MassProperties found = mass_properties(parts, 12);
+  EXPECT_NEAR(volume(parts), 6 * 0.2 * 0.3, 1e-15);
+  EXPECT_EQ(found.mass_kg, 12);
+  EXPECT_LT((found.centre - model::Vec3(3, 0, 0)).norm(), 1e-14);  // rounding
+  EXPECT_TRUE(found.inertia.isApprox(solid_inertia(Shape::box, {6, 0.2, 0.3}, 12), 1e-14)) << found.inertia;
+}
+
+TEST(MassProperties, of_one_part_in_its_frame_have_the_bits_of_its_shape) {
+  for (const Shape shape : {Shape::sphere, Shape::box, Shape::capsule, Shape::cylinder}) {
+    const std::array<double, 3> size = {0.31, 0.47, 0.12};
+    const MassProperties found = mass_properties({{shape, size, {}}}, 1.7);
+    EXPECT_EQ(found.centre, model::Vec3(0, 0, 0));
+    EXPECT_EQ(found.inertia, solid_inertia(shape, size, 1.7));
+  }
 }
 
 }  // namespace

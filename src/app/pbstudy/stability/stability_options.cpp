@@ -42,7 +42,8 @@ po::options_description options_description() {
 
 std::vector<std::string> hard_case_names() {
   std::vector<std::string> names;
-  for (const scenes::SceneInfo& scene : scenes::list_hard_cases()) names.push_back(scene.name);
+  for (const scenes::SceneInfo& scene : scenes::list_scenes(scenes::SceneGroup::hard))
+    names.push_back(scene.name);
   return names;
 }
 

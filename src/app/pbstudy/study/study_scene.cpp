@@ -20,7 +20,8 @@ StudyScene study_scene(const scenes::SceneSource& source, const SceneOverrides& 
 std::vector<std::string> study_scene_names(const std::vector<std::string>& given) {
   if (!given.empty() && given != std::vector<std::string>{"all"}) return given;
   std::vector<std::string> names;
-  for (const scenes::SceneInfo& scene : scenes::list_scenes()) names.push_back(scene.name);
+  for (const scenes::SceneInfo& scene : scenes::list_scenes(scenes::SceneGroup::paper))
+    names.push_back(scene.name);
   return names;
 }
 
