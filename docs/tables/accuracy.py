@@ -3,8 +3,11 @@ import re
 
 from tables import programs
 
-ONLY_SETTINGS = ("--estimates", "0", "--dt", "0.01", "--rest-seconds", "0")
-QUICK_TO_MEASURE = ("--repeats", "1", "--floor-seeds", "4")
+# In the others the converged reference and its judges take half an hour.
+REFERENCE_SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Battle", "Fight")
+ONE_STEP = ("--dt", "0.01", "--rest-seconds", "0")
+ONLY_SETTINGS = ("--estimates", "0", "--reference-check", "0", *ONE_STEP)
+QUICK_TO_MEASURE = ("--repeats", "1", "--floor-seeds", "1")
 
 
 def defect(case):
@@ -30,12 +33,45 @@ def crashwa():
 def reference():
     """How far the reference itself is to be trusted, in each scene."""
     with programs.Folder() as folder:
-        _, floors = programs.accuracy_cases(folder, programs.SCENES, "--stepper", "sor", "--precision", "double", "--iterations",
-                                            "1", "--substeps", "1", *ONLY_SETTINGS, *QUICK_TO_MEASURE)
-    lines = (("another solver seed (the noise floor)", "noise_floor_m"), ("half the iterations", "halved_iterations_m"),
-             ("half the step", "halved_dt_m"))
-    rows = [[name, *(programs.millimetres(floors[scene][key]) for scene in programs.SCENES)] for name, key in lines]
-    return programs.table(["defect rms [mm] of the reference with", *programs.SCENES], rows)
+        cases, scenes = programs.accuracy_cases(folder, REFERENCE_SCENES, "--stepper", "sor", "--precision", "double", "--iterations",
+                                                "1", "--substeps", "1", "--max-sweeps", "1", "--estimates", "0", *ONE_STEP,
+                                                "--repeats", "1", "--floor-seeds", "2")
+    second = {case["scene"]: case["stepper"] for case in cases if case["kind"] == "second_method"}
+    taken = [[name, *(text(scenes[scene]["reference"]) for scene in REFERENCE_SCENES)] for name, text in (
+        ("left unsolved of a step [mm]", lambda account: programs.millimetres(account["residual_m"])),
+        ("iterations a step", lambda account: f"{account['iterations']:,.0f}"))]
+    lines = (("defect rms [mm] with another solver seed (the noise floor)", "noise_floor_m"),
+             ("with thirty times as many iterations", "more_iterations_m"), ("of ODE", "second_method_m"),
+             ("with half the step", "halved_dt_m"))
+    rows = [[name, *(programs.millimetres(scenes[scene][key]) + (f" (`{second[scene]}`)" if key == "second_method_m" else "")
+                     for scene in REFERENCE_SCENES)] for name, key in lines]
+    return programs.table(["the reference", *REFERENCE_SCENES], [*taken, *rows])
+
+
+def estimates():
+    """Frames estimated after none, one and two of their three steps: the work that an estimate waits for, and its defect."""
+    scenes = ("CrashSk", "CrashWa", "Fight")
+    with programs.Folder() as folder:
+        cases, _ = programs.accuracy_cases(folder, scenes, "--precision", "double", "--iterations", "20", "--substeps", "1",
+                                           "--reference-check", "0", *ONE_STEP, *QUICK_TO_MEASURE)
+    found = {}
+    for case in cases:
+        if case["kind"] == "estimate":
+            share = case["row_visits"] / frame_visits(case)
+            name = "look" if case["estimate_source"] == "same_solve" else "run"
+            line = (programs.setting_name(case), f"{case['estimate_after']:.0f}", f"{name}, {case['estimate_iterations']:.0f}")
+            found.setdefault(line, {})[case["scene"]] = (share, programs.millimetres(case["defect_body_position_rms"]))
+    rows = []
+    for line, by_scene in found.items():
+        shares = {f"{100 * share:.0f}" for share, _ in by_scene.values()}
+        rows.append([*line, " to ".join(sorted({min(shares, key=float), max(shares, key=float)}, key=float)),
+                     *(by_scene[scene][1] for scene in scenes)])
+    return programs.table(["frames of", "precise steps", "then, iterations a step", "work [%] until it is there", *scenes], rows)
+
+
+def frame_visits(case):
+    """Row visits of the whole frame of an estimate's setting."""
+    return case["rows"] * (case["iterations"] + case["relax"]) * case["substeps"] * case["steps_per_frame"]
 
 
 def least_defect():

@@ -111,7 +111,57 @@ std::vector<int> SpaceDriver::idle_ranks() const {
   return idle;
 }
 
+void SpaceDriver::estimate_with(stepping::SpaceStepper& stepper, std::optional<double> due_s) {
+  estimate_ = std::make_unique<SpaceEstimate>(comm(), stepper, errors(), settings().steps_per_frame,
+                                              settings().dt_s, due_s);
+  if (comm().is_root()) estimated_worlds_ = {{0, &stepper_->model(), &estimate_->state()}};
+}
+
+double SpaceDriver::make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) {
+  if (!estimate_) return 0;
+  const double start_s = core::now_s();
+  estimate_frame(times);
+  estimate_record_.compute_s = core::now_s() - start_s;
+  estimate_record_.steps = estimate_->steps();
+  if (!comm().is_root()) return 0;
+  const double delivered_s = core::now_s() - frame_start_s;
+  hand_to_consumers(frame, stepping::PoseKind::estimate, estimate_->state().position,
+                    estimate_->state().orientation);
+  return delivered_s;
+}
+
+void SpaceDriver::estimate_frame(core::PhaseTimes& times) {
+  if (is_frozen_) return estimate_->take(stepper_->state());
+  switch (estimate_->choose()) {
+    case SpaceEstimate::How::precise:
+      advance(times);
+      is_advanced_ = true;
+      return estimate_->take(stepper_->state());
+    case SpaceEstimate::How::coarse:
+      return estimate_->run(ownership_, stepper_->state(), steps_done_, times);
+    case SpaceEstimate::How::glide:
+      return estimate_->glide(stepper_->state());
+  }
+}
+
+const stepping::EstimateRecord* SpaceDriver::estimate(double delivered_s) {
+  if (!estimate_) return nullptr;
+  estimate_record_.worlds = estimated_worlds_;
+  estimate_record_.delivered_s = delivered_s;
+  return &estimate_record_;
+}
+
+core::Traffic SpaceDriver::take_traffic() {
+  core::Traffic traffic = step_.take_traffic();
+  if (!estimate_) return traffic;
+  const core::Traffic of_estimate = estimate_->take_traffic();
+  traffic.messages += of_estimate.messages;
+  traffic.bytes += of_estimate.bytes;
+  return traffic;
+}
+
 void SpaceDriver::advance(core::PhaseTimes& times) {
+  if (std::exchange(is_advanced_, false)) return;
   if (is_frozen_) {
     steps_done_ += settings().steps_per_frame;
   } else {
@@ -120,6 +170,7 @@ void SpaceDriver::advance(core::PhaseTimes& times) {
 }
 
 void SpaceDriver::step_frame(core::PhaseTimes& times) {
+  const double start_s = core::now_s();
   core::LapTimer timer(times);
   // A rank without bodies only waits for the others, whatever the phases in which it does so.
   const bool idle = !comm().is_root() && ownership_.bodies[comm().rank()].empty();
@@ -136,6 +187,7 @@ void SpaceDriver::step_frame(core::PhaseTimes& times) {
   rebalancer_.note_times(step_.findings());
   end_watched_frame();
   observing.lap(Phase::islands);
+  if (estimate_) estimate_->note_precise(core::now_s() - start_s);
 }
 
 void SpaceDriver::observe() {

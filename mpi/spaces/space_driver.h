@@ -10,6 +10,7 @@
 
 #include "mpi/frame/frame_driver.h"
 #include "mpi/spaces/plan/space_loads.h"
+#include "mpi/spaces/space_estimate.h"
 #include "mpi/spaces/space_rebalancer.h"
 #include "mpi/spaces/step/space_step.h"
 #include "stability/world_guard.h"
@@ -35,6 +36,10 @@ class SpaceDriver final : public FrameDriver {
   /// none, before run().
   void watch(const stability::GuardSettings& settings);
 
+  /// Estimates every frame first (FEEC), with a stepper of the same world; by `due_s` after the start of the
+  /// frame, if it is due. Borrowed. On every rank or on none, before run().
+  void estimate_with(stepping::SpaceStepper& stepper, std::optional<double> due_s);
+
   const stepping::WorldTable& table() const override { return table_; }
   std::vector<stepping::LocalWorld> local_worlds() const override;
   std::vector<int> idle_ranks() const override;
@@ -46,6 +51,8 @@ class SpaceDriver final : public FrameDriver {
   void set_step_hook(StepHook hook) { hook_ = std::move(hook); }
 
  private:
+  double make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) override;
+  const stepping::EstimateRecord* estimate(double delivered_s) override;
   void advance(core::PhaseTimes& times) override;
   int lowest_nonfinite_world() const override;
   std::int64_t count_nonfinite(int world) const override;
@@ -59,8 +66,9 @@ class SpaceDriver final : public FrameDriver {
   std::string make_moves(std::int64_t num_moves, std::int64_t step) override;
   std::uint64_t state_hash() const override;
   std::vector<model::State> gather_states() const override;
-  core::Traffic take_traffic() override { return step_.take_traffic(); }
+  core::Traffic take_traffic() override;
 
+  void estimate_frame(core::PhaseTimes& times);
   void step_frame(core::PhaseTimes& times);
   void observe();
   void end_watched_frame();
@@ -81,6 +89,10 @@ class SpaceDriver final : public FrameDriver {
   SpaceRebalancer rebalancer_;  ///< used on root
   Reassignment planned_;        ///< root: what rebalancer_ decided after the last frame
   StepHook hook_;
+  std::unique_ptr<SpaceEstimate> estimate_;  ///< with FEEC
+  bool is_advanced_ = false;                 ///< the frame is done: its estimate was the precise result
+  std::vector<stepping::LocalWorld> estimated_worlds_;  ///< on root
+  stepping::EstimateRecord estimate_record_;
 };
 
 /// Owners of spaces before anything is measured: longest processing time first, by the rows of their joints

@@ -60,6 +60,7 @@ double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core
     }
   });
   estimate_record_.compute_s = core::now_s() - start_s;
+  estimate_record_.steps = estimator_->steps();
 
   core::LapTimer timer(times);
   estimates_->start(estimated_worlds_, std::vector<double>(estimated_worlds_.size(), 0));

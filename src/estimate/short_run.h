@@ -24,12 +24,14 @@ class ShortRun final : public stepping::Estimator {
     const auto found = standing_.find(world);
     return found == standing_.end() ? stepper_->state(world) : found->second;
   }
+  stepping::EstimatedSteps steps() const override { return {.coarse = num_steps_}; }
 
  private:
   void follow(std::span<const stepping::LocalWorld> worlds, std::int64_t step);
 
   std::unique_ptr<stepping::WorldStepper> stepper_;
   std::set<int> worlds_;                  ///< that stepper_ has
+  int num_steps_ = 0;                     ///< of the last estimate
   std::map<int, model::State> standing_;  ///< worlds that stand still (model::GuardMemory), as they are
 };
 

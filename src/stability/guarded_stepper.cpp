@@ -57,14 +57,37 @@ void GuardedStepper::set_state(int world, const model::State& state, std::int64_
 }
 
 void GuardedStepper::advance(int num_steps, core::PhaseTimes& times) {
-  {  // what the guards step again is no part of the frame
+  core::require_invariant(num_steps >= begun_steps_, "advance: no fewer steps than have begun");
+  const int begun_steps = std::exchange(begun_steps_, 0);
+  if (num_steps == 0 || num_steps > begun_steps) {  // what the guards step again is no part of the frame
     const core::SectionMark mark(core::SectionMark::Section::precise);
-    inner_->advance(num_steps, times);
+    step(num_steps - begun_steps, times);
   }
   if (num_steps == 0) return;
   core::LapTimer timer(times);
-  for (auto& [world, slot] : worlds_) end_frame(world, slot, num_steps);
+  for (auto& [world, slot] : worlds_) {
+    slot.cost_s = std::exchange(slot.begun_cost_s, 0);
+    end_frame(world, slot, num_steps);
+  }
   timer.lap(core::Phase::islands);
+}
+
+void GuardedStepper::step(int num_steps, core::PhaseTimes& times) {
+  inner_->advance(num_steps, times);
+  if (num_steps == 0) return;
+  for (auto& [world, slot] : worlds_) {
+    if (!slot.now.is_frozen()) slot.begun_cost_s += inner_->cost_s(world);
+  }
+}
+
+void GuardedStepper::begin_frame(int num_steps, core::PhaseTimes& times) {
+  begun_steps_ += num_steps;
+  step(num_steps, times);
+}
+
+const model::State& GuardedStepper::begun(int world) const {
+  const Slot& slot = worlds_.at(world);
+  return slot.now.is_frozen() ? slot.now.state : inner_->state(world);
 }
 
 void GuardedStepper::end_frame(int world, Slot& slot, int num_steps) {
@@ -81,7 +104,8 @@ void GuardedStepper::end_frame(int world, Slot& slot, int num_steps) {
 double GuardedStepper::cost_s(int world) const {
   // Loads are divided by their sum, which must not be 0 where all worlds stand.
   constexpr double next_to_nothing_s = 1e-9;
-  return worlds_.at(world).now.is_frozen() ? next_to_nothing_s : inner_->cost_s(world);
+  const Slot& slot = worlds_.at(world);
+  return slot.now.is_frozen() ? next_to_nothing_s : slot.cost_s;
 }
 
 const stepping::StepProfile* GuardedStepper::profile(int world) const {

@@ -17,7 +17,7 @@ namespace pbmpi::stability {
 /// States carry what the guards remember (State::guard), so that all goes on alike where a world moves to
 /// another rank or comes from a checkpoint. With freeze and refine a world that blows up gets another state,
 /// and one that stands is kept out of the other stepper, whose other worlds keep their bits.
-class GuardedStepper final : public stepping::AnytimeStepper, public stepping::RunEventSource {
+class GuardedStepper final : public stepping::FrameStepper, public stepping::RunEventSource {
  public:
   /// begin_step() and look() are for an `inner` that is an AnytimeStepper.
   GuardedStepper(std::unique_ptr<stepping::WorldStepper> inner, GuardSettings settings);
@@ -39,6 +39,8 @@ class GuardedStepper final : public stepping::AnytimeStepper, public stepping::R
 
   void begin_step(int iterations, core::PhaseTimes& times) override;
   const model::State& look(int world) const override;
+  void begin_frame(int num_steps, core::PhaseTimes& times) override;
+  const model::State& begun(int world) const override;
 
   std::vector<stepping::RunEvent> take_events() override { return std::exchange(events_, {}); }
 
@@ -47,15 +49,18 @@ class GuardedStepper final : public stepping::AnytimeStepper, public stepping::R
     std::shared_ptr<const model::Model> model;
     std::unique_ptr<WorldGuard> guard;
     std::int64_t step = 0;
-    Watched now, before;  ///< `before`: the state of a frame ago; kept for its memory
+    double begun_cost_s = 0, cost_s = 0;  ///< of what is begun of a frame; of the last frame
+    Watched now, before;                  ///< `before`: the state of a frame ago; kept for its memory
   };
 
+  void step(int num_steps, core::PhaseTimes& times);
   void end_frame(int world, Slot& slot, int num_steps);
 
   GuardSettings settings_;
   std::unique_ptr<stepping::WorldStepper> inner_;
   stepping::AnytimeStepper* anytime_ = nullptr;  ///< inner_, if it is one
   std::map<int, Slot> worlds_;
+  int begun_steps_ = 0;  ///< of the frame, by begin_frame()
   std::vector<stepping::RunEvent> events_;
 };
 

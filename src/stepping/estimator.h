@@ -24,6 +24,8 @@ class Estimator {
 
   /// The estimate of a world of the last estimate(). One that blew up is returned as it is.
   virtual const model::State& state(int world) const = 0;
+  /// What the last estimate() did for the frame's steps.
+  virtual EstimatedSteps steps() const = 0;
 };
 
 }  // namespace pbmpi::stepping

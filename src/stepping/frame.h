@@ -36,11 +36,18 @@ struct LocalWorld {
   const StepContacts* contacts = nullptr;
 };
 
+/// How an estimate goes through the steps of its frame: precise ones first, then coarse ones; what is left
+/// bodies glide.
+struct EstimatedSteps {
+  int precise = 0, coarse = 0;
+};
+
 /// The estimate of a frame, which was there before the precise result (FEEC).
 struct EstimateRecord {
   std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id: estimated states, no observables
   double delivered_s = 0;  ///< start of the frame until root had all poses: the same on every rank
-  double compute_s = 0;    ///< time that this rank took for it
+  double compute_s = 0;    ///< time that this rank took for it, what it began of the precise frame included
+  EstimatedSteps steps;    ///< of this rank
 };
 
 /// A finished frame as its rank saw it. Spans and pointers hold until the observer returns.

@@ -127,4 +127,15 @@ class AnytimeStepper : public WorldStepper {
   virtual const model::State& look(int world) const = 0;
 };
 
+/// A stepper whose frame can be begun before advance() is called for it.
+class FrameStepper : public AnytimeStepper {
+ public:
+  /// Does the first steps of a frame, or goes on after those that it has done. The next advance() counts them
+  /// among its own: its result is the same, bit for bit. Until then state() is that before the frame, and a
+  /// begin_step() is of the step after them. Adds the seconds spent to `times`.
+  virtual void begin_frame(int num_steps, core::PhaseTimes& times) = 0;
+  /// The state of a world after the steps of begin_frame().
+  virtual const model::State& begun(int world) const = 0;
+};
+
 }  // namespace pbmpi::stepping

@@ -17,6 +17,8 @@ SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file_
 AT_ONCE = {"OMPI_MCA_odls_base_sigkill_timeout": "0"}
 # The nine scenes of the paper.
 SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
+# Those that call for the effects that none of the nine calls for: scenes/effects.
+EFFECT_SCENES = ("Bowling", "Feathers", "Stadium", "Warehouse")
 # sor without a memory, in one substep: iterations alone decide how near a step comes to its solution.
 COLD = ("--stepper", "sor", "--substeps", 1, "--relax", 0, "--warm-start", 0, "--sor-factor", 1.3, "--contact-frequency", 0,
         "--joint-frequency", 0, "--contact-margin", 0, "--friction", "pyramid")

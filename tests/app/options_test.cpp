@@ -137,7 +137,7 @@ TEST(Options, feec_looks_at_the_precise_solve_where_it_is_the_only_one_of_a_fram
     std::vector<std::string> args = {"--scene",      "Fake", "--stepper",         "sor", "--feec",
                                      "--iterations", "20",   "--steps-per-frame", "1"};
     args.insert(args.end(), more.begin(), more.end());
-    return resolve(parse_options(args), FakeScene({})).estimate_source;
+    return resolve(parse_options(args), FakeScene({})).estimate->source;
   };
   EXPECT_EQ(source({"--substeps", "1"}), EstimateSource::same_solve);
   EXPECT_EQ(source({"--substeps", "1", "--estimate-iterations", "20"}), EstimateSource::same_solve);
@@ -153,9 +153,9 @@ TEST(Options, feec_estimates_as_the_precise_stepper_does_but_with_one_iteration)
   const RunSpec spec =
       resolve(parse_options({"--scene", "Fake", "--feec", "--solver-seed", "7"}), FakeScene({}));
   ASSERT_TRUE(spec.estimate.has_value());
-  EXPECT_EQ(spec.estimate->kind, stepping::StepperKind::sor);
-  EXPECT_EQ(spec.estimate->iterations, 1);
-  EXPECT_EQ(spec.estimate->seed, 7u);
+  EXPECT_EQ(spec.estimate->stepper.kind, stepping::StepperKind::sor);
+  EXPECT_EQ(spec.estimate->stepper.iterations, 1);
+  EXPECT_EQ(spec.estimate->stepper.seed, 7u);
   EXPECT_EQ(spec.stepper.seed, 7u);
   EXPECT_EQ(spec.scene_seed, 1u);
   EXPECT_FALSE(resolve(parse_options({"--scene", "Fake"}), FakeScene({})).estimate.has_value());
@@ -168,9 +168,9 @@ TEST(Options, feec_may_estimate_with_another_stepper) {
               FakeScene({}));
   ASSERT_TRUE(spec.estimate.has_value());
   EXPECT_EQ(spec.stepper.kind, stepping::StepperKind::quick);
-  EXPECT_EQ(spec.estimate->kind, stepping::StepperKind::sor);
-  EXPECT_EQ(spec.estimate->iterations, 3);
-  EXPECT_EQ(spec.estimate->precision, stepping::Precision::single);
+  EXPECT_EQ(spec.estimate->stepper.kind, stepping::StepperKind::sor);
+  EXPECT_EQ(spec.estimate->stepper.iterations, 3);
+  EXPECT_EQ(spec.estimate->stepper.precision, stepping::Precision::single);
 }
 
 TEST(Options, those_of_the_estimate_are_refused_where_they_make_no_sense) {
@@ -224,7 +224,9 @@ TEST(Options, cut_into_spaces_by_themselves_only_where_it_helps) {
   EXPECT_EQ(decided(sor, 3, 1), Decomposition::worlds);
   EXPECT_EQ(decided({"--scene", "Fake"}, 3, 2), Decomposition::spaces) << "sor is the default stepper";
   EXPECT_EQ(decided({"--scene", "Fake", "--stepper", "quick"}, 3, 2), Decomposition::worlds);
-  EXPECT_EQ(decided({"--scene", "Fake", "--feec"}, 3, 2), Decomposition::worlds);
+  EXPECT_EQ(decided({"--scene", "Fake", "--feec"}, 3, 2), Decomposition::spaces);
+  EXPECT_EQ(decided({"--scene", "Fake", "--feec", "--estimate-after", "1"}, 3, 2), Decomposition::worlds)
+      << "what is precise of a cut frame is known to no rank alone";
   EXPECT_EQ(decided({"--scene", "Fake", "--stepper", "sor", "--replicas", "2"}, 3, 2), Decomposition::worlds);
 }
 

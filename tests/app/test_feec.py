@@ -42,14 +42,72 @@ class Feec(ProgramTest):
         ratio = summary["estimate"]["precise_over_delivered"]
         self.assertAlmostEqual(ratio / (completed.sum() / delivered.sum()), 1, delta=1e-12)
 
-    def test_a_world_of_many_spaces_stays_whole(self):
-        args = ["--scene", "Fight", "--stepper", "sor", "--frames", 2, "--no-output", "--feec"]
-        one, two = self.summary(1, *args), self.summary(2, *args)
-        self.assertEqual(two["decomposition"], "worlds")
-        self.assertEqual(two["state_hash"], one["state_hash"])
-        refused = self.pbmpi(2, *args, "--decompose", "spaces")
-        self.assertEqual(refused.returncode, 2, refused.stderr)
-        self.assertIn("--feec: ", refused.stderr)
+    def test_a_world_of_many_spaces_is_estimated_in_parts_to_the_same_bits(self):
+        for scene, options in (("Fight", []), ("CrashWa", []), ("Battle2", ["--precision", "single"]), ("Environ", ["--effects", "+sleeping"])):
+            args = ["--scene", scene, "--frames", 3, *options]
+            alone = self.summary(1, *args, "--no-output")["state_hash"]
+            for ranks in (1, 2, 3, 4):
+                cut = self.summary(ranks, *args, "--feec", "--output", f"run{ranks}.h5")
+                self.assertEqual((cut["decomposition"], cut["state_hash"]), ("worlds" if ranks == 1 else "spaces", alone))
+                with h5py.File(self.path("run1.h5")) as one, h5py.File(self.path(f"run{ranks}.h5")) as file:
+                    for column in ("position/value", "orientation/value"):
+                        self.assertEqual(one["estimate"][column][:].tobytes(), file["estimate"][column][:].tobytes(), (scene, ranks))
+                    self.assertGreater(np.abs(file["estimate/position/value"][:] - file["particles/bodies/position/value"][:]).max(), 0)
+                    self.assertTrue((file["estimate/coarse_steps"][:] == 3).all())
+
+    def test_what_cannot_estimate_a_cut_world_is_refused_and_by_itself_leaves_it_whole(self):
+        args = ["--scene", "Fight", "--frames", 2, "--no-output", "--feec"]
+        for options, name in ((["--estimate-after", 1], "--estimate-after"), (["--estimate-stepper", "quick"], "--estimate-stepper quick")):
+            refused = self.pbmpi(2, *args, *options, "--decompose", "spaces")
+            self.assertEqual(refused.returncode, 2, refused.stderr)
+            self.assertIn(name + ": ", refused.stderr)
+            self.assertEqual(self.summary(2, *args, *options)["decomposition"], "worlds")
+
+    def test_an_estimate_after_precise_steps_is_nearer_and_leaves_the_run_alone(self):
+        for stepper in (["--stepper", "quick"], [], COLD):
+            args = ["--scene", "CrashSk", "--replicas", 3, *stepper, "--iterations", 20]
+            alone = self.summary(1, *args, "--no-output")["state_hash"]
+            defects = []
+            for after in (0, 1, 2):
+                estimates = []
+                for ranks in (1, 3):
+                    summary = self.summary(ranks, *args, "--feec", "--estimate-after", after, "--output", "run.h5")
+                    self.assertEqual(summary["state_hash"], alone)
+                    self.assertEqual(summary["estimate"]["after_steps"], after)
+                    with h5py.File(self.path("run.h5")) as file:
+                        self.assertTrue((file["estimate/precise_steps"][:] == after).all())
+                        estimates.append(file["estimate/position/value"][:].tobytes())
+                self.assertEqual(estimates[0], estimates[1])
+                defects.append(summary["estimate"]["position_defect_m"]["rms"])
+            self.assertEqual(defects, sorted(defects, reverse=True))
+            self.assertLess(defects[2], defects[0])
+            source = summary["estimate"]["source"]
+            self.assertEqual(source, "same_solve" if stepper == COLD else "short_run")
+
+    def test_an_estimate_is_there_when_it_is_due_and_leaves_the_run_alone(self):
+        for ranks, scene in ((1, "CrashSk"), (3, "CrashSk"), (2, "Fight")):
+            args = ["--scene", scene, "--frames", 6]
+            alone = self.summary(1, *args, "--no-output")["state_hash"]
+            ample = self.summary(ranks, *args, "--feec", "--estimate-by", "100s", "--output", "ample.h5")
+            self.assertEqual((ample["state_hash"], ample["estimate"]["source"]), (alone, "until_due"))
+            self.assertEqual((ample["estimate"]["due_s"], ample["estimate"]["in_time_fraction"]), (100, 1))
+            self.assertEqual(ample["estimate"]["position_defect_m"]["max"], 0, "there is time for the precise frame")
+            none = self.summary(ranks, *args, "--feec", "--estimate-by", "0.001us", "--output", "none.h5")
+            self.assertEqual((none["state_hash"], none["estimate"]["in_time_fraction"]), (alone, 0))
+            self.assertGreater(none["estimate"]["position_defect_m"]["max"], 0)
+            with h5py.File(self.path("ample.h5")) as early, h5py.File(self.path("none.h5")) as late:
+                has_worlds = early["estimate/precise_steps"][:].max(axis=0) > 0
+                self.assertTrue((early["estimate/precise_steps"][:, has_worlds] == 3).all())
+                start = late["particles/bodies/position/value"][3:-1]
+                # Bodies that no step moved: the first frames count on no time at all for a step that is not known yet.
+                self.assertTrue((late["estimate/coarse_steps"][4:] == 0).all() and (late["estimate/precise_steps"][4:] == 0).all())
+                gone = late["estimate/position/value"][4:] - start - 0.03 * late["particles/bodies/velocity/value"][3:-1]
+                # A sum of two roundings of numbers below 100.
+                self.assertLess(np.abs(gone).max(), 1e-13)
+            self.assertEqual(self.json(self.report("ample.h5", "--json"))["estimate"], ample["estimate"])
+        both = self.pbmpi(1, "--scene", "CrashSk", "--feec", "--estimate-by", "1ms", "--estimate-after", 1)
+        self.assertEqual(both.returncode, 2)
+        self.assertIn("exclude each other", both.stderr)
 
     def test_as_many_iterations_as_the_precise_run_leave_no_defect(self):
         for setting in (["--stepper", "quick"], [*COLD, "--iterations", 20], ["--substeps", 1, "--iterations", 20]):

@@ -330,7 +330,8 @@ def diff_text(table, what="drift:"):
 
 
 def judge_study(path, budget_s):
-    """Scene -> worst frame times and errors of its front, by rising time, and the one that is chosen."""
+    """Scene -> worst frame times and errors of its front, by rising time, the one that is chosen, and how far the reference
+    may be off."""
     with h5py.File(path, "r") as file:
         cases = {name: column[:] for name, column in file["cases"].items()}
     time, error = cases["frame_time_worst"], cases["defect_body_position_rms"]
@@ -347,7 +348,8 @@ def judge_study(path, budget_s):
         points = sorted(front(mine), key=lambda i: time[i])
         within = [i for i in front([i for i in mine if not falls[i]]) if time[i] <= budget_s]
         chosen = min(within, key=lambda i: error[i], default=None)
-        result[scene.decode()] = {"front": [[float(time[i]), float(error[i])] for i in points],
+        judges = (cases["scene"] == scene) & np.isin(cases["kind"], [b"floor", b"more_iterations", b"second_method"])
+        result[scene.decode()] = {"uncertainty": float(error[judges].max(initial=0)), "front": [[float(time[i]), float(error[i])] for i in points],
                                   "chosen": None if chosen is None else [float(time[chosen]), float(error[chosen])]}
     return result
 

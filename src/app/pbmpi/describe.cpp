@@ -113,6 +113,18 @@ void print_spaces(std::ostream& out, const model::Model& model, int num_ranks) {
   }
 }
 
+/// When and from what a frame is estimated.
+std::string time_text(const EstimateSpec& estimate, int steps_per_frame) {
+  std::ostringstream text;
+  if (estimate.due_s) {
+    text << "due " << 1e3 * *estimate.due_s << " ms after the start of each frame";
+    return text.str();
+  }
+  text << (estimate.source == EstimateSource::same_solve ? "from the same solve" : "before each frame");
+  if (estimate.after > 0) text << ", after " << estimate.after << " of its " << steps_per_frame << " steps";
+  return text.str();
+}
+
 void print_plan(std::ostream& out, const effects::RunPlan& plan, stepping::StepperKind stepper) {
   out << "step plan:\n";
   for (const effects::RunPass& pass : plan.passes()) {
@@ -142,11 +154,10 @@ std::string describe(const Work& work, int num_ranks) {
       << "stepper: " << name_of(spec.stepper.kind) << ", " << spec.stepper.iterations << " iterations, seed "
       << spec.stepper.seed << '\n';
   if (spec.estimate) {
-    out << "estimate: " << name_of(spec.estimate->kind) << ", " << spec.estimate->iterations << " iteration"
-        << (spec.estimate->iterations == 1 ? "" : "s") << ", " << name_of(spec.estimate->precision)
-        << " precision, "
-        << (spec.estimate_source == EstimateSource::same_solve ? "from the same solve\n"
-                                                               : "before each frame\n");
+    const stepping::StepperSettings& stepper = spec.estimate->stepper;
+    out << "estimate: " << name_of(stepper.kind) << ", " << stepper.iterations << " iteration"
+        << (stepper.iterations == 1 ? "" : "s") << ", " << name_of(stepper.precision) << " precision, "
+        << time_text(*spec.estimate, spec.steps_per_frame) << '\n';
   }
   if (!spec.effects.empty()) out << "effects chosen: " << effects::to_text(spec.effects) << '\n';
   print_plan(out, census.plan, spec.stepper.kind);

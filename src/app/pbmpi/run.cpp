@@ -38,7 +38,7 @@ std::string hard_case_list() {
   std::string text = "Hard cases (docs/stability.md):";
   std::string group;
   std::size_t line_begin = 0;
-  for (const scenes::SceneInfo& scene : scenes::list_hard_cases()) {
+  for (const scenes::SceneInfo& scene : scenes::list_scenes(scenes::SceneGroup::hard)) {
     const std::size_t name_begin = scene.name.rfind('/') + 1;
     const bool is_new_group = group != scene.name.substr(0, name_begin);
     group = scene.name.substr(0, name_begin);
@@ -53,13 +53,19 @@ std::string hard_case_list() {
   return text + "\n";
 }
 
-std::string scene_list() {
+/// A line each: name and title.
+std::string titled_list(scenes::SceneGroup group, const std::string& indent) {
   std::string text;
-  for (const scenes::SceneInfo& scene : scenes::list_scenes()) {
-    text += scene.name + std::string(scene.name.size() < 12 ? 12 - scene.name.size() : 1, ' ') + scene.title +
-            "\n";
+  for (const scenes::SceneInfo& scene : scenes::list_scenes(group)) {
+    text += indent + scene.name + std::string(scene.name.size() < 12 ? 12 - scene.name.size() : 1, ' ') +
+            scene.title + "\n";
   }
-  return text + hard_case_list();
+  return text;
+}
+
+std::string scene_list() {
+  return titled_list(scenes::SceneGroup::paper, "") + "Scenes of single effects (docs/effects.md):\n" +
+         titled_list(scenes::SceneGroup::effects, "  ") + hard_case_list();
 }
 
 RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, const Provenance& provenance,
@@ -91,11 +97,13 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
 EstimateSummary estimate_summary(const RunSpec& spec, const mpi::WorldRunResult& result,
                                  const EstimateMonitor& monitor) {
   EstimateSummary summary;
-  const stepping::StepperSettings& settings = *spec.estimate;
+  const stepping::StepperSettings& settings = spec.estimate->stepper;
   summary.stepper = name_of(settings.kind);
-  summary.source = estimate_source_names[static_cast<std::size_t>(spec.estimate_source)];
+  summary.source = estimate_source_names[static_cast<std::size_t>(spec.estimate->source)];
   summary.iterations = settings.iterations;
   summary.precision = name_of(settings.precision);
+  summary.after = spec.estimate->after;
+  summary.due_s = spec.estimate->due_s;
   std::vector<double> delivered_s, precise_s;
   for (const mpi::FrameTimes& times : result.times) {
     if (!times.measured) continue;

@@ -3,8 +3,6 @@
 #include <utility>
 
 #include "app/common/stepper_factory.h"
-#include "estimate/same_solve.h"
-#include "estimate/short_run.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/spaces/space_driver.h"
 #include "mpi/worlds/world_driver.h"
@@ -47,15 +45,16 @@ Simulation make_simulation(const mpi::Communicator& comm, const Work& work) {
     auto driver =
         std::make_unique<mpi::SpaceDriver>(comm, *simulation.spaces, driver_settings(spec), work.states);
     driver->watch(*simulation.guards);
+    if (spec.estimate) {
+      simulation.estimate_spaces =
+          mpi::agree_on_errors(comm, [&] { return make_space_stepper(spec.estimate->stepper, build(0)); });
+      driver->estimate_with(*simulation.estimate_spaces, spec.estimate->due_s);
+    }
     simulation.driver = std::move(driver);
   } else {
     auto guarded =
         std::make_unique<stability::GuardedStepper>(make_stepper(spec.stepper), guard_settings(spec));
-    if (spec.estimate && spec.estimate_source == EstimateSource::same_solve) {
-      simulation.estimator = std::make_unique<estimate::SameSolve>(*guarded, spec.estimate->iterations);
-    } else if (spec.estimate) {
-      simulation.estimator = std::make_unique<estimate::ShortRun>(make_stepper(*spec.estimate, "estimate: "));
-    }
+    if (spec.estimate) simulation.estimator = make_estimator(*spec.estimate, *guarded);
     auto driver =
         std::make_unique<mpi::WorldDriver>(comm, *guarded, build, driver_settings(spec), work.states);
     driver->set_event_source(*guarded);

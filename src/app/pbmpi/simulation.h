@@ -18,7 +18,8 @@ struct Simulation {
   std::unique_ptr<stability::GuardSettings> guards;
   std::unique_ptr<stepping::WorldStepper> worlds;
   std::unique_ptr<stepping::SpaceStepper> spaces;
-  std::unique_ptr<stepping::Estimator> estimator;  ///< with FEEC
+  std::unique_ptr<stepping::Estimator> estimator;           ///< with FEEC, of whole worlds
+  std::unique_ptr<stepping::SpaceStepper> estimate_spaces;  ///< with FEEC, of a world that is cut
   std::unique_ptr<mpi::FrameDriver> driver;
 };
 

@@ -37,6 +37,9 @@ std::vector<EffectSummary> effect_summaries(const effects::RunPlan& plan);
 struct EstimateSummary {
   std::string stepper, precision = "double", source = "short_run";
   int iterations = 1;
+  int after = 0;                ///< precise steps with which every estimate begins
+  std::optional<double> due_s;  ///< start of the frame until the estimate is due; then `after` says nothing
+  double in_time_fraction = 0;  ///< of the estimates, if they are due
   double delivered_p50_s = 0, delivered_p99_s = 0, delivered_max_s = 0;  ///< start of the frame to delivery
   double harmonic_mean_hz = 0, satisfied_fraction = 0;                   ///< of the deliveries
   double precise_over_delivered = 0;       ///< sum of the frames' precise times over that of their deliveries
@@ -113,7 +116,7 @@ struct MeasuredFrames {
 /// product.
 void compute_performance(const MeasuredFrames& frames, RunSummary& summary);
 
-/// Fills the times of `estimate` from those of the measured frames [T].
+/// Fills the times of `estimate`, whose due_s is set, from those of the measured frames [T].
 void compute_delivery(const std::vector<double>& delivered_s, const std::vector<double>& precise_s,
                       double budget_s, EstimateSummary& estimate);
 

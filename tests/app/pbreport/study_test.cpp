@@ -81,6 +81,21 @@ TEST(Study, the_noise_floor_is_that_of_the_worst_seed) {
   EXPECT_EQ(scene().floor_m(ErrorMeasure::rms), 2.5e-3);
 }
 
+TEST(Study, the_reference_is_known_to_the_worst_of_its_yardsticks_but_for_the_steps_length) {
+  SceneCases cases = scene();
+  EXPECT_EQ(cases.uncertainty_m(ErrorMeasure::rms), 2.5e-3) << "the noise floor";
+  cases.more_iterations = setting(90, 1);
+  cases.second_method = setting(90, 4);
+  cases.halved_dt = setting(90, 30);
+  EXPECT_EQ(cases.uncertainty_m(ErrorMeasure::rms), 4e-3);
+  const AccuracyReportOptions by_rms;
+  EXPECT_TRUE(is_inside(cases, cases.settings[0], by_rms)) << "2 mm";
+  EXPECT_EQ(inside_text(cases, cases.settings[0], by_rms),
+            ": within the 4 mm to which the reference is known");
+  EXPECT_FALSE(is_inside(cases, cases.settings[3], by_rms)) << "5 mm";
+  EXPECT_EQ(inside_text(cases, cases.settings[3], by_rms), "");
+}
+
 TEST(Study, a_setting_becomes_the_options_that_give_it) {
   const std::string preset = preset_text(setting(1, 10));
   for (const char* line : {"scene = Fake\n", "stepper = sor\n", "substeps = 2\n", "iterations = 3\n",
@@ -102,7 +117,11 @@ TEST(Study, the_text_of_a_setting_leaves_out_what_all_have_in_common) {
   one.stepper.warm_start = 0.9;
   one.stepper.row_order = stepping::RowOrder::fixed;
   one.estimate_iterations = 2;
-  EXPECT_EQ(setting_text(one), "sor single, 8 x 3, factor 1.5, warm 0.9, fixed order, look at 2, dt 0.01 s");
+  EXPECT_EQ(setting_text(one), "sor single, 8 x 3, factor 1.5, warm 0.9, fixed order, 2 a step, dt 0.01 s");
+  one.is_look = true;
+  one.estimate_after = 1;
+  EXPECT_EQ(setting_text(one),
+            "sor single, 8 x 3, factor 1.5, warm 0.9, fixed order, look at 2 after 1 step, dt 0.01 s");
   one.stepper = {.kind = stepping::StepperKind::direct, .dt_s = 0.01};
   one.estimate_iterations = 0;
   EXPECT_EQ(setting_text(one), "direct, dt 0.01 s");

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/pbstudy/accuracy/case_runner.h"
+#include "app/pbstudy/accuracy/yardsticks.h"
 #include "core/error.h"
 #include "stepping/step_options.h"
 
@@ -68,29 +69,40 @@ TEST(AccuracyCases, beside_all_others_sor_is_measured_as_it_is_meant_to_be_used)
   EXPECT_EQ(found.size(), 4u);
 }
 
-TEST(AccuracyCases, estimates_look_into_the_scenes_own_solve) {
-  const auto cases = cases_of(options_of({"--estimates", "0", "2", "20", "21", "--precision", "double"}));
-  EXPECT_EQ(count(cases, CaseKind::estimate), 2) << "0: none; 21: more than the 20 of the scene";
+TEST(AccuracyCases, frames_are_estimated_after_each_number_of_their_steps) {
+  const auto cases =
+      cases_of(options_of({"--stepper", "quick", "sor", "--estimates", "0", "2", "--precision", "double"}));
+  std::map<std::tuple<stepping::StepperKind, int, int>, const AccuracyCase*> found;
   for (const AccuracyCase& one : cases) {
-    EXPECT_EQ(one.estimate_iterations > 0, one.kind == CaseKind::estimate);
-    if (one.kind == CaseKind::estimate) {
-      EXPECT_EQ(one.sweeps(), 20);
-    }
+    EXPECT_EQ(one.estimate.has_value(), one.kind == CaseKind::estimate);
+    if (one.estimate) found[{one.stepper.kind, one.stepper.relax, one.estimate->after}] = &one;
   }
-  EXPECT_EQ(count(cases_of(options_of({"--stepper", "quick"})), CaseKind::estimate), 0);
+  EXPECT_EQ(found.size(), 3u * 3u) << "quick, sor cold and with a memory; after none, one and two steps";
+  const AccuracyCase& look = *found.at({stepping::StepperKind::sor, 0, 2});
+  EXPECT_EQ(look.estimate->source, EstimateSource::same_solve) << "one step of one substep is left";
+  EXPECT_EQ(look.sweeps_a_frame(), 2 * 20 + 2);
+  const AccuracyCase& run = *found.at({stepping::StepperKind::quick, 0, 1});
+  EXPECT_EQ(run.estimate->source, EstimateSource::short_run);
+  EXPECT_EQ(run.sweeps_a_frame(), 20 + 2 * 2);
+  const AccuracyCase& remembers = *found.at({stepping::StepperKind::sor, 1, 2});
+  EXPECT_EQ(remembers.estimate->source, EstimateSource::short_run) << "8 substeps are no single solve";
+  EXPECT_EQ(remembers.estimate->stepper.substeps, 1);
+  EXPECT_EQ(remembers.sweeps_a_frame(), 2 * 16 + 3);
+  EXPECT_EQ(count(cases_of(options_of({"--stepper", "direct"})), CaseKind::estimate), 0);
 }
 
-TEST(AccuracyCases, the_yardsticks_are_other_seeds_and_halves_of_the_reference) {
-  const auto cases = cases_of(options_of({"--floor-seeds", "9", "--reference-substeps", "4"}));
+TEST(AccuracyCases, the_yardsticks_are_other_seeds_more_iterations_another_method_and_half_the_step) {
+  const auto cases =
+      cases_of(options_of({"--floor-seeds", "9", "--reference-iterations", "50", "--reference-check", "7"}));
   EXPECT_EQ(count(cases, CaseKind::floor), 9);
   std::set<std::uint64_t> seeds;
   for (const AccuracyCase& one : cases) {
     if (one.kind == CaseKind::floor) seeds.insert(one.stepper.seed);
-    if (one.kind == CaseKind::halved_iterations) {
-      EXPECT_EQ(one.sweeps(), 4 * 320);
+    if (one.kind == CaseKind::more_iterations) {
+      EXPECT_EQ(one.sweeps(), 7 * 50);
     }
-    if (one.kind == CaseKind::halved_substeps) {
-      EXPECT_EQ(one.sweeps(), 2 * 640);
+    if (one.kind == CaseKind::second_method) {
+      EXPECT_EQ(one.stepper.kind, stepping::StepperKind::direct) << "37 bodies are few";
     }
     if (one.kind == CaseKind::halved_dt) {
       EXPECT_EQ(one.stepper.dt_s * one.steps_per_frame, 0.03);
@@ -98,8 +110,11 @@ TEST(AccuracyCases, the_yardsticks_are_other_seeds_and_halves_of_the_reference) 
   }
   EXPECT_EQ(seeds.size(), 9u);
   EXPECT_FALSE(seeds.contains(1)) << "that of the reference itself";
-  EXPECT_EQ(count(cases, CaseKind::halved_dt), 1);
-  EXPECT_EQ(count(cases_of(options_of({})), CaseKind::halved_substeps), 0) << "one substep has no half";
+  for (const CaseKind kind :
+       {CaseKind::reference, CaseKind::more_iterations, CaseKind::second_method, CaseKind::halved_dt})
+    EXPECT_EQ(count(cases, kind), 1);
+  const auto unchecked = cases_of(options_of({"--reference-check", "0"}));
+  EXPECT_EQ(count(unchecked, CaseKind::more_iterations) + count(unchecked, CaseKind::second_method), 0);
 }
 
 TEST(AccuracyCases, max_sweeps_leaves_out_the_dear_ones) {
@@ -138,16 +153,19 @@ TEST(AccuracyCases, bad_values_are_named) {
   EXPECT_NE(refusal({"--floor-seeds", "0"}).find("--floor-seeds"), std::string::npos);
   EXPECT_NE(refusal({"--reference-iterations", "1"}).find("--reference-iterations"), std::string::npos);
   EXPECT_NE(refusal({"--max-sweeps", "0"}).find("--max-sweeps"), std::string::npos);
-  EXPECT_NE(refusal({"--reference-substeps", "0"}).find("--reference-substeps"), std::string::npos);
+  EXPECT_NE(refusal({"--reference-residual", "1"}).find("--reference-residual"), std::string::npos)
+      << "1 what?";
+  EXPECT_NE(refusal({"--reference-most-iterations", "639"}).find("at least 640"), std::string::npos);
+  EXPECT_NE(refusal({"--reference-check", "-1"}).find("--reference-check"), std::string::npos);
   EXPECT_NE(refusal({"--replicas", "0"}).find("--replicas"), std::string::npos);
   EXPECT_NE(refusal({"--warmup", "-1"}).find("--warmup"), std::string::npos);
   EXPECT_NE(refusal({"--frames", "0"}).find("--frames"), std::string::npos);
 }
 
 TEST(CaseRunner, the_reference_has_no_error_against_itself_and_few_iterations_have) {
-  const AccuracyOptions options = options_of({"--reference-iterations", "40"});
+  const AccuracyOptions options = options_of({"--reference-iterations", "40", "--reference-residual", "0"});
   const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
-  const Reference reference = make_reference(scene, reference_settings(scene, options));
+  const SolvedReference reference = solve_reference(scene, reference_solve(scene, options));
   const RestRunner no_rest(scene, reference_settings(scene, options), 0);
   ASSERT_EQ(reference.states.size(), 9u);
   AccuracyCase one{0, CaseKind::setting, reference_settings(scene, options), 3};
@@ -169,9 +187,9 @@ TEST(CaseRunner, the_reference_has_no_error_against_itself_and_few_iterations_ha
 }
 
 TEST(CaseRunner, repeats_change_times_only) {
-  const AccuracyOptions options = options_of({"--reference-iterations", "10"});
+  const AccuracyOptions options = options_of({"--reference-iterations", "10", "--reference-residual", "0"});
   const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
-  const Reference reference = make_reference(scene, reference_settings(scene, options));
+  const SolvedReference reference = solve_reference(scene, reference_solve(scene, options));
   const RestRunner no_rest(scene, reference_settings(scene, options), 0);
   AccuracyCase one{0, CaseKind::setting, {}, 3};
   one.stepper.iterations = 5;
@@ -179,6 +197,57 @@ TEST(CaseRunner, repeats_change_times_only) {
   const CaseResult thrice = run_case(one, scene, reference, no_rest, 3);
   EXPECT_EQ(once.defect.body_position.rms, thrice.defect.body_position.rms);
   EXPECT_EQ(once.max_joint_gap_m, thrice.max_joint_gap_m);
+}
+
+TEST(ConvergingStepper, solves_each_step_of_each_world_as_far_as_asked) {
+  const AccuracyOptions options =
+      options_of({"--replicas", "3", "--reference-iterations", "40", "--reference-residual", "1mm",
+                  "--reference-most-iterations", "2560"});
+  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
+  ReferenceSolve asked = reference_solve(scene, options);
+  const SolvedReference reference = solve_reference(scene, asked);
+  std::set<int> used;
+  for (const std::vector<int>& step : reference.iterations) used.insert(step.begin(), step.end());
+  EXPECT_GT(used.size(), 1u) << "a crash asks for more than a car on its wheels";
+  for (const int iterations : used)
+    EXPECT_TRUE((std::set<int>{40, 160, 640, 2560}.contains(iterations))) << iterations;
+  EXPECT_TRUE(reference.account.residual <= 1e-3 || used.contains(2560));
+
+  // World 1 alone takes the same course.
+  ConvergingStepper stepper({reference.worlds[1]}, asked);
+  for (const std::vector<int>& step : reference.iterations) {
+    stepper.advance();
+    EXPECT_EQ(stepper.iterations().front(), step[1]);
+  }
+  EXPECT_EQ(model::hash(stepper.states().front()), model::hash(reference.states.back()[1]));
+
+  asked.residual = 0;
+  const SolvedReference once = solve_reference(scene, asked);
+  EXPECT_EQ(once.account.most_iterations, 40);
+  EXPECT_GT(once.account.residual, reference.account.residual) << "more iterations leave less";
+}
+
+TEST(Yardsticks, the_reference_solved_further_is_nearer_to_it_than_half_of_it) {
+  const AccuracyOptions options =
+      options_of({"--reference-iterations", "320", "--reference-residual", "0", "--reference-check", "8"});
+  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
+  const SolvedReference reference = solve_reference(scene, reference_solve(scene, options));
+  const auto defect = [&](CaseKind kind) {
+    for (const AccuracyCase& one : make_cases({scene}, options)) {
+      if (one.kind == kind) return run_yardstick(one, scene, reference, options).defect.body_position;
+    }
+    return analysis::ErrorSummary();
+  };
+  EXPECT_EQ(defect(CaseKind::reference).max, 0);
+  EXPECT_EQ(defect(CaseKind::reference).count, 5 * 37);
+  const double further = defect(CaseKind::more_iterations).rms;
+  EXPECT_GT(further, 0);
+  const RestRunner no_rest(scene, reference_settings(scene, options), 0);
+  AccuracyCase few{0, CaseKind::setting, reference_settings(scene, options), 3};
+  few.stepper.iterations = 20;
+  EXPECT_LT(further, run_case(few, scene, reference, no_rest, 1).defect.body_position.rms);
+  EXPECT_GT(defect(CaseKind::second_method).rms, 0) << "ODE has other contact points";
+  EXPECT_GT(defect(CaseKind::halved_dt).rms, further) << "the step is long";
 }
 
 TEST(RestRunner, counts_what_falls_though_the_reference_holds_it) {

@@ -13,7 +13,8 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import BIN, SOURCE, ProgramTest  # noqa: E402
 
-FAST = ["--frames", 3, "--repeats", 2, "--reference-iterations", 80, "--floor-seeds", 2, "--rest-seconds", 0]
+UNCHECKED = ["--reference-iterations", 80, "--reference-residual", 0, "--reference-check", 0]
+FAST = ["--frames", 3, "--repeats", 2, *UNCHECKED, "--floor-seeds", 2, "--rest-seconds", 0]
 ONE_DT = ["--dt", 0.01]
 
 
@@ -37,19 +38,26 @@ class Accuracy(ProgramTest):
     def test_errors_are_the_same_for_any_number_of_ranks(self):
         args = ["--scene", "CrashSk", "--iterations", 1, 5, 20, "--substeps", 1, 2, *FAST, *ONE_DT]
         one, three = self.made(1, "one.h5", *args), self.made(3, "three.h5", *args)
-        self.assertEqual(len(one["scene"]), 3 + 3 * 2 * 2 + 2 * 2 + 4 + 2 + 2,
-                         "quick; sor with one substep and with two; with a memory; estimates; seeds; halves")
+        self.assertEqual(len(one["scene"]), 3 + 3 * 2 * 2 + 2 * 2 + 2 * 3 * (1 + 2 * 2) + 1 + 2 + 1,
+                         "quick; sor with one substep and with two; with a memory; estimates by two numbers of iterations after "
+                         "three numbers of steps, of quick, and of cold and remembering sor in two precisions; the reference, seeds, half the step")
         for name, column in one.items():
             if not name.startswith("frame_time"):
                 self.assertEqual(column.tobytes(), three[name].tobytes(), name)
         self.assertTrue((one["frame_time_worst"] >= one["frame_time_median"]).all())
-        self.assertTrue((one["frame_time_median"] > 0).all())
+        self.assertTrue((one["frame_time_median"][one["kind"] != b"reference"] > 0).all())
         setting = one["kind"] == b"setting"
         visits = one["rows"] * (one["iterations"] + one["relax"]) * one["substeps"] * one["steps_per_frame"]
-        looks = one["kind"] == b"estimate"
-        self.assertTrue(np.array_equal(one["row_visits"][~looks], visits[~looks]))
-        before = one["rows"] * (20 * 2 + one["estimate_iterations"])
-        self.assertTrue(np.array_equal(one["row_visits"][looks], before[looks]))
+        self.assertTrue(np.array_equal(one["row_visits"][setting], visits[setting]))
+        estimate = one["kind"] == b"estimate"
+        sweeps = (one["iterations"] + one["relax"]) * one["substeps"]
+        left = one["steps_per_frame"] - one["estimate_after"]
+        coarse = np.where(one["estimate_source"] == b"same_solve", one["estimate_iterations"],
+                          left * (one["estimate_iterations"] + one["relax"]))
+        before = one["rows"] * (sweeps * one["estimate_after"] + coarse)
+        self.assertTrue(np.array_equal(one["row_visits"][estimate], before[estimate]))
+        cold_sor = (one["stepper"] == b"sor") & (one["relax"] == 0)
+        self.assertTrue(np.array_equal(one["estimate_source"] == b"same_solve", estimate & cold_sor & (left == 1)))
         bands = one["defect_body_position_bands"]
         self.assertTrue((bands.sum(axis=1) == 3 * 37).all(), "the same number of entries for every method")
         self.assertGreater(one["defect_body_position_rms"][setting].min(), 0)
@@ -77,8 +85,9 @@ class Accuracy(ProgramTest):
         args = ["--scene", "CrashSk", "--stepper", "sor", "--dt", 0.03, "--iterations", 3, 20, "--substeps", 1,
                 "--estimates", 3, 20, *FAST]
         study = self.made(2, "study.h5", *args)
-        rows = {(kind, precision, look or iterations): index for index, (kind, precision, look, iterations) in
-                enumerate(zip(study["kind"], study["precision"], study["estimate_iterations"], study["iterations"]))}
+        rows = {(kind, precision, look or iterations): index for index, (kind, precision, look, iterations, relax) in
+                enumerate(zip(study["kind"], study["precision"], study["estimate_iterations"], study["iterations"], study["relax"]))
+                if relax == 0}
         for precision in (b"double", b"single"):
             for iterations in (3, 20):
                 look, run = (rows[kind, precision, iterations] for kind in (b"estimate", b"setting"))
@@ -90,8 +99,32 @@ class Accuracy(ProgramTest):
                              "an estimate ends with its frame")
             self.assertLess(study["defect_body_position_rms"][late], study["defect_body_position_rms"][early])
         [scene] = self.front("study.h5")
-        self.assertEqual([row["look_after_iterations"] for row in scene["estimates"]], [3, 20, 3, 20])
+        looks = [row["estimate"] for row in scene["estimates"] if row["estimate"]["source"] == "same_solve"]
+        self.assertEqual(looks, [{"iterations": n, "after_steps": 0, "source": "same_solve"} for n in (3, 20, 3, 20)])
         self.assertIn("estimates (FEEC)", self.report("study.h5").stdout)
+
+    def test_the_reference_is_solved_to_a_residual_and_judged(self):
+        study = self.made(2, "study.h5", "--scene", "CrashSk", "--stepper", "sor", "--iterations", 20, 320, "--substeps", 1, "--precision",
+                          "double", "--estimates", 0, "--frames", 2, "--repeats", 1, "--floor-seeds", 2, "--rest-seconds", 0,
+                          "--reference-iterations", 320, "--reference-residual", "0.1mm", "--reference-most-iterations", 5120,
+                          "--reference-check", 4, *ONE_DT)
+        row = {kind: index for index, kind in enumerate(study["kind"])}
+        residual, used = (study[name][row[b"reference"]] for name in ("solve_residual", "solve_iterations"))
+        self.assertTrue(320 < used < 5120, "some steps take more than the first try")
+        self.assertLess(study["solve_residual"][row[b"more_iterations"]], residual)
+        self.assertTrue(np.isnan(study["solve_residual"][study["kind"] == b"setting"]).all())
+        [scene] = self.front("study.h5", "--tolerance", "1m")
+        rms = study["defect_body_position_rms"]
+        judges = np.isin(study["kind"], [b"floor", b"more_iterations", b"second_method"])
+        self.assertEqual(judges.sum(), 4)
+        self.assertEqual(scene["uncertainty_m"], rms[judges].max())
+        self.assertEqual(scene["reference"], {"residual_m": residual, "iterations": used})
+        self.assertEqual(scene["chosen"]["inside_uncertainty"], scene["chosen"]["error_m"] <= scene["uncertainty_m"])
+        text = self.report("study.h5", "--budget", "1s").stdout
+        self.assertIn("direct", text)
+        self.assertIn("the reference is known to within:", text)
+        [best] = self.front("study.h5", "--budget", "1s")
+        self.assertEqual("to which the reference is known)" in text, best["chosen"]["inside_uncertainty"])
 
     def test_a_preset_carries_warm_start_and_row_order(self):
         self.made(2, "study.h5", "--scene", "CrashSk", "--stepper", "sor", "--iterations", 3, "--substeps", 2,
@@ -120,7 +153,8 @@ class Accuracy(ProgramTest):
         self.assertEqual(json.loads(wins.stdout)["iterations"], 7, "the command line wins")
         with open(self.path("table.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual(len(rows), 4 + 2 + 4 + 2 + 2, "settings; with a memory; estimates; seeds; halves")
+        self.assertEqual(len(rows), 4 + 2 + 2 * 3 * 2 * 2 + 1 + 2 + 1,
+                         "settings; with a memory; estimates; the reference, seeds, half the step")
         with open(self.path("page.html"), encoding="utf-8") as file:
             page = file.read()
         self.assertIn("Pareto front", page)
@@ -144,7 +178,7 @@ class Accuracy(ProgramTest):
 
     def test_a_setting_that_fells_what_stands_is_marked_and_not_chosen(self):
         args = ["--scene", "CrashSk", "--stepper", "sor", "--precision", "double", "--substeps", 1, "--estimates", 0,
-                "--frames", 3, "--repeats", 1, "--reference-iterations", 80, "--floor-seeds", 1, "--rest-seconds", 2, *ONE_DT]
+                "--frames", 3, "--repeats", 1, *UNCHECKED, "--floor-seeds", 1, "--rest-seconds", 2, *ONE_DT]
         study = self.made(2, "study.h5", *args, "--iterations", 1, 80)
         setting = (study["kind"] == b"setting") & (study["relax"] == 0)  # in one substep a memory holds no human either
         few, many = study["rest_fallen"][setting]

@@ -71,22 +71,29 @@ po::options_description options_description() {
   feec.add_options()  //
       ("feec",
        "estimate every frame from the precise state before it is computed: the estimate goes to root at "
-       "once, and is dropped when the precise result is there. It is a short run of its own; with sor and "
-       "one "
-       "step of one substep a frame it is the state after the first iterations of the precise solve")  //
+       "once, and is dropped when the precise result is there. It is a short run of its own; with sor in "
+       "one substep, if a single step is left to estimate, it is the state after the first iterations of "
+       "the precise solve")  //
       ("estimate-iterations", po::value<std::string>()->value_name("N"),
        "sweeps of the estimate; default: 1")  //
       ("estimate-stepper", po::value<std::string>()->value_name("quick|direct|sor"),
        "what estimates; default: that of --stepper")  //
       ("estimate-precision", po::value<std::string>()->value_name("double|single"),
-       "of an estimate by sor; default: that of --precision, or double");
+       "of an estimate by sor; default: that of --precision, or double")  //
+      ("estimate-after", po::value<int>()->value_name("N"),
+       "begin with this many precise steps of the frame, and estimate the others: later, and nearer; "
+       "default: 0")  //
+      ("estimate-by", po::value<std::string>()->value_name("SECONDS"),
+       "send the best estimate that is there so long after the start of the frame (3.33ms, or a number of "
+       "seconds): precise steps while there is time, then coarse ones; if not even these fit, bodies move on "
+       "at their velocities. It follows the clock: estimates, not the precise frames, differ from run to "
+       "run");
 
   po::options_description cut("How to cut the work");
   cut.add_options()  //
       ("decompose", po::value<std::string>()->default_value("auto")->value_name("auto|worlds|spaces"),
        "worlds: each rank owns whole worlds; spaces: each rank owns collision spaces of the one world (sor "
-       "only); auto: spaces for one world of several spaces on several ranks with sor and without --feec, "
-       "else worlds")  //
+       "only); auto: spaces for one world of several spaces on several ranks with sor, else worlds")  //
       ("spaces", po::value<std::string>()->value_name("one|many"),
        "many: the scene's named collision spaces; one: all of them as one, with the same physics; default: "
        "the scene's");
@@ -218,6 +225,9 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
     const std::string option = "estimate-" + std::string(name);
     if (values.count(option) != 0) options.estimate.emplace(name, values[option].as<std::string>());
   }
+  options.estimate_after = given<int>(values, "estimate-after");
+  if (values.count("estimate-by") != 0)
+    options.estimate_by_s = parse_time_or_seconds(values["estimate-by"].as<std::string>(), "--estimate-by");
   options.output = output_path(values, "output");
   options.no_output = values.count("no-output") != 0;
   options.no_xdmf = values.count("no-xdmf") != 0;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/common/estimate_spec.h"
 #include "app/common/options.h"
 #include "app/common/step_arguments.h"
 #include "scenes/scene.h"
@@ -34,6 +35,8 @@ struct Options {
   std::uint64_t seed = 1;
   bool feec = false;
   std::map<std::string, std::string, std::less<>> estimate;  ///< step options of the estimate, as given
+  std::optional<int> estimate_after;
+  std::optional<double> estimate_by_s;
   std::optional<std::string> output;
   bool no_output = false;
   bool record_islands = false;
@@ -69,13 +72,6 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
 /// The text of --help.
 std::string help_text();
 
-/// How FEEC's estimate comes about.
-enum class EstimateSource {
-  short_run,   ///< a run of its own, before the precise one
-  same_solve,  ///< a look at the precise solve
-};
-inline constexpr std::array<std::string_view, 2> estimate_source_names = {"short_run", "same_solve"};
-
 /// What a resumed run needs to know of the one that wrote the checkpoint.
 struct ResumePoint {
   std::string path;         ///< of the checkpoint; empty: the run begins anew
@@ -100,8 +96,7 @@ struct RunSpec {
   int steps_per_frame = 3;
   std::uint64_t scene_seed = 1;  ///< of the scene's variation; the stepper has its own
   stepping::StepperSettings stepper;
-  std::optional<stepping::StepperSettings> estimate;  ///< FEEC: what estimates each frame first
-  EstimateSource estimate_source = EstimateSource::short_run;
+  std::optional<EstimateSpec> estimate;                ///< FEEC: how each frame is estimated first
   std::optional<std::string> output;                   ///< path of the HDF5 file, or nothing with --no-output
   std::optional<std::string> sidecar;                  ///< path of ParaView's, or nothing
   double budget_s = stepping::default_frame_budget_s;  ///< for a frame; changes no result

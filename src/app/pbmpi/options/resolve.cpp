@@ -6,6 +6,7 @@
 
 #include "app/pbmpi/options/options.h"
 #include "core/error.h"
+#include "stepping/names.h"
 
 namespace pbmpi::app {
 
@@ -26,18 +27,9 @@ void require_between(int value, int least, int most, const char* option) {
 }
 
 /// The estimate's own settings over those of the precise stepper, whose step and seed it shares.
-std::optional<stepping::StepperSettings> resolve_estimate(const Options& options,
-                                                          const stepping::StepperSettings& precise) {
-  require_input(
-      options.feec || options.estimate.empty(),
-      "--estimate-iterations, --estimate-stepper and --estimate-precision say how --feec estimates; "
-      "give --feec too");
-  if (!options.feec) return std::nullopt;
-  stepping::StepperSettings estimate = precise;
-  estimate.iterations = 1;
-  estimate.substeps = 1;
-  estimate.residuals = false;
-  estimate.contacts = false;
+stepping::StepperSettings resolve_estimate_stepper(const Options& options,
+                                                   const stepping::StepperSettings& precise) {
+  stepping::StepperSettings estimate = default_estimate(precise);
   for (const auto& [name, text] : options.estimate)
     set(stepping::step_option(name), text, "--estimate-" + name, estimate);
   const bool has_precision = traits_of(estimate.kind).has_precision;
@@ -47,14 +39,22 @@ std::optional<stepping::StepperSettings> resolve_estimate(const Options& options
   return estimate;
 }
 
-/// The precise solve can be looked at where it is the frame's only one, and passes the wanted iteration.
-EstimateSource estimate_source(const RunSpec& spec) {
-  const bool one_solve =
-      traits_of(spec.stepper.kind).is_anytime && spec.steps_per_frame == 1 && spec.stepper.substeps == 1;
-  const bool passes = spec.estimate && spec.estimate->kind == spec.stepper.kind &&
-                      spec.estimate->precision == spec.stepper.precision &&
-                      spec.estimate->iterations <= spec.stepper.iterations;
-  return one_solve && passes ? EstimateSource::same_solve : EstimateSource::short_run;
+std::optional<EstimateSpec> resolve_estimate(const Options& options, const RunSpec& spec) {
+  require_input(
+      options.feec || (options.estimate.empty() && !options.estimate_after && !options.estimate_by_s),
+      "--estimate-iterations, --estimate-stepper, --estimate-precision, --estimate-after and "
+      "--estimate-by say how --feec estimates; give --feec too");
+  if (!options.feec) return std::nullopt;
+  require_input(!options.estimate_after || !options.estimate_by_s,
+                "--estimate-after and --estimate-by exclude each other: the one says how many steps of a "
+                "frame are precise, the other leaves it to the clock");
+  EstimateSpec estimate;
+  estimate.stepper = resolve_estimate_stepper(options, spec.stepper);
+  estimate.after = options.estimate_after.value_or(0);
+  estimate.due_s = options.estimate_by_s;
+  require_between(estimate.after, 0, spec.steps_per_frame - 1, "--estimate-after");
+  estimate.source = source_of(estimate, spec.stepper, spec.steps_per_frame);
+  return estimate;
 }
 
 namespace fs = std::filesystem;
@@ -201,8 +201,7 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   spec.record_islands = options.record_islands;
   spec.on_blowup = options.on_blowup;
   require_recordable(options, spec.stepper.kind);
-  spec.estimate = resolve_estimate(options, spec.stepper);
-  spec.estimate_source = estimate_source(spec);
+  spec.estimate = resolve_estimate(options, spec);
   return spec;
 }
 
@@ -220,8 +219,11 @@ std::optional<std::string> why_whole(const RunSpec& spec) {
   }
   if (spec.stepper.residuals)
     return "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds";
-  if (spec.estimate)
-    return "--feec: no rank of a world that is cut has all of it to estimate from; use --decompose worlds";
+  if (spec.estimate && !traits_of(spec.estimate->stepper.kind).cuts_spaces)
+    return "--estimate-stepper " + std::string(name_of(spec.estimate->stepper.kind)) +
+           ": a world that is cut is estimated by sor; use --decompose worlds";
+  if (spec.estimate && spec.estimate->after > 0)
+    return "--estimate-after: the estimate of a world that is cut is of whole frames; use --decompose worlds";
   return std::nullopt;
 }
 

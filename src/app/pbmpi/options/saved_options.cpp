@@ -64,12 +64,15 @@ std::map<std::string, std::string, std::less<>> parse(const std::string& options
   return values;
 }
 
-void add_estimate(const stepping::StepperSettings& estimate, Lines& lines) {
+void add_estimate(const EstimateSpec& estimate, Lines& lines) {
   lines.add("feec", "");
   for (const std::string_view name : estimate_options) {
     const stepping::StepOption& option = stepping::step_option(name);
-    if (fits(option, estimate.kind)) lines.add("estimate-" + std::string(name), text_of(option, estimate));
+    if (fits(option, estimate.stepper.kind))
+      lines.add("estimate-" + std::string(name), text_of(option, estimate.stepper));
   }
+  if (estimate.after > 0) lines.add("estimate-after", estimate.after);
+  if (estimate.due_s) lines.add("estimate-by", *estimate.due_s);
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& name, const std::string& before,

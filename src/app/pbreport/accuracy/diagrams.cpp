@@ -89,16 +89,21 @@ json line(double value, const char* axis, const char* label, const char* colour,
           {"label", label}, {"colour", colour}, {"dash", dash}};
 }
 
-/// Noise floor, what the reference leaves open, and what was asked for. `ranked`: the diagram shows the error
-/// by which settings are ranked.
+/// What the reference is known to, and from what that follows; what was asked for. `ranked`: the diagram
+/// shows the error by which settings are ranked.
 json bands_of(const SceneCases& scene, ErrorOf error_mm, bool ranked, const AccuracyReportOptions& options) {
   double floor = 0;
   for (const StudyCase& one : scene.floor) floor = std::max(floor, error_mm(one));
-  json bands = {
-      {{"from", 0}, {"to", floor}, {"label", "noise floor [mm]"}, {"colour", "rgba(120, 130, 142, .30)"}}};
-  const auto add_line = [&](const std::optional<StudyCase>& halved, const char* label, const json& dash) {
-    if (halved) bands.push_back(line(error_mm(*halved), "y", label, "#7a8490", dash));
+  json bands = {{{"from", 0},
+                 {"to", scene.uncertainty(error_mm)},
+                 {"label", "uncertainty of the reference [mm]"},
+                 {"colour", "rgba(120, 130, 142, .30)"}},
+                line(floor, "y", "another solver seed: noise floor [mm]", "#7a8490", {1, 3})};
+  const auto add_line = [&](const std::optional<StudyCase>& found, const char* label, const json& dash) {
+    if (found) bands.push_back(line(error_mm(*found), "y", label, "#7a8490", dash));
   };
+  add_line(scene.more_iterations, "reference with more iterations [mm]", json::array());
+  add_line(scene.second_method, "second method: ODE [mm]", {4, 2, 1, 2});
   add_line(scene.halved_iterations, "reference with half the iterations [mm]", json::array());
   add_line(scene.halved_substeps, "reference with half the substeps [mm]", {2, 3});
   add_line(scene.halved_dt, "reference with half the step [mm]", {8, 4});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "app/common/format.h"
@@ -23,6 +24,13 @@ StudyCase read_case(const CaseRow& row) {
   one.frames = row.integer("frames");
   if (row.has("estimate_iterations"))  // since version 1.1 of the file
     one.estimate_iterations = row.integer("estimate_iterations");
+  if (row.has("estimate_source")) {  // since version 1.5; before all were looks
+    one.estimate_after = row.integer("estimate_after");
+    one.is_look = row.text("estimate_source") == "same_solve";
+  } else if (one.estimate_iterations > 0) {
+    one.estimate_after = one.steps_per_frame - 1;
+    one.is_look = true;
+  }
   one.time_s = row.real("frame_time_worst");
   one.median_time_s = row.real("frame_time_median");
   one.row_visits = row.real("row_visits");
@@ -35,24 +43,32 @@ StudyCase read_case(const CaseRow& row) {
     one.rest_creep_m_s = row.real("rest_creep");
     one.rest_energy_gain_j = row.real("rest_energy_gain");
   }
+  if (row.has("solve_residual")) {  // since version 1.5
+    one.solve_residual_m = row.real("solve_residual");
+    one.solve_iterations = row.real("solve_iterations");
+  }
   one.defect = row.errors("defect");
   one.drift = row.errors("drift");
   return one;
 }
 
 void add_case(StudyCase one, SceneCases& scene) {
-  if (one.kind == "setting")
-    scene.settings.push_back(std::move(one));
-  else if (one.kind == "estimate")
-    scene.estimates.push_back(std::move(one));
-  else if (one.kind == "floor")
-    scene.floor.push_back(std::move(one));
-  else if (one.kind == "halved_iterations")
-    scene.halved_iterations = std::move(one);
-  else if (one.kind == "halved_substeps")
-    scene.halved_substeps = std::move(one);
-  else if (one.kind == "halved_dt")
-    scene.halved_dt = std::move(one);
+  const std::map<std::string, std::vector<StudyCase> SceneCases::*> lists = {
+      {"setting", &SceneCases::settings},
+      {"estimate", &SceneCases::estimates},
+      {"floor", &SceneCases::floor}};
+  const std::map<std::string, std::optional<StudyCase> SceneCases::*> yardsticks = {
+      {"reference", &SceneCases::reference},
+      {"more_iterations", &SceneCases::more_iterations},
+      {"second_method", &SceneCases::second_method},
+      {"halved_dt", &SceneCases::halved_dt},
+      {"halved_iterations", &SceneCases::halved_iterations},
+      {"halved_substeps", &SceneCases::halved_substeps}};
+  if (const auto list = lists.find(one.kind); list != lists.end()) {
+    (scene.*list->second).push_back(std::move(one));
+  } else if (const auto yardstick = yardsticks.find(one.kind); yardstick != yardsticks.end()) {
+    scene.*yardstick->second = std::move(one);
+  }
 }
 
 }  // namespace
@@ -79,7 +95,11 @@ double StudyCase::error_m(ErrorMeasure measure) const {
 
 std::string setting_text(const StudyCase& one) {
   std::string text = stepping::setting_text(one.stepper);
-  if (one.estimate_iterations > 0) text += format(", look at %d", one.estimate_iterations);
+  if (one.estimate_iterations > 0) {
+    text += format(one.is_look ? ", look at %d" : ", %d a step", one.estimate_iterations);
+    if (one.estimate_after > 0)
+      text += format(" after %d step%s", one.estimate_after, one.estimate_after == 1 ? "" : "s");
+  }
   return text + format(", dt %g s", one.stepper.dt_s);
 }
 
@@ -100,6 +120,19 @@ double SceneCases::floor_m(ErrorMeasure measure) const {
   double most = 0;
   for (const StudyCase& one : floor) most = std::max(most, one.error_m(measure));
   return most;
+}
+
+double SceneCases::uncertainty(const std::function<double(const StudyCase&)>& error) const {
+  double most = 0;
+  for (const StudyCase& one : floor) most = std::max(most, error(one));
+  for (const auto* one : {&more_iterations, &second_method, &halved_iterations, &halved_substeps}) {
+    if (*one) most = std::max(most, error(**one));
+  }
+  return most;
+}
+
+double SceneCases::uncertainty_m(ErrorMeasure measure) const {
+  return uncertainty([measure](const StudyCase& one) { return one.error_m(measure); });
 }
 
 std::vector<std::size_t> SceneCases::pareto_front(
@@ -153,7 +186,7 @@ std::vector<SceneCases> study_scenes(const io::TableFile& file, const std::vecto
     auto scene =
         std::find_if(scenes.begin(), scenes.end(), [&](const SceneCases& s) { return s.name == one.scene; });
     if (scene == scenes.end())
-      scene = scenes.insert(scenes.end(), SceneCases{one.scene, {}, {}, {}, {}, {}, {}});
+      scene = scenes.insert(scenes.end(), SceneCases{one.scene, {}, {}, {}, {}, {}, {}, {}, {}, {}});
     add_case(std::move(one), *scene);
   }
   return chosen_scenes(scenes, names);

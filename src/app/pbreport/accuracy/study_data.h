@@ -19,7 +19,9 @@ struct StudyCase {
   std::string scene, kind;
   stepping::StepperSettings stepper;
   int steps_per_frame = 0, worlds = 1, warmup = 0, frames = 0;
-  int estimate_iterations = 0;  ///< of a look into the frame's last solve; 0: the frame's end
+  int estimate_iterations = 0;  ///< FEEC's, of a look or of each step of a short run; 0: the frame's end
+  int estimate_after = 0;       ///< precise steps before them
+  bool is_look = false;         ///< into the solve of the frame's last step
   double time_s = 0;            ///< of the worst measured frame: what a budget must hold
   double median_time_s = 0;     ///< of the measured frames
   double row_visits = 0;
@@ -27,6 +29,9 @@ struct StudyCase {
   /// The scene at rest: bodies that fell, when the first did, creep of the fastest [m/s], energy gained
   /// without a cause [J]. NaN if the study did not watch it.
   double rest_fallen = NAN, rest_fell_at_s = NAN, rest_creep_m_s = NAN, rest_energy_gain_j = NAN;
+  /// Of a case that is solved as the reference is: what was left unsolved of a step [m], at most, and the
+  /// mean of its iterations. NaN of others, and in older files.
+  double solve_residual_m = NAN, solve_iterations = NAN;
   analysis::ErrorTable defect, drift;
 
   /// Did every body and joint stay finite?
@@ -48,10 +53,17 @@ struct SceneCases {
   std::vector<StudyCase> settings;
   std::vector<StudyCase> estimates;  ///< of the scene's own setting; never chosen, since more work follows
   std::vector<StudyCase> floor;
-  std::optional<StudyCase> halved_iterations, halved_substeps, halved_dt;
+  std::optional<StudyCase> reference, more_iterations, second_method,
+      halved_dt;                                                ///< older files have not all
+  std::optional<StudyCase> halved_iterations, halved_substeps;  ///< of older files
 
   /// The noise floor [m]: the largest error that another seed alone gave the reference.
   double floor_m(ErrorMeasure measure) const;
+  /// How far the reference may be off [m]: its largest distance from itself with other seeds and more
+  /// iterations (in older files half as many), and from a second method. What the length of the step does is
+  /// no part of it: all settings share it.
+  double uncertainty_m(ErrorMeasure measure) const;
+  double uncertainty(const std::function<double(const StudyCase&)>& error) const;
   /// Indices of the settings that no other beats in time and error at once, by rising time: the error falls
   /// from each to the next. Settings that blew up are never among them.
   std::vector<std::size_t> pareto_front(ErrorMeasure measure) const;

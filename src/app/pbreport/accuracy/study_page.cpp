@@ -46,8 +46,8 @@ io::html::TextTable front_table(const SceneCases& scene, const AccuracyReportOpt
 }
 
 io::html::TextTable estimate_table(const SceneCases& scene, const AccuracyReportOptions& options) {
-  io::html::TextTable table = table_of(
-      "Estimates (FEEC)", "look into the frame's last solve, after so many iterations", "until the look ms");
+  io::html::TextTable table =
+      table_of("Estimates (FEEC)", "setting, and what estimates its frame", "until it is there ms");
   for (const StudyCase& one : scene.estimates)
     table.rows.push_back(table_row(one, options, scene.floor_m(options.measure)));
   return table;
@@ -65,14 +65,18 @@ io::html::PageSection section_of(const SceneCases& scene, const AccuracyReportOp
   section.title = scene.name;
   section.text = format(
       "%zu settings.%s Defect: error of all bodies after one frame from the reference's own state. "
-      "Noise floor: the reference with %zu other solver %s.",
+      "Uncertainty of the reference: its largest distance from itself with %zu other solver %s and more "
+      "iterations, and from a second method.",
       scene.settings.size(), blown_up_text(scene).c_str(), scene.floor.size(),
       scene.floor.size() == 1 ? "seed" : "seeds");
+  if (scene.reference)
+    section.text += format(" It was solved to %.3g mm a step, with %.0f iterations on average.",
+                           1e3 * scene.reference->solve_residual_m, scene.reference->solve_iterations);
   if (const auto chosen = chosen_setting(scene, options)) {
     const StudyCase& one = scene.settings[*chosen];
-    section.text +=
-        "\n\nChosen: " + setting_text(one) +
-        format(", %.3f ms, defect %.4g mm.", 1e3 * one.time_s, 1e3 * one.error_m(options.measure));
+    section.text += "\n\nChosen: " + setting_text(one) +
+                    format(", %.3f ms, defect %.4g mm%s.", 1e3 * one.time_s,
+                           1e3 * one.error_m(options.measure), inside_text(scene, one, options).c_str());
   }
   section.charts = {
       diagram(

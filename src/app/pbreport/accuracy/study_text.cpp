@@ -8,6 +8,7 @@
 #include "app/common/json_text.h"
 #include "app/pbreport/study/error_text.h"
 #include "app/pbreport/study/study_file.h"
+#include "stepping/step_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -24,23 +25,47 @@ std::string run_command(const StudyCase& one) {
   return text;
 }
 
-constexpr const char* yardstick_format =
-    "  %-36s defect rms %9.4g  p99 %9.4g  max %9.4g mm, drift rms %9.4g mm%s\n";
+/// "name   defect rms 1 p99 2 max 3 mm", the numbers in metres.
+std::string defect_line(const std::string& name, double rms_m, double p99_m, double max_m) {
+  return format("  %-36s defect rms %9.4g  p99 %9.4g  max %9.4g mm", name.c_str(), 1e3 * rms_m, 1e3 * p99_m,
+                1e3 * max_m);
+}
 
-std::string yardstick_text(const char* what, const std::optional<StudyCase>& halved) {
-  if (!halved) return "";
-  const analysis::ErrorSummary& error = halved->defect.body_position;
-  return format(yardstick_format, what, 1e3 * error.rms, 1e3 * error.p99, 1e3 * error.max,
-                1e3 * halved->drift.body_position.rms, "");
+std::string yardstick_text(const std::string& what, const std::optional<StudyCase>& found) {
+  if (!found) return "";
+  const analysis::ErrorSummary& error = found->defect.body_position;
+  const analysis::ErrorSummary& drift = found->drift.body_position;
+  const std::string residual =
+      std::isnan(found->solve_residual_m) ? "" : format(", residual %.3g mm", 1e3 * found->solve_residual_m);
+  return defect_line(what, error.rms, error.p99, error.max) +
+         (drift.count > 0 ? format(", drift rms %9.4g mm", 1e3 * drift.rms) : "") + residual + "\n";
 }
 
 std::string floor_text(const SceneCases& scene) {
   double drift = 0;
   for (const StudyCase& one : scene.floor) drift = std::max(drift, one.drift.body_position.rms);
-  return format(yardstick_format,
-                "noise floor (another solver seed):", 1e3 * scene.floor_m(ErrorMeasure::rms),
-                1e3 * scene.floor_m(ErrorMeasure::p99), 1e3 * scene.floor_m(ErrorMeasure::max), 1e3 * drift,
-                format(" (largest of %zu seeds)", scene.floor.size()).c_str());
+  return defect_line("noise floor (another solver seed):", scene.floor_m(ErrorMeasure::rms),
+                     scene.floor_m(ErrorMeasure::p99), scene.floor_m(ErrorMeasure::max)) +
+         format(", drift rms %9.4g mm (largest of %zu seeds)\n", 1e3 * drift, scene.floor.size());
+}
+
+/// How far the reference was solved, and how far it may be off.
+std::string reference_text(const SceneCases& scene, const AccuracyReportOptions& options) {
+  std::string text;
+  if (scene.reference) {
+    text += format("  reference: solved to %.3g mm a step, with %.0f iterations on average\n",
+                   1e3 * scene.reference->solve_residual_m, scene.reference->solve_iterations);
+  }
+  text += floor_text(scene) + yardstick_text("reference with more iterations:", scene.more_iterations);
+  if (scene.second_method)
+    text += yardstick_text("ODE, " + stepping::setting_text(scene.second_method->stepper) + ":",
+                           scene.second_method);
+  return text + yardstick_text("reference with half the iterations:", scene.halved_iterations) +
+         yardstick_text("reference with half the substeps:", scene.halved_substeps) +
+         yardstick_text("reference with half the step:", scene.halved_dt) +
+         format("  %-36s %s %.4g mm\n",
+                "the reference is known to within:", measure_texts[static_cast<std::size_t>(options.measure)],
+                1e3 * scene.uncertainty_m(options.measure));
 }
 
 std::string row_text(const StudyCase& one, bool at_floor) {
@@ -70,8 +95,9 @@ std::string choice_text(const SceneCases& scene, const AccuracyReportOptions& op
            (one_that_falls ? " without felling what stands at rest\n" : "\n");
   }
   const StudyCase& one = scene.settings[*chosen];
-  return format("  %s: %s (%.3f ms, defect %.4g mm)\n  run: %s\n", asked.c_str(), setting_text(one).c_str(),
-                1e3 * one.time_s, 1e3 * one.error_m(options.measure), run_command(one).c_str());
+  return format("  %s: %s (%.3f ms, defect %.4g mm%s)\n  run: %s\n", asked.c_str(), setting_text(one).c_str(),
+                1e3 * one.time_s, 1e3 * one.error_m(options.measure),
+                inside_text(scene, one, options).c_str(), run_command(one).c_str());
 }
 
 Json case_json(const StudyCase& one, double floor_m, const AccuracyReportOptions& options) {
@@ -94,10 +120,7 @@ Json case_json(const StudyCase& one, double floor_m, const AccuracyReportOptions
 }
 
 std::string scene_text(const SceneCases& scene, const AccuracyReportOptions& options) {
-  std::string text = "\nscene: " + scene.name + "\n" + floor_text(scene) +
-                     yardstick_text("reference with half the iterations:", scene.halved_iterations) +
-                     yardstick_text("reference with half the substeps:", scene.halved_substeps) +
-                     yardstick_text("reference with half the step:", scene.halved_dt);
+  std::string text = "\nscene: " + scene.name + "\n" + reference_text(scene, options);
   text += format("  Pareto front of %zu settings\n  %9s %9s %10s  %-32s %9s %9s %9s %9s %9s %9s  %s\n",
                  scene.settings.size(), "worst ms", "median ms", "row visits",
                  "setting (substeps x iterations)", "rms mm", "p99 mm", "max mm", "gap mm", "drift mm",
@@ -108,8 +131,9 @@ std::string scene_text(const SceneCases& scene, const AccuracyReportOptions& opt
   }
   if (!scene.estimates.empty()) {
     text +=
-        "  estimates (FEEC): times are those until a look into the frame's last solve, after so many of its "
-        "iterations\n";
+        "  estimates (FEEC): a frame of the setting, estimated with so many iterations a step (look: of the "
+        "solve "
+        "itself) after so many of its steps; times are those until the estimate is there\n";
   }
   for (const StudyCase& one : scene.estimates) text += row_text(one, one.error_m(options.measure) <= floor);
   return text + choice_text(scene, options);
@@ -127,6 +151,16 @@ std::string remarks_text(const StudyCase& one, bool at_floor) {
   return text;
 }
 
+bool is_inside(const SceneCases& scene, const StudyCase& one, const AccuracyReportOptions& options) {
+  return one.error_m(options.measure) <= scene.uncertainty_m(options.measure);
+}
+
+std::string inside_text(const SceneCases& scene, const StudyCase& one, const AccuracyReportOptions& options) {
+  if (!is_inside(scene, one, options)) return "";
+  return format(": within the %.4g mm to which the reference is known",
+                1e3 * scene.uncertainty_m(options.measure));
+}
+
 std::optional<std::size_t> chosen_setting(const SceneCases& scene, const AccuracyReportOptions& options) {
   if (options.budget_s) return scene.best_within(*options.budget_s, options.measure);
   if (options.tolerance_m) return scene.cheapest_within(*options.tolerance_m, options.measure);
@@ -137,9 +171,8 @@ std::string study_to_text(const io::TableFile& file, const std::vector<SceneCase
                           const AccuracyReportOptions& options) {
   std::string text = format(
       "study: accuracy; defect after one frame from the reference's state, ranked by the %s\n"
-      "reference: sor double, %s x %s (substeps x iterations), solver seed %s\n",
+      "reference: sor double, cold, from %s iterations a step on, solver seed %s\n",
       measure_texts[static_cast<std::size_t>(options.measure)],
-      text_parameter(file, "reference_substeps", "?").c_str(),
       text_parameter(file, "reference_iterations", "?").c_str(), text_parameter(file, "seed", "?").c_str());
   for (const SceneCases& scene : scenes) text += scene_text(scene, options);
   return text;
@@ -153,21 +186,32 @@ std::string study_to_json(const std::vector<SceneCases>& scenes, const AccuracyR
     Json one;
     one["scene"] = scene.name;
     one["noise_floor_m"] = floor_m;
-    for (const auto& [name, halved] : {std::pair("halved_iterations_m", &scene.halved_iterations),
-                                       std::pair("halved_substeps_m", &scene.halved_substeps),
-                                       std::pair("halved_dt_m", &scene.halved_dt)}) {
-      if (*halved) one[name] = (*halved)->error_m(options.measure);
+    for (const auto& [name, found] : {std::pair("more_iterations_m", &scene.more_iterations),
+                                      std::pair("second_method_m", &scene.second_method),
+                                      std::pair("halved_iterations_m", &scene.halved_iterations),
+                                      std::pair("halved_substeps_m", &scene.halved_substeps),
+                                      std::pair("halved_dt_m", &scene.halved_dt)}) {
+      if (*found) one[name] = (*found)->error_m(options.measure);
     }
+    one["uncertainty_m"] = scene.uncertainty_m(options.measure);
+    if (scene.reference)
+      one["reference"] = {{"residual_m", scene.reference->solve_residual_m},
+                          {"iterations", scene.reference->solve_iterations}};
     one["front"] = Json::array();
     for (const std::size_t i : scene.pareto_front(options.measure)) {
       one["front"].push_back(case_json(scene.settings[i], floor_m, options));
     }
     for (const StudyCase& estimate : scene.estimates) {
       one["estimates"].push_back(case_json(estimate, floor_m, options));
-      one["estimates"].back()["look_after_iterations"] = estimate.estimate_iterations;
+      one["estimates"].back()["estimate"] = {{"iterations", estimate.estimate_iterations},
+                                             {"after_steps", estimate.estimate_after},
+                                             {"source", estimate.is_look ? "same_solve" : "short_run"}};
     }
     const auto chosen = chosen_setting(scene, options);
-    if (chosen) one["chosen"] = case_json(scene.settings[*chosen], floor_m, options);
+    if (chosen) {
+      one["chosen"] = case_json(scene.settings[*chosen], floor_m, options);
+      one["chosen"]["inside_uncertainty"] = is_inside(scene, scene.settings[*chosen], options);
+    }
     if (chosen) one["run"] = run_command(scene.settings[*chosen]);
     json["scenes"].push_back(one);
   }

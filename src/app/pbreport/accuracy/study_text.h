@@ -10,6 +10,11 @@ namespace pbmpi::app {
 /// The setting that the options ask for, or nothing.
 std::optional<std::size_t> chosen_setting(const SceneCases& scene, const AccuracyReportOptions& options);
 
+/// Is its error no larger than what the reference is known to?
+bool is_inside(const SceneCases& scene, const StudyCase& one, const AccuracyReportOptions& options);
+/// If so: ": within the 1.2 mm to which the reference is known"; else empty.
+std::string inside_text(const SceneCases& scene, const StudyCase& one, const AccuracyReportOptions& options);
+
 std::string study_to_text(const io::TableFile& file, const std::vector<SceneCases>& scenes,
                           const AccuracyReportOptions& options);
 std::string study_to_json(const std::vector<SceneCases>& scenes, const AccuracyReportOptions& options);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/pbstudy/accuracy/accuracy_table.h"
+#include "app/pbstudy/accuracy/yardsticks.h"
 #include "app/pbstudy/study/study_runner.h"
 
 namespace pbmpi::app {
@@ -14,29 +15,33 @@ using io::Parameter;
 /// The reference of a scene is made by each rank that has cases of it.
 std::vector<CaseResult> run_cases(const mpi::Communicator& comm, const AccuracyOptions& options,
                                   const std::vector<AccuracyCase>& cases, StudyRunner& runner) {
-  std::optional<Reference> reference;
+  std::optional<SolvedReference> reference;
   std::optional<RestRunner> rest;
   int reference_scene = -1;
   const std::vector<int> owner = deal_out(cases, runner.scenes(), comm.size());
   return runner.run<CaseResult>(cases, owner, [&](std::size_t i) {
     const StudyScene& scene = runner.scene(cases[i].scene);
     if (cases[i].scene != reference_scene) {
-      reference = make_reference(scene, reference_settings(scene, options));
+      reference = solve_reference(scene, reference_solve(scene, options));
       rest.emplace(scene, reference_settings(scene, options), options.rest_s);
       reference_scene = cases[i].scene;
     }
-    return run_case(cases[i], scene, *reference, *rest, options.repeats);
+    return is_yardstick(cases[i].kind) ? run_yardstick(cases[i], scene, *reference, options)
+                                       : run_case(cases[i], scene, *reference, *rest, options.repeats);
   });
 }
 
 StudyContent content(const AccuracyOptions& options, const std::vector<StudyScene>& scenes,
                      const std::vector<AccuracyCase>& cases, const std::vector<CaseResult>& results) {
   StudyContent content;
-  content.parameters = {Parameter::of("reference_stepper", "sor"),
-                        Parameter::of("reference_precision", "double"),
-                        Parameter::of("reference_iterations", std::int64_t{options.reference_iterations}),
-                        Parameter::of("reference_substeps", std::int64_t{options.reference_substeps}),
-                        Parameter::of("rest_seconds", options.rest_s)};
+  content.parameters = {
+      Parameter::of("reference_stepper", "sor"),
+      Parameter::of("reference_precision", "double"),
+      Parameter::of("reference_iterations", std::int64_t{options.reference_iterations}),
+      Parameter::of("reference_residual", options.reference_residual_m),
+      Parameter::of("reference_most_iterations", std::int64_t{options.reference_most_iterations}),
+      Parameter::of("reference_check", std::int64_t{options.reference_check}),
+      Parameter::of("rest_seconds", options.rest_s)};
   content.cases = case_columns(scenes, cases, results);
   content.next = " --budget 3.33ms";
   return content;

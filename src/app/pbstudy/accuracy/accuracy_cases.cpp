@@ -21,20 +21,48 @@ int steps_in_frame(const StudyScene& scene, double dt_s) {
   return static_cast<int>(std::round(steps));
 }
 
-/// Looks at the solve of the scene's own iterations, in each precision of the study.
-void add_estimates(AccuracyCase base, const StudyScene& scene, const AccuracyOptions& options,
+/// The stepper of this kind as it is meant to be used, with a memory if it has one.
+StepperSettings remembering(const StepperSettings& base) {
+  StepperSettings settings = default_settings(base.kind);
+  settings.dt_s = base.dt_s;
+  settings.seed = base.seed;
+  return settings;
+}
+
+/// The frame of one precise setting, estimated by each number of iterations after each number of its steps.
+void add_estimates_of(AccuracyCase precise, const AccuracyOptions& options,
+                      std::vector<AccuracyCase>& cases) {
+  precise.kind = CaseKind::estimate;
+  for (int after = 0; after < precise.steps_per_frame; ++after) {
+    for (const int iterations : options.estimates) {
+      if (iterations == 0) continue;
+      EstimateSpec& estimate = precise.estimate.emplace();
+      estimate.stepper = default_estimate(precise.stepper);
+      estimate.stepper.iterations = iterations;
+      estimate.after = after;
+      estimate.source = source_of(estimate, precise.stepper, precise.steps_per_frame);
+      cases.push_back(precise);
+    }
+  }
+}
+
+/// Estimates of the scene's own iterations, and of the stepper as it is meant to be used, in each precision
+/// of the study.
+void add_estimates(const AccuracyCase& base, const StudyScene& scene, const AccuracyOptions& options,
                    std::vector<AccuracyCase>& cases) {
-  base.kind = CaseKind::estimate;
-  base.stepper.iterations = scene.iterations;
   const auto precisions =
       std::ranges::find(options.settings, &stepping::step_option("precision"), &SettingList::option);
-  cross_settings(base.stepper, {precisions, 1}, [&](const StepperSettings& stepper) {
-    base.stepper = stepper;
-    for (const int iterations : options.estimates) {
-      base.estimate_iterations = iterations;
-      if (iterations > 0 && iterations <= scene.iterations) cases.push_back(base);
-    }
-  });
+  const auto add = [&](const StepperSettings& precise) {
+    cross_settings(precise, {precisions, 1}, [&](const StepperSettings& stepper) {
+      AccuracyCase one = base;
+      one.stepper = stepper;
+      add_estimates_of(one, options, cases);
+    });
+  };
+  StepperSettings scenes_own = base.stepper;
+  scenes_own.iterations = scene.iterations;
+  add(scenes_own);
+  if (options.with_default && traits_of(base.stepper.kind).tunes_sweeps) add(remembering(base.stepper));
 }
 
 /// All settings of one kind of stepper. `base` has the kind and dt.
@@ -49,14 +77,11 @@ void add_settings(const AccuracyCase& base, const AccuracyOptions& options,
   });
 }
 
-/// The settings with a memory from step to step: as the stepper is meant to be used, in the study's numbers
-/// of substeps and precisions.
+/// The settings with a memory from step to step, in the study's numbers of substeps and precisions.
 void add_remembering(const AccuracyCase& base, const AccuracyOptions& options,
                      std::vector<AccuracyCase>& cases) {
   AccuracyCase one = base;
-  one.stepper = default_settings(base.stepper.kind);
-  one.stepper.dt_s = base.stepper.dt_s;
-  one.stepper.seed = base.stepper.seed;
+  one.stepper = remembering(base.stepper);
   std::vector<SettingList> lists;
   for (const SettingList& list : options.settings) {
     if (list.option->name == "substeps" || list.option->name == "precision") lists.push_back(list);
@@ -86,34 +111,58 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
       if (options.with_default && traits_of(with_kind.kind).tunes_sweeps)
         add_remembering(first, options, cases);
       const bool is_first_step = text_of(*dts.option, with_kind) == dts.values.front();
-      if (traits_of(with_kind.kind).is_anytime && is_first_step) add_estimates(first, scene, options, cases);
+      if (traits_of(with_kind.kind).iterates && is_first_step) add_estimates(first, scene, options, cases);
     });
   });
 }
 
+/// Of a world that `direct` can solve in seconds: it takes the cube of the rows of an island.
+constexpr int most_bodies_for_direct = 60;
+
+/// ODE with the scene's step: direct where worlds are small, else quick with the iterations of the check.
+StepperSettings second_method(const StudyScene& scene, const StepperSettings& reference,
+                              const AccuracyOptions& options) {
+  StepperSettings second;
+  const int num_bodies = build_worlds(scene, scene.dt_s, reference.seed).front()->num_bodies();
+  second.kind =
+      num_bodies <= most_bodies_for_direct ? stepping::StepperKind::direct : stepping::StepperKind::quick;
+  second.dt_s = reference.dt_s;
+  second.seed = reference.seed;
+  if (second.kind == stepping::StepperKind::quick)
+    second.iterations = options.reference_check * options.reference_iterations;
+  return second;
+}
+
 void add_yardsticks(int index, const StudyScene& scene, const AccuracyOptions& options,
                     std::vector<AccuracyCase>& cases) {
-  const AccuracyCase reference{index, CaseKind::floor, reference_settings(scene, options),
+  const AccuracyCase reference{index, CaseKind::reference, reference_settings(scene, options),
                                steps_in_frame(scene, scene.dt_s)};
-  for (int i = 1; i <= options.floor_seeds; ++i) {
+  const auto add = [&](CaseKind kind) -> AccuracyCase& {
     cases.push_back(reference);
-    cases.back().stepper.seed += static_cast<std::uint64_t>(i);
+    cases.back().kind = kind;
+    return cases.back();
+  };
+  add(CaseKind::reference);
+  for (int i = 1; i <= options.floor_seeds; ++i)
+    add(CaseKind::floor).stepper.seed += static_cast<std::uint64_t>(i);
+  if (options.reference_check > 0) {
+    add(CaseKind::more_iterations).stepper.iterations *= options.reference_check;
+    add(CaseKind::second_method).stepper = second_method(scene, reference.stepper, options);
   }
-  cases.push_back(reference);
-  cases.back().kind = CaseKind::halved_iterations;
-  cases.back().stepper.iterations /= 2;
-  if (reference.stepper.substeps > 1) {
-    cases.push_back(reference);
-    cases.back().kind = CaseKind::halved_substeps;
-    cases.back().stepper.substeps /= 2;
-  }
-  cases.push_back(reference);
-  cases.back().kind = CaseKind::halved_dt;
-  cases.back().stepper.dt_s /= 2;
-  cases.back().steps_per_frame *= 2;
+  AccuracyCase& halved = add(CaseKind::halved_dt);
+  halved.stepper.dt_s /= 2;
+  halved.steps_per_frame *= 2;
 }
 
 }  // namespace
+
+int AccuracyCase::sweeps_a_frame() const {
+  if (!estimate) return steps_per_frame * sweeps();
+  const int rest = estimate->source == EstimateSource::same_solve
+                       ? estimate->stepper.iterations
+                       : (steps_per_frame - estimate->after) * sweeps_of(estimate->stepper);
+  return estimate->after * sweeps() + rest;
+}
 
 StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions& options) {
   return study_scene(source, options.overrides);
@@ -124,9 +173,13 @@ StepperSettings reference_settings(const StudyScene& scene, const AccuracyOption
   reference.kind = stepping::StepperKind::sor;
   reference.dt_s = scene.dt_s;
   reference.iterations = options.reference_iterations;
-  reference.substeps = options.reference_substeps;
   reference.seed = options.seed;
   return reference;
+}
+
+ReferenceSolve reference_solve(const StudyScene& scene, const AccuracyOptions& options) {
+  return {reference_settings(scene, options), options.reference_residual_m,
+          options.reference_most_iterations};
 }
 
 std::vector<AccuracyCase> make_cases(const std::vector<StudyScene>& scenes, const AccuracyOptions& options) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <sstream>
 
+#include "app/common/quantities.h"
 #include "app/pbstudy/study/option_lists.h"
 
 namespace pbmpi::app {
@@ -32,9 +33,9 @@ po::options_description options_description() {
   for (const VariedOption& one : varied) add_setting_list(one, what);
   what.add_options()  //
       ("estimates", list_of<int>(),
-       "sor: FEEC cases, not crossed with the others, at the first step of --dt: the state after so many "
-       "iterations of a frame's last "
-       "solve, which has the scene's iterations; 0: none; default: 1 5");
+       "FEEC cases, not crossed with the others, at the first step of --dt: frames of the scene's own "
+       "iterations, and of sor as it is by default, estimated with so many, after none and more of their "
+       "steps; 0: none; default: 1 5");
   add_setting_list(varied_dt, what);
   what.add_options()  //
       ("max-sweeps", po::value<int>()->default_value(320)->value_name("N"),
@@ -46,14 +47,22 @@ po::options_description options_description() {
   po::options_description how =
       how_to_measure({"of the scene's variation and of the reference's row order",
                       "how often each frame is timed, the process being alone on its core", 5,
-                      "noise floor: the reference with this many other solver seeds", 8});
+                      "noise floor: the reference with this many other solver seeds", 4});
   how.add_options()  //
       ("reference-iterations", po::value<int>()->default_value(640)->value_name("N"),
-       "the reference is sor in double precision with these iterations, so that it solves the scene's own "
-       "step; "
-       "checked by halving")  //
-      ("reference-substeps", po::value<int>()->default_value(1)->value_name("N"),
-       "... in each of these substeps; checked by halving. More than 1 only for scenes without fast impacts");
+       "the reference is a cold sor in double precision, which solves the scene's own step; each step is "
+       "tried "
+       "with these iterations first")  //
+      ("reference-residual", po::value<std::string>()->default_value("0.01mm")->value_name("LENGTH"),
+       "... and with four times as many again and again, until what is unsolved moves no point of a joint or "
+       "contact by more than this within the step, and turns no axis by more than as many radians a metre; "
+       "0: "
+       "not again")  //
+      ("reference-most-iterations", po::value<int>()->default_value(40960)->value_name("N"),
+       "... or so many are done")  //
+      ("reference-check", po::value<int>()->default_value(30)->value_name("N"),
+       "compare the reference with itself solved by N times as many iterations, and with ODE's solution; 0: "
+       "neither");
   po::options_description all;
   all.add(what).add(how).add(what_to_write("accuracy.h5")).add(common_options_description());
   return all;
@@ -62,7 +71,9 @@ po::options_description options_description() {
 void require_possible(const AccuracyOptions& options) {
   require_at_least({options.max_sweeps}, 1, "--max-sweeps");
   require_at_least({options.reference_iterations}, 2, "--reference-iterations");
-  require_at_least({options.reference_substeps}, 1, "--reference-substeps");
+  require_at_least({options.reference_most_iterations}, options.reference_iterations,
+                   "--reference-most-iterations");
+  require_at_least({options.reference_check}, 0, "--reference-check");
   require_at_least(options.estimates, 0, "--estimates");
   core::require_input(options.rest_s >= 0 && options.rest_s < 1e6,
                       "--rest-seconds: it must be a time in seconds, or 0 for none");
@@ -97,7 +108,10 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   options.estimates = list<int>(values, "estimates", {1, 5});
   options.max_sweeps = values["max-sweeps"].as<int>();
   options.reference_iterations = values["reference-iterations"].as<int>();
-  options.reference_substeps = values["reference-substeps"].as<int>();
+  const std::string residual = values["reference-residual"].as<std::string>();
+  options.reference_residual_m = residual == "0" ? 0 : parse_length_m(residual, "--reference-residual");
+  options.reference_most_iterations = values["reference-most-iterations"].as<int>();
+  options.reference_check = values["reference-check"].as<int>();
   options.rest_s = values["rest-seconds"].as<double>();
   require_possible(options);
   return options;

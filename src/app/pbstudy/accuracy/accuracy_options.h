@@ -11,13 +11,15 @@ namespace pbmpi::app {
 
 /// The settings that are crossed, and how each is measured.
 struct AccuracyOptions : StudyOptions {
-  std::vector<SettingList> settings;  ///< the stepper first; the last varies fastest
-  bool with_default = true;           ///< besides them sor as it is meant to be used
-  SettingList dts;                    ///< without values: the scene's and half of it
-  std::vector<int> estimates;         ///< sor: iterations after which the precise solve is looked at (FEEC)
-  int max_sweeps = 320;               ///< iterations x substeps of a case, at most
-  int reference_iterations = 640;
-  int reference_substeps = 1;
+  std::vector<SettingList> settings;      ///< the stepper first; the last varies fastest
+  bool with_default = true;               ///< besides them sor as it is meant to be used
+  SettingList dts;                        ///< without values: the scene's and half of it
+  std::vector<int> estimates;             ///< iterations with which frames are estimated (FEEC)
+  int max_sweeps = 320;                   ///< iterations x substeps of a case, at most
+  int reference_iterations = 640;         ///< with which each of its steps is tried first
+  double reference_residual_m = 1e-5;     ///< asked of each step; 0: nothing
+  int reference_most_iterations = 40960;  ///< of a step that does not get there
+  int reference_check = 30;               ///< times as many iterations, for comparison; 0: no such case
   double rest_s = 3;  ///< for which the scene at rest is watched under each setting; 0: not at all
 };
 

@@ -45,7 +45,7 @@ void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector
 std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const StudyScene& scene,
                                                 const Reference& reference, const Worlds& worlds, int repeats,
                                                 CaseResult& result) {
-  CaseStepper stepper(worlds, one.stepper, one.steps_per_frame, one.estimate_iterations);
+  CaseStepper stepper(worlds, one.stepper, one.steps_per_frame, one.estimate);
   std::vector<std::vector<double>> times_s(static_cast<std::size_t>(scene.frames));
   PoseErrors errors;
   for (int round = 0; round < repeats; ++round) {
@@ -64,8 +64,7 @@ std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const S
     }
   }
   result.rows /= scene.frames;
-  const int looked = one.estimate_iterations > 0 ? one.estimate_iterations : one.sweeps();
-  result.row_visits = result.rows * (one.sweeps() * (one.steps_per_frame - 1) + looked);
+  result.row_visits = result.rows * one.sweeps_a_frame();
   result.defect = analysis::summarize(errors);
   return times_s;
 }
@@ -103,8 +102,7 @@ CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Refe
   // Another step length has its events at other steps. The bodies are the same.
   const bool own_step = one.stepper.dt_s == scene.dt_s;
   const Worlds worlds = own_step ? reference.worlds : build_worlds(scene, one.stepper.dt_s, one.stepper.seed);
-  const bool is_yardstick = one.kind != CaseKind::setting && one.kind != CaseKind::estimate;
-  const auto times_s = measure_defect(one, scene, reference, worlds, is_yardstick ? 1 : repeats, result);
+  const auto times_s = measure_defect(one, scene, reference, worlds, repeats, result);
   summarize_times(times_s, result);
   measure_drift(one, scene, reference, worlds, result);
   result.rest = one.kind == CaseKind::setting ? rest.run(one.stepper) : RestResult{NAN, NAN, NAN, NAN};

@@ -1,6 +1,7 @@
 /// Runs one case of "pbstudy accuracy" on this rank.
 #pragma once
 
+#include <cmath>
 #include <type_traits>
 
 #include "analysis/error_table.h"
@@ -24,11 +25,14 @@ struct CaseResult {
   double momentum_change_ns = 0;  ///< the same of the linear momentum
   double max_stretch = 0;         ///< of a human segment after one frame
   RestResult rest;                ///< of a setting
+  double solve_residual = NAN;    ///< of a case that is solved as the reference is (SolveAccount); else NaN
+  double solve_iterations = NAN;
   analysis::ErrorTable defect;
   analysis::ErrorTable drift;
 };
 static_assert(std::is_trivially_copyable_v<CaseResult>);
 
+/// A setting or an estimate.
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
                     const RestRunner& rest, int repeats);
 

@@ -2,6 +2,7 @@
 
 #include "app/common/stepper_factory.h"
 #include "core/clock.h"
+#include "stability/guarded_stepper.h"
 
 namespace pbmpi::app {
 namespace {
@@ -21,16 +22,14 @@ Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed,
 }
 
 CaseStepper::CaseStepper(const Worlds& worlds, const stepping::StepperSettings& settings, int steps_per_frame,
-                         int estimate_iterations)
-    : num_worlds_(static_cast<int>(worlds.size())),
-      steps_per_frame_(steps_per_frame),
-      estimate_iterations_(estimate_iterations) {
-  if (estimate_iterations > 0) {
-    auto stepper = make_anytime_stepper(settings);
-    anytime_ = stepper.get();
-    stepper_ = std::move(stepper);
-  } else {
-    stepper_ = make_stepper(settings, "case: ");
+                         const std::optional<EstimateSpec>& estimate)
+    : num_worlds_(static_cast<int>(worlds.size())), steps_per_frame_(steps_per_frame) {
+  stepper_ = make_stepper(settings, "case: ");
+  if (estimate) {
+    auto frames =
+        std::make_unique<stability::GuardedStepper>(std::move(stepper_), stability::GuardSettings());
+    estimator_ = make_estimator(*estimate, *frames);
+    stepper_ = std::move(frames);
   }
   for (int world = 0; world < num_worlds_; ++world) {
     const auto& model = worlds[static_cast<std::size_t>(world)];
@@ -39,10 +38,9 @@ CaseStepper::CaseStepper(const Worlds& worlds, const stepping::StepperSettings& 
 }
 
 void CaseStepper::start_from(const std::vector<State>& states, int frame) {
-  for (int world = 0; world < num_worlds_; ++world) {
-    stepper_->set_state(world, states[static_cast<std::size_t>(world)],
-                        static_cast<std::int64_t>(frame) * steps_per_frame_);
-  }
+  step_ = static_cast<std::int64_t>(frame) * steps_per_frame_;
+  for (int world = 0; world < num_worlds_; ++world)
+    stepper_->set_state(world, states[static_cast<std::size_t>(world)], step_);
   // What a jump costs is no frame's: joints that hold again make sor's packs anew before the next step.
   core::PhaseTimes times_of_none;
   stepper_->advance(0, times_of_none);
@@ -50,25 +48,34 @@ void CaseStepper::start_from(const std::vector<State>& states, int frame) {
 
 double CaseStepper::advance_frame() {
   core::PhaseTimes times;
+  double estimate_s = 0;
+  if (estimator_) estimate_s = estimate_frame();
   const double start_s = core::thread_cpu_s();
-  if (anytime_ != nullptr) {
-    if (steps_per_frame_ > 1) stepper_->advance(steps_per_frame_ - 1, times);
-    anytime_->begin_step(estimate_iterations_, times);
-  } else {
-    stepper_->advance(steps_per_frame_, times);
-  }
+  stepper_->advance(steps_per_frame_, times);
   const double seconds = core::thread_cpu_s() - start_s;
-  if (anytime_ != nullptr) stepper_->advance(1, times);
-  return seconds;
+  step_ += steps_per_frame_;
+  return estimator_ ? estimate_s : seconds;
+}
+
+/// Seconds of processor time until the estimate is there.
+double CaseStepper::estimate_frame() {
+  core::PhaseTimes times;
+  std::vector<stepping::LocalWorld> worlds;
+  worlds.reserve(static_cast<std::size_t>(num_worlds_));
+  for (int world = 0; world < num_worlds_; ++world)
+    worlds.push_back({world, &stepper_->model(world), &stepper_->state(world)});
+  const double start_s = core::thread_cpu_s();
+  estimator_->estimate(worlds, step_, steps_per_frame_, times);
+  return core::thread_cpu_s() - start_s;
 }
 
 const State& CaseStepper::shown(int world) const {
-  return anytime_ != nullptr ? anytime_->look(world) : stepper_->state(world);
+  return estimator_ ? estimator_->state(world) : stepper_->state(world);
 }
 
 stepping::Observables CaseStepper::observables(int world) const {
   stepping::Observables seen = stepper_->observables(world);
-  if (anytime_ == nullptr) return seen;
+  if (!estimator_) return seen;
   stepping::observe_state(stepper_->model(world), shown(world), seen);
   return seen;
 }
@@ -78,6 +85,14 @@ std::vector<State> CaseStepper::states() const {
   states.reserve(static_cast<std::size_t>(num_worlds_));
   for (int world = 0; world < num_worlds_; ++world) states.push_back(stepper_->state(world));
   return states;
+}
+
+analysis::PoseErrors errors_between(const Worlds& worlds, const std::vector<State>& states,
+                                    const std::vector<State>& reference) {
+  analysis::PoseErrors errors;
+  for (std::size_t world = 0; world < worlds.size(); ++world)
+    errors.append(analysis::compare(*worlds[world], view(states[world]), view(reference[world])));
+  return errors;
 }
 
 analysis::PoseErrors errors_of(const CaseStepper& stepper, const Worlds& worlds,

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "analysis/pose_errors.h"
+#include "app/common/estimate_spec.h"
 #include "app/pbstudy/study/study_scene.h"
 #include "model/state.h"
 #include "stepping/stepper.h"
@@ -21,9 +23,9 @@ Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed,
 /// A stepper with all worlds of a case, from their initial states on.
 class CaseStepper {
  public:
-  /// `estimate_iterations` > 0: what it shows is the state after so many iterations of a frame's last solve.
+  /// With `estimate` it shows the estimate of a frame (FEEC) in place of its end.
   CaseStepper(const Worlds& worlds, const stepping::StepperSettings& settings, int steps_per_frame,
-              int estimate_iterations = 0);
+              const std::optional<EstimateSpec>& estimate = std::nullopt);
 
   /// Puts all worlds into `states` [num_worlds], those at the start of frame `frame`.
   void start_from(const std::vector<model::State>& states, int frame);
@@ -37,14 +39,19 @@ class CaseStepper {
   std::vector<model::State> states() const;
 
  private:
+  double estimate_frame();
+
   std::unique_ptr<stepping::WorldStepper> stepper_;
-  stepping::AnytimeStepper* anytime_ = nullptr;  ///< the same, if it is to estimate
+  std::unique_ptr<stepping::Estimator> estimator_;  ///< if it is to estimate
   int num_worlds_;
   int steps_per_frame_;
-  int estimate_iterations_;
+  std::int64_t step_ = 0;
 };
 
-/// Errors of all bodies and joints of all worlds, as they are shown, against `reference` [num_worlds].
+/// Errors of all bodies and joints of all worlds, in `states` [num_worlds], against `reference` [num_worlds].
+analysis::PoseErrors errors_between(const Worlds& worlds, const std::vector<model::State>& states,
+                                    const std::vector<model::State>& reference);
+/// ... and as they are shown.
 analysis::PoseErrors errors_of(const CaseStepper& stepper, const Worlds& worlds,
                                const std::vector<model::State>& reference);
 

@@ -1,0 +1,139 @@
+#include "app/pbstudy/accuracy/yardsticks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/clock.h"
+#include "core/statistics.h"
+
+namespace pbmpi::app {
+namespace {
+
+using model::State;
+using States = std::vector<State>;
+
+/// Does frame `frame` from these states.
+using SolveFrame = std::function<States(const States& start, int frame)>;
+
+/// A result of which nothing is known but what is measured here.
+CaseResult unobserved() {
+  CaseResult result;
+  for (double CaseResult::*number : {&CaseResult::rows, &CaseResult::row_visits, &CaseResult::max_joint_gap_m,
+                                     &CaseResult::max_penetration_m, &CaseResult::energy_change_j,
+                                     &CaseResult::momentum_change_ns, &CaseResult::max_stretch})
+    result.*number = NAN;
+  result.rest = {NAN, NAN, NAN, NAN};
+  return result;
+}
+
+/// The defect of the measured frames.
+void measure_defect(const StudyScene& scene, const SolvedReference& reference, const Worlds& worlds,
+                    const SolveFrame& solve, CaseResult& result) {
+  analysis::PoseErrors errors;
+  std::vector<double> times_s;
+  for (int frame = scene.warmup; frame < scene.total_frames(); ++frame) {
+    const auto at = static_cast<std::size_t>(frame);
+    const double start_s = core::thread_cpu_s();
+    const States end = solve(reference.states[at], frame);
+    times_s.push_back(core::thread_cpu_s() - start_s);
+    errors.append(errors_between(worlds, end, reference.states[at + 1]));
+  }
+  result.defect = analysis::summarize(errors);
+  result.frame_time_median_s = core::quantile(times_s, 0.5);
+  result.frame_time_worst_s = *std::ranges::max_element(times_s);
+  result.frame_time_p10_s = core::quantile(times_s, 0.1);
+  result.frame_time_p90_s = core::quantile(times_s, 0.9);
+}
+
+void measure_drift(const StudyScene& scene, const SolvedReference& reference, const Worlds& worlds,
+                   const SolveFrame& solve, CaseResult& result) {
+  analysis::PoseErrors errors;
+  States states = reference.states.front();
+  for (int frame = 0; frame < scene.total_frames(); ++frame) {
+    states = solve(states, frame);
+    if (frame < scene.warmup) continue;
+    errors.append(errors_between(worlds, states, reference.states[static_cast<std::size_t>(frame) + 1]));
+  }
+  result.drift = analysis::summarize(errors);
+}
+
+/// The reference anew, with the case's seed and step.
+CaseResult solve_anew(const AccuracyCase& one, const StudyScene& scene, const SolvedReference& reference,
+                      const AccuracyOptions& options) {
+  // Another step length has its events at other steps. The bodies are the same.
+  const bool own_step = one.stepper.dt_s == scene.dt_s;
+  const Worlds worlds = own_step ? reference.worlds : build_worlds(scene, one.stepper.dt_s, options.seed);
+  ReferenceSolve asked = reference_solve(scene, options);
+  asked.stepper = one.stepper;
+  ConvergingStepper stepper(worlds, asked);
+  const SolveFrame solve = [&](const States& start, int frame) {
+    stepper.start_from(start, static_cast<std::int64_t>(frame) * one.steps_per_frame);
+    for (int step = 0; step < one.steps_per_frame; ++step) stepper.advance();
+    return stepper.states();
+  };
+  CaseResult result = unobserved();
+  measure_defect(scene, reference, worlds, solve, result);
+  measure_drift(scene, reference, worlds, solve, result);
+  result.solve_residual = stepper.account().residual;
+  result.solve_iterations = stepper.account().iterations;
+  return result;
+}
+
+CaseResult solve_further(const AccuracyCase& one, const StudyScene& scene, const SolvedReference& reference,
+                         const AccuracyOptions& options) {
+  ConvergingStepper stepper(reference.worlds, reference_solve(scene, options));
+  const SolveFrame solve = [&](const States& start, int frame) {
+    const std::int64_t first = static_cast<std::int64_t>(frame) * one.steps_per_frame;
+    stepper.start_from(start, first);
+    for (std::int64_t step = first; step < first + one.steps_per_frame; ++step) {
+      std::vector<int> iterations = reference.iterations[static_cast<std::size_t>(step)];
+      for (int& count : iterations) count *= options.reference_check;
+      stepper.advance_with(iterations);
+    }
+    return stepper.states();
+  };
+  CaseResult result = unobserved();
+  measure_defect(scene, reference, reference.worlds, solve, result);
+  result.solve_residual = stepper.account().residual;
+  result.solve_iterations = stepper.account().iterations;
+  return result;
+}
+
+CaseResult solve_otherwise(const AccuracyCase& one, const StudyScene& scene,
+                           const SolvedReference& reference) {
+  CaseStepper stepper(reference.worlds, one.stepper, one.steps_per_frame);
+  CaseResult result = unobserved();
+  const SolveFrame solve = [&](const States& start, int frame) {
+    stepper.start_from(start, frame);
+    stepper.advance_frame();
+    return stepper.states();
+  };
+  measure_defect(scene, reference, reference.worlds, solve, result);
+  return result;
+}
+
+/// The reference itself: no error, and what it took.
+CaseResult account_for(const StudyScene& scene, const SolvedReference& reference) {
+  const SolveFrame look_up = [&](const States&, int frame) {
+    return reference.states[static_cast<std::size_t>(frame) + 1];
+  };
+  CaseResult result = unobserved();
+  measure_defect(scene, reference, reference.worlds, look_up, result);
+  measure_drift(scene, reference, reference.worlds, look_up, result);
+  result.solve_residual = reference.account.residual;
+  result.solve_iterations = reference.account.iterations;
+  return result;
+}
+
+}  // namespace
+
+CaseResult run_yardstick(const AccuracyCase& one, const StudyScene& scene, const SolvedReference& reference,
+                         const AccuracyOptions& options) {
+  if (one.kind == CaseKind::reference) return account_for(scene, reference);
+  if (one.kind == CaseKind::more_iterations) return solve_further(one, scene, reference, options);
+  if (one.kind == CaseKind::second_method) return solve_otherwise(one, scene, reference);
+  return solve_anew(one, scene, reference, options);
+}
+
+}  // namespace pbmpi::app

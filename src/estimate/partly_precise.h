@@ -1,0 +1,39 @@
+/// The estimate that begins with steps of the precise frame itself.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "stepping/estimator.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::estimate {
+
+/// Begins the precise frame, and has another estimator do the rest from there: later than an estimate of the
+/// whole frame, and nearer to the precise result. Whoever advances the stepper goes on after what was begun,
+/// so that nothing is computed twice.
+class PartlyPrecise final : public stepping::Estimator {
+ public:
+  /// `precise` is borrowed: the one that computes the precise frames. `num_steps`: precise ones, of each
+  /// frame.
+  PartlyPrecise(stepping::FrameStepper& precise, std::unique_ptr<stepping::Estimator> rest, int num_steps)
+      : precise_(&precise), rest_(std::move(rest)), num_precise_(num_steps) {}
+
+  void estimate(std::span<const stepping::LocalWorld> worlds, std::int64_t step, int num_steps,
+                core::PhaseTimes& times) override;
+  const model::State& state(int world) const override { return rest_->state(world); }
+  stepping::EstimatedSteps steps() const override {
+    return {.precise = num_precise_, .coarse = rest_->steps().coarse};
+  }
+
+ private:
+  stepping::FrameStepper* precise_;
+  std::unique_ptr<stepping::Estimator> rest_;
+  int num_precise_;
+};
+
+/// `worlds` as they are after the steps that `precise` has begun of the frame.
+std::vector<stepping::LocalWorld> begun_worlds(const stepping::FrameStepper& precise,
+                                               std::span<const stepping::LocalWorld> worlds);
+
+}  // namespace pbmpi::estimate

@@ -1,0 +1,44 @@
+/// The estimate that is due at some time of each frame.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "stepping/deadline_plan.h"
+#include "stepping/estimator.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::estimate {
+
+/// Begins the precise frame, step by step as long as a coarse rest fits behind, and has another estimator do
+/// that rest; where not even that fits, the bodies glide. On a fast machine this is the precise result
+/// itself. What goes out follows the clock and differs from run to run; the precise frames do not.
+class UntilDue final : public stepping::Estimator {
+ public:
+  /// `precise` is borrowed: the one that computes the precise frames. `deadline_s`: from the start of a frame
+  /// until its estimate is due. `dt_s`: of a step.
+  UntilDue(stepping::FrameStepper& precise, std::unique_ptr<stepping::Estimator> rest, double deadline_s,
+           double dt_s)
+      : precise_(&precise), rest_(std::move(rest)), plan_(deadline_s), dt_s_(dt_s) {}
+
+  void estimate(std::span<const stepping::LocalWorld> worlds, std::int64_t step, int num_steps,
+                core::PhaseTimes& times) override;
+  const model::State& state(int world) const override;
+  stepping::EstimatedSteps steps() const override { return steps_; }
+
+ private:
+  void note_last_frame(std::span<const stepping::LocalWorld> worlds, std::int64_t step, int num_steps);
+  void begin_precise(double start_s, int num_steps, core::PhaseTimes& times);
+  void finish(std::span<const stepping::LocalWorld> worlds, double start_s, std::int64_t step, int num_steps,
+              core::PhaseTimes& times);
+
+  stepping::FrameStepper* precise_;
+  std::unique_ptr<stepping::Estimator> rest_;
+  stepping::DeadlinePlan plan_;
+  double dt_s_;
+  std::int64_t next_step_ = -1;         ///< after the last frame
+  stepping::EstimatedSteps steps_;      ///< of the last estimate
+  std::map<int, model::State> glided_;  ///< of the last estimate, if the bodies glide
+};
+
+}  // namespace pbmpi::estimate

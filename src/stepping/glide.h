@@ -1,0 +1,12 @@
+/// Motion without forces.
+#pragma once
+
+#include "model/state.h"
+
+namespace pbmpi::stepping {
+
+/// Moves all bodies for so long at their velocities of now, as ODE's integrator does in one step: position by
+/// h v, orientation by h/2 w q, normalised. Velocities stay.
+void glide(double seconds, model::State& state);
+
+}  // namespace pbmpi::stepping
