@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-from tables import accuracy, effects, guards, prediction, programs, scenes, speed, stability
+from tables import accuracy, effects, guards, paper, prediction, programs, scenes, speed, stability
 
 # page: below the root. make: computes the lines of the table. has_clock: whether times are among its figures. commands: for
 # a reader who wants to measure it by hand.
@@ -24,10 +24,13 @@ ENTRIES = {
     "plans": Entry("docs/effects.md", scenes.plans, False, ["pbmpi --scene SCENE --describe"]),
     "effects": Entry("docs/effects.md", effects.costs, True,
                      ["pbstudy effects --stepper sor --repeats 5", "pbreport effects.h5 --markdown"]),
+    "saved": Entry("docs/effects.md", effects.saved, False, ["pbmpi --scene SCENE --effects +EFFECT", "pbmpi --scene SCENE --effects -EFFECT"]),
     "interest": Entry("docs/effects.md", effects.interest, True, ["tests/bench/interest.py 5"]),
     "crashwa": Entry("docs/accuracy.md", accuracy.crashwa, False,
                      ["pbstudy accuracy --scene CrashWa --precision double --iterations 1 20 80 --substeps 1 2 4 8 16 --max-sweeps 80"]),
-    "reference": Entry("docs/accuracy.md", accuracy.reference, False, ["pbstudy accuracy --floor-seeds 4"]),
+    "reference": Entry("docs/accuracy.md", accuracy.reference, False, ["pbstudy accuracy --scene 2-Cars 10-Cars CrashSk CrashWa Battle Fight --floor-seeds 2"]),
+    "estimates": Entry("docs/accuracy.md", accuracy.estimates, False,
+                       ["pbstudy accuracy --scene CrashSk CrashWa Fight --precision double --iterations 20 --substeps 1"]),
     "least_defect": Entry("docs/accuracy.md", accuracy.least_defect, True,
                           ["pbstudy accuracy --iterations 1 2 3 5 10 20 40 80 --substeps 1 2 4 8 --repeats 3"]),
     "substeps": Entry("docs/accuracy.md", accuracy.substeps, False, ["bench_worlds --substeps 100CrSk 0 8",
@@ -48,6 +51,11 @@ ENTRIES = {
     "prediction_engines": Entry("docs/prediction.md", prediction.engines, True, ["mpirun -n 2 pbstudy prediction"]),
     "prediction_errors": Entry("docs/prediction.md", prediction.errors, True, ["mpirun -n 2 pbstudy prediction"]),
     "prediction_statements": Entry("docs/prediction.md", prediction.statements, True, ["mpirun -n 2 pbstudy prediction"]),
+    "paper_counts": Entry("docs/paper.md", paper.counts, False, ["jobs/paper.sh --without-clock"]),
+    "paper_clock": Entry("docs/paper.md", paper.clock, True, ["jobs/paper.sh"]),
+    "paper_instructions": Entry("docs/paper.md", paper.instructions, True, ["jobs/paper.sh"]),
+    "paper_prediction": Entry("docs/paper.md", paper.prediction, True, ["jobs/paper.sh --prediction"]),
+    "paper_nothing": Entry("docs/paper.md", paper.nothing, False, ["jobs/paper.sh --without-clock"]),
     "spaces": Entry("docs/spaces.md", speed.spaces, True, ["tests/bench/decompose.py 3"]),
 }
 

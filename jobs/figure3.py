@@ -1,13 +1,12 @@
-"""Turns callgrind's dumps, one a frame, into instructions a frame and their mix, and writes a page.
+"""Turns callgrind's dumps, one a frame, into instructions a frame and their mix.
 
-Usage: figure3.py FOLDER PAGE.html TABLE.json, with FOLDER/SCENE-STEPPER.callgrind.FRAME made by figure3.sh.
+Usage: figure3.py FOLDER TABLE.json, with FOLDER/SCENE-STEPPER.callgrind.FRAME made by figure3.sh; for pbreport figure3.
 
 An instruction counts as what it computes; its access to memory counts besides as a load or a store, as in a processor
 that splits them into micro-operations. A plain move is only its load or store; between registers it is an integer or a
 floating-point operation.
 """
 import collections
-import html
 import json
 import pathlib
 import re
@@ -15,21 +14,11 @@ import subprocess
 import sys
 
 CLASSES = ("floating point", "integer", "branch", "store", "load")
-PAPER = {"floating point": 0.34, "integer": 0.25, "branch": 0.06, "store": 0.05, "load": 0.30}
-PAPER_COLLISION = "7 % (2 to 20 %)"
 WARMUP = 3
 SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "100CrSk", "Battle", "Fight", "Battle2")
 COLLISION = ("pbmpi::ode::BroadPhase::find_pairs", "pbmpi::ode::Contacts::make")
-# Of the 8 frames with direct on a busy 2-core machine.
-DIRECT_TIME = {"CrashWa": "70 s", "Environ": "about 10 minutes a frame", "100CrSk": "3 s", "Battle": "2 s",
-               "Battle2": "9 minutes"}
 
 NO_DESTINATION = ("cmp", "test", "bt", "comis", "ucomis", "comisd", "ucomisd")
-
-
-def left_out(scene):
-    return (f"the big matrix takes {DIRECT_TIME.get(scene, 'very long')} natively, and about fifty times that under callgrind: too "
-            "long for this job's ten minutes")
 
 
 def classify(mnemonic, operands):
@@ -128,71 +117,12 @@ def collect(folder):
     return table
 
 
-def percent(share):
-    return f"{100 * share:.0f} %"
-
-
-def bar(count, most):
-    return (f'<td class="n">{count / 1e6:,.2f}</td><td class="bar"><i style="width:{100 * count / most:.2f}%"></i></td>')
-
-
-def rows_of(table):
-    most = max(numbers["instructions_per_frame"] for steppers in table.values() for numbers in steppers.values())
-    for scene, steppers in table.items():
-        for stepper in ("quick", "direct"):
-            if stepper not in steppers:
-                reason = left_out(scene) if stepper == "direct" else "not counted in time"
-                yield f"<tr><td>{scene}</td><td>{stepper}</td><td colspan=8 class=note>left out: {html.escape(reason)}</td></tr>"
-                continue
-            numbers = steppers[stepper]
-            cells = "".join(f"<td class=n>{percent(numbers['mix'][name])}</td>" for name in CLASSES)
-            yield (f"<tr><td>{scene}</td><td>{stepper}</td>{bar(numbers['instructions_per_frame'], most)}{cells}"
-                   f"<td class=n>{percent(numbers['collision_share'])}</td></tr>")
-
-
-PAGE = """<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>Instructions · pbmpi</title><link rel="icon" href="data:,">
-<style>
-body {{ font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; margin: 24px auto; max-width: 1100px; padding: 0 16px; color: #1d2733; }}
-table {{ border-collapse: collapse; width: 100%; font-size: 14px; }} th, td {{ text-align: left; padding: 3px 10px 3px 0; border-top: 1px solid #dde3ea; }}
-.n {{ text-align: right; font-variant-numeric: tabular-nums; }} .bar {{ width: 30%; }} .bar i {{ display: block; height: 12px; background: #0072b2; min-width: 1px; }}
-.note {{ color: #5b6775; }} .paper td {{ font-weight: 600; }}
-</style></head><body>
-<h1>Instructions of a frame</h1>
-<p>The paper's Figure 3 and the mix of its section 3.3. Millions of instructions a frame, mean of the measured frames, inside the
-stepper, counted by callgrind. An instruction counts as what it computes, its access to memory besides as a load or a store.
-The paper prints Figure 3 without numbers; its text says that quick takes far fewer instructions than direct. It counts
-single-precision code of 2006, this is double precision.</p>
-<table><tr><th>scene</th><th>stepper</th><th>millions</th><th></th>{heads}<th>collision</th></tr>
-{rows}
-<tr class="paper"><td>mean of quick</td><td></td><td></td><td></td>{mean}</tr>
-<tr class="paper"><td>paper</td><td></td><td></td><td></td>{paper}<td class="n">{collision}</td></tr>
-</table></body></html>
-"""
-
-
-def page(table):
-    quick = [steppers["quick"] for steppers in table.values() if "quick" in steppers]
-    mean = "".join(f"<td class=n>{percent(sum(q['mix'][name] for q in quick) / len(quick))}</td>" for name in CLASSES)
-    mean += f"<td class=n>{percent(sum(q['collision_share'] for q in quick) / len(quick))}</td>"
-    return PAGE.format(heads="".join(f"<th>{name}</th>" for name in CLASSES), rows="\n".join(rows_of(table)), mean=mean,
-                       paper="".join(f"<td class=n>{percent(PAPER[name])}</td>" for name in CLASSES),
-                       collision=PAPER_COLLISION)
-
-
 def main():
-    folder, page_path, json_path = map(pathlib.Path, sys.argv[1:4])
+    folder, json_path = map(pathlib.Path, sys.argv[1:3])
     table = collect(folder)
     if not any("quick" in steppers for steppers in table.values()):
         raise SystemExit(f"{folder}: no frame was counted; see its logs")
-    json_path.write_text(json.dumps({"scenes": table, "paper": {"mix": PAPER, "collision_share": PAPER_COLLISION}}, indent=2),
-                         encoding="utf-8")
-    page_path.write_text(page(table), encoding="utf-8")
-    for scene, steppers in table.items():
-        for stepper, numbers in steppers.items():
-            mix = ", ".join(f"{name} {percent(numbers['mix'][name])}" for name in CLASSES)
-            print(f"{scene:8} {stepper:6} {numbers['instructions_per_frame'] / 1e6:10.2f} M a frame; {mix}; "
-                  f"collision {percent(numbers['collision_share'])}")
+    json_path.write_text(json.dumps({"filetype": "pbmpi-instructions", "scenes": table}, indent=2), encoding="utf-8")
 
 
 if __name__ == "__main__":

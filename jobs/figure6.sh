@@ -4,11 +4,12 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: jobs/figure6.sh [--quick-look] [--gallery DIR] [OUTDIR]
+Usage: jobs/figure6.sh [--quick-look] [--no-stills] [--gallery DIR] [OUTDIR [SCENE ...]]
 
 Writes OUTDIR/figure6.html and the runs' files (default: ./figure6). Needs chromium for the stills. Minutes.
 
   --quick-look   CrashSk and Fight only
+  --no-stills    no pictures of the scenes, and no need of chromium
   --gallery DIR  put the stills into DIR as SCENE.png, too
 TEXT
 }
@@ -20,15 +21,18 @@ declare -A camera=([2-Cars]=13,-9,4,4,0,0.5 [CrashWa]=8,-9,4.5,-2,0,1 [Environ]=
   [Fight]=5,-7,3.5,0,0,0.6 [Battle2]=7,-12,9,0,0,0.5)
 out=figure6
 gallery=""
+stills=yes
 while [[ $# -gt 0 ]]; do
   case $1 in
     --help) usage; exit 0 ;;
     --quick-look) scenes=(CrashSk Fight); shift ;;
+    --no-stills) stills=no; shift ;;
     --gallery) [[ $# -ge 2 ]] || { usage >&2; exit 2; }; gallery=$2; shift 2 ;;
     -*) echo "figure6.sh: unknown option '$1'; see --help" >&2; exit 2 ;;
-    *) out=$1; shift ;;
+    *) out=$1; shift; break ;;
   esac
 done
+[[ $# -eq 0 ]] || scenes=("$@")
 
 jobs=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$jobs/mpi_environment.sh"
@@ -41,6 +45,8 @@ for scene in "${scenes[@]}"; do
   echo "$scene"
   # One rank: the serial time is what Figure 6 starts from.
   "$bin/pbmpi" --scene "$scene" --stepper quick --record-islands --quiet --output "$out/$scene.h5"
+  files+=("$out/$scene.h5")
+  [[ $stills == yes ]] || continue
   "$bin/pbreport" "$out/$scene.h5" --quiet --html "$out/$scene.html"
   view=(--size 560x280)
   [[ -z ${camera[$scene]:-} ]] || view+=(--camera "${camera[$scene]}")
@@ -48,8 +54,9 @@ for scene in "${scenes[@]}"; do
   "$jobs/stills.sh" "${view[@]}" --bare "$out/$scene.html" "$out/stills" "${frame[$scene]}" >/dev/null
   mv "$out/stills/$scene-00${frame[$scene]}.png" "$out/stills/$scene.png"
   [[ -z $gallery ]] || cp "$out/stills/$scene.png" "$gallery/"
-  files+=("$out/$scene.h5")
 done
+pictures=()
+[[ $stills == no ]] || pictures=(--stills "$out/stills")
 "$bin/pbreport" islands "${files[@]}"
 "$bin/pbreport" cores "${files[@]}"
-"$bin/pbreport" figure6 "${files[@]}" --stills "$out/stills" --html "$out/figure6.html"
+"$bin/pbreport" figure6 "${files[@]}" ${pictures[@]+"${pictures[@]}"} --html "$out/figure6.html"

@@ -6,12 +6,12 @@
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 . "$source_dir/jobs/mpi_environment.sh"
-PATH=$source_dir/build/release/bin:$PATH
+PATH=${PBMPI_BIN:-$source_dir/build/release/bin}:$PATH
 out=${1:-figure8_9}
 shift || true
 scenes=("$@")
 if [[ ${#scenes[@]} -eq 0 ]]; then
-  mapfile -t scenes < <(pbmpi --list-scenes | awk '{ print $1 }')
+  mapfile -t scenes < <(pbmpi --list-scenes | awk '/:$/ { exit } { print $1 }')
 fi
 mkdir -p "$out"
 

@@ -4,7 +4,7 @@
 #   avx       no AVX instruction outside the packs that are compiled for it (needs the build of tests/run.sh)
 #   clang     clang++ builds the programs without a warning, and without headers parsed ahead; they have the golden hashes
 #   tidy      clang-tidy finds nothing in the sources of the programs
-#   arm64     the nine scenes have their golden hashes on arm64, too: a cross build, run by QEMU
+#   arm64     the scenes have their golden hashes on arm64, too: a cross build, run by QEMU
 #   sanitize  unit tests and the programs, built with the sanitizers of addresses and of undefined behaviour
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -55,7 +55,9 @@ class Figures(unittest.TestCase):
         for numbers in (quick, direct):
             self.assertAlmostEqual(sum(numbers["mix"].values()), 1, places=9)
             self.assertTrue(0 < numbers["collision_share"] < 0.5)
-        self.assertIn("left out", self.read("out/figure3.html"), "CrashSk has no direct in the short form")
+        page = self.read("out/figure3.html")
+        self.assertIn("not counted", page, "2-Cars has no island large enough to extrapolate direct of CrashSk from")
+        self.assertIn(f"CrashSk  quick  {scenes['CrashSk']['quick']['instructions_per_frame'] / 1e6:10.2f} M a frame", result.stdout)
 
     @unittest.skipUnless(shutil.which("valgrind"), "no valgrind")
     def test_effects_have_times_of_one_run_and_counts_of_another(self):

@@ -9,7 +9,9 @@
 #include "app/pbreport/effects/effects.h"
 #include "app/pbreport/ensemble/ensemble.h"
 #include "app/pbreport/figures/figures.h"
+#include "app/pbreport/instructions/figure3.h"
 #include "app/pbreport/join/join.h"
+#include "app/pbreport/paper/paper.h"
 #include "app/pbreport/prediction/prediction.h"
 #include "app/pbreport/repair/repair.h"
 #include "app/pbreport/run/options.h"
@@ -61,9 +63,11 @@ const std::vector<ReportCommand>& report_commands() {
        run_first_command},
       {"islands", "the paper's Table 1 from runs", run_islands},
       {"cores", "the paper's Table 2 and Figure 6 from runs with --record-islands", run_cores},
+      {"figure3", "the paper's Figure 3 from the instructions that jobs/figure3.sh counts", run_figure3},
       {"figure6", "one page of both, from such runs", run_figure6},
       {"diff", "how far two recorded runs of the same bodies are apart", run_diff},
       {"figures", "figures 8 and 9 of the paper from recorded runs", run_figures},
+      {"paper", "every statement of the paper beside what jobs/paper.sh has measured", run_paper},
       {"study", "what accuracy costs in time: the file of pbstudy, and the setting for a budget", run_study},
       {"effects", "what effects cost: the file of pbstudy effects", run_effects_report},
       {"stability", "which settings hold the hard cases: the file of pbstudy stability",

@@ -89,6 +89,19 @@ void fill_times(const std::vector<const Recorded*>& runs, FigureMethod& method) 
   method.satisfied_fraction = satisfied / num_frames;
 }
 
+/// Stretch of the human segments in what consumers see.
+std::vector<double> measured_stretch(const RunModels& models, const io::RunData& run, bool is_estimate) {
+  std::vector<double> all;
+  const auto& positions = is_estimate ? run.estimate.position : run.position;
+  const auto& orientations = is_estimate ? run.estimate.orientation : run.orientation;
+  for (const std::size_t row : measured_rows(run, positions.size())) {
+    const std::vector<double> one =
+        recorded_stretch(models, {&positions[row], &orientations[row], broken_at(models, run, row)});
+    all.insert(all.end(), one.begin(), one.end());
+  }
+  return all;
+}
+
 FigureMethod make_method(const std::string& label, const std::vector<const Recorded*>& runs,
                          const RunModels& models, const Recorded& reference) {
   FigureMethod method;
@@ -99,6 +112,8 @@ FigureMethod make_method(const std::string& label, const std::vector<const Recor
   fill_times(runs, method);
   const RunComparison comparison = compare_runs(models, runs.front()->run, reference.run, {});
   method.errors = method.is_estimate ? *comparison.estimate_drift : comparison.drift;
+  method.stretch = measured_stretch(models, runs.front()->run, method.is_estimate);
+  method.max_joint_gap_m = comparison.run.max_joint_gap_m;
   method.same_hash =
       runs.front()->run.attributes.at("state_hash") == reference.run.attributes.at("state_hash");
   return method;

@@ -19,6 +19,8 @@ struct FigureMethod {
   double mean_frame_s = 0;        ///< time of the precise result, or of the delivery
   analysis::ErrorTable errors;    ///< against Iter20: drift; of an estimate: of what was delivered
   bool same_hash = false;         ///< is the run's precise state that of Iter20, bit for bit?
+  std::vector<double> stretch;    ///< of the human segments in all measured frames; NaN: not finite
+  double max_joint_gap_m = 0;     ///< of the precise result
 };
 
 struct FigureScene {

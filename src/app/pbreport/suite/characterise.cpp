@@ -117,13 +117,15 @@ CoreSummary summarize_cores(const io::RunData& run, const std::string& path) {
                                               " ranks, whose times share the machine; use one rank");
   CoreSummary summary;
   summary.scene = text_of(run.attributes, "scene");
-  std::vector<double> cores, shares, serial_s, islands_s, spaces_s;
+  std::vector<double> cores, shares, shares_parallel, shares_of_spaces, serial_s, islands_s, spaces_s;
   double collide_s = 0;
   for (const std::size_t frame : measured(run)) {
     cores.push_back(analysis::fewest_cores(solve_times(run.islands[frame]), cores_tolerance));
     const analysis::ParallelFrame times = parallel_frame(run, frame);
     collide_s += times.collide_s;
     shares.push_back(times.islands_share);
+    shares_parallel.push_back(times.solve_s * times.islands_share / times.islands_parallel_s());
+    shares_of_spaces.push_back(times.spaces_share);
     serial_s.push_back(times.serial_s);
     islands_s.push_back(times.islands_parallel_s());
     spaces_s.push_back(times.spaces_parallel_s());
@@ -132,6 +134,8 @@ CoreSummary summarize_cores(const io::RunData& run, const std::string& path) {
   summary.cores = static_cast<int>(core::summarize(cores).max);
   summary.cores_mean = core::summarize(cores).mean;
   summary.longest_share = core::summarize(shares).mean;
+  summary.longest_share_parallel = core::summarize(shares_parallel).mean;
+  summary.spaces_share = core::summarize(shares_of_spaces).mean;
   summary.serial = rate_of(serial_s);
   summary.islands_parallel = rate_of(islands_s);
   summary.spaces_parallel = rate_of(spaces_s);

@@ -46,9 +46,11 @@ struct Rate {
 
 struct CoreSummary {
   std::string scene;
-  int cores = 0;             ///< fewest for full parallelism in every measured frame
-  double cores_mean = 0;     ///< mean over the measured frames
-  double longest_share = 0;  ///< of the longest island in the time of all, mean
+  int cores = 0;                      ///< fewest for full parallelism in every measured frame
+  double cores_mean = 0;              ///< mean over the measured frames
+  double longest_share = 0;           ///< of the longest island in the time of all, mean
+  double longest_share_parallel = 0;  ///< likewise in the time of a frame with islands in parallel
+  double spaces_share = 1;  ///< collision detection with a core a space over that in one piece, mean
   Rate serial, islands_parallel, spaces_parallel;
   double collide_share_serial = 0;    ///< of the time of the measured frames
   double collide_share_parallel = 0;  ///< with islands in parallel

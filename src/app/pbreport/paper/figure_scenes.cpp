@@ -1,0 +1,24 @@
+#include "app/pbreport/paper/figure_scenes.h"
+
+#include <algorithm>
+
+#include "app/pbreport/paper/statement.h"
+
+namespace pbmpi::app {
+
+const FigureScene* find_figure(const PaperData& data, const std::string& scene) {
+  const auto found = std::ranges::find(data.figures, scene, &FigureScene::name);
+  return found == data.figures.end() ? nullptr : &*found;
+}
+
+std::vector<const FigureScene*> scenes_with(const PaperData& data, const std::vector<std::string>& methods) {
+  std::vector<const FigureScene*> scenes;
+  for (const char* name : figure_8_scenes) {
+    const FigureScene* scene = find_figure(data, name);
+    const auto has = [&](const std::string& label) { return scene->find(label) != nullptr; };
+    if (scene != nullptr && std::ranges::all_of(methods, has)) scenes.push_back(scene);
+  }
+  return scenes;
+}
+
+}  // namespace pbmpi::app

@@ -1,0 +1,22 @@
+/// The scenes of the paper's Figures 8 and 9 among those that were recorded.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/pbreport/paper/paper_data.h"
+
+namespace pbmpi::app {
+
+/// FigureMethod::label of the paper's estimate: quick with one iteration.
+inline constexpr const char* feec_label = "FEEC quick x 1";
+/// Records them.
+inline constexpr const char* by_figures = "jobs/figure8_9.sh";
+
+/// Null if it was not recorded.
+const FigureScene* find_figure(const PaperData& data, const std::string& scene);
+
+/// The scenes of Figures 8 and 9 that have all of these methods.
+std::vector<const FigureScene*> scenes_with(const PaperData& data, const std::vector<std::string>& methods);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,15 @@
+/// "pbreport paper FOLDER|FILE...": every statement of the paper beside what jobs/paper.sh has measured.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace pbmpi::app {
+
+/// Throws core::InputError: bad usage, or files that are of no use here.
+core::ExitCode run_paper(const std::vector<std::string>& args, std::ostream& out);
+
+}  // namespace pbmpi::app

@@ -1,0 +1,66 @@
+/// What the paper says beside what was measured, and what follows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/pbreport/study/paper_verdict.h"
+
+namespace pbmpi::app {
+
+/// What a number rests on.
+enum class Basis {
+  counts,        ///< states and counts of runs: the same bits in each
+  clock,         ///< times of this machine
+  instructions,  ///< counted by callgrind
+  prediction,    ///< the study of value prediction, and its modelled processor
+  nothing,       ///< nothing here can decide it
+};
+inline constexpr std::array<std::string_view, 5> basis_names = {"counts", "clock", "instructions",
+                                                                "prediction", "nothing"};
+inline std::string name_of(Basis basis) { return std::string(basis_names[static_cast<std::size_t>(basis)]); }
+
+struct PaperStatement {
+  PaperVerdict verdict;  ///< its number: ours
+  std::string papers;    ///< the paper's value
+  Basis basis = Basis::counts;
+  std::string command;  ///< measures it
+  std::string remark;   ///< why it is so, or what differs
+
+  /// Sets the finding. Unless all scenes that the statement is about were measured it stays undecidable, and
+  /// the remark says so.
+  void decide(bool is_confirmed, std::size_t num_measured, std::size_t num_needed);
+};
+
+inline constexpr std::size_t num_scenes = 9;
+/// Scenes of Figures 8 and 9.
+inline constexpr std::array<const char*, 5> figure_8_scenes = {"CrashWa", "Environ", "Battle", "Fight",
+                                                               "Battle2"};
+
+/// The number of a statement for which the files have nothing.
+inline constexpr const char* not_measured = "not measured";
+
+/// Nothing here can decide it, for this reason.
+PaperStatement undecidable(const std::string& section, const std::string& statement,
+                           const std::string& papers, const std::string& reason);
+
+/// "CrashWa 3, Fight 4".
+class SceneList {
+ public:
+  void add(const std::string& scene, const std::string& number);
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+  std::size_t size_ = 0;
+};
+
+std::string percent(double share, int decimals = 0);  ///< "42 %"
+std::string rate(double hz);                          ///< "1,230 Hz" without the comma
+
+}  // namespace pbmpi::app
