@@ -45,13 +45,14 @@ PaperVerdict verdict_on(const PredictionStudy& study, const std::string& word) {
 }
 
 TEST(PaperVerdicts, confirm_what_is_as_in_the_paper) {
-  PredictionScene battle = scene_of("Battle2"), fight = scene_of("Fight");
+  PredictionScene battle = scene_of("Battle2"), fight = scene_of("Fight"), cars = scene_of("2-Cars");
+  fight.runs[4].predicted.hz = cars.runs[4].predicted.hz = 103;
   for (PredictionScene* scene : {&battle, &fight}) {
     scene->runs[3].predicted.hz = 300;  // FEEC with FVP6 is slower, with fewer islands
     scene->runs[3].islands = 8;
   }
   battle.runs[5].nonfinite_frame = 2;
-  for (const PaperVerdict& verdict : judge_paper(study_of({battle, fight}))) {
+  for (const PaperVerdict& verdict : judge_paper(study_of({battle, fight, cars}))) {
     if (verdict.statement.find("alike") != std::string::npos) continue;  // needs runs of single phases
     EXPECT_EQ(verdict.finding, Finding::confirmed) << verdict.statement << ": " << verdict.number;
   }
@@ -84,12 +85,31 @@ TEST(PaperVerdicts, decide_nothing_where_nothing_was_measured) {
   for (const char* word : {"Battle2", "Fight", "220", "less attractive", "slows three tests",
                            "larger islands", "1e-12", "alike"})
     EXPECT_EQ(verdict_on(study, word).finding, Finding::undecidable) << word;
+  for (const PaperVerdict& verdict : judge_paper(PredictionStudy()))
+    EXPECT_EQ(verdict.finding, Finding::undecidable) << verdict.statement;
+}
+
+TEST(PaperVerdicts, of_the_majority_count_the_scenes_that_gain_little) {
+  PredictionScene battle = scene_of("Battle2"), fight = scene_of("Fight"), cars = scene_of("2-Cars");
+  fight.runs[4].predicted.hz = cars.runs[4].predicted.hz = 103;
+  EXPECT_EQ(verdict_on(study_of({battle, fight, cars}), "majority").finding, Finding::confirmed);
+  cars.runs[4].predicted.hz = 130;
+  EXPECT_EQ(verdict_on(study_of({battle, fight, cars}), "majority").finding, Finding::refuted);
 }
 
 TEST(PaperVerdicts, decide_nothing_about_frames_that_were_all_satisfied_before) {
   PredictionScene fight = scene_of("Fight");
   fight.runs[0].unpredicted.satisfied = fight.runs[4].predicted.satisfied = 1;
   EXPECT_EQ(verdict_on(study_of({fight}), "Fight").finding, Finding::undecidable);
+}
+
+TEST(PaperVerdicts, leave_out_what_a_run_that_blew_up_gains) {
+  PredictionScene fight = scene_of("Fight"), battle = scene_of("Battle2");
+  fight.runs[4].predicted.hz = 110;
+  battle.runs[4].predicted.hz = 1000;  // its bodies are lost: there is less to compute
+  battle.runs[4].nonfinite_frame = 3;
+  const std::string number = verdict_on(study_of({fight, battle}), "less attractive").number;
+  EXPECT_NE(number.find("FVP6 +10.0 %"), std::string::npos) << number;
 }
 
 TEST(PaperVerdicts, of_single_phases_go_by_their_drift) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/error_bands.h"
+#include "app/pbreport/study/instruction_mix.h"
 #include "io/table/table_file.h"
 
 namespace pbmpi::app {
@@ -42,8 +43,8 @@ struct PredictionRun {
   double islands = NAN, base_islands = NAN;
   double instructions = NAN;     ///< a frame, mean
   double collision_share = NAN;  ///< of the instructions
-  std::array<double, 5> mix{};   ///< shares
-  HitCounts loads, operations;   ///< floating point
+  InstructionMix mix{};
+  HitCounts loads, operations;  ///< floating point
   FrameRate unpredicted, predicted;
   double defect_rms = 0, drift_rms = 0, floor_rms = 0;  ///< of positions [m]
   analysis::BandCounts defect_bands{}, drift_bands{}, floor_bands{};
@@ -81,9 +82,6 @@ struct PredictionStudy {
   std::vector<PredictionScene> scenes;
   std::vector<Sensitivity> sensitivity;
 };
-
-inline constexpr std::array<const char*, 5> mix_names = {"floating point", "integer", "branch", "store",
-                                                         "load"};
 
 /// `names`: these scenes only; empty: all. Throws core::InputError.
 PredictionStudy prediction_study(const io::TableFile& file, const std::vector<std::string>& names);

@@ -51,9 +51,7 @@ std::string cell(double value, const char* pattern, double scale) {
 io::html::TextTable verdicts(const PredictionStudy& study) {
   io::html::TextTable table{"The paper's statements", {"statement", "finding", "number", "confirmed if"}, {}};
   for (const PaperVerdict& verdict : judge_paper(study)) {
-    table.rows.push_back({verdict.statement,
-                          std::string(finding_names[static_cast<std::size_t>(verdict.finding)]),
-                          verdict.number, verdict.rule});
+    table.rows.push_back({verdict.statement, name_of(verdict.finding), verdict.number, verdict.rule});
   }
   return table;
 }

@@ -179,10 +179,8 @@ std::string prediction_to_text(const PredictionStudy& study) {
     text += "\n" + head_of(scene) + "\n" + bars_text(scene, study.fvp) + runs_text(scene);
   text += engines_text(study) + sensitivity_text(study) + "\nThe paper's statements:\n";
   for (const PaperVerdict& verdict : judge_paper(study)) {
-    text +=
-        format("  %-13s %s: ", std::string(finding_names[static_cast<std::size_t>(verdict.finding)]).c_str(),
-               verdict.statement.c_str()) +
-        verdict.number + " (confirmed: " + verdict.rule + ")\n";
+    text += format("  %-18s %s: ", name_of(verdict.finding).c_str(), verdict.statement.c_str()) +
+            verdict.number + " (confirmed: " + verdict.rule + ")\n";
   }
   return text;
 }
@@ -203,7 +201,7 @@ std::string prediction_to_json(const PredictionStudy& study) {
   }
   for (const PaperVerdict& verdict : judge_paper(study)) {
     json["statements"].push_back({{"statement", verdict.statement},
-                                  {"finding", finding_names[static_cast<std::size_t>(verdict.finding)]},
+                                  {"finding", name_of(verdict.finding)},
                                   {"number", verdict.number},
                                   {"rule", verdict.rule}});
   }
@@ -225,9 +223,7 @@ std::string prediction_to_markdown(const PredictionStudy& study) {
   }
   text += engines_markdown(study) + "\n| statement | finding | number |\n|---|---|---|\n";
   for (const PaperVerdict& verdict : judge_paper(study)) {
-    text +=
-        markdown_row({verdict.statement,
-                      std::string(finding_names[static_cast<std::size_t>(verdict.finding)]), verdict.number});
+    text += markdown_row({verdict.statement, name_of(verdict.finding), verdict.number});
   }
   return text;
 }
