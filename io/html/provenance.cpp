@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/text.h"
 #include "io/html/escape.h"
 
 namespace pbmpi::io::html {
@@ -17,15 +18,10 @@ std::string joined(const std::vector<std::string>& parts) {
   return text;
 }
 
-std::string text_of(const Attributes& attributes, const std::string& name) {
-  const auto found = attributes.find(name);
-  return found == attributes.end() ? "" : found->second;
-}
-
 std::string origin(const Attributes& attributes) {
-  const std::string version = text_of(attributes, "pbmpi_version");
-  return joined({version.empty() ? "" : "pbmpi " + version, text_of(attributes, "git_revision"),
-                 text_of(attributes, "created")});
+  const std::string version = core::value_in(attributes, "pbmpi_version");
+  return joined({version.empty() ? "" : "pbmpi " + version, core::value_in(attributes, "git_revision"),
+                 core::value_in(attributes, "created")});
 }
 
 std::string page_by(const std::string& maker) { return maker.empty() ? "" : "page by " + maker; }
@@ -48,9 +44,9 @@ Provenance provenance_of(const std::vector<FileAttributes>& runs, const std::str
   Provenance provenance{
       joined({std::to_string(runs.size()) + (runs.size() == 1 ? " run" : " runs"), page_by(maker)}), {}};
   for (const auto& [path, attributes] : runs) {
-    const std::string hash = text_of(attributes, "state_hash");
-    provenance.entries.emplace_back(path, joined({text_of(attributes, "command_line"), origin(attributes),
-                                                  hash.empty() ? "" : "state " + hash}));
+    const std::string hash = core::value_in(attributes, "state_hash");
+    provenance.entries.emplace_back(path, joined({core::value_in(attributes, "command_line"),
+                                                  origin(attributes), hash.empty() ? "" : "state " + hash}));
   }
   return provenance;
 }

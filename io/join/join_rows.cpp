@@ -20,7 +20,7 @@ constexpr std::size_t piece_bytes = std::size_t{4} << 20;
 
 /// What clocks have measured or decided, or is told of ranks, of which parts have different numbers: no two
 /// executions of a frame agree on it. Estimates that are due at some time are what was there by then.
-bool is_of_the_clock(const JoinPart& part, const std::string& column) {
+bool is_of_one_execution(const JoinPart& part, const std::string& column) {
   if (column.starts_with("/estimate/") && has_object(part.file, "/parameters/estimate_by")) return true;
   constexpr std::array clocks = {"/timings/frame/wall",
                                  "/timings/frame/deadline_met",
@@ -259,7 +259,7 @@ void require_equal_overlaps(const std::vector<JoinPart>& parts, const CommonTabl
         const bool is_recorded = table.rows == Rows::recorded;
         if (is_recorded && !record_alike(in_a, in_b, plan.record_every())) continue;
         for (const std::string& column : table.columns) {
-          if (is_of_the_clock(a, column)) continue;
+          if (is_of_one_execution(a, column)) continue;
           require_equal(a, rows_of(table, plan, overlap, in_a.first), b,
                         rows_of(table, plan, overlap, in_b.first), column, in_a.first,
                         is_recorded ? plan.record_every() : 1);

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/system/input_file.h"
 #include "core/system/seal.h"
+#include "core/text.h"
 #include "io/file/output_target.h"
 #include "io/file/write_file.h"
 #include "io/hdf5/columns.h"
@@ -204,9 +205,7 @@ std::string filetype_of(const std::string& path) {
   try {
     if (core::seal_of(path) == core::Seal::broken) return "";  // nothing of it can be trusted
     const auto file = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "H5Fopen");
-    const auto attributes = attributes_as_text(file.id(), "/");
-    const auto found = attributes.find("filetype");
-    return found == attributes.end() ? "" : found->second;
+    return core::value_in(attributes_as_text(file.id(), "/"), "filetype");
   } catch (const std::runtime_error&) {
     return "";
   }

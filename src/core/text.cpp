@@ -82,4 +82,9 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& na
   return "; known: " + quoted_list(names, ", ");
 }
 
+std::string value_in(const std::map<std::string, std::string>& values, const std::string& name) {
+  const auto found = values.find(name);
+  return found == values.end() ? "" : found->second;
+}
+
 }  // namespace pbmpi::core

@@ -1,6 +1,7 @@
-/// Small helpers for messages.
+/// Small helpers for texts.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,5 +24,8 @@ std::string in_quotes(std::string_view text);
 
 /// "; did you mean 'a' or 'b'?", or if nothing is near "; known: 'a', 'b', 'c'".
 std::string suggestion(std::string_view word, const std::vector<std::string>& names);
+
+/// The value of that name; empty if there is none.
+std::string value_in(const std::map<std::string, std::string>& values, const std::string& name);
 
 }  // namespace pbmpi::core

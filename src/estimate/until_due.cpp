@@ -11,7 +11,7 @@ void UntilDue::estimate(std::span<const stepping::LocalWorld> worlds, std::int64
   const double start_s = core::now_s();
   note_last_frame(worlds, step, num_steps);
   steps_ = {};
-  glided_.clear();
+  held_.clear();
   if (worlds.empty()) return;
   begin_precise(start_s, num_steps, times);
   finish(begun_worlds(*precise_, worlds), start_s, step + steps_.precise, num_steps - steps_.precise, times);
@@ -35,27 +35,26 @@ void UntilDue::begin_precise(double start_s, int num_steps, core::PhaseTimes& ti
 
 void UntilDue::finish(std::span<const stepping::LocalWorld> worlds, double start_s, std::int64_t step,
                       int num_steps, core::PhaseTimes& times) {
-  if (num_steps == 0) return;
   const double now_s = core::now_s();
-  if (plan_.fits(now_s - start_s, 0, num_steps)) {
+  if (num_steps > 0 && plan_.fits(now_s - start_s, 0, num_steps)) {
     rest_->estimate(worlds, step, num_steps, times);
     plan_.note_coarse((core::now_s() - now_s) / num_steps);
     steps_.coarse = num_steps;
     return;
   }
+  // Copies: a guard may still take a world out of the precise stepper, and the estimate stays as it is.
+  for (const stepping::LocalWorld& world : worlds) held_.emplace(world.id, *world.state);
+  if (num_steps == 0) return;
   plan_.skip_coarse();
+  glide(num_steps, times);
+}
+
+void UntilDue::glide(int num_steps, core::PhaseTimes& times) {
   core::LapTimer timer(times);
-  for (const stepping::LocalWorld& world : worlds) {
-    model::State& state = glided_.emplace(world.id, *world.state).first->second;
+  for (auto& [world, state] : held_) {
     if (state.guard.frozen_in < 0) stepping::glide(num_steps * dt_s_, state);
   }
   timer.lap(core::Phase::integrate);
-}
-
-const model::State& UntilDue::state(int world) const {
-  if (steps_.coarse > 0) return rest_->state(world);
-  const auto glided = glided_.find(world);
-  return glided != glided_.end() ? glided->second : precise_->begun(world);
 }
 
 }  // namespace pbmpi::estimate

@@ -23,7 +23,9 @@ class UntilDue final : public stepping::Estimator {
 
   void estimate(std::span<const stepping::LocalWorld> worlds, std::int64_t step, int num_steps,
                 core::PhaseTimes& times) override;
-  const model::State& state(int world) const override;
+  const model::State& state(int world) const override {
+    return steps_.coarse > 0 ? rest_->state(world) : held_.at(world);
+  }
   stepping::EstimatedSteps steps() const override { return steps_; }
 
  private:
@@ -31,14 +33,15 @@ class UntilDue final : public stepping::Estimator {
   void begin_precise(double start_s, int num_steps, core::PhaseTimes& times);
   void finish(std::span<const stepping::LocalWorld> worlds, double start_s, std::int64_t step, int num_steps,
               core::PhaseTimes& times);
+  void glide(int num_steps, core::PhaseTimes& times);
 
   stepping::FrameStepper* precise_;
   std::unique_ptr<stepping::Estimator> rest_;
   stepping::DeadlinePlan plan_;
   double dt_s_;
-  std::int64_t next_step_ = -1;         ///< after the last frame
-  stepping::EstimatedSteps steps_;      ///< of the last estimate
-  std::map<int, model::State> glided_;  ///< of the last estimate, if the bodies glide
+  std::int64_t next_step_ = -1;       ///< after the last frame
+  stepping::EstimatedSteps steps_;    ///< of the last estimate
+  std::map<int, model::State> held_;  ///< the last estimate, if it does not end with coarse steps
 };
 
 }  // namespace pbmpi::estimate

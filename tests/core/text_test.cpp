@@ -41,5 +41,11 @@ TEST(Suggestion, lists_what_is_known_when_nothing_is_near) {
   EXPECT_EQ(suggestion("mv", {}), "; there are none");
 }
 
+TEST(Text, a_value_that_is_not_there_is_empty) {
+  const std::map<std::string, std::string> values = {{"scene", "CrashSk"}};
+  EXPECT_EQ(value_in(values, "scene"), "CrashSk");
+  EXPECT_EQ(value_in(values, "seed"), "");
+}
+
 }  // namespace
 }  // namespace pbmpi::core

@@ -123,6 +123,7 @@ TEST(UntilDue, sends_the_precise_result_where_there_is_time_and_motion_without_f
       EXPECT_EQ(hashes(due), estimated) << "an estimate stays as it is";
       if (deadline_s > 1) {
         EXPECT_EQ(due.steps().precise, steps_per_frame);
+        EXPECT_NE(&due.state(1), &precise->begun(1)) << "a guard may take the world from there";
         EXPECT_EQ(due.state(1).position, precise->state(1).position);
       } else {
         EXPECT_EQ(due.steps().precise + due.steps().coarse, 0);

@@ -185,8 +185,10 @@ std::vector<SceneCases> study_scenes(const io::TableFile& file, const std::vecto
     StudyCase one = read_case(CaseRow(file, i));
     auto scene =
         std::find_if(scenes.begin(), scenes.end(), [&](const SceneCases& s) { return s.name == one.scene; });
-    if (scene == scenes.end())
-      scene = scenes.insert(scenes.end(), SceneCases{one.scene, {}, {}, {}, {}, {}, {}, {}, {}, {}});
+    if (scene == scenes.end()) {
+      scenes.emplace_back().name = one.scene;
+      scene = scenes.end() - 1;
+    }
     add_case(std::move(one), *scene);
   }
   return chosen_scenes(scenes, names);

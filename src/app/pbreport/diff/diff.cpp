@@ -11,6 +11,7 @@
 #include "app/pbreport/diff/diff_options.h"
 #include "app/pbreport/diff/diff_page.h"
 #include "app/pbreport/diff/run_comparison.h"
+#include "core/text.h"
 #include "io/file/write_file.h"
 
 namespace pbmpi::app {
@@ -21,9 +22,8 @@ using analysis::ErrorTable;
 using analysis::NamedSummary;
 using Json = nlohmann::ordered_json;
 
-std::string state_hash(const io::RunData& run) {
-  const auto found = run.attributes.find("state_hash");
-  return found == run.attributes.end() ? "" : found->second;
+bool has_same_hash(const io::RunData& a, const io::RunData& b) {
+  return core::value_in(a.attributes, "state_hash") == core::value_in(b.attributes, "state_hash");
 }
 
 /// Smallest and largest of one number over the floor runs.
@@ -214,7 +214,7 @@ std::string to_text(const DiffOptions& options, const RunComparison& c, bool sam
 
 /// A floor run that is the reference itself would show a floor of zero.
 void require_other_seed(const io::RunData& floor, const std::string& path, const io::RunData& reference) {
-  core::require_input(state_hash(floor) != state_hash(reference),
+  core::require_input(!has_same_hash(floor, reference),
                       path +
                           ": it is the reference bit for bit and shows no noise; record it with another "
                           "--solver-seed");
@@ -253,7 +253,7 @@ core::ExitCode run_diff(const std::vector<std::string>& args, std::ostream& out)
   if (options.html)
     write_diff_page(*options.html, comparison, {options.run, run.attributes},
                     {options.reference, reference.attributes});
-  const bool same_hash = state_hash(run) == state_hash(reference);
+  const bool same_hash = has_same_hash(run, reference);
   out << (options.json ? to_json(options, comparison, same_hash) : to_text(options, comparison, same_hash))
       << std::flush;
   if (!out) throw core::RunError("the comparison cannot be written to standard output; is the disk full?");

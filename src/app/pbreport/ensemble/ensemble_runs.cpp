@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "io/extract/run_settings.h"
 
 namespace pbmpi::app {
@@ -14,8 +15,8 @@ using io::Matters;
 using io::RunTables;
 
 std::string seeds_of(const RunTables& run) {
-  return "seed " + value_in(run.parameters(), "seed") + ", solver_seed " +
-         value_in(run.parameters(), "solver_seed");
+  return "seed " + core::value_in(run.parameters(), "seed") + ", solver_seed " +
+         core::value_in(run.parameters(), "solver_seed");
 }
 
 /// Parameters in which runs differ, and which the user has not allowed.
@@ -43,11 +44,6 @@ void require_same_times(const RunTables& a, const RunTables& b) {
 }
 
 }  // namespace
-
-std::string value_in(const std::map<std::string, std::string>& values, const std::string& name) {
-  const auto found = values.find(name);
-  return found == values.end() ? "" : found->second;
-}
 
 EnsembleRuns::EnsembleRuns(const EnsembleOptions& options) : over_(options.over) {
   for (const std::string& path : options.files) runs_.emplace_back(path);

@@ -39,7 +39,4 @@ class EnsembleRuns {
   std::int64_t num_frames_ = 0;
 };
 
-/// A value of /parameters or the root's attributes; empty if it has none.
-std::string value_in(const std::map<std::string, std::string>& values, const std::string& name);
-
 }  // namespace pbmpi::app

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "core/statistics.h"
+#include "core/text.h"
 
 namespace pbmpi::app {
 namespace {
@@ -79,14 +80,16 @@ Columns runs_table(const EnsembleRuns& ensemble) {
   for (const io::RunTables& run : ensemble.runs()) rows.push_back({&run, measured_wall_s(run)});
   Table<Row> table(rows);
   const auto text = [](const char* name) {
-    return [name](const Row& row) { return value_in(row.run->parameters(), name); };
+    return [name](const Row& row) { return core::value_in(row.run->parameters(), name); };
   };
   table.add("file", "", [](const Row& row) { return row.run->path(); });
   table.add("seed", "", text("seed"));
   table.add("solver_seed", "", text("solver_seed"));
-  table.add("state_hash", "", [](const Row& row) { return value_in(row.run->attributes(), "state_hash"); });
-  table.add("complete", "",
-            [](const Row& row) { return std::int64_t{value_in(row.run->attributes(), "complete") == "1"}; });
+  table.add("state_hash", "",
+            [](const Row& row) { return core::value_in(row.run->attributes(), "state_hash"); });
+  table.add("complete", "", [](const Row& row) {
+    return std::int64_t{core::value_in(row.run->attributes(), "complete") == "1"};
+  });
   table.add("frames", "", [](const Row& row) { return static_cast<std::int64_t>(row.run->frames().size()); });
   table.add("ranks", "",
             [](const Row& row) { return static_cast<std::int64_t>(row.run->items().hosts.size()); });
@@ -224,7 +227,7 @@ io::TableFile ensemble_tables(const EnsembleRuns& runs, const Ensemble& found,
   file.attributes = {{"pbmpi_version", program_version}, {"git_revision", git_revision}};
   std::string differences;
   for (const std::string& one : runs.differences()) differences += one + "\n";
-  file.parameters = {io::Parameter::of("scene", value_in(runs.first().attributes(), "scene")),
+  file.parameters = {io::Parameter::of("scene", core::value_in(runs.first().attributes(), "scene")),
                      io::Parameter::of("over", options.over == SampleOf::runs ? "runs" : "worlds"),
                      io::Parameter::of("differences", differences)};
   file.tables["runs"] = runs_table(runs);

@@ -5,6 +5,7 @@
 
 #include "app/common/format.h"
 #include "app/common/json_text.h"
+#include "core/text.h"
 
 namespace pbmpi::app {
 namespace {
@@ -24,7 +25,7 @@ std::vector<Line> last_frame(const Ensemble& found) {
 
 std::size_t num_hashes(const EnsembleRuns& runs) {
   std::set<std::string> hashes;
-  for (const io::RunTables& run : runs.runs()) hashes.insert(value_in(run.attributes(), "state_hash"));
+  for (const io::RunTables& run : runs.runs()) hashes.insert(core::value_in(run.attributes(), "state_hash"));
   return hashes.size();
 }
 
@@ -41,7 +42,7 @@ std::string head(const EnsembleRuns& runs, const EnsembleOptions& options) {
   const io::FrameTime& last = runs.first().frames()[static_cast<std::size_t>(runs.num_frames() - 1)];
   std::string text = format(
       "scene: %s\nsamples: %zu (%s)\nframes: %lld to %lld (%.6g s)\n",
-      value_in(runs.first().attributes(), "scene").c_str(),
+      core::value_in(runs.first().attributes(), "scene").c_str(),
       runs.runs().size() *
           (options.over == SampleOf::worlds ? static_cast<std::size_t>(runs.first().items().num_worlds) : 1),
       options.over == SampleOf::worlds ? "each world of each run" : "runs",
@@ -49,10 +50,10 @@ std::string head(const EnsembleRuns& runs, const EnsembleOptions& options) {
       last.time_s);
   text += format("state_hashes: %zu different in %zu runs\n", num_hashes(runs), runs.runs().size());
   for (const io::RunTables& run : runs.runs())
-    text +=
-        format("run: %s, seed %s, solver_seed %s, %zu frames, hash %s\n", run.path().c_str(),
-               value_in(run.parameters(), "seed").c_str(), value_in(run.parameters(), "solver_seed").c_str(),
-               run.frames().size(), value_in(run.attributes(), "state_hash").c_str());
+    text += format("run: %s, seed %s, solver_seed %s, %zu frames, hash %s\n", run.path().c_str(),
+                   core::value_in(run.parameters(), "seed").c_str(),
+                   core::value_in(run.parameters(), "solver_seed").c_str(), run.frames().size(),
+                   core::value_in(run.attributes(), "state_hash").c_str());
   for (const std::string& one : runs.differences()) text += "differs: " + one + "\n";
   return text;
 }

@@ -5,6 +5,7 @@
 
 #include "app/pbreport/diff/run_comparison.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "stepping/frame_budget.h"
 #include "stepping/names.h"
 #include "stepping/step_options.h"
@@ -21,38 +22,34 @@ struct Recorded {
   io::RunData run;
 };
 
-std::string parameter(const io::RunData& run, const std::string& name) {
-  const auto found = run.parameters.find(name);
-  return found == run.parameters.end() ? "" : found->second;
-}
-
 /// Stepper and precision that the file names with this prefix.
 stepping::StepperSettings step_settings(const io::RunData& run, const std::string& prefix) {
   stepping::StepperSettings settings;
   for (const char* name : {"stepper", "precision"}) {
     const stepping::StepOption& option = stepping::step_option(name);
     const std::string in_file = prefix + file_name(option);
-    const std::string text = parameter(run, in_file);
+    const std::string text = core::value_in(run.parameters, in_file);
     if (!text.empty()) set(option, text, "parameter " + in_file, settings);
   }
   return settings;
 }
 
 std::string label_of(const io::RunData& run) {
-  if (parameter(run, "feec") == "1") {
+  if (core::value_in(run.parameters, "feec") == "1") {
     return "FEEC " + stepper_text(step_settings(run, "estimate_")) + " x " +
-           parameter(run, "estimate_iterations");
+           core::value_in(run.parameters, "estimate_iterations");
   }
-  if (parameter(run, "solver_seed") != parameter(run, "seed")) return floor_label;
+  if (core::value_in(run.parameters, "solver_seed") != core::value_in(run.parameters, "seed"))
+    return floor_label;
   const stepping::StepperKind kind = step_settings(run, "").kind;
   const std::string paper_label = "Iter";  // the paper has quick alone
   return (kind == stepping::StepperKind::quick ? paper_label : std::string(name_of(kind)) + " x ") +
-         parameter(run, "iterations");
+         core::value_in(run.parameters, "iterations");
 }
 
 Recorded read(const std::string& path) {
   Recorded recorded{path, "", "", io::read_run(path)};
-  recorded.scene = parameter(recorded.run, "scene");
+  recorded.scene = core::value_in(recorded.run.parameters, "scene");
   recorded.label = label_of(recorded.run);
   return recorded;
 }
@@ -163,7 +160,7 @@ RecordedFigures recorded_figures(const std::vector<std::string>& paths) {
   std::map<std::string, std::vector<std::string>> by_scene;  // runs of one scene at a time are in memory
   for (const std::string& path : paths) {
     const io::RunData run = io::read_run(path);
-    const std::string name = parameter(run, "scene");
+    const std::string name = core::value_in(run.parameters, "scene");
     found.files.emplace_back(path, run.attributes);
     if (!by_scene.contains(name)) names.push_back(name);
     by_scene[name].push_back(path);

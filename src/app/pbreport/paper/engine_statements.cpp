@@ -29,9 +29,7 @@ PaperStatement of_high_speed(const PaperData& data) {
     passages.add(run.scene, std::to_string(run.passages));
     is_resolved = is_resolved && run.passages == 0;
   }
-  if (passages.empty()) return statement;
-  statement.verdict.number = "passages: " + passages.text();
-  statement.decide(is_resolved, passages.size(), 2);
+  statement.decide(is_resolved, passages, 2, "passages: ");
   return statement;
 }
 
@@ -57,9 +55,7 @@ PaperStatement of_penetration(const PaperData& data) {
       }
     }
   }
-  if (verdicts.empty()) return statement;
-  statement.verdict.number = verdicts.text();
-  statement.decide(is_right, verdicts.size(), 2);
+  statement.decide(is_right, verdicts, 2);
   return statement;
 }
 
@@ -79,9 +75,7 @@ PaperStatement of_spaces(const PaperData& data) {
     shares.add(run.islands.scene, percent(run.cores.spaces_share));
     if (run.cores.spaces_share <= 0.75) ++faster;
   }
-  if (shares.empty()) return statement;
-  statement.verdict.number = "left of its time: " + shares.text();
-  statement.decide(2 * faster > shares.size(), shares.size(), 6);
+  statement.decide(2 * faster > shares.size(), shares, 6, "left of its time: ");
   return statement;
 }
 
@@ -99,9 +93,7 @@ PaperStatement of_expensive_step(const PaperData& data) {
     shares.add(run.islands.scene, percent(share));
     leads = leads && share > 0.5;
   }
-  if (shares.empty()) return statement;
-  statement.verdict.number = shares.text();
-  statement.decide(leads, shares.size(), num_scenes);
+  statement.decide(leads, shares, num_scenes);
   return statement;
 }
 
@@ -173,9 +165,7 @@ PaperStatement of_both_steps(const PaperData& data) {
     ratios.add(direct.scene, format("%.3g", ratio));
     outperforms = outperforms && ratio >= 2;
   }
-  if (ratios.empty()) return statement;
-  statement.verdict.number = "time of direct over quick's: " + ratios.text();
-  statement.decide(outperforms, ratios.size(), 7);
+  statement.decide(outperforms, ratios, 7, "time of direct over quick's: ");
   return statement;
 }
 

@@ -43,9 +43,7 @@ PaperStatement of_iteration_reduction(const PaperData& data) {
     rms.add(scene->name, format("%.3g; %.3g; %.3g mm", 1e3 * nineteen, 1e3 * one, 1e3 * floor));
     if (one >= 10 * nineteen) ++drastic;
   }
-  if (rms.empty()) return statement;
-  statement.verdict.number = rms.text();
-  statement.decide(2 * drastic > rms.size(), rms.size(), figure_8_scenes.size());
+  statement.decide(2 * drastic > rms.size(), rms, figure_8_scenes.size());
   return statement;
 }
 
@@ -73,9 +71,7 @@ PaperStatement of_19_iterations(const PaperData& data) {
                                 ", " + (scene->floor.empty() ? "-" : percent(floor)));
     if (most_apart <= 0.1) ++comparable;
   }
-  if (shares.empty()) return statement;
-  statement.verdict.number = shares.text();
-  statement.decide(2 * comparable > shares.size(), shares.size(), figure_8_scenes.size());
+  statement.decide(2 * comparable > shares.size(), shares, figure_8_scenes.size());
   return statement;
 }
 
@@ -139,9 +135,7 @@ PaperStatement of_one_iteration(const PaperData& data) {
                                 percent(share_of_band(errors.body_position, worst_band - 1), 1));
     if (share_blown_up(errors) >= 0.01) ++blown_up;
   }
-  if (shares.empty()) return statement;
-  statement.verdict.number = shares.text();
-  statement.decide(2 * blown_up > shares.size(), shares.size(), figure_8_scenes.size());
+  statement.decide(2 * blown_up > shares.size(), shares, figure_8_scenes.size());
   return statement;
 }
 

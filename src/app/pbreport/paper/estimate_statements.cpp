@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "app/common/format.h"
@@ -45,20 +44,13 @@ PaperStatement of_imperceptible_errors(const PaperData& data) {
   for (const FigureScene& scene : data.figures) {
     const FigureMethod* feec = scene.find(feec_label);
     if (feec == nullptr || feec->stretch.empty()) continue;
-    std::size_t beyond = 0;
-    double most = 0;
-    for (const double stretch : feec->stretch) {
-      if (!(stretch < 0.027)) ++beyond;
-      if (std::isfinite(stretch)) most = std::max(most, stretch);
-    }
-    beyond_in_all += beyond;
+    const StretchCount count = count_stretch(feec->stretch);
+    beyond_in_all += count.perhaps_seen;
     stretched.add(scene.name,
-                  percent(static_cast<double>(beyond) / static_cast<double>(feec->stretch.size()), 1) +
-                      " up to " + percent(most, 1));
+                  percent(static_cast<double>(count.perhaps_seen) / static_cast<double>(count.all), 1) +
+                      " up to " + percent(count.most, 1));
   }
-  if (stretched.empty()) return statement;
-  statement.verdict.number = stretched.text();
-  statement.decide(beyond_in_all == 0, stretched.size(), 5);
+  statement.decide(beyond_in_all == 0, stretched, 5);
   return statement;
 }
 
@@ -79,9 +71,7 @@ PaperStatement of_constraints(const PaperData& data) {
     gaps.add(scene.name, format("%.3g, %.3g mm", 1e3 * twenty_m, 1e3 * one->max_joint_gap_m));
     is_better = is_better && twenty_m < one->max_joint_gap_m;
   }
-  if (gaps.empty()) return statement;
-  statement.verdict.number = gaps.text();
-  statement.decide(is_better, gaps.size(), num_scenes);
+  statement.decide(is_better, gaps, num_scenes);
   return statement;
 }
 

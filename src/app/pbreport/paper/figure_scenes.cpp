@@ -1,6 +1,7 @@
 #include "app/pbreport/paper/figure_scenes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/pbreport/paper/statement.h"
 
@@ -19,6 +20,16 @@ std::vector<const FigureScene*> scenes_with(const PaperData& data, const std::ve
     if (scene != nullptr && std::ranges::all_of(methods, has)) scenes.push_back(scene);
   }
   return scenes;
+}
+
+StretchCount count_stretch(const std::vector<double>& stretch) {
+  StretchCount count{.all = stretch.size()};
+  for (const double one : stretch) {  // a NaN is seen
+    if (!(one < 0.027)) ++count.perhaps_seen;
+    if (!(one <= 0.20)) ++count.seen;
+    if (std::isfinite(one)) count.most = std::max(count.most, one);
+  }
+  return count;
 }
 
 }  // namespace pbmpi::app

@@ -1,14 +1,11 @@
 #include <algorithm>
-#include <cmath>
 
 #include "app/common/format.h"
+#include "app/pbreport/paper/figure_scenes.h"
 #include "app/pbreport/paper/statements.h"
 
 namespace pbmpi::app {
 namespace {
-
-/// The paper's own bounds of what an observer sees of a changed length (section 2.2).
-constexpr double unseen_stretch = 0.027, seen_stretch = 0.20;
 
 PaperStatement of_satisfied_suite(const PaperData& data) {
   PaperStatement statement{
@@ -34,16 +31,10 @@ PaperStatement of_satisfied_suite(const PaperData& data) {
 }
 
 std::string stretch_text(const FigureMethod& method) {
-  std::size_t unseen = 0, seen = 0;
-  double most = 0;
-  for (const double stretch : method.stretch) {
-    if (stretch < unseen_stretch) ++unseen;
-    if (!(stretch <= seen_stretch)) ++seen;
-    if (std::isfinite(stretch)) most = std::max(most, stretch);
-  }
-  const auto count = static_cast<double>(method.stretch.size());
-  return percent(static_cast<double>(unseen) / count, 1) + " unseen, " +
-         percent(static_cast<double>(seen) / count, 1) + " seen, most " + percent(most, 1);
+  const StretchCount count = count_stretch(method.stretch);
+  const auto all = static_cast<double>(count.all);
+  return percent(static_cast<double>(count.all - count.perhaps_seen) / all, 1) + " unseen, " +
+         percent(static_cast<double>(count.seen) / all, 1) + " seen, most " + percent(count.most, 1);
 }
 
 PaperStatement of_perception(const PaperData& data) {
@@ -91,9 +82,7 @@ PaperStatement of_distributed_load(const PaperData& data) {
     shares.add(run.islands.scene, percent(run.cores.longest_share));
     if (run.cores.longest_share < 0.5) ++distributed;
   }
-  if (shares.empty()) return statement;
-  statement.verdict.number = "the longest island: " + shares.text();
-  statement.decide(2 * distributed > shares.size(), shares.size(), num_scenes);
+  statement.decide(2 * distributed > shares.size(), shares, num_scenes, "the longest island: ");
   return statement;
 }
 
@@ -112,9 +101,8 @@ PaperStatement of_sparse_load(const PaperData& data) {
     shares.add(run.islands.scene, percent(share, 1));
     if (share < 0.1) ++sparse;
   }
-  if (shares.empty()) return statement;
-  statement.verdict.number = "blocks of the Jacobian that may differ from zero: " + shares.text();
-  statement.decide(2 * sparse > shares.size(), shares.size(), num_scenes);
+  statement.decide(2 * sparse > shares.size(), shares, num_scenes,
+                   "blocks of the Jacobian that may differ from zero: ");
   return statement;
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/pbreport/study/study_file.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "io/hdf5/file_types.h"
 #include "stepping/names.h"
 #include "stepping/run_event.h"
@@ -38,11 +39,6 @@ std::vector<GivenFile> files_of(const std::vector<std::string>& paths) {
     for (std::string& one : below) files.push_back({std::move(one), false});
   }
   return files;
-}
-
-std::string parameter(const io::RunData& run, const std::string& name) {
-  const auto found = run.parameters.find(name);
-  return found == run.parameters.end() ? "" : found->second;
 }
 
 std::map<std::string, std::vector<int>> count_actor_bodies(const io::BodyTable& bodies) {
@@ -115,8 +111,9 @@ void keep_least(io::RunData& run, const io::RunData& repeat) {
 }
 
 bool is_same_setting(const io::RunData& a, const io::RunData& b) {
-  return std::ranges::all_of(std::array{"scene", "stepper", "iterations"},
-                             [&](const char* name) { return parameter(a, name) == parameter(b, name); });
+  return std::ranges::all_of(std::array{"scene", "stepper", "iterations"}, [&](const char* name) {
+    return core::value_in(a.parameters, name) == core::value_in(b.parameters, name);
+  });
 }
 
 void add_profiled(ProfiledRun added, std::vector<ProfiledRun>& runs) {
@@ -134,11 +131,11 @@ void add_profiled(ProfiledRun added, std::vector<ProfiledRun>& runs) {
 
 void sort_in(const ProfiledRun& profiled, PaperData& data) {
   const auto& [path, run] = profiled;
-  if (parameter(run, "stepper") == name_of(stepping::StepperKind::direct)) {
+  if (core::value_in(run.parameters, "stepper") == name_of(stepping::StepperKind::direct)) {
     data.direct.push_back(island_work(run, path));
-  } else if (parameter(run, "iterations") == "20") {
+  } else if (core::value_in(run.parameters, "iterations") == "20") {
     data.suite.push_back(suite_run(run, path));
-  } else if (parameter(run, "iterations") == "1") {
+  } else if (core::value_in(run.parameters, "iterations") == "1") {
     data.one_iteration.push_back(suite_run(run, path));
   } else {
     data.more_iterations.push_back(island_work(run, path));
@@ -149,9 +146,10 @@ void add_run(const std::string& path, PaperData& data, std::vector<ProfiledRun>&
              std::vector<std::string>& figures) {
   io::RunData run = io::read_run(path);
   data.files.emplace_back(path, run.attributes);
-  if (parameter(run, "effects").find("-fast_bodies") != std::string::npos) {
+  if (core::value_in(run.parameters, "effects").find("-fast_bodies") != std::string::npos) {
     const auto passages = run.num_events.find(stepping::event_kind::passage);
-    data.plain.push_back({parameter(run, "scene"), passages == run.num_events.end() ? 0 : passages->second});
+    data.plain.push_back(
+        {core::value_in(run.parameters, "scene"), passages == run.num_events.end() ? 0 : passages->second});
   } else if (run.islands.empty()) {
     figures.push_back(path);
   } else {

@@ -125,9 +125,7 @@ PaperStatement of_gains(const PaperData& data, const std::string& text, const st
     gains.add(scene, format("%.2f, %.2f", islands, spaces));
     is_so = is_so && (spaces >= benefit) == benefits;
   }
-  if (gains.empty()) return statement;
-  statement.verdict.number = gains.text();
-  statement.decide(is_so, gains.size(), scenes.size());
+  statement.decide(is_so, gains, scenes.size());
   return statement;
 }
 

@@ -108,7 +108,7 @@ PaperStatement of_most_islands(const PaperData& data) {
   const SuiteRun& most =
       *std::ranges::max_element(data.suite, {}, [](const SuiteRun& run) { return run.islands.islands.max; });
   statement.verdict.number = format("%.0f, ", most.islands.islands.max) + most.islands.scene;
-  statement.decide(std::abs(most.islands.islands.max - 337) <= 33.7, data.suite.size(), num_scenes);
+  statement.decide(is_near(most.islands.islands.max, 337), data.suite.size(), num_scenes);
   return statement;
 }
 

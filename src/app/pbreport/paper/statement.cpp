@@ -1,5 +1,7 @@
 #include "app/pbreport/paper/statement.h"
 
+#include <cmath>
+
 #include "app/common/format.h"
 
 namespace pbmpi::app {
@@ -13,6 +15,15 @@ void PaperStatement::decide(bool is_confirmed, std::size_t num_measured, std::si
   remark = format("%zu of %zu scenes; all: jobs/paper.sh", num_measured, num_needed) +
            (remark.empty() ? "" : "; " + remark);
 }
+
+void PaperStatement::decide(bool is_confirmed, const SceneList& measured, std::size_t num_needed,
+                            const std::string& lead) {
+  if (measured.empty()) return;
+  verdict.number = lead + measured.text();
+  decide(is_confirmed, measured.size(), num_needed);
+}
+
+bool is_near(double ours, double papers) { return std::abs(ours - papers) <= 0.1 * papers; }
 
 PaperStatement undecidable(const std::string& section, const std::string& statement,
                            const std::string& papers, const std::string& reason) {

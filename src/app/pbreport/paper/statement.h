@@ -23,30 +23,6 @@ inline constexpr std::array<std::string_view, 5> basis_names = {"counts", "clock
                                                                 "prediction", "nothing"};
 inline std::string name_of(Basis basis) { return std::string(basis_names[static_cast<std::size_t>(basis)]); }
 
-struct PaperStatement {
-  PaperVerdict verdict;  ///< its number: ours
-  std::string papers;    ///< the paper's value
-  Basis basis = Basis::counts;
-  std::string command;  ///< measures it
-  std::string remark;   ///< why it is so, or what differs
-
-  /// Sets the finding. Unless all scenes that the statement is about were measured it stays undecidable, and
-  /// the remark says so.
-  void decide(bool is_confirmed, std::size_t num_measured, std::size_t num_needed);
-};
-
-inline constexpr std::size_t num_scenes = 9;
-/// Scenes of Figures 8 and 9.
-inline constexpr std::array<const char*, 5> figure_8_scenes = {"CrashWa", "Environ", "Battle", "Fight",
-                                                               "Battle2"};
-
-/// The number of a statement for which the files have nothing.
-inline constexpr const char* not_measured = "not measured";
-
-/// Nothing here can decide it, for this reason.
-PaperStatement undecidable(const std::string& section, const std::string& statement,
-                           const std::string& papers, const std::string& reason);
-
 /// "CrashWa 3, Fight 4".
 class SceneList {
  public:
@@ -59,6 +35,37 @@ class SceneList {
   std::string text_;
   std::size_t size_ = 0;
 };
+
+struct PaperStatement {
+  PaperVerdict verdict;  ///< its number: ours
+  std::string papers;    ///< the paper's value
+  Basis basis = Basis::counts;
+  std::string command;  ///< measures it
+  std::string remark;   ///< why it is so, or what differs
+
+  /// Sets the finding. Unless all scenes that the statement is about were measured it stays undecidable, and
+  /// the remark says so.
+  void decide(bool is_confirmed, std::size_t num_measured, std::size_t num_needed);
+  /// The same of what was measured of each scene, which becomes the number, behind `lead`. Nothing measured
+  /// leaves the statement as it is.
+  void decide(bool is_confirmed, const SceneList& measured, std::size_t num_needed,
+              const std::string& lead = "");
+};
+
+inline constexpr std::size_t num_scenes = 9;
+/// Scenes of Figures 8 and 9.
+inline constexpr std::array<const char*, 5> figure_8_scenes = {"CrashWa", "Environ", "Battle", "Fight",
+                                                               "Battle2"};
+
+/// Within a tenth of the paper's.
+bool is_near(double ours, double papers);
+
+/// The number of a statement for which the files have nothing.
+inline constexpr const char* not_measured = "not measured";
+
+/// Nothing here can decide it, for this reason.
+PaperStatement undecidable(const std::string& section, const std::string& statement,
+                           const std::string& papers, const std::string& reason);
 
 std::string percent(double share, int decimals = 0);  ///< "42 %"
 std::string rate(double hz);                          ///< "1,230 Hz" without the comma

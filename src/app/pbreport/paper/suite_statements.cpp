@@ -7,8 +7,6 @@
 namespace pbmpi::app {
 namespace {
 
-bool is_near(double ours, double papers) { return std::abs(ours - papers) <= 0.1 * papers; }
-
 std::string islands_text(double max, double min, double mean, double stddev) {
   return format("%g, %g, %.4g, %.3g", max, min, mean, stddev);
 }
@@ -81,9 +79,7 @@ PaperStatement of_number_of_spaces(const PaperData& data) {
     const std::string most = comma == std::string::npos ? paper.spaces : paper.spaces.substr(comma + 1);
     is_same = is_same && std::to_string(run->islands.spaces) == most;
   }
-  if (ours.empty()) return statement;
-  statement.verdict.number = ours.text();
-  statement.decide(is_same, ours.size(), num_scenes);
+  statement.decide(is_same, ours, num_scenes);
   return statement;
 }
 
@@ -104,9 +100,7 @@ PaperStatement of_traffic(const PaperData& data) {
     ours.add(paper.scene, format("%.3g", run->islands.cross_contacts));
     is_same = is_same && (paper.traffic == "none") == (run->islands.cross_contacts == 0);
   }
-  if (ours.empty()) return statement;
-  statement.verdict.number = ours.text();
-  statement.decide(is_same, ours.size(), num_scenes);
+  statement.decide(is_same, ours, num_scenes);
   return statement;
 }
 
@@ -137,9 +131,7 @@ PaperStatement of_temporal_behaviour(const PaperData& data) {
     ours.add(scene, format("%zu of %zu", changes, steps));
     is_same = is_same && (std::string_view(scene) == "2-Cars" ? changes == 0 : 2 * changes >= steps);
   }
-  if (ours.empty()) return statement;
-  statement.verdict.number = "frames with another number: " + ours.text();
-  statement.decide(is_same, ours.size(), 4);
+  statement.decide(is_same, ours, 4, "frames with another number: ");
   return statement;
 }
 

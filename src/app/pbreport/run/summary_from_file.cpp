@@ -6,6 +6,7 @@
 
 #include "analysis/pose_errors.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "effects/effect_choices.h"
 #include "scenes/scene.h"
 #include "stepping/frame_budget.h"
@@ -14,14 +15,9 @@
 namespace pbmpi::app {
 namespace {
 
-std::string text_of(const std::map<std::string, std::string>& texts, const std::string& name) {
-  const auto found = texts.find(name);
-  return found == texts.end() ? "" : found->second;
-}
-
 template <class Number>
 Number number_of(const io::RunData& run, const std::string& name, const std::string& path) {
-  std::istringstream text(text_of(run.parameters, name));
+  std::istringstream text(core::value_in(run.parameters, name));
   Number number{};
   core::require_input(static_cast<bool>(text >> number),
                       path + ": /parameters has no number '" + name + "'; was the file written by pbmpi?");
@@ -78,12 +74,12 @@ std::vector<int> idle_ranks(const io::RunData& run) {
 /// that text (a newer scene format): the rest of the summary stands without them.
 std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed) {
   try {
-    const std::string name = text_of(run.attributes, "scene");
-    const auto form =
-        text_of(run.parameters, "spaces") == "one" ? scenes::SpacesForm::one : scenes::SpacesForm::many;
+    const std::string name = core::value_in(run.attributes, "scene");
+    const auto form = core::value_in(run.parameters, "spaces") == "one" ? scenes::SpacesForm::one
+                                                                        : scenes::SpacesForm::many;
     const auto scene =
-        scenes::parse_scene({name, name + ".toml", text_of(run.parameters, "scene_text")}, {}, form,
-                            effects::parse_effect_choices(text_of(run.parameters, "effects")));
+        scenes::parse_scene({name, name + ".toml", core::value_in(run.parameters, "scene_text")}, {}, form,
+                            effects::parse_effect_choices(core::value_in(run.parameters, "effects")));
     effects::RunPlan plan;
     for (int world = 0; world < run.num_worlds; ++world) plan.add(*scene->build(world, seed));
     return effect_summaries(plan);
@@ -99,12 +95,12 @@ std::int64_t num_events(const io::RunData& run, const char* kind) {
 }
 
 void read_settings(const io::RunData& run, const std::string& path, RunSummary& summary) {
-  summary.version = text_of(run.attributes, "pbmpi_version");
-  summary.scene = text_of(run.attributes, "scene");
-  summary.stepper = text_of(run.parameters, "stepper");
-  summary.precision = text_of(run.parameters, "precision");
-  summary.simd = text_of(run.parameters, "simd");
-  if (text_of(run.parameters, "decompose") == "spaces") summary.decomposition = "spaces";
+  summary.version = core::value_in(run.attributes, "pbmpi_version");
+  summary.scene = core::value_in(run.attributes, "scene");
+  summary.stepper = core::value_in(run.parameters, "stepper");
+  summary.precision = core::value_in(run.parameters, "precision");
+  summary.simd = core::value_in(run.parameters, "simd");
+  if (core::value_in(run.parameters, "decompose") == "spaces") summary.decomposition = "spaces";
   summary.iterations = number_of<int>(run, "iterations", path);
   summary.substeps = number_of<int>(run, "substeps", path);
   summary.steps_per_frame = number_of<int>(run, "steps_per_frame", path);
@@ -118,10 +114,10 @@ void read_settings(const io::RunData& run, const std::string& path, RunSummary& 
 /// The run's estimates against its precise poses; those of recorded, measured frames.
 EstimateSummary estimate_of(const io::RunData& run, const std::string& path, double budget_s) {
   EstimateSummary summary;
-  summary.stepper = text_of(run.parameters, "estimate_stepper");
+  summary.stepper = core::value_in(run.parameters, "estimate_stepper");
   summary.iterations = number_of<int>(run, "estimate_iterations", path);
-  summary.precision = text_of(run.parameters, "estimate_precision");
-  const std::string source = text_of(run.parameters, "estimate_source");  // older files have none
+  summary.precision = core::value_in(run.parameters, "estimate_precision");
+  const std::string source = core::value_in(run.parameters, "estimate_source");  // older files have none
   if (!source.empty()) summary.source = source;
   if (run.parameters.contains("estimate_after"))  // older files have none
     summary.after = number_of<int>(run, "estimate_after", path);
@@ -172,7 +168,7 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   read_settings(run, path, summary);
   summary.output = path;
   summary.complete = run.complete;
-  summary.state_hash = text_of(run.attributes, "state_hash");
+  summary.state_hash = core::value_in(run.attributes, "state_hash");
   // Until the run ends, the file keeps its place with blanks.
   if (summary.state_hash.find_first_not_of(' ') == std::string::npos) {
     summary.state_hash = "none (the run was cut off)";
@@ -190,10 +186,11 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
       std::find(run.frame_measured.begin(), run.frame_measured.end(), true) - run.frame_measured.begin();
   compute_performance(measured_frames(run), summary);
 
-  summary.first_frame = std::atoll(text_of(run.attributes, "first_frame").c_str());  // files of 1.0 have none
+  summary.first_frame =
+      std::atoll(core::value_in(run.attributes, "first_frame").c_str());  // files of 1.0 have none
   take_invariants(observed_frames(run), summary);
   summary.effects = effects_of(run, summary.seed);
-  summary.effects_chosen = text_of(run.parameters, "effects");
+  summary.effects_chosen = core::value_in(run.parameters, "effects");
   summary.rebalances = num_events(run, stepping::event_kind::rebalance);
   summary.worlds_moved = run.worlds_moved;
   summary.joints_broken = num_events(run, stepping::event_kind::joint_broken);

@@ -5,15 +5,11 @@
 
 #include "analysis/schedule.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "stepping/frame_budget.h"
 
 namespace pbmpi::app {
 namespace {
-
-std::string text_of(const std::map<std::string, std::string>& texts, const std::string& name) {
-  const auto found = texts.find(name);
-  return found == texts.end() ? "" : found->second;
-}
 
 double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
@@ -96,8 +92,8 @@ const PaperRow* paper_row(const std::string& scene) {
 
 IslandSummary summarize_islands(const io::RunData& run) {
   IslandSummary summary;
-  summary.scene = text_of(run.attributes, "scene");
-  const std::string spaces = text_of(run.parameters, "num_spaces");
+  summary.scene = core::value_in(run.attributes, "scene");
+  const std::string spaces = core::value_in(run.parameters, "num_spaces");
   summary.spaces = run.num_worlds * std::max(1, std::atoi(spaces.c_str()));
   summary.has_profile = !run.islands.empty();
   std::vector<double> islands, crossing;
@@ -116,7 +112,7 @@ CoreSummary summarize_cores(const io::RunData& run, const std::string& path) {
   core::require_input(run.num_ranks == 1, path + ": it was run on " + std::to_string(run.num_ranks) +
                                               " ranks, whose times share the machine; use one rank");
   CoreSummary summary;
-  summary.scene = text_of(run.attributes, "scene");
+  summary.scene = core::value_in(run.attributes, "scene");
   std::vector<double> cores, shares, shares_parallel, shares_of_spaces, serial_s, islands_s, spaces_s;
   double collide_s = 0;
   for (const std::size_t frame : measured(run)) {

@@ -3,17 +3,13 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace pbmpi::app {
 namespace {
 
-std::string parameter(const io::RunData& run, const std::string& name) {
-  const auto found = run.parameters.find(name);
-  return found == run.parameters.end() ? "" : found->second;
-}
-
 int whole_parameter(const io::RunData& run, const std::string& name) {
-  return std::atoi(parameter(run, name).c_str());
+  return std::atoi(core::value_in(run.parameters, name).c_str());
 }
 
 }  // namespace
@@ -33,8 +29,8 @@ IslandWork island_work(const io::RunData& run, const std::string& path) {
   core::require_input(!run.islands.empty(),
                       path + ": it has no times of islands; record the run with --record-islands");
   IslandWork work;
-  work.scene = parameter(run, "scene");
-  work.stepper = parameter(run, "stepper");
+  work.scene = core::value_in(run.parameters, "scene");
+  work.stepper = core::value_in(run.parameters, "stepper");
   work.iterations = whole_parameter(run, "iterations");
   work.steps_per_frame = whole_parameter(run, "steps_per_frame");
   work.bodies = static_cast<int>(run.bodies.id.size());

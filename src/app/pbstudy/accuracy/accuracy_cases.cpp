@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "mpi/balance/partition.h"
+#include "scenes/scene.h"
 
 namespace pbmpi::app {
 namespace {
@@ -123,7 +124,8 @@ constexpr int most_bodies_for_direct = 60;
 StepperSettings second_method(const StudyScene& scene, const StepperSettings& reference,
                               const AccuracyOptions& options) {
   StepperSettings second;
-  const int num_bodies = build_worlds(scene, scene.dt_s, reference.seed).front()->num_bodies();
+  const int num_bodies =
+      scenes::parse_scene(scene.source, scene.dt_s)->build(0, reference.seed)->num_bodies();
   second.kind =
       num_bodies <= most_bodies_for_direct ? stepping::StepperKind::direct : stepping::StepperKind::quick;
   second.dt_s = reference.dt_s;

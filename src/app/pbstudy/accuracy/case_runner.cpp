@@ -82,18 +82,6 @@ void measure_drift(const AccuracyCase& one, const StudyScene& scene, const Refer
   result.drift = analysis::summarize(errors);
 }
 
-void summarize_times(const std::vector<std::vector<double>>& times_s, CaseResult& result) {
-  std::vector<double> medians, all;
-  for (const std::vector<double>& frame : times_s) {
-    medians.push_back(core::quantile(frame, 0.5));
-    all.insert(all.end(), frame.begin(), frame.end());
-  }
-  result.frame_time_median_s = core::quantile(medians, 0.5);
-  result.frame_time_worst_s = *std::max_element(medians.begin(), medians.end());
-  result.frame_time_p10_s = core::quantile(all, 0.1);
-  result.frame_time_p90_s = core::quantile(all, 0.9);
-}
-
 }  // namespace
 
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
@@ -107,6 +95,18 @@ CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Refe
   measure_drift(one, scene, reference, worlds, result);
   result.rest = one.kind == CaseKind::setting ? rest.run(one.stepper) : RestResult{NAN, NAN, NAN, NAN};
   return result;
+}
+
+void summarize_times(const std::vector<std::vector<double>>& times_s, CaseResult& result) {
+  std::vector<double> medians, all;
+  for (const std::vector<double>& frame : times_s) {
+    medians.push_back(core::quantile(frame, 0.5));
+    all.insert(all.end(), frame.begin(), frame.end());
+  }
+  result.frame_time_median_s = core::quantile(medians, 0.5);
+  result.frame_time_worst_s = *std::max_element(medians.begin(), medians.end());
+  result.frame_time_p10_s = core::quantile(all, 0.1);
+  result.frame_time_p90_s = core::quantile(all, 0.9);
 }
 
 }  // namespace pbmpi::app

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <type_traits>
+#include <vector>
 
 #include "analysis/error_table.h"
 #include "app/pbstudy/accuracy/accuracy_cases.h"
@@ -35,5 +36,8 @@ static_assert(std::is_trivially_copyable_v<CaseResult>);
 /// A setting or an estimate.
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
                     const RestRunner& rest, int repeats);
+
+/// The times of `result` from those of its measured frames [s], [frame][repeat].
+void summarize_times(const std::vector<std::vector<double>>& times_s, CaseResult& result);
 
 }  // namespace pbmpi::app

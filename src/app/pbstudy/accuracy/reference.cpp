@@ -23,6 +23,7 @@ ConvergingStepper::ConvergingStepper(const Worlds& worlds, const ReferenceSolve&
       residual_(worlds.size()),
       iterations_(worlds.size()) {
   solve_.stepper.residuals = true;
+  if (solve_.residual <= 0) solve_.most_iterations = solve_.stepper.iterations;  // nothing is asked
   for (const auto& model : worlds_) states_.push_back(model::initial_state(*model));
 }
 
@@ -76,8 +77,8 @@ void ConvergingStepper::advance() {
   for (std::size_t world = 0; world < open.size(); ++world) open[world] = static_cast<int>(world);
   for (std::int64_t wanted = solve_.stepper.iterations; !open.empty(); wanted *= 4) {
     const int iterations = static_cast<int>(std::min<std::int64_t>(wanted, solve_.most_iterations));
-    try_step(open, solve_.residual > 0 ? iterations : solve_.stepper.iterations);
-    if (solve_.residual <= 0 || iterations == solve_.most_iterations) break;
+    try_step(open, iterations);
+    if (iterations == solve_.most_iterations) break;
     std::erase_if(open,
                   [&](int world) { return residual_[static_cast<std::size_t>(world)] <= solve_.residual; });
   }

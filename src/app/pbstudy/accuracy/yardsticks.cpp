@@ -1,11 +1,9 @@
 #include "app/pbstudy/accuracy/yardsticks.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "core/clock.h"
-#include "core/statistics.h"
 
 namespace pbmpi::app {
 namespace {
@@ -31,19 +29,16 @@ CaseResult unobserved() {
 void measure_defect(const StudyScene& scene, const SolvedReference& reference, const Worlds& worlds,
                     const SolveFrame& solve, CaseResult& result) {
   analysis::PoseErrors errors;
-  std::vector<double> times_s;
+  std::vector<std::vector<double>> times_s;
   for (int frame = scene.warmup; frame < scene.total_frames(); ++frame) {
     const auto at = static_cast<std::size_t>(frame);
     const double start_s = core::thread_cpu_s();
     const States end = solve(reference.states[at], frame);
-    times_s.push_back(core::thread_cpu_s() - start_s);
+    times_s.push_back({core::thread_cpu_s() - start_s});
     errors.append(errors_between(worlds, end, reference.states[at + 1]));
   }
   result.defect = analysis::summarize(errors);
-  result.frame_time_median_s = core::quantile(times_s, 0.5);
-  result.frame_time_worst_s = *std::ranges::max_element(times_s);
-  result.frame_time_p10_s = core::quantile(times_s, 0.1);
-  result.frame_time_p90_s = core::quantile(times_s, 0.9);
+  summarize_times(times_s, result);
 }
 
 void measure_drift(const StudyScene& scene, const SolvedReference& reference, const Worlds& worlds,

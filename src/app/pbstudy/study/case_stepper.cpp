@@ -11,6 +11,16 @@ using model::State;
 
 analysis::PoseView view(const State& state) { return {state.position, state.orientation, state.broken_in}; }
 
+/// `state_of(world)`: what is compared.
+template <class StateOf>
+analysis::PoseErrors compare_all(const Worlds& worlds, const StateOf& state_of,
+                                 const std::vector<State>& reference) {
+  analysis::PoseErrors errors;
+  for (std::size_t world = 0; world < worlds.size(); ++world)
+    errors.append(analysis::compare(*worlds[world], view(state_of(world)), view(reference[world])));
+  return errors;
+}
+
 }  // namespace
 
 Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed,
@@ -89,20 +99,15 @@ std::vector<State> CaseStepper::states() const {
 
 analysis::PoseErrors errors_between(const Worlds& worlds, const std::vector<State>& states,
                                     const std::vector<State>& reference) {
-  analysis::PoseErrors errors;
-  for (std::size_t world = 0; world < worlds.size(); ++world)
-    errors.append(analysis::compare(*worlds[world], view(states[world]), view(reference[world])));
-  return errors;
+  return compare_all(
+      worlds, [&](std::size_t world) -> const State& { return states[world]; }, reference);
 }
 
 analysis::PoseErrors errors_of(const CaseStepper& stepper, const Worlds& worlds,
                                const std::vector<State>& reference) {
-  analysis::PoseErrors errors;
-  for (std::size_t world = 0; world < worlds.size(); ++world) {
-    errors.append(analysis::compare(*worlds[world], view(stepper.shown(static_cast<int>(world))),
-                                    view(reference[world])));
-  }
-  return errors;
+  return compare_all(
+      worlds, [&](std::size_t world) -> const State& { return stepper.shown(static_cast<int>(world)); },
+      reference);
 }
 
 Reference make_reference(const StudyScene& scene, const stepping::StepperSettings& settings) {
