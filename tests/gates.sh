@@ -2,7 +2,8 @@
 # The gates that a change passes beside the tests, packages included: `tests/gates.sh` runs all, `tests/gates.sh NAME...` some of
 #   format    clang-format leaves every source as it is
 #   avx       no AVX instruction outside the packs that are compiled for it (needs the build of tests/run.sh)
-#   clang     clang++ builds the programs without a warning, and without headers parsed ahead; they have the golden hashes
+#   clang     clang++ builds pbmpi without a warning; it has the golden hashes
+#   headers   every source of the programs includes what it needs: it compiles alone, without headers parsed ahead
 #   tidy      clang-tidy finds nothing in the sources of the programs
 #   arm64     the scenes have their golden hashes on arm64, too: a cross build, run by QEMU
 #   sanitize  unit tests and the programs, built with the sanitizers of addresses and of undefined behaviour
@@ -18,15 +19,26 @@ avx() {
 }
 
 clang() {
-  jobs/build.sh clang -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF
+  cmake --preset clang -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF
+  cmake --build --preset clang --target pbmpi
   . jobs/mpi_environment.sh
   PBMPI_BIN=$PWD/build/clang/bin python3 tests/app/golden/test_golden.py
 }
 
+headers() {
+  cmake --preset alone -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF >/dev/null
+  python3 tests/gates/compile_alone.py build/alone
+}
+
+# Folder by folder, as what a folder's sources include is most of what there is to parse.
 tidy() {
-  cmake --preset clang -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF >/dev/null
-  git ls-files 'src/*.cpp' 'mpi/*.cpp' 'io/*.cpp' 'scenes/*.cpp' |
-    xargs -P "$(nproc)" -n 4 clang-tidy -p build/clang --quiet 2> >(grep -v -E '^[0-9]+ warnings? generated\.$' >&2)
+  cmake --preset tidy -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF >/dev/null
+  python3 - build/tidy/compile_commands.json <<'END' |
+import json, os, sys
+files = [unit["file"] for unit in json.load(open(sys.argv[1]))]
+print(*(file for file in files if file.endswith((".cpp", ".cxx")) and os.path.exists(file)), sep="\n")  # generated ones are not there
+END
+    xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet 2> >(grep -v -E '^[0-9]+ warnings? generated\.$' >&2)
 }
 
 # Debian's packages for arm64 are unpacked to build/arm64-sysroot, 0.7 GB; nothing is installed.
@@ -39,7 +51,7 @@ arm64() {
     python3 tests/app/golden/test_golden.py
 }
 
-# Unit tests (one program a folder, no ranks), then every scene in many settings, and each program on one.
+# Unit tests (one program a folder, no ranks), then every scene in some settings, and each program on one.
 sanitize() {
   local tests=(core model geometry effects stepping analysis estimate scenes app pbstudy pbreport io_html io_table_file
     io_rows partition rebalance rebalancer space_plan)
@@ -68,11 +80,11 @@ sanitize() {
 }
 
 gates=("$@")
-[[ ${#gates[@]} -gt 0 ]] || gates=(format avx clang arm64 tidy sanitize)
+[[ ${#gates[@]} -gt 0 ]] || gates=(format avx clang headers arm64 tidy sanitize)
 jobs/install_packages.sh --gates
 for gate in "${gates[@]}"; do
   case $gate in
-    format | avx | clang | arm64 | tidy | sanitize) ;;
+    format | avx | clang | headers | arm64 | tidy | sanitize) ;;
     *) echo "$0: there is no gate '$gate'; see its head" >&2; exit 2 ;;
   esac
   echo "gate $gate: begins at $(date +%T)"

@@ -15,14 +15,14 @@ Datatype type_of(const ColumnSpec& column) {
 }
 
 /// [rows] or [rows][items] or [rows][items][width]
-std::vector<hsize_t> dims_of(hsize_t rows, hsize_t items, hsize_t width) {
+std::vector<hsize_t> table_dims(hsize_t rows, hsize_t items, hsize_t width) {
   std::vector<hsize_t> dims{rows};
   if (items > 0) dims.push_back(items);
   if (width > 1) dims.push_back(width);
   return dims;
 }
 
-std::vector<hsize_t> extent(hid_t dataset) {
+std::vector<hsize_t> extent_of(hid_t dataset) {
   const auto space = owned<Dataspace>(H5Dget_space(dataset), "H5Dget_space");
   std::vector<hsize_t> dims(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.id())));
   check(H5Sget_simple_extent_dims(space.id(), dims.data(), nullptr), "H5Sget_simple_extent_dims");
@@ -78,7 +78,7 @@ GrowingTable::Column GrowingTable::make_column(hid_t file, const std::string& pa
   Column column{
       path, owned<Datatype>(H5Tcopy(type.id()), "H5Tcopy"), {}, 0, std::max<hsize_t>(num_items, 1), nullptr};
   column.item_bytes = H5Tget_size(type.id()) * width;
-  column.dataset = create_growing(file, path, type, dims_of(shape_.num_rows, num_items, width), unit);
+  column.dataset = create_growing(file, path, type, table_dims(shape_.num_rows, num_items, width), unit);
   // Not value-initialised: see the class comment.
   column.waiting.reset(new std::byte[shape_.capacity * column.items * column.item_bytes]);
   return column;
@@ -184,7 +184,7 @@ std::string GrowingTable::write(const PropertyList& transfer) {
 
 void GrowingTable::write(Column& column, Range rows, const PropertyList& transfer) {
   const auto in_file = owned<Dataspace>(H5Dget_space(column.dataset.id()), "H5Dget_space");
-  std::vector<hsize_t> dims = extent(column.dataset.id());
+  std::vector<hsize_t> dims = extent_of(column.dataset.id());
   dims[0] = std::max<hsize_t>(rows.count, 1);
   const auto in_memory = owned<Dataspace>(
       H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), "H5Screate_simple");
@@ -212,7 +212,7 @@ void GrowingTable::cut(hid_t file, std::vector<core::ByteRange>& unused) const {
 
 void cut_rows(hid_t file, const std::string& path, hsize_t num_rows, std::vector<core::ByteRange>& unused) {
   const auto dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
-  std::vector<hsize_t> dims = extent(dataset.id());
+  std::vector<hsize_t> dims = extent_of(dataset.id());
   if (dims[0] == num_rows) return;
   add_unused_chunks(dataset.id(), num_rows, unused);
   dims[0] = num_rows;

@@ -12,9 +12,9 @@
 namespace pbmpi::io {
 namespace {
 
-constexpr const char* group = "/contacts/frame";
-constexpr std::size_t width = contact_columns.size();
-constexpr std::size_t bytes_a_row = width * sizeof(double);
+constexpr const char* frame_group = "/contacts/frame";
+constexpr std::size_t num_columns = contact_columns.size();
+constexpr std::size_t bytes_a_row = num_columns * sizeof(double);
 
 std::string column_names() {
   std::string names;
@@ -65,8 +65,9 @@ ContactRows::ContactRows(hid_t file, const FileRanks& ranks, const RunShape& sha
       geom_offset_(std::move(geom_offset)),
       capacity_(capacity(shape)),
       substep_s_(shape.substep_s),
-      frames_(file, ranks, group, frame_columns(), {static_cast<hsize_t>(shape.num_frames), 0, frames_held}) {
-  dataset_ = create_growing(file, points, number_type(H5T_NATIVE_DOUBLE), {capacity_, width}, "",
+      frames_(file, ranks, frame_group, frame_columns(),
+              {static_cast<hsize_t>(shape.num_frames), 0, frames_held}) {
+  dataset_ = create_growing(file, points, number_type(H5T_NATIVE_DOUBLE), {capacity_, num_columns}, "",
                             chunk_rows(capacity_));
   write_attribute(dataset_.id(), "columns", column_names());
 }
@@ -136,7 +137,7 @@ std::vector<std::int64_t> ContactRows::count_rows() const {
 /// their order.
 std::vector<ContactRows::Row> ContactRows::exchange(const std::vector<std::int64_t>& counts,
                                                     Range frames) const {
-  using WireRow = std::array<double, width + 1>;
+  using WireRow = std::array<double, num_columns + 1>;
   std::vector<std::vector<std::byte>> messages(static_cast<std::size_t>(ranks_.size()));
   for (int to = 0; to < ranks_.size(); ++to) {
     const Range share = share_of_rows(waiting_.size(), to, ranks_.size());
@@ -204,8 +205,8 @@ std::string ContactRows::write(const PropertyList& transfer) {
   if (settled_ == written_) return error;
   try {
     const auto in_file = owned<Dataspace>(H5Dget_space(dataset_.id()), "H5Dget_space");
-    const std::array<hsize_t, 2> start = {first_own_, 0}, all = {own_rows_.size(), width};
-    const std::array<hsize_t, 2> extent = {std::max<hsize_t>(all[0], 1), width};
+    const std::array<hsize_t, 2> start = {first_own_, 0}, all = {own_rows_.size(), num_columns};
+    const std::array<hsize_t, 2> extent = {std::max<hsize_t>(all[0], 1), num_columns};
     const auto in_memory = owned<Dataspace>(H5Screate_simple(2, extent.data(), nullptr), "H5Screate_simple");
     if (own_rows_.empty()) {
       check(H5Sselect_none(in_file.id()), "H5Sselect_none");
@@ -239,9 +240,9 @@ void ContactRows::cut(hid_t file, std::vector<core::ByteRange>& unused) const {
 
 std::vector<ContactSpan> read_contact_spans(hid_t file, std::int64_t num_frames) {
   if (!has_object(file, "/contacts")) return {};
-  const auto first = read_integers(file, std::string(group) + "/first", num_frames);
-  const auto count = read_integers(file, std::string(group) + "/count", num_frames);
-  const RawRows sums = raw_rows(file, std::string(group) + "/checksum", num_frames);
+  const auto first = read_integers(file, std::string(frame_group) + "/first", num_frames);
+  const auto count = read_integers(file, std::string(frame_group) + "/count", num_frames);
+  const RawRows sums = raw_rows(file, std::string(frame_group) + "/checksum", num_frames);
   if (sums.row_bytes != sizeof(std::uint64_t)) throw core::RunError(sums.path + " is no column of checksums");
   std::vector<std::uint64_t> checksum(static_cast<std::size_t>(num_frames));
   sums.read(0, sums.num_rows, checksum.data());
@@ -249,7 +250,7 @@ std::vector<ContactSpan> read_contact_spans(hid_t file, std::int64_t num_frames)
   std::int64_t next = 0;
   for (std::size_t frame = 0; frame < first.size(); ++frame) {
     if (first[frame] != next || count[frame] < 0)
-      throw core::RunError(std::string(group) + " does not say where the rows of frame " +
+      throw core::RunError(std::string(frame_group) + " does not say where the rows of frame " +
                            std::to_string(frame) + " are");
     next += count[frame];
     spans.push_back({first[frame], count[frame], checksum[frame]});

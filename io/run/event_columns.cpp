@@ -11,7 +11,7 @@ namespace {
 
 namespace event_kind = stepping::event_kind;
 
-constexpr const char* group = "/events";
+constexpr const char* events_group = "/events";
 /// EventColumns::add() puts values in this order.
 const std::vector<ColumnSpec>& columns() {
   static const std::vector<ColumnSpec> specs = {{"frame", H5T_NATIVE_INT64}, {"kind", 0, 1, "", 24},
@@ -46,12 +46,12 @@ bool EventColumns::is_of_the_run(const std::string& kind) {
 
 std::string EventColumns::count_name(const std::string& kind) { return "num_" + kind; }
 
-std::vector<std::string> EventColumns::datasets() { return GrowingTable::datasets(group, columns()); }
+std::vector<std::string> EventColumns::datasets() { return GrowingTable::datasets(events_group, columns()); }
 
 std::size_t EventColumns::bytes() { return max_rows * GrowingTable::row_bytes(columns(), 1); }
 
 EventColumns::EventColumns(hid_t file, const FileRanks& ranks)
-    : is_root_(ranks.is_root()), rows_(file, ranks, group, columns(), {max_rows, 0, max_rows}) {}
+    : is_root_(ranks.is_root()), rows_(file, ranks, events_group, columns(), {max_rows, 0, max_rows}) {}
 
 void EventColumns::add(const stepping::RunEvent& event) {
   const auto count = told_.find(count_name(event.kind));

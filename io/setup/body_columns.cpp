@@ -9,10 +9,6 @@ namespace {
 
 using stepping::LocalWorld;
 
-void append(std::vector<double>& values, const std::array<double, 3>& size) {
-  values.insert(values.end(), size.begin(), size.end());
-}
-
 }  // namespace
 
 void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup) {

@@ -77,4 +77,8 @@ void append(std::vector<double>& values, const core::Mat3& m) {
   }
 }
 
+void append(std::vector<double>& values, const std::array<double, 3>& numbers) {
+  values.insert(values.end(), numbers.begin(), numbers.end());
+}
+
 }  // namespace pbmpi::io

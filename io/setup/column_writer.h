@@ -1,6 +1,7 @@
 /// Columns that are written once, each rank its own rows.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -49,5 +50,6 @@ class ColumnWriter {
 void append(std::vector<double>& values, const core::Vec3& v);
 void append(std::vector<double>& values, const core::Quat& q);
 void append(std::vector<double>& values, const core::Mat3& m);
+void append(std::vector<double>& values, const std::array<double, 3>& numbers);
 
 }  // namespace pbmpi::io

@@ -28,6 +28,10 @@ struct SceneContext {
   double dt_s = 0.01;         ///< turns times of a programme into steps
 };
 
+/// How deep actors begin in what they stand on, and blocks in each other. A contact needs some depth to
+/// exist; ODE takes a fifth of it away each step, so that this little is gone before it shows.
+inline constexpr double initial_depth_m = 1e-4;
+
 /// Adds an actor to a model. Holds the parameters read from the file, so that building reads no TOML.
 using ActorPlan = std::function<void(const Placement&, model::Model&)>;
 

@@ -31,10 +31,6 @@ struct Car {
   SceneContext context;
 };
 
-// A contact needs some depth to exist; ODE takes a fifth of it away each step, so that this little is gone
-// before it shows.
-constexpr double initial_depth_m = 1e-4;
-
 Car read(TableReader& actor, const SceneContext& context) {
   Car car;
   car.context = context;

@@ -24,12 +24,10 @@ struct Centipede {
   std::string where;  ///< place in the file
 };
 
-// A contact needs some depth to exist; see the car.
-constexpr double initial_depth_m = 1e-4;
 constexpr double gap_m = 0.05;          // between segments, so that they can bend
 constexpr double most_bend_deg = 30;    // of a joint between segments, to each side
 constexpr double back_torque_nm = 600;  // holds the back straight: a segment's weight at three lengths
-constexpr double swing_deg = 20, lift_deg = 12;  // reach of a leg fore and aft, and up
+constexpr double reach_deg = 20, lift_deg = 12;  // of a leg fore and aft, and up
 
 class CentipedeBuilder {
  public:
@@ -81,7 +79,7 @@ class CentipedeBuilder {
     // with these axes a positive angle is a swing forward, and a lift.
     model::Joint joint = join(model_, place_.name + "." + name + "_hip", model::JointKind::universal, segment,
                               leg, at(hip), side * up(), -side * forward());
-    joint.limits[0] = {-radians(swing_deg), radians(swing_deg)};
+    joint.limits[0] = {-radians(reach_deg), radians(reach_deg)};
     joint.limits[1] = {-radians(lift_deg), radians(lift_deg)};
     joint.motors[0] = joint.motors[1] = {0, c_.torque_nm};
     model_.joints.push_back(joint);
@@ -95,7 +93,7 @@ class CentipedeBuilder {
     const auto half = std::max<std::int64_t>(2, step_at(c_.stride_s / 2, c_.dt_s, c_.where + ": stride"));
     const std::int64_t end = step_at(c_.walk_s, c_.dt_s, c_.where + ": walk");
     const double half_s = static_cast<double>(half) * c_.dt_s;
-    const double swing_speed = radians(swing_deg) / half_s;
+    const double swing_speed = radians(reach_deg) / half_s;
     const double lift_speed = 2 * radians(lift_deg) / 2 / half_s;
     bool ahead = first_group;
     for (std::int64_t step = 0; step < end; step += half, ahead = !ahead) {

@@ -22,8 +22,6 @@ struct Human {
   model::Material material{0.6, 0};  ///< cloth and leather on road or steel
 };
 
-// A contact needs some depth to exist; see the car.
-constexpr double initial_depth_m = 1e-4;
 // Breadth to depth of the trunk (chest 0.32 m to 0.21 m in men).
 constexpr double trunk_aspect = 1.5;
 // [1/s] At which muscles undo a displacement, in 20 ms: dry friction alone creeps, as 20 iterations do not

@@ -31,8 +31,6 @@ struct Projectile {
 };
 
 constexpr std::array shapes = {model::Shape::sphere, model::Shape::cylinder, model::Shape::box};
-// A contact needs some depth to exist; see the car.
-constexpr double initial_depth_m = 1e-4;
 
 /// Half of the extent along z as it lies, and along x as it flies (a cylinder flies with its axis ahead).
 double half_height(const Projectile& p) {

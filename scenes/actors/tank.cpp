@@ -21,8 +21,6 @@ struct Tank {
   model::Material material{0.7, 0};          // rubber pads and steel on the ground
 };
 
-// A contact needs some depth to exist; see the car.
-constexpr double initial_depth_m = 1e-4;
 // The drives hold the gun against any blow that the scenes deal; four times the barrel's weight at its
 // middle, and the turret's ring likewise.
 constexpr double elevation_torque_nm = 2e5;

@@ -24,8 +24,6 @@ struct Wall {
   model::Material material;
 };
 
-// A contact needs some depth to exist; see the car.
-constexpr double initial_depth_m = 1e-4;
 // Between neighbours of a course. Dry blocks bear on the courses below and above them; without the gap every
 // one would also lean on its neighbours, and rounding would decide how hard.
 constexpr double joint_width_m = 0.002;

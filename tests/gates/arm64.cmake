@@ -1,8 +1,10 @@
-# A cross build for arm64 Linux, against the packages that arm64_sysroot.sh has unpacked to build/arm64-sysroot.
+# A cross build for arm64 Linux by clang++, against the packages that arm64_sysroot.sh has unpacked to build/arm64-sysroot.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
-set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
-set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_C_COMPILER clang)
+set(CMAKE_CXX_COMPILER clang++)
+set(CMAKE_C_COMPILER_TARGET aarch64-linux-gnu)
+set(CMAKE_CXX_COMPILER_TARGET aarch64-linux-gnu)
 set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
 
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/../../build/arm64-sysroot REALPATH)

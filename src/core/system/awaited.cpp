@@ -24,7 +24,7 @@ unsigned next_notice_s = 0;  ///< after `since_s`
 unsigned end_s = 0;          ///< after `since_s`
 int end_signal = 0;          ///< 0: end with an exit code
 
-time_t now_s() noexcept {
+time_t whole_now_s() noexcept {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   return now.tv_sec;
@@ -72,7 +72,7 @@ class Line {
 }
 
 extern "C" void tell(int) {
-  const auto waited_s = static_cast<unsigned>(now_s() - since_s);
+  const auto waited_s = static_cast<unsigned>(whole_now_s() - since_s);
   if (waited_s >= end_s) give_up(waited_s);
   if (waited_s >= next_notice_s) {
     Line line;
@@ -97,7 +97,7 @@ void switch_on() noexcept {
 void begin_wait(std::string_view what) {
   constexpr unsigned usual_first_s = 30;
   copy_text(what, awaited);
-  since_s = now_s();
+  since_s = whole_now_s();
   end_s = limit_s;
   end_signal = 0;
   next_notice_s = std::clamp(limit_s / 4, 1U, usual_first_s);
@@ -125,7 +125,7 @@ void set_wait_limit(int seconds) { limit_s = static_cast<unsigned>(std::max(seco
 void begin_deadline(const char* what, unsigned seconds, int signal) noexcept {
   alarm(0);
   copy_text(what, awaited);
-  since_s = now_s();
+  since_s = whole_now_s();
   end_s = next_notice_s = seconds;
   end_signal = signal;
   switch_on();

@@ -1,8 +1,8 @@
 """Every scene has one hash in each of many settings: for 1 to 4 ranks, as whole worlds and cut into spaces, with every
 instruction set. More than a thousand runs in all, of few frames each.
 
-`--ranks 2,3` starts these alone, and no other instruction sets: the form for programs with sanitizers, whose reports count as
-failures."""
+`--ranks 2,3` starts these alone, no other instruction sets, and in each scene every third setting, another third in the next:
+the form for programs with sanitizers, whose reports count as failures."""
 import concurrent.futures
 import json
 import os
@@ -61,8 +61,8 @@ class ManyHashes(ProgramTest):
         self.assertEqual(len(known), 1, (what, list(zip(cases, hashes))))
 
     def test_ranks_and_cuts_leave_every_hash(self):
-        for scene in SCENES + EFFECT_SCENES:
-            for name, options in SOR.items():
+        for i, scene in enumerate(SCENES + EFFECT_SCENES):
+            for name, options in list(SOR.items())[i % 3::3] if RANKS else SOR.items():
                 with self.subTest(scene=scene, setting=name):
                     args = ("--scene", scene, "--replicas", 3 if scene == "100CrSk" else 1, *options)
                     self.one_hash((scene, name), [(ranks, (*args, "--decompose", cut)) for ranks in RANKS or (1, 2, 3, 4)

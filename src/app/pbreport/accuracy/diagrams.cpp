@@ -14,7 +14,7 @@
 namespace pbmpi::app {
 namespace {
 
-using nlohmann::json;
+using ChartJson = nlohmann::json;
 
 /// Colours that people with any colour vision can tell apart: Okabe and Ito, "Color Universal Design" (2008).
 const std::map<std::string, std::string>& stepper_colours() {
@@ -33,7 +33,7 @@ std::string sweeps_text(const StudyCase& one) {
          counted(one.stepper.iterations, "iteration") + ")";
 }
 
-json point(const StudyCase& one, double y_mm) {
+ChartJson point(const StudyCase& one, double y_mm) {
   return {
       {"x", 1e3 * one.time_s},
       {"y", y_mm},
@@ -66,8 +66,8 @@ struct SweepScale {
     const double share = std::log2(std::max(1, iterations)) / std::max(1.0, std::log2(most_iterations));
     return 3 + 3.5 * share;
   }
-  json key() const {
-    json entries = json::array();
+  ChartJson key() const {
+    ChartJson entries = ChartJson::array();
     for (std::size_t i = 0; i < substeps.size(); ++i) {
       if (i >= shapes.size()) break;
       const bool is_last = i + 1 == shapes.size() && substeps.size() > shapes.size();
@@ -84,27 +84,28 @@ struct SweepScale {
   }
 };
 
-json line(double value, const char* axis, const char* label, const char* colour, const json& dash) {
+ChartJson line(double value, const char* axis, const char* label, const char* colour, const ChartJson& dash) {
   return {{"from", value},  {"to", value},      {"axis", axis},
           {"label", label}, {"colour", colour}, {"dash", dash}};
 }
 
 /// What the reference is known to, and from what that follows; what was asked for. `ranked`: the diagram
 /// shows the error by which settings are ranked.
-json bands_of(const SceneCases& scene, ErrorOf error_mm, bool ranked, const AccuracyReportOptions& options) {
+ChartJson bands_of(const SceneCases& scene, ErrorOf error_mm, bool ranked,
+                   const AccuracyReportOptions& options) {
   double floor = 0;
   for (const StudyCase& one : scene.floor) floor = std::max(floor, error_mm(one));
-  json bands = {{{"from", 0},
-                 {"to", scene.uncertainty(error_mm)},
-                 {"label", "uncertainty of the reference [mm]"},
-                 {"colour", "rgba(120, 130, 142, .30)"}},
-                line(floor, "y", "another solver seed: noise floor [mm]", "#7a8490", {1, 3})};
-  const auto add_line = [&](const std::optional<StudyCase>& found, const char* label, const json& dash) {
+  ChartJson bands = {{{"from", 0},
+                      {"to", scene.uncertainty(error_mm)},
+                      {"label", "uncertainty of the reference [mm]"},
+                      {"colour", "rgba(120, 130, 142, .30)"}},
+                     line(floor, "y", "another solver seed: noise floor [mm]", "#7a8490", {1, 3})};
+  const auto add_line = [&](const std::optional<StudyCase>& found, const char* label, const ChartJson& dash) {
     if (found) bands.push_back(line(error_mm(*found), "y", label, "#7a8490", dash));
   };
-  add_line(scene.more_iterations, "reference with more iterations [mm]", json::array());
+  add_line(scene.more_iterations, "reference with more iterations [mm]", ChartJson::array());
   add_line(scene.second_method, "second method: ODE [mm]", {4, 2, 1, 2});
-  add_line(scene.halved_iterations, "reference with half the iterations [mm]", json::array());
+  add_line(scene.halved_iterations, "reference with half the iterations [mm]", ChartJson::array());
   add_line(scene.halved_substeps, "reference with half the substeps [mm]", {2, 3});
   add_line(scene.halved_dt, "reference with half the step [mm]", {8, 4});
   if (options.budget_s) bands.push_back(line(1e3 * *options.budget_s, "x", "budget [ms]", "#d55e00", {6, 4}));
@@ -114,9 +115,9 @@ json bands_of(const SceneCases& scene, ErrorOf error_mm, bool ranked, const Accu
 }
 
 /// A set of points for each stepper: the shape says how many substeps, the size how many iterations.
-json setting_sets(const SceneCases& scene, ErrorOf error_mm, const SweepScale& scale) {
+ChartJson setting_sets(const SceneCases& scene, ErrorOf error_mm, const SweepScale& scale) {
   struct Points {
-    json data = json::array(), shape = json::array(), radius = json::array();
+    ChartJson data = ChartJson::array(), shape = ChartJson::array(), radius = ChartJson::array();
   };
   std::map<std::string, Points> by_stepper;
   for (const StudyCase& one : scene.settings) {
@@ -126,7 +127,7 @@ json setting_sets(const SceneCases& scene, ErrorOf error_mm, const SweepScale& s
     points.shape.push_back(scale.shape(one.stepper.substeps));
     points.radius.push_back(scale.radius(one.stepper.iterations));
   }
-  json sets = json::array();
+  ChartJson sets = ChartJson::array();
   for (const auto& [stepper, points] : by_stepper) {
     sets.push_back({{"label", stepper},
                     {"data", points.data},
@@ -138,8 +139,8 @@ json setting_sets(const SceneCases& scene, ErrorOf error_mm, const SweepScale& s
   return sets;
 }
 
-json front_set(const SceneCases& scene, ErrorOf error_mm) {
-  json front = json::array();
+ChartJson front_set(const SceneCases& scene, ErrorOf error_mm) {
+  ChartJson front = ChartJson::array();
   for (const std::size_t i : scene.pareto_front(error_mm))
     front.push_back(point(scene.settings[i], error_mm(scene.settings[i])));
   return {{"label", "Pareto front"}, {"data", front},    {"showLine", true}, {"borderColor", "#3d4650"},
@@ -147,28 +148,28 @@ json front_set(const SceneCases& scene, ErrorOf error_mm) {
 }
 
 /// A ring round the chosen setting; none: nothing was asked for, or nothing keeps it.
-std::optional<json> chosen_set(const SceneCases& scene, ErrorOf error_mm,
-                               const AccuracyReportOptions& options) {
+std::optional<ChartJson> chosen_set(const SceneCases& scene, ErrorOf error_mm,
+                                    const AccuracyReportOptions& options) {
   const auto chosen = chosen_setting(scene, options);
   if (!chosen) return std::nullopt;
   const StudyCase& one = scene.settings[*chosen];
-  json where = point(one, error_mm(one));
+  ChartJson where = point(one, error_mm(one));
   where["label"] = "chosen: " + where["label"].get<std::string>();
-  return json{{"label", "chosen"},        {"data", json::array({where})},
-              {"borderColor", "#d55e00"}, {"backgroundColor", "transparent"},
-              {"borderWidth", 2.5},       {"pointRadius", 10},
-              {"keyShape", "ring"},       {"unread", true}};
+  return ChartJson{{"label", "chosen"},        {"data", ChartJson::array({where})},
+                   {"borderColor", "#d55e00"}, {"backgroundColor", "transparent"},
+                   {"borderWidth", 2.5},       {"pointRadius", 10},
+                   {"keyShape", "ring"},       {"unread", true}};
 }
 
 /// Looks of FEEC into the frame's last solve.
-std::optional<json> estimate_set(const SceneCases& scene, ErrorOf error_mm) {
-  json points = json::array();
+std::optional<ChartJson> estimate_set(const SceneCases& scene, ErrorOf error_mm) {
+  ChartJson points = ChartJson::array();
   for (const StudyCase& one : scene.estimates) {
     if (one.finite()) points.push_back(point(one, error_mm(one)));
   }
   if (points.empty()) return std::nullopt;
-  return json{{"label", "estimates (FEEC)"}, {"data", points},   {"borderColor", "#56b4e9"},
-              {"pointStyle", "crossRot"},    {"pointRadius", 5}, {"borderWidth", 2.2}};
+  return ChartJson{{"label", "estimates (FEEC)"}, {"data", points},   {"borderColor", "#56b4e9"},
+                   {"pointStyle", "crossRot"},    {"pointRadius", 5}, {"borderWidth", 2.2}};
 }
 
 }  // namespace
@@ -176,20 +177,21 @@ std::optional<json> estimate_set(const SceneCases& scene, ErrorOf error_mm) {
 io::html::Chart diagram(const SceneCases& scene, const AccuracyReportOptions& options, const char* title,
                         const char* axis, ErrorOf error_mm, ErrorMeasure measure) {
   const SweepScale scale(scene);
-  json datasets = setting_sets(scene, error_mm, scale);
+  ChartJson datasets = setting_sets(scene, error_mm, scale);
   datasets.insert(datasets.begin(), front_set(scene, error_mm));
   if (auto estimates = estimate_set(scene, error_mm)) datasets.push_back(std::move(*estimates));
   if (auto chosen = chosen_set(scene, error_mm, options)) datasets.push_back(std::move(*chosen));
   const auto axis_of = [](const std::string& text) {
-    return json{{"type", "logarithmic"}, {"title", {{"display", true}, {"text", text}}}};
+    return ChartJson{{"type", "logarithmic"}, {"title", {{"display", true}, {"text", text}}}};
   };
-  const json marks = {{"bands", bands_of(scene, error_mm, measure == options.measure, options)},
-                      {"key", scale.key()}};
-  const json config = {{"type", "scatter"},
-                       {"data", {{"datasets", datasets}}},
-                       {"options",
-                        {{"scales", {{"x", axis_of("time of the worst frame [ms]")}, {"y", axis_of(axis)}}},
-                         {"plugins", {{"pbmpi", marks}}}}}};
+  const ChartJson marks = {{"bands", bands_of(scene, error_mm, measure == options.measure, options)},
+                           {"key", scale.key()}};
+  const ChartJson config = {
+      {"type", "scatter"},
+      {"data", {{"datasets", datasets}}},
+      {"options",
+       {{"scales", {{"x", axis_of("time of the worst frame [ms]")}, {"y", axis_of(axis)}}},
+        {"plugins", {{"pbmpi", marks}}}}}};
   return {title, "Each point is a setting; down and left is better.", json_text(config)};
 }
 

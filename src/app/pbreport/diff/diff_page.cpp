@@ -15,7 +15,7 @@ namespace pbmpi::app {
 namespace {
 
 using analysis::ErrorSummary;
-using Json = nlohmann::json;
+using ChartJson = nlohmann::json;
 
 /// A curve: a number of each frame.
 struct Line {
@@ -38,20 +38,22 @@ io::html::Chart chart_of(const RunComparison& c, const std::string& title, const
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < c.times_s.size(); i += per_point)
     labels.push_back(format("%.4g", c.times_s[i]));
-  Json datasets = Json::array();
+  ChartJson datasets = ChartJson::array();
   for (const Line& line : lines) {
-    Json dataset = {{"label", line.label},        {"data", io::html::largest_of_bins(line.values, per_point)},
-                    {"borderColor", line.colour}, {"backgroundColor", line.colour},
-                    {"borderWidth", 1.5},         {"pointRadius", 0}};
+    ChartJson dataset = {
+        {"label", line.label},        {"data", io::html::largest_of_bins(line.values, per_point)},
+        {"borderColor", line.colour}, {"backgroundColor", line.colour},
+        {"borderWidth", 1.5},         {"pointRadius", 0}};
     if (line.is_dashed) dataset["borderDash"] = {5, 4};
     datasets.push_back(std::move(dataset));
   }
   const auto scale = [](const std::string& name) {
-    return Json{{"title", {{"display", true}, {"text", name}}}};
+    return ChartJson{{"title", {{"display", true}, {"text", name}}}};
   };
-  const Json config = {{"type", "line"},
-                       {"data", {{"labels", labels}, {"datasets", datasets}}},
-                       {"options", {{"scales", {{"x", scale("simulated time [s]")}, {"y", scale(axis)}}}}}};
+  const ChartJson config = {
+      {"type", "line"},
+      {"data", {{"labels", labels}, {"datasets", datasets}}},
+      {"options", {{"scales", {{"x", scale("simulated time [s]")}, {"y", scale(axis)}}}}}};
   return {title, text, json_text(config)};
 }
 

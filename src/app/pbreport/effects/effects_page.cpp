@@ -15,7 +15,7 @@
 namespace pbmpi::app {
 namespace {
 
-using nlohmann::json;
+using ChartJson = nlohmann::json;
 
 /// A colour for each scene: Okabe and Ito, "Color Universal Design" (2008), and a grey.
 constexpr std::array<const char*, 9> colours = {"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00",
@@ -61,7 +61,7 @@ std::vector<std::string> effects_with(const std::vector<EffectScene>& scenes, Va
 }
 
 /// The band of shares that another solver seed alone seems to cost: the clock's noise.
-json time_noise(const std::vector<EffectScene>& scenes) {
+ChartJson time_noise(const std::vector<EffectScene>& scenes) {
   double share = 0;
   for (const EffectScene& scene : scenes) share = std::max(share, 100 * scene.floor_share());
   return {{{"from", -share},
@@ -83,10 +83,10 @@ io::html::Chart bars(const char* title, const char* text, const char* axis, cons
                      const std::vector<EffectScene>& scenes, Value value, Floor floor) {
   std::vector<std::string> labels = effects_with(scenes, value);
   if (floor == Floor::error) labels.emplace_back("noise floor");
-  json datasets = json::array();
+  ChartJson datasets = ChartJson::array();
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const EffectScene& scene = scenes[i];
-    json points = json::array();
+    ChartJson points = ChartJson::array();
     const auto add = [&](const std::string& effect, double y) {
       points.push_back({{"x", effect}, {"y", y}, {"label", format("%s: %.3g", scene.name.c_str(), y)}});
     };
@@ -97,9 +97,10 @@ io::html::Chart bars(const char* title, const char* text, const char* axis, cons
     datasets.push_back(
         {{"label", scene.name}, {"data", points}, {"backgroundColor", colours[i % colours.size()]}});
   }
-  json options = {{"scales", {{"y", {{"type", scale}, {"title", {{"display", true}, {"text", axis}}}}}}}};
+  ChartJson options = {
+      {"scales", {{"y", {{"type", scale}, {"title", {{"display", true}, {"text", axis}}}}}}}};
   if (floor == Floor::time) options["plugins"]["pbmpi"]["bands"] = time_noise(scenes);
-  const json config = {
+  const ChartJson config = {
       {"type", "bar"}, {"data", {{"labels", labels}, {"datasets", datasets}}}, {"options", options}};
   return {title, text, json_text(config)};
 }

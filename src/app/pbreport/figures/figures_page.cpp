@@ -10,7 +10,7 @@
 namespace pbmpi::app {
 namespace {
 
-using nlohmann::json;
+using ChartJson = nlohmann::json;
 
 constexpr std::array<const char*, 7> method_colours = {"#3d4650", "#0072b2", "#56b4e9", "#009e73",
                                                        "#e69f00", "#cc79a7", "#d55e00"};
@@ -26,29 +26,30 @@ std::vector<std::string> scene_names(const std::vector<FigureScene>& scenes) {
 
 /// One number per scene; null where a scene lacks the method.
 template <class Number>
-json per_scene(const std::vector<FigureScene>& scenes, const std::string& label, Number&& number) {
-  json values = json::array();
+ChartJson per_scene(const std::vector<FigureScene>& scenes, const std::string& label, Number&& number) {
+  ChartJson values = ChartJson::array();
   for (const FigureScene& scene : scenes) {
     const FigureMethod* method = scene.find(label);
-    values.push_back(method == nullptr ? json() : json(number(*method)));
+    values.push_back(method == nullptr ? ChartJson() : ChartJson(number(*method)));
   }
   return values;
 }
 
 io::html::Chart bars(const std::vector<FigureScene>& scenes, const char* title, const char* text,
                      const char* axis, bool logarithmic, double (*number)(const FigureMethod&)) {
-  json datasets = json::array();
+  ChartJson datasets = ChartJson::array();
   std::size_t colour = 0;
   for (const std::string& label : method_labels(scenes)) {
     datasets.push_back({{"label", label},
                         {"data", per_scene(scenes, label, number)},
                         {"backgroundColor", method_colours[colour++ % method_colours.size()]}});
   }
-  json y = {{"type", logarithmic ? "logarithmic" : "linear"}, {"title", {{"display", true}, {"text", axis}}}};
+  ChartJson y = {{"type", logarithmic ? "logarithmic" : "linear"},
+                 {"title", {{"display", true}, {"text", axis}}}};
   if (std::string_view(axis) == "%") y["max"] = 100;
-  const json config = {{"type", "bar"},
-                       {"data", {{"labels", scene_names(scenes)}, {"datasets", datasets}}},
-                       {"options", {{"scales", {{"y", y}}}}}};
+  const ChartJson config = {{"type", "bar"},
+                            {"data", {{"labels", scene_names(scenes)}, {"datasets", datasets}}},
+                            {"options", {{"scales", {{"y", y}}}}}};
   return {title, text, json_text(config)};
 }
 
@@ -73,8 +74,8 @@ io::html::Chart panel(const std::vector<FigureScene>& scenes, const char* title,
   std::erase(labels, "Iter20");
   std::string order;
   for (const std::string& label : labels) order += label + ", ";
-  json datasets = json::array();
-  const auto add = [&](const std::string& stack, std::size_t band, json data) {
+  ChartJson datasets = ChartJson::array();
+  const auto add = [&](const std::string& stack, std::size_t band, ChartJson data) {
     datasets.push_back({{"label", stack + ": " + std::string(names[band])},
                         {"data", std::move(data)},
                         {"stack", stack},
@@ -86,14 +87,14 @@ io::html::Chart panel(const std::vector<FigureScene>& scenes, const char* title,
             return share(m.errors.*column.summary, band);
           }));
     }
-    json floor = json::array();
+    ChartJson floor = ChartJson::array();
     for (const FigureScene& scene : scenes) floor.push_back(floor_share(scene, column, band));
     add("noise floor", band, std::move(floor));
   }
-  json key = json::array();
+  ChartJson key = ChartJson::array();
   for (std::size_t band = 0; band < names.size(); ++band)
     key.push_back({{"label", names[band]}, {"shape", "bar"}, {"colour", band_colours[band]}});
-  const json config = {
+  const ChartJson config = {
       {"type", "bar"},
       {"data", {{"labels", scene_names(scenes)}, {"datasets", datasets}}},
       {"options",

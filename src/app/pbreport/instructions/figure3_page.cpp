@@ -10,7 +10,7 @@
 namespace pbmpi::app {
 namespace {
 
-using nlohmann::json;
+using ChartJson = nlohmann::json;
 
 constexpr double million = 1e6;
 
@@ -38,21 +38,22 @@ std::string law_text(const std::optional<CubicCost>& cost) {
 
 io::html::Chart bars(const std::vector<CountedScene>& scenes, const std::vector<IslandWork>& works) {
   const auto cost = counted_cost(scenes, works);
-  json labels = json::array(), quick = json::array(), direct = json::array(), extrapolated = json::array();
+  ChartJson labels = ChartJson::array(), quick = ChartJson::array(), direct = ChartJson::array(),
+            extrapolated = ChartJson::array();
   for (const CountedScene& scene : scenes) {
     labels.push_back(scene.name);
-    quick.push_back(scene.quick ? json(scene.quick->per_frame / million) : json());
+    quick.push_back(scene.quick ? ChartJson(scene.quick->per_frame / million) : ChartJson());
     const auto of_direct = direct_cost(scene, cost, works);
-    const json value = of_direct ? json(of_direct->middle / million) : json();
-    direct.push_back(of_direct && of_direct->is_counted ? value : json());
-    extrapolated.push_back(of_direct && !of_direct->is_counted ? value : json());
+    const ChartJson value = of_direct ? ChartJson(of_direct->middle / million) : ChartJson();
+    direct.push_back(of_direct && of_direct->is_counted ? value : ChartJson());
+    extrapolated.push_back(of_direct && !of_direct->is_counted ? value : ChartJson());
   }
-  json datasets = {{{"label", "quick"}, {"data", quick}, {"backgroundColor", "#0072b2"}},
-                   {{"label", "direct"}, {"data", direct}, {"backgroundColor", "#d55e00"}}};
-  if (std::ranges::any_of(extrapolated, [](const json& value) { return !value.is_null(); }))
+  ChartJson datasets = {{{"label", "quick"}, {"data", quick}, {"backgroundColor", "#0072b2"}},
+                        {{"label", "direct"}, {"data", direct}, {"backgroundColor", "#d55e00"}}};
+  if (std::ranges::any_of(extrapolated, [](const ChartJson& value) { return !value.is_null(); }))
     datasets.push_back(
         {{"label", "direct, extrapolated"}, {"data", extrapolated}, {"backgroundColor", "#e69f00"}});
-  const json config = {
+  const ChartJson config = {
       {"type", "bar"},
       {"data", {{"labels", labels}, {"datasets", datasets}}},
       {"options",

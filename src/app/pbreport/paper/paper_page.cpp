@@ -10,20 +10,20 @@
 namespace pbmpi::app {
 namespace {
 
-using nlohmann::json;
+using ChartJson = nlohmann::json;
 
 constexpr std::array<const char*, finding_names.size()> finding_colours = {"#009e73", "#d55e00", "#8a949e"};
 
 io::html::Chart findings_chart(const std::vector<Chapter>& chapters) {
-  json labels = json::array(), datasets = json::array();
+  ChartJson labels = ChartJson::array(), datasets = ChartJson::array();
   for (const Chapter& chapter : chapters) labels.push_back(chapter.name);
   for (std::size_t i = 0; i < finding_names.size(); ++i) {
-    json counts = json::array();
+    ChartJson counts = ChartJson::array();
     for (const Chapter& chapter : chapters) counts.push_back(count_findings(chapter.statements)[i]);
     datasets.push_back(
         {{"label", finding_names[i]}, {"data", counts}, {"backgroundColor", finding_colours[i]}});
   }
-  const json config = {
+  const ChartJson config = {
       {"type", "bar"},
       {"data", {{"labels", labels}, {"datasets", datasets}}},
       {"options",
@@ -73,15 +73,15 @@ io::html::PageSection rates_section(const std::vector<SuiteRun>& suite) {
   constexpr std::array<Bar, 3> bars = {{{"serial", &CoreSummary::serial, "#0072b2"},
                                         {"islands in parallel", &CoreSummary::islands_parallel, "#e69f00"},
                                         {"and spaces", &CoreSummary::spaces_parallel, "#009e73"}}};
-  json labels = json::array(), datasets = json::array();
+  ChartJson labels = ChartJson::array(), datasets = ChartJson::array();
   for (const SuiteRun& run : suite) labels.push_back(run.islands.scene);
   for (const Bar& bar : bars) {
-    json rates = json::array();
+    ChartJson rates = ChartJson::array();
     for (const SuiteRun& run : suite) rates.push_back((run.cores.*bar.rate).harmonic_mean_hz);
     datasets.push_back({{"label", bar.label}, {"data", rates}, {"backgroundColor", bar.colour}});
   }
-  const json budget = {{{"from", 300}, {"to", 300}, {"label", "budget [Hz]"}, {"colour", "#d55e00"}}};
-  const json config = {
+  const ChartJson budget = {{{"from", 300}, {"to", 300}, {"label", "budget [Hz]"}, {"colour", "#d55e00"}}};
+  const ChartJson config = {
       {"type", "bar"},
       {"data", {{"labels", labels}, {"datasets", datasets}}},
       {"options",

@@ -14,7 +14,7 @@
 namespace pbmpi::app {
 namespace {
 
-using nlohmann::json;
+using ChartJson = nlohmann::json;
 
 /// A colour for each bar: Okabe and Ito, "Color Universal Design" (2008).
 constexpr std::array<const char*, 6> colours = {"#0072b2", "#56b4e9", "#e69f00",
@@ -23,11 +23,11 @@ constexpr std::array<const char*, 6> colours = {"#0072b2", "#56b4e9", "#e69f00",
 /// Bars: a group a scene, a bar a way to compute its frames.
 io::html::Chart bars(const PredictionStudy& study, double FrameRate::*number, double scale, const char* title,
                      const char* axis, const char* kind) {
-  json labels = json::array(), datasets = json::array();
+  ChartJson labels = ChartJson::array(), datasets = ChartJson::array();
   for (const PredictionScene& scene : study.scenes) labels.push_back(scene.name);
   const std::vector<Bar> first = figure_8(study.scenes.front(), study.fvp);
   for (std::size_t i = 0; i < first.size(); ++i) {
-    json points = json::array();
+    ChartJson points = ChartJson::array();
     for (const PredictionScene& scene : study.scenes) {
       const Bar bar = figure_8(scene, study.fvp)[i];
       const double y = scale * (bar.rate.*number);
@@ -36,11 +36,11 @@ io::html::Chart bars(const PredictionStudy& study, double FrameRate::*number, do
     }
     datasets.push_back({{"label", first[i].name}, {"data", points}, {"backgroundColor", colours[i]}});
   }
-  json y = {{"type", kind}, {"title", {{"display", true}, {"text", axis}}}};
+  ChartJson y = {{"type", kind}, {"title", {{"display", true}, {"text", axis}}}};
   if (std::string_view(axis) == "%") y["max"] = 100;
-  const json config = {{"type", "bar"},
-                       {"data", {{"labels", labels}, {"datasets", datasets}}},
-                       {"options", {{"scales", {{"y", y}}}}}};
+  const ChartJson config = {{"type", "bar"},
+                            {"data", {{"labels", labels}, {"datasets", datasets}}},
+                            {"options", {{"scales", {{"y", y}}}}}};
   return {title, "", json_text(config)};
 }
 

@@ -7,9 +7,9 @@ namespace pbmpi::app {
 namespace {
 
 /// What two studies must agree in before one can take the other's counts.
-const std::vector<std::string> settings = {"scene",           "kind",       "effect", "stepper",
-                                           "precision",       "iterations", "dt",     "solver_seed",
-                                           "steps_per_frame", "worlds",     "warmup", "frames"};
+const std::vector<std::string> setting_columns = {"scene",           "kind",       "effect", "stepper",
+                                                  "precision",       "iterations", "dt",     "solver_seed",
+                                                  "steps_per_frame", "worlds",     "warmup", "frames"};
 
 /// Throws unless `columns` has column `name` with the values of the file's.
 void require_equal(const io::TableFile& file, const std::vector<io::TableColumn>& columns,
@@ -32,7 +32,7 @@ CountedStudy::CountedStudy(std::string path, const std::vector<StudyScene>& scen
                       path_ + ": no study of effects; --instructions-from wants a file of pbstudy effects");
   file_.column<double>("cases", "instructions_with");
   const auto columns = effect_columns(scenes, cases, std::vector<EffectResult>(cases.size()), false);
-  for (const std::string& name : settings) {
+  for (const std::string& name : setting_columns) {
     require_equal(file_, columns, name,
                   path_ + ": its cases are not those of this study, they differ in " + name +
                       "; give both the same options");
