@@ -282,7 +282,7 @@ class PageTest(unittest.TestCase):
                      "return [chart.scales.x.getPixelForValue(3) - box.width / 2, 0]")
         canvas = self.driver.find_element(By.CSS_SELECTOR, ".plot canvas")
         webdriver.ActionChains(self.driver).move_to_element_with_offset(canvas, round(at[0]), 0).click().perform()
-        self.assertEqual(self.frame(), 3)
+        self.wait(lambda: self.frame() == 3)  # Chart.js hears of a click with the next picture
         self.assertEqual(self.js("return pbreplay.frameNumber()"), 3)
         self.assertEqual(set(self.js(cursors)), {3})
 
