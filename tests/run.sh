@@ -8,4 +8,5 @@ jobs/build.sh release -DPBMPI_BUILD_TESTS=ON -DPBMPI_BUILD_BENCHMARKS=ON
 if [[ $# -eq 0 ]]; then
   set -- -LE slow
 fi
-ctest --preset release --parallel 2 "$@"
+# Many tests wait more than they compute, for mpirun, Chromium and Slurm.
+ctest --preset release --parallel "$(($(nproc) + 1))" "$@"
