@@ -59,7 +59,7 @@ TEST(CrossBroadPhase, finds_the_pairs_of_the_whole_world_that_cross_owners) {
       boxes[space].include(geometry::geom_box(model.geoms[geom], poses[model.geoms[geom].body]));
   }
   std::vector<GeomPair> all, found;
-  BroadPhase(model, support::all_geoms(model)).find_pairs(poses, all);
+  BroadPhase(model, support::all_geoms(model)).find_pairs(poses, nullptr, all);
   const SpaceBodies bodies(model, map);
   CrossBroadPhase cross(model, bodies);
   for (const std::vector<int>& owner :

@@ -9,6 +9,7 @@
 #include "model/contact.h"
 #include "model/model.h"
 #include "model/touch_rule.h"
+#include "solver/layout/awake_geoms.h"
 
 namespace pbmpi::solver {
 
@@ -19,14 +20,20 @@ class BroadPhase {
   BroadPhase(const model::Model& model, std::span<const int> geoms, double margin_m = 0,
              std::span<const std::int32_t> broken_in = {});
 
-  /// The pairs (first < second, by geom index) whose boxes overlap, sorted. `poses`: [num_bodies].
-  void find_pairs(std::span<const model::BodyPose> poses, std::vector<model::GeomPair>& pairs);
+  /// The pairs (first < second, by geom index) whose boxes overlap, sorted; if `awake` is given, those with
+  /// an awake geom only. `poses`: [num_bodies].
+  void find_pairs(std::span<const model::BodyPose> poses, const AwakeGeoms* awake,
+                  std::vector<model::GeomPair>& pairs);
 
  private:
   void update_boxes(std::span<const model::BodyPose> poses);
+  void find_awake(const AwakeGeoms* awake);
+  bool is_awake(int geom) const { return awake_[static_cast<std::size_t>(geom)] != 0; }
   void test_planes(std::vector<model::GeomPair>& pairs) const;
   void test_listed(std::vector<model::GeomPair>& pairs) const;
-  void sweep(std::vector<model::GeomPair>& pairs);
+  void sort_along_x();
+  void sweep(std::vector<model::GeomPair>& pairs) const;
+  void sweep_from(int geom, std::span<const int> others, std::vector<model::GeomPair>& pairs) const;
 
   const model::Model* model_;
   double margin_m_;
@@ -36,7 +43,9 @@ class BroadPhase {
   std::vector<int> planes_;
   std::vector<model::GeomPair> listed_;  ///< pairs that may touch, in a world of few geoms
   bool listed_only_ = false;
-  std::vector<int> order_;  ///< of the solids along the sweep's axis
+  std::vector<char> awake_;       ///< [geoms] all of them, unless some may sleep
+  std::vector<int> order_;        ///< of the solids along the sweep's axis
+  std::vector<int> awake_order_;  ///< those that are awake
 };
 
 }  // namespace pbmpi::solver

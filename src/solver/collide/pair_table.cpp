@@ -120,8 +120,7 @@ void PairTable::add(int geom, const int* others, std::uint32_t bits) {
 void PairTable::add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses,
                         const AwakeGeoms* awake) {
   std::vector<model::GeomPair> pairs;
-  broad_phase.find_pairs(poses, pairs);
-  if (awake != nullptr) awake->drop_asleep(pairs);
+  broad_phase.find_pairs(poses, awake, pairs);
   pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
 }
 

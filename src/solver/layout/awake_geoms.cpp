@@ -24,10 +24,4 @@ void AwakeGeoms::add_chunks(int first_column, std::vector<int>& chunks) const {
   }
 }
 
-void AwakeGeoms::drop_asleep(std::vector<model::GeomPair>& pairs) const {
-  const auto awake = [&](int geom) { return geom_awake_[static_cast<std::size_t>(geom)] != 0; };
-  std::erase_if(pairs,
-                [&](const model::GeomPair& pair) { return !awake(pair.first) && !awake(pair.second); });
-}
-
 }  // namespace pbmpi::solver

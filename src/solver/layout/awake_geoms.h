@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "model/contact.h"
+#include "model/model.h"
 #include "solver/layout/active_bodies.h"
 
 namespace pbmpi::solver {
@@ -28,8 +28,8 @@ class AwakeGeoms {
   std::uint32_t bits(int first) const { return words_.data()[first / 32] >> (first % 32); }
   /// The first geoms of the chunks in which any is awake, ascending.
   std::span<const int> chunks() const { return {chunks_.data(), chunks_.size()}; }
-  /// Takes out the pairs (of geoms of the model) of which neither is awake.
-  void drop_asleep(std::vector<model::GeomPair>& pairs) const;
+  /// Is this geom of the model a swept one that is awake?
+  bool has_geom(int geom) const { return geom_awake_[static_cast<std::size_t>(geom)] != 0; }
 
  private:
   const model::Model* model_;

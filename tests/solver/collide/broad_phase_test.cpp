@@ -81,10 +81,36 @@ TEST(BroadPhase, finds_the_pairs_of_brute_force_in_order) {
     const auto poses = poses_of(model);
     BroadPhase broad_phase = broad_phase_of_all(model);
     std::vector<GeomPair> pairs;
-    broad_phase.find_pairs(poses, pairs);
+    broad_phase.find_pairs(poses, nullptr, pairs);
     const auto expected = brute_force(model, poses);
     EXPECT_GT(expected.size(), 10u);
     EXPECT_EQ(pairs, expected) << count;
+  }
+}
+
+TEST(BroadPhase, leaves_out_the_pairs_of_which_neither_is_awake) {
+  for (const int count : {60, 400}) {  // by list, and by sweeping
+    const model::Model model = cloud(count, std::cbrt(count) * 0.5);
+    const auto poses = poses_of(model);
+    const std::vector<int> geoms = support::all_geoms(model);
+    BroadPhase broad_phase = broad_phase_of_all(model);
+    for (const int one_in : {1, 2, 7, 1000}) {
+      ActiveBodies active;
+      active.add_world(model.num_bodies());
+      std::vector<int> bodies;
+      for (int body = 0; body < model.num_bodies(); body += one_in) bodies.push_back(body);
+      active.set(0, bodies);
+      AwakeGeoms awake(model, geoms, 4);
+      awake.find(active, 0);
+      std::vector<GeomPair> pairs, expected;
+      broad_phase.find_pairs(poses, &awake, pairs);
+      for (const GeomPair& pair : brute_force(model, poses)) {
+        const int a = model.geoms[static_cast<std::size_t>(pair.first)].body,
+                  b = model.geoms[static_cast<std::size_t>(pair.second)].body;
+        if ((a >= 0 && a % one_in == 0) || (b >= 0 && b % one_in == 0)) expected.push_back(pair);
+      }
+      EXPECT_EQ(pairs, expected) << count << " bodies, one in " << one_in << " awake";
+    }
   }
 }
 
@@ -94,7 +120,7 @@ TEST(BroadPhase, of_some_geoms_finds_the_pairs_among_them) {
   std::vector<int> some;
   for (int geom = 0; geom < static_cast<int>(model.geoms.size()); geom += 2) some.push_back(geom);
   std::vector<GeomPair> pairs, expected;
-  BroadPhase(model, some).find_pairs(poses, pairs);
+  BroadPhase(model, some).find_pairs(poses, nullptr, pairs);
   for (const GeomPair& pair : brute_force(model, poses)) {
     if (pair.first % 2 == 0 && pair.second % 2 == 0) expected.push_back(pair);
   }
@@ -109,9 +135,9 @@ TEST(BroadPhase, the_history_of_a_sweep_does_not_matter) {
   std::vector<GeomPair> pairs, fresh_pairs;
   for (int step = 0; step < 10; ++step) {
     for (std::size_t i = 0; i < poses.size(); ++i) poses[i].position[0] += 0.1 * (i % 2 == 0 ? 1 : -1);
-    travelled.find_pairs(poses, pairs);
+    travelled.find_pairs(poses, nullptr, pairs);
     BroadPhase fresh = broad_phase_of_all(model);
-    fresh.find_pairs(poses, fresh_pairs);
+    fresh.find_pairs(poses, nullptr, fresh_pairs);
     ASSERT_EQ(pairs, fresh_pairs) << step;
   }
 }
@@ -122,10 +148,10 @@ TEST(BroadPhase, bodies_that_share_a_joint_do_not_pair) {
   const int a = support::add_solid(model, first, "a", model::Shape::box, {1, 1, 1}, 1, {0, 0, 0});
   const int b = support::add_solid(model, second, "b", model::Shape::box, {1, 1, 1}, 1, {0.5, 0, 0});
   std::vector<GeomPair> pairs;
-  broad_phase_of_all(model).find_pairs(poses_of(model), pairs);
+  broad_phase_of_all(model).find_pairs(poses_of(model), nullptr, pairs);
   EXPECT_EQ(pairs, (std::vector<GeomPair>{{0, 1}}));
   support::add_joint(model, model::JointKind::ball, a, b, {0.25, 0, 0});
-  broad_phase_of_all(model).find_pairs(poses_of(model), pairs);
+  broad_phase_of_all(model).find_pairs(poses_of(model), nullptr, pairs);
   EXPECT_TRUE(pairs.empty());
 }
 
