@@ -116,6 +116,17 @@ def kill(pid):
         pass
 
 
+def keep(path, name):
+    """What is left at `path` under another name, whatever is put in its place. False if there is nothing."""
+    while os.path.exists(path):
+        try:
+            os.link(path, name)
+            return True
+        except FileNotFoundError:  # ranks that live on have just replaced it
+            continue
+    return False
+
+
 def kill_one(kind, rng):
     """One run that is killed, and at once another of the same name. Returns the committed frames of the first."""
     for old in ("run.h5", "ck.h5"):
@@ -136,18 +147,15 @@ def kill_one(kind, rng):
         process.wait()
     elif process.pid not in victims:
         process.wait(timeout=LIMIT_S)
-    left = kind.path("left.h5")
-    if os.path.exists(kind.path("run.h5")):
-        os.link(kind.path("run.h5"), left)  # what it leaves, whatever the next run puts in its place
-    if os.path.exists(kind.path("ck.h5")):
-        os.link(kind.path("ck.h5"), kind.path("saved.h5"))
+    left, saved = kind.path("left.h5"), kind.path("saved.h5")
+    is_left, is_saved = keep(kind.path("run.h5"), left), keep(kind.path("ck.h5"), saved)
     kind.must_end(kind.start(), "the run after a kill")
     kind.end(process, "the killed run")
     committed = 0
-    if os.path.exists(left):
+    if is_left:
         committed = kind.check("left.h5")
         os.remove(left)
-    if os.path.exists(kind.path("saved.h5")):
+    if is_saved:
         kind.resume()
     done = kind.check()
     assert kind.rows is None or done == kind.rows[0], f"{kind.name}: the run after a kill is not complete"
@@ -189,6 +197,8 @@ def main():
         for attempt in range(num_kills):
             kind = kinds[attempt % len(kinds)]
             committed[kind.name].append(kill_one(kind, rng))
+            if attempt % 20 == 19:
+                print(attempt + 1, "kills", flush=True)
         for attempt in range(num_pairs):
             pair(kinds[attempt % len(kinds)], rng)
     finally:
