@@ -74,22 +74,23 @@ def written(name):
     return [line for line in found[2].splitlines() if line.startswith("|")]
 
 
-def caption(entry):
+def caption(entry, busy):
+    """`busy`: the load of the machine before the table was made."""
     commands = ", ".join(f"`{command}`" for command in entry.commands)
     if not entry.has_clock:
         return f"*{commands}; revision {programs.revision()}.*"
-    busy = os.getloadavg()[0]
     return (f"*{commands}; revision {programs.revision()}, {programs.machine()}, {programs.today()}, "
             f"load of the machine {busy:.1f}.*")
 
 
 def write(name):
     entry = ENTRIES[name]
+    busy = os.getloadavg()[0]
     lines = entry.make()
     if not entry.has_clock and lines == written(name):
         return
     path = programs.SOURCE / entry.page
-    text = "\n".join([*lines, "", caption(entry)]) + "\n"
+    text = "\n".join([*lines, "", caption(entry, busy)]) + "\n"
     page = path.read_text(encoding="utf-8")
     path.write_text(block(name).sub(lambda found: found[1] + text + found[3], page), encoding="utf-8")
 
