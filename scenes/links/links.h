@@ -1,0 +1,78 @@
+/// A mechanism as trees of links, each placed in the one above it and moving by joints: what MJCF and URDF
+/// have in common, before it becomes bodies and joints of a Model.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/model.h"
+#include "scenes/parts/mass_properties.h"
+#include "scenes/parts/parts.h"
+
+namespace pbmpi::scenes::links {
+
+/// Stands for the world where a link is expected.
+inline constexpr int no_link = -1;
+
+enum class Motion { free, hinge, slide, ball };
+
+/// What acts along a joint's axis besides its limits (drive.h).
+struct Drive {
+  double friction = 0;   ///< [N m] or [N] dry
+  double damping = 0;    ///< [N m s/rad] or [N s/m]: of the joint and of what drives it
+  double stiffness = 0;  ///< [N m/rad] or [N/m]
+  double target = 0;     ///< [rad] or [m] from the start: where the spring or the servo is at rest
+  double velocity = 0;   ///< [rad/s] or [m/s] at which a servo aims
+  double most_force = model::infinity;  ///< [N m] or [N] of a servo
+};
+
+/// Moves a link against the one above it. Several joints of one link act in their order, the first of them
+/// next to the link above; each is described in the link's frame as it is at the start.
+struct LinkJoint {
+  Motion motion = Motion::hinge;
+  std::string name;
+  std::string where;           ///< "file:line:column"
+  Vec3 anchor = Vec3::Zero();  ///< [m]; hinge and ball
+  Vec3 axis = Vec3::UnitZ();   ///< unit; hinge and slide
+  model::AxisLimit limit;      ///< [rad] or [m] from the start
+  Drive drive;
+  double armature = 0;  ///< [kg m^2] inertia of what turns with a hinge alone, e.g. a motor's rotor
+};
+
+struct LinkGeom {
+  model::Shape shape = model::Shape::sphere;
+  std::array<double, 3> size{};  ///< as in model::Geom
+  Pose pose;                     ///< in the link's frame
+  double mu = 1;
+  unsigned contype = 1, conaffinity = 1;  ///< two geoms may touch if one's type meets the other's affinity
+  std::string where;
+};
+
+struct Link {
+  std::string name;
+  std::string where;
+  int parent = no_link;                ///< index of an earlier link
+  Pose pose;                           ///< at the start, in the frame of the link above
+  std::vector<LinkJoint> joints;       ///< none: rigidly part of the link above, or of the world
+  std::optional<MassProperties> mass;  ///< in the link's frame
+  std::vector<LinkGeom> geoms;
+};
+
+struct Mechanism {
+  std::string name;
+  std::vector<Link> links;
+  /// Pairs of links whose geoms never touch, besides those that a joint connects.
+  std::vector<std::pair<int, int>> apart;
+  bool self_collision = true;  ///< may geoms of different links touch at all?
+};
+
+/// What a file of another simulator describes.
+struct ModelFile {
+  Mechanism mechanism;
+  std::optional<Vec3> gravity;  ///< [m/s^2]
+  std::optional<double> dt_s;   ///< the step that it proposes
+};
+
+}  // namespace pbmpi::scenes::links

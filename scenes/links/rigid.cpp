@@ -1,0 +1,82 @@
+#include "scenes/links/rigid.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace pbmpi::scenes::links {
+namespace {
+
+using model::Mat3;
+
+Mat3 steiner(double mass, const Vec3& arm) {
+  return mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+}
+
+/// Takes a link's mass and geoms over; `pose`: of the link in the rigid's frame.
+void take_over(const Link& link, const Pose& pose, Rigid& rigid) {
+  if (link.mass) rigid.mass = together(rigid.mass, moved(*link.mass, pose));
+  for (LinkGeom geom : link.geoms) {
+    core::require_input(geom.shape != model::Shape::plane || rigid.joints.empty(),
+                        geom.where + ": a plane cannot move; put it into the world, or take a box");
+    geom.pose = compose(pose, geom.pose);
+    rigid.geoms.push_back(std::move(geom));
+  }
+}
+
+void require_mass(const Rigid& rigid) {
+  const std::string who = rigid.where + ": " + core::in_quotes(rigid.name) + " moves ";
+  core::require_input(rigid.mass.mass_kg > 0,
+                      who + "but has no mass; give it an inertia, or geoms with a density");
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(rigid.mass.inertia, Eigen::EigenvaluesOnly);
+  core::require_input(eigen.eigenvalues().minCoeff() > 0,
+                      who + "but its inertia is not positive definite; give it three positive moments");
+}
+
+}  // namespace
+
+MassProperties together(const MassProperties& a, const MassProperties& b) {
+  const double mass = a.mass_kg + b.mass_kg;
+  if (!(mass > 0)) return a;
+  MassProperties sum{mass, (a.mass_kg * a.centre + b.mass_kg * b.centre) / mass, a.inertia + b.inertia};
+  sum.inertia += steiner(a.mass_kg, a.centre - sum.centre) + steiner(b.mass_kg, b.centre - sum.centre);
+  return sum;
+}
+
+MassProperties moved(const MassProperties& mass, const Pose& pose) {
+  const Mat3 axes = pose.orientation.to_eigen().toRotationMatrix();
+  return {mass.mass_kg, pose.point_to_outer(mass.centre), axes * mass.inertia * axes.transpose()};
+}
+
+RigidTree merge(const Mechanism& mechanism) {
+  RigidTree tree;
+  tree.rigids.emplace_back().name = "world";
+  std::vector<Pose> in_rigid;  // of each link
+  for (const Link& link : mechanism.links) {
+    const auto parent = static_cast<std::size_t>(link.parent);
+    const bool on_world = link.parent == no_link;
+    const int above = on_world ? 0 : tree.rigid_of[parent];
+    const Pose pose = on_world ? link.pose : compose(in_rigid[parent], link.pose);
+    if (link.joints.empty()) {
+      take_over(link, pose, tree.rigids[static_cast<std::size_t>(above)]);
+      tree.rigid_of.push_back(above);
+      in_rigid.push_back(pose);
+      continue;
+    }
+    Rigid rigid;
+    rigid.name = link.name;
+    rigid.where = link.where;
+    rigid.parent = above;
+    rigid.pose = compose(tree.rigids[static_cast<std::size_t>(above)].pose, pose);
+    rigid.joints = link.joints;
+    take_over(link, {}, rigid);
+    tree.rigid_of.push_back(static_cast<int>(tree.rigids.size()));
+    in_rigid.push_back({});
+    tree.rigids.push_back(std::move(rigid));
+  }
+  for (std::size_t i = 1; i < tree.rigids.size(); ++i) require_mass(tree.rigids[i]);
+  return tree;
+}
+
+}  // namespace pbmpi::scenes::links

@@ -1,0 +1,99 @@
+#include "scenes/mjcf/body_joint_reader.h"
+
+#include <numbers>
+
+#include "core/text.h"
+
+namespace pbmpi::scenes::mjcf {
+namespace {
+
+using links::Motion;
+using xml::Attributes;
+using xml::Range;
+
+Motion read_motion(Attributes& joint) {
+  const std::string type = joint.word("type", {"hinge", "slide", "ball", "free"}, "hinge");
+  if (type == "free") return Motion::free;
+  if (type == "slide") return Motion::slide;
+  return type == "ball" ? Motion::ball : Motion::hinge;
+}
+
+/// From the start; angles of more than half a turn are not told apart (ODE manual, "Stops and motor
+/// parameters").
+model::AxisLimit read_range(Attributes& joint, bool is_angle, double start, const Compiler& compiler,
+                            xml::Notes& notes) {
+  const std::vector<double> range = joint.numbers("range", 2, 2);
+  if (!(range[0] < range[1])) joint.fail("range", "the first number of 'range' must be below the second");
+  const auto from_start = [&](double value) { return (is_angle ? compiler.angle(value) : value) - start; };
+  model::AxisLimit limit{from_start(range[0]), from_start(range[1])};
+  if (!is_angle) return limit;
+  if (limit.low < -std::numbers::pi || limit.high > std::numbers::pi)
+    notes.add(joint.where("range"), "a limit of more than half a turn from the start is left out");
+  if (limit.low < -std::numbers::pi) limit.low = -model::infinity;
+  if (limit.high > std::numbers::pi) limit.high = model::infinity;
+  return limit;
+}
+
+/// Neither a ball joint nor a free body has an axis that a motor or a limit could hold.
+void refuse_axis_laws(Attributes& joint, const links::LinkJoint& read, bool is_limited) {
+  const auto refuse = [&](std::string_view name, bool is_on) {
+    if (is_on)
+      joint.fail(name, core::in_quotes(name) +
+                           " of a joint of type ball or free has no equal; leave it out, or take hinges");
+  };
+  refuse("damping", read.drive.damping > 0);
+  refuse("stiffness", read.drive.stiffness > 0);
+  refuse("frictionloss", read.drive.friction > 0);
+  refuse("armature", read.armature > 0);
+  refuse("range", is_limited);
+}
+
+}  // namespace
+
+ReadJoint read_joint(Attributes attributes, const std::string& name, const Compiler& compiler,
+                     const Option& option, xml::Notes& notes) {
+  ReadJoint read;
+  links::LinkJoint& joint = read.joint;
+  joint.where = attributes.where();
+  joint.name = attributes.text("name", name);
+  joint.motion = read_motion(attributes);
+  const bool is_hinge = joint.motion == Motion::hinge, is_slide = joint.motion == Motion::slide;
+  joint.anchor = attributes.vector("pos", Vec3(Vec3::Zero()));
+  joint.axis = attributes.direction("axis", Vec3::UnitZ());
+  const auto value_of = [&](const char* key) {
+    const double value = attributes.number(key, Range::any, 0.0);
+    return is_hinge ? compiler.angle(value) : value;
+  };
+  read.start = value_of("ref");
+  joint.drive.damping = attributes.number("damping", Range::non_negative, 0.0);
+  joint.drive.stiffness = attributes.number("stiffness", Range::non_negative, 0.0);
+  joint.drive.friction = attributes.number("frictionloss", Range::non_negative, 0.0);
+  joint.drive.target = value_of("springref") - read.start;
+  joint.armature = attributes.number("armature", Range::non_negative, 0.0);
+  const bool is_limited = compiler.is_limited(attributes, "limited", "range") && option.has_limits;
+  if (!is_hinge && !is_slide) refuse_axis_laws(attributes, joint, is_limited);
+  if (is_slide && joint.armature > 0)
+    attributes.fail("armature", "'armature' of a slide joint has no equal; leave it out");
+  if (is_limited) joint.limit = read_range(attributes, is_hinge, read.start, compiler, notes);
+  attributes.refuse({"springdamper"}, "give 'stiffness' and 'damping' instead");
+  for (const char* key : {"solreflimit", "solimplimit", "solreffriction", "solimpfriction", "margin"}) {
+    if (attributes.has(key))
+      notes.add(attributes.where(key), core::in_quotes(key) + " of joints is left out: limits are rigid");
+  }
+  attributes.allow({"class", "group", "user", "actuatorfrclimited", "actuatorfrcrange", "actuatorgravcomp"});
+  attributes.finish();
+  return read;
+}
+
+links::LinkJoint read_free_joint(const xml::Element& element, const std::string& name) {
+  Attributes attributes(element);
+  links::LinkJoint joint;
+  joint.where = attributes.where();
+  joint.name = attributes.text("name", name);
+  joint.motion = Motion::free;
+  attributes.allow({"group", "align"});
+  attributes.finish();
+  return joint;
+}
+
+}  // namespace pbmpi::scenes::mjcf

@@ -1,0 +1,26 @@
+/// MJCF's `<worldbody>`: the tree of bodies.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scenes/mjcf/defaults.h"
+#include "scenes/mjcf/servo_reader.h"
+
+namespace pbmpi::scenes::mjcf {
+
+/// What the rest of the file says of its bodies.
+struct Context {
+  Compiler compiler;
+  Option option;
+  Defaults defaults;
+  std::set<std::string> leave_out;
+};
+
+/// Bodies below `<worldbody>` as links, parents before children; the geoms of the world itself are a link
+/// without joints. Returns the joints.
+std::vector<JointPlace> read_bodies(const xml::Element& worldbody, const Context& context,
+                                    links::Mechanism& mechanism, xml::Notes& notes);
+
+}  // namespace pbmpi::scenes::mjcf

@@ -1,0 +1,49 @@
+/// MJCF's `<compiler>` and `<option>`: how the rest of the file is to be read, and what holds for the world.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scenes/parts/parts.h"
+#include "scenes/xml/attributes.h"
+#include "scenes/xml/notes.h"
+
+namespace pbmpi::scenes::mjcf {
+
+enum class InertiaFrom { geoms_if_none, geoms, inertial };
+
+struct Compiler {
+  bool in_degrees = true;
+  std::string euler_sequence = "xyz";  ///< a small letter: about the axis as turned so far
+  bool autolimits = true;
+  InertiaFrom inertia_from = InertiaFrom::geoms_if_none;
+  int first_inertia_group = 0, last_inertia_group = 5;  ///< of geoms whose mass counts
+  double least_mass = 0, least_inertia = 0;
+  bool balances_inertia = false;     ///< a moment above the sum of the others: all three become their mean
+  std::optional<double> total_mass;  ///< [kg] to which all masses are scaled
+
+  double angle(double value) const { return in_degrees ? radians(value) : value; }
+  /// `limited` of a joint or an actuator that has a range, or has none.
+  bool is_limited(xml::Attributes& attributes, std::string_view limited, std::string_view range) const;
+};
+
+struct Option {
+  double timestep_s = 0.002;
+  Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
+  bool collides = true;
+  bool has_limits = true;
+  bool has_actuators = true;
+};
+
+/// Later elements of one kind complete earlier ones.
+void read_compiler(const xml::Element& element, Compiler& compiler);
+void read_option(const xml::Element& element, Option& option, xml::Notes& notes);
+
+/// The position and the orientation of an element in the frame around it: `pos`, and one of `quat`,
+/// `axisangle`, `euler`, `xyaxes`, `zaxis`.
+Pose read_pose(xml::Attributes& attributes, const Compiler& compiler);
+
+/// The shortest turn of the z axis into a direction, which need not have unit length.
+Quat turn_of_z(const Vec3& direction);
+
+}  // namespace pbmpi::scenes::mjcf

@@ -1,0 +1,32 @@
+/// MJCF's default classes: attributes that elements have unless they say otherwise.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/xml/element.h"
+
+namespace pbmpi::scenes::mjcf {
+
+/// Does MJCF have an actuator of that name?
+bool is_actuator(std::string_view element);
+
+class Defaults {
+ public:
+  /// A top-level `<default>`, with the classes in it; of several, later ones complete earlier ones.
+  void read(const xml::Element& element);
+
+  /// What `element` takes from its own class, or else from `childclass` of the bodies around it ("": the
+  /// topmost class). The first attribute of a name counts. Throws core::InputError for an unknown class.
+  std::vector<xml::Attribute> of(const xml::Element& element, const std::string& childclass) const;
+
+ private:
+  using ByElement = std::map<std::string, std::vector<xml::Attribute>, std::less<>>;
+  void read_class(const xml::Element& element, const std::string& name);
+
+  std::map<std::string, ByElement> classes_{{"main", {}}};
+};
+
+}  // namespace pbmpi::scenes::mjcf

@@ -1,0 +1,176 @@
+#include "scenes/mjcf/geom_reader.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "scenes/links/rigid.h"
+
+namespace pbmpi::scenes::mjcf {
+namespace {
+
+using model::Mat3;
+using model::Shape;
+using xml::Attributes;
+using xml::Range;
+
+constexpr double water = 1000;  // [kg/m^3] MuJoCo's default
+
+/// The middle, half the length, and the direction of `fromto`.
+struct Segment {
+  Pose pose;
+  double half_length = 0;
+};
+
+std::optional<Segment> read_segment(Attributes& geom) {
+  const std::vector<double> ends = geom.numbers("fromto", 6, 6);
+  if (ends.empty()) return std::nullopt;
+  const Vec3 from(ends[0], ends[1], ends[2]), to(ends[3], ends[4], ends[5]);
+  const Vec3 along = from - to;  // MuJoCo's z axis points to the first end
+  if (!(along.norm() > 0)) geom.fail("fromto", "the two ends of 'fromto' are one point; move one");
+  return Segment{{(from + to) / 2, turn_of_z(along)}, along.norm() / 2};
+}
+
+/// `size` as in model::Geom.
+std::array<double, 3> read_sizes(Attributes& geom, Shape shape, const std::optional<Segment>& segment) {
+  if (shape == Shape::plane) {
+    geom.allow({"size"});  // what is drawn of it: it has no end
+    return {};
+  }
+  const std::size_t own = shape == Shape::box ? 3 : shape == Shape::sphere ? 1 : 2;
+  const std::size_t needed = segment ? 1 : own;
+  const std::vector<double> size = geom.numbers("size", 1, 3);
+  if (size.size() < needed)
+    geom.fail("size",
+              "'size' needs " + std::to_string(needed) + " number" + (needed == 1 ? "" : "s") + " [m]");
+  for (std::size_t i = 0; i < needed; ++i) {
+    if (!(size[i] > 0)) geom.fail("size", "'size' must be above 0");
+  }
+  switch (shape) {
+    case Shape::sphere:
+      return {size[0], 0, 0};
+    case Shape::box:
+      if (segment) return {2 * size[0], 2 * size[0], 2 * segment->half_length};
+      return {2 * size[0], 2 * size[1], 2 * size[2]};
+    default:
+      return {size[0], 2 * (segment ? segment->half_length : size[1]), 0};
+  }
+}
+
+std::optional<Shape> shape_of(const std::string& type) {
+  if (type == "sphere") return Shape::sphere;
+  if (type == "capsule") return Shape::capsule;
+  if (type == "cylinder") return Shape::cylinder;
+  if (type == "box") return Shape::box;
+  if (type == "plane") return Shape::plane;
+  return std::nullopt;
+}
+
+/// Only the first of the friction coefficients, along the surface, acts here.
+double read_friction(Attributes& geom, xml::Notes& notes) {
+  const std::vector<double> friction = geom.numbers("friction", 1, 3);
+  const int condim = geom.integer("condim", 1, 3);
+  if (condim > 3) notes.add(geom.where("condim"), "torsional and rolling friction (condim 4, 6) is left out");
+  if (!friction.empty() && !(friction[0] >= 0)) geom.fail("friction", "'friction' must be at least 0");
+  return condim == 1 ? 0 : friction.empty() ? 1 : friction[0];
+}
+
+void note_contact_numbers(Attributes& geom, xml::Notes& notes) {
+  for (const char* name : {"solref", "solimp", "solmix", "margin", "gap", "priority"}) {
+    if (geom.has(name))
+      notes.add(geom.where(name), core::in_quotes(name) + " of geoms is left out: contacts are pbmpi's");
+  }
+}
+
+MassProperties mass_of(Attributes& geom, const links::LinkGeom& read) {
+  const Solid solid{read.shape, read.size, read.pose};
+  const double density = geom.number("density", Range::non_negative, water);
+  const double mass = geom.number("mass", Range::non_negative, density * volume(solid.shape, solid.size));
+  return mass_properties({solid}, mass);
+}
+
+}  // namespace
+
+ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const std::set<std::string>& leave_out,
+                   xml::Notes& notes) {
+  attributes.allow({"name", "class", "rgba", "material", "user", "hfield", "mesh", "fitscale", "fluidcoef"});
+  attributes.refuse({"shellinertia"}, "hollow geoms are not read; give the body an <inertial>");
+  const std::string type = attributes.text("type", attributes.has("mesh") ? "mesh" : "sphere");
+  const int contype = attributes.integer("contype", 0, 1),
+            conaffinity = attributes.integer("conaffinity", 0, 1);
+  const auto shape = shape_of(type);
+  if (!shape) {
+    const bool is_known = type == "mesh" || type == "ellipsoid" || type == "hfield" || type == "sdf";
+    const bool is_drawing = is_known && contype == 0 && conaffinity == 0;
+    if (!is_drawing && !leave_out.contains(type))
+      attributes.fail("type",
+                      "geoms of type " + core::in_quotes(type) +
+                          " cannot be collided here; take spheres, capsules, cylinders, boxes or planes"
+                          ", or leave them out (" +
+                          core::in_quotes("leave_out") + " of a TOML scene)");
+    notes.add(attributes.where(),
+              "a geom of type " + core::in_quotes(type) + " is left out, and so is its mass");
+    return {};
+  }
+  links::LinkGeom geom;
+  geom.shape = *shape;
+  geom.where = attributes.where();
+  geom.contype = static_cast<unsigned>(contype);
+  geom.conaffinity = static_cast<unsigned>(conaffinity);
+  geom.mu = read_friction(attributes, notes);
+  note_contact_numbers(attributes, notes);
+  geom.pose = read_pose(attributes, compiler);
+  const auto segment =
+      *shape == Shape::sphere || *shape == Shape::plane ? std::nullopt : read_segment(attributes);
+  if (segment) geom.pose = segment->pose;
+  geom.size = read_sizes(attributes, *shape, segment);
+  const int group = attributes.integer("group", -1000000, 0);
+  ReadGeom read{geom, std::nullopt};
+  if (*shape == Shape::plane) {
+    attributes.allow({"mass", "density"});
+  } else {
+    const MassProperties mass = mass_of(attributes, geom);
+    const bool counts = group >= compiler.first_inertia_group && group <= compiler.last_inertia_group;
+    if (counts && mass.mass_kg > 0) read.mass = mass;
+  }
+  attributes.finish();
+  return read;
+}
+
+MassProperties read_inertial(const xml::Element& element, const Compiler& compiler) {
+  Attributes inertial(element);
+  const Pose pose = read_pose(inertial, compiler);
+  if (!inertial.has("pos")) inertial.fail("it has no 'pos'; give the centre of mass");
+  const double mass = inertial.number("mass", Range::non_negative);
+  const std::vector<double> full = inertial.numbers("fullinertia", 6, 6);
+  const std::vector<double> moments = inertial.numbers("diaginertia", 3, 3);
+  inertial.allow({"class"});
+  inertial.finish();
+  if (full.empty() == moments.empty()) inertial.fail("give either 'diaginertia' or 'fullinertia'");
+  Mat3 inertia = Mat3::Zero();
+  if (full.empty()) {
+    inertia.diagonal() << moments[0], moments[1], moments[2];
+  } else {
+    inertia << full[0], full[3], full[4], full[3], full[1], full[5], full[4], full[5], full[2];
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(inertia, Eigen::EigenvaluesOnly);
+  constexpr double rounding = 1e-9;  // of a flat body's digits, for which the two are equal
+  if (!compiler.balances_inertia &&
+      2 * eigen.eigenvalues().maxCoeff() > (1 + rounding) * eigen.eigenvalues().sum())
+    inertial.fail("no body has a moment of inertia above the sum of the other two; change one");
+  return links::moved({mass, Vec3::Zero(), inertia}, pose);
+}
+
+MassProperties adjusted(const MassProperties& mass, const Compiler& compiler) {
+  MassProperties result = mass;
+  result.mass_kg = std::max(mass.mass_kg, compiler.least_mass);
+  if (compiler.least_inertia <= 0 && !compiler.balances_inertia) return result;
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(mass.inertia);
+  Vec3 moments = eigen.eigenvalues().cwiseMax(compiler.least_inertia);
+  if (compiler.balances_inertia && 2 * moments.maxCoeff() > moments.sum())
+    moments.setConstant(moments.mean());
+  result.inertia = eigen.eigenvectors() * moments.asDiagonal() * eigen.eigenvectors().transpose();
+  return result;
+}
+
+}  // namespace pbmpi::scenes::mjcf

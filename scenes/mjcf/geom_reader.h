@@ -1,0 +1,29 @@
+/// MJCF's `<geom>` and `<inertial>`.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "scenes/links/links.h"
+#include "scenes/mjcf/compiler.h"
+#include "scenes/xml/notes.h"
+
+namespace pbmpi::scenes::mjcf {
+
+/// A geom, its mass, and whether it counts for the inertia of its body.
+struct ReadGeom {
+  std::optional<links::LinkGeom> geom;  ///< none: a mesh that nothing touches
+  std::optional<MassProperties> mass;   ///< in the body's frame
+};
+
+/// `attributes`: with the defaults of the geom's class. A geom of which contype and conaffinity are 0 touches
+/// nothing, but has mass.
+ReadGeom read_geom(xml::Attributes attributes, const Compiler& compiler,
+                   const std::set<std::string>& leave_out, xml::Notes& notes);
+
+MassProperties read_inertial(const xml::Element& element, const Compiler& compiler);
+
+/// What `<compiler>` makes of a body's mass.
+MassProperties adjusted(const MassProperties& mass, const Compiler& compiler);
+
+}  // namespace pbmpi::scenes::mjcf

@@ -1,0 +1,18 @@
+/// Reads MuJoCo's MJCF, in the part of it that a Model can express (docs/models.md).
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "scenes/links/links.h"
+#include "scenes/xml/element.h"
+#include "scenes/xml/notes.h"
+
+namespace pbmpi::scenes::mjcf {
+
+/// `root`: `<mujoco>`. Meaning and defaults as in MuJoCo's XML reference. What cannot be expressed and
+/// changes how bodies move is refused, unless its element's name stands in `leave_out`; what is taken
+/// otherwise or left out goes to `notes`. Throws core::InputError "file:line:column: ...".
+links::ModelFile read(const xml::Element& root, const std::set<std::string>& leave_out, xml::Notes& notes);
+
+}  // namespace pbmpi::scenes::mjcf

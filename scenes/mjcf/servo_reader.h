@@ -1,0 +1,28 @@
+/// MJCF's `<actuator>`: servos become part of what acts along a joint's axis.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scenes/links/links.h"
+#include "scenes/mjcf/compiler.h"
+#include "scenes/mjcf/defaults.h"
+#include "scenes/xml/notes.h"
+
+namespace pbmpi::scenes::mjcf {
+
+/// Where a joint of the mechanism is, and its value at the start [rad] or [m].
+struct JointPlace {
+  std::string name;
+  int link = 0, joint = 0;
+  double start = 0;
+};
+
+/// All controls are 0, as in MuJoCo before somebody sets them: a position servo holds the joint's zero, a
+/// velocity servo resists like a damper, a motor does nothing.
+void read_actuators(const xml::Element& element, const Defaults& defaults, const Compiler& compiler,
+                    const std::vector<JointPlace>& joints, const std::set<std::string>& leave_out,
+                    links::Mechanism& mechanism, xml::Notes& notes);
+
+}  // namespace pbmpi::scenes::mjcf

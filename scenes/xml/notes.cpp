@@ -1,0 +1,25 @@
+#include "scenes/xml/notes.h"
+
+#include <algorithm>
+
+namespace pbmpi::scenes::xml {
+
+void Notes::add(const std::string& where, const std::string& text) {
+  const auto found = std::ranges::find(notes_, text, &Note::text);
+  if (found == notes_.end()) {
+    notes_.push_back({where, text, 1});
+  } else {
+    ++found->count;
+  }
+}
+
+std::vector<std::string> Notes::lines() const {
+  std::vector<std::string> lines;
+  for (const Note& note : notes_) {
+    const std::string more = note.count == 1 ? "" : " (and " + std::to_string(note.count - 1) + " more)";
+    lines.push_back(note.where + ": " + note.text + more);
+  }
+  return lines;
+}
+
+}  // namespace pbmpi::scenes::xml

@@ -1,0 +1,24 @@
+/// What a model from elsewhere says that pbmpi takes otherwise, or leaves out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pbmpi::scenes::xml {
+
+/// Equal notes are told once, with the first place and how many there are.
+class Notes {
+ public:
+  void add(const std::string& where, const std::string& text);
+  /// "file:line:column: text (and 3 more)", in the order in which each was first added.
+  std::vector<std::string> lines() const;
+
+ private:
+  struct Note {
+    std::string where, text;
+    int count = 0;
+  };
+  std::vector<Note> notes_;
+};
+
+}  // namespace pbmpi::scenes::xml

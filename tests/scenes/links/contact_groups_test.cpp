@@ -1,0 +1,82 @@
+#include "scenes/links/contact_groups.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "../mjcf/models.h"
+#include "model/touch_rule.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+/// A floor, and spheres a, b, c, d that are each free, unless they say more.
+std::string four(const std::string& floor = "", const std::string& geom = "", const std::string& contact = "",
+                 const std::string& of_a = "") {
+  std::string xml = "<mujoco><worldbody><geom type='plane' size='1 1 1' " + floor + "/>";
+  for (const char* name : {"a", "b", "c", "d"})
+    xml += "<body name='" + std::string(name) + "'><freejoint/><geom size='1' " +
+           (*name == 'a' && !of_a.empty() ? of_a : geom) + "/></body>";
+  return xml + "</worldbody><contact>" + contact + "</contact></mujoco>";
+}
+
+/// May the geoms of two of them touch? 0: the floor, 1 to 4: the spheres.
+bool touch(const std::string& xml, int first, int second) {
+  const auto model = model_of(xml);
+  return model::TouchRule(*model).may_touch(first, second);
+}
+
+TEST(ContactGroups, let_all_touch_by_default) {
+  for (int i = 0; i < 5; ++i) {
+    for (int j = i + 1; j < 5; ++j) EXPECT_TRUE(touch(four(), i, j)) << i << ' ' << j;
+  }
+  EXPECT_TRUE(notes_of(four()).empty());
+}
+
+TEST(ContactGroups, part_excluded_bodies_alone) {
+  const std::string xml = four("", "", "<exclude body1='a' body2='b'/>");
+  EXPECT_FALSE(touch(xml, 1, 2));
+  EXPECT_TRUE(touch(xml, 1, 3));
+  EXPECT_TRUE(touch(xml, 3, 4));
+  EXPECT_TRUE(touch(xml, 0, 1));
+  EXPECT_TRUE(notes_of(xml).empty());
+}
+
+TEST(ContactGroups, say_whom_they_part_besides) {
+  const std::string xml = four("", "", "<exclude body1='a' body2='b'/><exclude body1='a' body2='c'/>");
+  EXPECT_FALSE(touch(xml, 2, 3)) << "a Model cannot part a from b and c, and let these touch";
+  EXPECT_TRUE(says(notes_of(xml), "'b' and 'c' do not touch either"));
+  EXPECT_TRUE(touch(xml, 3, 4));
+}
+
+TEST(ContactGroups, follow_types_and_affinities) {
+  // As robots have it whose parts meet the floor alone.
+  const std::string xml = four("conaffinity='1'", "contype='1' conaffinity='0'");
+  EXPECT_TRUE(touch(xml, 0, 1));
+  EXPECT_FALSE(touch(xml, 1, 2));
+  EXPECT_TRUE(notes_of(xml).empty());
+  const std::string other = four("", "", "", "contype='2' conaffinity='2'");
+  EXPECT_FALSE(touch(other, 0, 1));
+  EXPECT_FALSE(touch(other, 1, 2));
+}
+
+TEST(ContactGroups, leave_out_geoms_that_meet_none) {
+  EXPECT_EQ(model_of(four("", "contype='0' conaffinity='0'"))->geoms.size(), 1u);
+  EXPECT_TRUE(model_of("<mujoco><option><flag contact='disable'/></option><worldbody>" +
+                       boxed("<freejoint/>") + "</worldbody></mujoco>")
+                  ->geoms.empty());
+}
+
+TEST(ContactGroups, keep_parent_and_child_apart_but_not_the_world) {
+  const std::string geom = "<geom size='1'/>";
+  const std::string xml = mujoco(geom + "<body name='a'><joint/>" + geom + "<body name='b'><joint/>" + geom +
+                                 "<body name='c'><joint/><joint axis='1 0 0'/><joint axis='0 1 0'/>" + geom +
+                                 "</body></body></body>");
+  EXPECT_TRUE(touch(xml, 0, 1));
+  EXPECT_FALSE(touch(xml, 1, 2));
+  EXPECT_FALSE(touch(xml, 2, 3)) << "a body stands between";
+  EXPECT_TRUE(touch(xml, 1, 3));
+}
+
+}  // namespace
+}  // namespace pbmpi::scenes
