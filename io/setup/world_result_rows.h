@@ -1,0 +1,26 @@
+/// Group /world_results in the file.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "io/hdf5/hdf5_handle.h"
+#include "io/setup/world_results.h"
+
+namespace pbmpi::io {
+
+/// Makes the columns, [num_worlds] each, whose rows nobody has written: part of the skeleton, collective.
+void create_world_results(hid_t file, int num_worlds);
+
+/// Writes all rows, serially, and says in the group's attribute `num_worlds` that they are there.
+void write_world_results(hid_t file, std::span<const WorldResult> results);
+
+/// [num_worlds]; none if the run did not come to its end, or the file is of a layout before 1.6. Throws
+/// core::RunError.
+std::vector<WorldResult> read_world_results(hid_t file);
+
+/// [num_worlds] numbers of the worlds in their ensemble; a file of a layout before 1.6 has all of it.
+std::vector<std::int64_t> read_world_ids(hid_t file, int num_worlds);
+
+}  // namespace pbmpi::io

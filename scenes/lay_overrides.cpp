@@ -1,0 +1,150 @@
+#include "scenes/lay_overrides.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "scenes/format/table_reader.h"
+#include "scenes/scene_toml.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+constexpr std::string_view whole_world = "world";
+
+/// What an override replaces.
+struct Target {
+  std::string_view array;         ///< "actor" or "joint"; empty: the scene itself
+  std::string_view name;          ///< of the actor or joint
+  std::vector<std::string> path;  ///< of the key, from there on; not empty
+};
+
+std::string place_of(const Override& one) {
+  return one.where.empty() ? "parameter " + core::in_quotes(one.key) : one.where;
+}
+
+[[noreturn]] void refuse(const Override& one, const std::string& problem) {
+  throw core::InputError(place_of(one) + ": " + problem);
+}
+
+/// The names of the scene's [[actor]] or [[joint]] tables.
+std::vector<std::string> names_in(const toml::table& scene, std::string_view array) {
+  std::vector<std::string> names;
+  if (const toml::array* entries = scene[array].as_array()) {
+    for (const toml::node& entry : *entries) {
+      const toml::table* table = entry.as_table();
+      const auto name = table ? (*table)["name"].value<std::string>() : std::nullopt;
+      if (name) names.push_back(*name);
+    }
+  }
+  return names;
+}
+
+/// "a.b" -> {"a", "b"}
+std::vector<std::string> split(const Override& one, std::string_view path) {
+  std::vector<std::string> parts;
+  while (true) {
+    const std::size_t dot = path.find('.');
+    parts.emplace_back(path.substr(0, dot));
+    if (parts.back().empty())
+      refuse(one, "a part of the key is missing; write ACTOR.KEY, JOINT.KEY or world.KEY");
+    if (dot == std::string_view::npos) return parts;
+    path.remove_prefix(dot + 1);
+  }
+}
+
+/// What a run has once, for all of its worlds, and what is reached by its name.
+void require_of_a_world(const Override& one, const std::string& key) {
+  constexpr std::array common = {"title", "base", "spaces", "run", "case"};
+  if (std::ranges::find(common, key) != common.end())
+    refuse(one, core::in_quotes(key) + " is the same for all worlds of a run; change it in the scene");
+  constexpr std::array arrays = {"actor", "joint"};
+  if (std::ranges::find(arrays, key) != arrays.end())
+    refuse(one, "write the name of the " + key + " instead of world." + key + ", as in NAME.KEY");
+  constexpr std::array nameless = {"pair", "event"};
+  if (std::ranges::find(nameless, key) != nameless.end())
+    refuse(one, "a [[" + key + "]] has no name by which a world could have it otherwise");
+}
+
+Target target_of(const Override& one, const toml::table& scene) {
+  const std::string_view key = one.key;
+  std::vector<std::string> known = {std::string(whole_world)};
+  for (const char* array : {"actor", "joint"}) {
+    const std::vector<std::string> names = names_in(scene, array);
+    known.insert(known.end(), names.begin(), names.end());
+  }
+  // A name may hold a dot itself: of those that the key begins with, the longest is meant.
+  std::string_view longest;
+  for (const std::string& name : known) {
+    const bool begins = key.size() > name.size() && key.starts_with(name) && key[name.size()] == '.';
+    if (begins && name.size() > longest.size()) longest = key.substr(0, name.size());
+  }
+  if (longest.empty()) {
+    const std::string first(key.substr(0, key.find('.')));
+    if (std::ranges::find(known, first) != known.end())
+      refuse(one, "there is no key behind " + core::in_quotes(first) + "; write " + first + ".KEY");
+    refuse(one, "the scene has no actor or joint " + core::in_quotes(first) + core::suggestion(first, known));
+  }
+  Target target{"", longest, split(one, key.substr(longest.size() + 1))};
+  if (longest == whole_world) {
+    require_of_a_world(one, target.path.front());
+    return target;
+  }
+  if (target.path.front() == "name") refuse(one, "a name is what the other keys go by; it stays");
+  const std::vector<std::string> actors = names_in(scene, "actor");
+  target.array = std::ranges::find(actors, longest) != actors.end() ? "actor" : "joint";
+  return target;
+}
+
+/// Refuses a text that is more than a value, or less.
+void require_value(const Override& one) {
+  try {
+    if (toml::parse("value = " + one.value).size() == 1) return;
+  } catch (const toml::parse_error& error) {
+    refuse(one, core::in_quotes(one.value) + " is no TOML value (" + std::string(error.description()) +
+                    "); write a number, true, \"text\" or [1, 2]");
+  }
+  refuse(one, core::in_quotes(one.value) + " is more than one TOML value");
+}
+
+/// The scene file that would say so of a scene that has this one as its base.
+toml::table file_of(const Override& one, const Target& target) {
+  std::string text;
+  if (!target.array.empty())
+    text = "[[" + std::string(target.array) + "]]\nname = " + toml_string(target.name) + "\n";
+  for (std::size_t i = 0; i < target.path.size(); ++i)
+    text += (i == 0 ? "" : ".") + toml_string(target.path[i]);
+  return parse_text({"", place_mark + place_of(one), text + " = " + one.value});
+}
+
+}  // namespace
+
+std::string toml_string(std::string_view text) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f) {
+      result += std::string("\\u00") + digits[code >> 4] + digits[code & 0xf];
+    } else {
+      if (c == '"' || c == '\\') result += '\\';
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+void lay_overrides(toml::table& scene, const Overrides& overrides) {
+  for (const Override& one : overrides) {
+    const Target target = target_of(one, scene);
+    require_value(one);
+    lay_over(scene, file_of(one, target));
+  }
+}
+
+}  // namespace pbmpi::scenes

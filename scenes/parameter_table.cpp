@@ -1,0 +1,117 @@
+#include "scenes/parameter_table.h"
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "scenes/format/csv_reader.h"
+#include "scenes/format/table_reader.h"
+#include "scenes/lay_overrides.h"
+#include "scenes/scene_toml.h"
+
+namespace pbmpi::scenes {
+namespace {
+
+/// A word is a text, unless it is a value of its own: true, false, inf, nan.
+std::string value_of_cell(const std::string& cell) {
+  constexpr const char* of_their_own[] = {"true", "false", "inf", "nan"};
+  const bool begins_as_word =
+      !cell.empty() && (std::isalpha(static_cast<unsigned char>(cell.front())) != 0 || cell.front() == '_');
+  return begins_as_word && std::ranges::find(of_their_own, cell) == std::end(of_their_own) ? toml_string(cell)
+                                                                                           : cell;
+}
+
+std::string text_of(const toml::node& node) {
+  std::ostringstream text;
+  // A value stands in one line, as in the file that it may have been copied from.
+  node.visit([&](const auto& value) {
+    text << toml::toml_formatter{value,
+                                 toml::toml_formatter::default_flags & ~toml::format_flags::indentation};
+  });
+  return text.str();
+}
+
+/// The values of a [[world]] table and of those in it, by keys with dots.
+void flatten(const toml::table& table, const std::string& before, Overrides& overrides) {
+  for (const auto& [key, node] : table) {
+    const std::string name = before + std::string(key.str());
+    if (const toml::table* inner = node.as_table(); inner && !inner->empty()) {
+      flatten(*inner, name + ".", overrides);
+    } else {
+      overrides.push_back({name, text_of(node), to_string(node.source()) + ": " + core::in_quotes(name)});
+    }
+  }
+}
+
+}  // namespace
+
+ParameterTable::ParameterTable(std::string file, std::string text)
+    : file_(std::move(file)), text_(std::move(text)) {
+  file_.ends_with(".toml") ? read_toml_rows() : read_csv_rows();
+  core::require_input(!rows_.empty(), file_ + ": the table has no worlds; give each of them a row");
+  core::require_input(!keys_.empty(), file_ + ": the table has no parameters; name one, as in car.speed");
+}
+
+void ParameterTable::note_key(const std::string& key) {
+  if (std::ranges::find(keys_, key) == keys_.end()) keys_.push_back(key);
+}
+
+void ParameterTable::read_csv_rows() {
+  const std::vector<CsvRow> rows = read_csv(file_, text_);
+  if (rows.empty()) return;
+  const auto place = [this](const CsvCell& cell) {
+    return file_ + ":" + std::to_string(cell.line) + ":" + std::to_string(cell.column) + ": ";
+  };
+  for (const CsvCell& cell : rows.front()) {
+    core::require_input(!cell.text.empty(),
+                        place(cell) + "a column has no name; give its key, as in car.speed");
+    core::require_input(std::ranges::find(keys_, cell.text) == keys_.end(),
+                        place(cell) + "a second column " + core::in_quotes(cell.text) + "; drop one");
+    keys_.push_back(cell.text);
+  }
+  for (auto row = rows.begin() + 1; row != rows.end(); ++row) {
+    Overrides& overrides = rows_.emplace_back();
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      const CsvCell& cell = (*row)[i];
+      if (!cell.text.empty())
+        overrides.push_back(
+            {keys_[i], value_of_cell(cell.text), place(cell) + "column " + core::in_quotes(keys_[i])});
+    }
+  }
+}
+
+void ParameterTable::read_toml_rows() {
+  const toml::table table = parse_text({"", file_, text_});
+  TableReader reader(table, "parameters");
+  for (const TableReader& world : reader.tables("world")) flatten(world.toml(), "", rows_.emplace_back());
+  reader.finish();
+  for (const Overrides& overrides : rows_) {
+    for (const Override& one : overrides) note_key(one.key);
+  }
+}
+
+std::optional<double> number_in(const std::string& value) {
+  try {
+    const toml::table table = toml::parse("value = " + value);
+    const toml::node* node = table.get("value");
+    return node && node->is_number() ? node->value<double>() : std::nullopt;
+  } catch (const toml::parse_error&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<std::vector<std::string>> ParameterTable::values() const {
+  std::vector<std::vector<std::string>> all;
+  for (const Overrides& overrides : rows_) {
+    std::vector<std::string>& row = all.emplace_back(keys_.size());
+    for (const Override& one : overrides)
+      row[static_cast<std::size_t>(std::ranges::find(keys_, one.key) - keys_.begin())] = one.value;
+  }
+  return all;
+}
+
+}  // namespace pbmpi::scenes
