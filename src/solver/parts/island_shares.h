@@ -1,0 +1,55 @@
+/// Which islands of a world get more or less of a step than a run gives to most.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/contact.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "solver/parts/loaded_islands.h"
+#include "solver/parts/quiet_islands.h"
+#include "solver/parts/step_islands.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::solver {
+
+class IslandShares {
+ public:
+  /// `model` is borrowed; shares_differ(settings).
+  IslandShares(const model::Model& model, const stepping::StepperSettings& settings);
+
+  /// Are the forces of all joints asked of sort()? Else none are.
+  bool wants_joints() const { return loaded_.has_value(); }
+  /// Sorts these bodies, which are whole islands of joints and contacts. `forces` [contacts] with which they
+  /// start; `before`: poses, velocities and, if asked for, joints' forces; `broken_in`: as State has it.
+  void sort(std::span<const int> bodies, std::span<const model::Contact> contacts,
+            std::span<const model::ContactForce> forces, std::span<const std::int32_t> broken_in,
+            const model::State& before);
+  /// Is there a body that gets more or less than most?
+  bool differ() const { return any_loaded_ || (quiet_ && !quiet_->bodies().empty()); }
+  bool is_quiet(int body) const { return quiet_ && quiet_->contains(body); }
+  bool is_loaded(int body) const { return any_loaded_ && is_loaded_[static_cast<std::size_t>(body)] != 0; }
+  /// In the order in which they were given.
+  std::span<const int> quiet_bodies() const { return quiet_ ? quiet_->bodies() : std::span<const int>(); }
+  /// Of quiet bodies, whole islands: as QuietIslands::judge().
+  void judge(std::span<const int> bodies, const model::State& before, const model::State& after,
+             std::vector<int>& far) {
+    quiet_->judge(bodies, islands_, before, after, far);
+  }
+
+ private:
+  void mark_loaded(std::span<const int> bodies);
+
+  StepIslands islands_;
+  std::optional<QuietIslands> quiet_;
+  std::optional<LoadedIslands> loaded_;
+  IslandMarks loaded_marks_;     ///< scratch
+  std::vector<int> overloaded_;  ///< a body of each loaded island, in the last sort()
+  std::vector<char> is_loaded_;  ///< [num_bodies]
+  bool any_loaded_ = false;
+};
+
+}  // namespace pbmpi::solver

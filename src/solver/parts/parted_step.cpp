@@ -1,0 +1,238 @@
+#include "solver/parts/parted_step.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace pbmpi::solver {
+namespace {
+
+/// The larger of each.
+stepping::Residuals join(const stepping::Residuals& a, const stepping::Residuals& b) {
+  return {std::max(a.joint_speed, b.joint_speed), std::max(a.joint_turn, b.joint_turn),
+          std::max(a.complementarity_j, b.complementarity_j), std::max(a.natural_speed, b.natural_speed),
+          std::max(a.natural_turn, b.natural_turn)};
+}
+
+}  // namespace
+
+bool PartedStep::Part::operator<(const Part& other) const {
+  return std::tuple(!on_trial, loaded, iterations) <
+         std::tuple(!other.on_trial, other.loaded, other.iterations);
+}
+
+bool PartedStep::Part::is_empty() const {
+  return std::ranges::all_of(bodies, [](const std::vector<int>& of_world) { return of_world.empty(); });
+}
+
+void PartedStep::begin(std::span<const PartedWorld> worlds, const StepParameters& parameters) {
+  worlds_.assign(worlds.begin(), worlds.end());
+  parameters_ = parameters;
+  contacts_.clear();
+  forces_.clear();
+  for (const PartedWorld& world : worlds_) {
+    contacts_.push_back(world.contacts);
+    forces_.push_back(world.forces);
+  }
+  parts_.clear();
+  cut_ = false;
+  has_last_ = true;
+  if (has_parts()) sort_bodies();
+}
+
+bool PartedStep::has_parts() const {
+  return std::ranges::any_of(worlds_, [](const PartedWorld& world) {
+    return (world.field != nullptr && !world.field->outside().empty()) ||
+           (world.shares != nullptr && world.shares->differ());
+  });
+}
+
+/// If all islands get the same, for good, that becomes the step's own.
+void PartedStep::sort_bodies() {
+  for (std::size_t w = 0; w < worlds_.size(); ++w) {
+    const PartedWorld& world = worlds_[w];
+    for (const int body : world.bodies) {
+      Part like;
+      like.on_trial = world.shares != nullptr && world.shares->is_quiet(body);
+      like.loaded = world.shares != nullptr && world.shares->is_loaded(body);
+      like.iterations = world.field != nullptr ? world.field->iterations_of(body) : parameters_.iterations;
+      bodies_of(like)[w].push_back(body);
+      if (!like.on_trial) continue;
+      like.on_trial = false;
+      bodies_of(like);
+    }
+  }
+  if (parts_.size() == 1) {
+    parameters_ = parameters_of(parts_.front());
+    return;
+  }
+  cut_ = true;
+  std::ranges::sort(parts_, std::less<>());
+  seen_.resize(worlds_.size());
+  for (std::size_t w = 0; w < worlds_.size(); ++w) {
+    const std::size_t num_joints = worlds_[w].model->joints.size();
+    Seen& seen = seen_[w];
+    seen.part_of_body.assign(worlds_[w].model->bodies.size(), -1);
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      for (const int body : parts_[p].bodies[w])
+        seen.part_of_body[static_cast<std::size_t>(body)] = static_cast<int>(p);
+    }
+    seen.joint_rows.assign(num_joints, -1);
+    seen.reactions.assign(num_joints, {});
+    seen.residuals = {};
+    seen.forces.assign(forces_[w].begin(), forces_[w].end());
+  }
+}
+
+std::vector<std::vector<int>>& PartedStep::bodies_of(const Part& like) {
+  for (Part& known : parts_) {
+    if (known.gets_as(like)) return known.bodies;
+  }
+  Part& fresh = parts_.emplace_back(like);
+  fresh.bodies.resize(worlds_.size());
+  return fresh.bodies;
+}
+
+/// A spring keeps its periods a substep: shorter ones bear stiffer springs as well.
+StepParameters PartedStep::parameters_of(const Part& part) const {
+  StepParameters parameters = parameters_;
+  if (part.loaded) {
+    const double stiffer = static_cast<double>(parameters.most_substeps) / parameters.substeps;
+    parameters.contacts.frequency_hz *= stiffer;
+    parameters.joints.frequency_hz *= stiffer;
+    parameters.substeps = parameters.all_substeps = parameters.most_substeps;
+  }
+  if (part.on_trial) parameters.substeps = 1;
+  parameters.iterations = part.iterations;
+  return parameters;
+}
+
+void PartedStep::activate(Pack& pack, const Part& part) const {
+  for (std::size_t w = 0; w < worlds_.size(); ++w) pack.set_active(static_cast<int>(w), part.bodies[w]);
+}
+
+void PartedStep::start(Pack& pack, std::optional<int> look_after, core::PhaseTimes& times) {
+  if (!cut_) {
+    pack.begin_step(contacts_, forces_, parameters_, times);
+    return;
+  }
+  looks_.resize(worlds_.size());
+  scratch_.resize(worlds_.size());
+  for (std::size_t w = 0; look_after && w < worlds_.size(); ++w) {
+    looks_[w].resize(worlds_[w].model->num_bodies());
+    scratch_[w].resize(worlds_[w].model->num_bodies());
+  }
+  for (std::size_t p = 0; p + 1 < parts_.size(); ++p) take(pack, p, look_after, times);
+  const Part& last = parts_.back();
+  activate(pack, last);
+  has_last_ = !last.is_empty();
+  if (has_last_) pack.begin_step(contacts_, forces_, parameters_of(last), times);
+}
+
+void PartedStep::take(Pack& pack, std::size_t part, std::optional<int> look_after, core::PhaseTimes& times) {
+  if (parts_[part].is_empty()) return;
+  activate(pack, parts_[part]);
+  pack.begin_step(contacts_, forces_, parameters_of(parts_[part]), times);
+  if (look_after) {
+    pack.iterate(*look_after, times);
+    pack.look(scratch_);
+    for (std::size_t w = 0; w < worlds_.size(); ++w) {
+      for (const int body : parts_[part].bodies[w]) model::copy_body(body, scratch_[w], looks_[w]);
+    }
+  }
+  pack.finish_step(times);
+  if (parts_[part].on_trial) judge(pack, part);
+  for (std::size_t w = 0; w < worlds_.size(); ++w) {
+    if (!parts_[part].bodies[w].empty()) note(pack, static_cast<int>(w), static_cast<int>(part));
+  }
+}
+
+void PartedStep::judge(Pack& pack, std::size_t part) {
+  for (std::size_t w = 0; w < worlds_.size(); ++w) {
+    const std::vector<int>& bodies = parts_[part].bodies[w];
+    if (bodies.empty()) continue;
+    const PartedWorld& world = worlds_[w];
+    pack.store(static_cast<int>(w), bodies, *world.after);
+    far_.clear();
+    world.shares->judge(bodies, *world.before, *world.after, far_);
+    if (!far_.empty()) put_back(pack, static_cast<int>(w), far_, part);
+  }
+}
+
+/// Bodies that have gone too far, as they were before the step, into the part that gives them all substeps.
+void PartedStep::put_back(Pack& pack, int world, std::span<const int> far, std::size_t part) {
+  const auto w = static_cast<std::size_t>(world);
+  const Part like = {.loaded = parts_[part].loaded, .iterations = parts_[part].iterations};
+  const auto rest = std::ranges::find_if(parts_, [&](const Part& other) { return other.gets_as(like); });
+  const int rest_index = static_cast<int>(rest - parts_.begin());
+  Seen& seen = seen_[w];
+  pack.load(world, far, *worlds_[w].before);
+  for (const int body : far) seen.part_of_body[static_cast<std::size_t>(body)] = rest_index;
+  rest->bodies[w].insert(rest->bodies[w].end(), far.begin(), far.end());
+  std::erase_if(parts_[part].bodies[w],
+                [&](int body) { return seen.part_of_body[static_cast<std::size_t>(body)] == rest_index; });
+  for (std::size_t i = 0; i < seen.forces.size(); ++i) {
+    if (seen.part_of_body[static_cast<std::size_t>(contacts_[w][i].body_a)] == rest_index)
+      forces_[w][i] = seen.forces[i];
+  }
+}
+
+/// Batches with bodies of several parts get their rows anew for the next.
+void PartedStep::note(const Pack& pack, int world, int part) {
+  const auto w = static_cast<std::size_t>(world);
+  const model::Model& model = *worlds_[w].model;
+  Seen& seen = seen_[w];
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
+    if (seen.part_of_body[static_cast<std::size_t>(model.joints[joint].body_a)] != part) continue;
+    seen.joint_rows[joint] = pack.joint_rows(world, static_cast<int>(joint));
+    if (model.joints[joint].breakable())
+      seen.reactions[joint] = pack.reaction(world, static_cast<int>(joint));
+  }
+  if (parameters_.residuals) seen.residuals = join(seen.residuals, pack.residuals(world));
+}
+
+void PartedStep::iterate(Pack& pack, int iterations, core::PhaseTimes& times) const {
+  if (has_last_) pack.iterate(iterations, times);
+}
+
+void PartedStep::look(Pack& pack, std::span<model::State> states) const {
+  if (has_last_) pack.look(states);
+  for (std::size_t w = 0; cut_ && w < worlds_.size(); ++w) {
+    for (std::size_t p = 0; p + 1 < parts_.size(); ++p) {
+      for (const int body : parts_[p].bodies[w]) model::copy_body(body, looks_[w], states[w]);
+    }
+  }
+}
+
+void PartedStep::finish(Pack& pack, core::PhaseTimes& times) const {
+  if (has_last_) pack.finish_step(times);
+}
+
+int PartedStep::joint_rows(const Pack& pack, int world, int joint) const {
+  const int noted =
+      cut_ ? seen_[static_cast<std::size_t>(world)].joint_rows[static_cast<std::size_t>(joint)] : -1;
+  return noted < 0 ? pack.joint_rows(world, joint) : noted;
+}
+
+effects::Reaction PartedStep::reaction(const Pack& pack, int world, int joint) const {
+  if (!cut_) return pack.reaction(world, joint);
+  const Seen& seen = seen_[static_cast<std::size_t>(world)];
+  const auto index = static_cast<std::size_t>(joint);
+  return seen.joint_rows[index] >= 0 ? seen.reactions[index] : pack.reaction(world, joint);
+}
+
+stepping::Residuals PartedStep::residuals(const Pack& pack, int world) const {
+  if (!cut_) return pack.residuals(world);
+  const stepping::Residuals& noted = seen_[static_cast<std::size_t>(world)].residuals;
+  return has_last_ ? join(noted, pack.residuals(world)) : noted;
+}
+
+int PartedStep::sweeps(int world, int body) const {
+  const auto sweeps_of = [](const StepParameters& parameters) {
+    return parameters.substeps * (parameters.iterations + parameters.relax);
+  };
+  if (!cut_) return sweeps_of(parameters_);
+  const int part = seen_[static_cast<std::size_t>(world)].part_of_body[static_cast<std::size_t>(body)];
+  return part < 0 ? 0 : sweeps_of(parameters_of(parts_[static_cast<std::size_t>(part)]));
+}
+
+}  // namespace pbmpi::solver

@@ -1,0 +1,104 @@
+/// A step of a pack in which some islands get more or fewer substeps, or iterations, than others.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/clock.h"
+#include "effects/field_of_interest.h"
+#include "solver/pack/pack.h"
+#include "solver/parts/island_shares.h"
+
+namespace pbmpi::solver {
+
+/// A world of the pack as it enters a step.
+struct PartedWorld {
+  const model::Model* model = nullptr;
+  std::span<const int> bodies;               ///< that are to move
+  std::span<const model::Contact> contacts;  ///< between these bodies, in canonical order
+  std::span<model::ContactForce> forces;     ///< [contacts] or none: see Pack::step()
+  /// Has sorted the bodies; null without the effect.
+  const effects::FieldOfInterest* field = nullptr;
+  /// Have sorted the bodies; null where all islands get the same.
+  IslandShares* shares = nullptr;
+  /// With `shares`: the world before the step, of its quiet bodies at least, joints' forces included; and
+  /// room for their poses and velocities after it.
+  const model::State* before = nullptr;
+  model::State* after = nullptr;
+};
+
+/// Where islands get different shares of a step, it is taken part by part, each time with the bodies of one
+/// part active: first quiet islands, which are on trial, then the rest with what has failed, loaded islands
+/// last, and fewest iterations first. An island has the bits that a pack without the other islands would give
+/// it.
+///
+/// A step is begin(), start(), perhaps iterate() and look(), finish().
+class PartedStep {
+ public:
+  /// Begins a step for which a run has these parameters. The spans must live until the step is taken.
+  void begin(std::span<const PartedWorld> worlds, const StepParameters& parameters);
+  /// Is there more than one part? The bodies of the last are active after finish().
+  bool is_cut() const { return cut_; }
+
+  /// Takes all parts but the last, and the last up to the iterations of its last substep. With `look_after`:
+  /// sees the others as they would be after so many iterations.
+  void start(Pack& pack, std::optional<int> look_after, core::PhaseTimes& times);
+  /// As in Pack, of the last part.
+  void iterate(Pack& pack, int iterations, core::PhaseTimes& times) const;
+  /// After start() with `look_after`: the states [num_worlds], as Pack::look().
+  void look(Pack& pack, std::span<model::State> states) const;
+  void finish(Pack& pack, core::PhaseTimes& times) const;
+
+  /// As in Pack, but for the whole step; valid until the next begin().
+  int joint_rows(const Pack& pack, int world, int joint) const;
+  /// Trials that failed count, too.
+  stepping::Residuals residuals(const Pack& pack, int world) const;
+  effects::Reaction reaction(const Pack& pack, int world, int joint) const;
+  /// Sweeps that the rows of a body got in the step, relaxing ones included.
+  int sweeps(int world, int body) const;
+
+ private:
+  struct Part {
+    bool on_trial = false;  ///< one substep
+    bool loaded = false;    ///< more substeps than most, and stiffer springs
+    int iterations = 1;
+    std::vector<std::vector<int>> bodies = {};  ///< [num_worlds]
+
+    bool operator<(const Part& other) const;
+    bool gets_as(const Part& other) const { return !(*this < other) && !(other < *this); }
+    bool is_empty() const;
+  };
+  /// What is left of a world's parts when the pack goes on to the next.
+  struct Seen {
+    std::vector<int> part_of_body;             ///< [num_bodies] or -1: does not move
+    std::vector<int> joint_rows;               ///< [joints] of all parts but the last, else -1
+    std::vector<effects::Reaction> reactions;  ///< [joints] likewise, of those that can break
+    stepping::Residuals residuals;
+    std::vector<model::ContactForce> forces;  ///< with which the contacts start
+  };
+
+  bool has_parts() const;
+  void sort_bodies();
+  /// The bodies of those that get as much as this one.
+  std::vector<std::vector<int>>& bodies_of(const Part& like);
+  StepParameters parameters_of(const Part& part) const;
+  void activate(Pack& pack, const Part& part) const;
+  void take(Pack& pack, std::size_t part, std::optional<int> look_after, core::PhaseTimes& times);
+  void judge(Pack& pack, std::size_t part);
+  void put_back(Pack& pack, int world, std::span<const int> far, std::size_t part);
+  void note(const Pack& pack, int world, int part);
+
+  std::vector<PartedWorld> worlds_;
+  StepParameters parameters_;
+  std::vector<std::span<const model::Contact>> contacts_;  ///< [num_worlds]
+  std::vector<std::span<model::ContactForce>> forces_;     ///< [num_worlds]
+  std::vector<Part> parts_;                                ///< of a step that is cut
+  std::vector<Seen> seen_;                                 ///< [num_worlds] likewise
+  std::vector<model::State> looks_, scratch_;              ///< [num_worlds]
+  std::vector<int> far_;                                   ///< scratch
+  bool cut_ = false;
+  bool has_last_ = true;  ///< has the last part any bodies?
+};
+
+}  // namespace pbmpi::solver

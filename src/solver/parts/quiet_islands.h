@@ -1,0 +1,54 @@
+/// Which islands of a world get one substep instead of all, where a run names a tolerance.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/model.h"
+#include "model/state.h"
+#include "solver/parts/step_islands.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::solver {
+
+/// An island is quiet in a step in which no point of it moves farther than the tolerance: the carried forces
+/// hold it, and one substep finds what little has changed. A body's way is that of the farthest point of its
+/// geoms, by the way of its centre and by its turn.
+///
+/// That is foreseen from the velocities with which the step begins, and seen after it: a step of one substep
+/// is on trial. If a body has moved farther, or leaves with a velocity that would, its island is put back and
+/// gets all substeps: what begins to fall, or is pushed by what was not there before, is in motion from that
+/// step on. So what an island gets depends on nothing but its own state.
+class QuietIslands {
+ public:
+  /// `model` is borrowed; spares_substeps(settings).
+  QuietIslands(const model::Model& model, const stepping::StepperSettings& settings);
+
+  /// By the velocities in `state`, may a body be in a quiet island?
+  bool is_slow(int body, const model::State& state) const { return way_m(body, state) <= tolerance_m_; }
+  /// Foresees which of these bodies, which are whole islands, are in quiet ones.
+  void foresee(std::span<const int> bodies, StepIslands& islands, const model::State& before);
+  /// None is, without looking.
+  void foresee_none();
+  /// Bodies of the last foresee() that are in quiet islands, in the order in which they were given.
+  std::span<const int> bodies() const { return quiet_; }
+  bool contains(int body) const { return is_quiet_[static_cast<std::size_t>(body)] != 0; }
+
+  /// Appends to `far` those of `bodies`, whole quiet islands, of which any body has gone too far after all.
+  void judge(std::span<const int> bodies, StepIslands& islands, const model::State& before,
+             const model::State& after, std::vector<int>& far);
+
+ private:
+  /// How far a point of the body would come in a step by its velocities [m].
+  double way_m(int body, const model::State& state) const;
+  /// How far one has come [m].
+  double way_between_m(int body, const model::State& before, const model::State& after) const;
+
+  double dt_s_, tolerance_m_;
+  std::vector<double> radius_m_;  ///< [num_bodies] about the centre of mass
+  IslandMarks far_;               ///< scratch
+  std::vector<char> is_quiet_;    ///< [num_bodies]
+  std::vector<int> quiet_;
+};
+
+}  // namespace pbmpi::solver

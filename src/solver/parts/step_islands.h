@@ -1,0 +1,49 @@
+/// The islands of a world in a step: bodies that whole joints and the step's contacts connect.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "model/contact.h"
+#include "model/islands.h"
+#include "model/model.h"
+
+namespace pbmpi::solver {
+
+class StepIslands {
+ public:
+  /// `model` is borrowed.
+  explicit StepIslands(const model::Model& model);
+
+  /// `contacts` in canonical order; `broken_in`: as State has it.
+  void connect(std::span<const model::Contact> contacts, std::span<const std::int32_t> broken_in);
+  /// The lowest body of the island of this one, as of the last connect().
+  int find(int body) { return islands_.find(body); }
+
+ private:
+  const model::Model* model_;
+  std::vector<std::int32_t> broken_in_;  ///< that jointed_ is of
+  model::DisjointSets jointed_;          ///< bodies that whole joints connect
+  model::DisjointSets islands_;
+};
+
+/// Bodies of some islands: an island is in it as a whole.
+class IslandMarks {
+ public:
+  explicit IslandMarks(const model::Model& model) : marks_(model.bodies.size(), 0) {}
+
+  /// Takes the marks off the islands of these bodies, which are whole islands.
+  void clear(std::span<const int> bodies) {
+    for (const int body : bodies) marks_[static_cast<std::size_t>(body)] = 0;
+  }
+  void mark(int body, StepIslands& islands) { marks_[static_cast<std::size_t>(islands.find(body))] = 1; }
+  bool has(int body, StepIslands& islands) const {
+    return marks_[static_cast<std::size_t>(islands.find(body))] != 0;
+  }
+
+ private:
+  std::vector<char> marks_;  ///< [num_bodies], of an island at its lowest body
+};
+
+}  // namespace pbmpi::solver
