@@ -1,0 +1,80 @@
+#include "stepping/motor_targets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+
+namespace pbmpi::stepping {
+namespace {
+
+using core::require_input;
+
+bool drives(const model::Event& event, int joint, int axis) {
+  return event.kind == model::EventKind::motor && event.joint == joint && event.axis == axis;
+}
+
+/// The motor of an axis after the events of all steps before this one.
+model::AxisMotor motor_before(const model::Model& model, std::int64_t step, int joint, int axis) {
+  model::AxisMotor motor =
+      model.joints[static_cast<std::size_t>(joint)].motors[static_cast<std::size_t>(axis)];
+  for (const model::Event& event : model.events) {
+    if (event.step >= step) break;
+    if (drives(event, joint, axis)) motor = event.motor;
+  }
+  return motor;
+}
+
+void require_motor(const model::Model& model, int joint, int axis) {
+  require_input(joint >= 0 && joint < model.num_joints(),
+                "the motor of joint " + std::to_string(joint) + " cannot be aimed: the world has " +
+                    std::to_string(model.num_joints()) + " joints; count them from 0");
+  require_input(axis == 0 || axis == 1, "the motor of axis " + std::to_string(axis) +
+                                            " cannot be aimed: a joint has axes 0 and 1; name one of them");
+  const model::Joint& held = model.joints[static_cast<std::size_t>(joint)];
+  const bool has_motor = held.motors[static_cast<std::size_t>(axis)].active() ||
+                         std::any_of(model.events.begin(), model.events.end(), [&](const auto& event) {
+                           return drives(event, joint, axis) && event.motor.active();
+                         });
+  require_input(has_motor, "joint '" + held.name + "' has no motor on axis " + std::to_string(axis + 1) +
+                               " to aim; give it one with a max_force in the scene");
+}
+
+}  // namespace
+
+const MotorTargets::Target* MotorTargets::set(const model::Model& model, std::int64_t step, int joint,
+                                              int axis, double velocity) {
+  if (!std::isfinite(velocity)) {
+    throw core::InputError("a motor cannot aim at a velocity of " + std::to_string(velocity) +
+                           "; give a finite number of rad/s or m/s");
+  }
+  const std::pair wanted(joint, axis);
+  const auto place = [](const Target& target) { return std::pair(target.joint, target.axis); };
+  auto at = std::ranges::lower_bound(targets_, wanted, {}, place);
+  if (at == targets_.end() || place(*at) != wanted) {
+    require_motor(model, joint, axis);
+    at = targets_.insert(at, {joint, axis, motor_before(model, step, joint, axis)});
+  }
+  if (at->motor.velocity == velocity) return nullptr;
+  at->motor.velocity = velocity;
+  return &*at;
+}
+
+void MotorTargets::pass(const model::Model& model, std::int64_t first_step, std::int64_t num_steps) {
+  if (targets_.empty()) return;
+  auto event = std::ranges::lower_bound(model.events, first_step, {}, &model::Event::step);
+  for (; event != model.events.end() && event->step < first_step + num_steps; ++event)
+    std::erase_if(targets_, [&](const Target& target) { return drives(*event, target.joint, target.axis); });
+}
+
+void MotorTargets::move_to(const model::Model& model, std::int64_t step) {
+  for (Target& target : targets_) {
+    const double velocity = target.motor.velocity;
+    target.motor = motor_before(model, step, target.joint, target.axis);
+    target.motor.velocity = velocity;
+  }
+}
+
+}  // namespace pbmpi::stepping

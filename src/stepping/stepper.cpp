@@ -1,0 +1,11 @@
+#include "stepping/stepper.h"
+
+#include "core/error.h"
+
+namespace pbmpi::stepping {
+
+void WorldStepper::set_motor_velocity(int, int, int, double) {
+  throw core::InputError("this stepper has no motors that can be aimed");
+}
+
+}  // namespace pbmpi::stepping
