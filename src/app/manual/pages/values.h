@@ -1,0 +1,20 @@
+/// Which values a shell offers behind an option.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/manual/pages/option_table.h"
+
+namespace pbmpi::app {
+
+struct OfferedValues {
+  std::vector<std::string> words;
+  bool files = false, folders = false;
+};
+
+/// The words of a placeholder that lists them ("quick|direct|sor"), also where a study varies an option of a
+/// step; the scenes that pbmpi brings; the effects; files, folders; or nothing.
+OfferedValues offered_values(const OptionRow& option);
+
+}  // namespace pbmpi::app
