@@ -1,0 +1,161 @@
+#include "api/python/python_batch.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <ranges>
+#include <span>
+#include <utility>
+
+namespace pbmpi::python {
+namespace py = pybind11;
+namespace {
+
+/// Python's signal handlers get their turn, so that Ctrl-C ends a long call, after so long, but not before so
+/// many steps: steppers take the worlds of a pack through all steps of a call before the next pack, while
+/// they are in the cache. 4,096 worlds of CrashSk need twice as long for steps one by one as for 24 at once.
+constexpr double seconds_at_once = 0.1;
+constexpr int least_steps_at_once = 30;
+
+/// A member of BatchState, its name in Python, and the length of its rows.
+struct StateArray {
+  std::vector<double> BatchState::*member;
+  const char* name;
+  py::ssize_t length;
+};
+constexpr std::array<StateArray, 4> state_arrays = {{
+    {&BatchState::position, "position", 3},
+    {&BatchState::orientation, "orientation", 4},
+    {&BatchState::velocity, "velocity", 3},
+    {&BatchState::angular_velocity, "angular_velocity", 3},
+}};
+
+const StateArray& array_of(std::vector<double> BatchState::*member) {
+  return *std::ranges::find(state_arrays, member, &StateArray::member);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+PythonBatch::PythonBatch(const BatchOptions& options)
+    : batch_(options), steps_at_once_(least_steps_at_once) {}
+
+// The interpreter's lock is taken again only after the batch's is given back: nobody waits for one while
+// holding the other.
+template <class Self, class Work>
+auto PythonBatch::alone(Self& self, Work&& work) {
+  const py::gil_scoped_release without_interpreter;
+  const std::lock_guard lock(self.mutex_);
+  return work(self.batch_);
+}
+
+void PythonBatch::step(int num_steps) {
+  if (num_steps < 0)
+    throw py::value_error("step(" + std::to_string(num_steps) + "): steps must be 0 or more");
+  while (num_steps > 0) {
+    alone(*this, [&](Batch& batch) {
+      const int count = std::clamp(num_steps, 1, steps_at_once_);
+      const auto start = std::chrono::steady_clock::now();
+      batch.step(count);
+      num_steps -= count;
+      const double possible = count * seconds_at_once / std::max(seconds_since(start), 1e-9);
+      steps_at_once_ = static_cast<int>(std::clamp(possible, double{least_steps_at_once}, 1e9));
+    });
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+Shape PythonBatch::shape_of(std::vector<double> BatchState::*member) const {
+  const py::ssize_t length = array_of(member).length;
+  return {{num_worlds(), batch_.num_bodies(), length}, "[worlds][bodies][" + std::to_string(length) + "]"};
+}
+
+py::array_t<double> PythonBatch::view(const py::object& self, std::vector<double> BatchState::*member) {
+  auto& batch = self.cast<PythonBatch&>();
+  const BatchState& state = *alone(batch, [](Batch& of) { return &of.state(); });
+  return read_only_view(state.*member, batch.shape_of(member), self);
+}
+
+void PythonBatch::set_state(const py::object& position, const py::object& orientation,
+                            const py::object& velocity, const py::object& angular_velocity,
+                            const py::object& mask) {
+  const Mask worlds = to_mask(mask, num_worlds());
+  const std::array given = {&position, &orientation, &velocity, &angular_velocity};
+  std::array<std::optional<std::vector<double>>, 4> arrays;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const StateArray& array = state_arrays.at(i);
+    if (!given.at(i)->is_none()) arrays.at(i) = to_numbers(*given.at(i), array.name, shape_of(array.member));
+  }
+  alone(*this, [&](Batch& batch) {
+    BatchState state = batch.state();
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (arrays.at(i)) state.*state_arrays.at(i).member = std::move(*arrays.at(i));
+    }
+    batch.set_state(state, span_of(worlds));
+  });
+}
+
+void PythonBatch::reset(const py::object& mask, std::uint64_t seed,
+                        const std::vector<Parameters>& parameters) {
+  const Mask worlds = to_mask(mask, num_worlds());
+  alone(*this, [&](Batch& batch) { batch.reset(span_of(worlds), seed, parameters); });
+}
+
+py::array_t<std::int64_t> PythonBatch::steps() const {
+  const auto steps = alone(*this, [](const Batch& batch) {
+    return std::vector<std::int64_t>(batch.steps().begin(), batch.steps().end());
+  });
+  return py::array_t<std::int64_t>(num_worlds(), steps.data());
+}
+
+void PythonBatch::set_motor_velocities(const py::object& velocities) {
+  const auto num_motors = static_cast<py::ssize_t>(batch_.motors().size());
+  const Shape row{{num_motors}, "[motors]"};
+  const Shape all{{num_worlds(), num_motors}, "[worlds][motors]"};
+  const auto array = py::array::ensure(velocities);
+  std::vector<double> wanted;
+  if (array && array.ndim() == 1) {
+    const std::vector<double> one = to_numbers(velocities, "velocities", row);
+    for (py::ssize_t world = 0; world < num_worlds(); ++world)
+      wanted.insert(wanted.end(), one.begin(), one.end());
+  } else {
+    PyErr_Clear();
+    wanted = to_numbers(velocities, "velocities", all);
+  }
+  alone(*this, [&](Batch& batch) { batch.set_motor_velocities(wanted); });
+}
+
+py::array_t<double> PythonBatch::observable(const std::string& name) const {
+  const std::vector<double> values = alone(*this, [&](const Batch& batch) { return batch.observable(name); });
+  std::vector<py::ssize_t> shape = {num_worlds()};
+  if (std::ssize(values) == 3 * num_worlds() && num_worlds() > 0) shape.push_back(3);
+  return py::array_t<double>(shape, values.data());
+}
+
+py::bytes PythonBatch::save() const {
+  const auto saved = alone(*this, [](const Batch& batch) { return batch.save(); });
+  return py::bytes(reinterpret_cast<const char*>(saved.data()), saved.size());
+}
+
+void PythonBatch::load(const py::buffer& saved) {
+  const py::buffer_info bytes = saved.request();
+  if (bytes.ndim != 1 || bytes.itemsize != 1 || bytes.strides[0] != 1)
+    throw py::value_error("load: it takes what save() gave, as bytes");
+  alone(*this, [&](Batch& batch) {
+    batch.load({static_cast<const std::byte*>(bytes.ptr), static_cast<std::size_t>(bytes.size)});
+  });
+}
+
+std::string PythonBatch::hash(std::optional<int> world) const {
+  const std::uint64_t value =
+      alone(*this, [&](const Batch& batch) { return world ? batch.hash(*world) : batch.hash(); });
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(value));
+  return digits.data();
+}
+
+}  // namespace pbmpi::python

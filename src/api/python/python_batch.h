@@ -1,0 +1,65 @@
+/// pbmpi::Batch as Python sees it.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/python/arrays.h"
+#include "pbmpi/batch.h"
+
+namespace pbmpi::python {
+
+/// A batch that several threads of an interpreter may use: what takes long runs without the interpreter's
+/// lock, and calls wait for each other. Shapes and errors are those of Batch; a wrong array throws as
+/// arrays.h says.
+class PythonBatch {
+ public:
+  /// Called without the interpreter's lock.
+  explicit PythonBatch(const BatchOptions& options);
+
+  /// Does not lock: what it tells does not change.
+  const Batch& batch() const { return batch_; }
+
+  /// Lets Python's signal handlers run about ten times a second, and ends early with their exception; other
+  /// threads may use the batch then.
+  void step(int num_steps);
+
+  /// The member of BatchState as an array that shows it without a copy and keeps `self` alive.
+  static pybind11::array_t<double> view(const pybind11::object& self,
+                                        std::vector<double> BatchState::*member);
+  /// A member that is None stays as it is.
+  void set_state(const pybind11::object& position, const pybind11::object& orientation,
+                 const pybind11::object& velocity, const pybind11::object& angular_velocity,
+                 const pybind11::object& mask);
+  void reset(const pybind11::object& mask, std::uint64_t seed, const std::vector<Parameters>& parameters);
+
+  /// [worlds] steps since each world's start.
+  pybind11::array_t<std::int64_t> steps() const;
+  /// [worlds][motors], or [motors] for all worlds alike.
+  void set_motor_velocities(const pybind11::object& velocities);
+  /// [worlds], or [worlds][3] of a vector.
+  pybind11::array_t<double> observable(const std::string& name) const;
+
+  pybind11::bytes save() const;
+  void load(const pybind11::buffer& saved);
+  /// 16 hexadecimal digits, of one world of this rank or of all of all ranks.
+  std::string hash(std::optional<int> world) const;
+
+ private:
+  /// Calls work(batch) with the batch locked, and without the interpreter's lock.
+  template <class Self, class Work>
+  static auto alone(Self& self, Work&& work);
+  pybind11::ssize_t num_worlds() const { return batch_.num_local_worlds(); }
+  Shape shape_of(std::vector<double> BatchState::*member) const;
+
+  mutable std::mutex mutex_;
+  Batch batch_;
+  int steps_at_once_;  ///< between two turns of signal handlers
+};
+
+}  // namespace pbmpi::python

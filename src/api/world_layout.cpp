@@ -1,0 +1,64 @@
+#include "api/world_layout.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace pbmpi::api {
+namespace {
+
+/// Has the axis a motor, at the start or by an event?
+bool has_motor(const model::Model& model, int joint, int axis) {
+  const model::Joint& held = model.joints[static_cast<std::size_t>(joint)];
+  return held.motors[static_cast<std::size_t>(axis)].active() ||
+         std::any_of(model.events.begin(), model.events.end(), [&](const model::Event& event) {
+           return event.kind == model::EventKind::motor && event.joint == joint && event.axis == axis &&
+                  event.motor.active();
+         });
+}
+
+/// Throws unless `theirs`, the names of world `world`, are `ours`, the first world's. `what`: "bodies".
+void require_names(int world, const std::vector<std::string>& theirs, const std::vector<std::string>& ours,
+                   const std::string& what) {
+  const std::string begin = "world " + std::to_string(world) + " has other " + what + " than world 0: ";
+  const std::string end = "; all worlds of a batch have the same, make a batch for each kind of world";
+  for (std::size_t i = 0; i < std::min(theirs.size(), ours.size()); ++i) {
+    core::require_input(theirs[i] == ours[i], begin + core::in_quotes(theirs[i]) + " in the place of " +
+                                                  core::in_quotes(ours[i]) + end);
+  }
+  core::require_input(theirs.size() == ours.size(), begin + std::to_string(theirs.size()) + " and not " +
+                                                        std::to_string(ours.size()) + end);
+}
+
+std::vector<std::string> names_of(std::span<const Motor> motors) {
+  std::vector<std::string> names;
+  for (const Motor& motor : motors) names.push_back(motor.name);
+  return names;
+}
+
+}  // namespace
+
+WorldLayout::WorldLayout(const model::Model& model) {
+  for (const model::Body& body : model.bodies) body_names_.push_back(body.name);
+  for (int joint = 0; joint < model.num_joints(); ++joint) {
+    const model::Joint& held = model.joints[static_cast<std::size_t>(joint)];
+    for (const int axis : {0, 1}) {
+      if (!has_motor(model, joint, axis)) continue;
+      motors_.push_back(
+          {held.name + (axis == 0 ? "" : "/2"), held.motors[static_cast<std::size_t>(axis)].max_force});
+      axes_.push_back({joint, axis});
+    }
+  }
+}
+
+void WorldLayout::require_same(int world, const model::Model& model) const {
+  const WorldLayout other(model);
+  require_names(world, other.body_names_, body_names_, "bodies");
+  require_names(world, names_of(other.motors_), names_of(motors_), "motors");
+  core::require_input(other.axes_ == axes_, "world " + std::to_string(world) +
+                                                " has its motors on other joints than world 0; make a batch "
+                                                "for each kind of world");
+}
+
+}  // namespace pbmpi::api

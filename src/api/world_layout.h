@@ -1,0 +1,41 @@
+/// What all worlds of a batch have in common: their bodies and motors.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+#include "pbmpi/batch.h"
+
+namespace pbmpi::api {
+
+/// An axis of a joint.
+struct Axis {
+  int joint = 0, axis = 0;
+
+  bool operator==(const Axis&) const = default;
+};
+
+class WorldLayout {
+ public:
+  /// Of the worlds that are like this one.
+  explicit WorldLayout(const model::Model& model);
+
+  int num_bodies() const { return static_cast<int>(body_names_.size()); }
+  int num_motors() const { return static_cast<int>(motors_.size()); }
+  std::span<const std::string> body_names() const { return body_names_; }
+  std::span<const Motor> motors() const { return motors_; }
+  /// [num_motors] what each drives.
+  std::span<const Axis> axes() const { return axes_; }
+
+  /// Throws core::InputError, naming the world and what differs, unless it has the same bodies and motors.
+  void require_same(int world, const model::Model& model) const;
+
+ private:
+  std::vector<std::string> body_names_;
+  std::vector<Motor> motors_;
+  std::vector<Axis> axes_;
+};
+
+}  // namespace pbmpi::api

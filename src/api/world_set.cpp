@@ -1,0 +1,307 @@
+#include "api/world_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "api/state_arrays.h"
+#include "api/version.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "engines/stepper_factory.h"
+#include "mpi/balance/partition.h"
+#include "mpi/comm/agreement.h"
+#include "mpi/frame/frame_driver.h"
+#include "mpi/frame/whole_state.h"
+#include "stepping/observable_table.h"
+
+namespace pbmpi::api {
+namespace {
+
+constexpr double unaimed = std::numeric_limits<double>::quiet_NaN();
+
+mpi::Communicator communicator_of(const BatchOptions& options) {
+  return options.communicator ? mpi::Communicator::dup_of(*options.communicator) : mpi::Communicator();
+}
+
+/// The worlds of this rank, ascending.
+std::vector<int> own_worlds(const mpi::Communicator& comm, int num_worlds) {
+  const mpi::Placement placement = mpi::equal_placement(num_worlds, comm.size());
+  std::vector<int> own;
+  for (int world = 0; world < num_worlds; ++world) {
+    if (placement[static_cast<std::size_t>(world)] == comm.rank()) own.push_back(world);
+  }
+  return own;
+}
+
+/// Of which parameters world `world` begins.
+Parameters parameters_of(const BatchOptions& options, int world) {
+  return options.parameters.empty() ? Parameters{} : options.parameters[static_cast<std::size_t>(world)];
+}
+
+void require_mask(std::span<const bool> mask, std::size_t num_worlds) {
+  core::require_input(mask.empty() || mask.size() == num_worlds,
+                      "the mask has " + std::to_string(mask.size()) + " entries, and this rank has " +
+                          std::to_string(num_worlds) + " worlds; give an entry for each, or none at all");
+}
+
+bool chosen(std::span<const bool> mask, std::size_t index) { return mask.empty() || mask[index]; }
+
+/// Throws unless every body of the state that sleeps does so in an island of the world.
+void require_islands(int world, const model::State& state) {
+  const bool fit = std::all_of(state.rest.begin(), state.rest.end(), [&](const model::Rest& rest) {
+    return rest.idle_steps >= -static_cast<std::int32_t>(state.rest.size());
+  });
+  core::require_input(fit, "in saved world " + std::to_string(world) +
+                               " a body sleeps in an island that it does not have; the worlds are damaged");
+}
+
+}  // namespace
+
+WorldSet::WorldSet(const BatchOptions& options)
+    : comm_(communicator_of(options)),
+      recipe_(comm_, options),
+      ids_(own_worlds(comm_, recipe_.num_worlds())),
+      first_parameters_(parameters_of(options, 0)),
+      first_world_(mpi::agree_on_errors(comm_,
+                                        [&] {
+                                          return recipe_.build(0, {options.seed, first_parameters_});
+                                        })),
+      layout_(*first_world_),
+      steps_(num_worlds(), 0),
+      steppers_(make_steppers()),
+      arrays_(make_arrays(static_cast<int>(num_worlds()), layout_.num_bodies())) {
+  mpi::agree_on_errors(comm_, [&] {
+    for (const int id : ids_) {
+      worlds_.push_back(build(id, {options.seed, parameters_of(options, id)}));
+      const World& world = worlds_.back();
+      steppers_.add(id, solver_seed(world.from), world.model, model::initial_state(*world.model), 0);
+    }
+  });
+}
+
+SeededSteppers WorldSet::make_steppers() const {
+  return SeededSteppers([this](std::uint64_t seed) {
+    stepping::StepperSettings settings = recipe_.settings(seed);
+    settings.seed = seed;
+    return engines::make_stepper(settings);
+  });
+}
+
+WorldSet::World WorldSet::build(int id, WorldSeed from) const {
+  World world;
+  if (recipe_.is_uniform() && from.parameters.empty() && first_parameters_.empty()) {
+    world.model = first_world_;
+  } else {
+    world.model = recipe_.build(id, from);
+    layout_.require_same(id, *world.model);
+  }
+  world.from = std::move(from);
+  world.aims = no_aims();
+  return world;
+}
+
+WorldSet::Aims WorldSet::no_aims() const {
+  const auto num_motors = static_cast<std::size_t>(layout_.num_motors());
+  return {std::vector<double>(num_motors, unaimed), std::vector<std::int64_t>(num_motors, 0)};
+}
+
+void WorldSet::step(int num_steps) {
+  core::require_input(num_steps >= 0,
+                      "a batch cannot do " + std::to_string(num_steps) + " steps; ask for 0 or more");
+  if (num_steps == 0 || ids_.empty()) return;
+  arrays_are_old_ = true;
+  steppers_.advance(num_steps);
+  for (std::int64_t& step : steps_) step += num_steps;
+  for (World& world : worlds_) world.measured = true;
+}
+
+const BatchState& WorldSet::state() {
+  if (!std::exchange(arrays_are_old_, false)) return arrays_;
+  for (std::size_t i = 0; i < num_worlds(); ++i) put(state_of(i), static_cast<int>(i), arrays_);
+  return arrays_;
+}
+
+void WorldSet::set_state(const BatchState& state, std::span<const bool> mask) {
+  require_mask(mask, num_worlds());
+  require_shape(state, static_cast<int>(num_worlds()), layout_.num_bodies());
+  std::vector<std::pair<std::size_t, model::State>> changed;
+  for (std::size_t i = 0; i < num_worlds(); ++i) {
+    if (!chosen(mask, i)) continue;
+    changed.emplace_back(i, state_of(i));
+    take(state, static_cast<int>(i), ids_[i], *worlds_[i].model, changed.back().second);
+  }
+  for (const auto& [index, wanted] : changed) {
+    steppers_.of(ids_[index]).set_state(ids_[index], wanted, steps_[index]);
+    worlds_[index].measured = false;
+  }
+  arrays_are_old_ = true;
+}
+
+void WorldSet::reset(std::span<const bool> mask, std::uint64_t seed, std::span<const Parameters> parameters) {
+  require_mask(mask, num_worlds());
+  core::require_input(parameters.empty() || parameters.size() == num_worlds(),
+                      "there are parameters of " + std::to_string(parameters.size()) +
+                          " worlds, and this rank has " + std::to_string(num_worlds()) +
+                          "; give each world its own, or none");
+  std::vector<std::pair<std::size_t, World>> fresh;
+  for (std::size_t i = 0; i < num_worlds(); ++i) {
+    if (!chosen(mask, i)) continue;
+    const WorldSeed from{seed, parameters.empty() ? worlds_[i].from.parameters : parameters[i]};
+    if (from == worlds_[i].from) {
+      fresh.emplace_back(i, World{from, worlds_[i].model, no_aims()});
+    } else {
+      fresh.emplace_back(i, build(ids_[i], from));
+    }
+  }
+  for (auto& [index, world] : fresh) {
+    steppers_.remove(ids_[index]);
+    steppers_.add(ids_[index], solver_seed(world.from), world.model, model::initial_state(*world.model), 0);
+    steps_[index] = 0;
+    worlds_[index] = std::move(world);
+  }
+  arrays_are_old_ = true;
+}
+
+void WorldSet::aim(std::size_t index, std::size_t motor, double velocity) {
+  const Axis& axis = layout_.axes()[motor];
+  steppers_.of(ids_[index]).set_motor_velocity(ids_[index], axis.joint, axis.axis, velocity);
+  worlds_[index].aims.velocity[motor] = velocity;
+  worlds_[index].aims.since[motor] = steps_[index];
+}
+
+void WorldSet::set_motor_velocities(std::span<const double> velocities) {
+  const auto num_motors = static_cast<std::size_t>(layout_.num_motors());
+  core::require_input(velocities.size() == num_worlds() * num_motors,
+                      "there are " + std::to_string(velocities.size()) + " velocities, and [" +
+                          std::to_string(num_worlds()) + "][" + std::to_string(num_motors) + "] motors");
+  core::require_input(
+      std::none_of(velocities.begin(), velocities.end(), [](double v) { return std::isinf(v); }),
+      "a motor cannot aim at an infinite velocity; give finite ones, or NaN for the motors "
+      "that stay as they are");
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    if (!std::isnan(velocities[i])) aim(i / num_motors, i % num_motors, velocities[i]);
+  }
+}
+
+double WorldSet::aim_now(std::size_t index, std::size_t motor) const {
+  const Axis& axis = layout_.axes()[motor];
+  const Aims& aims = worlds_[index].aims;
+  if (std::isnan(aims.velocity[motor])) return unaimed;
+  const auto& events = worlds_[index].model->events;
+  const bool ended = std::any_of(events.begin(), events.end(), [&](const model::Event& event) {
+    return event.kind == model::EventKind::motor && event.joint == axis.joint && event.axis == axis.axis &&
+           event.step >= aims.since[motor] && event.step < steps_[index];
+  });
+  return ended ? unaimed : aims.velocity[motor];
+}
+
+stepping::Observables WorldSet::observables_of(std::size_t index) const {
+  if (worlds_[index].measured) return steppers_.of(ids_[index]).observables(ids_[index]);
+  stepping::Observables seen;
+  stepping::observe_state(*worlds_[index].model, state_of(index), seen);
+  return seen;
+}
+
+std::vector<std::string> WorldSet::observable_names() {
+  std::vector<std::string> names;
+  names.reserve(stepping::world_observables.size());
+  for (const stepping::WorldColumn& column : stepping::world_observables) names.emplace_back(column.name);
+  return names;
+}
+
+std::vector<double> WorldSet::observable(std::string_view name) const {
+  const auto& columns = stepping::world_observables;
+  const auto column =
+      std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == name; });
+  if (column == columns.end()) {
+    throw core::InputError("there is no observable " + core::in_quotes(name) +
+                           core::suggestion(name, observable_names()));
+  }
+  std::vector<double> values;
+  for (std::size_t i = 0; i < num_worlds(); ++i) {
+    const stepping::Observables seen = observables_of(i);
+    stepping::with_member(*column, [&](auto member) {
+      if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(seen.*member)>>) {
+        values.push_back(seen.*member);
+      } else {
+        values.insert(values.end(), (seen.*member).begin(), (seen.*member).end());
+      }
+    });
+  }
+  return values;
+}
+
+SavedFrom WorldSet::saved_from() const {
+  return {library_version, recipe_.scene_name(), recipe_.scene_checksum(), recipe_.settings_checksum()};
+}
+
+std::vector<std::byte> WorldSet::save() const {
+  std::vector<SavedWorld> saved;
+  for (std::size_t i = 0; i < num_worlds(); ++i) {
+    std::vector<double> aims;
+    for (std::size_t motor = 0; motor < worlds_[i].aims.velocity.size(); ++motor)
+      aims.push_back(aim_now(i, motor));
+    saved.push_back({ids_[i], steps_[i], worlds_[i].from, std::move(aims), state_of(i)});
+  }
+  return write_worlds(saved_from(), saved);
+}
+
+void WorldSet::require_fit(std::size_t index, const SavedWorld& saved, const World& world) const {
+  const std::string name = "saved world " + std::to_string(saved.id);
+  core::require_input(saved.step >= 0 && std::ssize(saved.aims) == layout_.num_motors(),
+                      name + " has not the steps or motors of this scene; the worlds are damaged");
+  core::require_input(saved.id == ids_[index], name + " is in the place of this rank's world " +
+                                                   std::to_string(ids_[index]) +
+                                                   "; load on as many ranks, of as many worlds, as saved");
+  mpi::require_fit(saved.id, saved.state, *world.model);
+  require_islands(saved.id, saved.state);
+}
+
+void WorldSet::load(std::span<const std::byte> bytes) {
+  const std::vector<SavedWorld> saved = read_worlds(bytes, saved_from());
+  core::require_input(saved.size() == num_worlds(),
+                      "there are " + std::to_string(saved.size()) + " saved worlds, and this rank has " +
+                          std::to_string(num_worlds()) +
+                          "; load on as many ranks, of as many worlds, as saved");
+  SeededSteppers steppers = make_steppers();
+  std::vector<World> worlds;
+  for (std::size_t i = 0; i < saved.size(); ++i) {
+    const bool is_built = saved[i].from == worlds_[i].from;
+    worlds.push_back(is_built ? World{worlds_[i].from, worlds_[i].model, no_aims()}
+                              : build(ids_[i], saved[i].from));
+    require_fit(i, saved[i], worlds.back());
+    steppers.add(ids_[i], solver_seed(worlds.back().from), worlds.back().model, saved[i].state,
+                 saved[i].step);
+  }
+  // From here on nothing throws but for want of memory.
+  steppers_ = std::move(steppers);
+  worlds_ = std::move(worlds);
+  arrays_are_old_ = true;
+  for (std::size_t i = 0; i < saved.size(); ++i) {
+    steps_[i] = saved[i].step;
+    for (std::size_t motor = 0; motor < saved[i].aims.size(); ++motor) {
+      if (!std::isnan(saved[i].aims[motor])) aim(i, motor, saved[i].aims[motor]);
+    }
+  }
+}
+
+std::uint64_t WorldSet::hash(int world) const {
+  const auto at = std::lower_bound(ids_.begin(), ids_.end(), world);
+  core::require_input(at != ids_.end() && *at == world, "world " + std::to_string(world) +
+                                                            " is not one of this rank's; ask for one of "
+                                                            "world_ids()");
+  return model::hash(state_of(static_cast<std::size_t>(at - ids_.begin())));
+}
+
+std::uint64_t WorldSet::hash() const {
+  std::vector<std::uint64_t> hashes(static_cast<std::size_t>(recipe_.num_worlds()), 0);
+  for (const int id : ids_) hashes[static_cast<std::size_t>(id)] = hash(id);
+  comm_.allreduce(hashes, mpi::Reduce::max);  // ranks that do not own a world have 0 for its hash
+  return mpi::combine_world_hashes(hashes);
+}
+
+}  // namespace pbmpi::api

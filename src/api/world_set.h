@@ -1,0 +1,88 @@
+/// The worlds of a batch that this rank owns.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/recipe.h"
+#include "api/saved_worlds.h"
+#include "api/seeded_steppers.h"
+#include "api/world_layout.h"
+#include "mpi/comm/communicator.h"
+#include "pbmpi/batch.h"
+#include "stepping/observables.h"
+
+namespace pbmpi::api {
+
+/// What Batch says of its calls holds here; errors are core::InputError and core::RunError.
+class WorldSet {
+ public:
+  explicit WorldSet(const BatchOptions& options);
+
+  const Recipe& recipe() const { return recipe_; }
+  const WorldLayout& layout() const { return layout_; }
+  double dt_s() const { return recipe_.settings(0).dt_s; }
+  std::span<const int> ids() const { return ids_; }
+  std::span<const std::int64_t> steps() const { return steps_; }
+
+  void step(int num_steps);
+  const BatchState& state();
+  void set_state(const BatchState& state, std::span<const bool> mask);
+  void reset(std::span<const bool> mask, std::uint64_t seed, std::span<const Parameters> parameters);
+  void set_motor_velocities(std::span<const double> velocities);
+  static std::vector<std::string> observable_names();
+  std::vector<double> observable(std::string_view name) const;
+  std::vector<std::byte> save() const;
+  void load(std::span<const std::byte> saved);
+  std::uint64_t hash(int world) const;
+  std::uint64_t hash() const;
+
+ private:
+  /// Velocities at which the motors of a world were told to aim.
+  struct Aims {
+    std::vector<double> velocity;     ///< [num_motors]; NaN: as the scene has it
+    std::vector<std::int64_t> since;  ///< [num_motors] the step before which each was told
+  };
+  struct World {
+    WorldSeed from;
+    std::shared_ptr<const model::Model> model;
+    Aims aims;
+    bool measured = false;  ///< has it stepped since it was last put anywhere?
+  };
+
+  std::size_t num_worlds() const { return ids_.size(); }
+  SeededSteppers make_steppers() const;
+  /// What world `id` is from `from` on; throws unless it is like the others.
+  World build(int id, WorldSeed from) const;
+  std::uint64_t solver_seed(const WorldSeed& from) const { return recipe_.solver_seed(from.seed); }
+  const model::State& state_of(std::size_t index) const {
+    return steppers_.of(ids_[index]).state(ids_[index]);
+  }
+  stepping::Observables observables_of(std::size_t index) const;
+  Aims no_aims() const;
+  /// The velocity that a motor still aims at: an event may have ended it.
+  double aim_now(std::size_t index, std::size_t motor) const;
+  void aim(std::size_t index, std::size_t motor, double velocity);
+  SavedFrom saved_from() const;
+  /// Throws unless `saved` can be put into the world of this index, built as `world`.
+  void require_fit(std::size_t index, const SavedWorld& saved, const World& world) const;
+
+  mpi::Communicator comm_;
+  Recipe recipe_;
+  std::vector<int> ids_;
+  Parameters first_parameters_;                      ///< those of world 0, ...
+  std::shared_ptr<const model::Model> first_world_;  ///< ... which all are like
+  WorldLayout layout_;
+  std::vector<World> worlds_;        ///< [num_worlds]
+  std::vector<std::int64_t> steps_;  ///< [num_worlds]
+  SeededSteppers steppers_;
+  BatchState arrays_;
+  bool arrays_are_old_ = true;
+};
+
+}  // namespace pbmpi::api
