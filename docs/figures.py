@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-from tables import accuracy, effects, guards, paper, prediction, programs, scenes, speed, stability
+from tables import accuracy, effects, guards, paper, prediction, programs, scaling, scenes, speed, stability
 
 # page: below the root. make: computes the lines of the table. has_clock: whether times are among its figures. commands: for
 # a reader who wants to measure it by hand.
@@ -40,6 +40,8 @@ ENTRIES = {
     "joint_springs": Entry("docs/stability.md", stability.joint_springs, False,
                            ["pbstudy stability --setting sor \"sor iterations=16\" \"sor joint-solver=tree\" ..."]),
     "by_step": Entry("docs/stability.md", stability.by_step, False, ["pbstudy stability --setting quick sor --dt 0.0001 ... 0.05"]),
+    "island_shares": Entry("docs/stability.md", stability.island_shares, False,
+                           ["pbstudy stability --setting sor \"sor sag=0.2mm\" ...", "pbmpi --scene SCENE --warmup 150 --frames 10 --sag 0.2mm"]),
     "at_equal_time": Entry("docs/stability.md", stability.at_equal_time, True,
                            ["pbstudy stability --most-work 300000 --setting quick \"sor substeps=16\" ..."]),
     "guards": Entry("docs/guards.md", guards.guards, False, ["pbmpi --scene CASE --steps-per-frame 3 --stepper ..."]),
@@ -56,6 +58,7 @@ ENTRIES = {
     "paper_instructions": Entry("docs/paper.md", paper.instructions, True, ["jobs/paper.sh"]),
     "paper_prediction": Entry("docs/paper.md", paper.prediction, True, ["jobs/paper.sh --prediction"]),
     "paper_nothing": Entry("docs/paper.md", paper.nothing, False, ["jobs/paper.sh --without-clock"]),
+    "scaling": Entry("docs/scaling.md", scaling.scaling, True, [f"jobs/scaling.sh --repeats {scaling.REPEATS} --ranks \"1 2\""]),
     "spaces": Entry("docs/spaces.md", speed.spaces, True, ["tests/bench/decompose.py 3"]),
 }
 

@@ -1,13 +1,18 @@
+#!/usr/bin/env bash
 # To be sourced by the job scripts, with source_dir set: finds the programs, and runs one scene such that a request to
 # stop closes its file and saves it.
+: "${source_dir:?}"
+# shellcheck source=jobs/mpi_environment.sh
 . "$source_dir/jobs/mpi_environment.sh"
-if [[ -n ${SLURM_JOB_ID:-} ]]; then
+# shellcheck source=jobs/scheduler.sh
+. "$source_dir/jobs/scheduler.sh"
+if [[ -n $scheduler ]]; then
   unset OMPI_MCA_rmaps_base_oversubscribe  # in an allocation, more ranks than cores are a mistake
 fi
 
 # fail MESSAGE: bad usage.
 fail() {
-  echo "${SLURM_JOB_NAME:-$(basename "$0")}: $1" >&2
+  echo "${SLURM_JOB_NAME:-${PBS_JOBNAME:-${LSB_JOBNAME:-$(basename "$0")}}}: $1" >&2
   exit 2
 }
 
@@ -19,14 +24,24 @@ find_programs() {
   elif [[ -x $built/pbmpi ]]; then
     PATH=$built:$PATH
   fi
-  for program in mpirun pbmpi pbreport; do
+  for program in mpirun pbmpi pbstudy pbreport; do
     command -v "$program" >/dev/null ||
       fail "no $program found; build it with $source_dir/jobs/build.sh, or name its folder in PBMPI_BIN"
   done
 }
 
-# name_of_scene NAME|FILE.toml: the scene's name.
-name_of_scene() { basename "$1" .toml; }
+# name_of_scene NAME|FILE: the scene's name.
+name_of_scene() { basename "$1" | sed -E 's/\.(toml|xml|mjcf|urdf)$//'; }
+
+# number_of_parts NAME: how many of NAME.h5, NAME.2.h5, NAME.3.h5 ... are there.
+number_of_parts() {
+  local count=0 file=$1.h5
+  while [[ -e $file ]]; do
+    count=$((count + 1))
+    file=$1.$((count + 1)).h5
+  done
+  echo "$count"
+}
 
 # values_of OPTION OPTIONS...: what follows OPTION, or stands behind its equals sign (or, of -o, right behind it).
 values_of() {
@@ -100,7 +115,7 @@ run_scene() {
     output=$given
   fi
   read -r -a mpi_options <<<"${PBMPI_MPIRUN_OPTIONS:-}"
-  run_until_stopped mpirun "${mpi_options[@]}" "$(command -v pbmpi)" --scene "$scene" "$@" || code=$?
+  run_until_stopped mpirun "${host_options[@]}" "${mpi_options[@]}" "$(command -v pbmpi)" --scene "$scene" "$@" || code=$?
   if [[ $output != none && ($code -eq 0 || $code -eq 75) ]]; then
     pbreport "$output" --html "${output%.h5}.html" --quiet || code=$((code == 0 ? $? : code))
   fi

@@ -17,8 +17,8 @@ TEXT
 scenes=(2-Cars 10-Cars CrashSk CrashWa Environ 100CrSk Battle Fight Battle2)
 # The frame that shows most of what happens, and where to look at it from: camera and target, x,y,z each [m].
 declare -A frame=([2-Cars]=5 [10-Cars]=7 [CrashSk]=7 [CrashWa]=7 [Environ]=6 [100CrSk]=7 [Battle]=7 [Fight]=8 [Battle2]=7)
-declare -A camera=([2-Cars]=13,-9,4,4,0,0.5 [CrashWa]=8,-9,4.5,-2,0,1 [Environ]=7,-10,5,-3,1,1 [Battle]=-6,-5,3,1,2,1
-  [Fight]=5,-7,3.5,0,0,0.6 [Battle2]=7,-12,9,0,0,0.5)
+declare -A camera=([2-Cars]="13,-9,4,4,0,0.5" [CrashWa]="8,-9,4.5,-2,0,1" [Environ]="7,-10,5,-3,1,1" [Battle]="-6,-5,3,1,2,1"
+  [Fight]="5,-7,3.5,0,0,0.6" [Battle2]="7,-12,9,0,0,0.5")
 out=figure6
 gallery=""
 stills=yes

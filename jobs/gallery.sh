@@ -9,8 +9,8 @@ bin=${PBMPI_BIN:-$jobs/../build/release/bin}
 
 # The frame that shows most of what happens, and where to look at it from: camera and target, x,y,z each [m].
 declare -A frame=([Bowling]=76 [Feathers]=18 [Stadium]=8 [Warehouse]=41)
-declare -A camera=([Bowling]=17.2,-0.35,0.9,18.9,0.05,0.05 [Feathers]=0.2,-3.3,4.15,0.2,0,4.05 [Stadium]=-10,-9,5,-3,1,1
-  [Warehouse]=10.2,1,3,4.6,-0.1,0.6)
+declare -A camera=([Bowling]="17.2,-0.35,0.9,18.9,0.05,0.05" [Feathers]="0.2,-3.3,4.15,0.2,0,4.05" [Stadium]="-10,-9,5,-3,1,1"
+  [Warehouse]="10.2,1,3,4.6,-0.1,0.6")
 
 out=${1:-gallery}
 shift || true

@@ -1,22 +1,29 @@
 #!/usr/bin/env bash
-# Installs what pbmpi needs on Debian 12: `jobs/install_packages.sh` to build and run it, with --tests also what the
-# tests need, with --gates what tests/gates.sh needs. Does nothing if all of it is there. Needs root, or sudo.
+# Installs what pbmpi needs on Debian 12: `jobs/install_packages.sh` to build and run it, with --packages also what
+# jobs/package.sh needs, with --tests what the tests need, with --gates what tests/gates.sh needs. Does nothing if all of it
+# is there. Needs root, or sudo.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config git ca-certificates
   openmpi-bin libopenmpi-dev openssh-client libhdf5-openmpi-dev libode-dev libeigen3-dev
-  libboost-program-options-dev libtomlplusplus-dev nlohmann-json3-dev libjs-three libjs-chart.js)
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3 python3-h5py python3-pandas python3-selenium
-  chromium chromium-driver hdf5-tools slurm-wlm munge procps valgrind binutils doxygen qemu-user-static)
+  libboost-program-options-dev libtomlplusplus-dev libpugixml-dev nlohmann-json3-dev libjs-three libjs-chart.js
+  pybind11-dev python3-dev python3-numpy)
+package_packages=(dpkg-dev file gzip valgrind)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libmujoco-dev python3 python3-h5py python3-pandas python3-mpi4py
+  python3-matplotlib python3-selenium
+  chromium chromium-driver hdf5-tools slurm-wlm munge procps shellcheck binutils doxygen qemu-user-static groff man-db fish zsh
+  debootstrap)
 
 gate_packages=(clang clang-format clang-tidy libclang-rt-14-dev g++-aarch64-linux-gnu)
 
-if [[ ${1:-} == --tests ]]; then
-  packages+=("${test_packages[@]}")
+if [[ ${1:-} == --packages ]]; then
+  packages+=("${package_packages[@]}")
+elif [[ ${1:-} == --tests ]]; then
+  packages+=("${package_packages[@]}" "${test_packages[@]}")
 elif [[ ${1:-} == --gates ]]; then
-  packages+=("${test_packages[@]}" "${gate_packages[@]}")
+  packages+=("${package_packages[@]}" "${test_packages[@]}" "${gate_packages[@]}")
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [--tests|--gates]" >&2
+  echo "usage: $0 [--packages|--tests|--gates]" >&2
   exit 2
 fi
 

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # To be sourced. Open MPI refuses to start as root, and to start more ranks than cores, unless told so. In the second
 # case it makes waiting ranks yield by itself.
 if [[ $EUID -eq 0 ]]; then

@@ -6,15 +6,25 @@
 #include "core/error.h"
 #include "core/system/input_file.h"
 #include "core/text.h"
+#include "scenes/actors/model_file.h"
 #include "scenes/embedded.h"
 #include "scenes/scene.h"
+#include "scenes/scene_toml.h"
 
 namespace pbmpi::scenes {
 namespace {
 
 SceneSource read_file(const std::string& path) {
-  std::string text = core::read_input_file(path, "give the path of a scene file (TOML)");
-  return {std::filesystem::path(path).stem().string(), path, std::move(text)};
+  const std::filesystem::path at(path);
+  SceneSource source{at.stem().string(), path,
+                     core::read_input_file(path, "give the path of a scene file (TOML, MJCF or URDF)")};
+  for (const std::string& file : missing_files(source)) {
+    const std::string found = (at.parent_path() / file).string();
+    source.text = with_file(
+        source.text, file,
+        core::read_input_file(found, path + " names it: give the path of a model file (MJCF or URDF)"));
+  }
+  return source;
 }
 
 bool is_hard_case(std::string_view name) { return name.starts_with("hard/"); }
@@ -32,7 +42,7 @@ std::vector<SceneInfo> list_scenes(SceneGroup group) {
 }
 
 SceneSource find_scene(const std::string& name_or_path) {
-  if (name_or_path.ends_with(".toml")) return read_file(name_or_path);
+  if (name_or_path.ends_with(".toml") || is_model_file(name_or_path)) return read_file(name_or_path);
   std::vector<std::string> names;
   for (const EmbeddedScene& scene : embedded_scenes()) {
     if (scene.name == name_or_path) {
@@ -44,7 +54,7 @@ SceneSource find_scene(const std::string& name_or_path) {
   const bool none_is_near = is_hard_case(name_or_path) && core::nearest_name(name_or_path, names).empty();
   throw core::InputError("unknown scene " + core::in_quotes(name_or_path) +
                          (none_is_near ? "" : core::suggestion(name_or_path, names)) +
-                         " (--list-scenes shows all; a scene file of your own ends in .toml)");
+                         " (--list-scenes shows all; a scene file of your own ends in .toml, .xml or .urdf)");
 }
 
 }  // namespace pbmpi::scenes

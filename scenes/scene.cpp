@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -24,6 +25,7 @@
 #include "scenes/format/pair_reader.h"
 #include "scenes/format/part_velocities.h"
 #include "scenes/format/world_reader.h"
+#include "scenes/lay_overrides.h"
 #include "scenes/parts/at_rest.h"
 #include "scenes/parts/overlap.h"
 #include "scenes/scene_toml.h"
@@ -53,24 +55,31 @@ struct ActorEntry {
   PartVelocities parts;
 };
 
+/// What the caller replaces of the scene's own defaults.
+struct Choices {
+  std::optional<double> dt_s;
+  std::optional<SpacesForm> spaces;
+  model::EffectChoices effects;
+};
+
 class FileScene final : public Scene {
  public:
-  FileScene(const SceneSource& source, std::optional<double> dt_s, std::optional<SpacesForm> spaces,
-            const model::EffectChoices& effects)
-      : source_(source) {
-    const toml::table toml = parse_with_base(source);
-    TableReader scene(toml, "scene");
+  /// `toml`: parse_with_base() of the source.
+  FileScene(const SceneSource& source, const Choices& choices, toml::table toml)
+      : source_(source), choices_(choices), toml_(std::move(toml)) {
+    TableReader scene(toml_, "scene");
     title_ = scene.text("title");
     read_defaults(scene);
-    if (dt_s) defaults_.dt_s = *dt_s;
-    if (spaces) defaults_.spaces = *spaces;
+    if (choices.dt_s) defaults_.dt_s = *choices.dt_s;
+    if (choices.spaces) defaults_.spaces = *choices.spaces;
     read_effects(scene);
-    for (const auto& [name, on] : effects) defaults_.effects[name] = on;
+    for (const auto& [name, on] : choices.effects) defaults_.effects[name] = on;
     read_world(scene, empty_);
     if (auto interest = scene.table("interest")) interest_.emplace(*interest);
     at_rest_ = scene.flag("at_rest", false);
     if (scene.has("overlap")) most_overlap_m_ = scene.number_or_infinity("overlap", Sign::non_negative);
     read_case(scene);
+    read_files(scene);
     for (TableReader& actor : scene.tables("actor")) read_actor(actor);
     for (TableReader& pair : scene.tables("pair")) pairs_.emplace_back(pair);
     for (TableReader& joint : scene.tables("joint")) read_named_joint(joint);
@@ -83,9 +92,28 @@ class FileScene final : public Scene {
   const std::string& title() const override { return title_; }
   const std::string& text() const override { return source_.text; }
   const RunDefaults& defaults() const override { return defaults_; }
+  const std::vector<std::string>& notes() const override { return notes_; }
   const std::optional<stability::HardCase>& hard_case() const override { return hard_case_; }
 
-  std::shared_ptr<const model::Model> build(int world, std::uint64_t seed) const override {
+  std::shared_ptr<const model::Model> build(int world, std::uint64_t seed,
+                                            const Overrides& overrides) const override {
+    if (overrides.empty()) return build(world, seed);
+    try {
+      return with(overrides, toml_).build(world, seed);
+    } catch (const core::InputError&) {
+      // A copy of a table has lost its places in the file: what is wrong is found again where they are known.
+      return build_or_tell(world, seed, overrides);
+    }
+  }
+
+  bool is_uniform() const override {
+    return std::all_of(actors_.begin(), actors_.end(), [](const ActorEntry& actor) {
+      return actor.variation.is_none() && actor.copies.are_as_many_everywhere();
+    });
+  }
+
+ private:
+  std::shared_ptr<const model::Model> build(int world, std::uint64_t seed) const {
     auto result = std::make_shared<model::Model>(empty_);
     if (defaults_.spaces == SpacesForm::one) result->spaces.resize(1);
     for (std::size_t i = 0; i < actors_.size(); ++i) place_copies(i, world, seed, *result);
@@ -103,7 +131,26 @@ class FileScene final : public Scene {
     return result;
   }
 
- private:
+  /// The scene whose file says what `overrides` say, too.
+  FileScene with(const Overrides& overrides, toml::table toml) const {
+    lay_overrides(toml, overrides);
+    return {source_, choices_, std::move(toml)};
+  }
+
+  /// What is wrong with the world alone is told at the scene's place; where its parameters come from is
+  /// added.
+  std::shared_ptr<const model::Model> build_or_tell(int world, std::uint64_t seed,
+                                                    const Overrides& overrides) const {
+    const FileScene scene = with(overrides, parse_with_base(source_));
+    try {
+      return scene.build(world, seed);
+    } catch (const core::InputError& error) {
+      const std::string& from = overrides.front().where;
+      throw core::InputError(error.what() +
+                             (from.empty() ? "" : " (parameters of this world: " + from + ")"));
+    }
+  }
+
   void read_defaults(TableReader& scene) {
     auto run = scene.table("run");
     if (!run) return;
@@ -137,6 +184,16 @@ class FileScene final : public Scene {
     hard_case_ = case_reader_->hard_case();
   }
 
+  void read_files(TableReader& scene) {
+    auto files = scene.table("files");
+    if (!files) return;
+    for (const std::string& name : files->keys()) {
+      auto file = files->table(name);
+      files_[name] = file->text("text");
+      file->finish();
+    }
+  }
+
   void read_actor(TableReader& table) {
     ActorEntry actor;
     actor.name = table.text("name");
@@ -157,7 +214,7 @@ class FileScene final : public Scene {
     } else if (!actor.variation.velocity.isZero()) {
       table.fail("variation", "this type does not move; a velocity cannot vary");
     }
-    actor.plan = type.read(table, {empty_.gravity, defaults_.dt_s});
+    actor.plan = type.read(table, {empty_.gravity, defaults_.dt_s, &files_, &notes_});
     table.finish();
     actors_.push_back(std::move(actor));
   }
@@ -262,6 +319,8 @@ class FileScene final : public Scene {
   }
 
   SceneSource source_;
+  Choices choices_;
+  toml::table toml_;
   std::string title_;
   RunDefaults defaults_;
   model::Model empty_;  ///< what every world has before its actors come
@@ -270,6 +329,8 @@ class FileScene final : public Scene {
   std::vector<JointPlan> joints_;
   std::vector<EventPlan> events_;
   std::set<std::string> names_;
+  std::map<std::string, std::string> files_;  ///< texts of model files
+  std::vector<std::string> notes_;
   std::optional<InterestPlan> interest_;
   bool at_rest_ = false;
   std::optional<double> most_overlap_m_;  ///< none: what find_overlap() takes by itself
@@ -285,8 +346,9 @@ std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<doub
     core::require_input(std::isfinite(*dt_s) && *dt_s > 0,
                         "dt is " + std::to_string(*dt_s) + " s; it must be finite and above 0");
   }
-  auto scene = std::make_unique<FileScene>(source, dt_s, spaces, effects);
-  scene->build(0, 0);  // finds at once what only shows in a built world: joints to bodies that do not exist
+  auto scene = std::make_unique<FileScene>(source, Choices{dt_s, spaces, effects}, parse_with_base(source));
+  scene->build(0, 0,
+               {});  // finds at once what only shows in a built world: joints to bodies that do not exist
   return scene;
 }
 

@@ -1,4 +1,4 @@
-/// A scene: the recipe from which worlds are built, read from a TOML file.
+/// A scene: the recipe from which worlds are built, read from a TOML file, or from a model in MJCF or URDF.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "scenes/overrides.h"
 #include "stability/cases/hard_case.h"
 
 namespace pbmpi::scenes {
@@ -28,19 +29,25 @@ struct RunDefaults {
   model::EffectChoices effects;  ///< merged effect by effect
 };
 
-/// Immutable once loaded. A world depends on (scene, world id, seed) only, so that each rank builds just its
-/// own.
+/// Immutable once loaded. A world depends on (scene, world id, seed, overrides) only, so that each rank
+/// builds just its own.
 class Scene {
  public:
   virtual ~Scene() = default;
   virtual const std::string& name() const = 0;   ///< e.g. "100CrSk"; names the output file
   virtual const std::string& title() const = 0;  ///< one line for --list-scenes
-  virtual const std::string& text() const = 0;   ///< the scene file's TOML
+  virtual const std::string& text() const = 0;   ///< the scene file's TOML or XML
   virtual const RunDefaults& defaults() const = 0;
+  /// What models from elsewhere say that is taken otherwise or left out: "file:line:column: ...".
+  virtual const std::vector<std::string>& notes() const = 0;
   /// What the file's [case] says, if it has one.
   virtual const std::optional<stability::HardCase>& hard_case() const = 0;
-  /// The model of world `world`, validated. Throws core::InputError with file:line:column.
-  virtual std::shared_ptr<const model::Model> build(int world, std::uint64_t seed) const = 0;
+  /// The model of world `world`, validated, as if the scene's file said what `overrides` say. Throws
+  /// core::InputError with file:line:column, or with the place of the override.
+  virtual std::shared_ptr<const model::Model> build(int world, std::uint64_t seed,
+                                                    const Overrides& overrides = {}) const = 0;
+  /// Are all worlds without overrides the same, whatever their seed, so that they may share a model?
+  virtual bool is_uniform() const { return false; }
 };
 
 struct SceneInfo {
@@ -57,9 +64,10 @@ enum class SceneGroup {
 
 std::vector<SceneInfo> list_scenes(SceneGroup group);
 
-/// The text of scene `name_or_path`: a path if it ends in ".toml", else a scene that pbmpi brings (their
-/// texts are part of the program, so that it needs no data folder). Throws core::InputError: unknown name
-/// (with the nearest names), unreadable file.
+/// The text of scene `name_or_path`: a path if it ends in ".toml", ".xml", ".mjcf" or ".urdf", else a scene
+/// that pbmpi brings (their texts are part of the program, so that it needs no data folder). Behind a scene
+/// that names model files stand these, as [files]. Throws core::InputError: unknown name (with the nearest
+/// names), unreadable file.
 struct SceneSource {
   std::string name;  ///< scene name; of a file, its stem
   std::string file;  ///< what error messages call it
@@ -71,10 +79,11 @@ SceneSource find_scene(const std::string& name_or_path);
 /// core::InputError as parse_scene() does.
 std::vector<SceneSource> bases_of(const SceneSource& source);
 
-/// Parses a scene. Throws core::InputError ("file:line:column: ...") for malformed TOML, unknown keys and
-/// impossible values. Rank 0 finds and reads the text, and every rank parses the same text.
-/// `dt_s` replaces the file's own time step: programmes given in seconds (steering) become steps with it.
-/// `spaces` replaces the file's `[run] spaces`; `effects` go before those of the file's `[effects]`.
+/// Parses a scene, TOML or, if the text begins with '<', a model that is the scene's one actor. Throws
+/// core::InputError ("file:line:column: ...") for malformed files, unknown keys and impossible values. Rank 0
+/// finds and reads the text, and every rank parses the same text. `dt_s` replaces the file's own time step:
+/// programmes given in seconds (steering) become steps with it. `spaces` replaces the file's `[run] spaces`;
+/// `effects` go before those of the file's `[effects]`.
 std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s = std::nullopt,
                                    std::optional<SpacesForm> spaces = std::nullopt,
                                    const model::EffectChoices& effects = {});

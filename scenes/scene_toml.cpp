@@ -1,22 +1,18 @@
 #include "scenes/scene_toml.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 
 #include "core/error.h"
+#include "scenes/actors/model_file.h"
 #include "scenes/format/table_reader.h"
+#include "scenes/xml/element.h"
 
 namespace pbmpi::scenes {
 namespace {
-
-toml::table parse_text(const SceneSource& source) {
-  try {
-    return toml::parse(source.text, source.file);
-  } catch (const toml::parse_error& error) {
-    throw core::InputError(to_string(error.source()) +
-                           ": malformed TOML: " + std::string(error.description()));
-  }
-}
 
 toml::table* find_by_name(toml::array& entries, const toml::node& name) {
   for (toml::node& entry : entries) {
@@ -37,10 +33,7 @@ bool is_array_of_tables(const toml::node& node) {
   return array && !array->empty() && (*array)[0].is_table();
 }
 
-// Nodes are moved, never copied: only a move keeps a node's place in its file.
-void lay_over(toml::table& base, toml::table&& over);
-
-void lay_over(toml::array& base, toml::array&& over) {
+void merge_by_name(toml::array& base, toml::array&& over) {
   for (toml::node& entry : over) {
     toml::table* table = entry.as_table();
     const toml::node* name = table ? table->get("name") : nullptr;
@@ -49,20 +42,6 @@ void lay_over(toml::array& base, toml::array&& over) {
       lay_over(*same, std::move(*table));
     } else {
       base.push_back(std::move(entry));
-    }
-  }
-}
-
-void lay_over(toml::table& base, toml::table&& over) {
-  for (auto&& [key, node] : over) {
-    toml::node* old = base.get(key.str());
-    if (old && old->is_table() && node.is_table()) {
-      lay_over(*old->as_table(), std::move(*node.as_table()));
-    } else if (old && is_array_of_tables(*old) && is_array_of_tables(node) && key.str() != whole_array) {
-      lay_over(*old->as_array(), std::move(*node.as_array()));
-    } else {
-      base.erase(key.str());  // the key, too, must tell the new place
-      base.insert_or_assign(key, std::move(node));
     }
   }
 }
@@ -88,16 +67,67 @@ std::optional<SceneSource> base_of(const toml::table& scene) {
   }
 }
 
+/// A model alone, as scene: its frames come nearest to 1/30 s, and are 10 s in all.
+toml::table scene_of_model(const SceneSource& source) {
+  xml::Notes told_later;  // by those who read the actor
+  const links::ModelFile model = read_model_file(source.text, source.file, {}, told_later);
+  constexpr double frame_s = 1.0 / 30, run_s = 10;
+  toml::table run;
+  if (model.dt_s) {
+    run.insert("dt", *model.dt_s);
+    run.insert("steps_per_frame",
+               std::max<std::int64_t>(1, std::llround(std::min(frame_s / *model.dt_s, 1e6))));
+  }
+  run.insert("frames", std::llround(run_s / frame_s));
+  toml::table scene;
+  const std::string& name = model.mechanism.name;
+  scene.insert("title", (name.empty() ? source.name : name) + ", from " + source.file);
+  scene.insert("run", std::move(run));
+  if (model.gravity)
+    scene.insert("gravity", toml::array{model.gravity->x(), model.gravity->y(), model.gravity->z()});
+  scene.insert("overlap", std::numeric_limits<double>::infinity());  // what the file's own simulator allows
+  scene.insert("actor",
+               toml::array{toml::table{{"name", source.name}, {"type", "model"}, {"file", source.file}}});
+  scene.insert("files", toml::table{{source.file, toml::table{{"text", source.text}}}});
+  return scene;
+}
+
 }  // namespace
+
+toml::table parse_text(const SceneSource& source) {
+  try {
+    return toml::parse(source.text, source.file);
+  } catch (const toml::parse_error& error) {
+    throw core::InputError(to_string(error.source()) +
+                           ": malformed TOML: " + std::string(error.description()));
+  }
+}
+
+// Nodes are moved, never copied: only a move keeps a node's place in its file.
+void lay_over(toml::table& base, toml::table&& over) {
+  for (auto&& [key, node] : over) {
+    toml::node* old = base.get(key.str());
+    if (old && old->is_table() && node.is_table()) {
+      lay_over(*old->as_table(), std::move(*node.as_table()));
+    } else if (old && is_array_of_tables(*old) && is_array_of_tables(node) && key.str() != whole_array) {
+      merge_by_name(*old->as_array(), std::move(*node.as_array()));
+    } else {
+      base.erase(key.str());  // the key, too, must tell the new place
+      base.insert_or_assign(key, std::move(node));
+    }
+  }
+}
 
 std::vector<SceneSource> bases_of(const SceneSource& source) {
   std::vector<SceneSource> bases;
+  if (xml::is_xml(source.text)) return bases;
   for (auto base = base_of(parse_text(source)); base; base = base_of(parse_text(bases.back())))
     bases.push_back(*base);
   return bases;
 }
 
 toml::table parse_with_base(const SceneSource& source) {
+  if (xml::is_xml(source.text)) return scene_of_model(source);
   toml::table scene = parse_text(source);
   const std::optional<SceneSource> base = base_of(scene);
   if (!base) return scene;
@@ -106,6 +136,29 @@ toml::table parse_with_base(const SceneSource& source) {
   scene.erase("base");
   lay_over(result, std::move(scene));
   return result;
+}
+
+std::vector<std::string> missing_files(const SceneSource& source) {
+  std::vector<std::string> missing;
+  if (xml::is_xml(source.text)) return missing;
+  const toml::table scene = parse_text(source);
+  const toml::array* actors = scene["actor"].as_array();
+  if (actors == nullptr) return missing;
+  for (const toml::node& node : *actors) {
+    const toml::table* actor = node.as_table();
+    if (actor == nullptr || (*actor)["type"].value<std::string>() != "model") continue;
+    const auto file = (*actor)["file"].value<std::string>();
+    if (!file || scene["files"][*file] || std::ranges::find(missing, *file) != missing.end()) continue;
+    missing.push_back(*file);
+  }
+  return missing;
+}
+
+std::string with_file(const std::string& text, const std::string& file, const std::string& file_text) {
+  std::ostringstream result;
+  result << text << "\n[files." << toml::table{{"name", file}}["name"] << "]\n"
+         << "text = " << toml::value<std::string>(file_text) << '\n';
+  return result.str();
 }
 
 }  // namespace pbmpi::scenes

@@ -7,6 +7,7 @@
 #   tidy      clang-tidy finds nothing in the sources of the programs
 #   arm64     the scenes have their golden hashes on arm64, too: a cross build, run by QEMU
 #   sanitize  unit tests and the programs, built with the sanitizers of addresses and of undefined behaviour
+#   threads   worlds that threads step, watched for races by Valgrind (needs the build of tests/run.sh)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -79,12 +80,18 @@ sanitize() {
   )
 }
 
+# With ODE's colliders, so that its code is watched, too.
+threads() {
+  valgrind --tool=helgrind --quiet --error-exitcode=1 build/release/tests/solver/worlds/solver_worlds_test \
+    --gtest_filter='*of_any_number_give_the_same_bits/ode_colliders'
+}
+
 gates=("$@")
-[[ ${#gates[@]} -gt 0 ]] || gates=(format avx clang headers arm64 tidy sanitize)
+[[ ${#gates[@]} -gt 0 ]] || gates=(format avx clang headers arm64 tidy sanitize threads)
 jobs/install_packages.sh --gates
 for gate in "${gates[@]}"; do
   case $gate in
-    format | avx | clang | headers | arm64 | tidy | sanitize) ;;
+    format | avx | clang | headers | arm64 | tidy | sanitize | threads) ;;
     *) echo "$0: there is no gate '$gate'; see its head" >&2; exit 2 ;;
   esac
   echo "gate $gate: begins at $(date +%T)"

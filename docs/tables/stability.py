@@ -2,6 +2,8 @@
 import json
 import statistics
 
+import h5py
+
 from tables import programs
 
 # Cases of at most so many bodies x steps at their own step are tried at all step lengths.
@@ -72,6 +74,34 @@ def joint_springs():
     rows = [[f"`{case['scene'].split('/', 1)[1]}`",
              *(f"{cell['verdict']}, {programs.millimetres(cell['metrics']['joint_gap'])}" for cell in case["results"])] for case in found]
     return programs.table(["verdict, largest joint gap [mm]", *(cell["setting"] for cell in found[0]["results"])], rows)
+
+
+def island_shares():
+    """What a tolerance and a sag hold of the hard cases, and the work that they leave where scenes move and have calmed down."""
+    all_of_it = "substeps=32 contact-frequency=400 joint-frequency=400"
+    settings = ["sor", *(f"sor tolerance={length}mm" for length in ("0.01", "0.03", "0.1")),
+                *(f"sor sag={length}mm" for length in ("0.2", "0.5", "1")), "sor sag=0.2mm tolerance=0.01mm",
+                "sor sag=0.2mm precision=single", f"sor {all_of_it}", f"sor {all_of_it} tolerance=0.01mm"]
+    scenes = (("100CrSk", "0", ()), ("Environ", "150", ()), ("Battle2", "150", ()), ("Warehouse", "40", ("--effects=-sleeping",)))
+    with programs.Folder() as folder:
+        found = cases(folder, "--setting", *settings)
+        rows = []
+        for number, setting in enumerate(settings):
+            verdicts = [case["results"][number]["verdict"] for case in found]
+            options = [f"--{option}" for option in setting.split()[1:]]
+            visits = [visits_of(folder, scene, "--warmup", warmup, *effects, *options) for scene, warmup, effects in scenes]
+            rows.append([f"`{setting}`", *(verdicts.count(verdict) for verdict in VERDICTS), *visits])
+    head = [f"row visits a step [1000]: {scene}{' without `sleeping`' if effects else ''}" for scene, _, effects in scenes]
+    return programs.table(["setting", *VERDICTS, *head], rows)
+
+
+def visits_of(folder, *run):
+    """Row visits of all worlds in the last steps of ten frames, their mean, in thousands."""
+    path = folder / "run.h5"
+    path.unlink(missing_ok=True)
+    programs.pbmpi("--scene", *run, "--frames", "10", "--quiet", "-o", path)
+    with h5py.File(path) as file:
+        return f"{file['observables/world/row_visits'][:][-10:].sum(axis=1).mean() / 1000:.0f}"
 
 
 def at_equal_time():

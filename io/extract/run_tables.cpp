@@ -5,10 +5,12 @@
 
 #include "core/error.h"
 #include "io/hdf5/columns.h"
+#include "io/hdf5/file_types.h"
 #include "io/hdf5/read_columns.h"
 #include "io/run/contact_rows.h"
 #include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
+#include "io/setup/world_result_rows.h"
 
 namespace pbmpi::io {
 
@@ -158,6 +160,7 @@ RunItems read_items(hid_t file) {
   if (table.size() != 2 || table[1] < 1 || !std::in_range<int>(table[1]))
     throw core::RunError("/observables/world/contacts has an impossible number of worlds");
   items.num_worlds = static_cast<int>(table[1]);
+  items.world_id = read_world_ids(file, items.num_worlds);
   items.body_world = read_integers(file, "/particles/bodies/world");
   const auto count = static_cast<std::int64_t>(items.body_world.size());
   items.body_name = read_texts(file, "/particles/bodies/name", count);
@@ -218,11 +221,27 @@ void RunTables::find_tables() {
                        ItemsOf::contacts,
                        RowsOf::frames,
                        {ContactRows::points}});
+  find_tables_of_the_run();
   RunTable events{"events", "what happened beside the frames", ItemsOf::run, RowsOf::events, {}};
   for (const std::string& path : EventColumns::datasets()) {
     if (path.starts_with("/events/") && has_object(file, path)) events.columns.push_back(path);
   }
   tables_.push_back(std::move(events));
+}
+
+/// Tables with a row a world, without frames.
+void RunTables::find_tables_of_the_run() {
+  const hid_t file = impl_->file.id();
+  const auto add = [&](const char* name, const char* meaning, const std::string& group) {
+    RunTable table{name, meaning, ItemsOf::worlds, RowsOf::run, {}};
+    if (has_object(file, "/worlds/id")) table.columns.push_back("/worlds/id");
+    for (const std::string& column : names_in(file, group)) table.columns.push_back(group + "/" + column);
+    tables_.push_back(std::move(table));
+  };
+  const std::string parameters = "/world_parameters";
+  if (has_object(file, parameters))
+    add("world_parameters", "what worlds have otherwise than the scene", parameters);
+  if (!read_world_results(file).empty()) add("world_results", "what has become of each world", world_results);
 }
 
 const RunTable* RunTables::find(const std::string& name) const {
@@ -238,6 +257,8 @@ std::int64_t RunTables::num_rows(const RunTable& table) const {
       return std::ssize(frames_) / record_every_;
     case RowsOf::events:
       return num_events_;
+    case RowsOf::run:
+      return 1;
   }
   return 0;
 }
@@ -275,6 +296,11 @@ std::vector<TableColumn> RunTables::read(const RunTable& table, std::int64_t fir
       return read_contacts(impl_->file.id(), begin, points);
     }
     std::vector<TableColumn> columns;
+    if (table.rows == RowsOf::run) {  // their rows are the items
+      for (const std::string& path : table.columns)
+        columns.push_back(read_column(impl_->file.id(), path, 0, count * num_items(table, 0), 1));
+      return columns;
+    }
     for (const std::string& path : table.columns)
       columns.push_back(read_column(impl_->file.id(), path, first, count, num_items(table, first)));
     return columns;

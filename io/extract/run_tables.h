@@ -14,8 +14,9 @@ namespace pbmpi::io {
 /// What the items of a row are; run: a row has one. Contacts: as many as the frame had.
 enum class ItemsOf { run, ranks, worlds, bodies, joints, contacts };
 
-/// What a row tells of: a frame, a frame in which the motion of bodies was stored, or an event.
-enum class RowsOf { frames, recorded, events };
+/// What a row tells of: a frame, a frame in which the motion of bodies was stored, an event, or all of the
+/// run.
+enum class RowsOf { frames, recorded, events, run };
 
 struct RunTable {
   std::string name;     ///< e.g. "bodies"
@@ -35,6 +36,7 @@ struct FrameTime {
 /// What the items of rows are called, in the order of the file.
 struct RunItems {
   int num_worlds = 0;
+  std::vector<std::int64_t> world_id;                     ///< [W] numbers in the ensemble
   std::vector<std::int64_t> body_world;                   ///< [N]
   std::vector<std::string> body_name, actor, actor_kind;  ///< [N]
   std::vector<std::int64_t> joint_world;                  ///< [J]; empty before layout 1.5, as is the next
@@ -63,7 +65,7 @@ class RunTables {
   /// The one of this name; null if the file has none.
   const RunTable* find(const std::string& name) const;
   std::int64_t num_rows(const RunTable& table) const;
-  /// The frame of a row; not of events, which have a column of their own.
+  /// The frame of a row; not of events, which have a column of their own, nor of the run.
   const FrameTime& frame_of(const RunTable& table, std::int64_t row) const;
   /// Items of a row.
   std::int64_t num_items(const RunTable& table, std::int64_t row) const;
@@ -77,6 +79,7 @@ class RunTables {
  private:
   struct Impl;
   void find_tables();
+  void find_tables_of_the_run();
 
   std::string path_;
   std::unique_ptr<Impl> impl_;

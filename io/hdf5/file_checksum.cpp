@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/system/seal.h"
 #include "io/hdf5/columns.h"
+#include "io/hdf5/file_types.h"
 #include "io/hdf5/read_columns.h"
 
 namespace pbmpi::io {
@@ -21,10 +22,11 @@ void add_text(const std::string& text, core::Checksum& sum) {
   sum.add(std::as_bytes(std::span("", 1)));  // ends it
 }
 
-/// Attributes that change while the file grows: of the root these, of /events all.
+/// Attributes that change while the file grows: of the root these, of /events and /world_results all.
 bool changes(const std::string& object, const std::string& attribute) {
   constexpr std::array names = {"frames_committed", "complete", "state_hash", fixed_name, end_name};
-  return object == "/events" || (object == "/" && std::ranges::find(names, attribute) != names.end());
+  return object == "/events" || object == world_results ||
+         (object == "/" && std::ranges::find(names, attribute) != names.end());
 }
 
 void add_attributes(hid_t file, const std::string& object, bool that_change, core::Checksum& sum) {
@@ -33,6 +35,15 @@ void add_attributes(hid_t file, const std::string& object, bool that_change, cor
     add_text(name, sum);
     add_text(text, sum);
   }
+}
+
+/// Shape and bytes of a dataset.
+void add_values(hid_t file, const std::string& path, core::Checksum& sum) {
+  const RawRows rows = raw_rows(file, path);
+  std::vector<std::byte> values(rows.num_rows * rows.row_bytes);
+  rows.read(0, rows.num_rows, values.data());
+  for (const hsize_t dim : rows.dims) add_text(std::to_string(dim), sum);
+  sum.add(values);
 }
 
 /// Type, and of a dataset that is not chunked shape and bytes.
@@ -45,12 +56,7 @@ void add_dataset(hid_t file, const std::string& path, core::Checksum& sum) {
   std::vector<std::byte> encoded(length);  // with precision, offset and padding: what the bytes mean
   check(H5Tencode(type.id(), encoded.data(), &length), "H5Tencode");
   sum.add(encoded);
-  if (H5Pget_layout(creation.id()) == H5D_CHUNKED) return;
-  const RawRows rows = raw_rows(file, path);
-  std::vector<std::byte> values(rows.num_rows * rows.row_bytes);
-  rows.read(0, rows.num_rows, values.data());
-  for (const hsize_t dim : rows.dims) add_text(std::to_string(dim), sum);
-  sum.add(values);
+  if (H5Pget_layout(creation.id()) != H5D_CHUNKED) add_values(file, path, sum);
 }
 
 struct Walk {
@@ -93,6 +99,11 @@ std::int64_t end_checksum(hid_t file) {
   core::Checksum sum;
   add_attributes(file, "/", true, sum);
   add_attributes(file, "/events", true, sum);
+  if (has_object(file, world_results)) {
+    add_attributes(file, world_results, true, sum);
+    for (const std::string& name : names_in(file, world_results))
+      add_values(file, std::string(world_results) + "/" + name, sum);
+  }
   return stored_form(sum);
 }
 

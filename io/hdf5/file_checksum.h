@@ -24,7 +24,8 @@ void create_checksum_attributes(hid_t root);
 /// and the bytes of datasets that are not chunked. The attributes that a CommitRecord overwrites are left
 /// out.
 void store_fixed_checksum(hid_t file);
-/// Stores, serially, the checksum of those attributes, when they have been written for the last time.
+/// Stores, serially, the checksum of those attributes, and of /world_results, when they have been written for
+/// the last time.
 void store_end_checksum(hid_t file);
 
 /// Throws core::RunError where one of the two is stored and does not fit. Files before layout 1.4 have none.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <sstream>
 
 #include "core/error.h"
@@ -74,6 +75,15 @@ void require_steps(const Source& source) {
                             std::to_string(frame.step) + ", which is none of one run");
 }
 
+/// What each part says of its own frames, in columns of /world_results.
+std::set<std::string> result_datasets(hid_t file) {
+  std::set<std::string> paths;
+  if (!has_object(file, world_results)) return paths;
+  for (const std::string& name : names_in(file, world_results))
+    paths.insert(std::string(world_results) + "/" + name);
+  return paths;
+}
+
 void require_one_run(const Source& a, const Source& b) {
   const std::string& path_a = a.frames.path;
   const std::string& path_b = b.frames.path;
@@ -88,7 +98,9 @@ void require_one_run(const Source& a, const Source& b) {
   }
   core::require_input(apart.empty(), path_a + " and " + path_b + " are not of one run: " +
                                          (apart.empty() ? "" : text_of(apart.front(), path_a, path_b)));
-  require_same_objects(a.file.id(), path_a, b.file.id(), path_b, growing_datasets());
+  std::set<std::string> of_a_part = growing_datasets();
+  of_a_part.merge(result_datasets(a.file.id()));
+  require_same_objects(a.file.id(), path_a, b.file.id(), path_b, of_a_part);
 }
 
 std::vector<JoinPart> parts_of(const std::vector<std::unique_ptr<Source>>& sources) {
@@ -253,8 +265,10 @@ JoinedRun join_runs(const std::vector<std::string>& paths, const std::string& ou
     require_kind(output, filetype);
     OutputTarget target(output, bytes_of(paths));
     File file = create_alone(target.temporary_path());
+    std::set<std::string> left_out = result_datasets(parts.front().file);
+    left_out.insert(common.left_out.begin(), common.left_out.end());
     CopyPlan copy{grown_datasets(parts, common, plan, events.num_rows()),
-                  common.left_out,
+                  left_out,
                   {"/ranks/rank", "/ranks/host", "/ranks/worlds_at_start", "/parameters/frames",
                    "/parameters/ranks", "/parameters/joined_from"}};
     copy_objects(parts.front().file, file.id(), copy);

@@ -16,7 +16,7 @@ namespace pbmpi::io {
 namespace {
 
 /// Version of the layout; the first number changes when old programs would be misled.
-constexpr std::array<std::int64_t, 2> version = {1, 3};
+constexpr std::array<std::int64_t, 2> version = {1, 4};
 
 using core::Quat;
 using core::Vec3;
@@ -78,10 +78,14 @@ TableFile tables_of(const Checkpoint& checkpoint) {
                      {"created", checkpoint.created},
                      {"state_hash", checkpoint.state_hash},
                      {"scene", checkpoint.scene}};
-  file.parameters = {
-      Parameter::of("frames_done", checkpoint.frames),    Parameter::of("steps_done", checkpoint.steps),
-      Parameter::of("scene_file", checkpoint.scene_file), Parameter::of("scene_text", checkpoint.scene_text),
-      Parameter::of("options", checkpoint.options),       Parameter::of("output", checkpoint.output)};
+  file.parameters = {Parameter::of("frames_done", checkpoint.frames),
+                     Parameter::of("steps_done", checkpoint.steps),
+                     Parameter::of("scene_file", checkpoint.scene_file),
+                     Parameter::of("scene_text", checkpoint.scene_text),
+                     Parameter::of("parameters_file", checkpoint.parameters_file),
+                     Parameter::of("parameters_text", checkpoint.parameters_text),
+                     Parameter::of("options", checkpoint.options),
+                     Parameter::of("output", checkpoint.output)};
   file.tables["worlds"] = {{"bodies", "", std::move(columns.bodies)},
                            {"resting", "", std::move(columns.resting)},
                            {"joints", "", std::move(columns.joints)},
@@ -153,6 +157,12 @@ const Parameter& parameter(const TableFile& file, const std::string& name) {
   return *found;
 }
 
+/// Of a parameter that a checkpoint before layout 1.4 does not have.
+std::string text_or_none(const TableFile& file, const std::string& name) {
+  const auto found = std::ranges::find(file.parameters, name, &Parameter::name);
+  return found == file.parameters.end() ? "" : found->text;
+}
+
 std::string attribute(const TableFile& file, const std::string& name) {
   const auto found = file.attributes.find(name);
   if (found == file.attributes.end()) throw core::RunError("there is no attribute " + name);
@@ -180,6 +190,8 @@ Checkpoint checkpoint_of(const TableFile& file) {
   checkpoint.steps = count(file, "steps_done");
   checkpoint.scene_file = parameter(file, "scene_file").text;
   checkpoint.scene_text = parameter(file, "scene_text").text;
+  checkpoint.parameters_file = text_or_none(file, "parameters_file");
+  checkpoint.parameters_text = text_or_none(file, "parameters_text");
   checkpoint.options = parameter(file, "options").text;
   checkpoint.output = parameter(file, "output").text;
   checkpoint.worlds = worlds_of(file);

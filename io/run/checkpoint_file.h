@@ -17,10 +17,12 @@ struct Checkpoint {
   std::string scene;                               ///< its name
   std::string scene_file;                          ///< what error messages call its text
   std::string scene_text;                          ///< TOML
-  std::string options;                             ///< as resolved, one "name = value" a line
-  std::string output;                              ///< file of the run that wrote it, or empty
-  std::int64_t frames = 0;                         ///< done, warm-up included
-  std::int64_t steps = 0;                          ///< done
+  std::string parameters_file;                     ///< what error messages call the next
+  std::string parameters_text;  ///< table of what worlds have otherwise than the scene, or empty
+  std::string options;          ///< as resolved, one "name = value" a line
+  std::string output;           ///< file of the run that wrote it, or empty
+  std::int64_t frames = 0;      ///< done, warm-up included
+  std::int64_t steps = 0;       ///< done
   std::string state_hash;
   std::vector<model::State> worlds;  ///< [num_worlds] bit for bit
 };

@@ -6,6 +6,7 @@
 #include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
 #include "io/run/run_data.h"
+#include "io/setup/world_result_rows.h"
 #include "stepping/observable_table.h"
 
 namespace pbmpi::io {
@@ -230,6 +231,10 @@ RunData read_all(hid_t file) {
   read_estimate(file, run.frames_committed / record_every, run);
   read_broken(file, run);
   read_events(file, run);
+  run.world_id = read_world_ids(file, run.num_worlds);
+  run.world_results = read_world_results(file);
+  if (!run.world_results.empty() && std::ssize(run.world_results) != run.num_worlds)
+    throw core::RunError("/world_results has not a row for each world");
   return run;
 }
 

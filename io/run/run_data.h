@@ -10,6 +10,7 @@
 
 #include "core/clock.h"
 #include "core/vector.h"
+#include "io/setup/world_results.h"
 #include "model/model.h"
 #include "stepping/run_event.h"
 
@@ -83,6 +84,8 @@ struct RunData {
   std::vector<stepping::RunEvent> events;          ///< that have a row in the file, as they came
   std::map<std::string, std::int64_t> num_events;  ///< kind -> number, those without a row included
   std::int64_t worlds_moved = 0;                   ///< in all rebalances: worlds, or spaces
+  std::vector<std::int64_t> world_id;              ///< [W] numbers of the worlds in their ensemble
+  std::vector<WorldResult> world_results;          ///< [W]; empty of a run that did not come to its end
 };
 
 /// Reads the committed frames of a pbmpi-run file (also one that was cut off by a kill). Throws

@@ -13,6 +13,7 @@
 #include "io/hdf5/space_ahead.h"
 #include "io/run/frame_columns.h"
 #include "io/run/skeleton.h"
+#include "io/setup/world_result_rows.h"
 #include "io/table/table_file.h"
 
 namespace pbmpi::io {
@@ -53,7 +54,7 @@ class RunFile::Impl {
     core::require_invariant(open_, "the run's file was closed");
     flush();
   }
-  void close(bool complete, const std::string& state_hash);
+  void close(bool complete, const std::string& state_hash, std::span<const WorldResult> results);
   bool wrote_collectively() const { return columns_ && columns_->wrote_collectively(); }
 
  private:
@@ -67,7 +68,7 @@ class RunFile::Impl {
   /// After an error on which all ranks agree: closes what is open, and drops errors of closing.
   void close_all();
   /// Root only, when the file is closed for data.
-  void finish(bool complete, const std::string& state_hash);
+  void finish(bool complete, const std::string& state_hash, std::span<const WorldResult> results);
 
   RunSetup setup_;
   FileRanks ranks_;
@@ -170,7 +171,8 @@ void RunFile::Impl::reserve_ahead() {
   }
 }
 
-void RunFile::Impl::close(bool complete, const std::string& state_hash) {
+void RunFile::Impl::close(bool complete, const std::string& state_hash,
+                          std::span<const WorldResult> results) {
   if (!open_) return;
   flush();
   open_ = false;
@@ -180,14 +182,16 @@ void RunFile::Impl::close(bool complete, const std::string& state_hash) {
     if (!file_.close()) check(-1, "H5Fclose");
   });
   write_together([&] {
-    if (ranks_.is_root()) finish(complete, state_hash);
+    if (ranks_.is_root()) finish(complete, state_hash, results);
   });
   ranks_.together([this] {
     if (ranks_.is_root()) target_.require_in_place();
   });
 }
 
-void RunFile::Impl::finish(bool complete, const std::string& state_hash) {
+void RunFile::Impl::finish(bool complete, const std::string& state_hash,
+                           std::span<const WorldResult> results) {
+  if (!results.empty()) write_world_results(record_.id(), results);
   record_.finish(complete, state_hash, columns_->event_counts());
   store_end_checksum(record_.id());
   if (!record_.close()) check(-1, "H5Fclose");
@@ -210,7 +214,9 @@ RunFile::~RunFile() = default;
 void RunFile::frame_done(const stepping::FrameRecord& frame) { impl_->add(frame); }
 void RunFile::event(const stepping::RunEvent& event) { impl_->add(event); }
 void RunFile::secure() { impl_->secure(); }
-void RunFile::close(bool complete, const std::string& state_hash) { impl_->close(complete, state_hash); }
+void RunFile::close(bool complete, const std::string& state_hash, std::span<const WorldResult> results) {
+  impl_->close(complete, state_hash, results);
+}
 bool RunFile::wrote_collectively() const { return impl_->wrote_collectively(); }
 
 }  // namespace pbmpi::io

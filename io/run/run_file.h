@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "io/hdf5/file_group.h"
 #include "io/setup/run_setup.h"
+#include "io/setup/world_results.h"
 #include "stepping/frame.h"
 
 namespace pbmpi::io {
@@ -37,8 +39,9 @@ class RunFile final : public stepping::FrameObserver {
   void secure() override;  ///< writes what is held
 
   /// Writes what is held, cuts the datasets to the frames committed, stores the final attributes and closes.
-  /// `complete` = all planned frames were simulated. `state_hash` counts on root only.
-  void close(bool complete, const std::string& state_hash);
+  /// `complete` = all planned frames were simulated. `state_hash` and `results` ([num_worlds], or none where
+  /// they are not known) count on root only.
+  void close(bool complete, const std::string& state_hash, std::span<const WorldResult> results = {});
 
   /// Was every dataset of the last flush written by all ranks together, as HDF5 reports it on this rank
   /// (H5Pget_mpio_actual_io_mode)? False before the first flush.

@@ -9,6 +9,7 @@
 #include "io/hdf5/file_types.h"
 #include "io/run/event_columns.h"
 #include "io/setup/static_columns.h"
+#include "io/setup/world_result_rows.h"
 
 namespace pbmpi::io {
 namespace {
@@ -79,6 +80,7 @@ void write_parameters(const FileRanks& ranks, hid_t file, const std::vector<Para
 void write_skeleton(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   write_root(ranks, file, setup);
   write_static_columns(ranks, file, setup);
+  create_world_results(file, setup.table.num_worlds());
   write_h5md(file, setup);
   write_parameters(ranks, file, setup.parameters);
 }

@@ -138,8 +138,13 @@ void write_connectivity(const FileRanks& ranks, hid_t file, const RunSetup& setu
 void write_worlds(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   ColumnWriter columns(ranks, file, "/worlds",
                        rows_in_world_order(ranks, setup, [](const auto&) { return std::size_t{1}; }));
+  std::vector<std::int64_t> id;
   std::vector<double> gravity;
-  for (const LocalWorld& local : setup.worlds) append(gravity, local.model->gravity);
+  for (const LocalWorld& local : setup.worlds) {
+    id.push_back(setup.first_world + local.id);
+    append(gravity, local.model->gravity);
+  }
+  columns.numbers("id", id);
   columns.numbers("gravity", gravity, "m s-2", {3});
   for (const WorldNumbers& column : world_numbers) {
     std::vector<double> values;

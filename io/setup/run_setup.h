@@ -35,14 +35,25 @@ struct RunShape {
   std::int64_t num_recorded() const { return num_frames / record_every; }
 };
 
+/// A parameter that worlds have otherwise than the scene: a column of /world_parameters. One of the two is
+/// [num_worlds].
+struct WorldParameter {
+  std::string key;
+  std::vector<double> numbers;  ///< NaN: as the scene has it
+  std::vector<std::string>
+      texts;  ///< as TOML, of what is no number in every world; empty: as the scene has it
+};
+
 /// Everything that is known before the first frame. Equal on every rank, except `worlds`.
 struct RunSetup {
   std::string path;  ///< final name of the file
   std::vector<Parameter>
       attributes;  ///< of the root: pbmpi_version, git_revision, seed, scene, command_line ...
   std::vector<Parameter> parameters;  ///< of /parameters
+  std::vector<WorldParameter> world_parameters;
   stepping::WorldTable table;
   std::vector<stepping::LocalWorld> worlds;  ///< this rank's worlds at the start, by ascending id
+  std::int64_t first_world = 0;              ///< number in the ensemble of the run's first world
   std::vector<std::string> hosts;            ///< [num_ranks]
   std::int64_t first_frame = 0;              ///< of a run that goes on: frames done before
   std::int64_t num_frames = 0;               ///< of this file, warm-up included

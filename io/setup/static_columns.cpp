@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "io/setup/world_result_rows.h"
+
 namespace pbmpi::io {
 namespace {
 
@@ -38,9 +40,9 @@ OwnRows rows_in_world_order(const FileRanks& ranks, const RunSetup& setup,
 }
 
 std::int64_t estimate_static_bytes(const RunShape& shape) {
-  constexpr std::int64_t body_bytes = 160 + 120, geom_bytes = 150, joint_bytes = 440, world_bytes = 100;
+  constexpr std::int64_t body_bytes = 160 + 120, geom_bytes = 150, joint_bytes = 440, world_bytes = 108;
   return shape.num_bodies * body_bytes + shape.num_geoms * geom_bytes + shape.num_joints * joint_bytes +
-         shape.num_worlds * world_bytes;
+         shape.num_worlds * (world_bytes + bytes_of_a_world_result());
 }
 
 void write_static_columns(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
@@ -50,6 +52,7 @@ void write_static_columns(const FileRanks& ranks, hid_t file, const RunSetup& se
   write_joints(ranks, file, setup);
   write_connectivity(ranks, file, setup);
   write_worlds(ranks, file, setup);
+  write_world_parameters(ranks, file, setup);
   write_ranks(ranks, file, setup);
 }
 

@@ -12,7 +12,7 @@
 namespace pbmpi::io {
 
 /// Makes and writes /particles/bodies (without the moving part), /geoms, /pair_materials, /joints,
-/// /connectivity, /worlds and /ranks. Collective.
+/// /connectivity, /worlds, /world_parameters and /ranks. Collective.
 void write_static_columns(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 
 /// Their bytes, with names of usual length.
@@ -26,6 +26,8 @@ void write_joints(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 /// /connectivity/joints, as H5MD has it: the joints between two bodies.
 void write_connectivity(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 void write_worlds(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+/// /world_parameters, if worlds have some.
+void write_world_parameters(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 
 /// [num_worlds + 1] where the things of each world begin, of which it has `count` of its model. Collective.
 std::vector<std::int64_t> offsets(const FileRanks& ranks, const RunSetup& setup,

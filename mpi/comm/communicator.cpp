@@ -23,9 +23,12 @@ struct Communicator::Handle {
     check(MPI_Comm_rank(comm, &rank), "MPI_Comm_rank");
     check(MPI_Comm_size(comm, &size), "MPI_Comm_size", rank);
   }
-  // MPI_Comm_free is collective: while this rank alone unwinds it could wait for ever, so it is left out.
+  // MPI_Comm_free is collective: while this rank alone unwinds it could wait for ever, so it is left out. So
+  // it is when MPI has ended, as it may for who was given the communicator by another library.
   ~Handle() {
-    if (owned && std::uncaught_exceptions() == 0) MPI_Comm_free(&comm);
+    int ended = 0;
+    if (owned && std::uncaught_exceptions() == 0 && MPI_Finalized(&ended) == MPI_SUCCESS && ended == 0)
+      MPI_Comm_free(&comm);
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
@@ -102,6 +105,22 @@ Communicator::Communicator(Communicator&&) noexcept = default;
 Communicator& Communicator::operator=(Communicator&&) noexcept = default;
 
 Communicator Communicator::world() { return Communicator(std::make_unique<Handle>(MPI_COMM_WORLD, false)); }
+
+Communicator Communicator::dup_of(int fortran_handle) {
+  int runs = 0, ended = 0;
+  check(MPI_Initialized(&runs), "MPI_Initialized");
+  check(MPI_Finalized(&ended), "MPI_Finalized");
+  core::require_input(runs != 0 && ended == 0,
+                      "a communicator was given, and MPI does not run; call MPI_Init before, or give none");
+  const MPI_Comm theirs = MPI_Comm_f2c(fortran_handle);
+  core::require_input(theirs != MPI_COMM_NULL,
+                      "the communicator that was given is MPI_COMM_NULL; give one that "
+                      "has this rank, or none");
+  MPI_Comm copy = MPI_COMM_NULL;
+  check(MPI_Comm_dup(theirs, &copy), "MPI_Comm_dup");
+  check(MPI_Comm_set_errhandler(copy, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  return Communicator(std::make_unique<Handle>(copy, true));
+}
 
 Communicator Communicator::dup() const {
   if (is_null()) return {};

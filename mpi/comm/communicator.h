@@ -43,6 +43,10 @@ class Communicator {
 
   /// All ranks of the program; borrowed. Not collective.
   static Communicator world();
+  /// A communicator of the ranks of another library's, which gives it as MPI_Comm_c2f; owned. Its errors are
+  /// returned, whatever the other's do. Throws core::InputError if MPI does not run, or there is no such
+  /// communicator.
+  static Communicator dup_of(int fortran_handle);
   /// A communicator of the same ranks, whose messages never match those of another; owned. Null stays null.
   Communicator dup() const;
 

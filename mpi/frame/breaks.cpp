@@ -30,8 +30,8 @@ bool any_breakage(const Communicator& comm, std::span<const stepping::LocalWorld
 }
 
 std::vector<stepping::RunEvent> find_breaks(const Communicator& comm,
-                                            std::span<const stepping::LocalWorld> worlds, std::int64_t frame,
-                                            std::int64_t first_step) {
+                                            std::span<const stepping::LocalWorld> worlds, int first_world,
+                                            std::int64_t frame, std::int64_t first_step) {
   std::vector<Break> breaks;
   for (const stepping::LocalWorld& world : worlds) {
     for (std::size_t joint = 0; joint < world.state->broken_in.size(); ++joint) {
@@ -46,8 +46,8 @@ std::vector<stepping::RunEvent> find_breaks(const Communicator& comm,
     const std::string name = one.name.data();
     events.push_back({.frame = frame,
                       .kind = stepping::event_kind::joint_broken,
-                      .detail = "world " + std::to_string(one.world) + ": '" + name + "' broke in step " +
-                                std::to_string(one.step),
+                      .detail = "world " + std::to_string(first_world + one.world) + ": '" + name +
+                                "' broke in step " + std::to_string(one.step),
                       .step = one.step,
                       .world = one.world,
                       .joint = one.joint,

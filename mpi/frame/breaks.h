@@ -15,9 +15,9 @@ namespace pbmpi::mpi {
 bool any_breakage(const Communicator& comm, std::span<const stepping::LocalWorld> worlds);
 
 /// Collective. The joints that broke in step `first_step` or later, the same on every rank: one event each,
-/// by step, world and joint.
+/// by step, world and joint. In words the first world is called `first_world`.
 std::vector<stepping::RunEvent> find_breaks(const Communicator& comm,
-                                            std::span<const stepping::LocalWorld> worlds, std::int64_t frame,
-                                            std::int64_t first_step);
+                                            std::span<const stepping::LocalWorld> worlds, int first_world,
+                                            std::int64_t frame, std::int64_t first_step);
 
 }  // namespace pbmpi::mpi

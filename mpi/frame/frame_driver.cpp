@@ -206,13 +206,14 @@ void FrameDriver::note_failure(int world) {
   const int owner = reporter_of(world);
   if (owner == comm_.rank()) num_bodies = count_nonfinite(world);
   comm_.bcast_value(num_bodies, owner);
-  result_.failure = "world " + std::to_string(world) + " has " + std::to_string(num_bodies) + " non-finite " +
-                    (num_bodies == 1 ? "body" : "bodies") + " in frame " + std::to_string(frame_);
+  result_.failure = "world " + std::to_string(settings_.first_world + world) + " has " +
+                    std::to_string(num_bodies) + " non-finite " + (num_bodies == 1 ? "body" : "bodies") +
+                    " in frame " + std::to_string(frame_);
 }
 
 void FrameDriver::announce_breaks(std::span<const stepping::LocalWorld> worlds) {
   for (const stepping::RunEvent& event :
-       find_breaks(comm_, worlds, frame_, frame_ * settings_.steps_per_frame))
+       find_breaks(comm_, worlds, settings_.first_world, frame_, frame_ * settings_.steps_per_frame))
     announce(event);
 }
 

@@ -15,6 +15,7 @@ namespace {
 /// Throws core::InputError unless a driver of `num_ranks` ranks can run these settings.
 void require_valid(const WorldRunSettings& settings, int num_parts, int num_ranks) {
   core::require_input(settings.num_worlds >= 1, "worlds: at least 1 is needed");
+  core::require_input(settings.first_world >= 0, "first world: its number is negative");
   core::require_input(settings.warmup >= 0, "warm-up: the number of frames is negative");
   core::require_input(settings.frames >= 1, "frames: at least 1 measured frame is needed");
   core::require_input(settings.first_frame >= 0, "first frame: the number of frames done is negative");
@@ -33,8 +34,8 @@ void require_valid(const WorldRunSettings& settings, int num_parts, int num_rank
 
 std::uint64_t hash_of(const WorldRunSettings& settings) {
   core::Hash64 hash;
-  for (const int number : {settings.num_worlds, settings.warmup, settings.frames, settings.steps_per_frame,
-                           settings.stop_at_blowup ? 1 : 0}) {
+  for (const int number : {settings.num_worlds, settings.first_world, settings.warmup, settings.frames,
+                           settings.steps_per_frame, settings.stop_at_blowup ? 1 : 0}) {
     hash.add(static_cast<std::uint64_t>(number));
   }
   for (const double number : {settings.dt_s, settings.budget_s, settings.rebalance_threshold})

@@ -12,8 +12,9 @@ namespace pbmpi::mpi {
 /// Settings of a run of worlds, or of one world cut into spaces (num_worlds is 1). The same on every rank.
 struct WorldRunSettings {
   int num_worlds = 1;
-  int warmup = 3;  ///< frames before the measured ones
-  int frames = 5;  ///< measured frames
+  int first_world = 0;  ///< what world 0 of the run is in its ensemble: random numbers come from that number
+  int warmup = 3;       ///< frames before the measured ones
+  int frames = 5;       ///< measured frames
   int steps_per_frame = 3;
   double dt_s = 0.01;
   double budget_s = stepping::default_frame_budget_s;  ///< deadline of a frame

@@ -105,7 +105,10 @@ model::State unpack(std::span<const double> packed) {
   refuse_unless(packed.size() >= Lengths::all.size());
   const double* from = packed.data();
   Lengths lengths;
-  for (const auto length : Lengths::all) lengths.*length = static_cast<std::size_t>(*from++);
+  for (const auto length : Lengths::all) {
+    refuse_unless(*from >= 0 && *from <= static_cast<double>(packed.size()));
+    lengths.*length = static_cast<std::size_t>(*from++);
+  }
   refuse_unless(packed.size() == lengths.packed());
   state.resize(static_cast<int>(lengths.bodies));
   state.rest.resize(lengths.rests);

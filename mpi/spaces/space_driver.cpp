@@ -90,8 +90,8 @@ SpaceDriver::SpaceDriver(const Communicator& comm, stepping::SpaceStepper& stepp
 void SpaceDriver::watch(const stability::GuardSettings& settings) {
   if (!comm().is_root()) return;
   // The stepper, which is borrowed, keeps the model for as long.
-  guard_.emplace(0, std::shared_ptr<const model::Model>(std::shared_ptr<void>(), &stepper_->model()),
-                 settings);
+  guard_.emplace(this->settings().first_world,
+                 std::shared_ptr<const model::Model>(std::shared_ptr<void>(), &stepper_->model()), settings);
   now_ = guard_->begin(now_.state);
   observables_ = now_.seen;
 }

@@ -56,7 +56,10 @@ class SpaceDriver final : public FrameDriver {
   void advance(core::PhaseTimes& times) override;
   int lowest_nonfinite_world() const override;
   std::int64_t count_nonfinite(int world) const override;
-  std::vector<stepping::RunEvent> take_events() override { return std::exchange(events_, {}); }
+  std::vector<stepping::RunEvent> take_events() override {
+    for (stepping::RunEvent& event : events_) event.world = 0;
+    return std::exchange(events_, {});
+  }
   void settle_events() override;
   int reporter_of(int world) const override;
   void gather(core::PhaseTimes& times) override;

@@ -32,7 +32,11 @@ model::State receive_state(const Communicator& comm, int from) {
 
 OwnedWorlds::OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepper, BuildWorld build,
                          Placement placement, const Start& start)
-    : comm_(&comm), stepper_(&stepper), build_(std::move(build)), placement_(std::move(placement)) {
+    : comm_(&comm),
+      stepper_(&stepper),
+      build_(std::move(build)),
+      placement_(std::move(placement)),
+      first_world_(start.first_world) {
   find_own();
   std::map<int, model::State> states;
   if (start.step > 0) states = scatter_states(start.states);
@@ -41,7 +45,7 @@ OwnedWorlds::OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepp
       const std::shared_ptr<const model::Model> model = build_(world);
       if (start.step == 0) states[world] = model::initial_state(*model);
       require_fit(world, states[world], *model);
-      stepper.add(world, model, states[world], start.step);
+      stepper.add(number_of(world), model, states[world], start.step);
       states.erase(world);
     }
   });
@@ -73,9 +77,9 @@ std::vector<model::State> OwnedWorlds::gather_states() const {
   for (int world = 0; world < std::ssize(placement_); ++world) {
     const int owner = placement_[world];
     if (owner == comm_->rank() && !comm_->is_root()) {
-      send_state(*comm_, stepper_->state(world), Communicator::root);
+      send_state(*comm_, stepper_->state(number_of(world)), Communicator::root);
     } else if (comm_->is_root() && owner == Communicator::root) {
-      states.push_back(stepper_->state(world));
+      states.push_back(stepper_->state(number_of(world)));
     } else if (comm_->is_root()) {
       states.push_back(receive_state(*comm_, owner));
     }
@@ -92,7 +96,7 @@ void OwnedWorlds::find_own() {
 
 void OwnedWorlds::count_bodies() {
   std::vector<std::int64_t> num_bodies(placement_.size(), 0);
-  for (const int world : ids_) num_bodies[world] = stepper_->model(world).num_bodies();
+  for (const int world : ids_) num_bodies[world] = stepper_->model(number_of(world)).num_bodies();
   comm_->allreduce(num_bodies, Reduce::max);
   for (const std::int64_t count : num_bodies) table_.body_offset.push_back(table_.body_offset.back() + count);
 }
@@ -101,8 +105,9 @@ std::vector<stepping::LocalWorld> OwnedWorlds::views() const {
   std::vector<stepping::LocalWorld> worlds;
   worlds.reserve(ids_.size());
   for (const int world : ids_) {
-    worlds.push_back({world, &stepper_->model(world), &stepper_->state(world), &stepper_->observables(world),
-                      stepper_->profile(world), stepper_->contacts(world)});
+    const int number = number_of(world);
+    worlds.push_back({world, &stepper_->model(number), &stepper_->state(number),
+                      &stepper_->observables(number), stepper_->profile(number), stepper_->contacts(number)});
   }
   return worlds;
 }
@@ -112,19 +117,19 @@ void OwnedWorlds::move(std::span<const Move> moves, std::int64_t step) {
   std::vector<std::pair<int, model::State>> arrivals;
   for (const Move& move : moves) {
     if (placement_[move.part] == comm_->rank()) {
-      send_state(*comm_, stepper_->state(move.part), move.to);
+      send_state(*comm_, stepper_->state(number_of(move.part)), move.to);
     } else if (move.to == comm_->rank()) {
       arrivals.emplace_back(move.part, receive_state(*comm_, placement_[move.part]));
     }
   }
   agree_on_errors(*comm_, [&] {
     for (const Move& move : moves) {
-      if (placement_[move.part] == comm_->rank()) stepper_->remove(move.part);
+      if (placement_[move.part] == comm_->rank()) stepper_->remove(number_of(move.part));
     }
     for (const auto& [world, state] : arrivals) {
       std::shared_ptr<const model::Model> model = build_(world);
       require_rows(world, state, *model);
-      stepper_->add(world, std::move(model), state, step);
+      stepper_->add(number_of(world), std::move(model), state, step);
     }
   });
   for (const Move& move : moves) placement_[move.part] = move.to;

@@ -18,14 +18,16 @@ namespace pbmpi::mpi {
 /// Builds the model of one world; called on the rank that owns it (and again where it moves to).
 using BuildWorld = std::function<std::shared_ptr<const model::Model>(int world)>;
 
-/// Where a run begins. `step` is the same on every rank.
+/// Where a run begins. The same on every rank, but for the states.
 struct Start {
   std::int64_t step = 0;                   ///< steps done; 0 = the worlds start as their models say
   std::span<const model::State> states{};  ///< after those steps, on root: [num_worlds]
+  int first_world = 0;                     ///< what the stepper is to call world 0
 };
 
-/// Knows every world's owner; the worlds of this rank live in the stepper. Communicator and stepper are
-/// borrowed. Constructor and move() are collective and throw the same error on every rank.
+/// Knows every world's owner; the worlds of this rank live in the stepper, which calls world 0 as
+/// Start::first_world says: number_of(). Communicator and stepper are borrowed. Constructor and move() are
+/// collective and throw the same error on every rank.
 class OwnedWorlds {
  public:
   OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepper, BuildWorld build,
@@ -34,6 +36,8 @@ class OwnedWorlds {
   const Placement& placement() const { return placement_; }
   const stepping::WorldTable& table() const { return table_; }
   std::span<const int> ids() const { return ids_; }  ///< this rank's, ascending
+  /// What the stepper calls a world: its number in the ensemble.
+  int number_of(int world) const { return first_world_ + world; }
 
   /// This rank's worlds as they are now, by ascending id; until the stepper's next call.
   std::vector<stepping::LocalWorld> views() const;
@@ -55,6 +59,7 @@ class OwnedWorlds {
   stepping::WorldStepper* stepper_;
   BuildWorld build_;
   Placement placement_;
+  int first_world_;
   stepping::WorldTable table_;
   std::vector<int> ids_;
 };

@@ -27,7 +27,7 @@ WorldDriver::WorldDriver(const Communicator& comm, stepping::WorldStepper& stepp
     : FrameDriver(comm, settings, settings.num_worlds),
       stepper_(&stepper),
       worlds_(this->comm(), stepper, std::move(build), initial_placement(settings, comm.size()),
-              {settings.first_step(), states}),
+              {settings.first_step(), states, settings.first_world}),
       gather_(this->comm(), worlds_.table(), worlds_.placement()),
       rebalancer_(comm.size(), settings.rebalance_threshold) {}
 
@@ -53,9 +53,12 @@ double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core
   errors().guard([&] {
     const int steps = settings().steps_per_frame;
     const core::SectionMark mark(core::SectionMark::Section::estimate);
-    estimator_->estimate(estimated_worlds_, frame * steps, steps, times);
+    // Estimators look into the stepper, and call worlds as it does.
+    std::vector<stepping::LocalWorld> numbered = estimated_worlds_;
+    for (stepping::LocalWorld& world : numbered) world.id = worlds_.number_of(world.id);
+    estimator_->estimate(numbered, frame * steps, steps, times);
     for (stepping::LocalWorld& world : estimated_worlds_) {
-      world.state = &estimator_->state(world.id);
+      world.state = &estimator_->state(worlds_.number_of(world.id));
       world.observables = nullptr;
     }
   });
@@ -94,9 +97,16 @@ void WorldDriver::advance(core::PhaseTimes& times) {
 
 int WorldDriver::lowest_nonfinite_world() const {
   for (const int world : worlds_.ids()) {
-    if (stepper_->observables(world).nonfinite > 0) return world;
+    if (stepper_->observables(worlds_.number_of(world)).nonfinite > 0) return world;
   }
   return settings().num_worlds;
+}
+
+std::vector<stepping::RunEvent> WorldDriver::take_events() {
+  if (events_ == nullptr) return {};
+  std::vector<stepping::RunEvent> events = events_->take_events();
+  for (stepping::RunEvent& event : events) event.world -= settings().first_world;
+  return events;
 }
 
 void WorldDriver::gather(core::PhaseTimes& times) {
@@ -104,7 +114,8 @@ void WorldDriver::gather(core::PhaseTimes& times) {
   const std::vector<stepping::LocalWorld> worlds = worlds_.views();
   std::vector<double> cost_s;
   cost_s.reserve(worlds.size());
-  for (const stepping::LocalWorld& world : worlds) cost_s.push_back(stepper_->cost_s(world.id));
+  for (const stepping::LocalWorld& world : worlds)
+    cost_s.push_back(stepper_->cost_s(worlds_.number_of(world.id)));
   gather_.gather(worlds, cost_s);
   timer.lap(core::Phase::gather);
 }
@@ -128,7 +139,8 @@ std::string WorldDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
 
 std::uint64_t WorldDriver::state_hash() const {
   std::vector<std::uint64_t> hashes(settings().num_worlds, 0);
-  for (const int world : worlds_.ids()) hashes[world] = model::hash(stepper_->state(world));
+  for (const int world : worlds_.ids())
+    hashes[world] = model::hash(stepper_->state(worlds_.number_of(world)));
   comm().allreduce(hashes, Reduce::max);  // ranks that do not own a world have 0 for its hash
   return combine_world_hashes(hashes);
 }

@@ -47,10 +47,10 @@ class WorldDriver final : public FrameDriver {
   std::vector<stepping::LocalWorld> profiled_worlds() override;
   void advance(core::PhaseTimes& times) override;
   int lowest_nonfinite_world() const override;
-  std::int64_t count_nonfinite(int world) const override { return stepper_->observables(world).nonfinite; }
-  std::vector<stepping::RunEvent> take_events() override {
-    return events_ == nullptr ? std::vector<stepping::RunEvent>{} : events_->take_events();
+  std::int64_t count_nonfinite(int world) const override {
+    return stepper_->observables(worlds_.number_of(world)).nonfinite;
   }
+  std::vector<stepping::RunEvent> take_events() override;
   int reporter_of(int world) const override { return worlds_.placement()[world]; }
   void gather(core::PhaseTimes& times) override;
   std::span<const core::Vec3> position() const override { return gather_.position(); }

@@ -6,19 +6,13 @@ namespace pbmpi::scenes {
 
 const std::vector<ActorType>& actor_types() {
   static const std::vector<ActorType> types = {
-      {"box", true, read_box},
-      {"capsule", true, read_capsule},
-      {"car", true, read_car},
-      {"centipede", true, read_centipede},
-      {"compound", true, read_compound},
-      {"cylinder", true, read_cylinder},
-      {"ground", false, read_ground},
-      {"human", true, read_human},
-      {"projectile", true, read_projectile},
-      {"ramp", false, read_ramp},
-      {"sphere", true, read_sphere},
-      {"tank", true, read_tank},
-      {"wall", true, read_wall},
+      {"box", true, read_box},           {"capsule", true, read_capsule},
+      {"car", true, read_car},           {"centipede", true, read_centipede},
+      {"compound", true, read_compound}, {"cylinder", true, read_cylinder},
+      {"ground", false, read_ground},    {"human", true, read_human},
+      {"model", true, read_model},       {"projectile", true, read_projectile},
+      {"ramp", false, read_ramp},        {"sphere", true, read_sphere},
+      {"tank", true, read_tank},         {"wall", true, read_wall},
   };
   return types;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +27,9 @@ struct Placement {
 struct SceneContext {
   Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
   double dt_s = 0.01;         ///< turns times of a programme into steps
+  /// Texts of the model files that actors name, and by which messages call them.
+  const std::map<std::string, std::string>* files = nullptr;
+  std::vector<std::string>* notes = nullptr;  ///< gets what a model file says that is taken otherwise
 };
 
 /// How deep actors begin in what they stand on, and blocks in each other. A contact needs some depth to
@@ -63,5 +67,6 @@ ActorPlan read_sphere(TableReader& actor, const SceneContext& context);
 ActorPlan read_capsule(TableReader& actor, const SceneContext& context);
 ActorPlan read_cylinder(TableReader& actor, const SceneContext& context);
 ActorPlan read_compound(TableReader& actor, const SceneContext& context);
+ActorPlan read_model(TableReader& actor, const SceneContext& context);
 
 }  // namespace pbmpi::scenes

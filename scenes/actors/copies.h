@@ -19,6 +19,7 @@ class Copies {
 
   bool are_numbered() const { return numbered_; }
   int in(int world) const { return count_.in(world); }
+  bool are_as_many_everywhere() const { return count_.is_constant(); }
   /// Where copy 0, 1, ... stands against the actor's position [m], world frame.
   Vec3 offset(int copy) const;
 

@@ -15,6 +15,8 @@ struct Variation {
   Vec3 position = Vec3::Zero();  ///< [m]
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
   double heading_deg = 0;
+
+  bool is_none() const { return position.isZero(0) && velocity.isZero(0) && heading_deg == 0; }
 };
 
 /// What is drawn for one actor of one world.
@@ -37,6 +39,7 @@ class WorldCount {
   /// Reads `key = 3` or `key = [[0, 50], [4, 1]]` (from world 0 on 50, from world 4 on 1).
   static WorldCount read(TableReader& table, std::string_view key);
   int in(int world) const;
+  bool is_constant() const { return steps_.size() == 1; }
 
  private:
   std::vector<std::array<int, 2>> steps_;

@@ -20,6 +20,7 @@ std::string to_text(double value) {
 }  // namespace
 
 std::string to_string(const toml::source_region& source) {
+  if (source.path && source.path->starts_with(place_mark)) return source.path->substr(1);
   return (source.path ? *source.path : std::string("scene")) + ":" + std::to_string(source.begin.line) + ":" +
          std::to_string(source.begin.column);
 }

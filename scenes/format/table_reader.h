@@ -52,6 +52,8 @@ class TableReader {
   /// [[key]] tables; empty without the key.
   std::vector<TableReader> tables(std::string_view key);
 
+  const toml::table& toml() const { return *table_; }
+
   /// The table's own keys, whether asked for or not, in alphabetical order.
   std::vector<std::string> keys() const;
 
@@ -84,7 +86,10 @@ class TableReader {
   std::vector<std::string> known_;
 };
 
-/// "file:line:column".
+/// Begins the name of a text that is a part of another one and says its own place, e.g. a cell of a table.
+inline constexpr char place_mark = '\x1f';
+
+/// "file:line:column", or the place that the text's name says.
 std::string to_string(const toml::source_region& source);
 
 }  // namespace pbmpi::scenes

@@ -17,7 +17,8 @@ class SectionMark {
   SectionMark& operator=(const SectionMark&) = delete;
 };
 
-/// From here to the end of the block it is in this part of a step. Not nested.
+/// From here to the end of the block it is in this part of a step. Not nested. The tool knows one thread:
+/// under it steppers have no others.
 class PhaseMark {
  public:
   enum class MarkedPhase { collision = pbvalue_collision, forward_step = pbvalue_forward };

@@ -9,20 +9,13 @@ namespace pbmpi::effects {
 FieldOfInterest::FieldOfInterest(const model::Model& model, int iterations)
     : interest_(model.interest.value_or(model::Interest{})),
       iterations_(iterations),
-      jointed_(model.num_bodies()),
+      jointed_(model::jointed_bodies(model, {})),
       islands_(model.num_bodies()),
       near_(model.bodies.size(), 0),
-      inside_set_(model.bodies.size(), 0) {
-  set_broken(model, {});
-}
+      inside_set_(model.bodies.size(), 0) {}
 
 void FieldOfInterest::set_broken(const model::Model& model, std::span<const std::int32_t> broken_in) {
-  jointed_.reset(model.num_bodies());
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const model::Joint& joint = model.joints[i];
-    const bool is_broken = !broken_in.empty() && broken_in[i] != model::unbroken;
-    if (joint.body_b != model::no_body && !is_broken) jointed_.unite(joint.body_a, joint.body_b);
-  }
+  jointed_ = model::jointed_bodies(model, broken_in);
 }
 
 double FieldOfInterest::outside_share() const {

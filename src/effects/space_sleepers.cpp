@@ -1,5 +1,6 @@
 #include "effects/space_sleepers.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace pbmpi::effects {
@@ -42,6 +43,15 @@ bool SpaceSleepers::wake(std::span<const int> islands) {
   if (!sleepers_.wake(islands, *state_)) return false;
   ++revision_;
   return true;
+}
+
+bool SpaceSleepers::wake_islands_of(std::span<const int> bodies) {
+  std::vector<int> islands;
+  for (const int body : bodies) {
+    if (body != model::no_body && asleep(body)) islands.push_back(island(body));
+  }
+  std::sort(islands.begin(), islands.end());
+  return wake(islands);
 }
 
 std::vector<Resting> SpaceSleepers::find_resting(std::span<const int> bodies,

@@ -36,8 +36,10 @@ class SpaceSleepers {
   /// Wakes what the events of this step concern: the same on every rank.
   void wake_called(std::int64_t step) { wake(sleepers_.islands_called(step, *state_)); }
   std::vector<int> islands_touched(std::span<const model::Contact> contacts) const;
-  /// True if there were any.
+  /// Islands that sleep, ascending. True if there were any.
   bool wake(std::span<const int> islands);
+  /// The islands of those of these bodies that sleep; any of them may be no_body. True if there were any.
+  bool wake_islands_of(std::span<const int> bodies);
 
   /// At the end of a step: counts for those of these bodies that are awake, which make up whole islands but
   /// for contacts across spaces; returns those that may fall asleep.

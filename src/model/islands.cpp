@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "model/model.h"
+#include "model/state.h"
 
 namespace pbmpi::model {
 
@@ -24,6 +24,16 @@ void DisjointSets::unite(int a, int b) {
   a = find(a);
   b = find(b);
   parent_[std::max(a, b)] = std::min(a, b);
+}
+
+DisjointSets jointed_bodies(const Model& model, std::span<const std::int32_t> broken_in) {
+  DisjointSets jointed(model.num_bodies());
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    const bool is_broken = !broken_in.empty() && broken_in[i] != unbroken;
+    if (joint.body_b != no_body && !is_broken) jointed.unite(joint.body_a, joint.body_b);
+  }
+  return jointed;
 }
 
 Islands find_islands(int num_bodies, std::span<const std::pair<int, int>> links) {

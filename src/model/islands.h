@@ -1,9 +1,12 @@
 /// Islands: bodies connected by joints and contacts, which are solved together.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "model/model.h"
 
 namespace pbmpi::model {
 
@@ -19,6 +22,9 @@ class DisjointSets {
  private:
   std::vector<int> parent_;
 };
+
+/// Bodies of each set hang together by joints that hold. `broken_in`: as State has it.
+DisjointSets jointed_bodies(const Model& model, std::span<const std::int32_t> broken_in);
 
 /// Islands in order of their lowest body.
 struct Islands {

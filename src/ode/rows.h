@@ -24,6 +24,16 @@ class RowCounter {
   /// rows.
   void count(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
              std::span<const std::int32_t> broken_in, stepping::Observables& observables);
+  /// Rows of the last count() times the sweeps of their islands; sweeps(body) is asked of its lowest body.
+  template <class Sweeps>
+  double row_visits(Sweeps sweeps) const {
+    double visits = 0;
+    for (std::size_t body = 0; body < set_rows_.size(); ++body) {
+      if (set_rows_[body] > 0)
+        visits += static_cast<double>(set_rows_[body]) * sweeps(static_cast<int>(body));
+    }
+    return visits;
+  }
   /// The islands of the last count(), in order of their lowest body, without times.
   std::vector<stepping::IslandCost> islands(const std::vector<Touch>& touches);
   /// The lowest body of the island that `body` was in.

@@ -24,8 +24,9 @@ void OdeStepper::add(int world, std::shared_ptr<const model::Model> model, const
   core::require_invariant(state.num_bodies() == model->num_bodies(), "a state does not fit its model");
   log_.set_place(world, step);
   const MessageScope scope(log_);
-  Slot slot{std::move(model), state, {}, 0, {}, nullptr};
-  slot.world = std::make_unique<World>(world, *slot.model, state, step, settings_, *resources_);
+  Slot slot{std::move(model), std::make_unique<stepping::MotorTargets>(), state, {}, 0, {}, nullptr};
+  slot.world =
+      std::make_unique<World>(world, *slot.model, *slot.targets, state, step, settings_, *resources_);
   slot.complete_state();
   slots_.emplace(world, std::move(slot));
 }
@@ -45,9 +46,22 @@ void OdeStepper::set_state(int world, const model::State& state, std::int64_t st
   if (slot.world && slot.world->step() == step) {
     slot.world->set_state(state);
   } else {  // another step has other joint settings; a world that was lost has no ODE world any more
-    slot.world = std::make_unique<World>(world, *slot.model, state, step, settings_, *resources_);
+    slot.targets->move_to(*slot.model, step);
+    slot.world =
+        std::make_unique<World>(world, *slot.model, *slot.targets, state, step, settings_, *resources_);
   }
   slot.complete_state();
+}
+
+void OdeStepper::set_motor_velocity(int world, int joint, int axis, double velocity) {
+  const auto found = slots_.find(world);
+  core::require_invariant(found != slots_.end(), "a motor was aimed of a world that is not there");
+  Slot& slot = found->second;
+  const std::int64_t step = slot.world ? slot.world->step() : 0;  // a lost world goes on at another one
+  const auto* target = slot.targets->set(*slot.model, step, joint, axis, velocity);
+  if (target == nullptr || !slot.world) return;
+  slot.world->aim(*target);
+  slot.state.rest.assign(slot.world->rest().begin(), slot.world->rest().end());
 }
 
 void OdeStepper::advance(int num_steps, core::PhaseTimes& times) {
@@ -111,7 +125,7 @@ void OdeStepper::move_to_fresh_resources() {
   for (auto& [id, slot] : slots_) {
     if (!slot.world) continue;
     const std::int64_t step = slot.world->step();
-    slot.world = std::make_unique<World>(id, *slot.model, slot.state, step, settings_, *fresh);
+    slot.world = std::make_unique<World>(id, *slot.model, *slot.targets, slot.state, step, settings_, *fresh);
   }
   resources_->abandon();
   resources_ = std::move(fresh);

@@ -21,6 +21,7 @@ class OdeStepper final : public stepping::WorldStepper {
            std::int64_t step) override;
   void remove(int world) override;
   void set_state(int world, const model::State& state, std::int64_t step) override;
+  void set_motor_velocity(int world, int joint, int axis, double velocity) override;
   /// Takes the worlds one after the other, each through all its steps: its data stays in the cache.
   void advance(int num_steps, core::PhaseTimes& times) override;
 
@@ -36,6 +37,7 @@ class OdeStepper final : public stepping::WorldStepper {
   /// What is known of a world after the last advance().
   struct Slot {
     std::shared_ptr<const model::Model> model;
+    std::unique_ptr<stepping::MotorTargets> targets;
     model::State state;
     stepping::Observables observables;
     double cost_s = 0;

@@ -1,5 +1,6 @@
 #include "ode/world.h"
 
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "ode/objects/joints.h"
 #include "ode/objects/numbers.h"
 #include "stepping/observable_table.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -50,10 +52,11 @@ std::vector<int> all_joints(const model::Model& model) {
 
 }  // namespace
 
-World::World(int id, const model::Model& model, const model::State& state, std::int64_t step,
-             const stepping::StepperSettings& settings, const SolverResources& resources)
+World::World(int id, const model::Model& model, stepping::MotorTargets& targets, const model::State& state,
+             std::int64_t step, const stepping::StepperSettings& settings, const SolverResources& resources)
     : id_(id),
       model_(&model),
+      targets_(&targets),
       plan_(model),
       settings_(settings),
       world_(make_world(model, settings, resources)),
@@ -75,6 +78,8 @@ World::World(int id, const model::Model& model, const model::State& state, std::
     broad_phase_.emplace(model, bodies_, best_space(model.geoms.size()));
   if (rules_.field() != nullptr) focus_.emplace(*rules_.field(), bodies_);
   events_.skip_to(step);
+  for (const stepping::MotorTargets::Target& target : targets_->all())
+    events_.set_motor(target.joint, target.axis, target.motor);
   set_state(state);
 }
 
@@ -86,6 +91,18 @@ void World::set_state(const model::State& state) {
   const bool other_joints_hold = rules_.start();
   if (rules_.sleepers() != nullptr) show_awake();
   if (other_joints_hold) show_broken();
+}
+
+void World::aim(const stepping::MotorTargets::Target& target) {
+  events_.set_motor(target.joint, target.axis, target.motor);
+  if (rules_.sleepers() == nullptr) return;
+  const model::Joint& joint = model_->joints[target.joint];
+  if (rules_.sleepers()->wake_islands_of(std::array{joint.body_a, joint.body_b})) show_awake();
+}
+
+void World::fire_events(std::int64_t step) {
+  events_.fire(step);
+  targets_->pass(*model_, step);
 }
 
 void World::set_broken(const std::vector<std::int32_t>& broken_in) {
@@ -156,6 +173,7 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
     timer.lap(core::Phase::islands);
   }
   rules_.before_solve(*this);
+  if (is_last) counts_.row_visits = row_counter_.row_visits([&](int body) { return sweeps_of(body); });
   loads_.note_places();
   timer.lap(core::Phase::islands);
   solve();
@@ -174,7 +192,13 @@ void World::sleep_on(bool is_last) {
   shown_.forces.clear();
   rules_.sleep_on();
   if (is_last && moved_) row_counter_.count(contacts_.touches(), rest(), broken_in(), counts_);
+  counts_.row_visits = 0;
   ++step_;
+}
+
+int World::sweeps_of(int body) const {
+  if (!stepping::traits_of(settings_.kind).iterates) return 1;
+  return rules_.field() != nullptr ? rules_.field()->iterations_of(body) : settings_.iterations;
 }
 
 std::span<const model::Rest> World::rest() const { return state_.rest; }

@@ -17,6 +17,7 @@
 #include "ode/objects/events.h"
 #include "ode/rows.h"
 #include "ode/solver_resources.h"
+#include "stepping/motor_targets.h"
 #include "stepping/step_profile.h"
 #include "stepping/stepper.h"
 
@@ -34,9 +35,9 @@ namespace pbmpi::ode {
 /// are in one ODE space.
 class World final : private effects::RuledWorld {
  public:
-  /// `model` is borrowed; `state`: at the start of step `step`.
-  World(int id, const model::Model& model, const model::State& state, std::int64_t step,
-        const stepping::StepperSettings& settings, const SolverResources& resources);
+  /// `model` and `targets` are borrowed; `state`: at the start of step `step`.
+  World(int id, const model::Model& model, stepping::MotorTargets& targets, const model::State& state,
+        std::int64_t step, const stepping::StepperSettings& settings, const SolverResources& resources);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -44,6 +45,8 @@ class World final : private effects::RuledWorld {
   void advance(int num_steps, core::LapTimer& timer, MessageLog& log);
   /// Puts the bodies into the state at the start of step(), where the world stands.
   void set_state(const model::State& state);
+  /// A motor aims elsewhere: wakes what it drives. `target` is one of the targets.
+  void aim(const stepping::MotorTargets::Target& target);
   /// Reads out the state after the last step, and what was observed in it: both as they were after the last
   /// call if all bodies have slept since then.
   void read(model::State& state, stepping::Observables& observables);
@@ -59,7 +62,7 @@ class World final : private effects::RuledWorld {
   std::int64_t step() const { return step_; }
 
  private:
-  void fire_events(std::int64_t step) override { events_.fire(step); }
+  void fire_events(std::int64_t step) override;
   void store(std::span<const int> bodies, model::State& state) const override;
   void set_velocities(std::span<const int> bodies, const model::State& state) override;
   bool may_be_fast() const override;
@@ -72,6 +75,8 @@ class World final : private effects::RuledWorld {
 
   void take_step(bool is_last, core::LapTimer& timer);
   void sleep_on(bool is_last);
+  /// Of the rows of an island, one of whose bodies this is, in the step at hand.
+  int sweeps_of(int body) const;
   void collide();
   const std::vector<GeomPair>& awake_pairs(const std::vector<GeomPair>& pairs);
   void set_broken(const std::vector<std::int32_t>& broken_in);
@@ -85,6 +90,7 @@ class World final : private effects::RuledWorld {
 
   int id_;
   const model::Model* model_;
+  stepping::MotorTargets* targets_;
   effects::StepPlan plan_;
   stepping::StepperSettings settings_;
   WorldHandle world_;

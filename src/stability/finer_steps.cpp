@@ -32,17 +32,28 @@ model::State from_finer_steps(model::State state, int finer, const model::State&
 }
 
 FinerResult step_finer(const GuardSettings& settings, int world, const model::Model& model,
-                       const model::State& before, std::int64_t step, int finer) {
+                       const stepping::MotorTargets& targets, const model::State& before, std::int64_t step,
+                       int finer) {
   stepping::StepperSettings shorter = settings.stepper;
   shorter.dt_s /= finer;
   shorter.profile = false;
   shorter.contacts = false;
   const auto stepper = settings.make_stepper(shorter);
-  stepper->add(world, std::make_shared<const model::Model>(in_finer_steps(model, finer)),
-               to_finer_steps(before, finer), step * finer);
+  add_aimed(*stepper, world, std::make_shared<const model::Model>(in_finer_steps(model, finer)), targets,
+            to_finer_steps(before, finer), step * finer);
   core::PhaseTimes unused;
   stepper->advance(finer, unused);
   return {from_finer_steps(stepper->state(world), finer, before), stepper->observables(world)};
+}
+
+/// A motor that is aimed wakes what it drives, which may be asleep in the state.
+void add_aimed(stepping::WorldStepper& stepper, int world, std::shared_ptr<const model::Model> model,
+               const stepping::MotorTargets& targets, const model::State& state, std::int64_t step) {
+  stepper.add(world, std::move(model), state, step);
+  if (targets.all().empty()) return;
+  for (const stepping::MotorTargets::Target& target : targets.all())
+    stepper.set_motor_velocity(world, target.joint, target.axis, target.motor.velocity);
+  stepper.set_state(world, state, step);
 }
 
 }  // namespace pbmpi::stability

@@ -7,6 +7,7 @@
 #include "model/model.h"
 #include "model/state.h"
 #include "stability/on_blowup.h"
+#include "stepping/motor_targets.h"
 #include "stepping/observables.h"
 
 namespace pbmpi::stability {
@@ -27,8 +28,13 @@ struct FinerResult {
 };
 
 /// Does step `step` of a world from `before` on as `finer` steps of dt / finer, each with collision detection
-/// of its own.
+/// of its own. `targets`: what its motors aim at.
 FinerResult step_finer(const GuardSettings& settings, int world, const model::Model& model,
-                       const model::State& before, std::int64_t step, int finer);
+                       const stepping::MotorTargets& targets, const model::State& before, std::int64_t step,
+                       int finer);
+
+/// Adds a world to a stepper, with the targets of its motors.
+void add_aimed(stepping::WorldStepper& stepper, int world, std::shared_ptr<const model::Model> model,
+               const stepping::MotorTargets& targets, const model::State& state, std::int64_t step);
 
 }  // namespace pbmpi::stability

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/marks.h"
+#include "stability/finer_steps.h"
 
 namespace pbmpi::stability {
 
@@ -41,19 +42,28 @@ void GuardedStepper::set_state(int world, const model::State& state, std::int64_
   Slot& slot = worlds_.at(world);
   const bool was_frozen = slot.now.is_frozen();
   slot.now = slot.guard->begin(state);
-  slot.step = step;
+  if (std::exchange(slot.step, step) != step) slot.targets.move_to(*slot.model, step);
   if (slot.now.is_frozen()) {
     if (!was_frozen) inner_->remove(world);
     return;
   }
   if (was_frozen) {
-    inner_->add(world, slot.model, state, step);
+    add_aimed(*inner_, world, slot.model, slot.targets, state, step);
   } else {
     inner_->set_state(world, state, step);
   }
   const model::GuardMemory memory = slot.now.state.guard;
   slot.now.state = inner_->state(world);
   slot.now.state.guard = memory;
+}
+
+void GuardedStepper::set_motor_velocity(int world, int joint, int axis, double velocity) {
+  core::require_invariant(begun_steps_ == 0, "set_motor_velocity: a frame has begun");
+  Slot& slot = worlds_.at(world);
+  const bool changes = slot.targets.set(*slot.model, slot.step, joint, axis, velocity) != nullptr;
+  if (slot.now.is_frozen()) return;
+  inner_->set_motor_velocity(world, joint, axis, velocity);
+  if (changes) slot.now.state.rest = inner_->state(world).rest;  // what is driven may have woken
 }
 
 void GuardedStepper::advance(int num_steps, core::PhaseTimes& times) {
@@ -96,9 +106,12 @@ void GuardedStepper::end_frame(int world, Slot& slot, int num_steps) {
   std::swap(slot.before, slot.now);
   slot.now.state = inner_->state(world);
   slot.now.seen = inner_->observables(world);
-  if (!slot.guard->end_frame(slot.before, first_step, num_steps, slot.now, events_)) return;
+  const bool is_mended =
+      slot.guard->end_frame(slot.before, first_step, num_steps, slot.now, events_, slot.targets);
+  slot.targets.pass(*slot.model, first_step, num_steps);
+  if (!is_mended) return;
   inner_->remove(world);
-  if (!slot.now.is_frozen()) inner_->add(world, slot.model, slot.now.state, slot.step);
+  if (!slot.now.is_frozen()) add_aimed(*inner_, world, slot.model, slot.targets, slot.now.state, slot.step);
 }
 
 double GuardedStepper::cost_s(int world) const {

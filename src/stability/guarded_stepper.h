@@ -8,6 +8,7 @@
 
 #include "stability/on_blowup.h"
 #include "stability/world_guard.h"
+#include "stepping/motor_targets.h"
 #include "stepping/run_event.h"
 #include "stepping/stepper.h"
 
@@ -28,6 +29,8 @@ class GuardedStepper final : public stepping::FrameStepper, public stepping::Run
            std::int64_t step) override;
   void remove(int world) override;
   void set_state(int world, const model::State& state, std::int64_t step) override;
+  /// Between frames only. A world that stands moves no motor, but keeps the target.
+  void set_motor_velocity(int world, int joint, int axis, double velocity) override;
   void advance(int num_steps, core::PhaseTimes& times) override;
   const model::State& state(int world) const override { return worlds_.at(world).now.state; }
   const model::Model& model(int world) const override { return *worlds_.at(world).model; }
@@ -49,6 +52,7 @@ class GuardedStepper final : public stepping::FrameStepper, public stepping::Run
     std::shared_ptr<const model::Model> model;
     std::unique_ptr<WorldGuard> guard;
     std::int64_t step = 0;
+    stepping::MotorTargets targets;
     double begun_cost_s = 0, cost_s = 0;  ///< of what is begun of a frame; of the last frame
     Watched now, before;                  ///< `before`: the state of a frame ago; kept for its memory
   };

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "geometry/body_size.h"
 #include "model/joint_gap.h"
-#include "stability/body_size.h"
 #include "stability/events_in.h"
 
 namespace pbmpi::stability {
@@ -64,7 +64,7 @@ std::string detail_of(const Trip& trip, const model::Model& model, const std::st
 
 Guards::Guards(const model::Model& model, double dt_s, const GuardLimits& limits)
     : model_(&model), limits_(limits), energy_(model, dt_s), passages_(model) {
-  const std::vector<double> sizes = sizes_of(model);
+  const std::vector<double> sizes = geometry::sizes_of(model);
   for (const model::Joint& joint : model.joints) {
     double size = sizes[joint.body_a];
     if (joint.body_b != model::no_body) {

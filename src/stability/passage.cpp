@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/body_size.h"
 #include "geometry/geometry.h"
 #include "geometry/ray_cast.h"
-#include "stability/body_size.h"
 
 namespace pbmpi::stability {
 namespace {
@@ -75,7 +75,7 @@ double squared_distance(const Vec3& point, const Vec3& from, const Vec3& way) {
 
 PassageFinder::PassageFinder(const model::Model& model) : model_(&model), rule_(model) {
   std::vector<Mover> best(model.bodies.size());
-  const std::vector<double> sizes = sizes_of(model);
+  const std::vector<double> sizes = geometry::sizes_of(model);
   for (int i = 0; i < static_cast<int>(model.geoms.size()); ++i) {
     const Geom& geom = model.geoms[i];
     if (geom.shape == Shape::plane) {

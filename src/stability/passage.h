@@ -56,7 +56,7 @@ class PassageFinder {
     int body = 0;
     int geom = 0;       ///< that holds its centre
     double radius = 0;  ///< of the inner ball [m]
-    double size = 0;    ///< of the body [m], see sizes_of()
+    double size = 0;    ///< of the body [m], see geometry::sizes_of()
   };
   struct Solid {
     int geom = 0;

@@ -23,9 +23,10 @@ Seen seen_of(const Watched& watched) { return {watched.state, watched.seen}; }
 class WorldGuard::Replay {
  public:
   /// `is_lost`: at the end of the frame something is not finite.
-  Replay(const WorldGuard& guard, const Watched& start, std::int64_t first_step, bool is_lost,
-         std::vector<RunEvent>& events)
+  Replay(const WorldGuard& guard, const Watched& start, std::int64_t first_step,
+         const stepping::MotorTargets& targets, bool is_lost, std::vector<RunEvent>& events)
       : guard_(&guard),
+        targets_(targets),
         now_(start),
         step_(first_step),
         is_lost_(is_lost),
@@ -35,7 +36,7 @@ class WorldGuard::Replay {
     settings.profile = false;
     settings.contacts = false;
     stepper_ = guard.settings_->make_stepper(settings);
-    stepper_->add(guard.world_, guard.model_, start.state, first_step);
+    add_aimed(*stepper_, guard.world_, guard.model_, targets, start.state, first_step);
   }
 
   /// False if nothing is left to do: a guard has tripped and its report is all that is wanted, or the world
@@ -56,6 +57,7 @@ class WorldGuard::Replay {
   void tell(const char* kind, double value, const std::string& detail);
 
   const WorldGuard* guard_;
+  stepping::MotorTargets targets_;  ///< for the step at hand
   Watched now_;
   std::int64_t step_;
   bool is_lost_;
@@ -107,7 +109,7 @@ bool WorldGuard::Replay::mend(Watched& next) {
 bool WorldGuard::Replay::refine(Watched& next) {
   for (const int finer : finer_choices) {
     FinerResult result =
-        step_finer(*guard_->settings_, guard_->world_, *guard_->model_, now_.state, step_, finer);
+        step_finer(*guard_->settings_, guard_->world_, *guard_->model_, targets_, now_.state, step_, finer);
     next = {std::move(result.state), result.seen};
     model::GuardMemory memory = now_.state.guard;
     if (check(next, memory)) continue;
@@ -131,6 +133,7 @@ void WorldGuard::Replay::go_on_from(Watched&& next) {
     if (!guard_->guards_.passages().is_inside(next.state, body)) from_[body] = next.state.position[body];
   }
   now_ = std::move(next);
+  targets_.pass(*guard_->model_, step_);
   ++step_;
 }
 
@@ -164,7 +167,7 @@ Watched WorldGuard::begin(const State& state) const {
 }
 
 bool WorldGuard::end_frame(const Watched& before, std::int64_t first_step, int num_steps, Watched& after,
-                           std::vector<RunEvent>& events) const {
+                           std::vector<RunEvent>& events, const stepping::MotorTargets& targets) const {
   const model::GuardMemory at_start = before.state.guard;
   model::GuardMemory memory = at_start;
   std::vector<Vec3> scratch;
@@ -173,7 +176,7 @@ bool WorldGuard::end_frame(const Watched& before, std::int64_t first_step, int n
                                        PassageFinder::Pace::fast, memory);
   bool mended = false;
   if (suspicion) {
-    Replay replay(*this, before, first_step, after.seen.nonfinite > 0, events);
+    Replay replay(*this, before, first_step, targets, after.seen.nonfinite > 0, events);
     for (int i = 0; i < num_steps && replay.step(); ++i) continue;
     mended = replay.has_mended();
     if (mended) {

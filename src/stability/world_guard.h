@@ -9,6 +9,7 @@
 #include "model/state.h"
 #include "stability/guards.h"
 #include "stability/on_blowup.h"
+#include "stepping/motor_targets.h"
 #include "stepping/observables.h"
 #include "stepping/run_event.h"
 
@@ -36,9 +37,9 @@ class WorldGuard {
   Watched begin(const model::State& state) const;
 
   /// After `num_steps` steps from `first_step` on. With freeze and refine `after` may become another state:
-  /// true then. `events`: what happened is added.
+  /// true then. `events`: what happened is added. `targets`: what the motors aimed at when the frame began.
   bool end_frame(const Watched& before, std::int64_t first_step, int num_steps, Watched& after,
-                 std::vector<stepping::RunEvent>& events) const;
+                 std::vector<stepping::RunEvent>& events, const stepping::MotorTargets& targets = {}) const;
 
  private:
   class Replay;

@@ -41,6 +41,7 @@ inline constexpr auto world_observables = std::to_array<WorldColumn>({
     {"islands", "", &Observables::islands, Join::sum, Asleep::as_before},
     {"max_island_rows", "", &Observables::max_island_rows, Join::max, Asleep::zero},
     {"fast_bodies", "", &Observables::fast_bodies, Join::sum, Asleep::zero},
+    {"row_visits", "", &Observables::row_visits, Join::sum, Asleep::zero},
     {"energy", "J", &Observables::energy_j, Join::sum, Asleep::as_before},
     {"max_penetration", "m", &Observables::max_penetration_m, Join::max, Asleep::zero},
     {"joint_gap", "m", &Observables::joint_gap_m, Join::max, Asleep::as_before},

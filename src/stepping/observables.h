@@ -24,13 +24,14 @@ struct Residuals {
 /// Numbers of the last step of a frame, except where it says otherwise. With the effect "sleeping" contacts,
 /// rows and penetration count what is awake; islands count all bodies.
 struct Observables {
-  int contacts = 0;              ///< contact points
-  int rows = 0;                  ///< scalar constraint rows of joints and contacts
-  int islands = 0;               ///< sets of connected bodies
-  int max_island_rows = 0;       ///< rows of the island that has most
-  int fast_bodies = 0;           ///< those that armed that effect; 0 without it
-  int bodies_inside = 0;         ///< awake ones in the field of interest; 0 without that effect
-  double energy_j = 0;           ///< kinetic + potential (height above z = 0 against gravity)
+  int contacts = 0;         ///< contact points
+  int rows = 0;             ///< scalar constraint rows of joints and contacts
+  int islands = 0;          ///< sets of connected bodies
+  int max_island_rows = 0;  ///< rows of the island that has most
+  int fast_bodies = 0;      ///< those that armed that effect; 0 without it
+  int bodies_inside = 0;    ///< awake ones in the field of interest; 0 without that effect
+  double row_visits = 0;    ///< rows times the sweeps that they got; with a solver without sweeps the rows
+  double energy_j = 0;      ///< kinetic + potential (height above z = 0 against gravity)
   double max_penetration_m = 0;  ///< deepest contact
   double joint_gap_m = 0;  ///< largest distance between the two anchors of a joint that holds, after the step
   int nonfinite = 0;       ///< bodies with a NaN or an infinity

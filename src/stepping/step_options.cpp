@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/error.h"
+#include "core/quantity.h"
 #include "stepping/names.h"
 
 namespace pbmpi::stepping {
@@ -20,9 +21,10 @@ bool is_length(double value) { return std::isfinite(value) && value > 0; }
 bool is_count(double value) { return value >= 0; }
 bool is_magnitude(double value) { return std::isfinite(value) && value >= 0; }
 bool converges(double factor) { return factor > 0 && factor < 2; }
+bool is_thread_count(double value) { return value >= 1 && value <= 1024; }
 bool is_share(double value) { return value >= 0 && value <= 1; }
 
-constexpr std::array<StepOption, 19> options = {{
+constexpr std::array<StepOption, 23> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
      .placeholder = "sor|quick|direct",
@@ -47,6 +49,35 @@ constexpr std::array<StepOption, 19> options = {{
      .member = &Settings::substeps,
      .placeholder = "N",
      .meaning = "sor: parts of a step that share its collision detection; default: 8",
+     .needs = &Traits::has_substeps,
+     .allows = at_least_1,
+     .limit = "it must be at least 1"},
+    {.name = "tolerance",
+     .member = &Settings::tolerance_m,
+     .placeholder = "LENGTH",
+     .meaning =
+         "sor: an island in which nothing moves farther than this in a step gets one substep, e.g. 0.01mm; "
+         "0: none does; default: 0",
+     .needs = &Traits::has_substeps,
+     .allows = is_magnitude,
+     .limit = "a tolerance is a length, e.g. 0.1mm, or 0",
+     .in_short = "tolerance * m",
+     .unit = "m"},
+    {.name = "sag",
+     .member = &Settings::sag_m,
+     .placeholder = "LENGTH",
+     .meaning =
+         "sor: an island of which a contact or joint would give by more than this under the force that it "
+         "carries gets --most-substeps, and springs stiffer by as much, e.g. 0.2mm; 0: none does; default: 0",
+     .needs = &Traits::has_substeps,
+     .allows = is_magnitude,
+     .limit = "a sag is a length, e.g. 0.2mm, or 0",
+     .in_short = "sag * m",
+     .unit = "m"},
+    {.name = "most-substeps",
+     .member = &Settings::most_substeps,
+     .placeholder = "N",
+     .meaning = "sor: substeps of an island that would give by more than --sag; default: 32",
      .needs = &Traits::has_substeps,
      .allows = at_least_1,
      .limit = "it must be at least 1"},
@@ -163,6 +194,17 @@ constexpr std::array<StepOption, 19> options = {{
      .needs = &Traits::has_lanes,
      .is_physics = false,
      .in_studies = false},
+    {.name = "threads",
+     .member = &Settings::threads,
+     .placeholder = "N",
+     .meaning = "sor: threads of a rank, each of which steps worlds of its own; the result is the same with "
+                "any number",
+     .shown_default = "1",
+     .needs = &Traits::has_lanes,
+     .allows = is_thread_count,
+     .limit = "it must be from 1 to 1024",
+     .is_physics = false,
+     .in_studies = false},
     {.name = "colliders",
      .member = &Settings::colliders,
      .placeholder = "lanes|ode",
@@ -199,6 +241,9 @@ requires std::is_enum_v<Enum> Enum parse(std::string_view text, const std::strin
 template <class Number>
 requires std::is_arithmetic_v<Number> Number parse(std::string_view text, const std::string& what,
                                                    const StepOption& option, Number) {
+  if (option.unit == std::string_view("m")) {
+    if (const auto length = core::quantity(text, core::lengths())) return static_cast<Number>(*length);
+  }
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_number = error == std::errc{} && end == text.data() + text.size();

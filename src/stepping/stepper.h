@@ -47,6 +47,9 @@ struct StepperSettings {
   double dt_s = 0.01;
   int iterations = 20;      ///< sweeps of an iterative solver, in each substep
   int substeps = 1;         ///< sor: parts of a step without new collision detection
+  double tolerance_m = 0;   ///< sor: islands that move less get fewer substeps; 0: all get all of them
+  double sag_m = 0;         ///< sor: islands whose springs give more get more substeps; 0: none do
+  int most_substeps = 32;   ///< sor: of these, if that is more
   double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
   double warm_start = 0;    ///< sor: share of the forces that a step and a substep take over from the last
   int relax = 0;            ///< sor: sweeps at the end of a substep that push nothing out
@@ -61,6 +64,7 @@ struct StepperSettings {
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;
   Colliders colliders = Colliders::lanes;
+  int threads = 1;         ///< sor: that step packs of worlds at the same time; moves no bit
   bool profile = false;    ///< ODE's: keep what profile_last_step() needs
   bool residuals = false;  ///< sor: measure Observables::residuals
   bool contacts = false;   ///< keep what WorldStepper::contacts() shows; moves no bit
@@ -86,6 +90,12 @@ class WorldStepper {
   /// Puts a world into another state, that at the start of step `step`: what follows is the same, bit for
   /// bit, as after remove() and add(), and cheap if the world stands at that step.
   virtual void set_state(int world, const model::State& state, std::int64_t step) = 0;
+
+  /// From the next step on the motor of an axis aims at `velocity` [rad/s or m/s], until the next such call
+  /// or event of this axis, or until the world is removed. The model must have a motor there, at the start or
+  /// by an event. Not part of the state: whoever puts a world back sets its targets again. Throws
+  /// core::InputError where there is no such motor.
+  virtual void set_motor_velocity(int world, int joint, int axis, double velocity);
 
   /// Steps every world `num_steps` times and refreshes state(), observables() and cost_s(). Adds the seconds
   /// spent to `times`. 0 steps only get ready for the next, after worlds have come, gone or changed.

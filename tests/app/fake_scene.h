@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scenes/scene.h"
 
@@ -16,12 +17,16 @@ class FakeScene final : public scenes::Scene {
   const std::string& title() const override { return name_; }
   const std::string& text() const override { return name_; }
   const scenes::RunDefaults& defaults() const override { return defaults_; }
+  const std::vector<std::string>& notes() const override { return notes_; }
   const std::optional<stability::HardCase>& hard_case() const override { return hard_case_; }
-  std::shared_ptr<const model::Model> build(int, std::uint64_t) const override { return nullptr; }
+  std::shared_ptr<const model::Model> build(int, std::uint64_t, const scenes::Overrides&) const override {
+    return nullptr;
+  }
 
  private:
   std::string name_;
   scenes::RunDefaults defaults_;
+  std::vector<std::string> notes_;
   std::optional<stability::HardCase> hard_case_;
 };
 

@@ -206,7 +206,7 @@ TEST(Options, a_frame_may_take_a_tenth_of_one_at_30_Hz_unless_told_otherwise) {
 }
 
 TEST(Options, help_names_every_group_and_exit_code) {
-  const std::string help = help_text();
+  const std::string help = help_of(pbmpi_manual());
   for (const char* words :
        {"What to simulate", "How to step", "How to cut the work", "What to write", "General", "75"}) {
     EXPECT_NE(help.find(words), std::string::npos) << words;
@@ -225,6 +225,9 @@ TEST(Options, cut_into_spaces_by_themselves_only_where_it_helps) {
   EXPECT_EQ(decided({"--scene", "Fake"}, 3, 2), Decomposition::spaces) << "sor is the default stepper";
   EXPECT_EQ(decided({"--scene", "Fake", "--stepper", "quick"}, 3, 2), Decomposition::worlds);
   EXPECT_EQ(decided({"--scene", "Fake", "--feec"}, 3, 2), Decomposition::spaces);
+  const std::vector<std::string> threads = {"--scene", "Fake", "--replicas", "1", "--threads", "2"};
+  EXPECT_THROW(decided(threads, 3, 2), core::InputError) << "threads step worlds of their own";
+  EXPECT_EQ(decided(threads, 3, 1), Decomposition::worlds);
   EXPECT_EQ(decided({"--scene", "Fake", "--feec", "--estimate-after", "1"}, 3, 2), Decomposition::worlds)
       << "what is precise of a cut frame is known to no rank alone";
   EXPECT_EQ(decided({"--scene", "Fake", "--stepper", "sor", "--replicas", "2"}, 3, 2), Decomposition::worlds);

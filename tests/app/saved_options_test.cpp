@@ -95,10 +95,11 @@ TEST(SavedOptions, each_that_decides_the_bits_is_refused_if_it_changes) {
 
 TEST(SavedOptions, others_may_change) {
   const std::string before = saved({"--scene", "Fake"});
-  EXPECT_EQ(refusal({"--scene", "Fake", "--frames", "99", "--warmup", "0", "--record-every", "2", "--simd",
-                     "off", "--decompose", "worlds", "--spaces", "one", "--feec", "--budget", "1ms"},
-                    before),
-            "");
+  EXPECT_EQ(
+      refusal({"--scene", "Fake", "--frames", "99", "--warmup", "0", "--record-every", "2", "--simd", "off",
+               "--threads", "4", "--decompose", "worlds", "--spaces", "one", "--feec", "--budget", "1ms"},
+              before),
+      "");
 }
 
 TEST(Resume, output_goes_to_a_file_of_its_own_beside_the_first) {

@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 
-from harness import SOURCE, ProgramTest
+from harness import PBMPI, SOURCE, ProgramTest
 
 
 class Determinism(ProgramTest):
@@ -63,6 +63,33 @@ class Determinism(ProgramTest):
                     self.assertTrue((group[name][:] > 0).all(), name)
         self.assertEqual(len(residuals), 1)
         self.assertNotEqual(self.summary(1, *args, "--no-output")["state_hash"], alone)
+
+    def test_threads_have_the_hash_of_one_in_each_rank_and_after_a_checkpoint(self):
+        args = ["--scene", "100CrSk", "--replicas", 40, "--frames", 8]
+        one = self.summary(1, *args, "--no-output")
+        self.assertEqual(one["threads"], 1)
+        for ranks, threads in ((1, 3), (2, 2)):
+            summary = self.summary(ranks, *args, "--threads", threads, "--output", "run.h5")
+            self.assertEqual((summary["threads"], summary["state_hash"]), (threads, one["state_hash"]))
+            with h5py.File(self.path("run.h5")) as file:
+                self.assertEqual(file["parameters/threads"][()], threads)
+        self.assertEqual(self.summary(1, *args, "--threads", 2, "--feec", "--no-output")["state_hash"], one["state_hash"])
+        self.summary(1, *args[:-1], 3, "--threads", 3, "--no-output", "--checkpoint", "run.ck.h5")
+        rest = self.summary(2, "--resume", "run.ck.h5", "--frames", 8, "--threads", 2, "--no-output")
+        self.assertEqual(rest["state_hash"], one["state_hash"])
+
+    def test_threads_without_processors_of_their_own_are_warned_of_and_those_without_work_refused(self):
+        bound = self.run_command(["taskset", "-c", "0", PBMPI, "--scene", "CrashSk", "--replicas", "2", "--frames", "1",
+                                  "--no-output", "--quiet", "--threads", "2"])
+        self.assertEqual(bound.returncode, 0, bound.stderr)
+        self.assertIn("rank 0 may use 1 processor, on which its 2 threads take turns; start with `mpirun --bind-to none`",
+                      bound.stderr)
+        for args, message in ((("--scene", "Battle2", "--threads", 2), "cut into spaces with one thread"),
+                              (("--scene", "CrashSk", "--threads", 0), "from 1 to 1024"),
+                              (("--scene", "CrashSk", "--stepper", "quick", "--threads", 2), "--threads")):
+            refused = self.pbmpi(2, *args, "--no-output")
+            self.assertEqual(refused.returncode, 2, refused.stderr)
+            self.assertIn(message, refused.stderr)
 
     def test_another_seed_gives_another_hash(self):
         first, second = (self.summary(2, "--scene", "CrashSk", "--seed", seed, "--no-output") for seed in (1, 2))

@@ -8,8 +8,7 @@ import h5py
 import numpy as np
 
 from harness import COLD, PBMPI, ProgramTest, SOURCE, seal
-from test_breakage import SCENE as SIGN
-from test_sleeping import SCENE as STACKS
+from small_scenes import SIGN, STACKS
 
 WARMUP = 3
 # A dataset of each kind whose rows do not depend on who owned what.

@@ -12,6 +12,8 @@ python3 tests/bench/spheres.py
 python3 tests/bench/interest.py
 build/release/tests/bench/bench_worlds --sleeping
 build/release/tests/bench/bench_worlds --guards
+build/release/tests/bench/batch/bench_batch 4096 24 3
+python3 tests/bench/batch/batch_python.py
 python3 tests/bench/ranks.py 100CrSk 7 --stepper quick
 python3 tests/bench/ranks.py 100CrSk 7
 python3 tests/bench/decompose.py 7

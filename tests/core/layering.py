@@ -34,11 +34,16 @@ STANDS_ON = {
     "src/solver/contacts": ["src/solver/layout"],
     "src/solver/collide": ["src/solver/layout"],
     "src/solver/pack": ["src/solver/joints", "src/solver/contacts", "src/solver/collide", "src/stepping"],
-    "src/solver/worlds": ["src/solver/pack"],
-    "src/solver/spaces": ["src/solver/pack"],
+    "src/solver/parts": ["src/solver/pack"],
+    "src/solver/worlds": ["src/solver/parts", "src/core/system"],
+    "src/solver/spaces": ["src/solver/parts"],
     "scenes/parts": ["src/effects"],
     "scenes/format": ["scenes/parts", "src/stability/cases"],
-    "scenes/actors": ["scenes/format"],
+    "scenes/xml": ["src/core"],
+    "scenes/links": ["scenes/parts", "scenes/xml"],
+    "scenes/mjcf": ["scenes/links"],
+    "scenes/urdf": ["scenes/links"],
+    "scenes/actors": ["scenes/format", "scenes/mjcf", "scenes/urdf"],
     "scenes": ["scenes/actors", "src/core/system"],
     "mpi/comm": ["src/core/system"],
     "mpi/balance": ["src/core"],
@@ -56,13 +61,21 @@ STANDS_ON = {
     "io/repair": ["io/run"],
     "io/extract": ["io/run"],
     "io/join": ["io/extract"],
-    "src/app/common": ["mpi/worlds", "mpi/spaces", "scenes", "src/estimate", "src/ode", "src/solver/worlds", "src/solver/spaces"],
+    "src/engines": ["src/ode", "src/solver/worlds", "src/solver/spaces", "scenes", "mpi/comm"],
+    "src/api/include/pbmpi": [],
+    "src/api": ["src/api/include/pbmpi", "src/engines", "mpi/frame", "mpi/balance"],
+    "src/api/python": ["src/api/include/pbmpi"],
+    "src/app/manual": [],
+    "src/app/manual/pages": ["src/app/pbmpi/options", "src/app/pbreport", "src/app/pbstudy"],
+    "src/app/common": ["src/app/manual", "mpi/worlds", "mpi/spaces", "src/estimate", "src/engines"],
     "src/app/summary": ["src/app/common", "src/analysis"],
     "src/app/pbmpi/options": ["src/app/common"],
     "src/app/pbmpi": ["src/app/pbmpi/options", "src/app/summary", "io/run"],
     "src/app/pbreport/repair": ["src/app/common", "io/repair"],
     "src/app/pbreport/csv": ["src/app/common", "io/extract"],
-    "src/app/pbreport/ensemble": ["src/app/common", "io/extract"],
+    "src/app/pbreport/tables": ["src/app/common", "io/table"],
+    "src/app/pbreport/ensemble": ["src/app/pbreport/tables", "io/extract"],
+    "src/app/pbreport/scaling": ["src/app/pbreport/tables", "src/app/pbreport/run", "src/app/pbreport/suite", "io/extract"],
     "src/app/pbreport/join": ["src/app/common", "io/join"],
     "src/app/pbreport/run": ["src/app/summary", "io/html"],
     "src/app/pbreport/suite": ["src/app/common", "src/analysis", "io/html"],
@@ -78,7 +91,7 @@ STANDS_ON = {
                                "src/app/pbreport/stability", "src/app/pbreport/suite"],
     "src/app/pbreport": ["src/app/pbreport/repair", "src/app/pbreport/csv", "src/app/pbreport/ensemble",
                          "src/app/pbreport/join", "src/app/pbreport/paper", "src/app/pbreport/run",
-                         "src/app/pbreport/suite", "src/app/pbreport/figures", "src/app/pbreport/accuracy",
+                         "src/app/pbreport/scaling", "src/app/pbreport/suite", "src/app/pbreport/figures", "src/app/pbreport/accuracy",
                          "src/app/pbreport/effects", "src/app/pbreport/prediction", "src/app/pbreport/stability"],
     "src/app/pbstudy/study": ["src/app/common", "src/analysis", "io/table"],
     "src/app/pbstudy/accuracy": ["src/app/pbstudy/study"],
@@ -98,6 +111,8 @@ OUTSIDE = [
      {"src/ode": None, "src/ode/objects": None, "src/ode/collide": None, "src/ode/effects": None}),
     (r"mpi\.h", {"mpi/comm": 1, "io/hdf5": 1}),
     (r"hdf5.*\.h|H5.*\.h", {"io/hdf5": None, "io/table": None, "io/setup": None, "io/run": None}),
+    (r"pugixml\.hpp", {"scenes/xml": 1}),
+    (r"pybind11/.*|Python\.h", {"src/api/python": None}),
     (r"boost/.*", {folder: None for folder in STANDS_ON if folder.startswith("src/app/")}),
 ]
 
@@ -125,7 +140,7 @@ def folder_of(path):
 
 def target_of(root, source, include):
     """The project file that an include means, relative to the root, or None for an outside header."""
-    for base in (source.parent, root / "src", root):
+    for base in (source.parent, root / "src", root, root / "src/api/include"):
         candidate = (base / include).resolve()
         if candidate.is_file() and candidate.is_relative_to(root):
             return candidate.relative_to(root)

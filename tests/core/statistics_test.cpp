@@ -32,6 +32,22 @@ TEST(Quantile, interpolates_between_order_statistics) {
   EXPECT_EQ(quantile({}, 0.5), 0);
 }
 
+TEST(MedianInterval, is_the_narrowest_that_is_sure_enough) {
+  // Of n tosses at most k heads, n = 5: 1, 6; n = 6: 1, 7; n = 9: 1, 10, 46 of 2^n.
+  const auto expect = [](const Interval& found, double low, double high, double confidence) {
+    EXPECT_EQ(found.low, low);
+    EXPECT_EQ(found.high, high);
+    EXPECT_DOUBLE_EQ(found.confidence, confidence);
+  };
+  expect(median_interval({5, 3, 1, 2, 4}, 0.95), 1, 5, 1 - 2. / 32);
+  expect(median_interval({5, 3, 1, 2, 4}, 0.5), 2, 4, 1 - 12. / 32);
+  expect(median_interval({6, 5, 3, 1, 2, 4}, 0.95), 1, 6, 1 - 2. / 64);
+  expect(median_interval({9, 8, 7, 6, 5, 4, 3, 2, 1}, 0.95), 2, 8, 1 - 20. / 512);
+  expect(median_interval({9, 8, 7, 6, 5, 4, 3, 2, 1}, 0.8), 3, 7, 1 - 92. / 512);
+  expect(median_interval({7}, 0.95), 7, 7, 0);
+  expect(median_interval({}, 0.95), 0, 0, 0);
+}
+
 TEST(HarmonicMean, is_the_rate_over_equal_work) {
   EXPECT_DOUBLE_EQ(harmonic_mean(std::vector<double>{40, 60}), 48);
   EXPECT_EQ(harmonic_mean({}), 0);

@@ -72,6 +72,7 @@ stepping::Observables sample_observables(int world, std::int64_t frame) {
           .islands = world + 1,
           .max_island_rows = 7 + k,
           .bodies_inside = 10 * world + k,
+          .row_visits = 4800.0 * world + k,
           .energy_j = 0.5 * world + k,
           .max_penetration_m = 1e-3 * (world + 1),
           .joint_gap_m = 1e-4 * (k + 1),

@@ -3,7 +3,8 @@
 # there as root, and removes everything: `tests/jobs/fresh_debian.sh jobs/quickstart.sh`. The exit code is the command's.
 # Without a command it runs the two of README.md one after the other in that clone, and the tests meet the build and the
 # files that the quick start left: this is what must pass before a release.
-#   --keep   leaves the system's folder and prints its name
+#   --keep          leaves the system's folder and prints its name
+#   --with FOLDER   copies it to /srv in that system
 # Needs root, a network, and Debian's debootstrap, git and util-linux. DEBIAN_MIRROR and DEBIAN_SECURITY_MIRROR name other
 # mirrors; proxies and the like are taken from this machine's apt.
 set -euo pipefail
@@ -14,11 +15,19 @@ fail() {
 }
 
 keep=
-if [[ ${1:-} == --keep ]]; then
-  keep=yes
+with=()
+while [[ ${1:-} == -* ]]; do
+  case $1 in
+    --keep) keep=yes ;;
+    --with)
+      [[ -d ${2:-} ]] || fail "--with: '${2:-}' is no folder"
+      with+=("$2")
+      shift
+      ;;
+    *) fail "usage: tests/jobs/fresh_debian.sh [--keep] [--with FOLDER] [COMMAND [ARGUMENTS...]], e.g. jobs/quickstart.sh" ;;
+  esac
   shift
-fi
-[[ ${1:-} != -* ]] || fail "usage: tests/jobs/fresh_debian.sh [--keep] [COMMAND [ARGUMENTS...]], e.g. jobs/quickstart.sh"
+done
 [[ $# -gt 0 ]] || set -- bash -c 'jobs/quickstart.sh && tests/run.sh'
 [[ $EUID -eq 0 ]] || fail "debootstrap, mount and chroot need root"
 for program in debootstrap git unshare; do
@@ -68,6 +77,7 @@ printf '#!/bin/sh\nexit 101\n' >"$root/usr/sbin/policy-rc.d"
 chmod 755 "$root/usr/sbin/policy-rc.d"
 
 git clone --quiet --no-hardlinks "$source_dir" "$root/srv/pbmpi"
+[[ ${#with[@]} -eq 0 ]] || cp -r "${with[@]}" "$root/srv/"
 
 # A mount and a process namespace of its own: mounts and stray processes end with it, however it ends. No exec at the
 # end of the inner scripts: a shell stays to reap.

@@ -12,6 +12,8 @@ from slurm import Cluster, wait_until
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCRIPT = os.path.join(SOURCE, "jobs", "pbmpi.sbatch")
+SCALING = os.path.join(SOURCE, "jobs", "scaling.sbatch")
+STUDY = os.path.join(SOURCE, "jobs", "study.sbatch")
 SWEEP = os.path.join(SOURCE, "jobs", "sweep.sbatch")
 JOB_LIMIT_S = 240  # a job that hangs, not a slow one: the longest here ends with Slurm's time limit of a minute
 # Frames of 3 s: minutes of work in a file of a few MB, and a stop within a second.
@@ -176,6 +178,41 @@ class Sweep(JobTest):
         job_id = self.submit("-n1", "--array=2", SWEEP, "CrashSk", "iterations", "5", "10")
         self.assertEqual(self.ended(job_id)["ExitCode"], "2:0")
         self.assertIn("--array=0-1", self.log_of(f"slurm-{job_id}_2.out"))
+
+
+class ScalingSweep(JobTest):
+    def test_an_array_of_rounds_leaves_one_report_over_all(self):
+        job_id = self.submit("-n2", "--array=1-2", SCALING, "--frames", "2", "out", "CrashSk:worlds:4", "Fight:spaces")
+        for job in self.cluster.wait_for(job_id, JOB_LIMIT_S):
+            self.assertEqual(job["ExitCode"], "0:0", self.log_of(f"slurm-{job_id}_{job['ArrayTaskId']}.out"))
+        runs = {name for name in os.listdir(self.path("out")) if name.endswith(".h5")}
+        self.assertEqual(runs, {f"{point}-k{k}.h5" for k in (1, 2) for point in (
+            "CrashSk-worlds-w4-r1", "CrashSk-worlds-w4-r2", "Fight-worlds-w1-r1", "Fight-spaces-w1-r1", "Fight-spaces-w1-r2")}
+            | {"Fight-islands.h5"})
+        run = self.check_file("out/Fight-spaces-w1-r2-k2.h5", complete=1)
+        self.assertEqual((run["ranks"], run["parameters"]["env_SLURM_ARRAY_TASK_ID"]), (2, "2"))
+        text = self.log_of("out/scaling.txt")
+        self.assertIn("CrashSk, 4 worlds, sor double: strong scaling, worlds over ranks", text)
+        self.assertIn("Fight, 1 world, sor double: strong scaling, spaces over ranks", text)
+        self.assertEqual(text.count("2 of 5 repeats"), 5, "each point has the runs of both tasks")
+
+
+class Study(JobTest):
+    def test_a_study_that_was_stopped_goes_back_into_the_queue_and_on_with_what_is_left(self):
+        study = ("stability", "--scene", "hard/free/cradle", "hard/free/exchange", "hard/rest/column10", "--setting", "sor", "quick",
+                 "--dt", "0.002", "0.001")
+        job_id = self.submit("-n2", "--export=ALL,PBMPI_REQUEUE=yes", STUDY, *study)
+        output = f"stability-{job_id}.h5"
+        self.wait_while_it_runs(job_id, lambda: all(os.path.exists(self.path(f"{output}.cases-{rank}")) for rank in (0, 1)), "journal")
+        self.cluster.command("scancel", "--batch", "--signal=TERM", job_id)
+        wait_until(lambda: self.cluster.job(job_id)[0].get("Restarts") == "1", "the job to be queued again", JOB_LIMIT_S)
+        wait_until(lambda: self.cluster.job(job_id)[0]["JobState"] != "COMPLETING", "the end of its first part", JOB_LIMIT_S)
+        self.cluster.command("scontrol", "update", f"JobId={job_id}", "StartTime=now+3")
+        job = self.ended(job_id)
+        self.assertEqual((job["JobState"], job["ExitCode"]), ("COMPLETED", "0:0"), self.log_of(f"slurm-{job_id}.out"))
+        self.assertIn("12 cases of 3 scenes", self.log_of(f"slurm-{job_id}.out"))
+        self.assertEqual({name for name in os.listdir(self.folder) if name.startswith("stability")},
+                         {output, f"stability-{job_id}.html"})
 
 
 class WithoutSlurm(unittest.TestCase):

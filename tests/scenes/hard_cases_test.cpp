@@ -91,9 +91,9 @@ std::string error_of_find(const std::string& name) {
 
 TEST(HardCases, are_suggested_by_the_nearest_names_alone) {
   EXPECT_NE(error_of_find("hard/rest/colum10").find("did you mean 'hard/rest/column10'"), std::string::npos);
-  EXPECT_EQ(
-      error_of_find("hard/waterfall"),
-      "unknown scene 'hard/waterfall' (--list-scenes shows all; a scene file of your own ends in .toml)");
+  EXPECT_EQ(error_of_find("hard/waterfall"),
+            "unknown scene 'hard/waterfall' (--list-scenes shows all; a scene file of your own ends in "
+            ".toml, .xml or .urdf)");
 }
 
 }  // namespace

@@ -40,6 +40,15 @@ TEST(Scene, says_whether_its_spaces_meet) {
   EXPECT_FALSE(build("title = \"t\"\ninter_space = \"none\"\n" + box + "mass = 1\n")->spaces_meet);
 }
 
+TEST(Scene, is_uniform_unless_an_actor_varies_from_world_to_world) {
+  const std::string scene = "title = \"t\"\n" + box + "mass = 1\n";
+  EXPECT_TRUE(parse(scene)->is_uniform());
+  EXPECT_TRUE(parse(scene + "copies = 3\nspacing = [2, 0, 0]\n")->is_uniform());
+  EXPECT_FALSE(parse(scene + "copies = [[0, 3], [5, 1]]\nspacing = [2, 0, 0]\n")->is_uniform());
+  EXPECT_FALSE(parse(scene + "variation = { heading = 1 }\n")->is_uniform());
+  EXPECT_FALSE(parse(scene + "variation = { velocity = [0, 0, 0.1] }\n")->is_uniform());
+}
+
 TEST(Scene, a_time_step_given_by_the_caller_replaces_the_files_own) {
   const SceneSource source{"t", "t.toml", "title = \"t\"\n[run]\ndt = 0.01\n" + box + "mass = 1\n"};
   EXPECT_EQ(parse_scene(source, 0.002)->defaults().dt_s, 0.002);

@@ -47,7 +47,7 @@ TEST(FinerSteps, of_a_free_fall_come_nearer_to_it) {
   const double exact = 0.5 * 9.81 * 0.01 * 0.01;
   double last_error = model::infinity;
   for (const int finer : {1, 2, 4}) {
-    const FinerResult result = step_finer(settings, 0, model, start, 5, finer);
+    const FinerResult result = step_finer(settings, 0, model, {}, start, 5, finer);
     const double error =
         std::abs(start.position[0].z() - result.state.position[0].z() - exact + 0.01 * start.velocity[0].z());
     EXPECT_LT(error, last_error);

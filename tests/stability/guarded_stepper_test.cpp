@@ -110,6 +110,9 @@ class Breaking final : public stepping::WorldStepper {
     inner_->set_state(world, state, step);
     step_[world] = step;
   }
+  void set_motor_velocity(int world, int joint, int axis, double velocity) override {
+    inner_->set_motor_velocity(world, joint, axis, velocity);
+  }
   void advance(int num_steps, core::PhaseTimes& times) override {
     for (int i = 0; i < num_steps; ++i) {
       inner_->advance(1, times);
@@ -214,6 +217,72 @@ TEST(GuardedStepper, refines_a_bad_step_and_goes_on) {
   EXPECT_EQ(found[0], free[0]);
   EXPECT_NE(found[1], free[1]) << "one of its steps was done as two";
   EXPECT_EQ(found[2], free[2]);
+}
+
+/// The first joint of a crash that has a motor, and the velocity at which it is to aim.
+constexpr double aimed_velocity = 6;
+int driven_joint() {
+  const Model model = support::crash();
+  int joint = 0;
+  while (!model.joints[joint].motors[0].active()) ++joint;
+  return joint;
+}
+
+/// World 1 of the crashes `num_steps` after `state` at `step`, its motor aimed.
+model::State aimed_crash(const StepperSettings& settings, const model::State& state, std::int64_t step,
+                         int num_steps) {
+  const auto stepper = make_any_stepper(settings);
+  stepper->add(1, std::make_shared<const Model>(support::crash(1)), state, step);
+  stepper->set_motor_velocity(1, driven_joint(), 0, aimed_velocity);
+  core::PhaseTimes times;
+  stepper->advance(num_steps, times);
+  return stepper->state(1);
+}
+
+TEST(GuardedStepper, steps_a_world_again_with_the_targets_of_its_motors) {
+  const StepperSettings settings = of_kind(StepperKind::sor);
+  StepperSettings shorter = settings;
+  shorter.dt_s /= 2;
+  const model::State start = initial_state(support::crash(1));
+  const model::State before = aimed_crash(settings, start, 0, 7);
+  ASSERT_NE(model::hash(before), unwatched_hashes(7)[1]);
+  for (const OnBlowup on_blowup : {OnBlowup::freeze, OnBlowup::refine}) {
+    const auto stepper = make_breaking(on_blowup, 1, 7);
+    stepper->set_motor_velocity(1, driven_joint(), 0, aimed_velocity);
+    run_frames(*stepper, 6);
+    model::State found = stepper->state(1);
+    found.guard = {};
+    const model::State after = aimed_crash(shorter, before, 14, 2);
+    EXPECT_EQ(model::hash(found),
+              model::hash(on_blowup == OnBlowup::freeze ? before : aimed_crash(settings, after, 8, 10)));
+    stepper->set_state(1, start, 18);
+    run_frames(*stepper, 2);
+    EXPECT_EQ(model::hash(stepper->state(1)), model::hash(aimed_crash(settings, start, 18, 6)))
+        << "the target is still there";
+  }
+}
+
+TEST(GuardedStepper, forgets_a_target_with_the_event_that_ends_it) {
+  Model model = support::crash();
+  model::Event event;
+  event.step = 4;
+  event.kind = model::EventKind::motor;
+  event.joint = driven_joint();
+  event.motor = {-2, 20};
+  model.events.push_back(event);
+  const StepperSettings settings = of_kind(StepperKind::sor);
+  const auto guarded = make_guarded({model}, settings, OnBlowup::report);
+  const auto other = make_any_stepper(settings);
+  other->add(0, std::make_shared<const Model>(model), initial_state(model), 0);
+  for (stepping::WorldStepper* stepper : {static_cast<stepping::WorldStepper*>(guarded.get()), other.get()}) {
+    stepper->set_motor_velocity(0, event.joint, 0, aimed_velocity);
+    core::PhaseTimes times;
+    stepper->advance(6, times);
+    const model::State state = stepper->state(0);
+    stepper->set_state(0, state, 2);  // before the event
+    stepper->advance(2, times);
+  }
+  EXPECT_EQ(model::hash(guarded->state(0)), model::hash(other->state(0)));
 }
 
 TEST(GuardedStepper, refines_the_chain_that_gapes_or_freezes_it) {

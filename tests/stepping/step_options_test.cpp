@@ -31,6 +31,9 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.dt_s = 0.1 + 0.2;  // 0.30000000000000004
   settings.iterations = 7;
   settings.substeps = 3;
+  settings.tolerance_m = 1.0 / 17;
+  settings.sag_m = 1.0 / 19;
+  settings.most_substeps = 48;
   settings.sor_factor = 1.0 / 3;
   settings.warm_start = 0.3;
   settings.relax = 2;
@@ -45,6 +48,7 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.precision = Precision::single;
   settings.simd = Simd::avx2;
   settings.colliders = Colliders::ode;
+  settings.threads = 3;
   settings.seed = 18446744073709551615u;
   StepperSettings again;
   for (const StepOption& option : step_options()) {
@@ -93,14 +97,28 @@ TEST(StepOptions, impossible_values_are_refused_by_name) {
   EXPECT_EQ(refusal("dt", "1e-2x"), "--dt 1e-2x: it must be a number");
   EXPECT_EQ(refusal("warm-start", "nan"),
             "--warm-start nan: the share of the impulses to take over is 0 to 1");
+  EXPECT_EQ(refusal("tolerance", "1km"), "--tolerance 1km: it must be a number");
+  EXPECT_EQ(refusal("tolerance", "-1"), "--tolerance -1: a tolerance is a length, e.g. 0.1mm, or 0");
+  EXPECT_EQ(refusal("sag", "-1"), "--sag -1: a sag is a length, e.g. 0.2mm, or 0");
   EXPECT_EQ(refusal("precision", "half"), "--precision half: it must be one of double, single");
   EXPECT_EQ(refusal("solver-seed", "-1"), "--solver-seed -1: it must be a whole number");
 }
 
+TEST(StepOptions, a_length_may_have_a_unit) {
+  for (const char* text : {"0.1mm", "0.01cm", "0.0001m", "0.0001", "1e-4"}) {
+    StepperSettings settings;
+    set(step_option("tolerance"), text, "", settings);
+    set(step_option("sag"), text, "", settings);
+    EXPECT_DOUBLE_EQ(settings.tolerance_m, 1e-4) << text;
+    EXPECT_DOUBLE_EQ(settings.sag_m, 1e-4) << text;
+  }
+}
+
 TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
-  for (const char* name : {"substeps", "sor-factor", "warm-start", "relax", "contact-frequency",
-                           "contact-damping", "contact-margin", "joint-frequency", "joint-damping",
-                           "joint-solver", "friction", "row-order", "precision", "simd", "colliders"}) {
+  for (const char* name :
+       {"substeps", "tolerance", "sag", "most-substeps", "sor-factor", "warm-start", "relax",
+        "contact-frequency", "contact-damping", "contact-margin", "joint-frequency", "joint-damping",
+        "joint-solver", "friction", "row-order", "precision", "simd", "colliders"}) {
     EXPECT_TRUE(fits(step_option(name), StepperKind::sor));
     EXPECT_FALSE(fits(step_option(name), StepperKind::quick));
     EXPECT_FALSE(fits(step_option(name), StepperKind::direct));

@@ -1,6 +1,6 @@
 #include "app/common/estimate_spec.h"
 
-#include "app/common/stepper_factory.h"
+#include "engines/stepper_factory.h"
 #include "estimate/partly_precise.h"
 #include "estimate/same_solve.h"
 #include "estimate/short_run.h"
@@ -36,7 +36,8 @@ std::unique_ptr<stepping::Estimator> make_estimator(const EstimateSpec& estimate
   if (estimate.source == EstimateSource::same_solve) {
     estimator = std::make_unique<pbmpi::estimate::SameSolve>(precise, estimate.stepper.iterations);
   } else {
-    estimator = std::make_unique<pbmpi::estimate::ShortRun>(make_stepper(estimate.stepper, "estimate: "));
+    estimator =
+        std::make_unique<pbmpi::estimate::ShortRun>(engines::make_stepper(estimate.stepper, "estimate: "));
   }
   if (estimate.due_s)
     return std::make_unique<pbmpi::estimate::UntilDue>(precise, std::move(estimator), *estimate.due_s,

@@ -93,7 +93,7 @@ std::vector<core::NamedPath> named_paths(const po::variables_map& values) {
         paths.push_back({option == "file" ? "the file" : "--" + option, name, written});
     }
   };
-  for (const char* option : {"file", "scene", "config", "preset", "floor", "instructions-from"})
+  for (const char* option : {"file", "scene", "config", "preset", "parameters", "floor", "instructions-from"})
     add(option, false);
   for (const char* option : {"output", "checkpoint", "html", "csv", "xdmf", "write-preset"})
     add(option, true);

@@ -38,7 +38,9 @@ Provenance collect_provenance(const mpi::Communicator& comm, const std::string& 
   provenance.command_line = command_line;
   provenance.created = core::utc_now();
   std::string environment = job_environment();
+  provenance.processors = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
   comm.bcast_string(provenance.created);
+  comm.bcast_value(provenance.processors);
   comm.bcast_string(environment);
   provenance.environment = lines_of(environment);
   provenance.hosts = mpi::host_names(comm);

@@ -13,6 +13,7 @@ struct Provenance {
   std::string created;  ///< UTC, ISO 8601
   std::string command_line;
   std::vector<std::string> hosts;        ///< [num_ranks]
+  int processors = 0;                    ///< online on root's host
   std::vector<std::string> environment;  ///< root's "NAME=value" of SLURM_* and OMPI_*
 };
 

@@ -7,10 +7,10 @@
 #include <map>
 #include <sstream>
 
-#include "app/common/stepper_factory.h"
 #include "app/pbmpi/run_parameters.h"
 #include "effects/effect_choices.h"
 #include "effects/run_plan.h"
+#include "engines/stepper_factory.h"
 #include "io/run/run_file.h"
 #include "model/names.h"
 #include "mpi/balance/partition.h"
@@ -63,13 +63,13 @@ std::string in_units(double bytes) {
   return text.str();
 }
 
-/// Heap bytes of world 0 in its stepper, model included, which is built anew for that.
-std::size_t measure_world_bytes(const scenes::Scene& scene, const RunSpec& spec) {
-  const auto stepper = make_stepper(spec.stepper);
+/// Heap bytes of the first world in its stepper, model included, which is built anew for that.
+std::size_t measure_world_bytes(const Work& work) {
+  const auto stepper = engines::make_stepper(work.spec.stepper);
   const std::size_t before = mallinfo2().uordblks;
-  auto model = scene.build(0, spec.scene_seed);
+  auto model = build_anew(work, 0);
   const model::State state = model::initial_state(*model);
-  stepper->add(0, std::move(model), state, 0);
+  stepper->add(work.spec.first_world(), std::move(model), state, 0);
   return mallinfo2().uordblks - before;
 }
 
@@ -78,7 +78,9 @@ std::string range_text(int first, int last) {
   return first == last ? std::to_string(first) : std::to_string(first) + ".." + std::to_string(last);
 }
 
-void print_distribution(std::ostream& out, const Census& census, int num_ranks, double world_bytes) {
+/// `first_world`: its number in the ensemble.
+void print_distribution(std::ostream& out, const Census& census, int first_world, int num_ranks,
+                        double world_bytes) {
   const std::vector<int> placement = mpi::equal_placement(census.table.num_worlds(), num_ranks);
   for (int rank = 0; rank < num_ranks; ++rank) {
     const auto first = std::find(placement.begin(), placement.end(), rank);
@@ -91,8 +93,9 @@ void print_distribution(std::ostream& out, const Census& census, int num_ranks, 
     const int last = begin + static_cast<int>(count) - 1;
     const auto bodies = census.table.body_offset[static_cast<std::size_t>(last) + 1] -
                         census.table.body_offset[static_cast<std::size_t>(begin)];
-    out << "  rank " << rank << ": worlds " << range_text(begin, last) << " (" << count << " worlds, "
-        << bodies << " bodies, about " << in_units(world_bytes * static_cast<double>(count)) << ")\n";
+    out << "  rank " << rank << ": worlds " << range_text(first_world + begin, first_world + last) << " ("
+        << count << " worlds, " << bodies << " bodies, about "
+        << in_units(world_bytes * static_cast<double>(count)) << ")\n";
   }
 }
 
@@ -125,6 +128,20 @@ std::string time_text(const EstimateSpec& estimate, int steps_per_frame) {
   return text.str();
 }
 
+/// What the run has of an ensemble, and what its worlds have otherwise than the scene.
+std::string ensemble_lines(const Work& work) {
+  std::string text;
+  if (work.spec.range)
+    text += "ensemble: worlds " + range_text(work.spec.range->first, work.spec.range->end - 1) + " of " +
+            std::to_string(work.spec.ensemble_worlds) + "\n";
+  if (work.parameters) {
+    text += "parameters: " + work.parameters->file() + ", a world a row:";
+    for (const std::string& key : work.parameters->keys()) text += " " + key;
+    text += "\n";
+  }
+  return text;
+}
+
 void print_plan(std::ostream& out, const effects::RunPlan& plan, stepping::StepperKind stepper) {
   out << "step plan:\n";
   for (const effects::RunPass& pass : plan.passes()) {
@@ -140,7 +157,7 @@ std::string describe(const Work& work, int num_ranks) {
   const scenes::Scene& scene = *work.scene;
   const RunSpec& spec = work.spec;
   const Census census = take_census(work);
-  const auto world_bytes = static_cast<double>(measure_world_bytes(scene, spec));
+  const auto world_bytes = static_cast<double>(measure_world_bytes(work));
   std::ostringstream out;
   out << "scene: " << scene.name() << " - " << scene.title() << '\n'
       << "worlds: " << census.table.num_worlds() << ", bodies: " << census.table.num_bodies()
@@ -149,7 +166,8 @@ std::string describe(const Work& work, int num_ranks) {
       << (spec.spaces == scenes::SpacesForm::one ? " (form: one)" : " (form: many)") << '\n'
       << "actors:";
   for (const auto& [kind, count] : census.actor_kinds) out << ' ' << count << ' ' << kind;
-  out << "\nframes: " << spec.warmup << " warm-up + " << spec.frames << " measured, " << spec.steps_per_frame
+  out << '\n' << ensemble_lines(work);
+  out << "frames: " << spec.warmup << " warm-up + " << spec.frames << " measured, " << spec.steps_per_frame
       << " steps of " << spec.stepper.dt_s << " s\n"
       << "stepper: " << name_of(spec.stepper.kind) << ", " << spec.stepper.iterations << " iterations, seed "
       << spec.stepper.seed << '\n';
@@ -159,15 +177,18 @@ std::string describe(const Work& work, int num_ranks) {
         << (stepper.iterations == 1 ? "" : "s") << ", " << name_of(stepper.precision) << " precision, "
         << time_text(*spec.estimate, spec.steps_per_frame) << '\n';
   }
+  for (const std::string& note : scene.notes()) out << "note: " << note << '\n';
   if (!spec.effects.empty()) out << "effects chosen: " << effects::to_text(spec.effects) << '\n';
   print_plan(out, census.plan, spec.stepper.kind);
   const bool spaces = spec.decomposition == Decomposition::spaces;
   out << "decomposition: " << (spaces ? "spaces" : "worlds") << " over " << num_ranks
-      << (num_ranks == 1 ? " rank\n" : " ranks\n");
+      << (num_ranks == 1 ? " rank" : " ranks");
+  if (spec.stepper.threads > 1) out << " of " << spec.stepper.threads << " threads";
+  out << '\n';
   if (spaces) {
     print_spaces(out, *work.first_world, num_ranks);
   } else {
-    print_distribution(out, census, num_ranks, world_bytes);
+    print_distribution(out, census, spec.first_world(), num_ranks, world_bytes);
   }
   out << "memory: about " << in_units(world_bytes) << " a world (measured on world 0)\n";
   if (spec.output) {
@@ -177,7 +198,7 @@ std::string describe(const Work& work, int num_ranks) {
                                  .num_ranks = num_ranks,
                                  .num_frames = spec.frames_to_do(),
                                  .record_every = spec.record_every,
-                                 .optional = optional_columns(work),
+                                 .optional = optional_columns(work, census.plan),
                                  .num_geoms = static_cast<std::int64_t>(census.geoms),
                                  .num_joints = static_cast<std::int64_t>(census.joints)});
     out << "output: " << *spec.output << ", about " << in_units(static_cast<double>(bytes)) << '\n';

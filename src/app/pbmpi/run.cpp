@@ -4,22 +4,24 @@
 #include <iostream>
 #include <memory>
 
+#include "app/common/engine_texts.h"
 #include "app/common/provenance.h"
-#include "app/common/stepper_factory.h"
 #include "app/common/version.h"
 #include "app/pbmpi/checkpoint_keeper.h"
 #include "app/pbmpi/describe.h"
 #include "app/pbmpi/estimate_monitor.h"
 #include "app/pbmpi/gather_plan.h"
-#include "app/pbmpi/live_summary.h"
 #include "app/pbmpi/options/options.h"
 #include "app/pbmpi/progress.h"
 #include "app/pbmpi/run_parameters.h"
 #include "app/pbmpi/signals.h"
 #include "app/pbmpi/simulation.h"
 #include "app/pbmpi/work.h"
+#include "app/pbmpi/world_results.h"
+#include "app/summary/live_summary.h"
 #include "core/hash.h"
 #include "core/system/awaited.h"
+#include "core/system/thread_pool.h"
 #include "effects/effect_choices.h"
 #include "io/run/run_file.h"
 #include "io/run/xdmf.h"
@@ -78,6 +80,7 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.hosts = distinct(provenance.hosts);
   summary.worlds = spec.num_worlds;
   summary.ranks = static_cast<int>(provenance.hosts.size());
+  summary.threads = spec.stepper.threads;
   summary.decomposition = spec.decomposition == Decomposition::spaces ? "spaces" : "worlds";
   summary.iterations = spec.stepper.iterations;
   summary.substeps = spec.stepper.substeps;
@@ -117,20 +120,23 @@ EstimateSummary estimate_summary(const RunSpec& spec, const mpi::WorldRunResult&
 }
 
 std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const mpi::FrameDriver& driver,
-                                           const Work& work, const Provenance& provenance) {
+                                           const Work& work, const effects::RunPlan& plan,
+                                           const Provenance& provenance) {
   const RunSpec& spec = work.spec;
   if (!spec.output) return nullptr;
   io::RunSetup setup;
   setup.path = *spec.output;
   setup.attributes = run_attributes(work, provenance);
   setup.parameters = run_parameters(work, provenance);
+  setup.world_parameters = world_parameters(work);
+  setup.first_world = spec.first_world();
   setup.table = driver.table();
   setup.worlds = driver.local_worlds();
   setup.hosts = provenance.hosts;
   setup.first_frame = spec.checkpoint.first_frame;
   setup.num_frames = spec.frames_to_do();
   setup.record_every = spec.record_every;
-  setup.optional = optional_columns(work);
+  setup.optional = optional_columns(work, plan);
   setup.substep_s = spec.stepper.dt_s / spec.stepper.substeps;
   return std::make_unique<io::RunFile>(io::FileGroup{comm.fortran_handle(), comm.rank(), comm.size()},
                                        std::move(setup));
@@ -153,6 +159,17 @@ void print(const mpi::Communicator& comm, const Options& options, const RunSumma
   } else if (!options.common.quiet) {
     std::cout << to_text(summary) << std::flush;
   }
+}
+
+/// Launchers bind a rank to a core unless they are told not to; threads then take turns on it. Collective.
+void warn_of_bound_threads(const mpi::Communicator& comm, int num_threads) {
+  const std::vector<int> processors = comm.allgather(core::num_usable_processors());
+  const auto fewest = std::ranges::min_element(processors);
+  if (!comm.is_root() || *fewest >= num_threads) return;
+  std::cerr << "pbmpi: warning: rank " << fewest - processors.begin() << " may use " << *fewest
+            << (*fewest == 1 ? " processor" : " processors") << ", on which its " << num_threads
+            << " threads take turns; start with `mpirun --bind-to none`, or give fewer --threads"
+            << std::endl;
 }
 
 /// A run that fails still writes the frames that its file holds.
@@ -180,11 +197,20 @@ void reserve(const mpi::Communicator& comm, const CheckpointSpec& spec, std::int
   });
 }
 
+/// Where worlds are stepped as wholes.
+WorldResults::CostOf cost_of(const Simulation& simulation, const RunSpec& spec) {
+  if (!simulation.worlds) return {};
+  return [&simulation, first = spec.first_world()](int world) {
+    return simulation.worlds->cost_s(first + world);
+  };
+}
+
 ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work work,
                   const SignalRequests& signals, double start_s) {
   const scenes::Scene& scene = *work.scene;
   const RunSpec& spec = work.spec;
   const bool speaks = comm.is_root() && !options.common.quiet;
+  warn_of_bound_threads(comm, spec.stepper.threads);
   std::optional<core::Awaited> awaited("all ranks to build their worlds");
   const Simulation simulation = make_simulation(comm, work);
   work.states = {};
@@ -203,7 +229,8 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   const Provenance provenance = collect_provenance(comm, options.command_line);
   signals.enter(SignalRequests::Phase::begin_or_end, speaks);
   awaited.emplace("all ranks to create " + spec.output.value_or("no file"));
-  const auto file = create_output(comm, driver, work, provenance);
+  const effects::RunPlan step_plan = gather_plan(comm, driver.local_worlds());
+  const auto file = create_output(comm, driver, work, step_plan, provenance);
   awaited.reset();
   EstimateMonitor monitor(spec.warmup);
   if (spec.estimate) driver.add_consumer(monitor);
@@ -216,6 +243,9 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
     driver.add_observer(*progress);
   }
 
+  WorldResults results(spec.num_worlds, cost_of(simulation, spec));
+  driver.add_observer(results);
+
   FrameWatch watch;
   driver.add_observer(watch);
 
@@ -226,12 +256,14 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
 
   progress.reset();
   RunSummary summary = settings_summary(scene, spec, provenance, driver.table().num_bodies());
-  summary.effects = effect_summaries(gather_plan(comm, driver.local_worlds()));
+  summary.effects = effect_summaries(step_plan);
   summary.idle_ranks = driver.idle_ranks();
   live.finish(comm, result, summary);
   if (spec.estimate) summary.estimate = estimate_summary(spec, result, monitor);
+  const std::vector<io::WorldResult> world_results = results.join(comm, driver.local_worlds());
+  summary.worlds_survived = std::ranges::count(world_results, 1, &io::WorldResult::survived);
   if (file) {
-    file->close(summary.complete, summary.state_hash);
+    file->close(summary.complete, summary.state_hash, world_results);
     write_sidecar(comm, spec);
   }
   awaited.reset();
@@ -254,7 +286,7 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
   };
   switch (options.action) {
     case Action::help:
-      return say(help_text());
+      return say(help_of(pbmpi_manual()));
     case Action::version:
       return say(version_line("pbmpi") + "\n");
     case Action::list_scenes:

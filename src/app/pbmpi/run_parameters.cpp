@@ -1,11 +1,13 @@
 #include "app/pbmpi/run_parameters.h"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <variant>
 
-#include "app/common/load_scene.h"
-#include "app/common/stepper_factory.h"
+#include "app/common/engine_texts.h"
+#include "app/common/scene_parameter.h"
 #include "app/common/version.h"
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
@@ -34,15 +36,41 @@ Parameter step_parameter(const std::string& prefix, const stepping::StepOption& 
 
 }  // namespace
 
-io::OptionalColumns optional_columns(const Work& work) {
+io::OptionalColumns optional_columns(const Work& work, const effects::RunPlan& plan) {
   const RunSpec& spec = work.spec;
   io::OptionalColumns columns;
   columns.profile = spec.record_islands;
   columns.estimate = spec.estimate.has_value();
   columns.residuals = spec.stepper.residuals;
   columns.contacts = spec.stepper.contacts;
-  columns.breaks = effects::StepPlan(*work.first_world).has(effects::EffectId::breakable_joints);
-  columns.interest = traits_of(spec.stepper.kind).iterates && interest_of(*work.first_world).has_value();
+  const auto any_world_has = [&plan](effects::EffectId id) {
+    return std::ranges::any_of(plan.passes(), [id](const auto& pass) { return pass.effect->id == id; });
+  };
+  columns.breaks = any_world_has(effects::EffectId::breakable_joints);
+  columns.interest =
+      traits_of(spec.stepper.kind).iterates && any_world_has(effects::EffectId::field_of_interest);
+  return columns;
+}
+
+std::vector<io::WorldParameter> world_parameters(const Work& work) {
+  std::vector<io::WorldParameter> columns;
+  if (!work.parameters) return columns;
+  const auto values = work.parameters->values();
+  for (std::size_t key = 0; key < work.parameters->keys().size(); ++key) {
+    io::WorldParameter& column = columns.emplace_back();
+    column.key = work.parameters->keys()[key];
+    // The whole table decides, so that the files of an ensemble's parts have columns of one type.
+    const bool are_numbers = std::ranges::all_of(values, [key](const std::vector<std::string>& row) {
+      return row[key].empty() || scenes::number_in(row[key]);
+    });
+    for (int world = 0; world < work.spec.num_worlds; ++world) {
+      const std::string& value = values[static_cast<std::size_t>(work.spec.first_world() + world)][key];
+      if (are_numbers)
+        column.numbers.push_back(scenes::number_in(value).value_or(std::numeric_limits<double>::quiet_NaN()));
+      else
+        column.texts.push_back(value);
+    }
+  }
   return columns;
 }
 
@@ -60,7 +88,7 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
   std::vector<Parameter> parameters = {
       Parameter::of("scene", work.scene->name()),
       Parameter::of("scene_text", work.scene->text()),
-      Parameter::of("replicas", std::int64_t{spec.num_worlds}),
+      Parameter::of("replicas", std::int64_t{spec.ensemble_worlds}),
       Parameter::of("warmup", std::int64_t{spec.warmup}),
       Parameter::of("frames", std::int64_t{spec.frames}),
       Parameter::of("steps_per_frame", std::int64_t{spec.steps_per_frame}),
@@ -75,6 +103,7 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
       Parameter::of("record_islands", std::int64_t{spec.record_islands ? 1 : 0}),
       Parameter::of("record_contacts", std::int64_t{spec.stepper.contacts ? 1 : 0}),
       Parameter::of("ranks", static_cast<std::int64_t>(provenance.hosts.size())),
+      Parameter::of("processors", std::int64_t{provenance.processors}),
       Parameter::of("build", build_description),
       Parameter::of("library_mpi", mpi::library_version()),
       Parameter::of("library_hdf5", hdf5_version),
@@ -88,6 +117,11 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
   const scenes::SceneSource scene{work.scene->name(), work.scene->name(), work.scene->text()};
   for (const scenes::SceneSource& base : scenes::bases_of(scene))
     parameters.push_back(Parameter::of(scene_text_parameter(base.name), base.text));
+  if (spec.range) parameters.push_back(Parameter::of("world_range", to_text(*spec.range)));
+  if (work.parameters) {
+    parameters.push_back(Parameter::of("parameters_file", work.parameters->file()));
+    parameters.push_back(Parameter::of("parameters_text", work.parameters->text()));
+  }
   if (const auto interest = interest_of(*work.first_world))
     parameters.push_back(Parameter::of("field_of_interest", *interest));
   if (spec.estimate) {

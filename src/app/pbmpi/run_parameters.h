@@ -5,15 +5,19 @@
 
 #include "app/common/provenance.h"
 #include "app/pbmpi/work.h"
+#include "effects/run_plan.h"
 #include "io/run/run_file.h"
 
 namespace pbmpi::app {
 
-/// The columns that only some runs' files have.
-io::OptionalColumns optional_columns(const Work& work);
+/// The columns that only some runs' files have. `plan`: of all worlds.
+io::OptionalColumns optional_columns(const Work& work, const effects::RunPlan& plan);
 
 /// Attributes of the file's root.
 std::vector<io::Parameter> run_attributes(const Work& work, const Provenance& provenance);
+
+/// What the worlds of the run have otherwise than the scene.
+std::vector<io::WorldParameter> world_parameters(const Work& work);
 
 /// /parameters: every resolved option, the scene's text, build and library versions, hosts, job environment.
 std::vector<io::Parameter> run_parameters(const Work& work, const Provenance& provenance);

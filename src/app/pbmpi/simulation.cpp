@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/common/stepper_factory.h"
+#include "engines/stepper_factory.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/spaces/space_driver.h"
 #include "mpi/worlds/world_driver.h"
@@ -14,6 +14,7 @@ namespace {
 mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
   mpi::WorldRunSettings settings;
   settings.num_worlds = spec.num_worlds;
+  settings.first_world = spec.first_world();
   settings.warmup = spec.warmup;
   settings.frames = spec.frames;
   settings.steps_per_frame = spec.steps_per_frame;
@@ -28,7 +29,9 @@ mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
 stability::GuardSettings guard_settings(const RunSpec& spec) {
   return {spec.on_blowup,
           spec.stepper,
-          [](const stepping::StepperSettings& settings) { return make_stepper(settings, "stepped again: "); },
+          [](const stepping::StepperSettings& settings) {
+            return engines::make_stepper(settings, "stepped again: ");
+          },
           {}};
 }
 
@@ -40,20 +43,20 @@ Simulation make_simulation(const mpi::Communicator& comm, const Work& work) {
   const auto build = [&work](int world) { return build_world(work, world); };
   if (spec.decomposition == Decomposition::spaces) {
     simulation.spaces =
-        mpi::agree_on_errors(comm, [&] { return make_space_stepper(spec.stepper, build(0)); });
+        mpi::agree_on_errors(comm, [&] { return engines::make_space_stepper(spec.stepper, build(0)); });
     simulation.guards = std::make_unique<stability::GuardSettings>(guard_settings(spec));
     auto driver =
         std::make_unique<mpi::SpaceDriver>(comm, *simulation.spaces, driver_settings(spec), work.states);
     driver->watch(*simulation.guards);
     if (spec.estimate) {
-      simulation.estimate_spaces =
-          mpi::agree_on_errors(comm, [&] { return make_space_stepper(spec.estimate->stepper, build(0)); });
+      simulation.estimate_spaces = mpi::agree_on_errors(
+          comm, [&] { return engines::make_space_stepper(spec.estimate->stepper, build(0)); });
       driver->estimate_with(*simulation.estimate_spaces, spec.estimate->due_s);
     }
     simulation.driver = std::move(driver);
   } else {
-    auto guarded =
-        std::make_unique<stability::GuardedStepper>(make_stepper(spec.stepper), guard_settings(spec));
+    auto guarded = std::make_unique<stability::GuardedStepper>(engines::make_stepper(spec.stepper),
+                                                               guard_settings(spec));
     if (spec.estimate) simulation.estimator = make_estimator(*spec.estimate, *guarded);
     auto driver =
         std::make_unique<mpi::WorldDriver>(comm, *guarded, build, driver_settings(spec), work.states);

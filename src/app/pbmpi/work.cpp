@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "app/common/format.h"
-#include "app/common/load_scene.h"
 #include "app/common/version.h"
 #include "app/pbmpi/options/saved_options.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "engines/shared_scene.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/frame/frame_driver.h"
 
@@ -55,8 +55,9 @@ io::Checkpoint load_checkpoint(const mpi::Communicator& comm, const std::string&
     check_build(checkpoint, path, warnings);
     require_undamaged(checkpoint, path);
   });
-  for (std::string* text : {&checkpoint.scene, &checkpoint.scene_file, &checkpoint.scene_text,
-                            &checkpoint.options, &checkpoint.output, &checkpoint.state_hash}) {
+  for (std::string* text :
+       {&checkpoint.scene, &checkpoint.scene_file, &checkpoint.scene_text, &checkpoint.parameters_file,
+        &checkpoint.parameters_text, &checkpoint.options, &checkpoint.output, &checkpoint.state_hash}) {
     comm.bcast_string(*text);
   }
   comm.bcast_value(checkpoint.frames);
@@ -77,6 +78,26 @@ scenes::SceneSource scene_of(const mpi::Communicator& comm, const io::Checkpoint
                             "; leave the option out, or begin without --resume");
   });
   return {checkpoint.scene, checkpoint.scene_file, checkpoint.scene_text};
+}
+
+/// Collective. The checkpoint's table of parameters. `asked`: the one that was named beside it; throws
+/// core::InputError if it is another one.
+std::optional<scenes::ParameterTable> parameters_of(const mpi::Communicator& comm,
+                                                    const io::Checkpoint& checkpoint, const std::string& path,
+                                                    const std::optional<std::string>& asked) {
+  std::optional<scenes::ParameterTable> saved;
+  if (!checkpoint.parameters_text.empty())
+    saved.emplace(checkpoint.parameters_file, checkpoint.parameters_text);
+  if (!asked) return saved;
+  core::require_input(engines::share_parameters(comm, *asked).text() == checkpoint.parameters_text,
+                      "--parameters " + *asked + ": the run in " + path + " has " +
+                          (saved ? "other ones, of " + saved->file() : "none") +
+                          "; leave the option out, or begin without --resume");
+  return saved;
+}
+
+std::optional<int> num_rows(const Work& work) {
+  return work.parameters ? std::optional(work.parameters->num_worlds()) : std::nullopt;
 }
 
 /// Throws core::InputError where the worlds of a rank cannot fit into the memory of its machine: they would
@@ -111,16 +132,24 @@ void note_length_of_frame(const mpi::Communicator& comm, const Options& options,
       std::max(1.0, std::round(before_s / *options.dt_s())));
 }
 
+/// What a model from elsewhere says that is taken otherwise; a resumed run has told it before.
+void tell_notes(const mpi::Communicator& comm, const Options& options, const scenes::Scene& scene) {
+  if (!comm.is_root() || options.common.quiet || options.action == Action::describe) return;
+  for (const std::string& note : scene.notes()) std::cerr << "pbmpi: note: " << note << '\n';
+}
+
 }  // namespace
 
 Work new_work(const mpi::Communicator& comm, const Options& options) {
   Work work;
-  work.source = share_scene(comm, options.scene);
+  work.source = engines::share_scene(comm, options.scene);
   work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces, options.effects);
-  work.spec = resolve(options, *work.scene);
-  work.first_world = work.scene->build(0, work.spec.scene_seed);
+  if (options.parameters) work.parameters = engines::share_parameters(comm, *options.parameters);
+  work.spec = resolve(options, *work.scene, {}, num_rows(work));
+  work.first_world = build_anew(work, 0);
   require_memory(comm, work);
   note_length_of_frame(comm, options, work);
+  tell_notes(comm, options, *work.scene);
   return work;
 }
 
@@ -130,19 +159,26 @@ Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>&
   Work work;
   work.source = scene_of(comm, checkpoint, path, options.scene);
   options = parse_options(args, checkpoint.options);
+  work.parameters = parameters_of(comm, checkpoint, path, options.parameters);
   require_same_stepper(path, checkpoint.options, options.step.settings.kind);
   work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces, options.effects);
-  work.spec = resolve(options, *work.scene, {path, checkpoint.frames, checkpoint.output});
+  work.spec = resolve(options, *work.scene, {path, checkpoint.frames, checkpoint.output}, num_rows(work));
   require_same_physics(path, checkpoint.options, saved_options(work.spec, options.decomposition));
   core::require_input(checkpoint.steps == checkpoint.frames * work.spec.steps_per_frame,
                       path + ": its numbers of frames and steps do not fit; the file is damaged");
-  work.first_world = work.scene->build(0, work.spec.scene_seed);
+  work.first_world = build_anew(work, 0);
   work.states = std::move(checkpoint.worlds);
   return work;
 }
 
 std::shared_ptr<const model::Model> build_world(const Work& work, int world) {
-  return world == 0 ? work.first_world : work.scene->build(world, work.spec.scene_seed);
+  return world == 0 ? work.first_world : build_anew(work, world);
+}
+
+std::shared_ptr<const model::Model> build_anew(const Work& work, int world) {
+  const int number = work.spec.first_world() + world;
+  return work.scene->build(number, work.spec.scene_seed,
+                           work.parameters ? work.parameters->of_world(number) : scenes::Overrides());
 }
 
 io::Checkpoint checkpoint_without_states(const Work& work, Decomposition asked) {
@@ -153,6 +189,10 @@ io::Checkpoint checkpoint_without_states(const Work& work, Decomposition asked) 
   checkpoint.scene = work.source.name;
   checkpoint.scene_file = work.source.file;
   checkpoint.scene_text = work.source.text;
+  if (work.parameters) {
+    checkpoint.parameters_file = work.parameters->file();
+    checkpoint.parameters_text = work.parameters->text();
+  }
   checkpoint.options = saved_options(work.spec, asked);
   if (work.spec.output) checkpoint.output = std::filesystem::absolute(*work.spec.output).string();
   return checkpoint;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "io/run/checkpoint_file.h"
 #include "model/state.h"
 #include "mpi/comm/communicator.h"
+#include "scenes/parameter_table.h"
 #include "scenes/scene.h"
 
 namespace pbmpi::app {
@@ -16,8 +18,9 @@ namespace pbmpi::app {
 struct Work {
   scenes::SceneSource source;
   std::unique_ptr<scenes::Scene> scene;
-  RunSpec spec;                                     ///< as resolve() leaves it
-  std::shared_ptr<const model::Model> first_world;  ///< built once: much of a run depends on world 0
+  std::optional<scenes::ParameterTable> parameters;  ///< of the whole ensemble
+  RunSpec spec;                                      ///< as resolve() leaves it
+  std::shared_ptr<const model::Model> first_world;   ///< built once: much of a run depends on its first world
   /// [num_worlds] on root: the states from which a resumed run goes on; else empty
   std::vector<model::State> states;
 };
@@ -29,8 +32,11 @@ Work new_work(const mpi::Communicator& comm, const Options& options);
 /// become what the command line, `args`, and the checkpoint say together. Throws core::InputError.
 Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>& args, Options& options);
 
-/// World `world` as the run starts with it.
+/// World `world` of the run as it starts: in its ensemble it has the number spec.first_world() + world.
 std::shared_ptr<const model::Model> build_world(const Work& work, int world);
+
+/// The same, built anew for each call.
+std::shared_ptr<const model::Model> build_anew(const Work& work, int world);
 
 /// What a checkpoint of this run says beside its states. `asked`: how the work was to be cut.
 io::Checkpoint checkpoint_without_states(const Work& work, Decomposition asked);

@@ -4,10 +4,14 @@
 #include <ostream>
 
 #include "app/pbreport/accuracy/study.h"
+#include "app/pbreport/accuracy/study_options.h"
 #include "app/pbreport/csv/csv.h"
+#include "app/pbreport/csv/csv_options.h"
 #include "app/pbreport/diff/diff.h"
+#include "app/pbreport/diff/diff_options.h"
 #include "app/pbreport/effects/effects.h"
 #include "app/pbreport/ensemble/ensemble.h"
+#include "app/pbreport/ensemble/ensemble_options.h"
 #include "app/pbreport/figures/figures.h"
 #include "app/pbreport/instructions/figure3.h"
 #include "app/pbreport/join/join.h"
@@ -16,6 +20,8 @@
 #include "app/pbreport/repair/repair.h"
 #include "app/pbreport/run/options.h"
 #include "app/pbreport/run/report.h"
+#include "app/pbreport/scaling/scaling.h"
+#include "app/pbreport/scaling/scaling_options.h"
 #include "app/pbreport/stability/stability.h"
 #include "app/pbreport/study/study_file.h"
 #include "app/pbreport/suite/suite_commands.h"
@@ -23,24 +29,11 @@
 namespace pbmpi::app {
 namespace {
 
-void print_help(std::ostream& out) {
-  out << "pbreport shows what a run of pbmpi amounts to.\n\n"
-      << "Usage: pbreport [COMMAND] FILE [options]\n\nCommands:\n";
-  for (const ReportCommand& command : report_commands()) {
-    out << "  " << command.name << std::string(12 - std::min<std::size_t>(11, command.name.size()), ' ')
-        << command.meaning << "\n";
-  }
-  out << report_options_text() << "\nExit codes: 0 done; 1 failed; 2 bad usage or bad input.\n\nExamples:\n"
-      << "  pbreport 100CrSk.h5\n"
-      << "  pbreport 100CrSk.h5 --html 100CrSk.html\n"
-      << "  pbreport 100CrSk.h5 --json | jq .frame_rate\n";
-}
-
 /// "pbreport [report] FILE", whose help is that of the program.
 core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostream& out) {
   const ReportOptions options = parse_report_options(args);
   if (options.action != ReportAction::help) return run_report(options, out);
-  print_help(out);
+  out << help_of(pbreport_manual());
   return core::ExitCode::done;
 }
 
@@ -60,27 +53,49 @@ Run command_for_the_files_of(const std::vector<std::string>& args) {
 const std::vector<ReportCommand>& report_commands() {
   static const std::vector<ReportCommand> commands = {
       {"report", "the summary of one run, its HTML page, its ParaView sidecar (the default)",
-       run_first_command},
-      {"islands", "the paper's Table 1 from runs", run_islands},
-      {"cores", "the paper's Table 2 and Figure 6 from runs with --record-islands", run_cores},
-      {"figure3", "the paper's Figure 3 from the instructions that jobs/figure3.sh counts", run_figure3},
-      {"figure6", "one page of both, from such runs", run_figure6},
-      {"diff", "how far two recorded runs of the same bodies are apart", run_diff},
-      {"figures", "figures 8 and 9 of the paper from recorded runs", run_figures},
-      {"paper", "every statement of the paper beside what jobs/paper.sh has measured", run_paper},
-      {"study", "what accuracy costs in time: the file of pbstudy, and the setting for a budget", run_study},
-      {"effects", "what effects cost: the file of pbstudy effects", run_effects_report},
-      {"stability", "which settings hold the hard cases: the file of pbstudy stability",
-       run_stability_report},
+       run_first_command, pbreport_manual},
+      {"islands", "the paper's Table 1 from runs", run_islands, islands_manual},
+      {"cores", "the paper's Table 2 and Figure 6 from runs with --record-islands", run_cores, cores_manual},
+      {"figure3", "the paper's Figure 3 from the instructions that jobs/figure3.sh counts", run_figure3,
+       figure3_manual},
+      {"figure6", "one page of both, from such runs", run_figure6, figure6_manual},
+      {"diff", "how far two recorded runs of the same bodies are apart", run_diff, diff_manual},
+      {"figures", "figures 8 and 9 of the paper from recorded runs", run_figures, figures_manual},
+      {"paper", "every statement of the paper beside what jobs/paper.sh has measured", run_paper,
+       paper_manual},
+      {"study", "what accuracy costs in time: the file of pbstudy, and the setting for a budget", run_study,
+       study_manual},
+      {"effects", "what effects cost: the file of pbstudy effects", run_effects_report,
+       effects_report_manual},
+      {"stability", "which settings hold the hard cases: the file of pbstudy stability", run_stability_report,
+       stability_report_manual},
       {"prediction", "what value prediction gains and changes: the file of pbstudy prediction",
-       run_prediction_report},
-      {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ...",
-       run_csv},
-      {"ensemble", "mean, spread and quantiles over runs that differ in their seeds", run_ensemble},
-      {"join", "a run and what went on from its checkpoints as one file", run_join},
-      {"repair", "gives back the disk space that a killed run keeps", run_repair},
+       run_prediction_report, prediction_report_manual},
+      {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ...", run_csv,
+       csv_manual},
+      {"ensemble", "mean, spread and quantiles over runs that differ in their seeds", run_ensemble,
+       ensemble_manual},
+      {"scaling", "what more ranks bring: runs of the same work on different numbers of ranks", run_scaling,
+       scaling_manual},
+      {"join", "a run and what went on from its checkpoints as one file", run_join, join_manual},
+      {"repair", "gives back the disk space that a killed run keeps", run_repair, repair_manual},
   };
   return commands;
+}
+
+Manual pbreport_manual() {
+  Manual manual{.name = "pbreport",
+                .meaning = "shows what runs of pbmpi and studies of pbstudy amount to",
+                .about = "pbreport shows what a run of pbmpi amounts to.",
+                .usage = "pbreport [COMMAND] FILE [options]",
+                .title = "Commands (pbreport COMMAND --help shows their options)",
+                .options = report_options_description(),
+                .exit_codes = common_exit_codes(),
+                .examples = {"pbreport 100CrSk.h5", "pbreport 100CrSk.h5 --html 100CrSk.html",
+                             "pbreport 100CrSk.h5 --json | jq .frame_rate"}};
+  for (const ReportCommand& command : report_commands())
+    manual.commands.push_back({std::string(command.name), std::string(command.meaning)});
+  return manual;
 }
 
 core::ExitCode run_pbreport(const std::vector<std::string>& args, std::ostream& out) {

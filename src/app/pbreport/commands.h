@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/manual/manual.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
@@ -15,10 +16,14 @@ struct ReportCommand {
   std::string_view name;
   std::string_view meaning;  ///< one line for --help
   core::ExitCode (*run)(const std::vector<std::string>& args, std::ostream& out);
+  Manual (*manual)();
 };
 
 /// The first is what runs when the first argument names no command.
 const std::vector<ReportCommand>& report_commands();
+
+/// Of pbreport itself, and of the first command.
+Manual pbreport_manual();
 
 /// Runs the command that args[0] names, with the arguments after it, else the first command with all of them.
 /// Prints to `out`. Throws core::InputError and core::RunError.

@@ -5,29 +5,18 @@
 
 #include "app/common/options.h"
 #include "app/pbstudy/accuracy/accuracy.h"
+#include "app/pbstudy/accuracy/accuracy_options.h"
 #include "app/pbstudy/effects/effects.h"
+#include "app/pbstudy/effects/effects_options.h"
 #include "app/pbstudy/prediction/prediction.h"
+#include "app/pbstudy/prediction/prediction_options.h"
 #include "app/pbstudy/stability/stability.h"
+#include "app/pbstudy/stability/stability_options.h"
+#include "app/pbstudy/study/study_runner.h"
 #include "core/text.h"
 
 namespace pbmpi::app {
 namespace {
-
-std::string help_text() {
-  std::string text =
-      "pbstudy runs a matrix of cases over the MPI ranks, each case a world of its own, and writes one HDF5 "
-      "file.\n\n"
-      "Usage: mpirun -n RANKS pbstudy STUDY [options]\n\nStudies (pbstudy STUDY --help shows their "
-      "options):\n";
-  for (const StudyCommand& command : study_commands()) {
-    text += "  " + std::string(command.name) +
-            std::string(12 - std::min<std::size_t>(11, command.name.size()), ' ') +
-            std::string(command.meaning) + "\n";
-  }
-  return text + "\nOptions:\n  -h [ --help ]   print this help\n  --version       print the version\n" +
-         "\nExit codes: 0 done; 1 failed; 2 bad usage or bad input.\n"
-         "Example: mpirun -n 2 pbstudy accuracy --scene CrashWa\n";
-}
 
 std::string unknown_study(const std::string& word) {
   std::vector<std::string> names;
@@ -41,13 +30,37 @@ std::string unknown_study(const std::string& word) {
 
 const std::vector<StudyCommand>& study_commands() {
   static const std::vector<StudyCommand> commands = {
-      {"accuracy", "what accuracy costs in time: errors and times of many settings", run_accuracy},
-      {"effects", "what each effect costs, and what leaving it out does to the result", run_effects},
+      {"accuracy", "what accuracy costs in time: errors and times of many settings", run_accuracy,
+       accuracy_manual},
+      {"effects", "what each effect costs, and what leaving it out does to the result", run_effects,
+       effects_manual},
       {"prediction", "what value prediction gains a frame, and what it does to the result (Valgrind)",
-       run_prediction},
-      {"stability", "which settings hold the cases that are known to be hard", run_stability},
+       run_prediction, prediction_manual},
+      {"stability", "which settings hold the cases that are known to be hard", run_stability,
+       stability_manual},
   };
   return commands;
+}
+
+Manual pbstudy_manual() {
+  boost::program_options::options_description options("Options");
+  options.add_options()("help,h", "print this help")("version", "print the version");
+  Manual manual{.name = "pbstudy",
+                .meaning = "measures what settings of pbmpi cost, and how good their results are",
+                .about =
+                    "pbstudy runs a matrix of cases over the MPI ranks, each case a world of its own, and "
+                    "writes one HDF5 file.",
+                .usage = "mpirun -n RANKS pbstudy STUDY [options]",
+                .title = "Studies (pbstudy STUDY --help shows their options)",
+                .options = options,
+                .exit_codes = common_exit_codes(),
+                .files = {{"STUDY.h5", "the study, in HDF5; pbreport shows it"},
+                          {"STUDY.h5.cases-RANK", "cases that are done, until the study is complete"}},
+                .examples = {"mpirun -n 2 pbstudy accuracy --scene CrashWa"}};
+  manual.exit_codes.push_back({"75", "stopped early on request; --resume goes on"});
+  for (const StudyCommand& command : study_commands())
+    manual.commands.push_back({std::string(command.name), std::string(command.meaning)});
+  return manual;
 }
 
 core::ExitCode run_pbstudy(const mpi::Communicator& comm, const std::vector<std::string>& args) {
@@ -56,10 +69,16 @@ core::ExitCode run_pbstudy(const mpi::Communicator& comm, const std::vector<std:
     return core::ExitCode::done;
   };
   core::require_input(!args.empty(), "no study is named; name one, e.g. pbstudy accuracy (see --help)");
-  if (args.front() == "--help" || args.front() == "-h") return say(help_text());
+  if (args.front() == "--help" || args.front() == "-h") return say(help_of(pbstudy_manual()));
   if (args.front() == "--version") return say(version_line("pbstudy") + "\n");
   for (const StudyCommand& command : study_commands()) {
-    if (command.name == args.front()) return command.run(comm, {args.begin() + 1, args.end()});
+    if (command.name != args.front()) continue;
+    try {
+      return command.run(comm, {args.begin() + 1, args.end()});
+    } catch (const StudyStopped& stopped) {  // on all ranks
+      if (comm.is_root()) std::cerr << "pbstudy: " << stopped.message << std::endl;
+      return core::ExitCode::stopped;
+    }
   }
   throw core::InputError(unknown_study(args.front()));
 }

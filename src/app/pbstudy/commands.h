@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/manual/manual.h"
 #include "core/error.h"
 #include "mpi/comm/communicator.h"
 
@@ -15,9 +16,13 @@ struct StudyCommand {
   std::string_view name;
   std::string_view meaning;  ///< one line for --help
   core::ExitCode (*run)(const mpi::Communicator& comm, const std::vector<std::string>& args);
+  Manual (*manual)();
 };
 
 const std::vector<StudyCommand>& study_commands();
+
+/// Of pbstudy itself.
+Manual pbstudy_manual();
 
 /// Collective. Runs the study that args[0] names. Throws core::InputError and core::RunError, the same on
 /// every rank.

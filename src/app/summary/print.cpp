@@ -20,6 +20,7 @@ std::string run_lines(const RunSummary& s) {
                  static_cast<long long>(s.bodies));
   text += format("ranks: %d on %s\n", s.ranks,
                  join(s.hosts, [](const std::string& host) { return host; }).c_str());
+  if (s.threads > 1) text += format("threads: %d in each rank\n", s.threads);
   if (!s.idle_ranks.empty()) {
     text += format("idle_ranks: %s (more ranks than %s)\n",
                    join(s.idle_ranks, [](int rank) { return std::to_string(rank); }).c_str(),
@@ -165,6 +166,7 @@ std::string state_lines(const RunSummary& s) {
       format("invariants: %lld non-finite bodies, joint gap %.2f mm, penetration %.2f mm, energy %.1f J\n",
              static_cast<long long>(s.nonfinite_bodies), 1e3 * s.max_joint_gap_m, 1e3 * s.max_penetration_m,
              s.energy_j);
+  text += format("worlds_survived: %lld of %d\n", static_cast<long long>(s.worlds_survived), s.worlds);
   if (s.joints_broken > 0) text += format("joints_broken: %lld\n", static_cast<long long>(s.joints_broken));
   text += guard_lines(s.guards);
   text += "output: " + (s.output.empty() ? std::string("none") : s.output) + "\n";
@@ -208,6 +210,7 @@ std::string to_json(const RunSummary& s) {
   json["worlds"] = s.worlds;
   json["bodies"] = s.bodies;
   json["ranks"] = s.ranks;
+  json["threads"] = s.threads;
   json["hosts"] = s.hosts;
   json["idle_ranks"] = s.idle_ranks;
   json["stepper"] = s.stepper;
@@ -240,6 +243,7 @@ std::string to_json(const RunSummary& s) {
                         {"max_joint_gap_m", s.max_joint_gap_m},
                         {"max_penetration_m", s.max_penetration_m},
                         {"energy_j", s.energy_j}};
+  json["worlds_survived"] = s.worlds_survived;
   json["joints_broken"] = s.joints_broken;
   json["guards"] = guards_json(s.guards);
   json["effects"] = effects_json(s);

@@ -71,7 +71,7 @@ struct RunSummary {
   std::string version, scene, stepper, precision = "double", simd, output, state_hash;
   std::vector<std::string> hosts;  ///< distinct
   std::vector<int> idle_ranks;     ///< ranks that own no world at the end
-  int worlds = 0, ranks = 0, iterations = 0, substeps = 1, steps_per_frame = 0;
+  int worlds = 0, ranks = 0, threads = 1, iterations = 0, substeps = 1, steps_per_frame = 0;
   std::int64_t bodies = 0;
   std::uint64_t seed = 0;
   double dt_s = 0, budget_s = 0;
@@ -91,7 +91,8 @@ struct RunSummary {
   double energy_j = 0;                                ///< of all worlds, at the end
   std::vector<EffectSummary> effects;
   std::string effects_chosen;  ///< "+friction,-gravity": demanded and left out; empty: as the scene calls for
-  std::int64_t joints_broken = 0;  ///< in the whole run
+  std::int64_t worlds_survived = 0;  ///< that kept their numbers and were not frozen
+  std::int64_t joints_broken = 0;    ///< in the whole run
   GuardSummary guards;
   std::int64_t rebalances = 0, worlds_moved = 0;  ///< moved: worlds, or spaces
   std::string decomposition = "worlds";

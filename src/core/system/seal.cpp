@@ -58,6 +58,18 @@ void add_seal(std::vector<std::byte>& image) {
   image.insert(image.end(), bytes.begin(), bytes.end());
 }
 
+std::optional<std::span<const std::byte>> sealed_part(std::span<const std::byte> image) {
+  if (image.size() < sizeof(Trailer)) return std::nullopt;
+  const std::span<const std::byte> before = image.first(image.size() - sizeof(Trailer));
+  Trailer trailer;
+  std::memcpy(&trailer, before.data() + before.size(), sizeof trailer);
+  Checksum checksum;
+  checksum.add(before);
+  const bool intact =
+      trailer.name == magic && trailer.num_bytes == before.size() && trailer.checksum == checksum.value();
+  return intact ? std::optional(before) : std::nullopt;
+}
+
 Seal seal_of(const std::string& path) {
   require_readable_file(path, "give the name of a file that pbmpi has written");
   std::ifstream file(path, std::ios::binary | std::ios::ate);

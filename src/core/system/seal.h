@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ class Checksum {
 /// Appends the seal: "PBMPISUM", the number of bytes before it, their checksum. HDF5 passes over what stands
 /// behind the end of a file that it knows, and drops it when it writes into the file.
 void add_seal(std::vector<std::byte>& image);
+/// The bytes before the seal at the end of `image`; none where there is no seal, or they have changed.
+std::optional<std::span<const std::byte>> sealed_part(std::span<const std::byte> image);
 
 enum class Seal { none, intact, broken };
 /// What the end of the file says of the rest of it. Throws InputError as require_readable_file()

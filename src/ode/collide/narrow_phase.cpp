@@ -32,6 +32,8 @@ class NarrowPhase final : public model::NarrowPhase {
 
   void collide(std::span<const model::BodyPose> poses, std::span<const model::GeomPair> pairs,
                std::vector<model::Contact>& contacts) override {
+    if (pairs.empty()) return;
+    prepare_thread();  // any thread of a pool may come
     ++time_;
     for (const model::GeomPair& pair : pairs) {
       bring(pair.first, poses);

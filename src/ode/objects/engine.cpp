@@ -69,6 +69,11 @@ Engine::Engine() {
   }
 }
 
+void prepare_thread() {
+  if (dAllocateODEDataForThread(dAllocateMaskAll) == 0)
+    throw core::RunError("ode: dAllocateODEDataForThread failed");
+}
+
 Engine::~Engine() { dCloseODE(); }
 
 MessageScope::MessageScope(MessageLog& log)

@@ -55,6 +55,10 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
 };
 
+/// Gives this thread what ODE needs for collision detection in it, while an Engine lives; costs next to
+/// nothing where it has that. Throws core::RunError if there is no memory for it.
+void prepare_thread();
+
 /// Sends ODE's messages to `log` while it lives, and turns its errors into EngineError. Scopes nest; the
 /// handlers found are put back.
 ///

@@ -58,13 +58,16 @@ void Events::apply(const model::Event& event) {
                      event.angular_velocity.z());
 }
 
+void Events::set_motor(int joint, int axis, const model::AxisMotor& motor) {
+  ode::set_motor(joints_[joint], model_->joints[joint].kind, axis, motor);
+  poses_->replace(joint, axis, motor);
+}
+
 void Events::set_joint(const model::Event& event) {
-  const model::JointKind kind = model_->joints[event.joint].kind;
   if (event.kind == model::EventKind::motor) {
-    set_motor(joints_[event.joint], kind, event.axis, event.motor);
-    poses_->replace(event.joint, event.axis, event.motor);
+    set_motor(event.joint, event.axis, event.motor);
   } else {
-    set_limit(joints_[event.joint], kind, 0, {event.angle, event.angle});
+    set_limit(joints_[event.joint], model_->joints[event.joint].kind, 0, {event.angle, event.angle});
   }
 }
 

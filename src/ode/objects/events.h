@@ -21,6 +21,8 @@ class Events {
   /// Brings the joints, fresh from make_joints(), to where they stand at the start of step `step`, before
   /// that step's own events. Launches of earlier steps are part of the state already.
   void skip_to(std::int64_t step);
+  /// This motor drives an axis from now on.
+  void set_motor(int joint, int axis, const model::AxisMotor& motor);
   /// Fires the events of step `step`. Steps come in order, without a gap, from skip_to()'s.
   void fire(std::int64_t step) {
     while (next_ < model_->events.size() && model_->events[next_].step <= step) {

@@ -17,6 +17,7 @@ struct PackedWorld {
   model::NarrowPhase* fallback = nullptr;  ///< collides the pairs that the lanes do not
   bool lanes_collide = true;               ///< false: the fallback collides all pairs
   double contact_margin_m = 0;  ///< the lanes find contacts between geoms that are no farther apart
+  bool in_parts = false;        ///< do steps move some islands apart from others?
   /// The geoms that collide() looks at, ascending; none: all of the model.
   std::optional<std::vector<int>> swept_geoms = std::nullopt;
 };

@@ -57,6 +57,7 @@ Passes shared_passes(std::span<const PackedWorld> worlds) {
     const Passes own = passes_of(*world.model);
     for (const PassOfEffect& one : passes_of_effects) shared.*one.pass |= own.*one.pass;
     shared.turning_contacts |= own.turning_contacts;
+    shared.in_parts |= world.in_parts;
   }
   return shared;
 }

@@ -23,6 +23,7 @@ struct Passes {
   bool damping = false;
   bool sleeping = false;
   bool field_of_interest = false;
+  bool in_parts = false;  ///< do steps move some islands apart from others?
   /// Effects that are demanded though nothing calls for them: friction rows at mu = 0, rows at all joint axes
   /// that could have a limit or a motor, gyroscopic torque of spheres and cubes. Where an effect is called
   /// for, its rows follow from the contacts and joints one by one.
@@ -32,7 +33,7 @@ struct Passes {
   bool idle_gyroscopic_torque = false;
 
   /// Are there steps of some bodies only, after which the others must be as before?
-  bool holds_bodies() const { return sleeping || field_of_interest; }
+  bool holds_bodies() const { return sleeping || field_of_interest || in_parts; }
 };
 
 Passes passes_of(const model::Model& model);

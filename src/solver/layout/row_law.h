@@ -30,11 +30,12 @@ struct RowLaw {
 
 /// Both follow from an implicit Euler step h [s] of the spring (E. Catto, "Soft constraints", GDC 2011): its
 /// ERP is h w / (2 zeta + h w), its CFM relative to d is 1 / (h w (2 zeta + h w)). A spring of more than
-/// a quarter of a period a step is only as stiff as that.
+/// a quarter of a period a step is only as stiff as that; or, where a step stands for several shorter ones, a
+/// quarter of a period in one of those, so that what rests sags alike however few steps it gets.
 class SpringStep {
  public:
-  SpringStep(const Spring& spring, double h) {
-    constexpr double most_periods = 0.25;
+  SpringStep(const Spring& spring, double h, double shorter_steps = 1) {
+    const double most_periods = 0.25 * shorter_steps;
     const double angle = 2 * std::numbers::pi * std::min(spring.frequency_hz * h, most_periods);
     const double resistance = 2 * spring.damping_ratio + angle;
     erp_ = angle / resistance;

@@ -23,6 +23,8 @@ namespace pbmpi::solver {
 struct StepParameters {
   double dt_s = 0.01;
   int substeps = 1;
+  int all_substeps = 1;   ///< of the run: an island may get fewer, and has the springs of all
+  int most_substeps = 1;  ///< of a loaded island
   int iterations = 20;
   double sor_factor = 1.3;
   double warm_start = 0;  ///< share of the impulses that a step and a substep take over from the one before
@@ -68,6 +70,9 @@ class Pack {
   /// may_be_fast[num_worlds]: 0 if no geom of the world can be fast (effects/fast_bodies.h) in a step of
   /// `dt_s` from now. All 0 without the pass "fast_bodies".
   virtual void find_fast(double dt_s, std::vector<char>& may_be_fast) const = 0;
+  /// may_be_slow[num_worlds]: 0 if the centre of each body of the world would move farther than `way_m` in a
+  /// step of `dt_s` at its velocity of now.
+  virtual void find_slow(double dt_s, double way_m, std::vector<char>& may_be_slow) const = 0;
   /// Poses of a world's bodies: [num_bodies].
   virtual void poses(int world, std::span<model::BodyPose> poses) const = 0;
   /// Collision detection among the swept geoms at the poses of now: the contacts of each world, in canonical

@@ -54,6 +54,10 @@ class PackLanes final : public Pack {
     may_be_fast.assign(static_cast<std::size_t>(worlds_.num_worlds()), 0);
     if (speed_bounds_) speed_bounds_->find_fast(worlds_, dt_s, may_be_fast);
   }
+  void find_slow(double dt_s, double way_m, std::vector<char>& may_be_slow) const override {
+    may_be_slow.assign(static_cast<std::size_t>(worlds_.num_worlds()), 0);
+    solver::find_slow(worlds_, dt_s, way_m, may_be_slow);
+  }
   void poses(int world, std::span<model::BodyPose> poses) const override { worlds_.poses(world, poses); }
   int joint_rows(int world, int joint) const override { return worlds_.joint_rows(world, joint); }
 

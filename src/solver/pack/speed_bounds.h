@@ -1,4 +1,4 @@
-/// Which worlds of a pack have a body that may be fast (effects/fast_bodies.h) in a step.
+/// Which worlds of a pack have a body that may be fast (effects/fast_bodies.h) in a step, or slow.
 #pragma once
 
 #include <bit>
@@ -58,6 +58,25 @@ void SpeedBounds<T>::find_fast(const WorldLanes<T>& worlds, double dt_s,
     for (unsigned lanes = T::bits(one - in_bounds); lanes != 0; lanes &= lanes - 1) {
       const int world = worlds.places.world_at({static_cast<int>(slot), std::countr_zero(lanes)});
       if (world >= 0) may_be_fast[static_cast<std::size_t>(world)] = 1;
+    }
+  }
+}
+
+/// Sets may_be_slow[num_worlds], 0 before, where the centre of a body moves by no more than `way_m` in a step
+/// of `dt_s`, or its lane cannot tell.
+template <class T>
+void find_slow(const WorldLanes<T>& worlds, double dt_s, double way_m, std::vector<char>& may_be_slow) {
+  using V = typename T::V;
+  using Scalar = typename T::Scalar;
+  const V zero = T::broadcast(0), one = T::broadcast(1);
+  const double speed = way_m / dt_s;
+  const V square = T::broadcast(static_cast<Scalar>(speed * speed * 1.001));  // what is rounded stays below
+  for (int slot = 0; slot < worlds.places.num_slots(); ++slot) {
+    const Twist<V>& twist = worlds.bodies.twists[slot];
+    const V slow = dot(twist.linear, twist.linear) <= square ? one : zero;
+    for (unsigned lanes = T::bits(slow); lanes != 0; lanes &= lanes - 1) {
+      const int world = worlds.places.world_at({slot, std::countr_zero(lanes)});
+      if (world >= 0) may_be_slow[static_cast<std::size_t>(world)] = 1;
     }
   }
 }

@@ -49,9 +49,13 @@ class StepLaws {
  private:
   static Scalar scalar(double value) { return static_cast<Scalar>(value); }
 
+  /// How many of the run's substeps one of this step stands for.
+  static double length_of(const StepParameters& step) {
+    return static_cast<double>(step.all_substeps) / step.substeps;
+  }
   void set_joints(const StepParameters& step) {
     if (!step.joints.is_on()) return;
-    const SpringStep spring(step.joints, static_cast<double>(h_));
+    const SpringStep spring(step.joints, static_cast<double>(h_), length_of(step));
     joint_erp_ = spring.erp();
     joint_law_ = spring.template law<Scalar>();
   }
@@ -69,7 +73,7 @@ class StepLaws {
                  .relaxes = step.relax > 0,
                  .cone = step.cone};
     if (!step.contacts.is_on()) return;
-    const SpringStep spring(step.contacts, static_cast<double>(h_));
+    const SpringStep spring(step.contacts, static_cast<double>(h_), length_of(step));
     contacts_.push_rate = scalar(spring.erp()) / h_;
     contacts_.soft_cfm = 0;
     contact_law_ = spring.template law<Scalar>();

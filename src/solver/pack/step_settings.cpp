@@ -14,9 +14,15 @@ using model::EventKind;
 void require_valid(const stepping::StepperSettings& settings) {
   core::require_input(settings.dt_s > 0, "a step must be longer than 0 s");
   core::require_input(settings.iterations >= 1, "the solver needs at least 1 iteration");
+  core::require_input(settings.threads >= 1, "the worlds are stepped by at least 1 thread");
   core::require_input(settings.substeps >= 1, "a step has at least 1 substep");
+  core::require_input(settings.tolerance_m >= 0, "the tolerance of a step is a length, or 0 for none");
   core::require_input(settings.warm_start >= 0 && settings.warm_start <= 1,
                       "warm start: the share of the impulses to take over is 0 to 1");
+  core::require_input(settings.sag_m >= 0, "the sag of a step is a length, or 0 for none");
+  core::require_input(settings.sag_m == 0 || remembers(settings),
+                      "--sag tells by the forces of the last step what an island carries: it needs a "
+                      "--warm-start above 0");
   core::require_input(has_simd(settings.simd),
                       "this machine lacks the instruction set asked for with --simd; use auto");
 }
@@ -36,7 +42,8 @@ double contact_margin_m(const stepping::StepperSettings& settings, const model::
 StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step) {
   StepParameters parameters;
   parameters.dt_s = settings.dt_s;
-  parameters.substeps = settings.substeps;
+  parameters.substeps = parameters.all_substeps = settings.substeps;
+  parameters.most_substeps = settings.most_substeps;
   parameters.iterations = settings.iterations;
   parameters.sor_factor = settings.sor_factor;
   parameters.warm_start = settings.warm_start;
@@ -71,6 +78,16 @@ Event velocity_event(int body, const model::State& state) {
   event.velocity = state.velocity[static_cast<std::size_t>(body)];
   event.angular_velocity = state.angular_velocity[static_cast<std::size_t>(body)];
   return event;
+}
+
+void apply_first_settings(const model::Model& model, int world, Pack& pack) {
+  for (int joint = 0; joint < model.num_joints(); ++joint) {
+    const model::Joint& held = model.joints[static_cast<std::size_t>(joint)];
+    for (const int axis : {0, 1}) {
+      pack.set_limit(world, joint, axis, held.limits[static_cast<std::size_t>(axis)]);
+      pack.set_motor(world, joint, axis, held.motors[static_cast<std::size_t>(axis)]);
+    }
+  }
 }
 
 void apply_settings_before(const model::Model& model, std::int64_t step, int world, Pack& pack) {

@@ -16,6 +16,20 @@ void require_valid(const stepping::StepperSettings& settings);
 /// Do the steps of a run start from the forces that the last one ended with?
 inline bool remembers(const stepping::StepperSettings& settings) { return settings.warm_start > 0; }
 
+/// Do quiet islands get fewer substeps than others (quiet_islands.h)?
+inline bool spares_substeps(const stepping::StepperSettings& settings) {
+  return settings.tolerance_m > 0 && settings.substeps > 1;
+}
+
+/// Do loaded islands get more substeps than others (loaded_islands.h)? Their springs are to be of use.
+inline bool adds_substeps(const stepping::StepperSettings& settings) {
+  return settings.sag_m > 0 && settings.most_substeps > settings.substeps && remembers(settings);
+}
+
+inline bool shares_differ(const stepping::StepperSettings& settings) {
+  return spares_substeps(settings) || adds_substeps(settings);
+}
+
 /// Makes the memory of a state with which a world starts what the steps of a run need: no force where nothing
 /// is known, or none at all.
 void start_memory(bool remembers, const model::Model& model, model::StepMemory& memory);
@@ -34,6 +48,9 @@ void apply_setting(const model::Event& event, int world, Pack& pack);
 
 /// A launch from where the body is, with its velocities in `state`: Pack::launch() rounds and places them.
 model::Event velocity_event(int body, const model::State& state);
+
+/// The motors and limits of the model, as at the start.
+void apply_first_settings(const model::Model& model, int world, Pack& pack);
 
 /// The joint settings of all steps before this one.
 void apply_settings_before(const model::Model& model, std::int64_t step, int world, Pack& pack);

@@ -11,6 +11,7 @@ stepping::Observables count_islands(const model::Model& model, const model::Spac
                                     std::span<const Articulation> articulations, std::span<const int> units,
                                     std::span<const model::Contact> contacts,
                                     const std::function<std::optional<int>(int joint)>& joint_rows,
+                                    const std::function<int(int body)>& sweeps,
                                     const effects::SpaceSleepers* sleepers) {
   const auto asleep = [&](int body) { return sleepers != nullptr && sleepers->asleep(body); };
   stepping::Observables counts;
@@ -40,6 +41,7 @@ stepping::Observables count_islands(const model::Model& model, const model::Spac
       counts.islands += island == body ? 1 : 0;
       island_rows[island] += rows[body];
       counts.rows += rows[body];
+      if (rows[body] > 0) counts.row_visits += static_cast<double>(rows[body]) * sweeps(body);
     }
   }
   counts.contacts = static_cast<int>(contacts.size());

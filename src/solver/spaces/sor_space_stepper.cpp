@@ -8,9 +8,9 @@
 #include "model/memory_rows.h"
 #include "solver/contacts/contact_recall.h"
 #include "solver/layout/articulation.h"
-#include "solver/pack/focused_step.h"
 #include "solver/pack/simd.h"
 #include "solver/pack/step_settings.h"
+#include "solver/parts/parted_step.h"
 #include "solver/spaces/active_units.h"
 #include "solver/spaces/cross_broad_phase.h"
 #include "solver/spaces/island_counts.h"
@@ -74,7 +74,8 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   std::vector<char> own_mask() const;
   bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
   void activate(std::span<const int> units);
-  void focus(std::span<const Contact> contacts);
+  /// Finds out which islands get less of the step than others.
+  void part(std::span<const Contact> contacts, const StepParameters& parameters);
   void recall(std::span<const Contact> contacts);
   bool is_awake(int body) const { return rules_.sleepers() == nullptr || !rules_.sleepers()->asleep(body); }
   /// Applies the velocity rules to the awake bodies of own spaces, or to those of other ranks.
@@ -101,8 +102,10 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   ActiveUnits active_;             ///< of the last solve()
   std::vector<model::GeomPair> pairs_;
   std::optional<SpaceFastBodies> fast_bodies_;  ///< none without the pass
-  FocusedStep focused_;                         ///< of the last solve()
+  PartedStep parted_;                           ///< of the last solve()
   ContactRecall recall_;                        ///< likewise
+  std::optional<IslandShares> shares_;          ///< of a run in which they differ
+  model::State after_;                          ///< likewise: see PartedWorld
   int fast_own_bodies_ = 0;                     ///< in the last step
   int bodies_inside_ = 0;                       ///< of the last solve()
   std::int64_t last_step_ = 0;                  ///< solved
@@ -124,6 +127,7 @@ SorSpaceStepper::SorSpaceStepper(const stepping::StepperSettings& settings,
       active_(map_) {
   if (effects::StepPlan(*model_).has(effects::EffectId::fast_bodies))
     fast_bodies_.emplace(*model_, map_, settings.dt_s);
+  if (shares_differ(settings)) shares_.emplace(*model_, settings);
   rules_.start();
 }
 
@@ -131,6 +135,7 @@ std::vector<PackedWorld> SorSpaceStepper::packed_own_first() const {
   std::vector<PackedWorld> packed = {pack_own_first(*model_, map_, articulations_, is_own_)};
   packed[0].fallback = narrow_phase_.get();
   packed[0].lanes_collide = settings_.colliders == stepping::Colliders::lanes;
+  packed[0].in_parts = shares_differ(settings_);
   packed[0].contact_margin_m = contact_margin_m(settings_, *model_);
   return packed;
 }
@@ -193,7 +198,7 @@ void SorSpaceStepper::break_overloaded_joints(std::int64_t step) {
     const int unit = map_.unit_of_body[model_->joints[joint].body_a];
     if (active_.contains(unit)) joints.push_back(joint);
   }
-  const auto reaction = [&](int joint) { return focused_.reaction(*pack_, 0, joint); };
+  const auto reaction = [&](int joint) { return parted_.reaction(*pack_, 0, joint); };
   if (rules_.break_overloaded_joints(step, joints, reaction)) show_broken();
 }
 
@@ -299,12 +304,23 @@ void SorSpaceStepper::activate(std::span<const int> units) {
   packed_.activate(active_.bodies());
 }
 
-void SorSpaceStepper::focus(std::span<const Contact> contacts) {
+void SorSpaceStepper::part(std::span<const Contact> contacts, const StepParameters& parameters) {
   if (rules_.field() != nullptr)
     rules_.sort_by_interest(active_.bodies(), effects::touching_bodies(contacts));
   bodies_inside_ = rules_.num_inside();
-  const FocusedWorld world = {model_.get(), rules_.field(), contacts, recall_.forces()};
-  focused_.begin(std::span(&world, 1), settings_.iterations);
+  PartedWorld world = {.model = model_.get(),
+                       .bodies = active_.bodies(),
+                       .contacts = contacts,
+                       .forces = recall_.forces(),
+                       .field = rules_.field()};
+  if (shares_) {
+    shares_->sort(active_.bodies(), contacts, recall_.forces(), state().broken_in, state());
+    after_.resize(model_->num_bodies());
+    world.shares = &*shares_;
+    world.before = &state();
+    world.after = &after_;
+  }
+  parted_.begin(std::span(&world, 1), parameters);
 }
 
 /// What is known of units that are solved elsewhere (which have the contacts of which a body is the first),
@@ -324,21 +340,19 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   show_sleepers();
   activate(units);
   if (remembers() || settings_.contacts) recall(contacts);
-  focus(contacts);
+  part(contacts, step_parameters(settings_, step));
   if (rules_.sleepers() != nullptr && active_.bodies().empty()) return;
   packed_.load(active_.bodies(), *pack_);
   timer.lap(core::Phase::rows);
-  StepParameters parameters = step_parameters(settings_, step);
-  if (focused_.is_cut()) focused_.step_outside(*pack_, parameters, std::nullopt, times);
-  parameters.iterations = focused_.iterations();
-  pack_->step(focused_.contacts(), focused_.forces(), parameters, times);
+  parted_.start(*pack_, std::nullopt, times);
+  parted_.finish(*pack_, times);
   core::LapTimer after(times);
   last_step_ = step;
   if (remembers()) recall_.store(packed_.state().memory.contacts);
   break_overloaded_joints(step);
   // A pack with sleepers puts back the others.
   packed_.store(active_.bodies(), *pack_, rules_.sleepers() != nullptr);
-  if (focused_.is_cut()) pack_->set_active(0, active_.bodies());
+  if (parted_.is_cut()) pack_->set_active(0, active_.bodies());
   after.lap(core::Phase::integrate);
 }
 
@@ -346,10 +360,11 @@ stepping::Observables SorSpaceStepper::count(std::span<const int> units,
                                              std::span<const Contact> contacts) const {
   const auto joint_rows = [&](int joint) -> std::optional<int> {
     if (!state().acted_in(last_step_, static_cast<std::size_t>(joint))) return std::nullopt;
-    return focused_.joint_rows(*pack_, 0, joint);
+    return parted_.joint_rows(*pack_, 0, joint);
   };
-  stepping::Observables counts =
-      count_islands(*model_, map_, articulations_, units, contacts, joint_rows, rules_.sleepers());
+  stepping::Observables counts = count_islands(
+      *model_, map_, articulations_, units, contacts, joint_rows,
+      [&](int body) { return parted_.sweeps(0, body); }, rules_.sleepers());
   counts.fast_bodies = fast_own_bodies_;
   counts.bodies_inside = bodies_inside_;
   return counts;

@@ -1,6 +1,7 @@
 #include "solver/worlds/sor_world.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -14,7 +15,7 @@ namespace pbmpi::solver {
 class SorWorld::InPack final : public effects::RuledWorld {
  public:
   InPack(SorWorld& world, Pack& pack, int index, std::vector<model::Contact>* contacts,
-         const FocusedStep* solved, bool may_be_fast = false)
+         const PartedStep* solved, bool may_be_fast = false)
       : world_(world),
         pack_(pack),
         index_(index),
@@ -30,6 +31,7 @@ class SorWorld::InPack final : public effects::RuledWorld {
       pack_.forget(index_, event.body);
       world_.forget(event.body);
     }
+    world_.targets_.pass(*world_.model_, step);
   }
   void store(std::span<const int> bodies, model::State& state) const override {
     pack_.store(index_, bodies, state);
@@ -59,7 +61,7 @@ class SorWorld::InPack final : public effects::RuledWorld {
   Pack& pack_;
   int index_;
   std::vector<model::Contact>* contacts_;  ///< null before collision detection
-  const FocusedStep* solved_;              ///< null before the solve
+  const PartedStep* solved_;               ///< null before the solve
   bool may_be_fast_;                       ///< see Pack::find_fast()
   std::vector<effects::BodyPair> touching_;
 };
@@ -71,16 +73,18 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
       model_(std::move(model)),
       laws_(laws_of(*model_)),
       state_(state),
+      step_(step),
       rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::whole, state_),
       narrow_phase_(make_narrow_phase(*model_)),
       remembers_(remembers(settings)),
       shows_contacts_(settings.contacts) {
+  if (shares_differ(settings)) shares_.emplace(*model_, settings);
   set_state(state, step);
 }
 
 void SorWorld::set_state(const model::State& state, std::int64_t step) {
   state_ = state;
-  step_ = step;
+  if (std::exchange(step_, step) != step) targets_.move_to(*model_, step);
   start_memory(remembers_, *model_, state_.memory);
   rules_.start();
   moved_ = true;
@@ -99,7 +103,21 @@ void SorWorld::load(Pack& pack, int index) const {
 
 void SorWorld::enter(Pack& pack, int index) const {
   load(pack, index);
+  apply_first_settings(*model_, index, pack);
   apply_settings_before(*model_, step_, index, pack);
+  for (const stepping::MotorTargets::Target& target : targets_.all())
+    pack.set_motor(index, target.joint, target.axis, target.motor);
+}
+
+bool SorWorld::aim(int joint, int axis, double velocity, Pack* pack, int index) {
+  const auto* target = targets_.set(*model_, step_, joint, axis, velocity);
+  if (target == nullptr) return false;
+  if (pack != nullptr) pack->set_motor(index, joint, axis, target->motor);
+  if (rules_.sleepers() == nullptr) return true;
+  const model::Joint& driven = model_->joints[static_cast<std::size_t>(joint)];
+  const bool woke = rules_.sleepers()->wake_islands_of(std::array{driven.body_a, driven.body_b});
+  if (woke && pack != nullptr) show_awake(*pack, index);
+  return true;
 }
 
 bool SorWorld::mends(const model::State& state) const {
@@ -120,10 +138,38 @@ bool SorWorld::after_collision(Pack& pack, int index, bool may_be_fast,
   return rules_.after_collision(world);
 }
 
-void SorWorld::before_solve(Pack& pack, int index, std::vector<model::Contact>& contacts) {
+void SorWorld::before_solve(Pack& pack, int index, bool may_be_slow, std::vector<model::Contact>& contacts) {
   InPack world(*this, pack, index, &contacts, nullptr);
   rules_.before_solve(world);
-  if (!remembers_ && !shows_contacts_) return;
+  if (remembers_ || shows_contacts_) recall(pack, index, contacts);
+  sorted_ = shares_ && (may_be_slow || shares_->wants_joints());
+  if (sorted_) sort_islands(pack, index, contacts);
+}
+
+/// What a trial of quiet islands may put back includes the forces of their joints.
+void SorWorld::sort_islands(const Pack& pack, int index, std::span<const model::Contact> contacts) {
+  for (model::State* room : {&before_, &after_}) room->resize(model_->num_bodies());
+  const std::size_t num_forces = state_.memory.joints.size();
+  before_.memory.joints.resize(shares_->wants_joints() ? num_forces : 0);
+  pack.store(index, rules_.awake(), before_);
+  shares_->sort(rules_.awake(), contacts, recall_.forces(), state_.broken_in, before_);
+  if (shares_->wants_joints()) return;
+  before_.memory.joints.resize(num_forces);
+  pack.store(index, shares_->quiet_bodies(), before_);
+}
+
+PartedWorld SorWorld::parted(std::span<const model::Contact> contacts) {
+  return {.model = model_.get(),
+          .bodies = rules_.awake(),
+          .contacts = contacts,
+          .forces = recall_.forces(),
+          .field = rules_.field(),
+          .shares = sorted_ ? &*shares_ : nullptr,
+          .before = &before_,
+          .after = &after_};
+}
+
+void SorWorld::recall(const Pack& pack, int index, std::span<const model::Contact> contacts) {
   const auto is_asleep = [&](int body) {
     return rules_.sleepers() != nullptr && body != model::no_body && state_.rest[body].asleep();
   };
@@ -133,7 +179,7 @@ void SorWorld::before_solve(Pack& pack, int index, std::vector<model::Contact>& 
 }
 
 void SorWorld::after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts,
-                           const FocusedStep& step) {
+                           const PartedStep& step) {
   moved_ = moved_ || moves();
   if (remembers_) recall_.store(state_.memory.contacts);
   if (step.is_cut()) activate(pack, index);
@@ -153,7 +199,7 @@ void SorWorld::keep_sleepers(model::State& state) const {
   }
 }
 
-void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
+void SorWorld::count_rows(const Pack& pack, int index, const PartedStep& step,
                           std::span<const model::Contact> contacts) {
   links_.clear();
   link_rows_.clear();
@@ -175,10 +221,12 @@ void SorWorld::count_rows(const Pack& pack, int index, const FocusedStep& step,
   const model::Islands islands = model::find_islands(model_->num_bodies(), links_);
   island_rows_.assign(static_cast<std::size_t>(islands.count), 0);
   observables_.rows = 0;
+  observables_.row_visits = 0;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    island_rows_[static_cast<std::size_t>(islands.of_body[static_cast<std::size_t>(links_[i].first)])] +=
-        link_rows_[i];
+    const int body = links_[i].first;
+    island_rows_[static_cast<std::size_t>(islands.of_body[static_cast<std::size_t>(body)])] += link_rows_[i];
     observables_.rows += link_rows_[i];
+    observables_.row_visits += static_cast<double>(link_rows_[i]) * step.sweeps(index, body);
   }
   observables_.islands = islands.count;
   observables_.max_island_rows = *std::max_element(island_rows_.begin(), island_rows_.end());
@@ -195,7 +243,7 @@ void SorWorld::show_contacts(const Pack& pack, int index, std::span<const model:
   shown_.joints = std::move(stored.memory.joints);
 }
 
-void SorWorld::observe(const Pack& pack, int index, const FocusedStep& step,
+void SorWorld::observe(const Pack& pack, int index, const PartedStep& step,
                        std::span<const model::Contact> contacts) {
   if (shows_contacts_) show_contacts(pack, index, contacts);
   if (!std::exchange(moved_, false)) return stepping::observe_sleep(observables_);

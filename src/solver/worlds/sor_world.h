@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,8 +14,9 @@
 #include "model/state.h"
 #include "solver/contacts/contact_recall.h"
 #include "solver/layout/pack_laws.h"
-#include "solver/pack/focused_step.h"
 #include "solver/pack/pack.h"
+#include "solver/parts/parted_step.h"
+#include "stepping/motor_targets.h"
 #include "stepping/observables.h"
 #include "stepping/stepper.h"
 
@@ -35,14 +37,18 @@ class SorWorld {
   /// Null unless the run asks for them.
   const stepping::StepContacts* contacts() const { return shows_contacts_ ? &shown_ : nullptr; }
 
-  /// Forgets where the world was; a pack that holds it must be loaded anew.
+  /// Forgets where the world was; a pack that holds it must be loaded anew, or entered anew if it was at
+  /// another step.
   void set_state(const model::State& state, std::int64_t step);
+  /// As WorldStepper::set_motor_velocity(): false if the motor aims there already. `pack`: null if none holds
+  /// the world.
+  bool aim(int joint, int axis, double velocity, Pack* pack, int index);
 
   /// Would a joint that is broken now hold again in this state? A pack has no way back.
   bool mends(const model::State& state) const;
   /// Puts the state into the pack.
   void load(Pack& pack, int index) const;
-  /// Puts the state, with the joint settings of this step, into a fresh pack.
+  /// Puts the state, with the joint settings of this step and the targets of motors, into the pack.
   void enter(Pack& pack, int index) const;
 
   // A step, as effects::StepRules has it.
@@ -51,15 +57,14 @@ class SorWorld {
   /// if bodies woke, whose own contacts are still to be found.
   [[nodiscard]] bool after_collision(Pack& pack, int index, bool may_be_fast,
                                      std::vector<model::Contact>& contacts);
-  void before_solve(Pack& pack, int index, std::vector<model::Contact>& contacts);
-  void after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts, const FocusedStep& step);
+  /// may_be_slow: see Pack::find_slow().
+  void before_solve(Pack& pack, int index, bool may_be_slow, std::vector<model::Contact>& contacts);
+  /// The world as it enters the solve.
+  PartedWorld parted(std::span<const model::Contact> contacts);
+  void after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts, const PartedStep& step);
   /// Instead of all but begin_step(), if no world of the pack moves.
   void sleep_on();
 
-  /// With which the contacts of the step start and end; none if nobody asks. After before_solve().
-  std::span<model::ContactForce> forces() { return recall_.forces(); }
-  /// Null without the pass "field_of_interest".
-  const effects::FieldOfInterest* field() const { return rules_.field(); }
   /// Lets the steps to come move all that is awake.
   void activate(Pack& pack, int index) const { pack.set_active(index, rules_.awake()); }
   /// False if all bodies sleep: a step changes nothing.
@@ -69,11 +74,10 @@ class SorWorld {
   /// For the pairs of shapes that the lanes do not collide.
   model::NarrowPhase& narrow_phase() const { return *narrow_phase_; }
   /// Reads the state back and measures it; rows and contacts are those of the last step.
-  void observe(const Pack& pack, int index, const FocusedStep& step,
-               std::span<const model::Contact> contacts);
+  void observe(const Pack& pack, int index, const PartedStep& step, std::span<const model::Contact> contacts);
 
   /// Measures the residuals of the last step, from which the state must have come.
-  void observe_residuals(const Pack& pack, int index, const FocusedStep& step) {
+  void observe_residuals(const Pack& pack, int index, const PartedStep& step) {
     observables_.residuals = step.residuals(pack, index);
   }
   /// Bodies that the last step moved.
@@ -85,8 +89,10 @@ class SorWorld {
   class InPack;
   void forget(int body) { model::forget(*model_, body, state_.memory); }
   void show_awake(Pack& pack, int index) const;
+  void recall(const Pack& pack, int index, std::span<const model::Contact> contacts);
+  void sort_islands(const Pack& pack, int index, std::span<const model::Contact> contacts);
   void show_contacts(const Pack& pack, int index, std::span<const model::Contact> contacts);
-  void count_rows(const Pack& pack, int index, const FocusedStep& step,
+  void count_rows(const Pack& pack, int index, const PartedStep& step,
                   std::span<const model::Contact> contacts);
 
   int id_;
@@ -94,11 +100,15 @@ class SorWorld {
   PackLaws laws_;
   model::State state_;
   std::int64_t step_;
+  stepping::MotorTargets targets_;
   effects::StepRules rules_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
   bool remembers_;       ///< from step to step
   bool shows_contacts_;  ///< StepperSettings::contacts
   ContactRecall recall_;
+  std::optional<IslandShares> shares_;  ///< of a run in which they differ
+  bool sorted_ = false;                 ///< are the islands, for the step at hand?
+  model::State before_, after_;         ///< with shares: see PartedWorld
   stepping::Observables observables_;
   stepping::StepContacts shown_;            ///< of the last step, if it is shown
   bool moved_ = true;                       ///< since the last observe()

@@ -5,7 +5,7 @@ import numpy
 # What the clock says, and what says how the work was dealt out.
 OF_THE_CLOCK = {
     "/timings/frame/wall", "/timings/frame/deadline_met", "/timings/island/solve", "/timings/space/collide",
-    "/timings/space/collide_spaces", "/estimate/delivered", "/estimate/precise"}
+    "/timings/space/collide_spaces", "/world_results/cost", "/world_results/moves", "/estimate/delivered", "/estimate/precise"}
 OF_THE_RANKS = ("/ranks/", "/timings/rank/", "/parameters/", "/checksums/timings.", "/checksums/estimate.delivered",
                 *(prefix + name for prefix in ("/estimate/", "/checksums/estimate.") for name in ("compute", "precise_steps", "coarse_steps")),
                 "/checksums/events.")

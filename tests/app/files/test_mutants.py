@@ -80,10 +80,15 @@ class Mutants(ProgramTest):
         super().setUp()
         # A session folder of its own: all such processes of a machine would use the same one, at the same time.
         self.alone = {**ALONE, "OMPI_MCA_orte_tmpdir_base": self.folder}
-        self.scenes = []
-        for path in sorted(glob.glob(f"{SOURCE}/scenes/*.toml") + glob.glob(f"{SOURCE}/scenes/hard/*/*.toml")):
+        self.scenes = self.texts(f"{SOURCE}/scenes/*.toml", f"{SOURCE}/scenes/hard/*/*.toml")
+        self.models = self.texts(f"{SOURCE}/scenes/models/*.xml", f"{SOURCE}/scenes/models/*.urdf")
+
+    def texts(self, *patterns):
+        texts = []
+        for path in sorted(path for pattern in patterns for path in glob.glob(pattern)):
             with open(path, "rb") as file:
-                self.scenes.append(file.read())
+                texts.append(file.read())
+        return texts
 
     def read(self, name):
         with open(self.path(name), "rb") as file:
@@ -123,8 +128,13 @@ class Mutants(ProgramTest):
             draw = random.Random(f"scene {number}")
             self.try_scene(mutated_text(draw, draw.choice(self.scenes)), f"scene {number}")
 
+    def test_models(self):
+        for number in range(MUTANTS // 3):
+            draw = random.Random(f"model {number}")
+            self.try_scene(mutated_text(draw, draw.choice(self.models)), f"model {number}")
+
     def test_scenes_that_once_failed(self):
-        paths = sorted(glob.glob(os.path.join(CORPUS, "*.toml")))
+        paths = sorted(path for end in ("toml", "xml", "urdf") for path in glob.glob(os.path.join(CORPUS, f"*.{end}")))
         self.assertGreater(len(paths), 5)
         for path in paths:
             with open(path, "rb") as file:

@@ -67,6 +67,10 @@ class Files:
         for seed in (1, 2):
             self.run("pbmpi", "--scene", "CrashSk", "--frames", 6, "--seed", seed, "--record-contacts", "--output", f"seed{seed}.h5", "--quiet")
         self.page("difference", "diff", "seed1.h5", "seed2.h5")
+        for ranks in (1, 2):
+            self.run(shutil.which("mpirun"), "-n", ranks, PBMPI, "--scene", "Fight", "--decompose", "spaces", "--frames", 4, "--quiet",
+                     "--output", f"ranks{ranks}.h5")
+        self.page("scaling", "scaling", "ranks1.h5", "ranks2.h5", "--quiet")
         self.studies()
         self.figures()
 
@@ -216,8 +220,8 @@ class Pages(unittest.TestCase):
             whole = foot + self.js("document.querySelectorAll('details').forEach((one) => { one.open = true; });"
                                    "return document.body.innerText")
             self.assertRegex(whole, r"pbmpi \d+\.\d+", name)
-            of_several_runs = "figure" in name or name == "difference"
-            self.assertIn("--scene CrashSk" if of_several_runs else "command_line", whole, name)
+            of_several_runs = "figure" in name or name in ("difference", "scaling")
+            self.assertIn("pbmpi --scene " if of_several_runs else "command_line", whole, name)
 
     def test_the_chosen_setting_and_the_estimates_are_in_each_diagram(self):
         self.open("accuracy")

@@ -74,7 +74,7 @@ class Csv(ProgramTest):
 
     def assert_tables(self, *more):
         listed = [line.split()[0] for line in self.report("csv", "run.h5", "--list").stdout.splitlines()]
-        self.assertEqual(sorted(listed), sorted(["bodies", "observables", "timings", "ranks", "events", *more]))
+        self.assertEqual(sorted(listed), sorted(["bodies", "observables", "timings", "ranks", "events", "world_results", *more]))
 
     def test_every_table_of_the_file_is_there_with_its_numbers(self):
         self.run_scene("--record-islands", "--stepper", "quick")

@@ -69,6 +69,34 @@ TEST(AccuracyCases, beside_all_others_sor_is_measured_as_it_is_meant_to_be_used)
   EXPECT_EQ(found.size(), 4u);
 }
 
+TEST(AccuracyCases, tolerances_are_those_of_sor_with_a_memory_where_it_has_substeps_to_spare) {
+  const auto cases = cases_of(options_of({"--substeps", "1", "8", "--precision", "double", "--dt", "0.01",
+                                          "--tolerance", "0", "0.01mm", "1mm"}));
+  std::multiset<std::pair<int, double>> found;
+  for (const AccuracyCase& one : cases) {
+    if (one.stepper.relax == 0) {
+      EXPECT_EQ(one.stepper.tolerance_m, 0);
+    } else if (one.kind == CaseKind::setting) {
+      found.insert({one.stepper.substeps, one.stepper.tolerance_m});
+    }
+  }
+  EXPECT_EQ(found, (std::multiset<std::pair<int, double>>{{1, 0}, {8, 0}, {8, 1e-5}, {8, 1e-3}}));
+}
+
+TEST(AccuracyCases, sags_are_those_of_sor_with_a_memory_where_there_are_more_substeps) {
+  const auto cases = cases_of(
+      options_of({"--substeps", "8", "64", "--precision", "double", "--dt", "0.01", "--sag", "0", "1mm"}));
+  std::multiset<std::pair<int, double>> found;
+  for (const AccuracyCase& one : cases) {
+    if (one.stepper.relax == 0) {
+      EXPECT_EQ(one.stepper.sag_m, 0);
+    } else if (one.kind == CaseKind::setting) {
+      found.insert({one.stepper.substeps, one.stepper.sag_m});
+    }
+  }
+  EXPECT_EQ(found, (std::multiset<std::pair<int, double>>{{8, 0}, {8, 1e-3}, {64, 0}}));
+}
+
 TEST(AccuracyCases, frames_are_estimated_after_each_number_of_their_steps) {
   const auto cases =
       cases_of(options_of({"--stepper", "quick", "sor", "--estimates", "0", "2", "--precision", "double"}));
@@ -149,6 +177,7 @@ TEST(AccuracyCases, bad_values_are_named) {
   EXPECT_NE(refusal({"--precision", "half"}).find("double, single"), std::string::npos);
   EXPECT_NE(refusal({"--sor-factor", "2"}).find("below 2"), std::string::npos);
   EXPECT_NE(refusal({"--dt", "nan"}).find("--dt"), std::string::npos);
+  EXPECT_NE(refusal({"--tolerance", "1km"}).find("--tolerance 1km"), std::string::npos);
   EXPECT_NE(refusal({"--repeats", "0"}).find("--repeats"), std::string::npos);
   EXPECT_NE(refusal({"--floor-seeds", "0"}).find("--floor-seeds"), std::string::npos);
   EXPECT_NE(refusal({"--reference-iterations", "1"}).find("--reference-iterations"), std::string::npos);
@@ -176,7 +205,7 @@ TEST(CaseRunner, the_reference_has_no_error_against_itself_and_few_iterations_ha
   EXPECT_EQ(itself.momentum_change_ns, 0);
   EXPECT_EQ(itself.defect.body_position.count, 5 * 37);
   EXPECT_EQ(itself.defect.joint_position.count, 5 * 34);
-  EXPECT_EQ(itself.row_visits, itself.rows * 40 * 3);
+  EXPECT_DOUBLE_EQ(itself.row_visits, itself.rows * 40 * 3);
 
   one.stepper.iterations = 2;
   const CaseResult few = run_case(one, scene, reference, no_rest, 1);

@@ -56,6 +56,14 @@ TEST(Communicator, world_carries_every_collective) { expect_collectives_work(Com
 
 TEST(Communicator, dup_carries_every_collective) { expect_collectives_work(Communicator::world().dup()); }
 
+TEST(Communicator, dup_of_a_handle_carries_every_collective_and_returns_its_errors) {
+  const Communicator copy = Communicator::dup_of(Communicator::world().fortran_handle());
+  expect_collectives_work(copy);
+  const int value = 1;
+  EXPECT_THROW(copy.send(std::span(&value, 1), copy.size()), core::RunError);
+  EXPECT_THROW(Communicator::dup_of(Communicator().fortran_handle()), core::InputError);
+}
+
 TEST(Communicator, null_acts_as_one_rank) {
   const Communicator null;
   EXPECT_TRUE(null.is_null());

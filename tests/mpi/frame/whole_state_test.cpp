@@ -80,6 +80,11 @@ TEST(WholeState, lengths_that_do_not_fit_are_refused) {
   packed.pop_back();
   EXPECT_THROW(unpack(packed), core::RunError);
   EXPECT_THROW(unpack(std::span(packed).first(2)), core::RunError);
+  for (const double no_length : {-1.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    packed = pack(sample(true, 5));
+    packed[1] = no_length;
+    EXPECT_THROW(unpack(packed), core::RunError) << no_length;
+  }
 }
 
 TEST(WholeState, a_state_of_another_model_is_refused) {

@@ -22,11 +22,12 @@ def count(program, scene, stepper, function):
     """What the program printed, and the instructions of a function of it by object file."""
     with tempfile.TemporaryDirectory(prefix="pbmpi-test-") as folder:
         dump = os.path.join(folder, "callgrind")
-        # The environment lies on the stack: both programs get the same one.
+        # The environment lies on the stack: both programs get the same one. Names are bound at the start: binding one when it is
+        # first called takes instructions that depend on the other names of the program.
         result = subprocess.run(["valgrind", "--quiet", "--tool=callgrind", f"--toggle-collect={function}*",
                                  "--dump-instr=yes", "--dump-line=no", "--compress-pos=no", "--compress-strings=no",
                                  f"--callgrind-out-file={dump}", program, scene, stepper], cwd=folder, timeout=240,
-                                capture_output=True, text=True, check=False, env={"PATH": os.environ["PATH"]})
+                                capture_output=True, text=True, check=False, env={"PATH": os.environ["PATH"], "LD_BIND_NOW": "1"})
         if result.returncode != 0:
             raise RuntimeError(result.stderr)
         by_object = collections.Counter()

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <string_view>
 
 #include "app/common/quantities.h"
@@ -29,13 +28,21 @@ std::string effect_list() {
 po::options_description options_description() {
   po::options_description what("What to simulate");
   what.add_options()  //
-      ("scene", po::value<std::string>()->value_name("NAME|FILE.toml"),
-       "a scene that pbmpi brings (--list-scenes), or a scene file of your own")  //
-      ("list-scenes", "list the scenes that pbmpi brings")                        //
+      ("scene", po::value<std::string>()->value_name("NAME|FILE"),
+       "a scene that pbmpi brings (--list-scenes), or a file of your own: a scene (.toml), or a model in "
+       "MJCF "
+       "(.xml) or URDF (.urdf)")                            //
+      ("list-scenes", "list the scenes that pbmpi brings")  //
       ("describe",
        "print the resolved scene, the step plan, who owns what and the size of the file; run nothing")  //
       ("replicas", po::value<int>()->value_name("N"), "worlds; default: the scene's")                   //
-      ("frames", po::value<int>()->value_name("N"), "measured frames; default: the scene's")            //
+      ("parameters", po::value<std::string>()->value_name("FILE"),
+       "what each world has otherwise than the scene: a table with a world a row and a column a parameter, "
+       "car.speed or world.gravity (scenes/FORMAT.md); CSV, or TOML with [[world]] tables")  //
+      ("world-range", po::value<std::string>()->value_name("A:B"),
+       "run the worlds A to B-1 of the ensemble only, with the bits that they have in the whole; default of "
+       "--output: <scene>.worlds<A>-<B>.h5")                                                  //
+      ("frames", po::value<int>()->value_name("N"), "measured frames; default: the scene's")  //
       ("warmup", po::value<int>()->value_name("N"),
        "frames before the measured ones; default: the scene's, 3");
   add_seed_option("of the solver's row order and of the scene's variation", what);
@@ -188,21 +195,25 @@ Action action_of(const po::variables_map& values) {
 
 }  // namespace
 
-std::string help_text() {
-  std::ostringstream text;
-  text << "pbmpi simulates many rigid-body worlds over MPI ranks and shows what accuracy costs in time.\n\n"
-       << "Usage: mpirun -n RANKS pbmpi --scene NAME [options]\n\n"
-       << options_description()
-       << "\nExit codes: 0 done; 1 the simulation failed (what was written is readable); "
-       << "2 bad usage or bad input; 75 stopped early on request, with a checkpoint.\n"
-       << "Signals: INT, TERM and USR2 finish the frame, save the run, close the file and end with 75; USR1 "
-          "saves it and\nthe run goes on (send USR2 and USR1 to mpirun). Before the first frame INT and TERM "
-          "end the run "
-          "at once, and a\nsecond one always does; so does one whose frame goes on for 10 s, or three times "
-          "the longest "
-          "before.\n"
-       << "Example: mpirun -n 2 pbmpi --scene 100CrSk --report json\n";
-  return text.str();
+Manual pbmpi_manual() {
+  return {
+      .name = "pbmpi",
+      .meaning = "simulates many rigid-body worlds over MPI ranks",
+      .about = "pbmpi simulates many rigid-body worlds over MPI ranks and shows what accuracy costs in time.",
+      .usage = "mpirun -n RANKS pbmpi --scene NAME [options]",
+      .options = options_description(),
+      .exit_codes = {{"0", "done"},
+                     {"1", "the simulation failed (what was written is readable)"},
+                     {"2", "bad usage or bad input"},
+                     {"75", "stopped early on request, with a checkpoint"}},
+      .notes = {"Signals: INT, TERM and USR2 finish the frame, save the run, close the file and end with 75; "
+                "USR1 saves it and the run goes on (send USR2 and USR1 to mpirun). Before the first frame "
+                "INT and TERM end the run at once, and a second one always does; so does one whose frame "
+                "goes on for 10 s, or three times the longest before."},
+      .files = {{"SCENE.h5", "the run: poses, observables and times, in HDF5"},
+                {"SCENE.xdmf", "the sidecar that opens it in ParaView"},
+                {"SCENE.checkpoint.h5", "what --resume goes on from"}},
+      .examples = {"mpirun -n 2 pbmpi --scene 100CrSk --report json", "pbmpi --scene CrashSk --describe"}};
 }
 
 Options parse_options(const std::vector<std::string>& args, const std::string& saved) {
@@ -214,6 +225,9 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   options.common = common_options(values);
   options.scene = given<std::string>(values, "scene").value_or("");
   options.replicas = given<int>(values, "replicas");
+  options.parameters = given<std::string>(values, "parameters");
+  if (values.count("world-range") != 0)
+    options.world_range = parse_world_range(values["world-range"].as<std::string>());
   options.frames = given<int>(values, "frames");
   options.warmup = given<int>(values, "warmup");
   options.steps_per_frame = given<int>(values, "steps-per-frame");

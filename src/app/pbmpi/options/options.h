@@ -12,6 +12,7 @@
 #include "app/common/estimate_spec.h"
 #include "app/common/options.h"
 #include "app/common/step_arguments.h"
+#include "app/manual/manual.h"
 #include "scenes/scene.h"
 #include "stability/on_blowup.h"
 #include "stepping/frame_budget.h"
@@ -25,12 +26,19 @@ enum class Decomposition { automatic, worlds, spaces };
 inline constexpr std::array<std::string_view, 3> decomposition_names = {"auto", "worlds", "spaces"};
 inline constexpr std::array<std::string_view, 2> spaces_names = {"one", "many"};
 
+/// Worlds first .. end - 1 of an ensemble.
+struct WorldRange {
+  int first = 0, end = 0;
+};
+
 /// The command line as given; what is absent is left to the scene.
 struct Options {
   Action action = Action::run;
   std::string scene;
   std::optional<int> replicas, frames, warmup, steps_per_frame;
-  StepArguments step;
+  std::optional<std::string> parameters;  ///< path of a table
+  std::optional<WorldRange> world_range;
+  stepping::StepChoices step;
   Decomposition decomposition = Decomposition::automatic;
   std::uint64_t seed = 1;
   bool feec = false;
@@ -69,8 +77,7 @@ inline constexpr std::array<std::string_view, 3> estimate_options = {"stepper", 
 /// message.
 Options parse_options(const std::vector<std::string>& args, const std::string& saved = "");
 
-/// The text of --help.
-std::string help_text();
+Manual pbmpi_manual();
 
 /// What a resumed run needs to know of the one that wrote the checkpoint.
 struct ResumePoint {
@@ -91,6 +98,8 @@ struct CheckpointSpec {
 /// Everything that a run needs to know: options over the scene's defaults.
 struct RunSpec {
   int num_worlds = 1;
+  int ensemble_worlds = 1;          ///< of the ensemble, of which the run has all, or a range:
+  std::optional<WorldRange> range;  ///< num_worlds of them
   int warmup = 3;
   int frames = 5;
   int steps_per_frame = 3;
@@ -109,13 +118,20 @@ struct RunSpec {
 
   CheckpointSpec checkpoint;
 
+  /// The number in the ensemble of the run's first world.
+  int first_world() const { return range ? range->first : 0; }
   /// From the start of the first run, whatever was resumed.
   int total_frames() const { return warmup + frames; }
   std::int64_t frames_to_do() const { return total_frames() - checkpoint.first_frame; }
 };
 
-/// Throws core::InputError for impossible values.
-RunSpec resolve(const Options& options, const scenes::Scene& scene, const ResumePoint& from = {});
+/// Throws core::InputError for impossible values. `num_rows`: of the table of parameters, if there is one.
+RunSpec resolve(const Options& options, const scenes::Scene& scene, const ResumePoint& from = {},
+                std::optional<int> num_rows = std::nullopt);
+
+/// "3:7": worlds 3 to 6. Throws core::InputError for anything else.
+WorldRange parse_world_range(const std::string& text);
+std::string to_text(const WorldRange& range);
 
 /// How the work is cut on so many ranks: as asked, and by itself into spaces if there is one world, it has
 /// more than one space, there is more than one rank, and the stepper is sor. `num_spaces`: of world 0. Throws

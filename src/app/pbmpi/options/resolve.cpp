@@ -83,6 +83,13 @@ std::string output_after(const ResumePoint& from) {
 /// "column20" of "hard/rest/column20".
 std::string file_stem(const scenes::Scene& scene) { return scene.name().substr(scene.name().rfind('/') + 1); }
 
+/// What the run's files are called by themselves: jobs that share an ensemble may run in one folder.
+std::string name_of_run(const Options& options, const scenes::Scene& scene) {
+  const std::optional<WorldRange>& range = options.world_range;
+  return file_stem(scene) +
+         (range ? ".worlds" + std::to_string(range->first) + "-" + std::to_string(range->end) : "");
+}
+
 std::optional<std::string> resolve_output(const Options& options, const scenes::Scene& scene,
                                           const ResumePoint& from) {
   if (options.no_output) return std::nullopt;
@@ -93,7 +100,7 @@ std::optional<std::string> resolve_output(const Options& options, const scenes::
                       "another, or leave the option out");
     return options.output;
   }
-  if (from.path.empty()) return file_stem(scene) + ".h5";
+  if (from.path.empty()) return name_of_run(options, scene) + ".h5";
   if (from.output.empty()) return std::nullopt;
   return output_after(from);
 }
@@ -101,7 +108,7 @@ std::optional<std::string> resolve_output(const Options& options, const scenes::
 CheckpointSpec resolve_checkpoint(const Options& options, const scenes::Scene& scene, const ResumePoint& from,
                                   const std::optional<std::string>& output) {
   CheckpointSpec spec;
-  const std::string beside = stem(output.value_or(file_stem(scene))) + ".checkpoint.h5";
+  const std::string beside = stem(output.value_or(name_of_run(options, scene))) + ".checkpoint.h5";
   spec.path = options.checkpoint.value_or(from.path.empty() ? beside : from.path);
   spec.every_s = options.checkpoint_every_s;
   spec.max_time_s = options.max_time_s;
@@ -133,18 +140,30 @@ void require_separate_files(const Options& options, const RunSpec& spec) {
   core::require_separate(paths);
 }
 
+/// How many worlds the ensemble has, and which of them the run.
+void resolve_worlds(const Options& options, const scenes::Scene& scene, std::optional<int> num_rows,
+                    RunSpec& spec) {
+  const int asked = options.replicas.value_or(scene.defaults().replicas);
+  require_at_least(asked, 1, "--replicas");
+  require_input(!num_rows || !options.replicas || asked == *num_rows,
+                "--replicas " + std::to_string(asked) + ": the table of --parameters has " +
+                    std::to_string(num_rows.value_or(0)) +
+                    " rows, a world each; leave the option out, or give a table of as many rows");
+  spec.ensemble_worlds = num_rows.value_or(asked);
+  spec.range = options.world_range;
+  spec.num_worlds = spec.range ? spec.range->end - spec.range->first : spec.ensemble_worlds;
+  require_input(!spec.range || spec.range->end <= spec.ensemble_worlds,
+                "--world-range " + to_text(spec.range.value_or(WorldRange{})) +
+                    ": the ensemble has worlds 0 to " + std::to_string(spec.ensemble_worlds - 1) +
+                    "; end the range at " + std::to_string(spec.ensemble_worlds) + " at most");
+}
+
 stepping::StepperSettings resolve_step(const Options& options, const scenes::RunDefaults& defaults) {
-  stepping::StepperSettings step = options.step.settings;
-  if (!options.step.has("dt")) step.dt_s = defaults.dt_s;
-  if (!options.step.has("iterations")) {
-    step.iterations = default_iterations(step.kind, defaults.iterations);
-    require_at_least(step.iterations, 1, "--iterations");
-  }
-  if (!options.step.has("solver-seed")) step.seed = options.seed;
+  stepping::StepperSettings step =
+      settle_step(options.step, {defaults.dt_s, defaults.iterations, options.seed}, "--");
   step.profile = options.record_islands;
   step.residuals = options.record_residuals;
   step.contacts = options.record_contacts;
-  require_fitting(step);
   return step;
 }
 
@@ -170,10 +189,26 @@ void require_recordable(const Options& options, stepping::StepperKind kind) {
 
 }  // namespace
 
-RunSpec resolve(const Options& options, const scenes::Scene& scene, const ResumePoint& from) {
+WorldRange parse_world_range(const std::string& text) {
+  static const std::regex form("([0-9]{1,9}):([0-9]{1,9})");
+  std::smatch match;
+  require_input(std::regex_match(text, match, form),
+                "--world-range " + text + ": give A:B, e.g. 0:50 for the worlds 0 to 49");
+  const WorldRange range{std::stoi(match[1]), std::stoi(match[2])};
+  require_input(range.first < range.end,
+                "--world-range " + text + ": there is no world from A to B-1; give B above A");
+  return range;
+}
+
+std::string to_text(const WorldRange& range) {
+  return std::to_string(range.first) + ":" + std::to_string(range.end);
+}
+
+RunSpec resolve(const Options& options, const scenes::Scene& scene, const ResumePoint& from,
+                std::optional<int> num_rows) {
   const scenes::RunDefaults& defaults = scene.defaults();
   RunSpec spec;
-  spec.num_worlds = options.replicas.value_or(defaults.replicas);
+  resolve_worlds(options, scene, num_rows, spec);
   spec.warmup = options.warmup.value_or(defaults.warmup);
   spec.frames = options.frames.value_or(defaults.frames);
   spec.steps_per_frame = options.steps_per_frame.value_or(defaults.steps_per_frame);
@@ -186,7 +221,6 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   spec.checkpoint = resolve_checkpoint(options, scene, from, spec.output);
   if (spec.output && !options.no_xdmf) spec.sidecar = sidecar_of(*spec.output);
   require_separate_files(options, spec);
-  require_at_least(spec.num_worlds, 1, "--replicas");
   constexpr int most_frames = 1'000'000'000, most_steps = 1'000'000;
   require_between(spec.warmup, 0, most_frames, "--warmup");
   require_between(spec.frames, 1, most_frames, "--frames");
@@ -215,7 +249,7 @@ std::optional<std::string> why_whole(const RunSpec& spec) {
   }
   if (spec.num_worlds != 1) {
     return "--decompose spaces cuts one world, and there are " + std::to_string(spec.num_worlds) +
-           "; use --replicas 1 or --decompose worlds";
+           "; use --replicas 1, a --world-range of one world, or --decompose worlds";
   }
   if (spec.stepper.residuals)
     return "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds";
@@ -227,15 +261,27 @@ std::optional<std::string> why_whole(const RunSpec& spec) {
   return std::nullopt;
 }
 
+/// Threads step worlds of their own.
+void require_one_thread(int num_threads) {
+  require_input(num_threads == 1,
+                "--threads " + std::to_string(num_threads) +
+                    ": a rank steps its part of a world that is cut into spaces with one thread; start more "
+                    "ranks and leave --threads out, or use --decompose worlds");
+}
+
 }  // namespace
 
 Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks) {
   const std::optional<std::string> reason = why_whole(spec);
-  if (spec.decomposition == Decomposition::automatic) {
-    return !reason && num_spaces > 1 && num_ranks > 1 ? Decomposition::spaces : Decomposition::worlds;
+  Decomposition decomposition = spec.decomposition;
+  if (decomposition == Decomposition::automatic) {
+    const bool cut = !reason && num_spaces > 1 && num_ranks > 1;
+    decomposition = cut ? Decomposition::spaces : Decomposition::worlds;
+  } else {
+    require_input(decomposition == Decomposition::worlds || !reason, reason.value_or(""));
   }
-  require_input(spec.decomposition == Decomposition::worlds || !reason, reason.value_or(""));
-  return spec.decomposition;
+  if (decomposition == Decomposition::spaces) require_one_thread(spec.stepper.threads);
+  return decomposition;
 }
 
 }  // namespace pbmpi::app

@@ -18,7 +18,8 @@ namespace pbmpi::app {
 namespace {
 
 /// Options of the run, beside those of the step, that decide the bits of its result.
-constexpr std::array<std::string_view, 3> physics_of_the_run = {"replicas", "steps-per-frame", "seed"};
+constexpr std::array<std::string_view, 4> physics_of_the_run = {"replicas", "world-range", "steps-per-frame",
+                                                                "seed"};
 
 /// All options that decide the bits of a result, in the order in which they are compared.
 std::vector<std::string> physics() {
@@ -97,7 +98,8 @@ std::string saved_options(const RunSpec& spec, Decomposition asked) {
   for (const stepping::StepOption& option : stepping::step_options()) {
     if (fits(option, spec.stepper.kind)) lines.add(option.name, text_of(option, spec.stepper));
   }
-  lines.add("replicas", spec.num_worlds);
+  lines.add("replicas", spec.ensemble_worlds);
+  if (spec.range) lines.add("world-range", to_text(*spec.range));
   lines.add("steps-per-frame", spec.steps_per_frame);
   lines.add("seed", spec.scene_seed);
   if (!spec.effects.empty()) lines.add("effects", effects::to_text(spec.effects));

@@ -25,7 +25,7 @@ void write_preset(const std::vector<SceneCases>& scenes, const AccuracyReportOpt
 core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out) {
   const AccuracyReportOptions options = parse_study_options(args);
   if (options.help) {
-    out << study_help_text();
+    out << help_of(study_manual());
     return core::ExitCode::done;
   }
   const io::TableFile file = read_study(options.file, "accuracy");

@@ -1,7 +1,6 @@
 #include "app/pbreport/accuracy/study_options.h"
 
 #include <array>
-#include <sstream>
 
 #include "app/common/options.h"
 #include "app/common/quantities.h"
@@ -43,16 +42,15 @@ po::options_description visible_options() {
 
 }  // namespace
 
-std::string study_help_text() {
-  std::ostringstream text;
-  text << "pbreport study shows what accuracy costs in time: the file of pbstudy accuracy. The word study "
-          "may be left "
-          "out.\n\n"
-       << "Usage: pbreport [study] accuracy.h5 [options]\n\n"
-       << visible_options() << "\nExamples:\n"
-       << "  pbreport accuracy.h5 --budget 3.33ms\n"
-       << "  pbreport accuracy.h5 --scene CrashWa --tolerance 1cm --write-preset CrashWa.preset\n";
-  return text.str();
+Manual study_manual() {
+  return {.name = "pbreport study",
+          .about =
+              "pbreport study shows what accuracy costs in time: the file of pbstudy accuracy. The word "
+              "study may be left out.",
+          .usage = "pbreport [study] accuracy.h5 [options]",
+          .options = visible_options(),
+          .examples = {"pbreport accuracy.h5 --budget 3.33ms",
+                       "pbreport accuracy.h5 --scene CrashWa --tolerance 1cm --write-preset CrashWa.preset"}};
 }
 
 AccuracyReportOptions parse_study_options(const std::vector<std::string>& args) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/manual/manual.h"
 #include "app/pbreport/study/report_options.h"
 
 namespace pbmpi::app {
@@ -22,6 +23,6 @@ struct AccuracyReportOptions : ReportOfStudyOptions {
 /// Throws core::InputError with one clear message.
 AccuracyReportOptions parse_study_options(const std::vector<std::string>& args);
 
-std::string study_help_text();
+Manual study_manual();
 
 }  // namespace pbmpi::app

@@ -34,7 +34,7 @@ const io::RunTable& table_of(const io::RunTables& run, const std::string& name) 
 core::ExitCode run_csv(const std::vector<std::string>& args, std::ostream& out) {
   const CsvOptions options = parse_csv_options(args);
   if (options.help) {
-    out << csv_help_text();
+    out << help_of(csv_manual());
     require_printed(out, "the help");
     return core::ExitCode::done;
   }

@@ -1,7 +1,6 @@
 #include "app/pbreport/csv/csv_options.h"
 
 #include <charconv>
-#include <sstream>
 
 #include "app/common/options.h"
 #include "core/error.h"
@@ -73,18 +72,17 @@ FrameRange parse_frames(const std::string& text) {
   return range;
 }
 
-std::string csv_help_text() {
-  std::ostringstream text;
-  text
-      << "pbreport csv writes a table of a run as comma-separated values, units in the first line: poses and "
-         "velocities of bodies,\nobservables, joints, contacts, timings, events. Numbers have as many digits "
-         "as it takes to read them back to the same bits.\n\n"
-      << "Usage: pbreport csv RUN.h5 [options]\n\n"
-      << visible_options() << "\nExamples:\n"
-      << "  pbreport csv 100CrSk.h5 --body car.chassis --world 0 --output chassis.csv\n"
-      << "  pbreport csv 100CrSk.h5 --table observables --measured > observables.csv\n"
-      << "  pbreport csv 100CrSk.h5 --list\n";
-  return text.str();
+Manual csv_manual() {
+  return {.name = "pbreport csv",
+          .about =
+              "pbreport csv writes a table of a run as comma-separated values, units in the first line: "
+              "poses and velocities of bodies, observables, joints, contacts, timings, events. Numbers have "
+              "as many digits as it takes to read them back to the same bits.",
+          .usage = "pbreport csv RUN.h5 [options]",
+          .options = visible_options(),
+          .examples = {"pbreport csv 100CrSk.h5 --body car.chassis --world 0 --output chassis.csv",
+                       "pbreport csv 100CrSk.h5 --table observables --measured > observables.csv",
+                       "pbreport csv 100CrSk.h5 --list"}};
 }
 
 CsvOptions parse_csv_options(const std::vector<std::string>& args) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/manual/manual.h"
+
 namespace pbmpi::app {
 
 /// Frames from `first` to `last`, both included, every so many of them; numbers as in the file's events.
@@ -35,6 +37,6 @@ struct CsvOptions {
 /// Throws core::InputError with one clear message.
 CsvOptions parse_csv_options(const std::vector<std::string>& args);
 
-std::string csv_help_text();
+Manual csv_manual();
 
 }  // namespace pbmpi::app

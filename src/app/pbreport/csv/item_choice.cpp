@@ -38,6 +38,12 @@ void require_items(const io::RunTable& table, const CsvOptions& options) {
                           table.rows == io::RowsOf::events;
   core::require_input(has_worlds || options.worlds.empty(),
                       "--table " + table.name + ": its rows are not of worlds; leave out --world");
+  const FrameRange all;
+  const bool chooses_frames = options.measured_only || options.frames.first != all.first ||
+                              options.frames.last != all.last || options.frames.every != all.every;
+  core::require_input(
+      table.rows != io::RowsOf::run || !chooses_frames,
+      "--table " + table.name + ": its rows are not of frames; leave out --frames and --measured");
 }
 
 }  // namespace

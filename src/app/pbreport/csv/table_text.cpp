@@ -18,6 +18,7 @@ using io::TableColumn;
 /// What stands before the columns of each line.
 std::string label_names(const io::RunTable& table) {
   if (table.rows == RowsOf::events) return "";
+  if (table.rows == RowsOf::run) return "world";
   std::string frame = "frame,step,time [s],measured";
   switch (table.items) {
     case ItemsOf::run:
@@ -117,6 +118,7 @@ class Lines {
     return table_.rows == RowsOf::events ? of_events(columns, count) : of_frames(columns, first, count);
   }
   bool has_frame(std::int64_t row) const {
+    if (table_.rows == RowsOf::run) return true;
     const io::FrameTime& frame = run_.frame_of(table_, row);
     return options_.frames.has(frame.frame) && (frame.is_measured || !options_.measured_only);
   }
@@ -148,10 +150,11 @@ class Lines {
     std::size_t index = 0;
     for (std::int64_t row = first; row < first + count; ++row) {
       const std::int64_t items = run_.num_items(table_, row);
-      const std::string label = frame_label(run_.frame_of(table_, row));
+      const bool has_frames = table_.rows != RowsOf::run;
+      const std::string label = has_frames ? frame_label(run_.frame_of(table_, row)) : "";
       for (std::int64_t item = 0; item < items; ++item, ++index) {
         if (!has_frame(row) || !has_item(columns, item, index)) continue;
-        text += label + item_label(run_.items(), table_.items, item);
+        text += (label + item_label(run_.items(), table_.items, item)).substr(has_frames ? 0 : 1);
         append_values(columns, index, text);
       }
     }

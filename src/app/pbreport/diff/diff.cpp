@@ -225,7 +225,7 @@ void require_other_seed(const io::RunData& floor, const std::string& path, const
 core::ExitCode run_diff(const std::vector<std::string>& args, std::ostream& out) {
   const DiffOptions options = parse_diff_options(args);
   if (options.help) {
-    out << diff_help_text();
+    out << help_of(diff_manual());
     return core::ExitCode::done;
   }
   std::optional<io::OutputLock> output;  // a place that cannot be written is told before the work

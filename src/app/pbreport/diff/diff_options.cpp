@@ -1,7 +1,5 @@
 #include "app/pbreport/diff/diff_options.h"
 
-#include <sstream>
-
 #include "app/common/options.h"
 #include "core/error.h"
 #include "core/system/paths.h"
@@ -30,15 +28,15 @@ po::options_description visible_options() {
 
 }  // namespace
 
-std::string diff_help_text() {
-  std::ostringstream text;
-  text << "pbreport diff shows how far two recorded runs of the same bodies are apart: drift, along the "
-          "trajectory, over the measured frames; where RUN has estimates (FEEC), their defect too.\n\n"
-       << "Usage: pbreport diff RUN.h5 REFERENCE.h5 [options]\n\n"
-       << visible_options() << "\nExamples:\n"
-       << "  pbreport diff iter19.h5 iter20.h5\n"
-       << "  pbreport diff iter19.h5 iter20.h5 --floor seed2.h5 seed3.h5 --json\n";
-  return text.str();
+Manual diff_manual() {
+  return {.name = "pbreport diff",
+          .about =
+              "pbreport diff shows how far two recorded runs of the same bodies are apart: drift, along the "
+              "trajectory, over the measured frames; where RUN has estimates (FEEC), their defect too.",
+          .usage = "pbreport diff RUN.h5 REFERENCE.h5 [options]",
+          .options = visible_options(),
+          .examples = {"pbreport diff iter19.h5 iter20.h5",
+                       "pbreport diff iter19.h5 iter20.h5 --floor seed2.h5 seed3.h5 --json"}};
 }
 
 DiffOptions parse_diff_options(const std::vector<std::string>& args) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/manual/manual.h"
+
 namespace pbmpi::app {
 
 struct DiffOptions {
@@ -19,6 +21,6 @@ struct DiffOptions {
 /// Throws core::InputError with one clear message.
 DiffOptions parse_diff_options(const std::vector<std::string>& args);
 
-std::string diff_help_text();
+Manual diff_manual();
 
 }  // namespace pbmpi::app

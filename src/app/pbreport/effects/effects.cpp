@@ -6,13 +6,19 @@
 #include "app/pbreport/study/study_report.h"
 
 namespace pbmpi::app {
+namespace {
+
+const StudyReport effects_report{
+    "effects", "what each effect costs", "share of the step and error if left out, effect by scene",
+    "print a table a stepper instead: share of the step [%] and defect without the effect, in "
+    "brackets what demanding it costs"};
+
+}  // namespace
+
+Manual effects_report_manual() { return manual_of(effects_report); }
 
 core::ExitCode run_effects_report(const std::vector<std::string>& args, std::ostream& out) {
-  const StudyReport report{
-      "effects", "what each effect costs", "share of the step and error if left out, effect by scene",
-      "print a table a stepper instead: share of the step [%] and defect without the effect, in "
-      "brackets what demanding it costs"};
-  return run_study_report(report, args, out,
+  return run_study_report(effects_report, args, out,
                           [](const io::TableFile& file, const ReportOfStudyOptions& options) {
                             const std::vector<EffectScene> scenes = effect_scenes(file, options.scenes);
                             return StudyViews{[scenes, options, &file](const std::string& path) {

@@ -4,6 +4,7 @@
 
 #include "app/common/text_output.h"
 #include "app/pbreport/ensemble/ensemble_text.h"
+#include "app/pbreport/tables/table_json.h"
 #include "io/file/write_file.h"
 #include "io/table/csv_text.h"
 
@@ -28,7 +29,7 @@ std::string printed(const EnsembleRuns& runs, const Ensemble& found, const Ensem
 core::ExitCode run_ensemble(const std::vector<std::string>& args, std::ostream& out) {
   const EnsembleOptions options = parse_ensemble_options(args);
   if (options.help) {
-    out << ensemble_help_text();
+    out << help_of(ensemble_manual());
     require_printed(out, "the help");
     return core::ExitCode::done;
   }

@@ -89,11 +89,11 @@ void add_samples(const Piece& piece, const Quantity& quantity, std::size_t frame
 /// Sums of the measured frames of one run.
 class WorldSums {
  public:
-  WorldSums(std::size_t run, int num_worlds) : worlds_(static_cast<std::size_t>(num_worlds)) {
+  WorldSums(std::size_t run, const io::RunItems& items) : worlds_(items.world_id.size()) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t w = 0; w < worlds_.size(); ++w) {
       worlds_[w].run = run;
-      worlds_[w].world = static_cast<int>(w);
+      worlds_[w].world = items.world_id[w];
       worlds_[w].collide_s = worlds_[w].solve_s = unknown;
     }
   }
@@ -200,7 +200,7 @@ std::vector<WorldFacts> facts_of_worlds(const EnsembleRuns& ensemble) {
   std::vector<WorldFacts> worlds;
   for (std::size_t i = 0; i < ensemble.runs().size(); ++i) {
     const RunTables& run = ensemble.runs()[i];
-    WorldSums sums(i, run.items().num_worlds);
+    WorldSums sums(i, run.items());
     for (std::int64_t first = 0; first < ensemble.num_frames(); first += frames_at_once) {
       const std::int64_t count = std::min(frames_at_once, ensemble.num_frames() - first);
       const Piece piece = read_piece(run, first, count);

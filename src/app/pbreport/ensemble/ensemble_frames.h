@@ -1,6 +1,7 @@
 /// Observables of an ensemble, frame by frame.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ std::vector<QuantitySpread> spread_by_frame(const EnsembleRuns& ensemble,
 /// What a world showed in the measured frames.
 struct WorldFacts {
   std::size_t run = 0;
-  int world = 0;
+  std::int64_t world = 0;  ///< its number in the ensemble
   double contacts_mean = 0, contacts_max = 0, rows_mean = 0, rows_max = 0, islands_mean = 0;
   double energy_first_j = 0, energy_last_j = 0, penetration_max_m = 0, joint_gap_max_m = 0;
   /// [s] of a step, mean: collision detection, and its islands one after the other; NaN without

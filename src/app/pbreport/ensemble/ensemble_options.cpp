@@ -1,7 +1,6 @@
 #include "app/pbreport/ensemble/ensemble_options.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "app/common/options.h"
 #include "core/error.h"
@@ -39,18 +38,17 @@ po::options_description visible_options() {
 
 }  // namespace
 
-std::string ensemble_help_text() {
-  std::ostringstream text;
-  text
-      << "pbreport ensemble compares runs of one scene that differ in --seed or --solver-seed: mean, spread "
-         "and quantiles of observables\nand positions frame by frame, contacts and times of each world. Runs "
-         "that differ in what decides over their results are refused.\n\n"
-      << "Usage: pbreport ensemble RUN.h5... [options]\n\n"
-      << visible_options() << "\nExamples:\n"
-      << "  pbreport ensemble seed*.h5\n"
-      << "  pbreport ensemble seed*.h5 --output ensemble.h5 --csv frames.csv\n"
-      << "  pbreport ensemble 100CrSk.h5 --over worlds --markdown\n";
-  return text.str();
+Manual ensemble_manual() {
+  return {.name = "pbreport ensemble",
+          .about =
+              "pbreport ensemble compares runs of one scene that differ in --seed or --solver-seed: mean, "
+              "spread and quantiles of observables and positions frame by frame, contacts and times of each "
+              "world. Runs that differ in what decides over their results are refused.",
+          .usage = "pbreport ensemble RUN.h5... [options]",
+          .options = visible_options(),
+          .examples = {"pbreport ensemble seed*.h5",
+                       "pbreport ensemble seed*.h5 --output ensemble.h5 --csv frames.csv",
+                       "pbreport ensemble 100CrSk.h5 --over worlds --markdown"}};
 }
 
 EnsembleOptions parse_ensemble_options(const std::vector<std::string>& args) {

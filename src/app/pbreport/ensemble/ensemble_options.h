@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/manual/manual.h"
+
 namespace pbmpi::app {
 
 /// What a sample is: a run, its worlds joined, or each world of each run.
@@ -28,6 +30,6 @@ struct EnsembleOptions {
 /// Throws core::InputError with one clear message.
 EnsembleOptions parse_ensemble_options(const std::vector<std::string>& args);
 
-std::string ensemble_help_text();
+Manual ensemble_manual();
 
 }  // namespace pbmpi::app

@@ -15,8 +15,15 @@ using io::Matters;
 using io::RunTables;
 
 std::string seeds_of(const RunTables& run) {
+  const std::string range = core::value_in(run.parameters(), "world_range");
   return "seed " + core::value_in(run.parameters(), "seed") + ", solver_seed " +
-         core::value_in(run.parameters(), "solver_seed");
+         core::value_in(run.parameters(), "solver_seed") + (range.empty() ? "" : ", worlds " + range);
+}
+
+/// Names of the bodies of the first world.
+std::vector<std::string> bodies_of_a_world(const RunTables& run) {
+  const auto& names = run.items().body_name;
+  return {names.begin(), names.begin() + std::ssize(names) / run.items().num_worlds};
 }
 
 /// Parameters in which runs differ, and which the user has not allowed.
@@ -54,7 +61,9 @@ EnsembleRuns::EnsembleRuns(const EnsembleOptions& options) : over_(options.over)
     require_new_sample(i);
     num_frames_ = std::min<std::int64_t>(num_frames_, std::ssize(runs_[i].frames()));
   }
-  if (over_ == SampleOf::worlds) require_equal_worlds();
+  if (over_ == SampleOf::worlds) {
+    for (const RunTables& run : runs_) require_equal_worlds(run);
+  }
 }
 
 void EnsembleRuns::require_comparable(const RunTables& run, const EnsembleOptions& options) {
@@ -66,8 +75,12 @@ void EnsembleRuns::require_comparable(const RunTables& run, const EnsembleOption
                 both + " are not of one ensemble: " +
                     (apart.empty() ? "" : io::text_of(apart.front(), first().path(), run.path())) +
                     "; leave one out, or allow what differs (--allow" + names + ")");
-  require_input(first().items().body_name == run.items().body_name &&
-                    first().items().body_world == run.items().body_world,
+  // Worlds are compared one by one, so that runs may have other numbers of them: parts of an ensemble.
+  const bool same_bodies = over_ == SampleOf::worlds
+                               ? bodies_of_a_world(first()) == bodies_of_a_world(run)
+                               : first().items().body_name == run.items().body_name &&
+                                     first().items().body_world == run.items().body_world;
+  require_input(same_bodies,
                 both + " do not have the same bodies; compare runs of one scene with as many worlds");
   require_input(first().record_every() == run.record_every(),
                 both + ": one has recorded every " + std::to_string(first().record_every()) +
@@ -93,14 +106,20 @@ void EnsembleRuns::require_new_sample(std::size_t index) const {
   }
 }
 
-void EnsembleRuns::require_equal_worlds() const {
-  const io::RunItems& items = first().items();
+void EnsembleRuns::require_equal_worlds(const RunTables& run) {
+  const io::RunItems& items = run.items();
   const auto num = static_cast<std::size_t>(items.num_worlds);
   const std::size_t count = items.body_name.size() / num;
   bool equal = count * num == items.body_name.size();
   for (std::size_t i = 0; equal && i < items.body_name.size(); ++i)
     equal = items.body_name[i] == items.body_name[i % count];
-  require_input(equal, first().path() + ": its worlds do not have the same bodies; leave out --over worlds");
+  require_input(equal, run.path() + ": its worlds do not have the same bodies; leave out --over worlds");
+}
+
+std::int64_t EnsembleRuns::num_samples() const {
+  std::int64_t samples = 0;
+  for (const RunTables& run : runs_) samples += over_ == SampleOf::runs ? 1 : run.items().num_worlds;
+  return samples;
 }
 
 std::int64_t EnsembleRuns::num_bodies() const {

@@ -22,6 +22,7 @@ class EnsembleRuns {
   std::int64_t num_frames() const { return num_frames_; }
   std::int64_t num_recorded() const { return num_frames_ / first().record_every(); }
   SampleOf over() const { return over_; }
+  std::int64_t num_samples() const;
   /// Bodies of a sample: all, or those of a world.
   std::int64_t num_bodies() const;
   /// "ranks is 1 in a.h5 and 2 in b.h5": of what differs beside the seeds, allowed or of no matter for
@@ -31,7 +32,7 @@ class EnsembleRuns {
  private:
   void require_comparable(const io::RunTables& run, const EnsembleOptions& options);
   void require_new_sample(std::size_t index) const;
-  void require_equal_worlds() const;
+  static void require_equal_worlds(const io::RunTables& run);
 
   SampleOf over_;
   std::vector<io::RunTables> runs_;

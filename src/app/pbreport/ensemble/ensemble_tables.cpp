@@ -5,6 +5,7 @@
 
 #include "app/common/format.h"
 #include "app/common/version.h"
+#include "app/pbreport/tables/row_table.h"
 #include "core/error.h"
 #include "core/number_text.h"
 #include "core/statistics.h"
@@ -15,46 +16,34 @@ namespace {
 
 using Columns = std::vector<io::TableColumn>;
 
-/// Rows of a table, of which each column is a function of the row.
+/// A table whose rows have frames and spreads.
 template <class Row>
-class Table {
+class Table : public RowTable<Row> {
  public:
-  explicit Table(const std::vector<Row>& rows) : rows_(rows) {}
+  using RowTable<Row>::RowTable;
 
-  template <class ValueOf>
-  void add(const std::string& name, const std::string& unit, ValueOf&& value_of) {
-    using Value = std::decay_t<decltype(value_of(rows_.front()))>;
-    std::vector<Value> values;
-    for (const Row& row : rows_) values.push_back(value_of(row));
-    columns.push_back({name, unit, std::move(values), 1});
-  }
   /// Columns of a Spread: count, nonfinite, mean ...; without `prefix` as they are.
   template <class SpreadOf>
   void add_spread(const std::string& prefix, const std::string& unit, const std::vector<double>& quantiles,
                   SpreadOf&& spread_of_row) {
-    add(prefix + "count", "", [&](const Row& row) { return spread_of_row(row).count; });
-    add(prefix + "nonfinite", "", [&](const Row& row) { return spread_of_row(row).nonfinite; });
-    add(prefix + "mean", unit, [&](const Row& row) { return spread_of_row(row).mean; });
-    add(prefix + "stddev", unit, [&](const Row& row) { return spread_of_row(row).stddev; });
-    add(prefix + "min", unit, [&](const Row& row) { return spread_of_row(row).min; });
+    this->add(prefix + "count", "", [&](const Row& row) { return spread_of_row(row).count; });
+    this->add(prefix + "nonfinite", "", [&](const Row& row) { return spread_of_row(row).nonfinite; });
+    this->add(prefix + "mean", unit, [&](const Row& row) { return spread_of_row(row).mean; });
+    this->add(prefix + "stddev", unit, [&](const Row& row) { return spread_of_row(row).stddev; });
+    this->add(prefix + "min", unit, [&](const Row& row) { return spread_of_row(row).min; });
     for (std::size_t q = 0; q < quantiles.size(); ++q)
-      add(prefix + quantile_name(quantiles[q]), unit,
-          [&](const Row& row) { return spread_of_row(row).quantiles[q]; });
-    add(prefix + "max", unit, [&](const Row& row) { return spread_of_row(row).max; });
+      this->add(prefix + quantile_name(quantiles[q]), unit,
+                [&](const Row& row) { return spread_of_row(row).quantiles[q]; });
+    this->add(prefix + "max", unit, [&](const Row& row) { return spread_of_row(row).max; });
   }
   /// Columns of the frame in which a row is.
   template <class FrameOf>
   void add_frame(FrameOf&& frame_of) {
-    add("frame", "", [&](const Row& row) { return frame_of(row).frame; });
-    add("step", "", [&](const Row& row) { return frame_of(row).step; });
-    add("time", "s", [&](const Row& row) { return frame_of(row).time_s; });
-    add("measured", "", [&](const Row& row) { return std::int64_t{frame_of(row).is_measured}; });
+    this->add("frame", "", [&](const Row& row) { return frame_of(row).frame; });
+    this->add("step", "", [&](const Row& row) { return frame_of(row).step; });
+    this->add("time", "s", [&](const Row& row) { return frame_of(row).time_s; });
+    this->add("measured", "", [&](const Row& row) { return std::int64_t{frame_of(row).is_measured}; });
   }
-
-  Columns columns;
-
- private:
-  const std::vector<Row>& rows_;
 };
 
 /// Wall times of the measured frames.
@@ -217,6 +206,34 @@ Columns worlds_table(const std::vector<WorldFacts>& worlds) {
   return table.columns;
 }
 
+/// Adds columns that runs have once, a row a world: those of `names`, or all; of runs that all have them.
+void append_once(const EnsembleRuns& ensemble, const char* table_name, const std::vector<std::string>& names,
+                 Columns& columns) {
+  std::vector<Columns> parts;
+  for (const io::RunTables& run : ensemble.runs()) {
+    const io::RunTable* table = run.find(table_name);
+    if (table == nullptr) return;
+    parts.push_back(run.read(*table, 0, 1));
+  }
+  for (io::TableColumn joined : parts.front()) {
+    const bool wanted = names.empty() || std::ranges::find(names, joined.name) != names.end();
+    if (!wanted || joined.name == "id") continue;
+    bool all_have_it = true;
+    for (auto part = parts.begin() + 1; part != parts.end(); ++part) {
+      const auto found = std::ranges::find(*part, joined.name, &io::TableColumn::name);
+      all_have_it = all_have_it && found != part->end() && found->values.index() == joined.values.index();
+      if (!all_have_it) break;
+      std::visit(
+          [&](auto& values) {
+            const auto& more = std::get<std::decay_t<decltype(values)>>(found->values);
+            values.insert(values.end(), more.begin(), more.end());
+          },
+          joined.values);
+    }
+    if (all_have_it) columns.push_back(std::move(joined));
+  }
+}
+
 }  // namespace
 
 std::string quantile_name(double quantile) { return format("q%g", 100 * quantile); }
@@ -234,7 +251,9 @@ io::TableFile ensemble_tables(const EnsembleRuns& runs, const Ensemble& found,
   file.tables["frames"] = frames_table(runs, found.quantities, options.quantiles);
   file.tables["positions"] = positions_table(runs, found.positions.frames, options.quantiles);
   file.tables["bodies"] = bodies_table(runs, found.positions.bodies);
-  file.tables["worlds"] = worlds_table(found.worlds);
+  Columns& worlds = file.tables["worlds"] = worlds_table(found.worlds);
+  append_once(runs, "world_results", {"survived", "nonfinite_step", "row_visits", "cost"}, worlds);
+  append_once(runs, "world_parameters", {}, worlds);
   if (options.by_body)
     file.tables["body_frames"] = body_frames_table(runs, found.positions.frames, options.quantiles);
   return file;

@@ -1,10 +1,8 @@
 #include "app/pbreport/ensemble/ensemble_text.h"
 
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "app/common/format.h"
-#include "app/common/json_text.h"
 #include "core/text.h"
 
 namespace pbmpi::app {
@@ -40,14 +38,12 @@ std::string position_line(const EnsembleRuns& runs, const PositionSpread& last) 
 
 std::string head(const EnsembleRuns& runs, const EnsembleOptions& options) {
   const io::FrameTime& last = runs.first().frames()[static_cast<std::size_t>(runs.num_frames() - 1)];
-  std::string text = format(
-      "scene: %s\nsamples: %zu (%s)\nframes: %lld to %lld (%.6g s)\n",
-      core::value_in(runs.first().attributes(), "scene").c_str(),
-      runs.runs().size() *
-          (options.over == SampleOf::worlds ? static_cast<std::size_t>(runs.first().items().num_worlds) : 1),
-      options.over == SampleOf::worlds ? "each world of each run" : "runs",
-      static_cast<long long>(runs.first().frames().front().frame), static_cast<long long>(last.frame),
-      last.time_s);
+  std::string text = format("scene: %s\nsamples: %lld (%s)\nframes: %lld to %lld (%.6g s)\n",
+                            core::value_in(runs.first().attributes(), "scene").c_str(),
+                            static_cast<long long>(runs.num_samples()),
+                            options.over == SampleOf::worlds ? "each world of each run" : "runs",
+                            static_cast<long long>(runs.first().frames().front().frame),
+                            static_cast<long long>(last.frame), last.time_s);
   text += format("state_hashes: %zu different in %zu runs\n", num_hashes(runs), runs.runs().size());
   for (const io::RunTables& run : runs.runs())
     text += format("run: %s, seed %s, solver_seed %s, %zu frames, hash %s\n", run.path().c_str(),
@@ -91,17 +87,6 @@ std::string ensemble_markdown(const EnsembleRuns& runs, const Ensemble& found,
   }
   return text + "\n" +
          (found.positions.frames.empty() ? "" : position_line(runs, found.positions.frames.back()));
-}
-
-std::string to_json(const io::TableFile& file) {
-  nlohmann::ordered_json json;
-  for (const io::Parameter& parameter : file.parameters) json[parameter.name] = parameter.text;
-  for (const auto& [name, columns] : file.tables) {
-    nlohmann::ordered_json& table = json[name];
-    for (const io::TableColumn& column : columns)
-      std::visit([&](const auto& values) { table[column.name] = values; }, column.values);
-  }
-  return json_text(json, 2) + "\n";
 }
 
 }  // namespace pbmpi::app

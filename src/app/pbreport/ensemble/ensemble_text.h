@@ -12,7 +12,4 @@ std::string ensemble_text(const EnsembleRuns& runs, const Ensemble& found, const
 std::string ensemble_markdown(const EnsembleRuns& runs, const Ensemble& found,
                               const EnsembleOptions& options);
 
-/// Tables as objects of columns; what is not finite is null.
-std::string to_json(const io::TableFile& file);
-
 }  // namespace pbmpi::app

@@ -1,7 +1,6 @@
 #include "app/pbreport/figures/figures.h"
 
 #include <ostream>
-#include <sstream>
 
 #include "app/common/format.h"
 #include "app/common/options.h"
@@ -20,19 +19,6 @@ po::options_description visible_options() {
   add_help_options(all);
   all.add_options()("quiet,q", "print nothing but errors");
   return all;
-}
-
-std::string help_text() {
-  std::ostringstream text;
-  text << "pbreport figures draws figures 8 and 9 of the paper from recorded runs: frame rates and satisfied "
-          "frames, "
-          "and the error categories against 20 iterations. What a file is (IterN, FEEC, another seed for the "
-          "noise "
-          "floor) it says itself; several files of one kind are repeats, and the time of a frame is the "
-          "least of them.\n\n"
-       << "Usage: pbreport figures RUN.h5... [options]   (jobs/figure8_9.sh records them)\n\n"
-       << visible_options();
-  return text.str();
 }
 
 std::string to_text(const std::vector<FigureScene>& scenes) {
@@ -68,10 +54,21 @@ std::string to_text(const std::vector<FigureScene>& scenes) {
 
 }  // namespace
 
+Manual figures_manual() {
+  return {.name = "pbreport figures",
+          .about =
+              "pbreport figures draws figures 8 and 9 of the paper from recorded runs: frame rates and "
+              "satisfied frames, and the error categories against 20 iterations. What a file is (IterN, "
+              "FEEC, another seed for the noise floor) it says itself; several files of one kind are "
+              "repeats, and the time of a frame is the least of them. jobs/figure8_9.sh records them.",
+          .usage = "pbreport figures RUN.h5... [options]",
+          .options = visible_options()};
+}
+
 core::ExitCode run_figures(const std::vector<std::string>& args, std::ostream& out) {
   const po::variables_map values = parse_with_files(args, visible_options());
   if (values.count("help") != 0) {
-    out << help_text();
+    out << help_of(figures_manual());
     return core::ExitCode::done;
   }
   core::require_input(values.count("file") != 0,

@@ -1,7 +1,6 @@
 #include "app/pbreport/instructions/figure3.h"
 
 #include <ostream>
-#include <sstream>
 
 #include "app/common/options.h"
 #include "app/common/text_output.h"
@@ -20,24 +19,22 @@ po::options_description visible_options() {
   return all;
 }
 
-std::string help_text() {
-  std::ostringstream text;
-  text << "pbreport figure3 shows instructions of a frame by quick and direct, and their mix, as "
-          "jobs/figure3.sh "
-          "counts them. Where direct was not counted it is extrapolated by the rows of the islands, if a run "
-          "of "
-          "that scene with --record-islands is named.\n\n"
-       << "Usage: pbreport figure3 figure3.json [RUN.h5...] [options]\n\n"
-       << visible_options();
-  return text.str();
-}
-
 }  // namespace
+
+Manual figure3_manual() {
+  return {.name = "pbreport figure3",
+          .about =
+              "pbreport figure3 shows instructions of a frame by quick and direct, and their mix, as "
+              "jobs/figure3.sh counts them. Where direct was not counted it is extrapolated by the rows of "
+              "the islands, if a run of that scene with --record-islands is named.",
+          .usage = "pbreport figure3 figure3.json [RUN.h5...] [options]",
+          .options = visible_options()};
+}
 
 core::ExitCode run_figure3(const std::vector<std::string>& args, std::ostream& out) {
   const po::variables_map values = parse_with_files(args, visible_options());
   if (values.count("help") != 0) {
-    out << help_text();
+    out << help_of(figure3_manual());
     return core::ExitCode::done;
   }
   const std::vector<std::string> files = given_files(values);

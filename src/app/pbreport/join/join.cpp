@@ -40,24 +40,24 @@ std::string to_text(const io::JoinedRun& joined, const std::string& output) {
                        joined.state_hash.empty() ? "none (the run was cut off)" : joined.state_hash.c_str());
 }
 
-void print_help(std::ostream& out) {
-  out << "pbreport join makes one file of that of a run and those of the runs that went on from its "
-         "checkpoints: as "
-         "if the run\nhad never been stopped. Files may come in any order. Frames that several of them have "
-         "(of a "
-         "run that was killed after its\nlast checkpoint) must be equal bit for bit, times apart; the later "
-         "file's "
-         "are taken.\n\n"
-      << "Usage: pbreport join RUN.h5 RUN.from12.h5... --output ALL.h5 [options]\n\n"
-      << visible_options() << "\nExamples:\n  pbreport join 100CrSk.h5 100CrSk.from*.h5 -o all.h5\n";
-}
-
 }  // namespace
+
+Manual join_manual() {
+  return {.name = "pbreport join",
+          .about =
+              "pbreport join makes one file of that of a run and those of the runs that went on from its "
+              "checkpoints: as if the run had never been stopped. Files may come in any order. Frames that "
+              "several of them have (of a run that was killed after its last checkpoint) must be equal bit "
+              "for bit, times apart; the later file's are taken.",
+          .usage = "pbreport join RUN.h5 RUN.from12.h5... --output ALL.h5 [options]",
+          .options = visible_options(),
+          .examples = {"pbreport join 100CrSk.h5 100CrSk.from*.h5 -o all.h5"}};
+}
 
 core::ExitCode run_join(const std::vector<std::string>& args, std::ostream& out) {
   const po::variables_map values = parse_with_files(args, visible_options());
   if (values.count("help") != 0) {
-    print_help(out);
+    out << help_of(join_manual());
     require_printed(out, "the help");
     return core::ExitCode::done;
   }

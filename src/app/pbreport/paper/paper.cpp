@@ -1,7 +1,6 @@
 #include "app/pbreport/paper/paper.h"
 
 #include <ostream>
-#include <sstream>
 
 #include "app/common/options.h"
 #include "app/common/text_output.h"
@@ -23,21 +22,22 @@ po::options_description visible_options() {
   return all;
 }
 
-std::string help_text() {
-  std::ostringstream text;
-  text << "pbreport paper puts every statement, table and figure of the paper beside what was measured: "
-          "confirmed, refuted, or not decidable here, by a rule that stands beside it.\n\n"
-       << "Usage: pbreport paper FOLDER|FILE... [options]   (jobs/paper.sh makes the files)\n\n"
-       << visible_options();
-  return text.str();
-}
-
 }  // namespace
+
+Manual paper_manual() {
+  return {.name = "pbreport paper",
+          .about =
+              "pbreport paper puts every statement, table and figure of the paper beside what was measured: "
+              "confirmed, refuted, or not decidable here, by a rule that stands beside it. jobs/paper.sh "
+              "makes the files.",
+          .usage = "pbreport paper FOLDER|FILE... [options]",
+          .options = visible_options()};
+}
 
 core::ExitCode run_paper(const std::vector<std::string>& args, std::ostream& out) {
   const po::variables_map values = parse_with_files(args, visible_options());
   if (values.count("help") != 0) {
-    out << help_text();
+    out << help_of(paper_manual());
     return core::ExitCode::done;
   }
   const bool json = values.count("json") != 0, markdown = values.count("markdown") != 0;

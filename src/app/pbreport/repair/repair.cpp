@@ -21,14 +21,20 @@ po::options_description visible_options() {
 
 }  // namespace
 
+Manual repair_manual() {
+  return {.name = "pbreport repair",
+          .about =
+              "pbreport repair cuts the file of a run that was killed to its committed frames, which stay as "
+              "they are, and gives back the disk space behind them. It removes what else the run left beside "
+              "the file.",
+          .usage = "pbreport repair RUN.h5...",
+          .options = visible_options()};
+}
+
 core::ExitCode run_repair(const std::vector<std::string>& args, std::ostream& out) {
   const po::variables_map values = parse_with_files(args, visible_options());
   if (values.count("help") != 0) {
-    out << "pbreport repair cuts the file of a run that was killed to its committed frames, which stay as "
-           "they are, and gives back\nthe disk space behind them. It removes what else the run left beside "
-           "the file.\n\n"
-        << "Usage: pbreport repair RUN.h5...\n\n"
-        << visible_options();
+    out << help_of(repair_manual());
     require_printed(out, "the help");
     return core::ExitCode::done;
   }

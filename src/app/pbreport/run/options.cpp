@@ -1,17 +1,14 @@
 #include "app/pbreport/run/options.h"
 
-#include <sstream>
-
 #include "app/common/options.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
-namespace {
 
 namespace po = boost::program_options;
 using core::require_input;
 
-po::options_description visible_options() {
+po::options_description report_options_description() {
   po::options_description summary("The summary");
   summary.add_options()  //
       ("json", "print it as one JSON document, with the keys of 'pbmpi --report json'");
@@ -36,16 +33,8 @@ po::options_description visible_options() {
   return all;
 }
 
-}  // namespace
-
-std::string report_options_text() {
-  std::ostringstream text;
-  text << visible_options();
-  return text.str();
-}
-
 ReportOptions parse_report_options(const std::vector<std::string>& args) {
-  const po::variables_map values = parse_with_files(args, visible_options());
+  const po::variables_map values = parse_with_files(args, report_options_description());
 
   ReportOptions options;
   if (values.count("help") != 0) options.action = ReportAction::help;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <boost/program_options.hpp>
+
 namespace pbmpi::app {
 
 enum class ReportAction { report, help, version };
@@ -21,7 +23,7 @@ struct ReportOptions {
 /// Throws core::InputError with one clear message.
 ReportOptions parse_report_options(const std::vector<std::string>& args);
 
-/// What --help says of the options.
-std::string report_options_text();
+/// All options, in groups.
+boost::program_options::options_description report_options_description();
 
 }  // namespace pbmpi::app

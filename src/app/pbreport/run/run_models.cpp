@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "analysis/invariants.h"
 #include "core/error.h"
-#include "scenes/scene.h"
+#include "core/text.h"
+#include "scenes/parameter_table.h"
 
 namespace pbmpi::app {
 namespace {
@@ -39,6 +41,20 @@ std::string difference(const io::BodyTable& a, const io::BodyTable& b) {
 
 }  // namespace
 
+std::vector<std::shared_ptr<const model::Model>> build_worlds(const scenes::Scene& scene,
+                                                              const io::RunData& run, std::uint64_t seed) {
+  const std::string text = core::value_in(run.parameters, "parameters_text");
+  std::optional<scenes::ParameterTable> parameters;
+  if (!text.empty()) parameters.emplace(core::value_in(run.parameters, "parameters_file"), text);
+  std::vector<std::shared_ptr<const model::Model>> worlds;
+  for (const std::int64_t id : run.world_id) {
+    const auto number = static_cast<int>(id);
+    const bool has_row = parameters && number < parameters->num_worlds();
+    worlds.push_back(scene.build(number, seed, has_row ? parameters->of_world(number) : scenes::Overrides()));
+  }
+  return worlds;
+}
+
 RunModels rebuild_models(const io::RunData& run, const std::string& path) {
   const std::string name = parameter(run, "scene", path);
   const double dt_s = std::strtod(parameter(run, "dt", path).c_str(), nullptr);
@@ -46,12 +62,12 @@ RunModels rebuild_models(const io::RunData& run, const std::string& path) {
   const auto scene = scenes::parse_scene({name, name + ".toml", parameter(run, "scene_text", path)}, dt_s);
   RunModels models;
   std::size_t first = 0, first_joint = 0;
-  for (int world = 0; world < run.num_worlds; ++world) {
-    models.worlds.push_back(scene->build(world, seed));
+  models.worlds = build_worlds(*scene, run, seed);
+  for (const auto& world : models.worlds) {
     models.first_body.push_back(first);
     models.first_joint.push_back(first_joint);
-    first_joint += models.worlds.back()->joints.size();
-    for (const model::Body& body : models.worlds.back()->bodies) {
+    first_joint += world->joints.size();
+    for (const model::Body& body : world->bodies) {
       core::require_input(first < run.bodies.name.size() && run.bodies.name[first] == body.name,
                           path +
                               ": its scene text gives other bodies than it has recorded; use the pbmpi that "

@@ -8,6 +8,7 @@
 
 #include "analysis/pose_errors.h"
 #include "io/run/run_data.h"
+#include "scenes/scene.h"
 
 namespace pbmpi::app {
 
@@ -16,6 +17,11 @@ struct RunModels {
   std::vector<std::size_t> first_body;   ///< [num_worlds] in the file's order
   std::vector<std::size_t> first_joint;  ///< [num_worlds] likewise
 };
+
+/// Worlds of `scene` as the run had them: with their numbers in the ensemble, and their parameters. Throws
+/// core::InputError.
+std::vector<std::shared_ptr<const model::Model>> build_worlds(const scenes::Scene& scene,
+                                                              const io::RunData& run, std::uint64_t seed);
 
 /// Throws core::InputError if the text cannot be read, or gives other bodies than the file has.
 RunModels rebuild_models(const io::RunData& run, const std::string& path);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "analysis/pose_errors.h"
+#include "app/pbreport/run/run_models.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "effects/effect_choices.h"
@@ -81,7 +82,7 @@ std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed
         scenes::parse_scene({name, name + ".toml", core::value_in(run.parameters, "scene_text")}, {}, form,
                             effects::parse_effect_choices(core::value_in(run.parameters, "effects")));
     effects::RunPlan plan;
-    for (int world = 0; world < run.num_worlds; ++world) plan.add(*scene->build(world, seed));
+    for (const auto& world : build_worlds(*scene, run, seed)) plan.add(*world);
     return effect_summaries(plan);
   } catch (const core::InputError&) {
     return {};
@@ -94,6 +95,23 @@ std::int64_t num_events(const io::RunData& run, const char* kind) {
   return found == run.num_events.end() ? 0 : found->second;
 }
 
+/// Of a run that was cut off as far as its frames tell.
+std::int64_t worlds_survived(const io::RunData& run) {
+  if (!run.world_results.empty()) return std::ranges::count(run.world_results, 1, &io::WorldResult::survived);
+  std::vector<bool> survived(static_cast<std::size_t>(run.num_worlds), true);
+  if (const auto nonfinite = run.observables.find("nonfinite"); nonfinite != run.observables.end()) {
+    for (const std::vector<double>& frame : nonfinite->second) {
+      for (std::size_t world = 0; world < survived.size(); ++world)
+        if (frame[world] > 0) survived[world] = false;
+    }
+  }
+  for (const stepping::RunEvent& event : run.events) {
+    if (event.kind == stepping::event_kind::frozen && event.world >= 0 && event.world < run.num_worlds)
+      survived[static_cast<std::size_t>(event.world)] = false;
+  }
+  return std::ranges::count(survived, true);
+}
+
 void read_settings(const io::RunData& run, const std::string& path, RunSummary& summary) {
   summary.version = core::value_in(run.attributes, "pbmpi_version");
   summary.scene = core::value_in(run.attributes, "scene");
@@ -101,6 +119,7 @@ void read_settings(const io::RunData& run, const std::string& path, RunSummary& 
   summary.precision = core::value_in(run.parameters, "precision");
   summary.simd = core::value_in(run.parameters, "simd");
   if (core::value_in(run.parameters, "decompose") == "spaces") summary.decomposition = "spaces";
+  if (run.parameters.contains("threads")) summary.threads = number_of<int>(run, "threads", path);
   summary.iterations = number_of<int>(run, "iterations", path);
   summary.substeps = number_of<int>(run, "substeps", path);
   summary.steps_per_frame = number_of<int>(run, "steps_per_frame", path);
@@ -179,6 +198,7 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
     }
   }
   summary.worlds = run.num_worlds;
+  summary.worlds_survived = worlds_survived(run);
   summary.ranks = run.num_ranks;
   summary.idle_ranks = idle_ranks(run);
   summary.bodies = static_cast<std::int64_t>(run.bodies.id.size());

@@ -5,12 +5,19 @@
 #include "app/pbreport/study/study_report.h"
 
 namespace pbmpi::app {
+namespace {
+
+const StudyReport stability_report{
+    "stability", "which settings hold the hard cases",
+    "a map of cases and settings; a click on a field shows its curves and its replay",
+    "print the map as a table instead"};
+
+}  // namespace
+
+Manual stability_report_manual() { return manual_of(stability_report); }
 
 core::ExitCode run_stability_report(const std::vector<std::string>& args, std::ostream& out) {
-  const StudyReport report{"stability", "which settings hold the hard cases",
-                           "a map of cases and settings; a click on a field shows its curves and its replay",
-                           "print the map as a table instead"};
-  return run_study_report(report, args, out,
+  return run_study_report(stability_report, args, out,
                           [](const io::TableFile& file, const ReportOfStudyOptions& options) {
                             const StabilityMap map = stability_map(file, options.scenes);
                             return StudyViews{[map, options, &file](const std::string& path) {

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "app/common/format.h"
-#include "app/common/load_scene.h"
 #include "app/common/options.h"
+#include "app/common/scene_parameter.h"
 #include "app/pbreport/study/study_file.h"
 #include "io/html/map_page.h"
 #include "model/names.h"

@@ -1,7 +1,5 @@
 #include "app/pbreport/study/study_report.h"
 
-#include <sstream>
-
 #include "app/common/options.h"
 #include "app/common/text_output.h"
 #include "app/pbreport/study/study_file.h"
@@ -23,13 +21,12 @@ po::options_description visible_options(const StudyReport& report) {
 
 }  // namespace
 
-std::string help_text(const StudyReport& report) {
-  std::ostringstream text;
-  text << "pbreport " << report.name << " shows " << report.shows << ": the file of pbstudy " << report.name
-       << ". The word " << report.name << " may be left out.\n\n"
-       << "Usage: pbreport [" << report.name << "] " << report.name << ".h5 [options]\n\n"
-       << visible_options(report);
-  return text.str();
+Manual manual_of(const StudyReport& report) {
+  return {.name = "pbreport " + report.name,
+          .about = "pbreport " + report.name + " shows " + report.shows + ": the file of pbstudy " +
+                   report.name + ". The word " + report.name + " may be left out.",
+          .usage = "pbreport [" + report.name + "] " + report.name + ".h5 [options]",
+          .options = visible_options(report)};
 }
 
 ReportOfStudyOptions parse_options(const StudyReport& report, const std::vector<std::string>& args) {
@@ -41,7 +38,7 @@ core::ExitCode run_study_report(const StudyReport& report, const std::vector<std
                                 std::ostream& out, const ReadStudy& read) {
   const ReportOfStudyOptions options = parse_options(report, args);
   if (options.help) {
-    out << help_text(report);
+    out << help_of(manual_of(report));
     return core::ExitCode::done;
   }
   const io::TableFile file = read_study(options.file, report.name);

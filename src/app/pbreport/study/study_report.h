@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/manual/manual.h"
 #include "app/pbreport/study/report_options.h"
 #include "core/error.h"
 #include "io/table/table_file.h"
@@ -28,7 +29,7 @@ struct StudyViews {
 
 using ReadStudy = std::function<StudyViews(const io::TableFile& file, const ReportOfStudyOptions& options)>;
 
-std::string help_text(const StudyReport& report);
+Manual manual_of(const StudyReport& report);
 /// Throws core::InputError with one clear message.
 ReportOfStudyOptions parse_options(const StudyReport& report, const std::vector<std::string>& args);
 /// `read` is called with the file, which outlives the views. Throws core::InputError for what cannot be read

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
-#include <sstream>
 
 #include "app/common/format.h"
 #include "app/common/json_text.h"
@@ -56,10 +55,6 @@ SuiteOptions parse(const std::vector<std::string>& args, bool page) {
   return options;
 }
 
-void print_help(std::ostream& out, const char* command, const char* meaning, bool page) {
-  out << "Usage: pbreport " << command << " FILE... [options]\n\n" << meaning << "\n\n" << described(page);
-}
-
 std::string percent(double ours, double papers) {
   if (papers == 0) return ours == 0 ? "0 %" : "-";
   return format("%+.0f %%", 100 * (ours - papers) / papers);
@@ -106,11 +101,39 @@ std::string still_of(const std::string& folder, const std::string& scene) {
 
 }  // namespace
 
+Manual islands_manual() {
+  return {
+      .name = "pbreport islands",
+      .about =
+          "pbreport islands shows the paper's Table 1 from runs: islands at the end of each measured frame.",
+      .usage = "pbreport islands FILE... [options]",
+      .options = described(false)};
+}
+
+Manual cores_manual() {
+  return {.name = "pbreport cores",
+          .about =
+              "pbreport cores shows the paper's Table 2 and Figure 6 from runs with --record-islands on one "
+              "rank: the fewest cores on which the islands of a step, longest first, take no longer than the "
+              "longest of them, and the frame rate (share of frames within 3.33 ms) if islands, then also "
+              "spaces, had a core each.",
+          .usage = "pbreport cores FILE... [options]",
+          .options = described(false)};
+}
+
+Manual figure6_manual() {
+  return {.name = "pbreport figure6",
+          .about =
+              "pbreport figure6 writes one page with the paper's Figure 6 and Tables 1 and 2, from runs as "
+              "'cores' wants them.",
+          .usage = "pbreport figure6 FILE... [options]",
+          .options = described(true)};
+}
+
 core::ExitCode run_islands(const std::vector<std::string>& args, std::ostream& out) {
   const SuiteOptions options = parse(args, false);
   if (options.help) {
-    print_help(out, "islands", "The paper's Table 1 from runs: islands at the end of each measured frame.",
-               false);
+    out << help_of(islands_manual());
     return finish(out);
   }
   auto json = ordered_json::array();
@@ -127,12 +150,7 @@ core::ExitCode run_islands(const std::vector<std::string>& args, std::ostream& o
 core::ExitCode run_cores(const std::vector<std::string>& args, std::ostream& out) {
   const SuiteOptions options = parse(args, false);
   if (options.help) {
-    print_help(
-        out, "cores",
-        "The paper's Table 2 and Figure 6 from runs with --record-islands on one rank: the fewest cores\n"
-        "on which the islands of a step, longest first, take no longer than the longest of them, and the\n"
-        "frame rate (share of frames within 3.33 ms) if islands, then also spaces, had a core each.",
-        false);
+    out << help_of(cores_manual());
     return finish(out);
   }
   auto json = ordered_json::array();
@@ -155,8 +173,7 @@ core::ExitCode run_cores(const std::vector<std::string>& args, std::ostream& out
 core::ExitCode run_figure6(const std::vector<std::string>& args, std::ostream& out) {
   const SuiteOptions options = parse(args, true);
   if (options.help) {
-    print_help(out, "figure6",
-               "One page: the paper's Figure 6 and Tables 1 and 2 from runs as 'cores' wants them.", true);
+    out << help_of(figure6_manual());
     return finish(out);
   }
   std::vector<io::html::SuiteScene> scenes;

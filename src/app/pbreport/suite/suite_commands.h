@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/manual/manual.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
@@ -15,5 +16,8 @@ core::ExitCode run_islands(const std::vector<std::string>& args, std::ostream& o
 core::ExitCode run_cores(const std::vector<std::string>& args, std::ostream& out);
 /// One page with Figure 6, both tables and stills.
 core::ExitCode run_figure6(const std::vector<std::string>& args, std::ostream& out);
+Manual islands_manual();
+Manual cores_manual();
+Manual figure6_manual();
 
 }  // namespace pbmpi::app

@@ -19,7 +19,7 @@ std::vector<CaseResult> run_cases(const mpi::Communicator& comm, const AccuracyO
   std::optional<RestRunner> rest;
   int reference_scene = -1;
   const std::vector<int> owner = deal_out(cases, runner.scenes(), comm.size());
-  return runner.run<CaseResult>(cases, owner, [&](std::size_t i) {
+  const auto run_one = [&](std::size_t i) {
     const StudyScene& scene = runner.scene(cases[i].scene);
     if (cases[i].scene != reference_scene) {
       reference = solve_reference(scene, reference_solve(scene, options));
@@ -28,7 +28,13 @@ std::vector<CaseResult> run_cases(const mpi::Communicator& comm, const AccuracyO
     }
     return is_yardstick(cases[i].kind) ? run_yardstick(cases[i], scene, *reference, options)
                                        : run_case(cases[i], scene, *reference, *rest, options.repeats);
-  });
+  };
+  return runner
+      .run<CaseResult>(cases, owner,
+                       [&](std::size_t i) {
+                         return CaseOutcome<CaseResult>{run_one(i), {}};
+                       })
+      .results;
 }
 
 StudyContent content(const AccuracyOptions& options, const std::vector<StudyScene>& scenes,
@@ -52,7 +58,7 @@ StudyContent content(const AccuracyOptions& options, const std::vector<StudyScen
 core::ExitCode run_accuracy(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   const AccuracyOptions options = parse_accuracy_options(args);
   if (options.help) {
-    if (comm.is_root()) std::cout << accuracy_help_text() << std::flush;
+    if (comm.is_root()) std::cout << help_of(accuracy_manual()) << std::flush;
     return core::ExitCode::done;
   }
   StudyRunner runner(comm, "accuracy", options);

@@ -78,16 +78,18 @@ void add_settings(const AccuracyCase& base, const AccuracyOptions& options,
   });
 }
 
-/// The settings with a memory from step to step, in the study's numbers of substeps and precisions.
+/// The settings with a memory from step to step, in the study's numbers of substeps, precisions, tolerances
+/// and sags.
 void add_remembering(const AccuracyCase& base, const AccuracyOptions& options,
                      std::vector<AccuracyCase>& cases) {
   AccuracyCase one = base;
-  one.stepper = remembering(base.stepper);
   std::vector<SettingList> lists;
   for (const SettingList& list : options.settings) {
     if (list.option->name == "substeps" || list.option->name == "precision") lists.push_back(list);
   }
-  cross_settings(one.stepper, lists, [&](const StepperSettings& stepper) {
+  lists.push_back(options.tolerances);
+  lists.push_back(options.sags);
+  cross_settings(remembering(base.stepper), lists, [&](const StepperSettings& stepper) {
     one.stepper = stepper;
     if (one.sweeps() <= options.max_sweeps) cases.push_back(one);
   });

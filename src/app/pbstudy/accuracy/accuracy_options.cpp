@@ -1,7 +1,6 @@
 #include "app/pbstudy/accuracy/accuracy_options.h"
 
 #include <array>
-#include <sstream>
 
 #include "app/common/quantities.h"
 #include "app/pbstudy/study/option_lists.h"
@@ -23,6 +22,12 @@ constexpr std::array<VariedOption, 7> varied = {{
 }};
 constexpr VariedOption varied_dt = {
     "dt", "step [s], a whole number of which fills a frame; default: the scene's and half of it", ""};
+constexpr VariedOption varied_tolerance = {
+    "tolerance", "of sor as it is by default: below how long a way an island gets fewer substeps; default: 0",
+    "0"};
+constexpr VariedOption varied_sag = {
+    "sag", "of sor as it is by default: beyond how large a give an island gets more substeps; default: 0",
+    "0"};
 
 po::options_description options_description() {
   po::options_description what(
@@ -31,6 +36,8 @@ po::options_description options_description() {
       "--sor-factor, --warm-start or --row-order is)");
   add_scene_option(what);
   for (const VariedOption& one : varied) add_setting_list(one, what);
+  add_setting_list(varied_tolerance, what);
+  add_setting_list(varied_sag, what);
   what.add_options()  //
       ("estimates", list_of<int>(),
        "FEEC cases, not crossed with the others, at the first step of --dt: frames of the scene's own "
@@ -81,19 +88,20 @@ void require_possible(const AccuracyOptions& options) {
 
 }  // namespace
 
-std::string accuracy_help_text() {
-  std::ostringstream text;
-  text << "pbstudy accuracy measures what accuracy costs in time. Each case is a world of its own (with its "
-          "scene's "
-          "replicas) and a setting. Its defect is the error after one frame from the reference's own state, "
-          "anew in "
-          "every measured frame; its drift is the error along the trajectory from the start.\n\n"
-       << "Usage: mpirun -n RANKS pbstudy accuracy [--scene NAME...] [options]\n\n"
-       << options_description()
-       << "\nThe cases are dealt out over the ranks; a rank works on one at a time. More ranks than cores "
-          "spoil the "
-          "times.\nThen: pbreport accuracy.h5 --budget 3.33ms --html accuracy.html\n";
-  return text.str();
+Manual accuracy_manual() {
+  return {.name = "pbstudy accuracy",
+          .about =
+              "pbstudy accuracy measures what accuracy costs in time. Each case is a world of its own (with "
+              "its scene's replicas) and a setting. Its defect is the error after one frame from the "
+              "reference's own state, anew in every measured frame; its drift is the error along the "
+              "trajectory from the start.",
+          .usage = "mpirun -n RANKS pbstudy accuracy [--scene NAME...] [options]",
+          .options = options_description(),
+          .notes =
+              {"The cases are dealt out over the ranks; a rank works on one at a time. More ranks than cores "
+               "spoil the times."},
+          .examples = {"mpirun -n 2 pbstudy accuracy --scene CrashWa",
+                       "pbreport accuracy.h5 --budget 3.33ms --html accuracy.html"}};
 }
 
 AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
@@ -105,6 +113,8 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   options.with_default =
       values.count("sor-factor") + values.count("warm-start") + values.count("row-order") == 0;
   options.dts = setting_list(varied_dt, values);
+  options.tolerances = setting_list(varied_tolerance, values);
+  options.sags = setting_list(varied_sag, values);
   options.estimates = list<int>(values, "estimates", {1, 5});
   options.max_sweeps = values["max-sweeps"].as<int>();
   options.reference_iterations = values["reference-iterations"].as<int>();

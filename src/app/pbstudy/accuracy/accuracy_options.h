@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/manual/manual.h"
 #include "app/pbstudy/study/setting_lists.h"
 #include "app/pbstudy/study/study_options.h"
 
@@ -14,6 +15,7 @@ struct AccuracyOptions : StudyOptions {
   std::vector<SettingList> settings;      ///< the stepper first; the last varies fastest
   bool with_default = true;               ///< besides them sor as it is meant to be used
   SettingList dts;                        ///< without values: the scene's and half of it
+  SettingList tolerances, sags;           ///< of sor as it is meant to be used
   std::vector<int> estimates;             ///< iterations with which frames are estimated (FEEC)
   int max_sweeps = 320;                   ///< iterations x substeps of a case, at most
   int reference_iterations = 640;         ///< with which each of its steps is tried first
@@ -26,6 +28,6 @@ struct AccuracyOptions : StudyOptions {
 /// Throws core::InputError with one clear message.
 AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args);
 
-std::string accuracy_help_text();
+Manual accuracy_manual();
 
 }  // namespace pbmpi::app

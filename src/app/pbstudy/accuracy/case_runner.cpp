@@ -26,6 +26,7 @@ void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector
     const stepping::Observables seen = stepper.observables(world);
     const State& state = stepper.shown(world);
     result.rows += seen.rows;
+    result.row_visits += seen.row_visits;
     raise(result.max_joint_gap_m, seen.joint_gap_m);
     raise(result.max_penetration_m, seen.max_penetration_m);
     raise(result.energy_change_j,
@@ -64,7 +65,11 @@ std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const S
     }
   }
   result.rows /= scene.frames;
-  result.row_visits = result.rows * one.sweeps_a_frame();
+  if (one.estimate) {
+    result.row_visits = result.rows * one.sweeps_a_frame();
+  } else {
+    result.row_visits = result.row_visits * one.steps_per_frame / scene.frames;
+  }
   result.defect = analysis::summarize(errors);
   return times_s;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "app/common/stepper_factory.h"
+#include "engines/stepper_factory.h"
 
 namespace pbmpi::app {
 
@@ -40,7 +40,7 @@ ConvergingStepper::Level& ConvergingStepper::level(int iterations) {
     found = std::make_unique<Level>();
     stepping::StepperSettings settings = solve_.stepper;
     settings.iterations = iterations;
-    found->stepper = make_stepper(settings, "reference: ");
+    found->stepper = engines::make_stepper(settings, "reference: ");
   }
   return *found;
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "app/common/stepper_factory.h"
 #include "core/clock.h"
+#include "engines/stepper_factory.h"
 #include "scenes/parts/at_rest.h"
 #include "scenes/scene.h"
 #include "stability/cases/case_watch.h"
@@ -25,7 +25,7 @@ RestRunner::Run RestRunner::run_scene(const stepping::StepperSettings& settings)
   stability::HardCase at_rest;
   at_rest.seconds = seconds_;
   stability::CaseWatch watch(at_rest, *model, settings.dt_s);
-  const auto stepper = make_stepper(settings, "at rest: ");
+  const auto stepper = engines::make_stepper(settings, "at rest: ");
   const model::State start = model::initial_state(*model);
   stepper->add(0, model, start, 0);
   Run run;

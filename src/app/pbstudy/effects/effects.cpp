@@ -3,7 +3,7 @@
 #include <iostream>
 #include <optional>
 
-#include "app/common/stepper_factory.h"
+#include "app/common/engine_texts.h"
 #include "app/pbstudy/effects/counted_study.h"
 #include "app/pbstudy/effects/effects_table.h"
 #include "app/pbstudy/study/study_runner.h"
@@ -29,14 +29,20 @@ std::vector<EffectResult> run_cases(const mpi::Communicator& comm, const Effects
                                     StudyRunner& runner) {
   Baseline baseline;
   const std::vector<int> owner = deal_out(cases, runner.scenes(), comm.size());
-  return runner.run<EffectResult>(cases, owner, [&](std::size_t i) {
+  const auto run_one = [&](std::size_t i) {
     const EffectCase& one = cases[i];
     const StudyScene& scene = runner.scene(one.scene);
     stepping::StepperSettings stepper = one.stepper;
     stepper.seed = options.seed;
     if (!baseline.serves(one.scene, stepper)) baseline = {one.scene, stepper, make_reference(scene, stepper)};
     return run_effect_case(one, scene, baseline.reference, stepper, options.repeats, counter);
-  });
+  };
+  return runner
+      .run<EffectResult>(cases, owner,
+                         [&](std::size_t i) {
+                           return CaseOutcome<EffectResult>{run_one(i), {}};
+                         })
+      .results;
 }
 
 StudyContent content(const std::vector<StudyScene>& scenes, const std::vector<EffectCase>& cases,
@@ -60,7 +66,7 @@ StudyContent content(const std::vector<StudyScene>& scenes, const std::vector<Ef
 core::ExitCode run_effects(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   const EffectsOptions options = parse_effects_options(args);
   if (options.help) {
-    if (comm.is_root()) std::cout << effects_help_text() << std::flush;
+    if (comm.is_root()) std::cout << help_of(effects_manual()) << std::flush;
     return core::ExitCode::done;
   }
   StudyRunner runner(comm, "effects", options);

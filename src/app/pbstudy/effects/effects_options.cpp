@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 #include "app/pbstudy/study/option_lists.h"
 #include "core/error.h"
@@ -52,23 +51,24 @@ std::vector<std::string> known_effects(const std::vector<std::string>& given) {
 
 }  // namespace
 
-std::string effects_help_text() {
-  std::ostringstream text;
-  text << "pbstudy effects measures what each effect costs. Each case is a scene (with its replicas), a "
-          "stepper and an effect. From the scene's own state at the start of each measured frame the frame "
-          "is "
-          "done with and without the effect, in turn, so that both meet the same contacts. An effect that "
-          "the "
-          "scene calls for is left out: what that saves, and how far the result is then from the scene's "
-          "own. "
-          "One that nothing calls for is demanded: what that costs, and that no bit changes.\n\n"
-       << "Usage: mpirun -n RANKS pbstudy effects [--scene NAME...] [options]\n\n"
-       << options_description()
-       << "\nThe cases are dealt out over the ranks; a rank works on one at a time. More ranks than cores "
-          "spoil the times.\nInstructions are counted by the processor's counter where Linux gives it "
-          "(perf_event_open), or under\ncallgrind (jobs/effects.sh --instructions); else they are not in "
-          "the file.\nThen: pbreport effects.h5 --html effects.html\n";
-  return text.str();
+Manual effects_manual() {
+  return {
+      .name = "pbstudy effects",
+      .about =
+          "pbstudy effects measures what each effect costs. Each case is a scene (with its replicas), a "
+          "stepper and an effect. From the scene's own state at the start of each measured frame the "
+          "frame is done with and without the effect, in turn, so that both meet the same contacts. An "
+          "effect that the scene calls for is left out: what that saves, and how far the result is then "
+          "from the scene's own. One that nothing calls for is demanded: what that costs, and that no "
+          "bit changes.",
+      .usage = "mpirun -n RANKS pbstudy effects [--scene NAME...] [options]",
+      .options = options_description(),
+      .notes =
+          {"The cases are dealt out over the ranks; a rank works on one at a time. More ranks than cores "
+           "spoil the times. Instructions are counted by the processor's counter where Linux gives it "
+           "(perf_event_open), or under callgrind (jobs/effects.sh --instructions); else they are not "
+           "in the file."},
+      .examples = {"mpirun -n 2 pbstudy effects --scene CrashWa", "pbreport effects.h5 --html effects.html"}};
 }
 
 EffectsOptions parse_effects_options(const std::vector<std::string>& args) {

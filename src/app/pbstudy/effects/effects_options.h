@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/manual/manual.h"
 #include "app/pbstudy/study/setting_lists.h"
 #include "app/pbstudy/study/study_options.h"
 
@@ -21,6 +22,6 @@ struct EffectsOptions : StudyOptions {
 /// Throws core::InputError with one clear message.
 EffectsOptions parse_effects_options(const std::vector<std::string>& args);
 
-std::string effects_help_text();
+Manual effects_manual();
 
 }  // namespace pbmpi::app

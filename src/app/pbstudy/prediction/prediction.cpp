@@ -15,35 +15,17 @@ namespace {
 /// 100CrSk has a hundred worlds that differ little: ten of them in the default form.
 constexpr int most_worlds = 10;
 
-struct Measured {
-  std::vector<PredictionResult> results;
-  std::vector<PredictedFrame> frames;
-  std::vector<VariantCycles> variants;
-};
+using Outcomes = CaseOutcomes<PredictionResult, PredictedFrame, VariantCycles>;
 
-template <class Row>
-std::vector<Row> gathered(const mpi::Communicator& comm, const std::vector<Row>& own) {
-  std::vector<Row> all = comm.allgatherv(std::span<const Row>(own));
-  std::ranges::stable_sort(all, {}, &Row::case_index);
-  return all;
-}
-
-Measured run_cases(const mpi::Communicator& comm, const PredictionOptions& options,
+Outcomes run_cases(const mpi::Communicator& comm, const PredictionOptions& options,
                    const std::vector<PredictionCase>& cases, const std::vector<StudyScene>& scenes,
                    StudyRunner& runner) {
-  Measured own, all;
   UnpredictedRuns unpredicted(options);
-  all.results = runner.run<PredictionResult>(cases, deal_out(cases, comm.size()), [&](std::size_t i) {
-    const PredictionOutcome outcome =
-        run_prediction_case(cases[i], scenes[static_cast<std::size_t>(cases[i].scene)], options,
-                            static_cast<int>(i), unpredicted);
-    own.frames.insert(own.frames.end(), outcome.frames.begin(), outcome.frames.end());
-    own.variants.insert(own.variants.end(), outcome.variants.begin(), outcome.variants.end());
-    return outcome.result;
-  });
-  all.frames = gathered(comm, own.frames);
-  all.variants = gathered(comm, own.variants);
-  return all;
+  return runner.run<PredictionResult, PredictedFrame, VariantCycles>(
+      cases, deal_out(cases, comm.size()), [&](std::size_t i) {
+        return run_prediction_case(cases[i], scenes[static_cast<std::size_t>(cases[i].scene)], options,
+                                   static_cast<int>(i), unpredicted);
+      });
 }
 
 /// The same answer on every rank.
@@ -66,7 +48,7 @@ std::vector<StudyScene> in_their_form(std::vector<StudyScene> scenes, const Pred
 core::ExitCode run_prediction(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   PredictionOptions options = parse_prediction_options(args);
   if (options.help) {
-    if (comm.is_root()) std::cout << prediction_help_text() << std::flush;
+    if (comm.is_root()) std::cout << help_of(prediction_manual()) << std::flush;
     return core::ExitCode::done;
   }
   require_tool();
@@ -75,9 +57,10 @@ core::ExitCode run_prediction(const mpi::Communicator& comm, const std::vector<s
   const std::vector<StudyScene> scenes = in_their_form(runner.scenes(), options);
   const std::vector<PredictionCase> cases = make_prediction_cases(scenes, options);
   runner.open_output();
-  const Measured measured = run_cases(comm, options, cases, scenes, runner);
+  const Outcomes measured = run_cases(comm, options, cases, scenes, runner);
   runner.write([&] {
-    const PredictionRows rows{scenes, cases, measured.results, measured.frames, measured.variants};
+    const PredictionRows rows{scenes, cases, measured.results, measured.rows_of<PredictedFrame>(),
+                              measured.rows_of<VariantCycles>()};
     StudyContent content;
     content.cases = prediction_columns(rows);
     content.tables = prediction_tables(rows);

@@ -1,7 +1,6 @@
 #include "app/pbstudy/prediction/prediction_options.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "app/pbstudy/study/option_lists.h"
 #include "core/error.h"
@@ -43,18 +42,19 @@ po::options_description options_description() {
 
 }  // namespace
 
-std::string prediction_help_text() {
-  std::ostringstream text;
-  text
-      << "pbstudy prediction runs pbmpi under the Valgrind tool pbvalue (docs/prediction.md): the results of "
-         "instructions are predicted, exactly (EVP) and within a threshold (FVP), and those that are near go "
-         "on into the simulation. It counts hits, instructions and the cycles of the paper's processor, and "
-         "compares the result with the unpredicted run.\n\n"
-         "Usage: mpirun -n RANKS pbstudy prediction [--scene NAME...] [options]\n\n"
-      << options_description()
-      << "\nThe cases are dealt out over the ranks; a rank works on one at a time.\n"
-         "Then: pbreport prediction.h5 --html prediction.html\n";
-  return text.str();
+Manual prediction_manual() {
+  return {
+      .name = "pbstudy prediction",
+      .about =
+          "pbstudy prediction runs pbmpi under the Valgrind tool pbvalue (docs/prediction.md): the results "
+          "of instructions are predicted, exactly (EVP) and within a threshold (FVP), and those that are "
+          "near go on into the simulation. It counts hits, instructions and the cycles of the paper's "
+          "processor, and compares the result with the unpredicted run.",
+      .usage = "mpirun -n RANKS pbstudy prediction [--scene NAME...] [options]",
+      .options = options_description(),
+      .notes = {"The cases are dealt out over the ranks; a rank works on one at a time."},
+      .examples = {"mpirun -n 2 pbstudy prediction --scene CrashSk",
+                   "pbreport prediction.h5 --html prediction.html"}};
 }
 
 PredictionOptions parse_prediction_options(const std::vector<std::string>& args) {

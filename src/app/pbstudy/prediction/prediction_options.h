@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/manual/manual.h"
 #include "app/pbstudy/study/study_options.h"
 
 namespace pbmpi::app {
@@ -18,7 +19,7 @@ struct PredictionOptions : StudyOptions {
   bool full = false;                      ///< every world of every scene, cycles of every threshold
 };
 
-std::string prediction_help_text();
+Manual prediction_manual();
 /// Throws core::InputError.
 PredictionOptions parse_prediction_options(const std::vector<std::string>& args);
 

@@ -89,6 +89,10 @@ void require_tool() {
   core::require_input(std::filesystem::exists(tool_folder() + "/pbvalue-amd64-linux"),
                       "this build has no Valgrind tool pbvalue (" + tool_folder() +
                           "); install Debian's valgrind, and configure and build again");
+  // What lies beside Valgrind's own tools is linked, not copied: an installed pbvalue may have lost it.
+  core::require_input(std::filesystem::exists(tool_folder() + "/default.supp"),
+                      "Valgrind is not installed, and pbvalue needs it (" + tool_folder() +
+                          "/default.supp leads nowhere); install Debian's valgrind");
 }
 
 PredictionOutcome run_prediction_case(const PredictionCase& one, const StudyScene& scene,

@@ -8,6 +8,7 @@
 
 #include "analysis/error_table.h"
 #include "app/pbstudy/prediction/prediction_cases.h"
+#include "app/pbstudy/study/case_outcome.h"
 
 namespace pbmpi::app {
 
@@ -55,11 +56,7 @@ struct PredictionResult {
   analysis::ErrorTable floor;   ///< drift of another solver seed
 };
 
-struct PredictionOutcome {
-  PredictionResult result;
-  std::vector<PredictedFrame> frames;
-  std::vector<VariantCycles> variants;
-};
+using PredictionOutcome = CaseOutcome<PredictionResult, PredictedFrame, VariantCycles>;
 
 class UnpredictedRuns;
 

@@ -38,7 +38,7 @@ void read_tool(const json& report, const PredictionCase& one, int case_index, Pr
     PredictedFrame frame = frame_from(section, is_estimate);
     frame.case_index = case_index;
     frame.frame = seen[is_estimate ? 1 : 0]++;
-    outcome.frames.push_back(frame);
+    outcome.rows_of<PredictedFrame>().push_back(frame);
     for (std::size_t i = 0; i < variants.size() && frame.cycles >= 0; ++i) {
       const std::string suffix = i == 0 ? "" : std::to_string(i);
       variants[i].cycles += section.at("cycles").at("none" + suffix).get<std::int64_t>();
@@ -46,7 +46,7 @@ void read_tool(const json& report, const PredictionCase& one, int case_index, Pr
     }
   }
   outcome.result.num_frames = seen[0];
-  outcome.variants = variants;
+  outcome.rows_of<VariantCycles>() = variants;
 }
 
 }  // namespace

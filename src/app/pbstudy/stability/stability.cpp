@@ -8,27 +8,19 @@
 namespace pbmpi::app {
 namespace {
 
-/// Every rank has all results; root has all poses, in the order of the cases.
-struct Measured {
-  std::vector<StabilityResult> results;
-  std::vector<RecordedPose> poses;
-};
+using Outcomes = CaseOutcomes<StabilityResult, RecordedPose>;
 
-Measured run_cases(const mpi::Communicator& comm, const StabilityOptions& options,
+Outcomes run_cases(const mpi::Communicator& comm, const StabilityOptions& options,
                    const std::vector<StabilityCase>& cases, StudyRunner& runner) {
-  std::vector<RecordedPose> own;
-  Measured measured;
-  measured.results = runner.run<StabilityResult>(cases, deal_out(cases, comm.size()), [&](std::size_t i) {
+  return runner.run<StabilityResult, RecordedPose>(cases, deal_out(cases, comm.size()), [&](std::size_t i) {
     const StabilityCase& one = cases[i];
-    const std::size_t first = own.size();
     const HardScene hard = build_hard_scene(runner.scene(one.scene), one.stepper.dt_s, options.seed);
-    const StabilityResult result = run_stability_case(one, hard, options.most_poses, own);
-    for (std::size_t k = first; k < own.size(); ++k) own[k].case_index = static_cast<std::int32_t>(i);
-    return result;
+    CaseOutcome<StabilityResult, RecordedPose> outcome;
+    std::vector<RecordedPose>& poses = outcome.rows_of<RecordedPose>();
+    outcome.result = run_stability_case(one, hard, options.most_poses, poses);
+    for (RecordedPose& pose : poses) pose.case_index = static_cast<std::int32_t>(i);
+    return outcome;
   });
-  measured.poses = comm.allgatherv(std::span<const RecordedPose>(own));
-  std::ranges::stable_sort(measured.poses, {}, &RecordedPose::case_index);
-  return measured;
 }
 
 }  // namespace
@@ -36,13 +28,13 @@ Measured run_cases(const mpi::Communicator& comm, const StabilityOptions& option
 core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   const StabilityOptions options = parse_stability_options(args);
   if (options.help) {
-    if (comm.is_root()) std::cout << stability_help_text() << std::flush;
+    if (comm.is_root()) std::cout << help_of(stability_manual()) << std::flush;
     return core::ExitCode::done;
   }
   StudyRunner runner(comm, "stability", options);
   const std::vector<StabilityCase> cases = make_stability_cases(runner.scenes(), options);
   runner.open_output();
-  const Measured measured = run_cases(comm, options, cases, runner);
+  const Outcomes measured = run_cases(comm, options, cases, runner);
   runner.write([&] {
     std::vector<stability::HardCase> hard_cases;
     for (const StudyScene& scene : runner.scenes())
@@ -50,7 +42,7 @@ core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<st
     const StabilityRows rows{runner.scenes(), options.settings, hard_cases, cases, measured.results};
     StudyContent content;
     content.cases = stability_columns(rows);
-    content.tables = stability_tables(rows, measured.poses);
+    content.tables = stability_tables(rows, measured.rows_of<RecordedPose>());
     content.note = stability_note(rows);
     content.next = " --html stability.html";
     return content;

@@ -1,7 +1,6 @@
 #include "app/pbstudy/stability/stability_options.h"
 
 #include <limits>
-#include <sstream>
 
 #include "app/pbstudy/study/option_lists.h"
 #include "core/error.h"
@@ -24,7 +23,7 @@ std::string setting_help() {
 po::options_description options_description() {
   po::options_description what("What to measure");
   what.add_options()  //
-      ("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE.toml..."),
+      ("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE..."),
        "scenes with a [case] (scenes/FORMAT.md); default: all of scenes/hard")           //
       ("setting", list_of<std::string>(), setting_help().c_str())                        //
       ("dt", list_of<std::string>(), "take every setting with each of these steps [s]")  //
@@ -65,17 +64,17 @@ std::vector<StabilitySetting> crossed(const std::vector<std::string>& settings,
 
 }  // namespace
 
-std::string stability_help_text() {
-  std::ostringstream text;
-  text
-      << "pbstudy stability runs scenes that are known to be hard under many settings. Each says in its file "
-         "what should happen, and within which bounds; a run that keeps them passes, one beyond them is "
-         "degraded or broken.\n\n"
-      << "Usage: mpirun -n RANKS pbstudy stability [--scene NAME...] [--setting TEXT...] [options]\n\n"
-      << options_description()
-      << "\nThe cases are dealt out over the ranks; a rank works on one at a time.\n"
-         "Then: pbreport stability.h5 --html stability.html\n";
-  return text.str();
+Manual stability_manual() {
+  return {.name = "pbstudy stability",
+          .about =
+              "pbstudy stability runs scenes that are known to be hard under many settings. Each says in its "
+              "file what should happen, and within which bounds; a run that keeps them passes, one beyond "
+              "them is degraded or broken.",
+          .usage = "mpirun -n RANKS pbstudy stability [--scene NAME...] [--setting TEXT...] [options]",
+          .options = options_description(),
+          .notes = {"The cases are dealt out over the ranks; a rank works on one at a time."},
+          .examples = {"mpirun -n 2 pbstudy stability --setting sor quick",
+                       "pbreport stability.h5 --html stability.html"}};
 }
 
 StabilityOptions parse_stability_options(const std::vector<std::string>& args) {

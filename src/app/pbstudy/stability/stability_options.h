@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/manual/manual.h"
 #include "app/pbstudy/stability/stability_settings.h"
 #include "app/pbstudy/study/study_options.h"
 
@@ -18,6 +19,6 @@ struct StabilityOptions : StudyOptions {
 /// Throws core::InputError with one clear message.
 StabilityOptions parse_stability_options(const std::vector<std::string>& args);
 
-std::string stability_help_text();
+Manual stability_manual();
 
 }  // namespace pbmpi::app

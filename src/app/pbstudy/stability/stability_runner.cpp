@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/common/stepper_factory.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "engines/stepper_factory.h"
 #include "model/space_map.h"
 #include "mpi/spaces/space_driver.h"
 
@@ -29,7 +29,7 @@ class Recorder {
 
   void see(const State& state, const stepping::Observables& seen, std::int64_t step) {
     watch_.see(state, seen, step);
-    row_visits_ += static_cast<double>(seen.rows) * sweeps_of(case_.stepper);
+    row_visits_ += seen.row_visits;
     ++num_looks_;
     worst_gap_m_ = std::max(worst_gap_m_, seen.joint_gap_m);
     worst_penetration_m_ = std::max(worst_penetration_m_, seen.max_penetration_m);
@@ -78,7 +78,7 @@ class Recorder {
 };
 
 void run_whole(const StabilityCase& one, const HardScene& hard, Recorder& recorder) {
-  const auto stepper = make_stepper(one.stepper, "case: ");
+  const auto stepper = engines::make_stepper(one.stepper, "case: ");
   stepper->add(0, hard.model, model::initial_state(*hard.model), 0);
   const std::int64_t stride = std::max<std::int64_t>(1, one.num_steps / most_looks);
   core::PhaseTimes times;
@@ -97,7 +97,7 @@ void run_whole(const StabilityCase& one, const HardScene& hard, Recorder& record
 
 /// Sees what is shown of each step before its solve has ended; what is stepped on from is the precise state.
 void run_estimates(const StabilityCase& one, const HardScene& hard, Recorder& recorder) {
-  const auto stepper = make_anytime_stepper(one.stepper);
+  const auto stepper = engines::make_anytime_stepper(one.stepper);
   stepper->add(0, hard.model, model::initial_state(*hard.model), 0);
   core::PhaseTimes times;
   double seconds = 0;
@@ -142,7 +142,7 @@ class StepObserver final : public stepping::FrameObserver {
 };
 
 void run_cut(const StabilityCase& one, const HardScene& hard, Recorder& recorder) {
-  const auto stepper = make_space_stepper(one.stepper, cut_in_two(*hard.model));
+  const auto stepper = engines::make_space_stepper(one.stepper, cut_in_two(*hard.model));
   mpi::WorldRunSettings settings;
   settings.warmup = 0;
   settings.frames = static_cast<int>(one.num_steps);

@@ -1,7 +1,7 @@
 #include "app/pbstudy/study/case_stepper.h"
 
-#include "app/common/stepper_factory.h"
 #include "core/clock.h"
+#include "engines/stepper_factory.h"
 #include "stability/guarded_stepper.h"
 
 namespace pbmpi::app {
@@ -34,7 +34,7 @@ Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed,
 CaseStepper::CaseStepper(const Worlds& worlds, const stepping::StepperSettings& settings, int steps_per_frame,
                          const std::optional<EstimateSpec>& estimate)
     : num_worlds_(static_cast<int>(worlds.size())), steps_per_frame_(steps_per_frame) {
-  stepper_ = make_stepper(settings, "case: ");
+  stepper_ = engines::make_stepper(settings, "case: ");
   if (estimate) {
     auto frames =
         std::make_unique<stability::GuardedStepper>(std::move(stepper_), stability::GuardSettings());

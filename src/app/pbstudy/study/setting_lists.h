@@ -35,8 +35,8 @@ std::vector<SettingList> setting_lists(std::span<const VariedOption> varied,
                                        const boost::program_options::variables_map& values);
 
 /// Takes each combination over `base`, the last list varying fastest. Of what a setting has no use for (an
-/// option that its stepper lacks, iterations without sweeps, a warm start without a second substep) there is
-/// one value.
+/// option that its stepper lacks, iterations without sweeps, a tolerance without a second substep, a sag
+/// where all get the most) there is one value.
 void cross_settings(const stepping::StepperSettings& base, std::span<const SettingList> lists,
                     const std::function<void(const stepping::StepperSettings&)>& take);
 

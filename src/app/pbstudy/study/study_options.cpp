@@ -1,15 +1,37 @@
 #include "app/pbstudy/study/study_options.h"
 
+#include <set>
+
+#include "app/common/quantities.h"
 #include "app/pbstudy/study/option_lists.h"
 
 namespace pbmpi::app {
 
 namespace po = boost::program_options;
 
+namespace {
+
+/// Without what says where, how long and how loudly.
+std::vector<std::string> deciding_among(const std::vector<std::string>& args) {
+  const std::set<std::string, std::less<>> switches = {"--resume", "--quiet"};
+  const std::set<std::string, std::less<>> valued = {"--output", "-o", "--max-time", "--progress"};
+  std::vector<std::string> deciding;
+  for (std::size_t i = 0; i < args.size(); ++i) {
+    const std::string name = args[i].substr(0, args[i].find('='));
+    if (valued.contains(name)) {
+      if (name == args[i]) ++i;
+    } else if (!switches.contains(name)) {
+      deciding.push_back(args[i]);
+    }
+  }
+  return deciding;
+}
+
+}  // namespace
+
 void add_scene_option(po::options_description& what) {
-  what.add_options()("scene",
-                     po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE.toml..."),
-                     "scenes, or all; default: all nine");
+  what.add_options()("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE..."),
+                     "scenes that pbmpi brings, or files (.toml, .xml, .urdf), or all; default: all nine");
 }
 
 po::options_description how_to_measure(const HowOptions& says) {
@@ -27,8 +49,13 @@ po::options_description how_to_measure(const HowOptions& says) {
 
 po::options_description what_to_write(const char* default_output) {
   po::options_description write("What to write");
-  write.add_options()("output,o", po::value<std::string>()->default_value(default_output)->value_name("FILE"),
-                      "HDF5 file of the study (io/SCHEMA.md)");
+  write.add_options()                                                                                      //
+      ("output,o", po::value<std::string>()->default_value(default_output)->value_name("FILE"),            //
+       "HDF5 file of the study (io/SCHEMA.md); cases that are done are kept beside it until it is there")  //
+      ("max-time", po::value<std::string>()->value_name("SECONDS"),
+       "begin no case after so long; exit code 75 if any is left, as after a signal USR2")  //
+      ("resume", po::bool_switch(),
+       "leave out the cases that a stopped or killed study of the same options and build has done");
   return write;
 }
 
@@ -45,6 +72,10 @@ StudyOptions study_options(const po::variables_map& values, const std::string& p
   options.floor_seeds = given(values, "floor-seeds", 1).value_or(0);
   options.seed = given_seed(values);
   options.output = output_path(values, "output").value();
+  options.resume = values["resume"].as<bool>();
+  if (values.count("max-time") != 0)
+    options.max_time_s = parse_time_or_seconds(values["max-time"].as<std::string>(), "--max-time");
+  options.deciding = deciding_among(args);
   return options;
 }
 

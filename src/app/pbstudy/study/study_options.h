@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,11 @@ struct StudyOptions {
   int floor_seeds = 0;  ///< other solver seeds, for the noise floor
   std::uint64_t seed = 1;
   std::string output;
+  bool resume = false;               ///< go on with the cases that a stopped study has left
+  std::optional<double> max_time_s;  ///< then no further case is begun
   CommonOptions common;
   std::string command_line;
+  std::vector<std::string> deciding;  ///< the arguments on which outcomes depend
 };
 
 /// --scene.
@@ -36,7 +40,7 @@ struct HowOptions {
 };
 boost::program_options::options_description how_to_measure(const HowOptions& says);
 
-/// "What to write": --output.
+/// "What to write": --output, --resume, --max-time.
 boost::program_options::options_description what_to_write(const char* default_output);
 
 /// Throws core::InputError for a number that cannot be.

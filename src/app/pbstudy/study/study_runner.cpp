@@ -1,23 +1,31 @@
 #include "app/pbstudy/study/study_runner.h"
 
+#include <array>
 #include <iostream>
 #include <utility>
 
 #include "app/common/format.h"
-#include "app/common/load_scene.h"
+#include "app/common/scene_parameter.h"
 #include "app/common/version.h"
+#include "core/clock.h"
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/system/awaited.h"
+#include "engines/shared_scene.h"
 
 namespace pbmpi::app {
 
 using io::Parameter;
 
 StudyRunner::StudyRunner(const mpi::Communicator& comm, std::string name, const StudyOptions& options)
-    : comm_(comm), name_(std::move(name)), options_(options) {
+    : comm_(comm), name_(std::move(name)), options_(options), start_s_(core::now_s()) {
   for (const std::string& scene : options.scenes)
-    scenes_.push_back(study_scene(share_scene(comm, scene), options.overrides));
+    scenes_.push_back(study_scene(engines::share_scene(comm, scene), options.overrides));
   require_distinct_names();
+  if (comm.is_root() && !options.common.quiet) {
+    for (const StudyScene& scene : scenes_)
+      for (const std::string& note : scene.notes) std::cerr << "pbstudy: note: " << note << '\n';
+  }
   if (comm.is_root() && wants_progress(options.common)) progress_.emplace(std::cerr);
 }
 
@@ -39,6 +47,59 @@ void StudyRunner::open_output(const std::function<void()>& check) {
     writer_ = std::make_unique<io::TableWriter>(options_.output);
   });
   provenance_ = collect_provenance(comm_, options_.command_line);
+}
+
+/// Of what decides the outcomes of the cases, but for what the machine does.
+std::uint64_t StudyRunner::key_of(std::uint64_t layout) const {
+  core::Hash64 hash;
+  const auto add = [&](const std::string& text) {
+    for (const char letter : text) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
+    hash.add(text.size());
+  };
+  add(name_);
+  add(program_version);
+  add(git_revision);
+  add(build_description);
+  for (const std::string& arg : options_.deciding) add(arg);
+  for (const StudyScene& scene : scenes_) add(scene.source.text);
+  hash.add(layout);
+  return hash.value();
+}
+
+void StudyRunner::open_journal(std::uint64_t layout, std::size_t num_cases) {
+  const std::uint64_t key = key_of(31 * layout + num_cases);
+  mpi::agree_on_errors(comm_, [&] {
+    if (!comm_.is_root()) return;
+    if (options_.resume)
+      kept_ = read_case_journals(options_.output, key);
+    else
+      remove_case_journals(options_.output);
+    for (const auto& [index, bytes] : kept_)
+      core::require_input(
+          index >= 0 && index < static_cast<std::int64_t>(num_cases),
+          options_.output + ": its kept cases are not those of this study; leave --resume out");
+  });
+  is_kept_.assign(num_cases, 0);
+  for (const auto& [index, bytes] : kept_) is_kept_[static_cast<std::size_t>(index)] = 1;
+  comm_.bcast(std::span<char>(is_kept_));
+  mpi::agree_on_errors(comm_,
+                       [&] { journal_ = std::make_unique<CaseJournal>(options_.output, comm_.rank(), key); });
+  if (comm_.is_root() && !kept_.empty() && !options_.common.quiet)
+    std::cerr << "pbstudy: " << kept_.size() << " of " << num_cases << " cases are done already\n";
+}
+
+bool StudyRunner::is_to_stop() const {
+  return stop_.is_set() || (options_.max_time_s && core::now_s() - start_s_ >= *options_.max_time_s);
+}
+
+void StudyRunner::require_all_done(std::size_t num_left_out) const {
+  std::array<std::int64_t, 1> left = {static_cast<std::int64_t>(num_left_out)};
+  comm_.allreduce(left, mpi::Reduce::sum);
+  if (left[0] == 0) return;
+  throw StudyStopped{
+      format("stopped with %lld of %zu cases left; the others are kept beside %s: the same command with "
+             "--resume goes on",
+             static_cast<long long>(left[0]), is_kept_.size(), options_.output.c_str())};
 }
 
 void StudyRunner::case_done(int scene) {
@@ -82,6 +143,7 @@ void StudyRunner::write(const std::function<StudyContent()>& content) {
     if (!comm_.is_root()) return;
     const StudyContent given = content();
     writer_->write("pbmpi-study", file_with(given));
+    remove_case_journals(options_.output);
     if (!options_.common.quiet) print_end(given);
   });
 }

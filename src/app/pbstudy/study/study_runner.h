@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,6 +13,9 @@
 
 #include "app/common/progress_line.h"
 #include "app/common/provenance.h"
+#include "app/pbstudy/study/case_journal.h"
+#include "app/pbstudy/study/case_outcome.h"
+#include "app/pbstudy/study/stop_request.h"
 #include "app/pbstudy/study/study_options.h"
 #include "app/pbstudy/study/study_scene.h"
 #include "core/error.h"
@@ -30,6 +34,11 @@ struct StudyContent {
   std::string next;                                            ///< options of pbreport to go on with
 };
 
+/// A study was to stop before all its cases were done, on all ranks: it is not complete, and can go on.
+struct StudyStopped {
+  std::string message;
+};
+
 /// All calls are collective, and made in this order: open_output(), run(), write().
 class StudyRunner {
  public:
@@ -44,10 +53,13 @@ class StudyRunner {
   void open_output(const std::function<void()>& check = {});
 
   /// Runs the cases whose `owner` [num_cases] is this rank, one at a time and in their order, with
-  /// run_case(index); all ranks get all results in the order of the cases. A case has a `scene`, a result is
-  /// plain data with an `index`. What `run_case` throws on one rank, all throw.
-  template <class Result, class Case, class RunCase>
-  std::vector<Result> run(const std::vector<Case>& cases, const std::vector<int>& owner, RunCase&& run_case);
+  /// run_case(index), which gives a CaseOutcome; all ranks get the outcomes of all cases, in their order. A
+  /// case has a `scene`. What is done is kept in a journal beside the output until write(); with --resume the
+  /// cases that are in it already are not run again. What `run_case` throws on one rank, all throw;
+  /// StudyStopped if a rank was asked to stop, or the time is up.
+  template <class Result, class... Rows, class Case, class RunCase>
+  CaseOutcomes<Result, Rows...> run(const std::vector<Case>& cases, const std::vector<int>& owner,
+                                    RunCase&& run_case);
 
   /// Root writes what `content` (called on root) gives, and prints where it is.
   void write(const std::function<StudyContent()>& content);
@@ -57,38 +69,68 @@ class StudyRunner {
   io::TableFile file_with(StudyContent content) const;
   void print_end(const StudyContent& content) const;
   void case_done(int scene);
+  /// Collective. What the journals hold, on root; which cases that are, everywhere.
+  void open_journal(std::uint64_t layout, std::size_t num_cases);
+  std::uint64_t key_of(std::uint64_t layout) const;
+  bool is_to_stop() const;
+  /// Collective. Throws StudyStopped if any rank left out cases.
+  void require_all_done(std::size_t num_left_out) const;
 
   const mpi::Communicator& comm_;
   std::string name_;
   const StudyOptions& options_;
   std::vector<StudyScene> scenes_;
   Provenance provenance_;
+  StopRequest stop_;
+  double start_s_;
   std::unique_ptr<io::TableWriter> writer_;  ///< on root
-  std::optional<ProgressLine> progress_;     ///< on root, of its own cases: they stand for the others'
+  std::unique_ptr<CaseJournal> journal_;
+  std::map<std::int64_t, std::vector<std::byte>> kept_;  ///< on root: outcomes of an earlier run
+  std::vector<char> is_kept_;                            ///< [num_cases]
+  std::optional<ProgressLine> progress_;  ///< on root, of its own cases: they stand for the others'
   std::size_t num_cases_ = 0, own_cases_ = 0, own_done_ = 0;
 };
 
-template <class Result, class Case, class RunCase>
-std::vector<Result> StudyRunner::run(const std::vector<Case>& cases, const std::vector<int>& owner,
-                                     RunCase&& run_case) {
+template <class Result, class... Rows, class Case, class RunCase>
+CaseOutcomes<Result, Rows...> StudyRunner::run(const std::vector<Case>& cases, const std::vector<int>& owner,
+                                               RunCase&& run_case) {
+  std::uint64_t layout = sizeof(Result);
+  ((layout = 31 * layout + sizeof(Rows)), ...);
+  open_journal(layout, cases.size());
   num_cases_ = cases.size();
-  own_cases_ = static_cast<std::size_t>(std::count(owner.begin(), owner.end(), comm_.rank()));
-  const auto own = mpi::agree_on_errors(comm_, [&] {
-    std::vector<Result> results;
+  for (std::size_t i = 0; i < owner.size(); ++i)
+    own_cases_ += owner[i] == comm_.rank() && is_kept_[i] == 0 ? 1 : 0;
+  std::size_t num_left_out = 0;
+  CaseOutcomes<Result, Rows...> own = mpi::agree_on_errors(comm_, [&] {
+    CaseOutcomes<Result, Rows...> outcomes;
+    for (const auto& [index, bytes] : kept_) outcomes.append(outcome_of<Result, Rows...>(bytes));
     for (std::size_t i = 0; i < owner.size(); ++i) {
-      if (owner[i] != comm_.rank()) continue;
-      results.push_back(run_case(i));
-      results.back().index = static_cast<int>(i);
+      if (owner[i] != comm_.rank() || is_kept_[i] != 0) continue;
+      if (is_to_stop()) {
+        ++num_left_out;
+        continue;
+      }
+      CaseOutcome<Result, Rows...> outcome = run_case(i);
+      outcome.result.index = static_cast<int>(i);
+      journal_->add(static_cast<std::int64_t>(i), bytes_of(outcome));
+      outcomes.append(outcome);
       case_done(cases[i].scene);
     }
-    return results;
+    return outcomes;
   });
   progress_.reset();
-  const std::vector<Result> all = comm_.allgatherv(std::span<const Result>(own));
-  core::require_invariant(all.size() == owner.size(), "every case has one result");
-  std::vector<Result> ordered(owner.size());
-  for (const Result& result : all) ordered[static_cast<std::size_t>(result.index)] = result;
-  return ordered;
+  require_all_done(num_left_out);
+  CaseOutcomes<Result, Rows...> all;
+  all.results = comm_.allgatherv(std::span<const Result>(own.results));
+  core::require_invariant(all.results.size() == owner.size(), "every case has one result");
+  std::ranges::sort(all.results, {}, &Result::index);
+  [[maybe_unused]] const auto gather_rows = [&]<class Row>(std::vector<Row>& rows,
+                                                           const std::vector<Row>& mine) {
+    rows = comm_.allgatherv(std::span<const Row>(mine));
+    std::ranges::stable_sort(rows, {}, &Row::case_index);
+  };
+  (gather_rows(std::get<std::vector<Rows>>(all.rows), own.template rows_of<Rows>()), ...);
+  return all;
 }
 
 }  // namespace pbmpi::app

@@ -14,6 +14,7 @@ StudyScene study_scene(const scenes::SceneSource& source, const SceneOverrides& 
   study.frame_s = defaults.steps_per_frame * defaults.dt_s;
   study.iterations = defaults.iterations;
   study.effects = defaults.effects;
+  study.notes = scene->notes();
   return study;
 }
 

@@ -14,11 +14,12 @@ namespace pbmpi::app {
 struct StudyScene {
   scenes::SceneSource source;
   int num_worlds = 1;
-  int warmup = 3, frames = 5;    ///< frames
-  double frame_s = 0.03;         ///< length of a frame, simulated
-  double dt_s = 0.01;            ///< the scene's step
-  int iterations = 20;           ///< the scene's
-  model::EffectChoices effects;  ///< the scene's
+  int warmup = 3, frames = 5;      ///< frames
+  double frame_s = 0.03;           ///< length of a frame, simulated
+  double dt_s = 0.01;              ///< the scene's step
+  int iterations = 20;             ///< the scene's
+  model::EffectChoices effects;    ///< the scene's
+  std::vector<std::string> notes;  ///< of scenes::Scene
 
   int total_frames() const { return warmup + frames; }
   int steps_per_frame() const {

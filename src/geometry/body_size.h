@@ -5,9 +5,9 @@
 
 #include "model/model.h"
 
-namespace pbmpi::stability {
+namespace pbmpi::geometry {
 
 /// [num_bodies] Diameter of the ball about its centre of mass that holds a body's geoms [m]; 0 without any.
 std::vector<double> sizes_of(const model::Model& model);
 
-}  // namespace pbmpi::stability
+}  // namespace pbmpi::geometry

@@ -1,4 +1,4 @@
-#include "app/pbmpi/live_summary.h"
+#include "app/summary/live_summary.h"
 
 #include <algorithm>
 

@@ -1,9 +1,12 @@
 """The effect "field_of_interest": the same bits everywhere, what is printed and recorded of it, and what is refused."""
+import os
+import sys
 import unittest
 
 import h5py
 
-from harness import ProgramTest
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import ProgramTest  # noqa: E402
 
 TABLE = '[interest]\nfollows = "car"\nradius = 10\n'
 SCENE = 'title = "Environ, of which the surroundings of the car matter"\nbase = "Environ"\n' + TABLE

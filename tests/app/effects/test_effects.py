@@ -2,12 +2,14 @@
 import json
 import os
 import re
+import sys
 import unittest
 
 import h5py
 import numpy as np
 
-from harness import PBREPORT, SCENES, SOURCE, ProgramTest
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import PBREPORT, SCENES, SOURCE, ProgramTest  # noqa: E402
 
 PLAN = ("--scene", "CrashSk", "--frames", 2)
 BALLS = 6

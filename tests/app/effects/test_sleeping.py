@@ -1,54 +1,21 @@
 """The effect "sleeping": the same bits everywhere, what is printed of it, and what is refused."""
+import os
+import sys
 import unittest
 
 import h5py
 
-from harness import ProgramTest
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import ProgramTest  # noqa: E402
+from small_scenes import STACKS  # noqa: E402
 
-SCENE = """title = "two stacks, and a ball thrown at the first"
-spaces = ["low", "high", "far"]
-[effects]
-sleeping = true
-[sleep]
-after = 0.3
-[[actor]]
-name = "ground"
-type = "ground"
-[[actor]]
-name = "tank"
-type = "tank"
-space = "far"
-position = [-12, 0, 0]
-[[actor]]
-name = "ball"
-type = "projectile"
-space = "far"
-shape = "sphere"
-radius = 0.2
-density = 800
-position = [-12, 4, 0]
-fired_by = "tank"
-muzzle_speed = 20
-first_shot = 0.7
-"""
-BOX = """[[actor]]
-name = "box{0}"
-type = "box"
-space = "{1}"
-size = [0.6, 0.6, 1]
-mass = 20
-position = [{2}, 0, {3}]
-variation = {{ position = [0.02, 0, 0] }}
-"""
-SCENE += "".join(BOX.format(2 * stack + i, ("low", "high")[i], 9 * stack, 0.5 + i)
-                 for stack in (0, 1) for i in (0, 1))
 RUN = ("--scene", "stacks.toml", "--frames", 45)
 
 
 class Sleeping(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.write("stacks.toml", SCENE)
+        self.write("stacks.toml", STACKS)
 
     def hash_of(self, ranks, *args):
         return self.summary(ranks, *RUN, "--no-output", *args)["state_hash"]
@@ -90,7 +57,7 @@ class Sleeping(ProgramTest):
     def test_what_cannot_be_is_refused(self):
         for old, new, words in (("after = 0.3", "after = 0", "after"), ("after = 0.3", "speed = -1", "speed"),
                                 ("after = 0.3", "afer = 1", "afer")):
-            self.write("bad.toml", SCENE.replace(old, new))
+            self.write("bad.toml", STACKS.replace(old, new))
             result = self.pbmpi(1, "--scene", "bad.toml", "--describe")
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertIn("bad.toml:6:", result.stderr)

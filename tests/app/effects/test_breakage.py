@@ -1,73 +1,22 @@
 """The effect "breakable_joints": the same bits everywhere, what the file and the summary say, what is refused."""
+import os
 import re
+import sys
 import unittest
 
 import h5py
 
-from harness import ProgramTest
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import ProgramTest  # noqa: E402
+from small_scenes import SIGN  # noqa: E402
 
-SCENE = """title = "a sign on two chains, and a ball shot at it"
-spaces = ["sign", "far"]
-[[actor]]
-name = "ground"
-type = "ground"
-[[actor]]
-name = "board"
-type = "box"
-space = "sign"
-size = [0.1, 1.6, 0.8]
-mass = 30
-position = [0, 0, 1.6]
-variation = { position = [0.05, 0, 0] }
-[[actor]]
-name = "left"
-type = "box"
-space = "sign"
-size = [0.1, 0.1, 0.4]
-mass = 2
-position = [0, 0.7, 2.4]
-[[actor]]
-name = "right"
-type = "box"
-space = "sign"
-size = [0.1, 0.1, 0.4]
-mass = 2
-position = [0, -0.7, 2.4]
-[[actor]]
-name = "tank"
-type = "tank"
-space = "far"
-position = [-12, 0, 0]
-[[actor]]
-name = "ball"
-type = "projectile"
-space = "far"
-shape = "sphere"
-radius = 0.2
-density = 800
-position = [-12, 4, 0]
-fired_by = "tank"
-muzzle_speed = 20
-first_shot = 0.2
-"""
-JOINT = """[[joint]]
-name = "{0}"
-kind = "{1}"
-bodies = [{2}]
-anchor = {3}
-{4}
-"""
-SCENE += (JOINT.format("left hook", "ball", '"left", "world"', [0, 0.7, 2.6], "break_force = 800")
-          + JOINT.format("right hook", "ball", '"right", "world"', [0, -0.7, 2.6], "break_force = 5000")
-          + JOINT.format("left link", "hinge", '"board", "left"', [0, 0.7, 2.1], "axis = [0, 1, 0]\nbreak_force = 700")
-          + JOINT.format("right link", "hinge", '"board", "right"', [0, -0.7, 2.1], "axis = [0, 1, 0]"))
 RUN = ("--scene", "sign.toml", "--frames", 40)
 
 
 class Breakage(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.write("sign.toml", SCENE)
+        self.write("sign.toml", SIGN)
 
     def hash_of(self, ranks, *args):
         return self.summary(ranks, *RUN, "--no-output", *args)["state_hash"]
@@ -138,7 +87,7 @@ class Breakage(ProgramTest):
             self.assertEqual(reported["joints_broken"], len(broken))
 
     def test_a_comparison_of_runs_tells_what_broke_in_one_of_them_only(self):
-        self.write("strong.toml", SCENE.replace("break_force = 700", "break_force = 1e9"))
+        self.write("strong.toml", SIGN.replace("break_force = 700", "break_force = 1e9"))
         for name in ("sign", "strong"):
             self.summary(1, "--scene", f"{name}.toml", "--frames", 40, "-o", f"{name}.h5")
         sign, strong = ([re.fullmatch(r"(.*) broke in step (\d+)", event[2]).groups() for event in self.broken(name)]
@@ -154,7 +103,7 @@ class Breakage(ProgramTest):
         self.assertNotIn(" only: ", self.report("diff", "sign.h5", "sign.h5").stdout)
 
     def test_a_field_of_interest_lets_go_of_what_broke_off(self):
-        self.write("near.toml", SCENE + '[interest]\nfollows = "right"\nradius = 0.5\n')
+        self.write("near.toml", SIGN + '[interest]\nfollows = "right"\nradius = 0.5\n')
         run = ("--scene", "near.toml", "--frames", 40, "--stepper")
         for stepper in ("quick", "sor"):
             self.summary(1, *run, stepper, "-o", "near.h5")
@@ -185,7 +134,7 @@ class Breakage(ProgramTest):
         for old, new, word in (("break_force = 800", "break_force = -800", "break_force"),
                                ("break_force = 700", "break_torque = -1", "break_torque"),
                                ("break_force = 700", "break_froce = 1", "break_force")):
-            text = SCENE.replace(old, new)
+            text = SIGN.replace(old, new)
             self.write("bad.toml", text)
             line = text[:text.index(new)].count("\n") + 1
             result = self.pbmpi(2, "--scene", "bad.toml")

@@ -1,0 +1,24 @@
+#include "app/common/engine_texts.h"
+
+#include "app/common/version.h"
+#include "ode/ode_stepper.h"
+#include "solver/pack/simd.h"
+#include "stepping/names.h"
+#include "stepping/stepper_traits.h"
+
+namespace pbmpi::app {
+
+std::string simd_text(const stepping::StepperSettings& settings) {
+  if (!traits_of(settings.kind).has_lanes) return "";
+  const stepping::Simd simd =
+      settings.simd == stepping::Simd::automatic ? solver::best_simd() : settings.simd;
+  const int lanes = solver::num_lanes(simd, settings.precision);
+  return std::string(name_of(simd)) + ", " + std::to_string(lanes) + (lanes == 1 ? " lane" : " lanes");
+}
+
+std::string ode_text() {
+  const std::string version = ode_version;
+  return ode::precision_text() == "single" ? version + ", single precision" : version;
+}
+
+}  // namespace pbmpi::app
