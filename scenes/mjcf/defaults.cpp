@@ -16,6 +16,8 @@ constexpr std::string_view topmost = "main";
 constexpr std::array<std::string_view, 11> actuators = {"general",     "motor",  "position", "velocity",
                                                         "intvelocity", "damper", "cylinder", "muscle",
                                                         "adhesion",    "plugin", "dcmotor"};
+/// They have the defaults of <tendon>.
+constexpr std::array<std::string_view, 2> tendons = {"spatial", "fixed"};
 constexpr std::array<std::string_view, 10> others = {"mesh",   "material", "joint", "geom",     "site",
                                                      "camera", "light",    "pair",  "equality", "tendon"};
 
@@ -74,7 +76,9 @@ std::vector<xml::Attribute> Defaults::of(const xml::Element& element, const std:
                            core::in_quotes(name) + core::suggestion(name, known));
   }
   std::vector<xml::Attribute> attributes;
-  for (const std::string& kind : {element.name, std::string(is_actuator(element.name) ? any_actuator : "")}) {
+  const bool is_tendon = is_in(element.name, tendons);
+  for (const std::string& kind :
+       {is_tendon ? "tendon" : element.name, std::string(is_actuator(element.name) ? any_actuator : "")}) {
     if (const auto own = found->second.find(kind); own != found->second.end())
       attributes.insert(attributes.end(), own->second.begin(), own->second.end());
   }

@@ -50,6 +50,8 @@ std::vector<Refused> refused() {
       before("equality", "<equality><connect body1='b' anchor='0 0 0'/></equality>",
              {"m.xml:2:12", "connect", "leave_out"}),
       before("tendon", "<tendon><spatial stiffness='1'/></tendon>", {"m.xml:2:10", "spatial", "leave_out"}),
+      before("tendon_by_its_class", "<default><tendon stiffness='1'/></default><tendon><fixed/></tendon>",
+             {"m.xml:2:", "fixed", "leave_out"}),
       before("contact_pair", "<contact><pair geom1='a' geom2='b'/></contact>",
              {"m.xml:2:11", "pair", "leave_out"}),
       before("excluded_ghost", "<contact><exclude body1='b' body2='bb'/></contact>",
