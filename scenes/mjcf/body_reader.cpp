@@ -123,11 +123,15 @@ class BodyReader {
     }
   }
 
+  /// The world has none, whatever stands in it; every body has the least that <compiler> asks for.
   void set_mass(const std::optional<MassProperties>& inertial, const std::optional<MassProperties>& of_geoms,
                 int index) {
+    if (index == 0) return;
     const InertiaFrom from = context_.compiler.inertia_from;
-    std::optional<MassProperties> mass = from == InertiaFrom::geoms ? of_geoms : inertial;
+    std::optional<MassProperties> mass = from == InertiaFrom::geoms && of_geoms ? of_geoms : inertial;
     if (from == InertiaFrom::geoms_if_none && !mass) mass = of_geoms;
+    if (!mass && context_.compiler.least_mass > 0)
+      mass = MassProperties{0, Vec3::Zero(), model::Mat3::Zero()};
     if (mass) link(index).mass = adjusted(*mass, context_.compiler);
   }
 

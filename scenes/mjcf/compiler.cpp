@@ -1,5 +1,6 @@
 #include "scenes/mjcf/compiler.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -105,8 +106,8 @@ void read_compiler(const xml::Element& element, Compiler& compiler) {
                                              : InertiaFrom::inertial;
   }
   if (const auto groups = from.numbers("inertiagrouprange", 2, 2); !groups.empty()) {
-    compiler.first_inertia_group = static_cast<int>(std::max(groups[0], -1e6));
-    compiler.last_inertia_group = static_cast<int>(std::min(groups[1], 1e6));
+    compiler.first_inertia_group = static_cast<int>(std::clamp(groups[0], -1e6, 1e6));
+    compiler.last_inertia_group = static_cast<int>(std::clamp(groups[1], -1e6, 1e6));
   }
   compiler.least_mass = from.number("boundmass", Range::non_negative, compiler.least_mass);
   compiler.least_inertia = from.number("boundinertia", Range::non_negative, compiler.least_inertia);

@@ -167,6 +167,23 @@ TEST(Mjcf, scales_and_bounds_masses_as_the_compiler_says) {
   expect_near(link(*balanced, "b").inertia.diagonal(), {3, 3, 3});
 }
 
+TEST(Mjcf, counts_no_mass_of_the_world_and_gives_every_body_the_least) {
+  const std::string ground = "<geom type='box' size='9 9 1' pos='0 0 -9'/>";
+  EXPECT_NEAR(
+      link(*model_of(mujoco(ground + boxed("<freejoint/>"), "<compiler settotalmass='5'/>")), "b").mass_kg, 5,
+      rounding);
+  const std::string bare = "<body name='b'><freejoint/></body>";
+  const auto bounded = model_of(mujoco(bare, "<compiler boundmass='2' boundinertia='0.03'/>"));
+  EXPECT_EQ(link(*bounded, "b").mass_kg, 2);
+  expect_near(link(*bounded, "b").inertia.diagonal(), {0.03, 0.03, 0.03});
+}
+
+TEST(Mjcf, takes_an_inertial_where_there_are_no_geoms_to_take_it_from) {
+  const std::string bare =
+      "<body name='b'><freejoint/><inertial pos='0 0 0' mass='3' diaginertia='1 1 1'/></body>";
+  EXPECT_EQ(link(*model_of(mujoco(bare, "<compiler inertiafromgeom='true'/>")), "b").mass_kg, 3);
+}
+
 TEST(Mjcf, takes_attributes_from_classes) {
   const std::string defaults =
       "<default><geom size='.1' density='10'/><default class='heavy'><geom density='100'/>"
