@@ -80,7 +80,8 @@ ReadJoint read_joint(Attributes attributes, const std::string& name, const Compi
     if (attributes.has(key))
       notes.add(attributes.where(key), core::in_quotes(key) + " of joints is left out: limits are rigid");
   }
-  attributes.allow({"class", "group", "user", "actuatorfrclimited", "actuatorfrcrange", "actuatorgravcomp"});
+  read.most_servo_force = compiler.most_force(attributes, "actuatorfrclimited", "actuatorfrcrange", notes);
+  attributes.allow({"class", "group", "user", "actuatorgravcomp"});
   attributes.finish();
   return read;
 }

@@ -7,10 +7,11 @@
 
 namespace pbmpi::scenes::mjcf {
 
-/// A joint, and the value that it has at the start (`ref`) [rad] or [m], from which servos count.
+/// A joint, and what its servos need to know.
 struct ReadJoint {
   links::LinkJoint joint;
-  double start = 0;
+  double start = 0;  ///< [rad] or [m] its value at the start (`ref`), from which they count
+  double most_servo_force = model::infinity;  ///< [N m] or [N] of all of them together
 };
 
 /// `attributes`: with the defaults of the joint's class; `name`: of a joint that has none.

@@ -107,7 +107,8 @@ class BodyReader {
       read = read_joint(Attributes(element, context_.defaults.of(element, childclass)), name,
                         context_.compiler, context_.option, notes_);
     }
-    joints_.push_back({read.joint.name, index, static_cast<int>(own.joints.size()), read.start});
+    joints_.push_back(
+        {read.joint.name, index, static_cast<int>(own.joints.size()), read.start, read.most_servo_force});
     own.joints.push_back(std::move(read.joint));
   }
 

@@ -94,6 +94,16 @@ bool Compiler::is_limited(Attributes& attributes, std::string_view limited, std:
   return has_range && (word == "true" || (word == "auto" && autolimits));
 }
 
+double Compiler::most_force(Attributes& attributes, std::string_view limited, std::string_view range,
+                            xml::Notes& notes) const {
+  if (!is_limited(attributes, limited, range)) return model::infinity;
+  const std::vector<double> forces = attributes.numbers(range, 2, 2);
+  if (forces[0] != -forces[1])
+    notes.add(attributes.where(range),
+              "a " + core::in_quotes(range) + " that is not even: the larger force holds both ways");
+  return std::max(std::abs(forces[0]), std::abs(forces[1]));
+}
+
 void read_compiler(const xml::Element& element, Compiler& compiler) {
   Attributes from(element);
   if (from.has("angle")) compiler.in_degrees = from.word("angle", {"degree", "radian"}, "degree") == "degree";

@@ -25,6 +25,9 @@ struct Compiler {
   double angle(double value) const { return in_degrees ? radians(value) : value; }
   /// `limited` of a joint or an actuator that has a range, or has none.
   bool is_limited(xml::Attributes& attributes, std::string_view limited, std::string_view range) const;
+  /// The force that such a range allows, in either direction; infinite without one.
+  double most_force(xml::Attributes& attributes, std::string_view limited, std::string_view range,
+                    xml::Notes& notes) const;
 };
 
 struct Option {

@@ -26,16 +26,35 @@ const JointPlace& read_driven_joint(Attributes& actuator, const std::vector<Join
 }
 
 void allow_others(Attributes& actuator) {
-  actuator.allow({"name", "class", "group", "ctrllimited", "ctrlrange", "user", "lengthrange", "inheritrange",
-                  "actlimited", "actrange", "actearly"});
+  actuator.allow({"name", "class", "group", "user", "lengthrange", "actlimited", "actrange", "actearly"});
   actuator.refuse({"timeconst", "dampratio"}, "the servos here have no such term; give 'kp' and 'kv'");
 }
 
-/// Adds a spring of this stiffness, at rest at `target`, to what acts on the axis.
-void add_spring(double stiffness, double target, links::Drive& drive) {
-  const double sum = drive.stiffness + stiffness;
-  if (sum > 0) drive.target = (drive.stiffness * drive.target + stiffness * target) / sum;
-  drive.stiffness = sum;
+/// MuJoCo clips controls, which nobody sets here, to their range.
+double control_of(Attributes& actuator, const Compiler& compiler) {
+  if (!compiler.is_limited(actuator, "ctrllimited", "ctrlrange")) return 0;
+  const std::vector<double> range = actuator.numbers("ctrlrange", 2, 2);
+  if (!(range[0] < range[1]))
+    actuator.fail("ctrlrange", "the first number of 'ctrlrange' must be below the second");
+  return std::clamp(0.0, range[0], range[1]);
+}
+
+/// The control of a position servo may have the range of its joint, so many times as wide, instead.
+double control_of_position(Attributes& servo, const Compiler& compiler, const links::LinkJoint& joint,
+                           double start) {
+  const double times = servo.number("inheritrange", Range::non_negative, 0.0);
+  const bool inherits = times > 0 && std::isfinite(joint.limit.low) && std::isfinite(joint.limit.high);
+  if (!inherits) return control_of(servo, compiler);
+  servo.allow({"ctrllimited", "ctrlrange"});
+  const double middle = (joint.limit.low + joint.limit.high) / 2 + start;
+  const double reach = times * (joint.limit.high - joint.limit.low) / 2;
+  return std::clamp(0.0, middle - reach, middle + reach);
+}
+
+/// The value at which several, that each pull towards their own with a weight, are at rest.
+double balance(double weight, double value, double other_weight, double other_value) {
+  const double sum = weight + other_weight;
+  return sum > 0 ? (weight * value + other_weight * other_value) / sum : value;
 }
 
 void read_servo(const xml::Element& element, const Defaults& defaults, const Compiler& compiler,
@@ -49,20 +68,31 @@ void read_servo(const xml::Element& element, const Defaults& defaults, const Com
   const std::vector<double> gears = actuator.numbers("gear", 1, 6);
   const double gear = gears.empty() ? 1 : gears[0];
   const bool is_position = element.name == "position";
+  const double control =
+      is_position ? control_of_position(actuator, compiler, joint, at.start) : control_of(actuator, compiler);
+  const double aim = gear == 0 ? 0 : control / gear;  // of the joint itself
+  links::Drive& drive = joint.drive;
   const double kp = is_position ? actuator.number("kp", Range::non_negative, 1.0) : 0;
   const double kv = actuator.number("kv", Range::non_negative, is_position ? 0.0 : 1.0);
-  add_spring(kp * gear * gear, -at.start, joint.drive);
-  joint.drive.damping += kv * gear * gear;
-  if (compiler.is_limited(actuator, "forcelimited", "forcerange")) {
-    const std::vector<double> range = actuator.numbers("forcerange", 2, 2);
-    const double most = std::max(std::abs(range[0]), std::abs(range[1])) * std::abs(gear);
-    joint.drive.most_force = std::isinf(joint.drive.most_force) ? most : joint.drive.most_force + most;
-    if (range[0] != -range[1])
-      notes.add(actuator.where("forcerange"),
-                "a 'forcerange' that is not even: the larger force holds both ways");
-  }
+  const double stiffness = kp * gear * gear, damping = kv * gear * gear;
+  drive.target = balance(drive.stiffness, drive.target, stiffness, aim - at.start);
+  drive.velocity = balance(drive.damping, drive.velocity, damping, is_position ? 0 : aim);
+  drive.stiffness += stiffness;
+  drive.damping += damping;
+  const double most = compiler.most_force(actuator, "forcelimited", "forcerange", notes);
+  if (std::isfinite(most))
+    drive.most_force = (std::isinf(drive.most_force) ? 0 : drive.most_force) + most * std::abs(gear);
+  drive.most_force = std::min(drive.most_force, at.most_servo_force);
   allow_others(actuator);
   actuator.finish();
+}
+
+void require_idle(const xml::Element& element, const Defaults& defaults, const Compiler& compiler) {
+  Attributes actuator(element, defaults.of(element, ""));
+  if (control_of(actuator, compiler) != 0)
+    actuator.fail("ctrlrange",
+                  "the range leaves out 0, so that it always acts, which has no equal; widen it, or leave it "
+                  "out ('leave_out' of a TOML scene)");
 }
 
 }  // namespace
@@ -73,6 +103,7 @@ void read_actuators(const xml::Element& element, const Defaults& defaults, const
   for (const xml::Element& one : element.children) {
     const bool is_idle = one.name == "motor" || one.name == "damper" || one.name == "adhesion";
     if (is_idle || leave_out.contains(one.name)) {
+      if (is_idle && !leave_out.contains(one.name)) require_idle(one, defaults, compiler);
       notes.add(one.where, "actuators of type " + core::in_quotes(one.name) + " are left out" +
                                (is_idle ? ": their control is 0, with which they do nothing" : ""));
     } else if (one.name == "position" || one.name == "velocity") {

@@ -12,15 +12,16 @@
 
 namespace pbmpi::scenes::mjcf {
 
-/// Where a joint of the mechanism is, and its value at the start [rad] or [m].
+/// Where a joint of the mechanism is, and the rest as in ReadJoint.
 struct JointPlace {
   std::string name;
   int link = 0, joint = 0;
   double start = 0;
+  double most_servo_force = model::infinity;
 };
 
-/// All controls are 0, as in MuJoCo before somebody sets them: a position servo holds the joint's zero, a
-/// velocity servo resists like a damper, a motor does nothing.
+/// All controls are 0, as in MuJoCo before somebody sets them, or as near to it as a `ctrlrange` allows: a
+/// position servo holds the joint's zero, a velocity servo resists like a damper, a motor does nothing.
 void read_actuators(const xml::Element& element, const Defaults& defaults, const Compiler& compiler,
                     const std::vector<JointPlace>& joints, const std::set<std::string>& leave_out,
                     links::Mechanism& mechanism, xml::Notes& notes);

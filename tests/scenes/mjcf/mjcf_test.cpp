@@ -294,6 +294,41 @@ TEST(Mjcf, makes_servos_part_of_the_motor) {
       << "a default of one actuator is one of all";
 }
 
+// A control that nobody sets is 0, which MuJoCo clips to its range: the knee of a quadruped has none that
+// holds 0.
+TEST(Mjcf, aims_servos_at_the_control_that_is_nearest_to_0) {
+  const auto motor = [&](const std::string& actuator) {
+    const std::string body = boxed("<joint name='h' damping='1' range='-2 -.5' ref='-1'/>");
+    return joint_of(*model_of("<mujoco><compiler angle='radian'/><worldbody>" + body +
+                              "</worldbody><actuator>" + actuator + "</actuator></mujoco>"),
+                    "h")
+        .motors[0];
+  };
+  EXPECT_NEAR(motor("<position joint='h' kp='10' ctrlrange='-1 1'/>").velocity, 10 * 1, rounding);
+  EXPECT_NEAR(motor("<position joint='h' kp='10' ctrlrange='-2 -.5'/>").velocity, 10 * 0.5, rounding);
+  EXPECT_NEAR(motor("<position joint='h' kp='10' inheritrange='1'/>").velocity, 10 * 0.5, rounding);
+  EXPECT_NEAR(motor("<position joint='h' kp='10' ctrllimited='false' ctrlrange='-2 -.5'/>").velocity, 10 * 1,
+              rounding);
+  // Of 2 x 3 (0.6 - 3 v) and -v: at rest where both are even.
+  EXPECT_NEAR(motor("<velocity joint='h' kv='2' gear='3' ctrlrange='.6 2'/>").velocity, 3.6 / 19, rounding);
+}
+
+TEST(Mjcf, bounds_what_servos_of_a_joint_do_together) {
+  const auto most = [](const std::string& servos) {
+    const std::string body = boxed("<joint name='h' actuatorfrcrange='-7 5'/>");
+    return joint_of(*model_of("<mujoco><worldbody>" + body + "</worldbody><actuator>" + servos +
+                              "</actuator></mujoco>"),
+                    "h")
+        .motors[0]
+        .max_force;
+  };
+  const std::string small = "<position joint='h' kp='100' forcerange='-4 4'/>";
+  EXPECT_EQ(most("<position joint='h' kp='100'/>"), 7);
+  EXPECT_EQ(most(small), 4);
+  EXPECT_EQ(most(small + small), 7);
+  EXPECT_EQ(most(""), 0);
+}
+
 TEST(Mjcf, adds_an_armature_about_the_axis) {
   const auto with = model_of(mujoco(boxed("<joint axis='1 0 0' armature='0.5'/>")));
   const auto without = model_of(mujoco(boxed("<joint axis='1 0 0'/>")));

@@ -110,6 +110,12 @@ std::vector<Refused> refused() {
       {"no_actuator", with_actuator("<moter joint='h'/>"), {"m.xml:2:", "moter"}},
       {"servo_on_a_site", with_actuator("<position site='s'/>"), {"m.xml:2:", "site", "joint"}},
       {"servo_on_a_ghost", with_actuator("<position joint='g'/>"), {"m.xml:2:", "'g'", "'h'"}},
+      {"motor_that_always_acts",
+       with_actuator("<motor joint='h' ctrlrange='1 2'/>"),
+       {"m.xml:2:", "ctrlrange", "leaves out 0", "leave_out"}},
+      {"ctrlrange",
+       with_actuator("<position joint='h' ctrlrange='2 1'/>"),
+       {"m.xml:2:", "ctrlrange", "below"}},
       {"dampratio", with_actuator("<position joint='h' dampratio='1'/>"), {"m.xml:2:", "dampratio", "kv"}},
   };
 }
