@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -124,20 +125,17 @@ toml::table file_of(const Override& one, const Target& target) {
 
 }  // namespace
 
-std::string toml_string(std::string_view text) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < 0x20 || code == 0x7f) {
-      result += std::string("\\u00") + digits[code >> 4] + digits[code & 0xf];
-    } else {
-      if (c == '"' || c == '\\') result += '\\';
-      result += c;
-    }
-  }
-  return result + '"';
+std::string toml_text(const toml::node& value) {
+  using toml::format_flags;
+  constexpr format_flags flags = toml::toml_formatter::default_flags &
+                                 ~(format_flags::indentation | format_flags::allow_literal_strings |
+                                   format_flags::allow_multi_line_strings);
+  std::ostringstream text;
+  value.visit([&](const auto& one) { text << toml::toml_formatter{one, flags}; });
+  return text.str();
 }
+
+std::string toml_string(std::string_view text) { return toml_text(toml::value<std::string>(text)); }
 
 void lay_overrides(toml::table& scene, const Overrides& overrides) {
   for (const Override& one : overrides) {

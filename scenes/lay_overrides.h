@@ -16,7 +16,9 @@ namespace pbmpi::scenes {
 /// find.
 void lay_overrides(toml::table& scene, const Overrides& overrides);
 
-/// A text as a TOML string.
+/// A value as TOML. Its texts stand in quotes, in one line, where everything that a text may hold has an
+/// escape: ''' ends one that is spread over lines, which also loses a line break that it begins with.
+std::string toml_text(const toml::node& value);
 std::string toml_string(std::string_view text);
 
 }  // namespace pbmpi::scenes

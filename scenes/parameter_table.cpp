@@ -3,7 +3,6 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 #include <utility>
 
 #include "core/error.h"
@@ -25,16 +24,6 @@ std::string value_of_cell(const std::string& cell) {
                                                                                            : cell;
 }
 
-std::string text_of(const toml::node& node) {
-  std::ostringstream text;
-  // A value stands in one line, as in the file that it may have been copied from.
-  node.visit([&](const auto& value) {
-    text << toml::toml_formatter{value,
-                                 toml::toml_formatter::default_flags & ~toml::format_flags::indentation};
-  });
-  return text.str();
-}
-
 /// The values of a [[world]] table and of those in it, by keys with dots.
 void flatten(const toml::table& table, const std::string& before, Overrides& overrides) {
   for (const auto& [key, node] : table) {
@@ -42,7 +31,7 @@ void flatten(const toml::table& table, const std::string& before, Overrides& ove
     if (const toml::table* inner = node.as_table(); inner && !inner->empty()) {
       flatten(*inner, name + ".", overrides);
     } else {
-      overrides.push_back({name, text_of(node), to_string(node.source()) + ": " + core::in_quotes(name)});
+      overrides.push_back({name, toml_text(node), to_string(node.source()) + ": " + core::in_quotes(name)});
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "scenes/actors/model_file.h"
 #include "scenes/format/table_reader.h"
+#include "scenes/lay_overrides.h"
 #include "scenes/xml/element.h"
 
 namespace pbmpi::scenes {
@@ -155,10 +156,7 @@ std::vector<std::string> missing_files(const SceneSource& source) {
 }
 
 std::string with_file(const std::string& text, const std::string& file, const std::string& file_text) {
-  std::ostringstream result;
-  result << text << "\n[files." << toml::table{{"name", file}}["name"] << "]\n"
-         << "text = " << toml::value<std::string>(file_text) << '\n';
-  return result.str();
+  return text + "\n[files." + toml_string(file) + "]\ntext = " + toml_string(file_text) + "\n";
 }
 
 }  // namespace pbmpi::scenes

@@ -24,8 +24,7 @@ void lay_over(toml::table& base, toml::table&& over);
 /// The model files that a scene's actors name and whose texts it does not have.
 std::vector<std::string> missing_files(const SceneSource& source);
 
-/// `text` with the text of a file behind it, as missing_files() wants it. Throws core::InputError if a TOML
-/// file cannot hold it.
+/// `text` with the text of a file behind it, as missing_files() wants it.
 std::string with_file(const std::string& text, const std::string& file, const std::string& file_text);
 
 }  // namespace pbmpi::scenes

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -93,6 +94,30 @@ TEST(Catalog, refuses_a_file_that_is_not_there_and_a_folder) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "folder.toml";
   std::filesystem::create_directories(folder);
   EXPECT_NE(error_of_find(folder.string()).find("it is a directory"), std::string::npos);
+}
+
+TEST(Catalog, takes_any_text_of_a_model_file_into_its_scene) {
+  const auto folder = std::filesystem::path(testing::TempDir());
+  const auto path = folder / "yard_of_any.toml";
+  std::ofstream(path) << "title = 't'\n[[actor]]\nname = 'm'\ntype = 'model'\nfile = 'any \"robot\".xml'\n";
+  for (const std::string comment :
+       {"'''", "\"\"\"", "\\", "\r\n", "\xe9", "\xc3\xa9", "\t\x7f", "]\n[case]\n"}) {
+    // The first line break counts, too: the mistake stands in the fourth line.
+    const std::string text =
+        "\n<mujoco><!-- " + comment +
+        " -->\n<worldbody><body name='b'><freejoint/><geom size='1'/></body></worldbody>\n";
+    std::ofstream(folder / "any \"robot\".xml", std::ios::binary) << text << "</mujoco>";
+    EXPECT_EQ(parse_scene(find_scene(path.string()))->build(0, 1)->num_bodies(), 1) << comment;
+    std::ofstream(folder / "any \"robot\".xml", std::ios::binary) << text << "<worldbdy/></mujoco>";
+    const int line = 4 + static_cast<int>(std::ranges::count(comment, '\n'));
+    try {
+      parse_scene(find_scene(path.string()));
+      FAIL() << "a broken model was accepted";
+    } catch (const core::InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find("any \"robot\".xml:" + std::to_string(line) + ":2:"), 0u)
+          << error.what();
+    }
+  }
 }
 
 TEST(Catalog, names_a_users_file_in_the_errors_of_its_content) {
