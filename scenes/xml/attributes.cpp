@@ -156,7 +156,8 @@ const Attribute* Attributes::peek(std::string_view name) const {
 }
 
 double Attributes::to_number(const Attribute& attribute, std::string_view word) const {
-  const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
+  const bool has_plus = word.starts_with('+') && !word.starts_with("+-");
+  const std::string_view digits = has_plus ? word.substr(1) : word;
   double value = 0;
   const char* const end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, value);

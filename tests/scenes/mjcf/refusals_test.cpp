@@ -42,6 +42,7 @@ std::vector<Refused> refused() {
       before("misspelt_attribute", "<option timstep='1'/>", {"m.xml:2:9", "timstep", "timestep"}),
       before("step_of_zero", "<option timestep='0'/>", {"m.xml:2:9", "above 0"}),
       before("no_number", "<option timestep='fast'/>", {"m.xml:2:9", "fast", "number"}),
+      before("two_signs", "<option gravity='0 0 +-9'/>", {"m.xml:2:9", "+-9", "number"}),
       before("not_finite", "<option timestep='1e999'/>", {"m.xml:2:9", "number"}),
       before("too_few_numbers", "<option gravity='1 2'/>", {"m.xml:2:9", "2 numbers", "3"}),
       before("a_medium", "<option density='1.2'/>", {"m.xml:2:9", "density"}),
