@@ -30,6 +30,7 @@ WorldResults::WorldResults(int num_worlds, CostOf cost_of)
     : cost_of_(std::move(cost_of)),
       contacts_(static_cast<std::size_t>(num_worlds)),
       arrivals_(contacts_.size()),
+      seen_until_(contacts_.size()),
       nonfinite_step_(contacts_.size(), never),
       energy_first_j_(contacts_.size()),
       joint_gap_max_m_(contacts_.size()),
@@ -38,14 +39,13 @@ WorldResults::WorldResults(int num_worlds, CostOf cost_of)
       cost_s_(contacts_.size()) {}
 
 void WorldResults::frame_done(const stepping::FrameRecord& frame) {
-  std::set<int> now;
   for (const stepping::LocalWorld& world : frame.worlds) {
     add(world, frame);
-    now.insert(world.id);
-    if (num_frames_ > 0 && !owned_.contains(world.id)) ++arrivals_[static_cast<std::size_t>(world.id)];
+    std::int64_t& seen_until = seen_until_[static_cast<std::size_t>(world.id)];
+    if (seen_until != num_frames_) ++arrivals_[static_cast<std::size_t>(world.id)];
+    seen_until = num_frames_ + 1;
   }
   if (!cost_of_) cost_s_.front() += frame.phases.useful_s();
-  owned_ = std::move(now);
   ++num_frames_;
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <set>
 #include <vector>
 
 #include "io/setup/world_results.h"
@@ -36,9 +35,9 @@ class WorldResults final : public stepping::FrameObserver {
 
   CostOf cost_of_;
   std::int64_t num_frames_ = 0;
-  std::set<int> owned_;  ///< in the last frame
   // [num_worlds] of what this rank has seen; 0 of what it has not
   Counts contacts_, arrivals_;
+  Counts seen_until_;      ///< frames done when this rank last had the world
   Counts nonfinite_step_;  ///< of the first such frame
   Numbers energy_first_j_, joint_gap_max_m_, penetration_max_m_, row_visits_, cost_s_;
 };
