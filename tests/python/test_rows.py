@@ -26,7 +26,8 @@ class Indexing(unittest.TestCase):
         slices = [slice(a, b, c) for a in (None, 0, 5, 9, -2, 40) for b in (None, 3, 8, 15, -1, 40) for c in (None, 1, 3, 7, -1, -4)]
         keys = [0, 7, 8, -1, np.int64(12), ..., (), *slices, mask, [3, 1, 14], [-1, 0], [], np.array([], dtype=int), (slice(None), 2), (-3, 1, 2),
                 (3, ..., 0), (..., 1), (slice(2, 14, 5), slice(1, 3), 0), (slice(None), [2, 0]), (5, [3, 1]), (slice(None), slice(None, None, -1)),
-                ([9, 2], 1), (mask, ..., 2), (slice(6, 10), np.array([True, False, True, False]))]
+                ([9, 2], 1), (mask, ..., 2), (slice(6, 10), np.array([True, False, True, False])), ([9, 2], [3, 0]), ([9, 2], [3, 0], 1),
+                ([14, 1, 8], slice(None), [2, 0, 1]), (np.arange(16) < 4, np.arange(4)), ([9, 2], slice(None, None, -1)), (..., None), (4, None)]
         for key in keys:
             found, expected = self.rows[key], self.array[key]
             self.assertEqual(found.shape, expected.shape, key)

@@ -54,18 +54,22 @@ class Rows:
         if isinstance(first, (int, np.integer)):
             rows = self._row(int(first), part)
             return rows if simple else rows[tuple(rest)]
-        rows = self._slice(first, part) if isinstance(first, slice) else self._chosen(np.asarray(first), part)
-        return rows if simple else rows[(slice(None), *rest)]
+        if isinstance(first, slice):
+            rows, place = self._slice(first, part), slice(None)
+        else:
+            rows = self._chosen(np.asarray(first), part)
+            place = np.arange(len(rows))  # a list of rows goes pair by pair with a list behind it
+        return rows if simple else rows[(place, *rest)]
 
     def _expanded(self, key: Any) -> tuple:
         """The key without an ellipsis."""
         key = key if isinstance(key, tuple) else (key,)
         at = [place for place, item in enumerate(key) if item is Ellipsis]
+        indexed = sum(item is not None and item is not Ellipsis for item in key)  # None adds a dimension
         if at:
-            missing = self.ndim - len(key) + 1
-            key = key[:at[0]] + (slice(None),) * missing + key[at[0] + 1:]
-        if len(key) > self.ndim:
-            raise IndexError(f"{self.name}: it has {self.ndim} dimensions, and {len(key)} were indexed")
+            key = key[:at[0]] + (slice(None),) * (self.ndim - indexed) + key[at[0] + 1:]
+        if indexed > self.ndim:
+            raise IndexError(f"{self.name}: it has {self.ndim} dimensions, and {indexed} were indexed")
         return key or (slice(None),)
 
     def _row(self, row: int, rest: tuple) -> np.ndarray:
