@@ -20,8 +20,17 @@ namespace {
 /// Which names stand beside the options of a step.
 constexpr std::string_view effects_name = "effects";
 
+/// Throws core::InputError on every rank unless `given` is the same on all of them.
+void require_same(const mpi::Communicator& comm, std::uint64_t given) {
+  const std::vector<std::uint64_t> all = comm.allgather(given);
+  core::require_input(std::count(all.begin(), all.end(), all.front()) == std::ssize(all),
+                      "the ranks were given different options (scene text, settings, worlds, seed or "
+                      "parameters); give all of them the same");
+}
+
 /// The scene that `options` name, or whose text they hold.
 scenes::SceneSource source_of(const mpi::Communicator& comm, const BatchOptions& options) {
+  require_same(comm, options.scene_text.empty() ? 0 : 1);  // or some would wait for a name's text
   if (!options.scene_text.empty()) {
     const std::string name = options.scene.empty() ? "scene_text" : options.scene;
     return {name, name, options.scene_text};
@@ -55,8 +64,8 @@ void add_text(core::Checksum& checksum, std::string_view text) {
   checksum.add(std::as_bytes(std::span(text)));
 }
 
-/// Throws core::InputError on every rank unless all were given worlds from the same seed.
-void require_same(const mpi::Communicator& comm, std::uint64_t recipe, const BatchOptions& options) {
+/// Of all that decides the worlds, and what they begin from.
+std::uint64_t checksum_of(std::uint64_t recipe, const BatchOptions& options) {
   core::Checksum checksum;
   add_text(checksum, std::to_string(recipe));
   add_text(checksum, std::to_string(options.num_worlds) + " " + std::to_string(options.seed));
@@ -67,10 +76,7 @@ void require_same(const mpi::Communicator& comm, std::uint64_t recipe, const Bat
       add_text(checksum, value);
     }
   }
-  const std::vector<std::uint64_t> all = comm.allgather(checksum.value());
-  core::require_input(std::count(all.begin(), all.end(), all.front()) == std::ssize(all),
-                      "the ranks were given different options (scene text, settings, worlds, seed or "
-                      "parameters); give all of them the same");
+  return checksum.value();
 }
 
 }  // namespace
@@ -91,7 +97,7 @@ Recipe::Recipe(const mpi::Communicator& comm, const BatchOptions& options)
                             " worlds, and " + std::to_string(num_worlds_) +
                             " worlds; give each world its own, or none");
   });
-  require_same(comm, scene_checksum() ^ settings_checksum(), options);
+  require_same(comm, checksum_of(scene_checksum() ^ settings_checksum(), options));
 }
 
 stepping::StepperSettings Recipe::settings(std::uint64_t seed) const {

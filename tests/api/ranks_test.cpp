@@ -55,6 +55,12 @@ TEST(Ranks, throw_the_same_error_where_one_was_given_other_options) {
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("rank 1: iterations none"), std::string::npos) << error.what();
   }
+  options = over_ranks(3);
+  if (world.rank() == 1) {  // the others have the text of a scene, it the name of one
+    options.scene = "CrashSk";
+    options.scene_text.clear();
+  }
+  EXPECT_THROW(Batch batch(options), std::invalid_argument);
 }
 
 }  // namespace
