@@ -133,6 +133,7 @@ std::uint64_t Recipe::settings_checksum() const {
   for (const stepping::StepOption& option : stepping::step_options()) {
     if (option.is_physics) add_text(checksum, text_of(option, all));
   }
+  add_text(checksum, choices_.has("solver-seed") ? "one solver seed" : "a solver seed a world");
   add_text(checksum, effects::to_text(scene_->defaults().effects));
   return checksum.value();
 }

@@ -148,6 +148,9 @@ TEST(Batch, what_it_did_not_save_is_refused_and_nothing_changes) {
   other.settings = {{"warm-start", "0.5"}};
   refuses(Batch(other).save(), "other settings");
   other = small_options();
+  other.settings = {{"solver-seed", "0"}};
+  refuses(Batch(other).save(), "other settings");
+  other = small_options();
   other.scene_text += "# another\n";
   refuses(Batch(other).save(), "scene 'small', whose text was another");
 }
