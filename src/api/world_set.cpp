@@ -283,9 +283,14 @@ void WorldSet::load(std::span<const std::byte> bytes) {
   arrays_are_old_ = true;
   for (std::size_t i = 0; i < saved.size(); ++i) {
     steps_[i] = saved[i].step;
+    bool has_aims = false;
     for (std::size_t motor = 0; motor < saved[i].aims.size(); ++motor) {
-      if (!std::isnan(saved[i].aims[motor])) aim(i, motor, saved[i].aims[motor]);
+      if (std::isnan(saved[i].aims[motor])) continue;
+      aim(i, motor, saved[i].aims[motor]);
+      has_aims = true;
     }
+    // Aiming a motor wakes what it drives, which may have slept with that aim.
+    if (has_aims) steppers_.of(ids_[i]).set_state(ids_[i], saved[i].state, saved[i].step);
   }
 }
 

@@ -71,6 +71,25 @@ TEST(Motors, go_on_after_a_load_as_if_nothing_had_been) {
   }
 }
 
+TEST(Motors, that_drive_what_sleeps_let_it_sleep_after_a_load) {
+  for (const char* stepper : {"sor", "quick"}) {
+    BatchOptions options = small_options(2);
+    options.scene_text.replace(options.scene_text.find("velocity = 0"), 12, "velocity = 1");
+    options.settings = {{"stepper", stepper}, {"effects", "+sleeping"}};
+    Batch batch(options);
+    batch.set_motor_velocities(std::array{0.0, as_it_is});
+    batch.step(300);
+    ASSERT_EQ(turn(batch, 0), 0) << stepper << ": it sleeps";
+    ASSERT_NEAR(turn(batch, 1), 1, 0.01) << stepper;
+    const auto saved = batch.save();
+    Batch other(options);
+    other.load(saved);
+    EXPECT_EQ(other.hash(), batch.hash()) << stepper;
+    for (Batch* each : {&batch, &other}) each->step(5);
+    EXPECT_EQ(other.hash(), batch.hash()) << stepper;
+  }
+}
+
 /// The gait of a centipede sets its motors by events.
 TEST(Motors, whose_aim_an_event_has_ended_do_not_aim_again_after_a_load) {
   BatchOptions options;
