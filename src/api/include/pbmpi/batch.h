@@ -20,8 +20,8 @@
 
 namespace pbmpi {
 
-/// What is changed in the scene for one world: "ACTOR.KEY" or "world.KEY", as a scene file has them, and the
-/// value as TOML, e.g. {"car.speed", "12.5"}, {"world.gravity", "[0, 0, -1.62]"}.
+/// What is changed in the scene for one world: "ACTOR.KEY", "JOINT.KEY" or "world.KEY", as a scene file has
+/// them, and the value as TOML, e.g. {"car.speed", "12.5"}, {"world.gravity", "[0, 0, -1.62]"}.
 using Parameters = std::map<std::string, std::string>;
 
 /// What a batch is made of.
