@@ -167,6 +167,13 @@ class Changes(unittest.TestCase):
             self.assertEqual(one.hash(), self.batch.hash())
             self.assertEqual(repr(one), repr(self.batch))
 
+    def test_copies_have_the_bodies_that_parameters_gave(self):
+        batch = pbmpi.Batch("arm", 2, scene_text=ARM, parameters={"loose.copies": [2, 2], "loose.spacing": [[1, 0, 0]] * 2})
+        batch.step(3)
+        self.assertEqual(batch.num_bodies, 3)
+        for one in (copy.deepcopy(batch), pickle.loads(pickle.dumps(batch))):
+            self.assertEqual((one.hash(), one.settings), (batch.hash(), {}))
+
     def test_motors_aim_at_what_they_are_told(self):
         (motor,) = self.batch.motors
         self.assertEqual((motor.name, motor.max_force), ("shoulder", 50))

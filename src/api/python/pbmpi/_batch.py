@@ -1,7 +1,8 @@
 """Worlds that are stepped together."""
 
+import copy
 import operator
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, Optional
 
 import numpy as np
@@ -9,6 +10,8 @@ import numpy as np
 from . import _pbmpi
 from ._text import parameter_texts, settings_text
 
+# Arguments of a batch that are no options of a step.
+MADE_FROM = ("scene", "worlds", "seed", "parameters", "scene_text")
 STATE_ARRAYS = ("position", "orientation", "velocity", "angular_velocity")
 
 
@@ -21,7 +24,7 @@ class Batch(_pbmpi.Batch):
     seed: 0 to 2**64 - 1, from which each world draws what varies.
     parameters: what each world has otherwise than the scene, one dict a world ({"car.speed": 12.5, "world.gravity":
     [0, 0, -1.62]}; None: nothing), or a dict of columns with a value a world ({"car.speed": [12.5, 13]}). Keys are
-    "ACTOR.KEY" or "world.KEY" of a scene file.
+    "ACTOR.KEY", "JOINT.KEY" or "world.KEY" of a scene file.
     communicator: an mpi4py communicator over whose ranks the worlds are dealt out in blocks; None: one process, no MPI.
     Batches are then made, and hash() is called, by all its ranks in the same order.
     scene_text: text of a scene file instead of one that is read; `scene` then only names it.
@@ -48,7 +51,9 @@ class Batch(_pbmpi.Batch):
         num_worlds = 0 if worlds is None else operator.index(worlds)
         if worlds is not None and num_worlds < 1:
             raise ValueError(f"worlds={worlds}: there must be at least 1")
-        self._arguments: dict[str, Any] = {"scene": str(scene), "worlds": worlds, "seed": _seed(seed), "scene_text": scene_text, **settings}
+        # Parameters, too: a copy begins with the bodies that these gave the worlds.
+        self._arguments: dict[str, Any] = {"scene": str(scene), "worlds": worlds, "seed": _seed(seed),
+                                           "parameters": copy.deepcopy(parameters), "scene_text": scene_text, **settings}
         self._has_ranks = communicator is not None
         super().__init__(str(scene), scene_text or "", num_worlds, _seed(seed), settings_text(settings),
                          parameter_texts(parameters, num_worlds), _handle(communicator))
@@ -61,7 +66,7 @@ class Batch(_pbmpi.Batch):
     @property
     def settings(self) -> dict[str, Any]:
         """Options of a step as they were given; others are as pbmpi has them by default."""
-        return {name: value for name, value in self._arguments.items() if name not in ("scene", "worlds", "seed", "scene_text")}
+        return {name: value for name, value in self._arguments.items() if name not in MADE_FROM}
 
     def reset(self, mask: Any = None, seed: Optional[int] = None, parameters: Any = None) -> None:
         """Begins worlds anew at step 0, bit for bit as a new batch; the others go on.
