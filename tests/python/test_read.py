@@ -2,6 +2,7 @@
 import csv
 import io
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -12,8 +13,9 @@ import unittest
 import h5py
 import numpy as np
 import pbmpi
+from pbmpi._parts import FREE, FREE_BEGINNINGS
 
-from support import PackageTest
+from support import SOURCE, PackageTest
 
 from harness import BIN, PBMPI, PBREPORT, rank_pids, wait_until
 
@@ -84,6 +86,15 @@ class Whole(Files):
                 missing("observables/residual/joint_speed" if missing == run.array else "observables/residual")
         with self.assertRaisesRegex(KeyError, "no row a frame"):
             run.array("geoms/size")
+
+
+class Joined(unittest.TestCase):
+    def test_the_parameters_that_change_no_result_are_those_of_pbreport_join(self):
+        text = (SOURCE / "io/extract/run_settings.cpp").read_text(encoding="utf-8")
+        [names] = re.findall(r"std::array nothing = \{(.*?)\};", text, re.DOTALL)
+        self.assertEqual(FREE, set(re.findall(r'"(\w+)"', names)))
+        beginnings = re.findall(r'name\.starts_with\("(\w+)"\)', text)
+        self.assertEqual({*FREE_BEGINNINGS, "estimate_"}, set(beginnings))
 
 
 class Killed(Files):
