@@ -90,9 +90,10 @@ void read_servo(const xml::Element& element, const Defaults& defaults, const Com
 void require_idle(const xml::Element& element, const Defaults& defaults, const Compiler& compiler) {
   Attributes actuator(element, defaults.of(element, ""));
   if (control_of(actuator, compiler) != 0)
-    actuator.fail("ctrlrange",
-                  "the range leaves out 0, so that it always acts, which has no equal; widen it, or leave it "
-                  "out ('leave_out' of a TOML scene)");
+    actuator.fail(
+        "ctrlrange",
+        "'ctrlrange' leaves out 0, so that it always acts, which has no equal; widen it, or leave it "
+        "out ('leave_out' of a TOML scene)");
 }
 
 }  // namespace
