@@ -37,6 +37,8 @@ class SignalsBlocked {
 ThreadPool::ThreadPool(int num_threads) {
   require_invariant(num_threads >= 1, "a pool has the caller's thread at least");
   const SignalsBlocked blocked;
+  // Before any runs: those would wait for ever if this failed.
+  others_.reserve(static_cast<std::size_t>(num_threads) - 1);
   try {
     for (int thread = 1; thread < num_threads; ++thread)
       others_.emplace_back([this, thread] { wait_for_work(thread); });
