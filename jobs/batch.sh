@@ -65,6 +65,7 @@ without() {
     case $1 in
       "$option") [[ $# -eq 1 ]] || shift ;;
       "$option"=*) ;;
+      -o?*) [[ $option == -o ]] || printf '%s\0' "$1" ;;
       *) printf '%s\0' "$1" ;;
     esac
     shift
@@ -79,6 +80,14 @@ output_among() {
   done
   values_of --output "$@"
   values_of -o "$@"
+}
+
+# time_limit OPTIONS...: what to add to them, a word a line, so that the run ends by itself where the scheduler gives no notice.
+time_limit() {
+  local seconds
+  [[ -z $(values_of --max-time "$@") ]] || return 0
+  seconds=$(seconds_to_use)
+  [[ -z $seconds ]] || printf '%s\n' --max-time "$seconds"
 }
 
 # run_until_stopped COMMAND...: its exit code. TERM, INT or USR2 to this shell become USR2 to mpirun, which passes it to
@@ -106,7 +115,7 @@ run_until_stopped() {
 # run_scene OUTPUT SCENE OPTIONS...: simulates, then writes the report page beside the file. OUTPUT is the name of the
 # file unless the options settle it. Returns pbmpi's exit code, or pbreport's if only that failed.
 run_scene() {
-  local output=$1 scene=$2 code=0 given mpi_options=()
+  local output=$1 scene=$2 code=0 given limit mpi_options=()
   shift 2
   given=$(output_among "$@")
   if [[ -z $given ]]; then
@@ -114,8 +123,9 @@ run_scene() {
   else
     output=$given
   fi
+  readarray -t limit < <(time_limit "$@")
   read -r -a mpi_options <<<"${PBMPI_MPIRUN_OPTIONS:-}"
-  run_until_stopped mpirun "${host_options[@]}" "${mpi_options[@]}" "$(command -v pbmpi)" --scene "$scene" "$@" || code=$?
+  run_until_stopped mpirun "${host_options[@]}" "${mpi_options[@]}" "$(command -v pbmpi)" --scene "$scene" "$@" "${limit[@]}" || code=$?
   if [[ $output != none && ($code -eq 0 || $code -eq 75) ]]; then
     pbreport "$output" --html "${output%.h5}.html" --quiet || code=$((code == 0 ? $? : code))
   fi

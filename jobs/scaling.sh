@@ -16,7 +16,7 @@ A CASE is a scene, and how its work grows with the ranks:
                    that says what a core for each island would bring
 Default: 100CrSk:worlds:100 100CrSk:each:50 Battle:each:4 Battle:spaces Battle2:each:4 Battle2:spaces
 
-  --ranks "N ..."  numbers of ranks; default: powers of two up to the processors, or to the ranks of a job
+  --ranks "N ..."  numbers of ranks, or N,N,...; default: powers of two up to the cores, or to the ranks of a job
   --repeats N      runs of each point, each round in an order of its own; default: 5
   --round N        only this round of them, from 1 on: for a job array
   --frames N       measured frames of a run, after 3 for warm-up; default: 60
@@ -46,9 +46,11 @@ while [[ $# -gt 0 ]]; do
     --quick-look) quick=yes; shift ;;
     --ranks | --repeats | --round | --frames | --seed)
       [[ $# -ge 2 ]] || fail "$1 needs a value; see --help"
-      [[ $2 =~ ^[1-9][0-9]*( [1-9][0-9]*)*$ ]] || fail "$1 $2: it must be a number from 1 on; see --help"
+      form='^[1-9][0-9]*$'
+      [[ $1 != --ranks ]] || form='^[1-9][0-9]*([ ,][1-9][0-9]*)*$'
+      [[ $2 =~ $form ]] || fail "$1 $2: it must be a number from 1 on; see --help"
       case $1 in
-        --ranks) ranks=$2 ;;
+        --ranks) ranks=${2//,/ } ;;
         --repeats) repeats=$2 ;;
         --round) rounds=$2 ;;
         --frames) frames=$2 ;;
@@ -74,7 +76,9 @@ for case in "${cases[@]}"; do
 done
 [[ -z $(output_among "$@") ]] || fail "each run has a file of its own; drop --output and --no-output"
 find_programs
-cores=$(nproc)
+# Of hardware threads that share a core mpirun binds a rank to the core, and refuses a second one.
+cores=$(lscpu --parse=CORE,SOCKET 2>/dev/null | grep -v '^#' | sort -u | wc -l || true)
+[[ $cores -gt 0 && $cores -lt $(nproc) ]] || cores=$(nproc)
 if [[ -z $ranks ]]; then
   most=${job_ranks:-$cores}
   for ((n = 1; n <= most; n *= 2)); do ranks+="$n "; done
@@ -105,8 +109,9 @@ is_complete() { [[ -e $1 && $(pbreport "$1" --json 2>/dev/null) == *'"complete":
 
 # run_point FILE RANKS WORLDS HOW SCENE pbmpi options...
 run_point() {
-  local file=$1 count=$2 worlds=$3 how=$4 scene=$5 mpi_options=()
+  local file=$1 count=$2 worlds=$3 how=$4 scene=$5 limit mpi_options=()
   shift 5
+  readarray -t limit < <(time_limit "$@")
   if [[ $count -le $cores || -n $scheduler ]]; then
     mpi_options+=(--bind-to core)
   else
@@ -115,7 +120,7 @@ run_point() {
   read -r -a given <<<"${PBMPI_MPIRUN_OPTIONS:-}"
   run_until_stopped mpirun "${host_options[@]}" "${mpi_options[@]}" "${given[@]}" -n "$count" "$(command -v pbmpi)" --scene "$scene" \
     --replicas "$worlds" --decompose "$how" --frames "$frames" --record-every "$((frames + 3))" --warmup 3 --quiet \
-    --no-xdmf --output "$file" "$@"
+    --no-xdmf --output "$file" "$@" "${limit[@]}"
 }
 
 # stop CODE: of a run that did not end well.
@@ -141,8 +146,9 @@ for case in "${cases[@]}"; do
   [[ $case == *:spaces && ${rounds:-1} == 1 ]] || continue
   scene=${case%:spaces}
   file=$out/$(name_of_scene "$scene")-islands.h5
+  readarray -t limit < <(time_limit)
   is_complete "$file" || run_until_stopped pbmpi --scene "$scene" --replicas 1 --stepper quick --record-islands \
-    --frames "$frames" --warmup 3 --quiet --no-xdmf --output "$file" || stop $?
+    --frames "$frames" --warmup 3 --quiet --no-xdmf --output "$file" "${limit[@]}" || stop $?
 done
 
 # The other tasks of an array may be at work: on runs that are not complete yet, and on the report.

@@ -52,12 +52,16 @@ seconds_of() {
   echo "$sum"
 }
 
-# seconds_to_use: how long the job may compute where the scheduler gives no notice before the time limit; nothing where it does.
+# seconds_to_use: how long the job may still compute where the scheduler gives no notice before the time limit; nothing where it
+# does.
 seconds_to_use() {
-  local limit notice=${PBMPI_NOTICE:-120}
+  local limit left notice=${PBMPI_NOTICE:-120}
   [[ $scheduler == pbs ]] || return 0
   limit=$(qstat -f "$PBS_JOBID" 2>/dev/null | sed -n 's/^ *Resource_List.walltime = //p' | head -n 1)
-  [[ -z $limit ]] || echo $(($(seconds_of "$limit") > 2 * notice ? $(seconds_of "$limit") - notice : notice))
+  [[ -n $limit ]] || return 0
+  limit=$(seconds_of "$limit")
+  left=$(((limit > 2 * notice ? limit - notice : notice) - SECONDS))  # SECONDS: since the body began
+  echo $((left > 1 ? left : 1))
 }
 
 # array_of COUNT: the option that asks for an array of so many tasks, as sweep.sh counts them: from 0, with LSF from 1.
@@ -76,7 +80,7 @@ array_of() {
 requeue_job() {
   case $scheduler in
     slurm) scontrol requeue "$SLURM_JOB_ID" ;;
-    lsf) brequeue "$LSB_JOBID" ;;
+    lsf) brequeue "$LSB_JOBID${job_task:+[$job_task]}" ;;  # without its number, all tasks of an array
     pbs)
       # Only operators may requeue; anybody may submit again. What the job asked for must be said again, too.
       [[ -n ${PBMPI_SUBMIT:-} ]] || fail "PBMPI_REQUEUE: with PBS it needs PBMPI_SUBMIT, the options of qsub and the script"

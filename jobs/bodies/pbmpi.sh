@@ -26,10 +26,6 @@ if [[ $job_restarts -gt 0 && -e $checkpoint ]]; then
   set -- "${options[@]}" --resume "$checkpoint"
   name=$name.$((job_restarts + 1))
 fi
-if [[ -z $(values_of --max-time "$@") ]]; then
-  seconds=$(seconds_to_use)
-  [[ -z $seconds ]] || set -- "$@" --max-time "$seconds"
-fi
 code=0
 run_scene "$name.h5" "$@" || code=$?
 if [[ $code -eq 75 && ${PBMPI_REQUEUE:-} == yes && -e $checkpoint ]]; then

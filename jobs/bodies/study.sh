@@ -16,13 +16,10 @@ output=$(output_among "$@" | tail -n 1)
 output=${output:-$study${job_id:+-$job_id}.h5}
 readarray -d '' -t options < <(without --output "$@")
 readarray -d '' -t options < <(without -o "${options[@]}")
-if [[ -z $(values_of --max-time "$@") ]]; then
-  seconds=$(seconds_to_use)
-  [[ -z $seconds ]] || options+=(--max-time "$seconds")
-fi
+readarray -t limit < <(time_limit "$@")
 read -r -a mpi_options <<<"${PBMPI_MPIRUN_OPTIONS:-}"
 code=0
-run_until_stopped mpirun "${host_options[@]}" "${mpi_options[@]}" "$(command -v pbstudy)" "$study" "${options[@]}" \
+run_until_stopped mpirun "${host_options[@]}" "${mpi_options[@]}" "$(command -v pbstudy)" "$study" "${options[@]}" "${limit[@]}" \
   --output "$output" --resume || code=$?
 if [[ $code -eq 0 ]]; then
   pbreport "$output" --html "${output%.h5}.html" --quiet >/dev/null || code=$?

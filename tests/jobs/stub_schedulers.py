@@ -62,11 +62,13 @@ class Queue:
             self.done += 1
             with open(os.path.join(self.folder, "queue", str(number)), encoding="utf-8") as file:
                 job = json.load(file)
+            task = None
             if job["program"] == "brequeue":
-                number, job = self.jobs[job["args"][-1]]
+                name, task = re.fullmatch(r"(\d+)(?:\[(\d+)\])?", job["args"][-1]).groups()
+                number, job = self.jobs[name]
                 warn_when = None
             self.jobs[str(number)] = (number, job)
-            for index in self.tasks(job):
+            for index in [int(task)] if task else self.tasks(job):
                 results.append(self.run(number, job, index, warn_when))
         return results
 

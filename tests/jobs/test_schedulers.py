@@ -73,6 +73,12 @@ class Pbs(SchedulerTest):
         self.assertEqual(none[0], 2)
         self.assertIn("-J 0-1", none[1])
 
+    def test_a_run_of_a_sweep_ends_by_itself_before_the_walltime(self):
+        self.qsub("sweep.pbs", "CrashSk substeps 2 -- " + LONG, "-l", "walltime=00:00:02", PBMPI_NOTICE="1")
+        code, output = self.queue.run_all()[0]
+        self.assertEqual(code, 75, output)
+        self.assertEqual(self.left(), ["CrashSk-substeps-2-100.checkpoint.h5", "CrashSk-substeps-2-100.h5"])
+
     def test_a_job_whose_walltime_is_up_is_submitted_again_and_goes_on(self):
         script = os.path.join(SOURCE, "jobs", "pbs", "pbmpi.pbs")
         limit = ("-l", "walltime=00:00:02")
@@ -112,6 +118,22 @@ class Lsf(SchedulerTest):
         results = self.queue.run_all(warn_when=lambda: "CrashSk-100.h5" in self.left())
         self.assertEqual([code for code, _ in results], [75, 0], results)
         self.assertEqual(self.left(), ["CrashSk-100.2.h5", "CrashSk-100.checkpoint.h5", "CrashSk-100.h5"])
+
+    def test_a_task_that_is_warned_goes_back_into_the_queue_without_the_others_of_its_array(self):
+        self.bsub("scaling.lsf", "--ranks 1,2 --frames 100 out CrashSk:worlds:2 -- --steps-per-frame 300", "-J", "scaling[1-2]",
+                  PBMPI_REQUEUE="yes")
+        seen = set()
+
+        def begins():
+            folder = os.path.join(self.work, "out")
+            new = {name for name in os.listdir(folder) if name.endswith(".h5")} - seen if os.path.isdir(folder) else set()
+            seen.update(new)
+            return bool(new)
+        results = self.queue.run_all(warn_when=begins)
+        self.assertEqual([code for code, _ in results], [75, 75, 0, 0], results)
+        self.assertEqual(len(seen), 2)
+        with open(os.path.join(self.work, "out", "scaling.txt"), encoding="utf-8") as report:
+            self.assertEqual(report.read().count("2 of 5 repeats"), 2)
 
     def test_a_study_goes_on_with_the_cases_that_are_left(self):
         study = "stability --scene hard/free/cradle hard/free/exchange hard/rest/column10 --setting sor quick --dt 0.002 0.001"
