@@ -74,17 +74,32 @@ class Recipes(unittest.TestCase):
                 if name == "resource":
                     self.assertRegex(named["sha256"], r"^[0-9a-f]{64}$")
 
-    def test_spack_sets_options_that_the_build_has(self):
+    def cmake_args(self, *variants):
+        """What the recipe gives cmake, with these variants."""
+        python = types.SimpleNamespace(command=types.SimpleNamespace(path="/spack/bin/python3"),
+                                       version=types.SimpleNamespace(up_to=lambda count: ".".join("3 11 2".split()[:count])))
         package = SpackRecipe("pbmpi").package()
+        package.spec = type("Spec", (dict,), {"satisfies": lambda self, variant: variant in variants})(python=python)
         package.stage = types.SimpleNamespace(source_path="/source")
         package.define = lambda name, value: (name, value)
         package.cmake_args.__func__.__globals__["join_path"] = lambda *parts: "/".join(parts)
-        cmake = "".join(path.read_text(encoding="utf-8") for path in (SOURCE / "CMakeLists.txt", SOURCE / "io/html/CMakeLists.txt"))
-        for name, value in package.cmake_args():
+        return dict(package.cmake_args())
+
+    def test_spack_sets_options_that_the_build_has(self):
+        cmake = "".join((SOURCE / folder / "CMakeLists.txt").read_text(encoding="utf-8") for folder in (".", "io/html", "src/api/python"))
+        for name, value in self.cmake_args("+python").items():
             self.assertRegex(cmake, rf"\({name}\b", name)
-            if isinstance(value, str):  # where Debian's package, unpacked, has the file
+            if name.endswith("_JS"):  # where Debian's package, unpacked, has the file
                 installed = pathlib.Path("/" + value.split("/", 3)[3])
                 self.assertTrue(installed.is_file(), installed)
+
+    def test_spack_builds_the_module_for_its_own_python_or_not_at_all(self):
+        given = self.cmake_args("+python")
+        self.assertEqual((given["PBMPI_PYTHON"], given["PBMPI_PYTHON_DIR"]), ("/spack/bin/python3", "lib/python3.11/site-packages"))
+        without = self.cmake_args()
+        self.assertNotIn("PBMPI_PYTHON", without)
+        package = next(name for name in without if name.startswith("CMAKE_DISABLE_FIND_PACKAGE_")).rpartition("_")[2]
+        self.assertIn(f"find_package({package} ", (SOURCE / "src/api/python/CMakeLists.txt").read_text(encoding="utf-8"))
 
     def test_docker_instructions_are_known_and_name_files_that_are_there(self):
         text = re.sub(r"\\\n", " ", DOCKERFILE.read_text(encoding="utf-8"))

@@ -60,7 +60,15 @@ class Pbmpi(CMakePackage):
         source = self.stage.source_path
         three = join_path(source, "libjs-three", "usr/share/javascript/three")
         chart = join_path(source, "libjs-chart.js", "usr/share/javascript/chart.js")
-        return [
+        # The build looks for Debian's own Python, unless it is told of another.
+        python = [self.define("CMAKE_DISABLE_FIND_PACKAGE_pybind11", True)]
+        if self.spec.satisfies("+python"):
+            found = self.spec["python"]
+            python = [
+                self.define("PBMPI_PYTHON", found.command.path),
+                self.define("PBMPI_PYTHON_DIR", f"lib/python{found.version.up_to(2)}/site-packages"),
+            ]
+        return python + [
             self.define("PBMPI_BUILD_TESTS", False),
             self.define("PBMPI_BUILD_BENCHMARKS", False),
             self.define("PBMPI_THREE_JS", join_path(three, "three.min.js")),
