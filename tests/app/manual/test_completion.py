@@ -36,7 +36,7 @@ class Completion(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory(prefix="pbmpi-test-")
         self.addCleanup(self.folder.cleanup)
-        for name in ("run.h5", "own.toml"):
+        for name in ("run.h5", "own.toml", "my own scene.toml"):
             open(os.path.join(self.folder.name, name), "w", encoding="utf-8").close()
 
     def offered(self, shell, *line):
@@ -105,10 +105,11 @@ class Completion(unittest.TestCase):
         for shell in ("bash", "fish"):
             offered = self.offered(shell, "pbmpi", "--scene", "")
             self.assertLess({"CrashSk", "100CrSk", "Bowling", "hard/rest/column20", "own.toml"}, offered)
-            for scene in offered - {"own.toml", "run.h5"}:
+            for scene in offered - {"own.toml", "my own scene.toml", "run.h5"}:
                 self.assertIn(scene.split("/")[-1], listed)
             self.assertEqual(self.offered(shell, "pbmpi", "--scene", "Cra"), {"CrashSk", "CrashWa"})
             self.assertEqual(self.offered(shell, "pbmpi", "--output", "ru"), {"run.h5"})
+            self.assertEqual({word.replace("\\ ", " ") for word in self.offered(shell, "pbmpi", "--config", "my")}, {"my own scene.toml"})
 
     def test_an_option_that_takes_many_values_is_offered_more(self):
         self.assertEqual(self.offered("bash", "pbstudy", "effects", "--scene", "CrashSk", "CrashW"), {"CrashWa"})

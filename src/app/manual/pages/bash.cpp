@@ -77,7 +77,7 @@ std::string bash_completion(const ProgramManual& program) {
          "follows.\n"
       << "  if [[ -n $value && (-n $many || i -eq ${#before[@]}-1) && ($word != -* || $words == +*) ]]; "
          "then\n"
-      << "    COMPREPLY=($(compgen -W \"$words\" ${action:+-A \"$action\"} -- \"$word\"))\n"
+      << "    mapfile -t COMPREPLY < <(compgen -W \"$words\" ${action:+-A \"$action\"} -- \"$word\")\n"
       << "    [[ -z $action ]] || compopt -o filenames 2>/dev/null\n"
       << "    return\n"
       << "  fi\n"
@@ -96,7 +96,7 @@ std::string bash_completion(const ProgramManual& program) {
     }
     out << "  fi\n";
   }
-  out << "  COMPREPLY=($(compgen -W \"$words\" ${action:+-A \"$action\"} -- \"$word\"))\n"
+  out << "  mapfile -t COMPREPLY < <(compgen -W \"$words\" ${action:+-A \"$action\"} -- \"$word\")\n"
       << "}\n"
       << "complete -F _" << name << " " << name << "\n";
   return out.str();
