@@ -92,10 +92,10 @@ TEST(ScalingCurves, doubt_few_repeats_and_wide_intervals) {
 }
 
 TEST(ScalingCurves, doubt_runs_that_are_not_alike) {
-  const auto doubts_with = [](auto change) {
+  const auto doubts_with = [](auto change, std::size_t which = 3) {
     std::vector<ScalingRun> runs = {run_of(1, 4, 1, 1), run_of(2, 4, 1, 0.5), run_of(1, 4, 2, 1),
                                     run_of(2, 4, 2, 0.5)};
-    change(runs[3]);
+    change(runs[which]);
     return doubts_of(runs);
   };
   using Doubts = std::vector<std::string>;
@@ -104,6 +104,11 @@ TEST(ScalingCurves, doubt_runs_that_are_not_alike) {
             Doubts{"another build or processor than the base's"});
   EXPECT_EQ(doubts_with([](ScalingRun& run) { run.complete = false; }), Doubts{"a run that did not end"});
   EXPECT_EQ(doubts_with([](ScalingRun& run) { run.processors = 1; }), Doubts{"more ranks than processors"});
+  constexpr std::size_t of_base = 2;
+  EXPECT_EQ(doubts_with([](ScalingRun& run) { run.program = "0.2.0"; }, of_base),
+            Doubts{"another build or processor than the base's"});
+  EXPECT_EQ(doubts_with([](ScalingRun& run) { run.complete = false; }, of_base),
+            Doubts{"a run that did not end"});
   EXPECT_EQ(doubts_with([](ScalingRun& run) { run.processors = 0; }), Doubts{})
       << "of an older file: not known";
 }

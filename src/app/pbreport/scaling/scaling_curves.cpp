@@ -78,11 +78,6 @@ void compare(const ScalingPoint& base, ScalingPoint& point) {
   point.computation = useful_s > 0 ? base_useful_s / useful_s : 0;
 }
 
-template <class Predicate>
-bool any_run(const ScalingPoint& point, const Predicate& predicate) {
-  return std::ranges::any_of(point.runs, [&](const ScalingRun* run) { return predicate(*run); });
-}
-
 std::vector<std::string> doubts_of(const ScalingPoint& point, const ScalingPoint& base,
                                    const std::set<std::string>& hashes, const ScalingRules& rules) {
   std::vector<std::string> doubts;
@@ -95,12 +90,17 @@ std::vector<std::string> doubts_of(const ScalingPoint& point, const ScalingPoint
     doubts.push_back(
         format("interval of %.0f %%, %.0f %% at most", 100 * width, 100 * rules.widest_interval));
   if (hashes.size() > 1) doubts.push_back(format("%zu different hashes", hashes.size()));
+  // A ratio is no better than the runs of the base that it is taken against.
+  const auto any_run = [&](const auto& predicate) {
+    const auto holds = [&](const ScalingRun* run) { return predicate(*run); };
+    return std::ranges::any_of(point.runs, holds) || std::ranges::any_of(base.runs, holds);
+  };
   const std::string& program = base.runs.front()->program;
-  if (any_run(point, [&](const ScalingRun& run) { return run.program != program; }))
+  if (any_run([&](const ScalingRun& run) { return run.program != program; }))
     doubts.emplace_back("another build or processor than the base's");
-  if (any_run(point, [](const ScalingRun& run) { return !run.complete; }))
+  if (any_run([](const ScalingRun& run) { return !run.complete; }))
     doubts.emplace_back("a run that did not end");
-  if (any_run(point, [](const ScalingRun& run) {
+  if (any_run([](const ScalingRun& run) {
         return run.processors > 0 && run.most_ranks_of_a_host > run.processors;
       }))
     doubts.emplace_back("more ranks than processors");
