@@ -4,6 +4,7 @@
 
 #include "app/common/quantities.h"
 #include "app/pbstudy/study/option_lists.h"
+#include "core/system/input_file.h"
 
 namespace pbmpi::app {
 
@@ -13,7 +14,7 @@ namespace {
 
 /// Without what says where, how long and how loudly.
 std::vector<std::string> deciding_among(const std::vector<std::string>& args) {
-  const std::set<std::string, std::less<>> switches = {"--resume", "--quiet"};
+  const std::set<std::string, std::less<>> switches = {"--resume", "--quiet", "-q"};
   const std::set<std::string, std::less<>> valued = {"--output", "-o", "--max-time", "--progress"};
   std::vector<std::string> deciding;
   for (std::size_t i = 0; i < args.size(); ++i) {
@@ -76,6 +77,8 @@ StudyOptions study_options(const po::variables_map& values, const std::string& p
   if (values.count("max-time") != 0)
     options.max_time_s = parse_time_or_seconds(values["max-time"].as<std::string>(), "--max-time");
   options.deciding = deciding_among(args);
+  if (values.count("config") != 0)
+    options.deciding.push_back(core::read_input_file(values["config"].as<std::string>(), "see --config"));
   return options;
 }
 
