@@ -129,6 +129,14 @@ Communicator Communicator::dup() const {
   return Communicator(std::make_unique<Handle>(copy, true));
 }
 
+Communicator Communicator::split(int group) const {
+  if (is_null()) return {};
+  MPI_Comm part = MPI_COMM_NULL;
+  check(MPI_Comm_split(handle_->comm, group, rank(), &part), "MPI_Comm_split", rank());
+  check(MPI_Comm_set_errhandler(part, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler", rank());
+  return Communicator(std::make_unique<Handle>(part, true));
+}
+
 int Communicator::rank() const { return is_null() ? 0 : handle_->rank; }
 int Communicator::size() const { return is_null() ? 1 : handle_->size; }
 int Communicator::fortran_handle() const { return MPI_Comm_c2f(is_null() ? MPI_COMM_NULL : handle_->comm); }

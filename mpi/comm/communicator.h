@@ -27,8 +27,8 @@ struct GatherLayout {
   static GatherLayout packed(std::span<const std::int64_t> counts);
 };
 
-/// Owns a communicator (dup) or borrows one (world). Move-only. Every call is collective unless it says
-/// otherwise, and throws core::RunError with the name of the MPI call, MPI's message and the rank.
+/// Owns a communicator (dup, split) or borrows one (world). Move-only. Every call is collective unless it
+/// says otherwise, and throws core::RunError with the name of the MPI call, MPI's message and the rank.
 ///
 /// The null communicator (default constructed) acts as one rank and never calls MPI, so that code for several
 /// ranks also runs without a Session.
@@ -49,6 +49,9 @@ class Communicator {
   static Communicator dup_of(int fortran_handle);
   /// A communicator of the same ranks, whose messages never match those of another; owned. Null stays null.
   Communicator dup() const;
+  /// A communicator of the ranks that give the same `group` (>= 0), in the order that they have here; owned.
+  /// Null stays null.
+  Communicator split(int group) const;
 
   bool is_null() const { return handle_ == nullptr; }
   int rank() const;

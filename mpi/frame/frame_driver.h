@@ -27,6 +27,12 @@ struct FrameTimes {
   core::Traffic traffic{};  ///< of this rank
 };
 
+/// Seconds that a rank spent on a world.
+struct WorldCost {
+  int world = 0;
+  double seconds = 0;
+};
+
 /// Result of a run. Equal on every rank, except `times` (phases are this rank's own) and `rebalance_s`.
 struct WorldRunResult {
   std::int64_t frames_done = 0;  ///< warm-up included, and those before the run was resumed
@@ -36,7 +42,7 @@ struct WorldRunResult {
   std::vector<FrameTimes> times;  ///< [frames_done - first_frame]
   std::string save_failure;       ///< why the snapshot that ends the run could not be stored; else empty
   int num_rebalances = 0;
-  std::int64_t worlds_moved = 0;  ///< worlds, or spaces of the one world
+  std::int64_t worlds_moved = 0;  ///< worlds, or spaces of worlds that are cut
   double rebalance_s = 0;         ///< time that this rank spent moving work between frames; part of no wall_s
 };
 
@@ -74,7 +80,10 @@ class FrameDriver {
   /// The worlds that this rank reports, by ascending id.
   virtual std::vector<stepping::LocalWorld> local_worlds() const = 0;
 
-  /// Ranks that own no bodies, ascending; the same on every rank.
+  /// What this rank spent in the last frame on each world that it steps, alone or with others.
+  virtual std::vector<WorldCost> costs() const = 0;
+
+  /// Collective. Ranks that own no bodies, ascending; the same on every rank.
   virtual std::vector<int> idle_ranks() const = 0;
 
   /// To be called once. What a stepper or observer throws on one rank is thrown on every rank: a stepper's in

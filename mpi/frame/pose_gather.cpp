@@ -19,7 +19,7 @@ PoseGather::PoseGather(const Communicator& comm, const stepping::WorldTable& tab
   if (comm.is_root()) {
     position_.resize(table.num_bodies());
     orientation_.resize(table.num_bodies());
-    cost_s_.resize(table.num_worlds());
+    number_.resize(table.num_worlds());
   }
   set_placement(placement);
 }
@@ -36,13 +36,13 @@ void PoseGather::set_placement(std::span<const int> placement) {
   if (comm_->is_root()) received_.resize(layout_.displacements.back() + layout_.counts.back());
 }
 
-void PoseGather::gather(std::span<const stepping::LocalWorld> worlds, std::span<const double> cost_s) {
+void PoseGather::gather(std::span<const stepping::LocalWorld> worlds, std::span<const double> number) {
   if (comm_->is_root()) {
-    copy_own(worlds, cost_s);
+    copy_own(worlds, number);
   } else {
-    pack(worlds, cost_s);
+    pack(worlds, number);
   }
-  if (comm_->size() == 1) return;
+  if (comm_->size() == 1 || !anything_travels()) return;
   comm_->gatherv(std::span<const double>(sent_), std::span(received_), layout_);
   if (comm_->is_root()) unpack();
 }
@@ -57,11 +57,11 @@ void PoseGather::expect() {
   }
 }
 
-void PoseGather::start(std::span<const stepping::LocalWorld> worlds, std::span<const double> cost_s) {
+void PoseGather::start(std::span<const stepping::LocalWorld> worlds, std::span<const double> number) {
   if (comm_->is_root()) {
-    copy_own(worlds, cost_s);
+    copy_own(worlds, number);
   } else {
-    pack(worlds, cost_s);
+    pack(worlds, number);
     messages_.send(sent_, Communicator::root, pose_tag);
   }
 }
@@ -71,12 +71,12 @@ void PoseGather::deliver() {
   if (comm_->is_root() && comm_->size() > 1) unpack();
 }
 
-void PoseGather::pack(std::span<const stepping::LocalWorld> worlds, std::span<const double> cost_s) {
+void PoseGather::pack(std::span<const stepping::LocalWorld> worlds, std::span<const double> number) {
   double* to = sent_.data();
   for (std::size_t i = 0; i < worlds.size(); ++i) {
     const model::State& state = *worlds[i].state;
     const std::size_t num_bodies = state.position.size();
-    *to++ = cost_s[i];
+    *to++ = number[i];
     if (num_bodies == 0) continue;
     std::memcpy(to, state.position.front().data(), 3 * num_bodies * sizeof(double));
     to += 3 * num_bodies;
@@ -93,7 +93,7 @@ void PoseGather::unpack() {
     const std::int64_t first = table_->body_offset[world];
     const std::size_t num_bodies = table_->body_offset[world + 1] - first;
     const double* from = received_.data() + cursor_[owner];
-    cost_s_[world] = *from++;
+    number_[world] = *from++;
     if (num_bodies > 0) {
       std::memcpy(position_[first].data(), from, 3 * num_bodies * sizeof(double));
       std::memcpy(&orientation_[first].w, from + 3 * num_bodies, 4 * num_bodies * sizeof(double));
@@ -102,13 +102,13 @@ void PoseGather::unpack() {
   }
 }
 
-void PoseGather::copy_own(std::span<const stepping::LocalWorld> worlds, std::span<const double> cost_s) {
+void PoseGather::copy_own(std::span<const stepping::LocalWorld> worlds, std::span<const double> number) {
   for (std::size_t i = 0; i < worlds.size(); ++i) {
     const model::State& state = *worlds[i].state;
     const std::int64_t first = table_->body_offset[worlds[i].id];
     std::copy(state.position.begin(), state.position.end(), position_.begin() + first);
     std::copy(state.orientation.begin(), state.orientation.end(), orientation_.begin() + first);
-    cost_s_[worlds[i].id] = cost_s[i];
+    number_[worlds[i].id] = number[i];
   }
 }
 

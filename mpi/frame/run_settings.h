@@ -9,7 +9,7 @@
 
 namespace pbmpi::mpi {
 
-/// Settings of a run of worlds, or of one world cut into spaces (num_worlds is 1). The same on every rank.
+/// Settings of a run of worlds, whole or cut into spaces. The same on every rank.
 struct WorldRunSettings {
   int num_worlds = 1;
   int first_world = 0;  ///< what world 0 of the run is in its ensemble: random numbers come from that number
@@ -22,13 +22,14 @@ struct WorldRunSettings {
   bool stop_at_blowup = false;       ///< a guard that trips ends the run after the frame
   bool profile = false;  ///< measure the last step of each frame again, after the frame's time is taken
   std::int64_t first_frame = 0;  ///< frames done before: the run is resumed from a checkpoint
-  std::vector<int> placement;  ///< owner at the start of each world (or space); empty = as the driver chooses
+  /// owner at the start of each world, or of each space of every world; empty = as the driver chooses
+  std::vector<int> placement;
 
   std::int64_t first_step() const { return first_frame * steps_per_frame; }
 };
 
-/// Collective. Returns the settings once every rank has found them valid. `num_parts`: worlds, or spaces of
-/// the one world, that a placement places. Throws core::InputError for settings that make no sense, and
+/// Collective. Returns the settings once every rank has found them valid. `num_parts`: worlds, or spaces of a
+/// world, that a placement places. Throws core::InputError for settings that make no sense, and
 /// std::logic_error if they differ between ranks.
 WorldRunSettings checked_settings(const Communicator& comm, WorldRunSettings settings, int num_parts);
 

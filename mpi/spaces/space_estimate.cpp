@@ -6,9 +6,9 @@ namespace pbmpi::mpi {
 
 SpaceEstimate::SpaceEstimate(const Communicator& comm, stepping::SpaceStepper& stepper, ErrorHold& errors,
                              int steps_per_frame, double dt_s, std::optional<double> due_s)
-    : comm_(comm.dup()),
+    : comm_(&comm),
       stepper_(&stepper),
-      step_(comm_, stepper, errors),
+      step_(comm, stepper, errors),
       steps_per_frame_(steps_per_frame),
       dt_s_(dt_s) {
   if (due_s) plan_.emplace(*due_s);
@@ -22,7 +22,7 @@ SpaceEstimate::How SpaceEstimate::choose() {
   } else if (plan_->fits(0, 0, steps_per_frame_)) {
     how = How::coarse;
   }
-  comm_.bcast_value(how);
+  comm_->bcast_value(how);
   return how;
 }
 
@@ -39,7 +39,7 @@ void SpaceEstimate::run(const SpaceOwnership& ownership, const model::State& sta
   for (int i = 0; i < steps_per_frame_; ++i) step_.run(step + i, i + 1 == steps_per_frame_, times);
   steps_ = {.coarse = steps_per_frame_};
   if (plan_) plan_->note_coarse((core::now_s() - start_s) / steps_per_frame_);
-  if (comm_.is_root()) state_ = stepper_->state();
+  if (comm_->is_root()) state_ = stepper_->state();
 }
 
 void SpaceEstimate::glide(const model::State& start) {

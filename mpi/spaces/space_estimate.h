@@ -24,8 +24,7 @@ class SpaceEstimate {
  public:
   enum class How : std::int32_t { precise, coarse, glide };
 
-  /// `stepper` and `errors` are borrowed; the communicator is duplicated. `due_s`: from the start of a frame
-  /// until its estimate is due.
+  /// All borrowed. `due_s`: from the start of a frame until its estimate is due.
   SpaceEstimate(const Communicator& comm, stepping::SpaceStepper& stepper, ErrorHold& errors,
                 int steps_per_frame, double dt_s, std::optional<double> due_s);
 
@@ -47,7 +46,7 @@ class SpaceEstimate {
   core::Traffic take_traffic() { return step_.take_traffic(); }
 
  private:
-  Communicator comm_;
+  const Communicator* comm_;
   stepping::SpaceStepper* stepper_;
   SpaceStep step_;
   int steps_per_frame_;

@@ -1,34 +1,12 @@
 #include "mpi/worlds/owned_worlds.h"
 
-#include <string>
 #include <utility>
 
-#include "core/error.h"
 #include "mpi/comm/agreement.h"
+#include "mpi/frame/state_transfer.h"
 #include "mpi/frame/whole_state.h"
 
 namespace pbmpi::mpi {
-namespace {
-
-constexpr int state_tag = 1;
-
-/// States differ in length, also from step to step: the contact forces that they hold come and go.
-void send_state(const Communicator& comm, const model::State& state, int to) {
-  const std::vector<double> packed = pack(state);
-  const std::int64_t size = std::ssize(packed);
-  comm.send(std::span<const std::int64_t>(&size, 1), to, state_tag);
-  comm.send(std::span<const double>(packed), to, state_tag);
-}
-
-model::State receive_state(const Communicator& comm, int from) {
-  std::int64_t size = 0;
-  comm.recv(std::span(&size, 1), from, state_tag);
-  std::vector<double> packed(static_cast<std::size_t>(size));
-  comm.recv(std::span(packed), from, state_tag);
-  return unpack(packed);
-}
-
-}  // namespace
 
 OwnedWorlds::OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepper, BuildWorld build,
                          Placement placement, const Start& start)
@@ -39,7 +17,7 @@ OwnedWorlds::OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepp
       first_world_(start.first_world) {
   find_own();
   std::map<int, model::State> states;
-  if (start.step > 0) states = scatter_states(start.states);
+  if (start.step > 0) states = scatter_states(comm, placement_, start.states);
   agree_on_errors(comm, [&] {
     for (const int world : ids_) {
       const std::shared_ptr<const model::Model> model = build_(world);
@@ -52,39 +30,10 @@ OwnedWorlds::OwnedWorlds(const Communicator& comm, stepping::WorldStepper& stepp
   count_bodies();
 }
 
-std::map<int, model::State> OwnedWorlds::scatter_states(std::span<const model::State> states) const {
-  agree_on_errors(*comm_, [&] {
-    if (comm_->is_root() && states.size() != placement_.size())
-      throw core::RunError("there are " + std::to_string(states.size()) + " states to start from, and " +
-                           std::to_string(placement_.size()) + " worlds; resume with as many worlds");
-  });
-  std::map<int, model::State> own;
-  for (int world = 0; world < std::ssize(placement_); ++world) {
-    const int owner = placement_[world];
-    if (comm_->is_root() && owner == Communicator::root) own[world] = states[world];
-    if (owner == Communicator::root) continue;
-    if (comm_->is_root()) {
-      send_state(*comm_, states[world], owner);
-    } else if (owner == comm_->rank()) {
-      own[world] = receive_state(*comm_, Communicator::root);
-    }
-  }
-  return own;
-}
-
 std::vector<model::State> OwnedWorlds::gather_states() const {
-  std::vector<model::State> states;
-  for (int world = 0; world < std::ssize(placement_); ++world) {
-    const int owner = placement_[world];
-    if (owner == comm_->rank() && !comm_->is_root()) {
-      send_state(*comm_, stepper_->state(number_of(world)), Communicator::root);
-    } else if (comm_->is_root() && owner == Communicator::root) {
-      states.push_back(stepper_->state(number_of(world)));
-    } else if (comm_->is_root()) {
-      states.push_back(receive_state(*comm_, owner));
-    }
-  }
-  return states;
+  return mpi::gather_states(*comm_, placement_, [this](int world) -> const model::State& {
+    return stepper_->state(number_of(world));
+  });
 }
 
 void OwnedWorlds::find_own() {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -50,8 +49,6 @@ class OwnedWorlds {
   std::vector<model::State> gather_states() const;
 
  private:
-  /// Collective. Sends root's states to the owners of their worlds; returns this rank's.
-  std::map<int, model::State> scatter_states(std::span<const model::State> states) const;
   void count_bodies();
   void find_own();
 

@@ -31,6 +31,12 @@ WorldDriver::WorldDriver(const Communicator& comm, stepping::WorldStepper& stepp
       gather_(this->comm(), worlds_.table(), worlds_.placement()),
       rebalancer_(comm.size(), settings.rebalance_threshold) {}
 
+std::vector<WorldCost> WorldDriver::costs() const {
+  std::vector<WorldCost> costs;
+  for (const int world : worlds_.ids()) costs.push_back({world, stepper_->cost_s(worlds_.number_of(world))});
+  return costs;
+}
+
 std::vector<int> WorldDriver::idle_ranks() const {
   std::vector<int> idle;
   for (int rank = 0; rank < comm().size(); ++rank) {
@@ -114,8 +120,7 @@ void WorldDriver::gather(core::PhaseTimes& times) {
   const std::vector<stepping::LocalWorld> worlds = worlds_.views();
   std::vector<double> cost_s;
   cost_s.reserve(worlds.size());
-  for (const stepping::LocalWorld& world : worlds)
-    cost_s.push_back(stepper_->cost_s(worlds_.number_of(world.id)));
+  for (const WorldCost& cost : costs()) cost_s.push_back(cost.seconds);
   gather_.gather(worlds, cost_s);
   timer.lap(core::Phase::gather);
 }
@@ -123,7 +128,7 @@ void WorldDriver::gather(core::PhaseTimes& times) {
 std::int64_t WorldDriver::plan_moves(bool last) {
   planned_ = {};
   if (comm().size() > 1 && !last) {
-    planned_ = rebalancer_.frame_done(gather_.cost_s(), worlds_.placement());
+    planned_ = rebalancer_.frame_done(gather_.number(), worlds_.placement());
   }
   return std::ssize(planned_.moves);
 }

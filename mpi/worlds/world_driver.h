@@ -37,6 +37,7 @@ class WorldDriver final : public FrameDriver {
 
   const stepping::WorldTable& table() const override { return worlds_.table(); }
   std::vector<stepping::LocalWorld> local_worlds() const override { return worlds_.views(); }
+  std::vector<WorldCost> costs() const override;
   std::vector<int> idle_ranks() const override;
   /// [num_worlds] owner of each world now
   const std::vector<int>& placement() const { return worlds_.placement(); }

@@ -127,8 +127,9 @@ TEST(Options, residuals_are_of_whole_worlds_and_go_into_the_file) {
     return resolve(parse_options(args), FakeScene({}));
   };
   EXPECT_TRUE(spec({}).stepper.residuals);
-  EXPECT_EQ(decompose(spec({"--replicas", "1"}), 3, 2), Decomposition::worlds);
-  EXPECT_THROW(decompose(spec({"--replicas", "1", "--decompose", "spaces"}), 3, 2), core::InputError);
+  const std::vector<double> costs = {1, 1, 1};
+  EXPECT_EQ(decompose(spec({"--replicas", "1"}), costs, 2).decomposition, Decomposition::worlds);
+  EXPECT_THROW(decompose(spec({"--replicas", "1", "--decompose", "spaces"}), costs, 2), core::InputError);
   EXPECT_THROW(spec({"--no-output"}), core::InputError);
 }
 
@@ -213,8 +214,14 @@ TEST(Options, help_names_every_group_and_exit_code) {
   }
 }
 
+/// Of worlds whose spaces cost the same.
+Cut cut(const std::vector<std::string>& args, int num_spaces, int num_ranks) {
+  const std::vector<double> costs(static_cast<std::size_t>(num_spaces), 1);
+  return decompose(resolve(parse_options(args), FakeScene({})), costs, num_ranks);
+}
+
 Decomposition decided(const std::vector<std::string>& args, int num_spaces, int num_ranks) {
-  return decompose(resolve(parse_options(args), FakeScene({})), num_spaces, num_ranks);
+  return cut(args, num_spaces, num_ranks).decomposition;
 }
 
 TEST(Options, cut_into_spaces_by_themselves_only_where_it_helps) {
@@ -231,6 +238,38 @@ TEST(Options, cut_into_spaces_by_themselves_only_where_it_helps) {
   EXPECT_EQ(decided({"--scene", "Fake", "--feec", "--estimate-after", "1"}, 3, 2), Decomposition::worlds)
       << "what is precise of a cut frame is known to no rank alone";
   EXPECT_EQ(decided({"--scene", "Fake", "--stepper", "sor", "--replicas", "2"}, 3, 2), Decomposition::worlds);
+}
+
+TEST(Options, cut_many_worlds_by_themselves_only_where_ranks_would_have_none_and_groups_are_faster) {
+  const std::vector<std::string> three = {"--scene", "Fake", "--replicas", "3"};
+  EXPECT_EQ(decided(three, 4, 3), Decomposition::worlds) << "each rank has a world";
+  EXPECT_EQ(decided(three, 1, 6), Decomposition::worlds) << "there is nothing to cut at";
+  const Cut six = cut(three, 4, 6);
+  EXPECT_EQ(six.decomposition, Decomposition::spaces);
+  EXPECT_EQ(six.groups.ranks, (std::vector<int>{2, 2, 2}));
+  EXPECT_EQ(six.groups.worlds, (std::vector<int>{1, 1, 1}));
+  const std::vector<std::string> threads = {"--scene", "Fake", "--replicas", "3", "--threads", "2"};
+  EXPECT_EQ(decided(threads, 4, 6), Decomposition::worlds) << "as without groups";
+  const std::vector<std::string> due = {"--scene", "Fake",          "--replicas", "3",
+                                        "--feec",  "--estimate-by", "1ms"};
+  EXPECT_EQ(decided(due, 4, 6), Decomposition::worlds);
+  EXPECT_EQ(decided({"--scene", "Fake", "--replicas", "3", "--stepper", "quick"}, 4, 6),
+            Decomposition::worlds);
+}
+
+TEST(Options, cut_worlds_over_as_many_ranks_as_they_are_told) {
+  const auto ranks_of = [](const std::vector<std::string>& more, int num_ranks) {
+    std::vector<std::string> args = {"--scene", "Fake"};
+    args.insert(args.end(), more.begin(), more.end());
+    return cut(args, 4, num_ranks).groups.ranks;
+  };
+  EXPECT_EQ(ranks_of({"--replicas", "5", "--ranks-per-world", "2"}, 5), (std::vector<int>{2, 2, 1}));
+  EXPECT_EQ(ranks_of({"--replicas", "5", "--decompose", "spaces", "--ranks-per-world", "9"}, 4),
+            (std::vector<int>{4}));
+  EXPECT_EQ(ranks_of({"--replicas", "1", "--ranks-per-world", "2"}, 4), (std::vector<int>{2}));
+  EXPECT_EQ(ranks_of({"--replicas", "1", "--decompose", "spaces"}, 4), (std::vector<int>{4}));
+  EXPECT_EQ(ranks_of({"--replicas", "3", "--decompose", "spaces"}, 4), (std::vector<int>{4}))
+      << "three times a quarter of a world is the least";
 }
 
 TEST(Options, cut_as_they_are_told) {
@@ -253,7 +292,22 @@ TEST(Options, refuse_spaces_where_they_cannot_be_had_and_say_why) {
   };
   for (const char* stepper : {"quick", "direct"})
     EXPECT_NE(refused({"--stepper", stepper}).find("add --stepper sor"), std::string::npos);
-  EXPECT_NE(refused({"--stepper", "sor", "--replicas", "4"}).find("there are 4"), std::string::npos);
+  EXPECT_EQ(refused({"--stepper", "sor", "--replicas", "4"}), "");
+  const std::string due = refused({"--replicas", "4", "--feec", "--estimate-by", "1ms"});
+  EXPECT_NE(due.find("--estimate-by: "), std::string::npos) << due;
+  EXPECT_NE(due.find("there are 4"), std::string::npos) << due;
+  EXPECT_NE(refused({"--ranks-per-world", "0"}).find("at least 1"), std::string::npos);
+}
+
+TEST(Options, refuse_ranks_for_worlds_that_are_to_stay_whole) {
+  const std::vector<std::string> args = {"--scene",           "Fake", "--decompose", "worlds",
+                                         "--ranks-per-world", "2"};
+  try {
+    decided(args, 3, 2);
+    ADD_FAILURE() << "they exclude each other";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("leave it out, or give --decompose spaces"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/summary/rank_groups_text.h"
+
 namespace pbmpi::app {
 namespace {
 
@@ -136,6 +138,62 @@ TEST(Summary, shows_the_phases_of_each_rank_of_a_world_cut_into_spaces) {
   EXPECT_EQ(json["decomposition"], "spaces");
   EXPECT_EQ(json["phases"][0]["by_rank_s"].size(), 2u);
   EXPECT_FALSE(nlohmann::json::parse(to_json(computed())).contains("spaces"));
+}
+
+/// As two worlds, each cut over one of the ranks or over both.
+RunSummary cut_in_groups(const mpi::RankGroups& groups) {
+  RunSummary summary = cut_into_spaces();
+  summary.worlds = 2;
+  summary.groups = groups;
+  return summary;
+}
+
+TEST(Summary, says_which_groups_cut_worlds_of_their_own) {
+  const std::string two = to_text(cut_in_groups({{1, 1}, {1, 1}}));
+  EXPECT_NE(two.find("\ngroups: 2 groups of 1 rank, each cuts worlds of its own into spaces\n"),
+            std::string::npos)
+      << two;
+  EXPECT_NE(two.find("(sections of the groups' roots)"), std::string::npos) << two;
+  EXPECT_NE(to_text(cut_in_groups({{2}, {2}})).find("\ngroups: 1 group of 2 ranks,"), std::string::npos);
+  const auto json = nlohmann::json::parse(to_json(cut_in_groups({{2, 1}, {3, 1}})));
+  EXPECT_EQ(json["spaces"]["groups"],
+            nlohmann::json::parse(R"([{"ranks":2,"worlds":3},{"ranks":1,"worlds":1}])"));
+  EXPECT_FALSE(nlohmann::json::parse(to_json(cut_into_spaces()))["spaces"].contains("groups"));
+}
+
+TEST(Summary, bounds_groups_by_sections_that_are_done_side_by_side) {
+  MeasuredFrames frames;
+  core::PhaseTimes of_a_root;
+  of_a_root[core::Phase::collide] = 0.002;
+  of_a_root[core::Phase::solve] = 0.004;
+  of_a_root[core::Phase::cross_space] = 0.001;
+  frames.wall_s = {0.008};
+  frames.phases = {{of_a_root.seconds}, {of_a_root.seconds}};
+  frames.islands = frames.contacts = frames.messages = frames.bytes = {0};
+  frames.rows = {100};
+  frames.max_island_rows = {75};
+  RunSummary summary;
+  summary.decomposition = "spaces";
+  summary.worlds = summary.ranks = 2;
+  summary.steps_per_frame = 3;
+  summary.groups = {{1, 1}, {1, 1}};
+  compute_performance(frames, summary);
+  // By hand from the milliseconds above; 1e-12 is rounding.
+  EXPECT_NEAR(summary.spaces.serial_share, 2.0 / 14, 1e-12);
+  EXPECT_NEAR(summary.spaces.amdahl_bound, 12.0 / (1 + 6), 1e-12);
+  EXPECT_NEAR(summary.spaces.island_bound, 12.0 / (1 + 4.0 / 2 + 8 * 0.75), 1e-12);
+  EXPECT_NEAR(summary.spaces.speed_up, 12.0 / 8, 1e-12);
+}
+
+TEST(Summary, reads_the_groups_that_a_file_names) {
+  const mpi::RankGroups groups{{2, 2, 1}, {34, 33, 33}};
+  EXPECT_EQ(to_text(groups), "2:34,2:33,1:33");
+  const mpi::RankGroups read = rank_groups_from_text("2:34,2:33,1:33");
+  EXPECT_EQ(read.ranks, groups.ranks);
+  EXPECT_EQ(read.worlds, groups.worlds);
+  EXPECT_EQ(in_words(groups), "3 groups of 1 to 2 ranks");
+  for (const char* none : {"", "2", "2:", "0:3", "2;3", "two:3", "2:3,"})
+    EXPECT_EQ(rank_groups_from_text(none).num_groups(), std::string(none) == "2:3," ? 1 : 0) << none;
 }
 
 TEST(Summary, no_measured_frame_divides_by_nothing) {

@@ -8,13 +8,15 @@
 #include <sstream>
 
 #include "app/pbmpi/run_parameters.h"
+#include "app/summary/rank_groups_text.h"
 #include "effects/effect_choices.h"
 #include "effects/run_plan.h"
 #include "engines/stepper_factory.h"
 #include "io/run/run_file.h"
 #include "model/names.h"
 #include "mpi/balance/partition.h"
-#include "mpi/spaces/space_driver.h"
+#include "mpi/spaces/plan/rank_groups.h"
+#include "mpi/spaces/plan/space_ownership.h"
 #include "stepping/frame.h"
 #include "stepping/names.h"
 #include "stepping/stepper_traits.h"
@@ -99,12 +101,13 @@ void print_distribution(std::ostream& out, const Census& census, int first_world
   }
 }
 
-void print_spaces(std::ostream& out, const model::Model& model, int num_ranks) {
+/// Of a world over so many ranks from `first_rank` on.
+void print_spaces(std::ostream& out, const model::Model& model, int first_rank, int num_ranks) {
   const model::SpaceMap map = model::make_space_map(model);
   const mpi::SpaceOwnership ownership(map, mpi::initial_owners(map, num_ranks), num_ranks);
   for (int rank = 0; rank < num_ranks; ++rank) {
     const auto at = static_cast<std::size_t>(rank);
-    out << "  rank " << rank << ": ";
+    out << "  rank " << first_rank + rank << ": ";
     if (ownership.bodies[at].empty()) {
       out << "idle (more ranks than spaces)\n";
       continue;
@@ -114,6 +117,26 @@ void print_spaces(std::ostream& out, const model::Model& model, int num_ranks) {
     out << " (" << ownership.bodies[at].size() << " bodies)" << (rank == 0 ? ", and what crosses spaces" : "")
         << '\n';
   }
+}
+
+/// Which group has which worlds, and the spaces of its ranks; spaces as in the first world.
+void print_groups(std::ostream& out, const Work& work, int num_ranks) {
+  const mpi::RankGroups& groups = work.spec.groups;
+  const int first_world = work.spec.first_world();
+  int rank = 0;
+  for (int group = 0; group < groups.num_groups(); ++group) {
+    const int ranks = groups.ranks[static_cast<std::size_t>(group)];
+    const int worlds = groups.worlds[static_cast<std::size_t>(group)];
+    const int first = first_world + groups.first_world(group);
+    if (work.spec.num_worlds > 1) {
+      out << "  group " << group << ": worlds " << range_text(first, first + worlds - 1) << " (" << worlds
+          << " worlds), one after the other, each over ranks " << range_text(rank, rank + ranks - 1) << '\n';
+    }
+    print_spaces(out, *work.first_world, rank, ranks);
+    rank += ranks;
+  }
+  for (; rank < num_ranks; ++rank)
+    out << "  rank " << rank << ": idle (more ranks than groups have use for)\n";
 }
 
 /// When and from what a frame is estimated.
@@ -184,9 +207,10 @@ std::string describe(const Work& work, int num_ranks) {
   out << "decomposition: " << (spaces ? "spaces" : "worlds") << " over " << num_ranks
       << (num_ranks == 1 ? " rank" : " ranks");
   if (spec.stepper.threads > 1) out << " of " << spec.stepper.threads << " threads";
+  if (spaces && spec.num_worlds > 1) out << ", " << in_words(spec.groups);
   out << '\n';
   if (spaces) {
-    print_spaces(out, *work.first_world, num_ranks);
+    print_groups(out, work, num_ranks);
   } else {
     print_distribution(out, census, spec.first_world(), num_ranks, world_bytes);
   }

@@ -82,6 +82,7 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.ranks = static_cast<int>(provenance.hosts.size());
   summary.threads = spec.stepper.threads;
   summary.decomposition = spec.decomposition == Decomposition::spaces ? "spaces" : "worlds";
+  summary.groups = spec.groups;
   summary.iterations = spec.stepper.iterations;
   summary.substeps = spec.stepper.substeps;
   summary.precision = name_of(spec.stepper.precision);
@@ -197,14 +198,6 @@ void reserve(const mpi::Communicator& comm, const CheckpointSpec& spec, std::int
   });
 }
 
-/// Where worlds are stepped as wholes.
-WorldResults::CostOf cost_of(const Simulation& simulation, const RunSpec& spec) {
-  if (!simulation.worlds) return {};
-  return [&simulation, first = spec.first_world()](int world) {
-    return simulation.worlds->cost_s(first + world);
-  };
-}
-
 ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work work,
                   const SignalRequests& signals, double start_s) {
   const scenes::Scene& scene = *work.scene;
@@ -243,7 +236,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
     driver.add_observer(*progress);
   }
 
-  WorldResults results(spec.num_worlds, cost_of(simulation, spec));
+  WorldResults results(spec.num_worlds, [&driver] { return driver.costs(); });
   driver.add_observer(results);
 
   FrameWatch watch;
@@ -299,8 +292,9 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
   core::set_wait_limit(options.wait_limit_s);
   std::optional<core::Awaited> awaited("all ranks to read the scene");
   Work work = options.resume ? resumed_work(comm, args, options) : new_work(comm, options);
-  work.spec.decomposition =
-      decompose(work.spec, static_cast<int>(work.first_world->spaces.size()), comm.size());
+  Cut cut = decompose(work.spec, mpi::space_costs(model::make_space_map(*work.first_world)), comm.size());
+  work.spec.decomposition = cut.decomposition;
+  work.spec.groups = std::move(cut.groups);
   awaited.reset();
   if (options.action == Action::run) return simulate(comm, options, std::move(work), signals, start_s);
   mpi::agree_on_errors(comm, [&] {

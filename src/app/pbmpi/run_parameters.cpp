@@ -9,6 +9,7 @@
 #include "app/common/engine_texts.h"
 #include "app/common/scene_parameter.h"
 #include "app/common/version.h"
+#include "app/summary/rank_groups_text.h"
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
 #include "mpi/comm/session.h"
@@ -117,6 +118,8 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
   const scenes::SceneSource scene{work.scene->name(), work.scene->name(), work.scene->text()};
   for (const scenes::SceneSource& base : scenes::bases_of(scene))
     parameters.push_back(Parameter::of(scene_text_parameter(base.name), base.text));
+  if (spec.decomposition == Decomposition::spaces && spec.num_worlds > 1)
+    parameters.push_back(Parameter::of("rank_groups", to_text(spec.groups)));
   if (spec.range) parameters.push_back(Parameter::of("world_range", to_text(*spec.range)));
   if (work.parameters) {
     parameters.push_back(Parameter::of("parameters_file", work.parameters->file()));

@@ -35,6 +35,26 @@ stability::GuardSettings guard_settings(const RunSpec& spec) {
           {}};
 }
 
+using SpaceSteppers = std::vector<std::unique_ptr<stepping::SpaceStepper>>;
+
+/// Of the worlds of this rank's group.
+SpaceSteppers make_space_steppers(const mpi::Communicator& comm, const Work& work,
+                                  const stepping::StepperSettings& settings) {
+  return mpi::agree_on_errors(comm, [&] {
+    const mpi::RankGroups& groups = work.spec.groups;
+    SpaceSteppers steppers;
+    for (const int world : groups.worlds_of(groups.group_of_rank(comm.rank())))
+      steppers.push_back(engines::make_space_stepper(settings, build_world(work, world)));
+    return steppers;
+  });
+}
+
+std::vector<stepping::SpaceStepper*> borrowed(const SpaceSteppers& steppers) {
+  std::vector<stepping::SpaceStepper*> pointers;
+  for (const auto& stepper : steppers) pointers.push_back(stepper.get());
+  return pointers;
+}
+
 }  // namespace
 
 Simulation make_simulation(const mpi::Communicator& comm, const Work& work) {
@@ -42,16 +62,14 @@ Simulation make_simulation(const mpi::Communicator& comm, const Work& work) {
   Simulation simulation;
   const auto build = [&work](int world) { return build_world(work, world); };
   if (spec.decomposition == Decomposition::spaces) {
-    simulation.spaces =
-        mpi::agree_on_errors(comm, [&] { return engines::make_space_stepper(spec.stepper, build(0)); });
+    simulation.spaces = make_space_steppers(comm, work, spec.stepper);
     simulation.guards = std::make_unique<stability::GuardSettings>(guard_settings(spec));
-    auto driver =
-        std::make_unique<mpi::SpaceDriver>(comm, *simulation.spaces, driver_settings(spec), work.states);
+    auto driver = std::make_unique<mpi::SpaceDriver>(comm, borrowed(simulation.spaces), spec.groups,
+                                                     driver_settings(spec), work.states);
     driver->watch(*simulation.guards);
     if (spec.estimate) {
-      simulation.estimate_spaces = mpi::agree_on_errors(
-          comm, [&] { return engines::make_space_stepper(spec.estimate->stepper, build(0)); });
-      driver->estimate_with(*simulation.estimate_spaces, spec.estimate->due_s);
+      simulation.estimate_spaces = make_space_steppers(comm, work, spec.estimate->stepper);
+      driver->estimate_with(borrowed(simulation.estimate_spaces), spec.estimate->due_s);
     }
     simulation.driver = std::move(driver);
   } else {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "app/pbmpi/work.h"
 #include "mpi/comm/communicator.h"
@@ -17,9 +18,9 @@ namespace pbmpi::app {
 struct Simulation {
   std::unique_ptr<stability::GuardSettings> guards;
   std::unique_ptr<stepping::WorldStepper> worlds;
-  std::unique_ptr<stepping::SpaceStepper> spaces;
-  std::unique_ptr<stepping::Estimator> estimator;           ///< with FEEC, of whole worlds
-  std::unique_ptr<stepping::SpaceStepper> estimate_spaces;  ///< with FEEC, of a world that is cut
+  std::vector<std::unique_ptr<stepping::SpaceStepper>> spaces;  ///< of the worlds of this rank's group
+  std::unique_ptr<stepping::Estimator> estimator;               ///< with FEEC, of whole worlds
+  std::vector<std::unique_ptr<stepping::SpaceStepper>> estimate_spaces;  ///< with FEEC, as `spaces`
   std::unique_ptr<mpi::FrameDriver> driver;
 };
 

@@ -26,8 +26,8 @@ Values joined(const mpi::Communicator& comm, Values values, mpi::Reduce how) {
 
 }  // namespace
 
-WorldResults::WorldResults(int num_worlds, CostOf cost_of)
-    : cost_of_(std::move(cost_of)),
+WorldResults::WorldResults(int num_worlds, Costs costs)
+    : costs_of_frame_(std::move(costs)),
       contacts_(static_cast<std::size_t>(num_worlds)),
       arrivals_(contacts_.size()),
       seen_until_(contacts_.size()),
@@ -45,7 +45,8 @@ void WorldResults::frame_done(const stepping::FrameRecord& frame) {
     if (seen_until != num_frames_) ++arrivals_[static_cast<std::size_t>(world.id)];
     seen_until = num_frames_ + 1;
   }
-  if (!cost_of_) cost_s_.front() += frame.phases.useful_s();
+  for (const mpi::WorldCost& cost : costs_of_frame_())
+    cost_s_[static_cast<std::size_t>(cost.world)] += cost.seconds;
   ++num_frames_;
 }
 
@@ -58,7 +59,6 @@ void WorldResults::add(const stepping::LocalWorld& world, const stepping::FrameR
   row_visits_[i] += seen.row_visits;
   raise(joint_gap_max_m_[i], seen.joint_gap_m);
   raise(penetration_max_m_[i], seen.max_penetration_m);
-  if (cost_of_) cost_s_[i] += cost_of_(world.id);
 }
 
 std::vector<io::WorldResult> WorldResults::join(const mpi::Communicator& comm,

@@ -7,6 +7,7 @@
 
 #include "io/setup/world_results.h"
 #include "mpi/comm/communicator.h"
+#include "mpi/frame/frame_driver.h"
 #include "stepping/frame.h"
 
 namespace pbmpi::app {
@@ -15,11 +16,10 @@ namespace pbmpi::app {
 /// and last values they are the same whoever has owned a world, and when. Only cost and moves tell of it.
 class WorldResults final : public stepping::FrameObserver {
  public:
-  /// Seconds that this rank spent in the last frame on a world that it reports. Empty where one world is cut
-  /// over the ranks: then the useful time of all of them counts.
-  using CostOf = std::function<double(int world)>;
+  /// What this rank spent in the last frame on the worlds that it steps, also those that another reports.
+  using Costs = std::function<std::vector<mpi::WorldCost>()>;
 
-  WorldResults(int num_worlds, CostOf cost_of);
+  WorldResults(int num_worlds, Costs costs);
 
   void frame_done(const stepping::FrameRecord& frame) override;
 
@@ -33,7 +33,7 @@ class WorldResults final : public stepping::FrameObserver {
   using Counts = std::vector<std::int64_t>;
   using Numbers = std::vector<double>;
 
-  CostOf cost_of_;
+  Costs costs_of_frame_;
   std::int64_t num_frames_ = 0;
   // [num_worlds] of what this rank has seen; 0 of what it has not
   Counts contacts_, arrivals_;

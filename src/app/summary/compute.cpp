@@ -68,18 +68,20 @@ FrameWork work_of_frame(const MeasuredFrames& frames, std::size_t frame) {
 
 void compute_spaces(const MeasuredFrames& frames, double elapsed_s, RunSummary& summary) {
   const auto ranks = static_cast<double>(summary.ranks);
+  const auto num_groups = static_cast<double>(std::max(1, summary.groups.num_groups()));
   double work_s = 0, section_s = 0, island_bound_s = 0;
   for (std::size_t frame = 0; frame < frames.wall_s.size(); ++frame) {
     const FrameWork work = work_of_frame(frames, frame);
     const double share = frames.rows[frame] > 0 ? frames.max_island_rows[frame] / frames.rows[frame] : 0;
     work_s += work.collide_s + work.solve_s;
     section_s += work.section_s;
-    island_bound_s += work.section_s + work.collide_s / ranks + work.solve_s * std::max(share, 1 / ranks);
+    island_bound_s +=
+        work.section_s / num_groups + work.collide_s / ranks + work.solve_s * std::max(share, 1 / ranks);
   }
   if (work_s <= 0 || elapsed_s <= 0) return;
   SpacesSummary& spaces = summary.spaces;
   spaces.serial_share = section_s / (section_s + work_s);
-  spaces.amdahl_bound = work_s / (section_s + work_s / ranks);
+  spaces.amdahl_bound = work_s / (section_s / num_groups + work_s / ranks);
   spaces.island_bound = work_s / island_bound_s;
   spaces.speed_up = work_s / elapsed_s;
   const double steps = static_cast<double>(frames.wall_s.size()) * summary.steps_per_frame;

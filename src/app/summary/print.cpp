@@ -2,6 +2,7 @@
 
 #include "app/common/format.h"
 #include "app/common/json_text.h"
+#include "app/summary/rank_groups_text.h"
 #include "app/summary/run_summary.h"
 
 namespace pbmpi::app {
@@ -14,6 +15,9 @@ std::string join(const Items& items, ToText to_text) {
   return text;
 }
 
+/// Many worlds that are cut?
+bool are_groups(const RunSummary& s) { return s.groups.num_groups() > 0 && s.worlds > 1; }
+
 std::string run_lines(const RunSummary& s) {
   std::string text;
   text += format("scene: %s (%d worlds, %lld bodies)\n", s.scene.c_str(), s.worlds,
@@ -21,10 +25,11 @@ std::string run_lines(const RunSummary& s) {
   text += format("ranks: %d on %s\n", s.ranks,
                  join(s.hosts, [](const std::string& host) { return host; }).c_str());
   if (s.threads > 1) text += format("threads: %d in each rank\n", s.threads);
+  if (are_groups(s)) text += "groups: " + in_words(s.groups) + ", each cuts worlds of its own into spaces\n";
   if (!s.idle_ranks.empty()) {
     text += format("idle_ranks: %s (more ranks than %s)\n",
                    join(s.idle_ranks, [](int rank) { return std::to_string(rank); }).c_str(),
-                   s.decomposition.c_str());
+                   are_groups(s) ? "groups and spaces" : s.decomposition.c_str());
   }
   text +=
       format("stepper: %s, %d iterations, %d substeps, %s precision, dt %g s, %d steps a frame, seed %llu\n",
@@ -51,9 +56,10 @@ std::string spaces_lines(const RunSummary& s) {
     text += " ms\n";
   }
   text += format(
-      "spaces: serial share %.2f %% (root's section), so at most %.2f times one rank (Amdahl), %.2f with the "
+      "spaces: serial share %.2f %% (%s), so at most %.2f times one rank (Amdahl), %.2f with the "
       "largest island on one rank; measured %.2f (work over elapsed time)\n",
-      100 * spaces.serial_share, spaces.amdahl_bound, spaces.island_bound, spaces.speed_up);
+      100 * spaces.serial_share, are_groups(s) ? "sections of the groups' roots" : "root's section",
+      spaces.amdahl_bound, spaces.island_bound, spaces.speed_up);
   text += format("traffic: %.1f messages and %.0f bytes a step\n", spaces.messages_per_step,
                  spaces.bytes_per_step);
   return text;
@@ -254,6 +260,9 @@ std::string to_json(const RunSummary& s) {
         {"serial_share", s.spaces.serial_share},           {"amdahl_bound", s.spaces.amdahl_bound},
         {"island_bound", s.spaces.island_bound},           {"speed_up", s.spaces.speed_up},
         {"messages_per_step", s.spaces.messages_per_step}, {"bytes_per_step", s.spaces.bytes_per_step}};
+    for (int group = 0; are_groups(s) && group < s.groups.num_groups(); ++group)
+      json["spaces"]["groups"].push_back({{"ranks", s.groups.ranks[static_cast<std::size_t>(group)]},
+                                          {"worlds", s.groups.worlds[static_cast<std::size_t>(group)]}});
   }
   json["rebalances"] = {{"count", s.rebalances}, {"worlds_moved", s.worlds_moved}};  // or spaces
   if (s.estimate) json["estimate"] = estimate_json(*s.estimate);

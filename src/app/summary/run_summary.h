@@ -13,6 +13,7 @@
 #include "core/clock.h"
 #include "core/statistics.h"
 #include "effects/run_plan.h"
+#include "mpi/spaces/plan/rank_groups.h"
 #include "stepping/run_event.h"
 
 namespace pbmpi::app {
@@ -47,8 +48,9 @@ struct EstimateSummary {
   analysis::ErrorSummary orientation_defect;  ///< [rad]
 };
 
-/// What limits one world that is cut into spaces. Work = the useful seconds of all ranks; speed-ups are
-/// against one rank that does all of it but root's section, which one rank alone need not do.
+/// What limits worlds that are cut into spaces. Work = the useful seconds of all ranks; speed-ups are against
+/// one rank that does all of it but root's section, which one rank alone need not do. Groups of ranks do
+/// their roots' sections side by side.
 struct SpacesSummary {
   double serial_share = 0;  ///< root's section (cross_space) over the elapsed time that one rank would take
   double amdahl_bound = 1;  ///< speed-up if all but root's section were spread evenly
@@ -96,6 +98,7 @@ struct RunSummary {
   GuardSummary guards;
   std::int64_t rebalances = 0, worlds_moved = 0;  ///< moved: worlds, or spaces
   std::string decomposition = "worlds";
+  mpi::RankGroups groups;                   ///< with "spaces"; of files of one world none
   SpacesSummary spaces;                     ///< only if decomposition is "spaces"
   std::optional<EstimateSummary> estimate;  ///< with FEEC
 };

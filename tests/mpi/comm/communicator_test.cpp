@@ -56,6 +56,19 @@ TEST(Communicator, world_carries_every_collective) { expect_collectives_work(Com
 
 TEST(Communicator, dup_carries_every_collective) { expect_collectives_work(Communicator::world().dup()); }
 
+TEST(Communicator, split_makes_a_communicator_of_each_group_in_the_order_of_the_ranks) {
+  const Communicator world = Communicator::world();
+  for (int num_groups = 1; num_groups <= 3; ++num_groups) {
+    const int group = world.rank() % num_groups;
+    const Communicator part = world.split(group);
+    EXPECT_EQ(part.rank(), world.rank() / num_groups);
+    EXPECT_EQ(part.size(), (world.size() - group + num_groups - 1) / num_groups);
+    expect_collectives_work(part);
+    for (const int rank : part.allgather(world.rank())) EXPECT_EQ(rank % num_groups, group);
+  }
+  EXPECT_TRUE(Communicator().split(1).is_null());
+}
+
 TEST(Communicator, dup_of_a_handle_carries_every_collective_and_returns_its_errors) {
   const Communicator copy = Communicator::dup_of(Communicator::world().fortran_handle());
   expect_collectives_work(copy);

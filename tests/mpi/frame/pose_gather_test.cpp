@@ -24,7 +24,7 @@ void expect_gathered(const PoseGather& gather, const SyntheticStepper& reference
       EXPECT_EQ(gather.position()[table.body_offset[world] + body], state.position[body]);
       EXPECT_EQ(gather.orientation()[table.body_offset[world] + body], state.orientation[body]);
     }
-    EXPECT_EQ(gather.cost_s()[world], 0.5 + world);
+    EXPECT_EQ(gather.number()[world], 0.5 + world);
   }
 }
 

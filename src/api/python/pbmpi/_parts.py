@@ -9,7 +9,7 @@ from ._rows import Piece
 
 # Parameters that change no result (io/extract/run_settings.cpp has the same list), and beginnings of such.
 FREE = {"ranks", "processors", "build", "simd", "threads", "decompose", "budget", "frames", "record_every", "record_islands",
-        "record_contacts", "resumed_from", "joined_from", "parameters_file"}
+        "record_contacts", "resumed_from", "joined_from", "parameters_file", "rank_groups"}
 FREE_BEGINNINGS = ("library_", "env_")
 # What must have the same bits where two files have the same frame.
 COMPARED = ("particles/bodies/position/value", "particles/bodies/orientation/value", "particles/bodies/velocity/value",

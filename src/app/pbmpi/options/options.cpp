@@ -99,8 +99,18 @@ po::options_description options_description() {
   po::options_description cut("How to cut the work");
   cut.add_options()  //
       ("decompose", po::value<std::string>()->default_value("auto")->value_name("auto|worlds|spaces"),
-       "worlds: each rank owns whole worlds; spaces: each rank owns collision spaces of the one world (sor "
-       "only); auto: spaces for one world of several spaces on several ranks with sor, else worlds")  //
+       "worlds: each rank owns whole worlds; spaces: a world is cut at its collision spaces, of which each "
+       "rank "
+       "owns some (sor only), one world over all ranks, several worlds each over a group of them; auto: with "
+       "sor spaces for one world of several spaces on several ranks, and for more worlds where there are "
+       "more "
+       "ranks than worlds and groups are predicted to be faster; else worlds")  //
+      ("ranks-per-world", po::value<int>()->value_name("N"),
+       "spaces: groups of at most N ranks, as equal as can be, of which each cuts worlds of its own; "
+       "default: "
+       "as few as make the busiest group's worlds cost least, counted in rows of joints and bodies; one "
+       "world: "
+       "all ranks")  //
       ("spaces", po::value<std::string>()->value_name("one|many"),
        "many: the scene's named collision spaces; one: all of them as one, with the same physics; default: "
        "the scene's");
@@ -233,6 +243,7 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   options.steps_per_frame = given<int>(values, "steps-per-frame");
   options.step = step_arguments(values);
   options.decomposition = choice<Decomposition>(values, "decompose", decomposition_names);
+  options.ranks_per_world = given<int>(values, "ranks-per-world");
   options.seed = given_seed(values);
   options.feec = values.count("feec") != 0;
   for (const std::string_view name : estimate_options) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "app/common/options.h"
 #include "app/common/step_arguments.h"
 #include "app/manual/manual.h"
+#include "mpi/spaces/plan/rank_groups.h"
 #include "scenes/scene.h"
 #include "stability/on_blowup.h"
 #include "stepping/frame_budget.h"
@@ -40,6 +42,7 @@ struct Options {
   std::optional<WorldRange> world_range;
   stepping::StepChoices step;
   Decomposition decomposition = Decomposition::automatic;
+  std::optional<int> ranks_per_world;
   std::uint64_t seed = 1;
   bool feec = false;
   std::map<std::string, std::string, std::less<>> estimate;  ///< step options of the estimate, as given
@@ -114,7 +117,9 @@ struct RunSpec {
   stability::OnBlowup on_blowup = stability::OnBlowup::report;
   scenes::SpacesForm spaces = scenes::SpacesForm::many;
   Decomposition decomposition = Decomposition::automatic;  ///< of resolve(): as asked; decided by decompose()
-  model::EffectChoices effects;                            ///< of the scene file and the command line
+  std::optional<int> ranks_per_world;                      ///< as asked: of a world that is cut
+  mpi::RankGroups groups;        ///< with spaces: which ranks cut which worlds; decided by decompose()
+  model::EffectChoices effects;  ///< of the scene file and the command line
 
   CheckpointSpec checkpoint;
 
@@ -133,9 +138,16 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
 WorldRange parse_world_range(const std::string& text);
 std::string to_text(const WorldRange& range);
 
-/// How the work is cut on so many ranks: as asked, and by itself into spaces if there is one world, it has
-/// more than one space, there is more than one rank, and the stepper is sor. `num_spaces`: of world 0. Throws
-/// core::InputError where spaces are asked for and cannot be had.
-Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks);
+/// How the work of a run is cut.
+struct Cut {
+  Decomposition decomposition = Decomposition::worlds;
+  mpi::RankGroups groups;  ///< with spaces
+};
+
+/// The cut on so many ranks: as asked, and by itself into spaces if the stepper is sor, a world has more than
+/// one space, there are more ranks than worlds, and either there is one world or groups of ranks are
+/// predicted to be done sooner. `space_costs`: mpi::space_costs() of world 0, after which groups are chosen
+/// for all. Throws core::InputError where spaces are asked for and cannot be had.
+Cut decompose(const RunSpec& spec, std::span<const double> space_costs, int num_ranks);
 
 }  // namespace pbmpi::app

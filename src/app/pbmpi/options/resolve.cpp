@@ -217,6 +217,8 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   spec.record_every = options.record_every;
   spec.budget_s = options.budget_s;
   spec.decomposition = options.decomposition;
+  spec.ranks_per_world = options.ranks_per_world;
+  require_at_least(spec.ranks_per_world.value_or(1), 1, "--ranks-per-world");
   spec.output = resolve_output(options, scene, from);
   spec.checkpoint = resolve_checkpoint(options, scene, from, spec.output);
   if (spec.output && !options.no_xdmf) spec.sidecar = sidecar_of(*spec.output);
@@ -237,51 +239,6 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   require_recordable(options, spec.stepper.kind);
   spec.estimate = resolve_estimate(options, spec);
   return spec;
-}
-
-namespace {
-
-/// Why this run's worlds stay whole, and what to do about it; nothing if one may be cut.
-std::optional<std::string> why_whole(const RunSpec& spec) {
-  if (!traits_of(spec.stepper.kind).cuts_spaces) {
-    return "--decompose spaces needs --stepper sor (ODE's solvers give no access to single islands, and quick"
-           " draws from one random seed for the whole world); add --stepper sor, or use --decompose worlds";
-  }
-  if (spec.num_worlds != 1) {
-    return "--decompose spaces cuts one world, and there are " + std::to_string(spec.num_worlds) +
-           "; use --replicas 1, a --world-range of one world, or --decompose worlds";
-  }
-  if (spec.stepper.residuals)
-    return "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds";
-  if (spec.estimate && !traits_of(spec.estimate->stepper.kind).cuts_spaces)
-    return "--estimate-stepper " + std::string(name_of(spec.estimate->stepper.kind)) +
-           ": a world that is cut is estimated by sor; use --decompose worlds";
-  if (spec.estimate && spec.estimate->after > 0)
-    return "--estimate-after: the estimate of a world that is cut is of whole frames; use --decompose worlds";
-  return std::nullopt;
-}
-
-/// Threads step worlds of their own.
-void require_one_thread(int num_threads) {
-  require_input(num_threads == 1,
-                "--threads " + std::to_string(num_threads) +
-                    ": a rank steps its part of a world that is cut into spaces with one thread; start more "
-                    "ranks and leave --threads out, or use --decompose worlds");
-}
-
-}  // namespace
-
-Decomposition decompose(const RunSpec& spec, int num_spaces, int num_ranks) {
-  const std::optional<std::string> reason = why_whole(spec);
-  Decomposition decomposition = spec.decomposition;
-  if (decomposition == Decomposition::automatic) {
-    const bool cut = !reason && num_spaces > 1 && num_ranks > 1;
-    decomposition = cut ? Decomposition::spaces : Decomposition::worlds;
-  } else {
-    require_input(decomposition == Decomposition::worlds || !reason, reason.value_or(""));
-  }
-  if (decomposition == Decomposition::spaces) require_one_thread(spec.stepper.threads);
-  return decomposition;
 }
 
 }  // namespace pbmpi::app

@@ -6,6 +6,7 @@
 
 #include "analysis/pose_errors.h"
 #include "app/pbreport/run/run_models.h"
+#include "app/summary/rank_groups_text.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "effects/effect_choices.h"
@@ -119,6 +120,7 @@ void read_settings(const io::RunData& run, const std::string& path, RunSummary& 
   summary.precision = core::value_in(run.parameters, "precision");
   summary.simd = core::value_in(run.parameters, "simd");
   if (core::value_in(run.parameters, "decompose") == "spaces") summary.decomposition = "spaces";
+  summary.groups = rank_groups_from_text(core::value_in(run.parameters, "rank_groups"));
   if (run.parameters.contains("threads")) summary.threads = number_of<int>(run, "threads", path);
   summary.iterations = number_of<int>(run, "iterations", path);
   summary.substeps = number_of<int>(run, "substeps", path);

@@ -1,0 +1,114 @@
+/// One world over the ranks of a communicator: each rank owns collision spaces and the bodies in them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/traffic.h"
+#include "model/state.h"
+#include "mpi/comm/agreement.h"
+#include "mpi/comm/communicator.h"
+#include "mpi/frame/run_settings.h"
+#include "mpi/spaces/plan/space_loads.h"
+#include "mpi/spaces/plan/space_ownership.h"
+#include "mpi/spaces/space_estimate.h"
+#include "mpi/spaces/space_rebalancer.h"
+#include "mpi/spaces/step/space_step.h"
+#include "stability/world_guard.h"
+#include "stepping/run_event.h"
+#include "stepping/space_stepper.h"
+
+namespace pbmpi::mpi {
+
+/// Steps its world frame by frame (step/space_step.h says what a step is). Root of the communicator has the
+/// whole state after each frame, watches over it, and decides when spaces change their owner. The result is
+/// that of the undecomposed world, bit for bit.
+///
+/// Every call is made by all ranks of the communicator, unless it says otherwise; worlds that share a
+/// communicator are called in one order by all of its ranks. What fails on one rank is held in `errors`, and
+/// messages are exchanged all the same.
+class CutWorld {
+ public:
+  /// All borrowed. `owners` [num_spaces]: at the start.
+  CutWorld(const Communicator& comm, stepping::SpaceStepper& stepper, ErrorHold& errors,
+           const WorldRunSettings& settings, std::vector<int> owners);
+
+  /// The world stands at `state`, the same on every rank, after `steps_done` steps.
+  void begin(const model::State& state, std::int64_t steps_done);
+
+  /// Root steps the world again by itself where a guard suspects something. `number`: in its ensemble;
+  /// `settings` is borrowed. After begin().
+  void watch(int number, const stability::GuardSettings& settings);
+
+  /// Estimates frames with a stepper of the same world and messages of `comm`; SpaceEstimate says how.
+  /// Borrowed.
+  void estimate_with(const Communicator& comm, stepping::SpaceStepper& stepper, std::optional<double> due_s);
+  void estimate(core::PhaseTimes& times);                                     ///< the frame to come
+  const model::State& estimated_state() const { return estimate_->state(); }  ///< on root
+  stepping::EstimatedSteps estimated_steps() const { return estimate_->steps(); }
+
+  /// Does the steps of a frame.
+  void advance(core::PhaseTimes& times);
+  double cost_s() const { return estimate_s_ + frame_s_; }  ///< useful time of this rank in the last frame
+
+  // On root, after advance():
+  const model::State& state() const { return stepper_->state(); }
+  const model::State& saved_state() const;  ///< with what its guard remembers, as it is hashed and saved
+  const stepping::Observables& observables() const { return observables_; }
+  const stepping::StepContacts* contacts() const;  ///< of the last step, if they are recorded; null else
+  std::vector<stepping::RunEvent> take_events() { return std::exchange(events_, {}); }
+  bool is_mended() const { return is_mended_; }  ///< a guard has replaced what the ranks have computed
+
+  /// Root's mended state replaces that of every rank.
+  void share_mended();
+
+  /// On root. Plans which spaces are to change their owner; returns their number.
+  std::int64_t plan_moves(bool may_move);
+  /// Makes the moves planned on root.
+  void make_moves();
+  const Reassignment& planned() const { return planned_; }  ///< on root
+
+  const model::Model& model() const { return stepper_->model(); }
+  const SpaceOwnership& ownership() const { return ownership_; }  ///< now
+  core::Traffic take_traffic();
+
+  /// Called after each step with the contacts that this rank solved. For tests.
+  using StepHook = std::function<void(std::int64_t step, std::span<const model::Contact> contacts)>;
+  void set_step_hook(StepHook hook) { hook_ = std::move(hook); }
+
+ private:
+  void step_frame(core::PhaseTimes& times);
+  void observe();
+  void end_watched_frame();
+  void broadcast_state();
+
+  const Communicator* comm_;
+  stepping::SpaceStepper* stepper_;
+  ErrorHold* errors_;
+  int steps_per_frame_;
+  double dt_s_;
+  SpaceOwnership ownership_;
+  SpaceStep step_;
+  stepping::Observables observables_;           ///< on root
+  std::optional<stability::WorldGuard> guard_;  ///< on root
+  stability::Watched now_, before_;             ///< on root, with a guard: after this frame and the last
+  std::vector<stepping::RunEvent> events_;      ///< on root
+  bool is_mended_ = false;                      ///< on root
+  bool is_frozen_ = false;                      ///< the world stands
+  std::int64_t steps_done_ = 0;
+  SpaceRebalancer rebalancer_;  ///< used on root
+  Reassignment planned_;        ///< on root: what rebalancer_ decided after the last frame
+  StepHook hook_;
+  std::unique_ptr<SpaceEstimate> estimate_;  ///< with FEEC
+  bool is_advanced_ = false;                 ///< the frame is done: its estimate was the precise result
+  double estimate_s_ = 0, frame_s_ = 0;      ///< useful seconds of this rank in the last frame
+};
+
+}  // namespace pbmpi::mpi
