@@ -1,0 +1,21 @@
+/// What "pbstudy calibrate" times: its cases, and in which order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/harness/fit_costs.h"
+
+namespace pbmpi::app {
+
+/// `num_ranks`: that there are. Cases without seconds. Those of one rank come first, then those in which all
+/// ranks take part: frames of all of them, and messages.
+std::vector<analysis::TimedCase> make_calibrate_cases(int num_ranks, int largest_ranks);
+
+/// Does a case need the other ranks?
+bool is_collective(const analysis::TimedCase& one);
+
+/// The cases 0 to `num_cases` - 1 in the random order of a round.
+std::vector<std::size_t> order_of_round(std::size_t num_cases, std::uint64_t seed, int round);
+
+}  // namespace pbmpi::app
