@@ -59,6 +59,10 @@ ENTRIES = {
     "paper_prediction": Entry("docs/paper.md", paper.prediction, True, ["jobs/paper.sh --prediction"]),
     "paper_nothing": Entry("docs/paper.md", paper.nothing, False, ["jobs/paper.sh --without-clock"]),
     "scaling": Entry("docs/scaling.md", scaling.scaling, True, [f"jobs/scaling.sh --repeats {scaling.REPEATS} --ranks \"1 2\""]),
+    "forecast_traffic": Entry("docs/scaling.md", scaling.forecast_traffic, False,
+                              ["mpirun -n 2 pbstudy calibrate", "pbreport calibrate.h5 --worlds 10000 1000000"]),
+    "forecast_times": Entry("docs/scaling.md", scaling.forecast_times, True,
+                            [f"mpirun -n 2 pbstudy calibrate --largest-ranks {scaling.LARGEST_RANKS}", "pbreport calibrate.h5"]),
     "spaces": Entry("docs/spaces.md", speed.spaces, True, ["tests/bench/decompose.py 3"]),
 }
 

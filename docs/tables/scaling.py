@@ -1,4 +1,4 @@
-"""Table of what two ranks bring: jobs/scaling.sh."""
+"""Tables of what two ranks bring (jobs/scaling.sh), and of what more would (pbstudy calibrate)."""
 import csv
 import os
 import subprocess
@@ -6,6 +6,7 @@ import subprocess
 from tables import programs
 
 REPEATS = 25
+LARGEST_RANKS = 16384
 
 
 def estimated(row, name):
@@ -47,3 +48,38 @@ def scaling():
     head = ["work", "ranks", "runs", "speed-up", "bound", "efficiency", "load balance", "serialisation", "transfer", "computation", "root",
             "messages a frame", "kB a frame"]
     return programs.table(head, rows)
+
+
+def forecast(table, *question):
+    """Rows of a table of pbreport calibrate."""
+    with programs.Folder() as folder:
+        study, rows = folder / "calibrate.h5", folder / "rows.csv"
+        for command in (["mpirun", "-n", "2", programs.BIN / "pbstudy", "calibrate", "--largest-ranks", LARGEST_RANKS, "--quiet", "--output", study],
+                        [programs.BIN / "pbreport", "calibrate", study, "--quiet", "--csv", rows, "--table", table, *question]):
+            done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+            if done.returncode != 0:
+                raise SystemExit(done.stderr)
+        with open(rows, encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
+
+def forecast_traffic():
+    """Counts, which need no clock."""
+    rows = [[f"{int(row['worlds']):,}", f"{int(row['ranks']):,}", row["gather"], f"{int(row['messages_into_root']):,}",
+             f"{1e-6 * float(row['bytes_into_root [B]']):,.4g}", f"{1e-6 * float(row['bytes_of_busiest_rank [B]']):,.4g}"]
+            for row in forecast("forecasts", "--worlds", "10000", "1000000")]
+    return programs.table(["worlds", "ranks", "gather", "messages into root", "MB into root", "MB sent by the busiest other rank"], rows)
+
+
+def forecast_times():
+    """The harness alone: what of a frame is left of the budget for physics."""
+    def milliseconds(row, name):
+        return f"{1e3 * float(row[f'{name}_time [s]']):.3g}"
+
+    both = forecast("forecasts", "--worlds", "100", "1000", "10000", "1000000")
+    by_way = {way: [row for row in both if row["gather"] == way] for way in ("flat", "tree")}
+    rows = [[f"{int(tree['worlds']):,}", f"{int(tree['ranks']):,}", milliseconds(flat, "gather"), milliseconds(tree, "gather"),
+             *(milliseconds(tree, part) for part in ("unpack", "balance", "harness")), milliseconds(flat, "frame"), milliseconds(tree, "frame"),
+             tree["longest_part"]] for flat, tree in zip(by_way["flat"], by_way["tree"])]
+    return programs.table(["worlds", "ranks", "gather, flat [ms]", "gather, tree [ms]", "unpack [ms]", "balance [ms]", "each rank's own [ms]",
+                           "frame, flat [ms]", "frame, tree [ms]", "longest with a tree"], rows)

@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "core/error.h"
 
 namespace pbmpi::mpi {
 namespace {
+
+double mean_load(const std::vector<double>& loads) {
+  return std::accumulate(loads.begin(), loads.end(), 0.0) / static_cast<double>(loads.size());
+}
 
 /// A world that leaves the most loaded rank, and perhaps one that comes back for it.
 struct Exchange {
@@ -23,21 +30,23 @@ class Balancer {
       : placement_(placement.begin(), placement.end()),
         cost_(cost),
         loads_(rank_loads(placement, cost, num_ranks)),
+        mean_(mean_load(loads_)),
         worlds_(num_ranks) {
     for (std::size_t world = 0; world < placement.size(); ++world) {
       worlds_[placement[world]].push_back(static_cast<int>(world));
     }
+    for (int rank = 0; rank < num_ranks; ++rank) by_load_.emplace(loads_[rank], rank);
   }
 
   const Placement& placement() const { return placement_; }
-  double makespan() const { return *std::max_element(loads_.begin(), loads_.end()); }
-  double imbalance_now() const { return imbalance(loads_); }
+  double makespan() const { return by_load_.rbegin()->first; }
+  double imbalance_now() const { return mean_ > 0 ? makespan() / mean_ : 1.0; }
 
   /// Takes load off the most loaded rank. False if no move and no swap does.
   bool improve() {
-    const auto from = static_cast<int>(std::max_element(loads_.begin(), loads_.end()) - loads_.begin());
+    const int from = by_load_.lower_bound({makespan(), -1})->second;  // the lowest rank with that load
     std::optional<Exchange> exchange = best_move(from);
-    for (const int to : by_load()) {
+    for (const auto& [load, to] : by_load_) {
       if (exchange) break;
       if (to != from) exchange = best_swap(from, to);
     }
@@ -47,20 +56,13 @@ class Balancer {
   }
 
  private:
-  std::vector<int> by_load() const {
-    std::vector<int> ranks(loads_.size());
-    for (std::size_t rank = 0; rank < ranks.size(); ++rank) ranks[rank] = static_cast<int>(rank);
-    std::stable_sort(ranks.begin(), ranks.end(), [&](int a, int b) { return loads_[a] < loads_[b]; });
-    return ranks;
-  }
-
   /// True if passing `amount` across the gap between two ranks leaves both below the higher one. Gains
   /// within rounding error count as none; otherwise worlds of equal cost could be passed on for ever.
   static bool gains(double amount, double gap) { return amount > 1e-9 * gap && amount < gap * (1 - 1e-9); }
 
   /// The world of `from` whose move to the least loaded rank leaves the two most alike.
   std::optional<Exchange> best_move(int from) const {
-    const auto to = static_cast<int>(std::min_element(loads_.begin(), loads_.end()) - loads_.begin());
+    const int to = by_load_.begin()->second;
     const double gap = loads_[from] - loads_[to];
     std::optional<Exchange> best;
     double best_distance = gap;
@@ -101,8 +103,10 @@ class Balancer {
     pass(exchange.out, from, exchange.to);
     if (exchange.back >= 0) pass(exchange.back, exchange.to, from);
     for (const int rank : {from, exchange.to}) {
+      by_load_.erase({loads_[rank], rank});
       loads_[rank] = 0;  // summed anew, in order: no rounding left over from earlier moves
       for (const int world : worlds_[rank]) loads_[rank] += cost_[world];
+      by_load_.emplace(loads_[rank], rank);
     }
   }
 
@@ -115,8 +119,10 @@ class Balancer {
 
   Placement placement_;
   std::span<const double> cost_;
-  std::vector<double> loads_;             ///< [num_ranks]
-  std::vector<std::vector<int>> worlds_;  ///< [num_ranks] ascending
+  std::vector<double> loads_;                 ///< [num_ranks]
+  std::set<std::pair<double, int>> by_load_;  ///< (load, rank): a round must not look at every rank
+  double mean_;                               ///< of the loads, which no exchange changes
+  std::vector<std::vector<int>> worlds_;      ///< [num_ranks] ascending
 };
 
 }  // namespace

@@ -1,22 +1,27 @@
 /// Brings the poses of all bodies, and a number of each world, to root.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "core/vector.h"
 #include "mpi/comm/communicator.h"
 #include "mpi/comm/pending_messages.h"
+#include "mpi/comm/tree_gather.h"
+#include "mpi/frame/pose_shares.h"
 #include "stepping/frame.h"
 
 namespace pbmpi::mpi {
 
-/// One MPI_Gatherv a frame into buffers that persist, or messages that travel while the ranks go on. Root
-/// copies its own worlds without a message, and none is sent where all worlds are root's. The communicator
-/// and the table are borrowed.
+/// A gather over a tree of ranks each frame, into buffers that persist, or messages straight to root that
+/// travel while the ranks go on. Root copies its own worlds without a message, and none is sent where all
+/// worlds are root's. The communicator and the table are borrowed.
 class PoseGather {
  public:
-  PoseGather(const Communicator& comm, const stepping::WorldTable& table, std::span<const int> placement);
+  /// `radix`: of the tree.
+  PoseGather(const Communicator& comm, const stepping::WorldTable& table, std::span<const int> placement,
+             int radix = RankTree::usual_radix);
 
   /// After worlds have moved.
   void set_placement(std::span<const int> placement);
@@ -33,27 +38,27 @@ class PoseGather {
   void deliver();
 
   /// Result of the last gather() or deliver(), on root; empty elsewhere.
-  std::span<const core::Vec3> position() const { return position_; }  ///< [num_bodies] m, (world, body) order
-  std::span<const core::Quat> orientation() const { return orientation_; }  ///< [num_bodies] (w, x, y, z)
-  std::span<const double> number() const { return number_; }                ///< [num_worlds]
+  std::span<const core::Vec3> position() const { return gathered_.position; }
+  std::span<const core::Quat> orientation() const { return gathered_.orientation; }
+  std::span<const double> number() const { return gathered_.number; }
+
+  /// What gather() has sent since the last call.
+  core::Traffic take_traffic() { return tree_.take_traffic(); }
 
  private:
-  void pack(std::span<const stepping::LocalWorld> worlds, std::span<const double> number);
   void unpack();
-  bool anything_travels() const { return layout_.displacements.back() + layout_.counts.back() > 0; }
-  void copy_own(std::span<const stepping::LocalWorld> worlds, std::span<const double> number);
+  void put_own(std::span<const stepping::LocalWorld> worlds, std::span<const double> number);
+  /// Where a rank's share begins in received_; root's own is empty.
+  std::size_t begin(int rank) const { return static_cast<std::size_t>(tree_.begin(rank)) / sizeof(double); }
 
   const Communicator* comm_;
   const stepping::WorldTable* table_;
-  std::vector<int> placement_;
-  GatherLayout layout_;           ///< in doubles; root's own share is empty
-  std::vector<double> sent_;      ///< per world: number, positions [n][3], orientations [n][4]
+  std::vector<int> placement_;  ///< root
+  TreeGather tree_;
+  std::vector<double> sent_;      ///< this rank's share
   std::vector<double> received_;  ///< root: the ranks' shares by rank
-  std::vector<int> cursor_;       ///< [num_ranks] where the next world of a rank stands in received_
-  std::vector<core::Vec3> position_;
-  std::vector<core::Quat> orientation_;
-  std::vector<double> number_;
-  PendingMessages messages_;  ///< last member: cancels its messages before their memory is freed
+  GatheredPoses gathered_;        ///< root
+  PendingMessages messages_;      ///< last member: cancels its messages before their memory is freed
 };
 
 }  // namespace pbmpi::mpi

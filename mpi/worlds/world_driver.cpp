@@ -1,7 +1,7 @@
 #include "mpi/worlds/world_driver.h"
 
-#include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <utility>
 
 #include "core/marks.h"
@@ -38,9 +38,11 @@ std::vector<WorldCost> WorldDriver::costs() const {
 }
 
 std::vector<int> WorldDriver::idle_ranks() const {
+  std::vector<bool> owns(static_cast<std::size_t>(comm().size()), false);
+  for (const int rank : placement()) owns[rank] = true;
   std::vector<int> idle;
   for (int rank = 0; rank < comm().size(); ++rank) {
-    if (std::find(placement().begin(), placement().end(), rank) == placement().end()) idle.push_back(rank);
+    if (!owns[rank]) idle.push_back(rank);
   }
   return idle;
 }
@@ -143,11 +145,23 @@ std::string WorldDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
 }
 
 std::uint64_t WorldDriver::state_hash() const {
-  std::vector<std::uint64_t> hashes(settings().num_worlds, 0);
-  for (const int world : worlds_.ids())
-    hashes[world] = model::hash(stepper_->state(worlds_.number_of(world)));
-  comm().allreduce(hashes, Reduce::max);  // ranks that do not own a world have 0 for its hash
-  return combine_world_hashes(hashes);
+  std::vector<std::uint64_t> own;
+  own.reserve(worlds_.ids().size());
+  for (const int world : worlds_.ids()) own.push_back(model::hash(stepper_->state(worlds_.number_of(world))));
+  // Only root holds those of all worlds, rank by rank.
+  const std::vector<std::uint64_t> by_rank = gather_rows(comm(), std::span<const std::uint64_t>(own));
+  std::uint64_t hash = 0;
+  if (comm().is_root()) {
+    std::vector<std::size_t> next(static_cast<std::size_t>(comm().size()), 0);
+    for (const int owner : placement()) ++next[owner];
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+    std::vector<std::uint64_t> hashes;
+    hashes.reserve(by_rank.size());
+    for (const int owner : placement()) hashes.push_back(by_rank[next[owner]++]);
+    hash = combine_world_hashes(hashes);
+  }
+  comm().bcast_value(hash);
+  return hash;
 }
 
 }  // namespace pbmpi::mpi

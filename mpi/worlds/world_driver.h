@@ -18,7 +18,8 @@
 namespace pbmpi::mpi {
 
 /// The frame loop of the worlds decomposition. The stepper is borrowed and holds this rank's worlds, also
-/// after the run. advance sends no message; gather is one gatherv of poses and costs.
+/// after the run. advance sends no message; poses and costs are
+/// gathered over a tree of ranks, which is flat up to 32 of them (mpi/comm/rank_tree.h).
 ///
 /// With an estimator (FEEC) a frame begins with: estimate -> send the estimated poses to root, without
 /// waiting -> root waits for them and hands them on, while the other ranks advance. The precise states are
@@ -59,6 +60,7 @@ class WorldDriver final : public FrameDriver {
   std::int64_t plan_moves(bool last) override;
   std::string make_moves(std::int64_t num_moves, std::int64_t step) override;
   std::uint64_t state_hash() const override;
+  core::Traffic take_traffic() override { return gather_.take_traffic(); }
   std::vector<model::State> gather_states() const override { return worlds_.gather_states(); }
 
   stepping::WorldStepper* stepper_;

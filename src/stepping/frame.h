@@ -58,7 +58,7 @@ struct FrameRecord {
   bool measured = false;               ///< false in a warm-up frame
   std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id
   core::PhaseTimes phases;    ///< of this rank; `output` is the time that observers took in the frame before
-  core::Traffic traffic;      ///< of this rank; none where each rank owns whole worlds
+  core::Traffic traffic;      ///< of this rank; not what MPI's collectives send
   double wall_s = 0;          ///< start of the frame to the end of its gather: the same on every rank
   bool deadline_met = false;  ///< wall_s within the frame budget: the same on every rank
   const EstimateRecord* estimate = nullptr;  ///< none without FEEC

@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "io/setup/world_results.h"
@@ -19,27 +22,38 @@ class WorldResults final : public stepping::FrameObserver {
   /// What this rank spent in the last frame on the worlds that it steps, also those that another reports.
   using Costs = std::function<std::vector<mpi::WorldCost>()>;
 
-  WorldResults(int num_worlds, Costs costs);
+  WorldResults(int num_worlds, Costs costs) : num_worlds_(num_worlds), costs_of_frame_(std::move(costs)) {}
 
   void frame_done(const stepping::FrameRecord& frame) override;
 
-  /// Collective. [num_worlds] the same on every rank; `last`: this rank's worlds as they are now.
+  /// Collective. [num_worlds] on root, nothing elsewhere; `last`: this rank's worlds as they are now.
   std::vector<io::WorldResult> join(const mpi::Communicator& comm,
                                     const std::vector<stepping::LocalWorld>& last) const;
 
  private:
+  static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+  /// What a rank has seen of a world; what it has not seen changes nothing of what others have.
+  struct Seen {
+    std::int64_t world = 0;
+    std::int64_t seen_until = 0;  ///< frames done when this rank last had it
+    std::int64_t contacts = 0, arrivals = 0;
+    std::int64_t nonfinite_step = never;  ///< of the first such frame
+    double energy_first_j = 0, joint_gap_max_m = 0, penetration_max_m = 0, row_visits = 0, cost_s = 0;
+    // At the end, of who owns it then:
+    std::int64_t frozen_in = -1;
+    double energy_last_j = 0;
+    std::uint64_t hash = 0;
+  };
+
   void add(const stepping::LocalWorld& world, const stepping::FrameRecord& frame);
+  static void join(const Seen& part, Seen& whole);
+  io::WorldResult result_of(const Seen& seen) const;
 
-  using Counts = std::vector<std::int64_t>;
-  using Numbers = std::vector<double>;
-
+  int num_worlds_;
   Costs costs_of_frame_;
   std::int64_t num_frames_ = 0;
-  // [num_worlds] of what this rank has seen; 0 of what it has not
-  Counts contacts_, arrivals_;
-  Counts seen_until_;      ///< frames done when this rank last had the world
-  Counts nonfinite_step_;  ///< of the first such frame
-  Numbers energy_first_j_, joint_gap_max_m_, penetration_max_m_, row_visits_, cost_s_;
+  std::map<int, Seen> seen_;  ///< of the worlds that this rank has stepped
 };
 
 }  // namespace pbmpi::app

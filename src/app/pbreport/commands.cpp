@@ -5,6 +5,7 @@
 
 #include "app/pbreport/accuracy/study.h"
 #include "app/pbreport/accuracy/study_options.h"
+#include "app/pbreport/calibrate/calibrate_report.h"
 #include "app/pbreport/csv/csv.h"
 #include "app/pbreport/csv/csv_options.h"
 #include "app/pbreport/diff/diff.h"
@@ -42,6 +43,7 @@ using Run = core::ExitCode (*)(const std::vector<std::string>& args, std::ostrea
 /// The command for the kind of file that the arguments name.
 Run command_for_the_files_of(const std::vector<std::string>& args) {
   const std::string study = study_named_in(args);
+  if (study == "calibrate") return run_calibrate_report;
   if (study == "effects") return run_effects_report;
   if (study == "prediction") return run_prediction_report;
   if (study == "stability") return run_stability_report;
@@ -77,6 +79,8 @@ const std::vector<ReportCommand>& report_commands() {
        ensemble_manual},
       {"scaling", "what more ranks bring: runs of the same work on different numbers of ranks", run_scaling,
        scaling_manual},
+      {"calibrate", "what the harness costs, forecast for more ranks: the file of pbstudy calibrate",
+       run_calibrate_report, calibrate_report_manual},
       {"join", "a run and what went on from its checkpoints as one file", run_join, join_manual},
       {"repair", "gives back the disk space that a killed run keeps", run_repair, repair_manual},
   };

@@ -6,6 +6,8 @@
 #include "app/common/options.h"
 #include "app/pbstudy/accuracy/accuracy.h"
 #include "app/pbstudy/accuracy/accuracy_options.h"
+#include "app/pbstudy/calibrate/calibrate.h"
+#include "app/pbstudy/calibrate/calibrate_options.h"
 #include "app/pbstudy/effects/effects.h"
 #include "app/pbstudy/effects/effects_options.h"
 #include "app/pbstudy/prediction/prediction.h"
@@ -32,6 +34,8 @@ const std::vector<StudyCommand>& study_commands() {
   static const std::vector<StudyCommand> commands = {
       {"accuracy", "what accuracy costs in time: errors and times of many settings", run_accuracy,
        accuracy_manual},
+      {"calibrate", "what the harness costs beside the physics, for forecasts of more ranks", run_calibrate,
+       calibrate_manual},
       {"effects", "what each effect costs, and what leaving it out does to the result", run_effects,
        effects_manual},
       {"prediction", "what value prediction gains a frame, and what it does to the result (Valgrind)",

@@ -110,6 +110,8 @@ void compute_performance(const MeasuredFrames& frames, RunSummary& summary) {
   summary.frame_max_s = largest(frames.wall_s);
   summary.phases = summarize_phases(frames);
   compute_efficiency(frames, elapsed_s, summary);
+  summary.messages_per_frame = mean(frames.messages);
+  summary.bytes_per_frame = mean(frames.bytes);
   if (summary.decomposition == "spaces") compute_spaces(frames, elapsed_s, summary);
   summary.islands = core::summarize(frames.islands);
   summary.contacts_mean = mean(frames.contacts);

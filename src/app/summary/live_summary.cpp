@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/hash.h"
+#include "core/system/peak_memory.h"
+#include "mpi/comm/tree_gather.h"
 
 namespace pbmpi::app {
 
@@ -28,6 +30,7 @@ ObservedFrames join_ranks(const mpi::Communicator& comm, ObservedFrames observed
   return observed;
 }
 
+/// On root; elsewhere without the phases, of which root alone has room for those of all ranks.
 MeasuredFrames gather_times(const mpi::Communicator& comm, const mpi::WorldRunResult& result) {
   MeasuredFrames frames;
   std::vector<double> own;
@@ -40,7 +43,8 @@ MeasuredFrames gather_times(const mpi::Communicator& comm, const mpi::WorldRunRe
   }
   comm.allreduce(std::span<double>(frames.messages), mpi::Reduce::sum);
   comm.allreduce(std::span<double>(frames.bytes), mpi::Reduce::sum);
-  const std::vector<double> all = comm.allgatherv(std::span<const double>(own));
+  const std::vector<double> all = mpi::gather_rows(comm, std::span<const double>(own));
+  if (!comm.is_root()) return frames;
   frames.phases.resize(static_cast<std::size_t>(comm.size()));
   auto next = all.begin();
   for (auto& rank : frames.phases) {
@@ -51,6 +55,12 @@ MeasuredFrames gather_times(const mpi::Communicator& comm, const mpi::WorldRunRe
     }
   }
   return frames;
+}
+
+MemorySummary memory_of_ranks(const mpi::Communicator& comm) {
+  const std::vector<std::int64_t> peaks = comm.allgather(core::peak_memory_bytes());
+  const auto [least, most] = std::minmax_element(peaks.begin(), peaks.end());
+  return {*least, *most, static_cast<int>(least - peaks.begin()), static_cast<int>(most - peaks.begin())};
 }
 
 }  // namespace
@@ -68,6 +78,7 @@ void LiveSummary::finish(const mpi::Communicator& comm, const mpi::WorldRunResul
   summary.rebalances = result.num_rebalances;
   summary.worlds_moved = result.worlds_moved;
   compute_performance(frames, summary);
+  summary.memory = memory_of_ranks(comm);
 }
 
 }  // namespace pbmpi::app

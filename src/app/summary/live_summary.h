@@ -18,7 +18,7 @@ class LiveSummary final : public stepping::FrameObserver {
   }
 
   /// Collective. Fills what is measured into `summary`, whose settings (worlds, bodies, ranks,
-  /// steps_per_frame, budget_s) are set.
+  /// steps_per_frame, budget_s) are set; what is of phases, on root only.
   void finish(const mpi::Communicator& comm, const mpi::WorldRunResult& result, RunSummary& summary) const;
 
  private:

@@ -79,10 +79,21 @@ std::string speed_lines(const RunSummary& s) {
   }
   text += format("efficiency: parallel %.1f %% = load balance %.1f %% x communication %.1f %%\n",
                  100 * s.parallel_efficiency, 100 * s.load_balance, 100 * s.communication_efficiency);
-  if (s.decomposition == "spaces") text += spaces_lines(s);
+  if (s.decomposition == "spaces") {
+    text += spaces_lines(s);
+  } else if (s.ranks > 1) {
+    text +=
+        format("traffic: %.1f messages and %.0f bytes a frame\n", s.messages_per_frame, s.bytes_per_frame);
+  }
   if (s.rebalances > 0) {
     text += format("rebalances: %lld (%lld %s moved)\n", static_cast<long long>(s.rebalances),
                    static_cast<long long>(s.worlds_moved), s.decomposition.c_str());
+  }
+  if (s.memory.max_bytes > 0) {
+    constexpr double mib = 1024.0 * 1024;
+    text += format("memory: peak of a rank min %.1f MiB (rank %d), max %.1f MiB (rank %d)\n",
+                   static_cast<double>(s.memory.min_bytes) / mib, s.memory.min_rank,
+                   static_cast<double>(s.memory.max_bytes) / mib, s.memory.max_rank);
   }
   return text;
 }
@@ -241,6 +252,13 @@ std::string to_json(const RunSummary& s) {
   json["efficiency"] = {{"parallel", s.parallel_efficiency},
                         {"load_balance", s.load_balance},
                         {"communication", s.communication_efficiency}};
+  json["traffic"] = {{"messages_per_frame", s.messages_per_frame}, {"bytes_per_frame", s.bytes_per_frame}};
+  if (s.memory.max_bytes > 0) {
+    json["memory"] = {{"min_bytes", s.memory.min_bytes},
+                      {"min_rank", s.memory.min_rank},
+                      {"max_bytes", s.memory.max_bytes},
+                      {"max_rank", s.memory.max_rank}};
+  }
   json["islands"] = {
       {"max", s.islands.max}, {"min", s.islands.min}, {"mean", s.islands.mean}, {"stddev", s.islands.stddev}};
   json["contacts"] = {{"mean", s.contacts_mean}, {"max", s.contacts_max}};

@@ -59,6 +59,12 @@ struct SpacesSummary {
   double messages_per_step = 0, bytes_per_step = 0;  ///< of all ranks
 };
 
+/// The most memory that a rank needed at once; 0 where it is not known.
+struct MemorySummary {
+  std::int64_t min_bytes = 0, max_bytes = 0;
+  int min_rank = 0, max_rank = 0;
+};
+
 /// What guards found in the whole run, and what was done about it (--on-blowup).
 struct GuardSummary {
   std::map<std::string, std::int64_t> counts;  ///< by stepping::event_kind
@@ -86,6 +92,10 @@ struct RunSummary {
   double frame_p50_s = 0, frame_p95_s = 0, frame_p99_s = 0, frame_max_s = 0;
   std::vector<PhaseSummary> phases;
   double parallel_efficiency = 0, load_balance = 0, communication_efficiency = 0;
+  /// What all ranks send each other in a frame: of worlds that are cut in their steps, of whole ones to
+  /// gather their poses and costs. What MPI's collectives send is not counted.
+  double messages_per_frame = 0, bytes_per_frame = 0;
+  MemorySummary memory;
   core::Summary islands;
   double contacts_mean = 0, contacts_max = 0, rows_mean = 0, rows_max = 0;
   std::int64_t nonfinite_bodies = 0;

@@ -28,15 +28,15 @@ void expect_gathered(const PoseGather& gather, const SyntheticStepper& reference
   }
 }
 
-TEST(PoseGather, brings_poses_and_costs_to_root_in_order_of_world_and_body_for_any_placement) {
-  const Communicator comm = Communicator::world();
+/// Gathers three frames by a tree of this radix, and moves all worlds after each.
+void gather_frames(const Communicator& comm, int radix) {
   SyntheticStepper stepper;
   SyntheticStepper reference;
   Placement placement(num_worlds);
   for (int world = 0; world < num_worlds; ++world) placement[world] = (7 * world + 1) % comm.size();
   OwnedWorlds worlds(comm, stepper, synthetic_model, placement);
   const OwnedWorlds all(Communicator(), reference, synthetic_model, Placement(num_worlds, 0));
-  PoseGather gather(comm, worlds.table(), worlds.placement());
+  PoseGather gather(comm, worlds.table(), worlds.placement(), radix);
   core::PhaseTimes times;
   for (int frame = 0; frame < 3; ++frame) {
     stepper.advance(2, times);
@@ -58,6 +58,11 @@ TEST(PoseGather, brings_poses_and_costs_to_root_in_order_of_world_and_body_for_a
     worlds.move(moves, 2 * (frame + 1));
     gather.set_placement(worlds.placement());
   }
+}
+
+TEST(PoseGather, brings_poses_and_costs_to_root_in_order_of_world_and_body_for_any_placement_and_tree) {
+  const Communicator comm = Communicator::world();
+  for (const int radix : {2, 3, RankTree::usual_radix}) gather_frames(comm, radix);
 }
 
 }  // namespace

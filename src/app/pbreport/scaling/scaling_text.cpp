@@ -4,6 +4,7 @@
 
 #include "app/common/format.h"
 #include "app/pbreport/suite/characterise.h"
+#include "app/pbreport/tables/text_cells.h"
 #include "core/clock.h"
 #include "core/statistics.h"
 
@@ -14,37 +15,6 @@ using Cells = std::vector<std::string>;
 
 std::string plural(int count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-/// Columns as wide as their longest cell, right-aligned but for the last.
-std::string aligned(const std::vector<Cells>& rows) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const Cells& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const Cells& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string gap(widths[i] - row[i].size(), ' ');
-      line += i + 1 < row.size() ? "  " + gap + row[i] : "  " + row[i];
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
-
-std::string markdown(const std::vector<Cells>& rows) {
-  std::string text;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const std::string& cell : rows[i]) text += "| " + cell + " ";
-    text += "|\n";
-    if (i > 0) continue;
-    for (std::size_t column = 0; column + 1 < rows[0].size(); ++column) text += "|--:";
-    text += "|---|\n";
-  }
-  return text;
 }
 
 /// Milliseconds in each phase by number of ranks; phases in which no rank was are left out.

@@ -7,12 +7,12 @@ import unittest
 import h5py
 import numpy as np
 
-from harness import ProgramTest, rank_pids, wait_until
-from small_scenes import SIGN, STACKS
-from test_guards import SCENE as DROP
-
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "files"))
+APP = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path[:0] = [APP, os.path.join(APP, "files")]
+from harness import ProgramTest, rank_pids, wait_until  # noqa: E402
 from same_files import content, differences  # noqa: E402
+from small_scenes import SIGN, STACKS  # noqa: E402
+from test_guards import SCENE as DROP  # noqa: E402
 
 # Ranks, ranks a world, and the groups of three worlds that come of it: "ranks:worlds" of each.
 FORMS = ((1, 1, "1:3"), (2, 1, "1:2,1:1"), (2, 2, "2:3"), (3, 1, "1:1,1:1,1:1"), (3, 2, "2:2,1:1"), (4, 2, "2:2,2:1"), (4, 3, "2:2,2:1"),
