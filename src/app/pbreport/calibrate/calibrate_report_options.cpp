@@ -46,7 +46,7 @@ po::options_description calibrate_report_description() {
 std::vector<std::int64_t> numbers(const po::variables_map& values, const char* name,
                                   std::vector<std::int64_t> fallback, std::int64_t least, std::int64_t most) {
   if (values.count(name) == 0) return fallback;
-  const auto given = values[name].as<std::vector<std::int64_t>>();
+  auto given = values[name].as<std::vector<std::int64_t>>();
   for (const std::int64_t number : given)
     require_input(number >= least && number <= most, "--" + std::string(name) + " " + std::to_string(number) +
                                                          ": it must be from " + std::to_string(least) +
