@@ -9,7 +9,7 @@ namespace pbmpi::app {
 
 double time_frame(const mpi::Communicator& comm, const analysis::TimedCase& one) {
   synthetic::FixedCostStepper stepper(0);
-  const auto model = synthetic::make_model(static_cast<int>(one.bodies));
+  auto model = synthetic::make_model(static_cast<int>(one.bodies));
   mpi::WorldRunSettings settings;
   settings.num_worlds = static_cast<int>(one.worlds);
   settings.warmup = 3;
