@@ -1,10 +1,12 @@
 #include "mpi/frame/frame_driver.h"
 
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "mpi/comm/tree_gather.h"
 #include "mpi/frame/breaks.h"
 #include "mpi/frame/world_events.h"
 
@@ -16,6 +18,23 @@ std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes) 
   core::Hash64 hash;
   for (const std::uint64_t world : world_hashes) hash.add(world);
   return hash.value();
+}
+
+std::uint64_t gather_state_hash(const Communicator& comm, std::span<const int> owner,
+                                std::span<const std::uint64_t> own) {
+  const std::vector<std::uint64_t> by_rank = gather_rows(comm, own);
+  std::uint64_t hash = 0;
+  if (comm.is_root()) {
+    std::vector<std::size_t> next(static_cast<std::size_t>(comm.size()), 0);
+    for (const int rank : owner) ++next[rank];
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+    std::vector<std::uint64_t> hashes;
+    hashes.reserve(by_rank.size());
+    for (const int rank : owner) hashes.push_back(by_rank[next[rank]++]);
+    hash = combine_world_hashes(hashes);
+  }
+  comm.bcast_value(hash);
+  return hash;
 }
 
 FrameDriver::FrameDriver(const Communicator& comm, WorldRunSettings settings, int num_parts)

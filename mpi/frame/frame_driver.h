@@ -50,6 +50,11 @@ struct WorldRunResult {
 /// their owners.
 std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes);
 
+/// Collective. The same from the hashes of each rank's worlds `own`, by ascending world, on every rank; only
+/// root holds those of all. `owner` [num_worlds]: the same on every rank.
+std::uint64_t gather_state_hash(const Communicator& comm, std::span<const int> owner,
+                                std::span<const std::uint64_t> own);
+
 /// Runs the frames of a run on all ranks, which construct and run it together. The communicator is
 /// duplicated. How a frame is stepped is up to the derived class, one for each decomposition.
 ///

@@ -245,11 +245,10 @@ std::vector<model::State> SpaceDriver::gather_states() const {
 }
 
 std::uint64_t SpaceDriver::state_hash() const {
-  std::vector<std::uint64_t> hashes(roots_.size(), 0);
+  std::vector<std::uint64_t> own;
   for (const int world : group_.is_root() ? ids_ : std::vector<int>())
-    hashes[world] = model::hash(at(world).saved_state());
-  comm().allreduce(hashes, Reduce::max);  // ranks that do not report a world have 0 for its hash
-  return combine_world_hashes(hashes);
+    own.push_back(model::hash(at(world).saved_state()));
+  return gather_state_hash(comm(), roots_, own);
 }
 
 }  // namespace pbmpi::mpi

@@ -21,7 +21,7 @@ namespace pbmpi::mpi {
 /// The frame loop of the spaces decomposition. Ranks form groups, each with a communicator of its own, and
 /// step the worlds of their group one after the other (CutWorld). Root of a group has the whole states of its
 /// worlds after each frame and reports them; other ranks report no world. Root of all gets the poses from the
-/// roots of groups by one gatherv, and without any message where there is one group.
+/// roots of groups by one PoseGather, and without any message where there is one group.
 ///
 /// Between two frames spaces change their owner within their group if the last frames predict that its
 /// busiest rank then has less to do: settings.rebalance_threshold; SpaceRebalancer decides when, SpaceLoads

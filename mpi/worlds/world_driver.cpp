@@ -1,7 +1,6 @@
 #include "mpi/worlds/world_driver.h"
 
 #include <cstdio>
-#include <numeric>
 #include <utility>
 
 #include "core/marks.h"
@@ -148,20 +147,7 @@ std::uint64_t WorldDriver::state_hash() const {
   std::vector<std::uint64_t> own;
   own.reserve(worlds_.ids().size());
   for (const int world : worlds_.ids()) own.push_back(model::hash(stepper_->state(worlds_.number_of(world))));
-  // Only root holds those of all worlds, rank by rank.
-  const std::vector<std::uint64_t> by_rank = gather_rows(comm(), std::span<const std::uint64_t>(own));
-  std::uint64_t hash = 0;
-  if (comm().is_root()) {
-    std::vector<std::size_t> next(static_cast<std::size_t>(comm().size()), 0);
-    for (const int owner : placement()) ++next[owner];
-    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
-    std::vector<std::uint64_t> hashes;
-    hashes.reserve(by_rank.size());
-    for (const int owner : placement()) hashes.push_back(by_rank[next[owner]++]);
-    hash = combine_world_hashes(hashes);
-  }
-  comm().bcast_value(hash);
-  return hash;
+  return gather_state_hash(comm(), placement(), own);
 }
 
 }  // namespace pbmpi::mpi
