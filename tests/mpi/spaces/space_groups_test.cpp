@@ -229,21 +229,7 @@ TEST(SpaceGroups, refuse_to_go_on_from_fewer_states_than_worlds) {
 /// Three worlds, in the second of which a launch puts a ball into a box of another space in step 22.
 std::vector<SharedModel> one_on_collision_course() {
   std::vector<SharedModel> worlds = three_worlds();
-  model::Model model = *worlds[1];
-  const auto body_in = [&](int space) {
-    for (auto geom = model.geoms.rbegin(); geom != model.geoms.rend(); ++geom) {
-      if (geom->body != model::no_body && geom->space == space) return geom->body;
-    }
-    return model::no_body;
-  };
-  model::Event launch;
-  launch.step = 22;
-  launch.body = body_in(3);
-  launch.pose = model.bodies[body_in(0)].pose;
-  launch.pose->position = {0, 0, 0.2};
-  model.events.push_back(launch);
-  std::ranges::stable_sort(model.events, {}, &model::Event::step);
-  worlds[1] = share(std::move(model));
+  worlds[1] = share(testing_support::on_collision_course(*worlds[1]));
   return worlds;
 }
 

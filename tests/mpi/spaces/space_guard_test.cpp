@@ -22,21 +22,7 @@ using testing_support::world;
 
 /// neighbours(), where a launch puts a ball into a box of another space in step 22.
 SharedModel collision_course() {
-  model::Model model = testing_support::neighbours();
-  const auto body_in = [&](int space) {
-    for (auto geom = model.geoms.rbegin(); geom != model.geoms.rend(); ++geom) {
-      if (geom->body != model::no_body && geom->space == space) return geom->body;
-    }
-    return model::no_body;
-  };
-  model::Event launch;
-  launch.step = 22;
-  launch.body = body_in(3);
-  launch.pose = model.bodies[body_in(0)].pose;
-  launch.pose->position = {0, 0, 0.2};
-  model.events.push_back(launch);
-  std::ranges::stable_sort(model.events, {}, &model::Event::step);
-  return share(std::move(model));
+  return share(testing_support::on_collision_course(testing_support::neighbours()));
 }
 
 struct GuardedRun {

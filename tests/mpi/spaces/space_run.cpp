@@ -1,5 +1,6 @@
 #include "space_run.h"
 
+#include <algorithm>
 #include <set>
 
 #include "../world_driver_support.h"
@@ -134,6 +135,23 @@ model::Model neighbours() {
   add_chain(model, 1, 1);
   add_pile(model, "right", 2, 2);
   add_balls(model, 4, 3);
+  return model;
+}
+
+model::Model on_collision_course(model::Model model) {
+  const auto body_in = [&](int space) {
+    for (auto geom = model.geoms.rbegin(); geom != model.geoms.rend(); ++geom) {
+      if (geom->body != model::no_body && geom->space == space) return geom->body;
+    }
+    return model::no_body;
+  };
+  model::Event launch;
+  launch.step = 22;
+  launch.body = body_in(3);
+  launch.pose = model.bodies[body_in(0)].pose;
+  launch.pose->position = {0, 0, 0.2};
+  model.events.push_back(launch);
+  std::ranges::stable_sort(model.events, {}, &model::Event::step);
   return model;
 }
 

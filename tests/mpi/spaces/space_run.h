@@ -56,6 +56,9 @@ std::uint64_t whole_hash(const SharedModel& model, const mpi::WorldRunSettings& 
 /// balls that roll from one end to the other and are launched into other spaces.
 model::Model neighbours();
 
+/// neighbours() of any kind, where a launch puts a ball into a box of another space in step 22.
+model::Model on_collision_course(model::Model model);
+
 /// neighbours(), where two balls are shot at each other above the piles, and two through the piles, at 60 to
 /// 90 m/s.
 model::Model shoot_out();
