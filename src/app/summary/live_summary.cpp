@@ -10,6 +10,9 @@ namespace pbmpi::app {
 
 void LiveSummary::frame_done(const stepping::FrameRecord& frame) {
   observed_.measured.push_back(frame.measured);
+  energies_.clear();
+  for (const stepping::LocalWorld& world : frame.worlds)
+    energies_.push_back({world.id, world.observables->energy_j});
   std::vector<double> numbers(frame.worlds.size());
   for (std::size_t i = 0; i < stepping::world_observables.size(); ++i) {
     const stepping::WorldColumn& column = stepping::world_observables[i];
@@ -65,12 +68,21 @@ MemorySummary memory_of_ranks(const mpi::Communicator& comm) {
 
 }  // namespace
 
+double LiveSummary::total_energy(const mpi::Communicator& comm) const {
+  std::vector<WorldEnergy> all = mpi::gather_rows(comm, std::span<const WorldEnergy>(energies_));
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.world < b.world; });
+  std::vector<double> energies(all.size());
+  std::transform(all.begin(), all.end(), energies.begin(), [](const auto& one) { return one.energy_j; });
+  return stepping::join(stepping::Join::sum, energies);
+}
+
 void LiveSummary::finish(const mpi::Communicator& comm, const mpi::WorldRunResult& result,
                          RunSummary& summary) const {
   MeasuredFrames frames = gather_times(comm, result);
   const ObservedFrames observed = join_ranks(comm, observed_);
   take_counts(observed, frames);
   take_invariants(observed, summary);
+  summary.energy_j = total_energy(comm);
   summary.complete = !result.stopped && result.failure.empty();
   summary.state_hash = core::to_hex(result.state_hash);
   summary.joints_broken = joints_broken_;

@@ -1,6 +1,9 @@
 /// Collects a run's summary while it runs.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "app/summary/observed_frames.h"
 #include "mpi/comm/communicator.h"
 #include "mpi/worlds/world_driver.h"
@@ -18,11 +21,20 @@ class LiveSummary final : public stepping::FrameObserver {
   }
 
   /// Collective. Fills what is measured into `summary`, whose settings (worlds, bodies, ranks,
-  /// steps_per_frame, budget_s) are set; what is of phases, on root only.
+  /// steps_per_frame, budget_s) are set; the energy and what is of phases, on root only.
   void finish(const mpi::Communicator& comm, const mpi::WorldRunResult& result, RunSummary& summary) const;
 
  private:
-  ObservedFrames observed_;  ///< of this rank's worlds
+  struct WorldEnergy {
+    std::int64_t world;
+    double energy_j;
+  };
+  /// Collective. Of all worlds, added in their order: counts add up to the same number in any order, whereas
+  /// this sum would depend on which rank has which world. 0 but on root.
+  double total_energy(const mpi::Communicator& comm) const;
+
+  ObservedFrames observed_;            ///< of this rank's worlds
+  std::vector<WorldEnergy> energies_;  ///< of this rank's worlds after the last frame
   std::int64_t joints_broken_ = 0;
   GuardSummary guards_;
 };

@@ -67,6 +67,17 @@ class Groups(ProgramTest):
                 for key in ("state_hash", "joints_broken", "islands", "invariants"):
                     self.assertEqual(found[key], whole[key], (name, ranks, ranks_per_world, key))
 
+    def test_the_energy_of_all_worlds_is_that_of_the_file_whichever_rank_has_which(self):
+        run = ("--scene", self.write("stacks.toml", STACKS), "--replicas", 7, "--stepper", "sor", "--frames", 3, "--output", "run.h5")
+        found = set()
+        for ranks in (1, 2, 3, 4):
+            for form in (("--decompose", "worlds"), cut(ranks)):
+                found.add(self.summary(ranks, *run, *form)["invariants"]["energy_j"])
+                found.add(self.json(self.report("run.h5", "--json"))["invariants"]["energy_j"])
+        with h5py.File(self.path("run.h5")) as file:
+            found.add(sum(file["observables/world/energy"][-1].tolist(), 0.0))
+        self.assertEqual(len(found), 1, found)
+
     def test_a_run_goes_on_from_a_checkpoint_in_another_form(self):
         run = ("--scene", "Fight", *THREE)
         whole = self.summary(1, *run, "--frames", 12, "--decompose", "worlds", "--no-output")["state_hash"]
