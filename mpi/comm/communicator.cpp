@@ -174,20 +174,6 @@ void Communicator::allgatherv_bytes(const void* mine, std::size_t count, void* a
         "MPI_Allgatherv", rank());
 }
 
-void Communicator::gatherv_bytes(const void* mine, std::size_t count, void* all, const GatherLayout& layout,
-                                 std::size_t element_size, int to) const {
-  if (is_null()) {
-    core::require_invariant(layout.counts.size() == 1 && std::cmp_equal(layout.counts[0], count),
-                            "gatherv: layout of one rank");
-    return copy_bytes(static_cast<char*>(all) + layout.displacements[0] * element_size, mine,
-                      count * element_size);
-  }
-  const ElementType type(element_size, rank());
-  check(MPI_Gatherv(mine, to_count(static_cast<std::int64_t>(count)), type, all, layout.counts.data(),
-                    layout.displacements.data(), type, to, handle_->comm),
-        "MPI_Gatherv", rank());
-}
-
 void Communicator::send_bytes(const void* data, std::size_t count, std::size_t element_size, int to,
                               int tag) const {
   core::require_invariant(!is_null(), "send: the null communicator has no other rank");

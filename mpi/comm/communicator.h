@@ -90,11 +90,6 @@ class Communicator {
     allgatherv_bytes(mine.data(), mine.size(), all.data(), layout, sizeof(T));
     return all;
   }
-  /// Every rank's values at `to`, placed by `layout`; `all` and `layout` are read there only.
-  template <Sendable T>
-  void gatherv(std::span<const T> mine, std::span<T> all, const GatherLayout& layout, int to = root) const {
-    gatherv_bytes(mine.data(), mine.size(), all.data(), layout, sizeof(T), to);
-  }
 
   /// Element by element over the ranks, in place; equal lengths everywhere.
   void allreduce(std::span<double> values, Reduce op) const;
@@ -119,8 +114,6 @@ class Communicator {
   void allgather_bytes(const void* mine, void* all, std::size_t element_size) const;
   void allgatherv_bytes(const void* mine, std::size_t count, void* all, const GatherLayout& layout,
                         std::size_t element_size) const;
-  void gatherv_bytes(const void* mine, std::size_t count, void* all, const GatherLayout& layout,
-                     std::size_t element_size, int to) const;
   void send_bytes(const void* data, std::size_t count, std::size_t element_size, int to, int tag) const;
   void recv_bytes(void* data, std::size_t count, std::size_t element_size, int from, int tag) const;
 

@@ -17,6 +17,14 @@ using xml::Attributes;
 /// They are seen or measured, and move nothing.
 constexpr std::array<std::string_view, 3> onlookers_of_bodies = {"site", "camera", "light"};
 
+void collect_names(const xml::Element& element, std::set<std::string>& names) {
+  for (const xml::Element& child : element.children) {
+    if (child.name != "body") continue;
+    names.insert(Attributes(child).text("name", ""));
+    collect_names(child, names);
+  }
+}
+
 class BodyReader {
  public:
   BodyReader(const Context& context, links::Mechanism& mechanism, xml::Notes& notes)
@@ -24,6 +32,7 @@ class BodyReader {
 
   void read_world(const xml::Element& world) {
     Attributes(world).finish();
+    collect_names(world, given_names_);
     links::Link link;
     link.name = "world";
     link.where = world.where;
@@ -38,7 +47,7 @@ class BodyReader {
     Attributes body(element);
     const auto index = static_cast<int>(mechanism_.links.size());
     links::Link link;
-    link.name = body.text("name", "body" + std::to_string(index));
+    link.name = body.text("name", unused_name(index));
     link.where = element.where;
     link.parent = parent;
     link.pose = read_pose(body, context_.compiler);
@@ -51,6 +60,13 @@ class BodyReader {
     body.finish();
     mechanism_.links.push_back(std::move(link));
     read_children(element, index, childclass);
+  }
+
+  /// Of a body without one.
+  std::string unused_name(int index) const {
+    std::string name = "body" + std::to_string(index);
+    while (given_names_.contains(name)) name += '_';
+    return name;
   }
 
   /// Bodies last: their links come after this one's.
@@ -139,6 +155,7 @@ class BodyReader {
   const Context& context_;
   links::Mechanism& mechanism_;
   xml::Notes& notes_;
+  std::set<std::string> given_names_;  ///< of bodies
   std::vector<JointPlace> joints_;
 };
 

@@ -73,14 +73,13 @@ void read_flags(const xml::Element& element, Option& option) {
   option.has_limits = is_on("limit") && option.has_limits;
   option.has_actuators = is_on("actuation") && option.has_actuators;
   if (!is_on("gravity")) option.gravity = Vec3::Zero();
-  for (const std::string_view name :
-       {"constraint", "equality", "frictionloss", "passive", "spring", "damper", "filterparent"}) {
+  for (const std::string_view name : {"constraint", "equality", "frictionloss", "passive", "spring", "damper",
+                                      "filterparent", "clampctrl"}) {
     if (!is_on(name))
       flags.fail(name, core::in_quotes(name) + " cannot be disabled here; take out what it turns off");
   }
-  flags.allow({"clampctrl", "warmstart", "refsafe", "sensor", "midphase", "eulerdamp", "nativeccd",
-               "autoreset", "island", "override", "energy", "fwdinv", "invdiscrete", "sensornoise",
-               "multiccd"});
+  flags.allow({"warmstart", "refsafe", "sensor", "midphase", "eulerdamp", "nativeccd", "autoreset", "island",
+               "override", "energy", "fwdinv", "invdiscrete", "sensornoise", "multiccd"});
   flags.finish();
 }
 

@@ -11,6 +11,7 @@
 #include "api/version.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "effects/sleepers.h"
 #include "engines/stepper_factory.h"
 #include "mpi/balance/partition.h"
 #include "mpi/comm/agreement.h"
@@ -132,7 +133,9 @@ void WorldSet::set_state(const BatchState& state, std::span<const bool> mask) {
   for (std::size_t i = 0; i < num_worlds(); ++i) {
     if (!chosen(mask, i)) continue;
     changed.emplace_back(i, state_of(i));
-    take(state, static_cast<int>(i), ids_[i], *worlds_[i].model, changed.back().second);
+    model::State& wanted = changed.back().second;
+    take(state, static_cast<int>(i), ids_[i], *worlds_[i].model, wanted);
+    effects::Sleepers::wake_in(wanted, effects::Sleepers::islands_moved(state_of(i), wanted));
   }
   for (const auto& [index, wanted] : changed) {
     steppers_.of(ids_[index]).set_state(ids_[index], wanted, steps_[index]);

@@ -85,13 +85,30 @@ std::vector<int> Sleepers::islands_touched(std::span<const BodyPair> touching, c
   return islands;
 }
 
-bool Sleepers::wake(std::span<const int> islands, model::State& state) {
-  if (islands.empty()) return false;
-  for (int body = 0; body < state.num_bodies(); ++body) {
+std::vector<int> Sleepers::islands_moved(const model::State& before, const model::State& after) {
+  std::vector<int> islands;
+  for (std::size_t body = 0; body < before.rest.size(); ++body) {
+    const bool is_as_before = after.position[body] == before.position[body] &&
+                              after.orientation[body] == before.orientation[body] &&
+                              after.velocity[body] == before.velocity[body] &&
+                              after.angular_velocity[body] == before.angular_velocity[body];
+    if (before.rest[body].asleep() && !is_as_before) islands.push_back(before.rest[body].island());
+  }
+  sort_unique(islands);
+  return islands;
+}
+
+void Sleepers::wake_in(model::State& state, std::span<const int> islands) {
+  for (int body = 0; body < static_cast<int>(state.rest.size()); ++body) {
     const model::Rest& rest = state.rest[body];
     if (rest.asleep() && std::binary_search(islands.begin(), islands.end(), rest.island()))
       begin_rest(body, state);
   }
+}
+
+bool Sleepers::wake(std::span<const int> islands, model::State& state) {
+  if (islands.empty()) return false;
+  wake_in(state, islands);
   find_awake(state);
   return true;
 }

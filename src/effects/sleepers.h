@@ -48,6 +48,10 @@ class Sleepers {
   static std::vector<int> islands_touched(std::span<const BodyPair> touching, const model::State& state);
   /// Wakes islands; true if there were any.
   bool wake(std::span<const int> islands, model::State& state);
+  /// The same in a state that is yet to be given to whoever steps it.
+  static void wake_in(model::State& state, std::span<const int> islands);
+  /// The islands that sleep and of which a body has another pose or velocity in `after`.
+  static std::vector<int> islands_moved(const model::State& before, const model::State& after);
 
   /// After a step: counts for these awake bodies how long they have rested.
   void count(std::span<const int> bodies, model::State& state) const;

@@ -187,6 +187,25 @@ TEST(Batch, a_state_is_set_where_the_mask_says_so) {
   EXPECT_GT(batch.state().position[of_world + 3 * bob + 1], 0.01);
 }
 
+TEST(Batch, what_sleeps_wakes_where_it_is_pushed_and_sleeps_on_elsewhere) {
+  for (const char* stepper : {"sor", "quick"}) {
+    BatchOptions options = small_options(2);
+    options.settings = {{"stepper", stepper}, {"effects", "+sleeping"}};
+    Batch batch = stepped(options, 1000), undisturbed = stepped(options, 1000);
+    const std::size_t ball = 0, of_world = 4 * 3;
+    BatchState pushed = batch.state();
+    ASSERT_EQ(pushed.velocity[of_world + 2], 0) << stepper << ": it sleeps";
+    pushed.velocity[of_world + 3 * ball + 2] = 3;  // [m/s] upwards
+    batch.set_state(pushed);
+    EXPECT_EQ(batch.hash(0), undisturbed.hash(0)) << stepper;
+    for (Batch* each : {&batch, &undisturbed}) each->step(10);
+    EXPECT_EQ(batch.hash(0), undisturbed.hash(0)) << stepper;
+    // A tenth of a second at 3 m/s, less what gravity takes of it.
+    EXPECT_NEAR(batch.state().position[of_world + 2] - undisturbed.state().position[of_world + 2], 0.25, 0.02)
+        << stepper;
+  }
+}
+
 TEST(Batch, shows_the_state_of_each_body_of_each_world) {
   Batch batch(small_options(2));
   const BatchState& state = batch.state();

@@ -83,7 +83,7 @@ STANDS_ON = {
     "src/app/pbreport/suite": ["src/app/common", "src/analysis", "io/html"],
     "src/app/pbreport/diff": ["src/app/pbreport/run"],
     "src/app/pbreport/figures": ["src/app/pbreport/diff"],
-    "src/app/pbreport/study": ["src/app/common", "src/analysis", "io/table"],
+    "src/app/pbreport/study": ["src/app/pbreport/tables", "src/analysis", "io/table"],
     "src/app/pbreport/accuracy": ["src/app/pbreport/study", "io/html"],
     "src/app/pbreport/effects": ["src/app/pbreport/study", "io/html"],
     "src/app/pbreport/prediction": ["src/app/pbreport/study", "io/html"],

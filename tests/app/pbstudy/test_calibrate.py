@@ -82,7 +82,7 @@ class Calibrate(ProgramTest):
 
     def test_bad_questions_are_refused(self):
         study = self.study(1)
-        for args, words in ((("--table", "nonsense"), "costs, forecasts, walls or checks"), (("--ranks", "1"), "from 2"),
+        for args, words in ((("--table", "nonsense"), "there is no such table; known: 'costs', 'forecasts', 'walls', 'checks'"), (("--ranks", "1"), "from 2"),
                             (("--bodies", "-1"), "--bodies"), (("--world-step", "soon"), "--world-step"), (("--json", "--markdown"), "one of the two")):
             done = self.report("calibrate", study, *args)
             self.assertEqual(done.returncode, 2, args)

@@ -89,34 +89,6 @@ TEST(Communicator, null_acts_as_one_rank) {
   EXPECT_NE(null.fortran_handle(), Communicator::world().fortran_handle());
 }
 
-TEST(Communicator, gatherv_places_each_rank_where_the_layout_says) {
-  const Communicator comm = Communicator::world();
-  std::vector<std::int64_t> counts(comm.size());
-  std::iota(counts.begin(), counts.end(), 1);
-  GatherLayout layout = GatherLayout::packed(counts);
-  // In reverse order of ranks, to show that the layout decides.
-  int end = 0;
-  for (int r = comm.size() - 1; r >= 0; --r) {
-    layout.displacements[r] = end;
-    end += layout.counts[r];
-  }
-  const std::vector<double> mine(comm.rank() + 1, comm.rank());
-  std::vector<double> all(comm.is_root() ? end : 0, -1.0);
-  comm.gatherv(std::span<const double>(mine), std::span(all), layout);
-  if (!comm.is_root()) return;
-  EXPECT_TRUE(std::is_sorted(all.rbegin(), all.rend()));
-  for (int r = 0; r < comm.size(); ++r) EXPECT_EQ(std::count(all.begin(), all.end(), r), r + 1);
-}
-
-TEST(Communicator, gatherv_works_without_mpi) {
-  const Communicator null;
-  const std::vector<std::int64_t> counts = {3};
-  const std::vector<int> mine = {7, 8, 9};
-  std::vector<int> all(3);
-  null.gatherv(std::span<const int>(mine), std::span(all), GatherLayout::packed(counts));
-  EXPECT_EQ(all, mine);
-}
-
 TEST(Communicator, send_and_recv_pass_values_round_a_ring) {
   const Communicator comm = Communicator::world();
   if (comm.size() == 1) GTEST_SKIP() << "a ring needs two ranks";

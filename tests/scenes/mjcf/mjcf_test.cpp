@@ -52,6 +52,15 @@ TEST(Mjcf, places_bodies_in_each_other) {
   expect_near(link(*model, "b").pose.position, {1, 3.5, 3});
 }
 
+TEST(Mjcf, names_a_body_without_a_name_as_no_other) {
+  const std::string free = "<freejoint/><geom size='.1'/></body>";
+  const auto model = model_of(mujoco("<body pos='1 0 0'>" + free + "<body name='body1' pos='2 0 0'>" + free +
+                                     "<body pos='3 0 0'>" + free));
+  expect_near(link(*model, "body1_").pose.position, {1, 0, 0});
+  expect_near(link(*model, "body1").pose.position, {2, 0, 0});
+  expect_near(link(*model, "body3").pose.position, {3, 0, 0});
+}
+
 TEST(Mjcf, reads_every_form_of_an_orientation) {
   const Vec3 tilted(std::sin(0.3), 0, std::cos(0.3));
   expect_near(

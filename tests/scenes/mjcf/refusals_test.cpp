@@ -47,6 +47,7 @@ std::vector<Refused> refused() {
       before("too_few_numbers", "<option gravity='1 2'/>", {"m.xml:2:9", "2 numbers", "3"}),
       before("a_medium", "<option density='1.2'/>", {"m.xml:2:9", "density"}),
       before("a_flag", "<option><flag frictionloss='disable'/></option>", {"m.xml:2:", "frictionloss"}),
+      before("a_flag_of_controls", "<option><flag clampctrl='disable'/></option>", {"m.xml:2:", "clampctrl"}),
       before("include", "<include file='a.xml'/>", {"m.xml:2:2", "include", "one file"}),
       before("equality", "<equality><connect body1='b' anchor='0 0 0'/></equality>",
              {"m.xml:2:12", "connect", "leave_out"}),

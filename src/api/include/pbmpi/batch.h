@@ -87,7 +87,8 @@ class PBMPI_EXPORT Batch {
   /// The reference holds, and its arrays stay where they are, until the batch ends.
   const BatchState& state();
   /// Replaces them; forces that a step hands on to the next, and what rests, breaks or is remembered
-  /// otherwise is kept, as in a world that somebody pushed. `mask`: [num_local_worlds], whose; empty: all.
+  /// otherwise is kept, as in a world that somebody pushed: what sleeps wakes if a body of its island is
+  /// elsewhere or moves otherwise than before. `mask`: [num_local_worlds], whose; empty: all.
   void set_state(const BatchState& state, std::span<const bool> mask = {});
 
   /// Worlds begin anew, at step 0: with `seed`, and with what each now has otherwise than the scene

@@ -33,7 +33,7 @@ core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out
   if (options.preset) write_preset(scenes, options);
   if (options.csv) io::write_file(*options.csv, study_to_csv(file));
   if (options.html) write_study_page(*options.html, file, scenes, options);
-  if (options.json) {
+  if (options.form == PrintForm::json) {
     out << study_to_json(scenes, options);
   } else if (!options.quiet) {
     out << study_to_text(file, scenes, options);

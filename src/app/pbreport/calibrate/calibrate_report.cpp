@@ -20,10 +20,11 @@ core::ExitCode run_calibrate_report(const std::vector<std::string>& args, std::o
   const Calibration calibration = calibration_of(read_study(options.file, "calibrate"));
   const io::TableFile tables = forecast_tables(calibration, options.question);
   if (options.csv) io::write_file(*options.csv, io::csv_table(tables.tables.at(options.table), true));
-  if (options.json) {
+  const bool markdown = options.form == PrintForm::markdown;
+  if (options.form == PrintForm::json) {
     out << to_json(tables);
-  } else if (options.markdown || !options.quiet) {
-    out << forecast_text(calibration, options.question, options.markdown);
+  } else if (markdown || !options.quiet) {
+    out << forecast_text(calibration, options.question, markdown);
   }
   require_printed(out, "the report");
   return core::ExitCode::done;

@@ -1,12 +1,11 @@
 #include "app/pbreport/calibrate/calibrate_report_options.h"
 
-#include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "app/common/options.h"
 #include "app/common/quantities.h"
 #include "app/pbreport/calibrate/calibrate_report.h"
-#include "app/pbreport/study/report_options.h"
 #include "core/error.h"
 #include "stepping/frame_budget.h"
 
@@ -16,7 +15,7 @@ namespace {
 namespace po = boost::program_options;
 using core::require_input;
 
-constexpr std::array<const char*, 4> table_names = {"costs", "forecasts", "walls", "checks"};
+constexpr std::array<std::string_view, 4> table_names = {"costs", "forecasts", "walls", "checks"};
 constexpr std::int64_t most_ranks = 1 << 20;
 constexpr std::int64_t most_worlds = 1'000'000'000'000;
 
@@ -32,10 +31,7 @@ po::options_description calibrate_report_description() {
        "what a step of a world takes in its engine, e.g. 40us; 0: the harness alone");
   po::options_description write("What to write");
   add_print_options("print the tables in Markdown", write);
-  write.add_options()("csv", po::value<std::string>()->value_name("FILE"),
-                      "one table as comma-separated values")  //
-      ("table", po::value<std::string>()->default_value("forecasts")->value_name("NAME"),
-       "which for --csv: costs, forecasts, walls, checks");
+  add_table_options(table_names, "forecasts", write);
   po::options_description general("General");
   add_general_options("--json or --markdown", general);
   po::options_description all;
@@ -78,14 +74,10 @@ CalibrateReportOptions parse_calibrate_report_options(const std::vector<std::str
                 "no file given; name the file of a study of calibrate, e.g. pbreport calibrate.h5");
   require_input(files.size() == 1, "'" + files.back() + "' follows '" + files.front() + "': give one study");
   options.file = files.front();
-  options.json = values.count("json") != 0;
-  options.markdown = values.count("markdown") != 0;
-  require_input(!options.json || !options.markdown, "--json and --markdown: print one of the two");
+  options.form = print_form(values);
   options.quiet = values.count("quiet") != 0;
   options.csv = output_path(values, "csv");
-  options.table = values["table"].as<std::string>();
-  require_input(std::ranges::find(table_names, options.table) != table_names.end(),
-                "--table " + options.table + ": it must be costs, forecasts, walls or checks");
+  options.table = chosen_table(values, table_names);
   ForecastQuestion& question = options.question;
   question.ranks = numbers(values, "ranks", question.ranks, 2, most_ranks);
   question.worlds = numbers(values, "worlds", question.worlds, 1, most_worlds);

@@ -6,11 +6,14 @@
 #include <vector>
 
 #include "app/pbreport/calibrate/forecasts.h"
+#include "app/pbreport/tables/print_options.h"
 
 namespace pbmpi::app {
 
 struct CalibrateReportOptions {
-  bool help = false, json = false, markdown = false, quiet = false;
+  bool help = false;
+  PrintForm form = PrintForm::text;
+  bool quiet = false;
   std::string file, table;  ///< table: which for csv
   std::optional<std::string> csv;
   ForecastQuestion question;

@@ -14,11 +14,11 @@ namespace {
 std::string printed(const EnsembleRuns& runs, const Ensemble& found, const EnsembleOptions& options,
                     const io::TableFile& file) {
   switch (options.form) {
-    case EnsembleForm::json:
+    case PrintForm::json:
       return to_json(file);
-    case EnsembleForm::markdown:
+    case PrintForm::markdown:
       return ensemble_markdown(runs, found, options);
-    case EnsembleForm::text:
+    case PrintForm::text:
       return options.quiet ? "" : ensemble_text(runs, found, options);
   }
   return "";

@@ -1,6 +1,8 @@
 #include "app/pbreport/ensemble/ensemble_options.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "app/common/options.h"
 #include "core/error.h"
@@ -10,6 +12,9 @@ namespace {
 
 namespace po = boost::program_options;
 using core::require_input;
+
+constexpr std::array<std::string_view, 6> table_names = {"runs",   "frames", "positions",
+                                                         "bodies", "worlds", "body_frames"};
 
 po::options_description visible_options() {
   po::options_description what("What to compare");
@@ -21,16 +26,12 @@ po::options_description visible_options() {
       ("allow", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME..."),
        "parameters that may differ beside seed and solver_seed, e.g. iterations");
   po::options_description write("What to write");
-  write.add_options()("json", "print all tables as one JSON document")                              //
-      ("markdown", "print the summary as a table in Markdown")                                      //
-      ("output,o", po::value<std::string>()->value_name("FILE"), "all tables as an HDF5 file")      //
-      ("csv", po::value<std::string>()->value_name("FILE"), "one table as comma-separated values")  //
-      ("table", po::value<std::string>()->default_value("frames")->value_name("NAME"),
-       "which for --csv: runs, frames, positions, bodies, worlds, body_frames")  //
-      ("by-body", "also the table body_frames: each body in each recorded frame");
+  add_print_options("print the summary as a table in Markdown", write);
+  write.add_options()("output,o", po::value<std::string>()->value_name("FILE"), "all tables as an HDF5 file");
+  add_table_options(table_names, "frames", write);
+  write.add_options()("by-body", "also the table body_frames: each body in each recorded frame");
   po::options_description general("General");
-  add_help_options(general);
-  general.add_options()("quiet,q", "print nothing but errors and what --json or --markdown asks for");
+  add_general_options("--json or --markdown", general);
   po::options_description all;
   all.add(what).add(write).add(general);
   return all;
@@ -69,17 +70,10 @@ EnsembleOptions parse_ensemble_options(const std::vector<std::string>& args) {
     require_input(q >= 0 && q <= 1, "--quantiles: " + std::to_string(q) + " is not from 0 to 1");
   std::ranges::sort(options.quantiles);
   if (values.count("allow") != 0) options.allowed = values["allow"].as<std::vector<std::string>>();
-  require_input(values.count("json") == 0 || values.count("markdown") == 0,
-                "--json and --markdown: print one of the two");
-  if (values.count("json") != 0) options.form = EnsembleForm::json;
-  if (values.count("markdown") != 0) options.form = EnsembleForm::markdown;
+  options.form = print_form(values);
   options.quiet = values.count("quiet") != 0;
   options.by_body = values.count("by-body") != 0;
-  options.table = values["table"].as<std::string>();
-  constexpr std::array tables = {"runs", "frames", "positions", "bodies", "worlds", "body_frames"};
-  require_input(
-      std::ranges::find(tables, options.table) != tables.end(),
-      "--table " + options.table + ": it must be runs, frames, positions, bodies, worlds or body_frames");
+  options.table = chosen_table(values, table_names);
   require_input(options.table != "body_frames" || options.by_body, "--table body_frames: it takes --by-body");
   options.csv = output_path(values, "csv");
   options.output = output_path(values, "output");

@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "app/manual/manual.h"
+#include "app/pbreport/tables/print_options.h"
 
 namespace pbmpi::app {
 
 /// What a sample is: a run, its worlds joined, or each world of each run.
 enum class SampleOf { runs, worlds };
-
-enum class EnsembleForm { text, json, markdown };
 
 struct EnsembleOptions {
   bool help = false;
@@ -21,7 +20,7 @@ struct EnsembleOptions {
   std::vector<double> quantiles = {0.05, 0.25, 0.5, 0.75, 0.95};
   std::vector<std::string> allowed;  ///< parameters that may differ
   bool by_body = false;
-  EnsembleForm form = EnsembleForm::text;
+  PrintForm form = PrintForm::text;
   bool quiet = false;
   std::string table = "frames";            ///< of csv
   std::optional<std::string> csv, output;  ///< output: HDF5

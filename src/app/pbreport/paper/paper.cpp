@@ -6,7 +6,7 @@
 #include "app/common/text_output.h"
 #include "app/pbreport/paper/paper_page.h"
 #include "app/pbreport/paper/paper_text.h"
-#include "app/pbreport/study/report_options.h"
+#include "app/pbreport/tables/print_options.h"
 
 namespace pbmpi::app {
 namespace {
@@ -40,8 +40,7 @@ core::ExitCode run_paper(const std::vector<std::string>& args, std::ostream& out
     out << help_of(paper_manual());
     return core::ExitCode::done;
   }
-  const bool json = values.count("json") != 0, markdown = values.count("markdown") != 0;
-  core::require_input(!json || !markdown, "--json and --markdown: print one of the two");
+  const PrintForm form = print_form(values);
   const std::vector<std::string> paths = given_files(values);
   core::require_input(!paths.empty(), "paper: no file given; name the folder of jobs/paper.sh");
   const PaperData data = read_paper_data(paths);
@@ -51,9 +50,9 @@ core::ExitCode run_paper(const std::vector<std::string>& args, std::ostream& out
     page.provenance = io::html::provenance_of(data.files, version_line("pbreport"));
     io::html::write_chart_page(*html, page);
   }
-  if (json) {
+  if (form == PrintForm::json) {
     out << paper_to_json(chapters);
-  } else if (markdown) {
+  } else if (form == PrintForm::markdown) {
     out << paper_to_markdown(chapters);
   } else if (values.count("quiet") == 0) {
     out << paper_to_text(chapters);

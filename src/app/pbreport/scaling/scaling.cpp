@@ -30,9 +30,9 @@ core::ExitCode run_scaling(const std::vector<std::string>& args, std::ostream& o
   if (options.html) write_scaling_page(*options.html, runs, curves);
   const io::TableFile tables = scaling_tables(curves);
   if (options.csv) io::write_file(*options.csv, io::csv_table(tables.tables.at(options.table), true));
-  if (options.form == ScalingForm::json) {
+  if (options.form == PrintForm::json) {
     out << to_json(tables);
-  } else if (options.form == ScalingForm::markdown) {
+  } else if (options.form == PrintForm::markdown) {
     out << scaling_markdown(curves);
   } else if (!options.quiet) {
     out << scaling_text(curves, files_without_curve(runs, curves));

@@ -1,8 +1,5 @@
 #include "app/pbreport/scaling/scaling_options.h"
 
-#include <algorithm>
-#include <array>
-
 #include "app/common/options.h"
 #include "app/pbreport/scaling/scaling_tables.h"
 #include "core/error.h"
@@ -23,15 +20,11 @@ po::options_description visible_options() {
        po::value<double>()->default_value(rules.widest_interval, "0.1")->value_name("SHARE"),
        "of the median, above which a speed-up is not reportable");
   po::options_description write("What to write");
-  write.add_options()("json", "print all tables as one JSON document")                              //
-      ("markdown", "print the points as tables in Markdown")                                        //
-      ("html", po::value<std::string>()->value_name("OUT"), "the curves as a page")                 //
-      ("csv", po::value<std::string>()->value_name("FILE"), "one table as comma-separated values")  //
-      ("table", po::value<std::string>()->default_value("points")->value_name("NAME"),
-       "which for --csv: points, phases, runs");
+  add_print_options("print the points as tables in Markdown", write);
+  write.add_options()("html", po::value<std::string>()->value_name("OUT"), "the curves as a page");
+  add_table_options(scaling_table_names, "points", write);
   po::options_description general("General");
-  add_help_options(general);
-  general.add_options()("quiet,q", "print nothing but errors and what --json or --markdown asks for");
+  add_general_options("--json or --markdown", general);
   po::options_description all;
   all.add(what).add(write).add(general);
   return all;
@@ -63,14 +56,9 @@ ScalingOptions parse_scaling_options(const std::vector<std::string>& args) {
   require_input(options.rules.least_repeats >= 1, "--least-repeats: it must be at least 1");
   options.rules.widest_interval = values["widest-interval"].as<double>();
   require_input(options.rules.widest_interval > 0, "--widest-interval: it must be above 0");
-  require_input(values.count("json") == 0 || values.count("markdown") == 0,
-                "--json and --markdown: print one of the two");
-  if (values.count("json") != 0) options.form = ScalingForm::json;
-  if (values.count("markdown") != 0) options.form = ScalingForm::markdown;
+  options.form = print_form(values);
   options.quiet = values.count("quiet") != 0;
-  options.table = values["table"].as<std::string>();
-  require_input(std::ranges::find(scaling_table_names, options.table) != scaling_table_names.end(),
-                "--table " + options.table + ": it must be points, phases or runs");
+  options.table = chosen_table(values, scaling_table_names);
   options.csv = output_path(values, "csv");
   options.html = output_path(values, "html");
   return options;

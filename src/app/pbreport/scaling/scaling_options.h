@@ -7,16 +7,15 @@
 
 #include "app/manual/manual.h"
 #include "app/pbreport/scaling/scaling_curves.h"
+#include "app/pbreport/tables/print_options.h"
 
 namespace pbmpi::app {
-
-enum class ScalingForm { text, json, markdown };
 
 struct ScalingOptions {
   bool help = false;
   std::vector<std::string> files;
   ScalingRules rules;
-  ScalingForm form = ScalingForm::text;
+  PrintForm form = PrintForm::text;
   bool quiet = false;
   std::string table = "points";  ///< of csv
   std::optional<std::string> csv, html;

@@ -8,21 +8,10 @@ namespace pbmpi::app {
 namespace po = boost::program_options;
 using core::require_input;
 
-void add_general_options(const std::string& printed, po::options_description& description) {
-  add_help_options(description);
-  description.add_options()("quiet,q",
-                            ("print nothing but errors and what " + printed + " asks for").c_str());
-}
-
 void add_output_options(const std::string& page, po::options_description& description) {
   description.add_options()                                                                                //
       ("html", po::value<std::string>()->value_name("OUT"), ("one self-contained page: " + page).c_str())  //
       ("csv", po::value<std::string>()->value_name("OUT"), "all cases as comma-separated values");
-}
-
-void add_print_options(const std::string& markdown, po::options_description& description) {
-  description.add_options()("json", "print all as one JSON document")  //
-      ("markdown", markdown.c_str());
 }
 
 void add_scene_choice(po::options_description& description) {
@@ -39,9 +28,7 @@ ReportOfStudyOptions report_of_study_options(const po::variables_map& values, co
   if (values.count("scene") != 0) options.scenes = values["scene"].as<std::vector<std::string>>();
   options.html = output_path(values, "html");
   options.csv = output_path(values, "csv");
-  options.json = values.count("json") != 0;
-  options.markdown = values.count("markdown") != 0;
-  require_input(!options.json || !options.markdown, "--json and --markdown: print one of the two");
+  options.form = print_form(values);
   options.quiet = values.count("quiet") != 0;
   require_input(values.count("file") != 0,
                 "no file given; name the file of " + what + ", e.g. pbreport " + example);

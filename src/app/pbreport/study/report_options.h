@@ -7,6 +7,8 @@
 
 #include <boost/program_options.hpp>
 
+#include "app/pbreport/tables/print_options.h"
+
 namespace pbmpi::app {
 
 struct ReportOfStudyOptions {
@@ -14,17 +16,12 @@ struct ReportOfStudyOptions {
   std::string file;
   std::vector<std::string> scenes;  ///< empty: all in the file
   std::optional<std::string> html, csv;
-  bool json = false, quiet = false;
-  bool markdown = false;  ///< where add_print_options() offers it; never with json
+  PrintForm form = PrintForm::text;
+  bool quiet = false;
 };
 
-/// --config and --quiet. `printed`: what --quiet lets through.
-void add_general_options(const std::string& printed,
-                         boost::program_options::options_description& description);
 /// --html and --csv. `page`: what the page shows.
 void add_output_options(const std::string& page, boost::program_options::options_description& description);
-/// --json and --markdown. `markdown`: what the latter prints.
-void add_print_options(const std::string& markdown, boost::program_options::options_description& description);
 /// --scene.
 void add_scene_choice(boost::program_options::options_description& description);
 

@@ -45,9 +45,9 @@ core::ExitCode run_study_report(const StudyReport& report, const std::vector<std
   const StudyViews views = read(file, options);
   if (options.csv) io::write_file(*options.csv, study_to_csv(file));
   if (options.html) views.write_page(*options.html);
-  if (options.json) {
+  if (options.form == PrintForm::json) {
     out << views.json();
-  } else if (options.markdown) {
+  } else if (options.form == PrintForm::markdown) {
     out << views.markdown();
   } else if (!options.quiet) {
     out << views.text();
