@@ -1,5 +1,23 @@
 """Two small scenes of several tests: a sign that a ball tears off its chains, and two stacks of which one is hit."""
 
+GUN = """[[actor]]
+name = "tank"
+type = "tank"
+space = "far"
+position = [-12, 0, 0]
+[[actor]]
+name = "ball"
+type = "projectile"
+space = "far"
+shape = "sphere"
+radius = 0.2
+density = 800
+position = [-12, 4, 0]
+fired_by = "tank"
+muzzle_speed = 20
+first_shot = {0}
+"""
+
 SIGN = """title = "a sign on two chains, and a ball shot at it"
 spaces = ["sign", "far"]
 [[actor]]
@@ -27,23 +45,7 @@ space = "sign"
 size = [0.1, 0.1, 0.4]
 mass = 2
 position = [0, -0.7, 2.4]
-[[actor]]
-name = "tank"
-type = "tank"
-space = "far"
-position = [-12, 0, 0]
-[[actor]]
-name = "ball"
-type = "projectile"
-space = "far"
-shape = "sphere"
-radius = 0.2
-density = 800
-position = [-12, 4, 0]
-fired_by = "tank"
-muzzle_speed = 20
-first_shot = 0.2
-"""
+""" + GUN.format(0.2)
 JOINT = """[[joint]]
 name = "{0}"
 kind = "{1}"
@@ -65,23 +67,7 @@ after = 0.3
 [[actor]]
 name = "ground"
 type = "ground"
-[[actor]]
-name = "tank"
-type = "tank"
-space = "far"
-position = [-12, 0, 0]
-[[actor]]
-name = "ball"
-type = "projectile"
-space = "far"
-shape = "sphere"
-radius = 0.2
-density = 800
-position = [-12, 4, 0]
-fired_by = "tank"
-muzzle_speed = 20
-first_shot = 0.7
-"""
+""" + GUN.format(0.7)
 BOX = """[[actor]]
 name = "box{0}"
 type = "box"
