@@ -115,7 +115,7 @@ class Scaling(ProgramTest):
         self.write("text.h5", "no file of a run")
         for args, words in ((["a.h5"], "1 files are given"), (["a.h5", "b.h5"], "different numbers of ranks"),
                             (["a.h5", "text.h5"], "text.h5"), (["a.h5", "b.h5", "--json", "--markdown"], "one of the two"),
-                            (["a.h5", "b.h5", "--table", "frames"], "points, phases or runs"),
+                            (["a.h5", "b.h5", "--table", "frames"], "there is no such table; known: 'points', 'phases', 'runs'"),
                             (["a.h5", "b.h5", "--least-repeats", "0"], "--least-repeats"),
                             (["a.h5", "b.h5", "--widest-interval", "-1"], "--widest-interval")):
             result = self.report("scaling", *args)
