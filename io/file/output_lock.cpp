@@ -109,7 +109,8 @@ OutputLock::OutputLock(const std::string& path, bool has_locks)
       lock_path_(beside(path_, ".", ".lock")),
       temporary_path_(beside(path_, "", "." + host_name() + "-" + std::to_string(getpid()) + ".part")) {
   using namespace std::chrono_literals;
-  constexpr int most_tries = 100;  // 5 s: mpirun gives the ranks of a dead run one
+  // 30 s: the ranks of a dead run end 1 to 2 s after it, and on a busy machine have been seen to take over 5.
+  constexpr int most_tries = 600;
   for (int tries = 0;; ++tries) {
     const Taken taken = has_locks ? take() : take_by_name();
     if (taken == Taken::yes) break;
