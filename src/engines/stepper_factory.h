@@ -9,8 +9,9 @@
 
 namespace pbmpi::engines {
 
-/// quick and direct are ODE's; sor is pbmpi's own, with ODE's dCollide. Throws core::InputError for settings
-/// that the stepper refuses. Warnings go to stderr behind `warning_prefix`.
+/// quick and direct are ODE's; sor is pbmpi's own, with ODE's dCollide; bullet and mujoco are those of
+/// optional_engines.h. Throws core::InputError for settings that the stepper refuses, and for a stepper that
+/// this build lacks. Warnings go to stderr behind `warning_prefix`.
 std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings,
                                                      const std::string& warning_prefix = "");
 

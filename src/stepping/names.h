@@ -9,7 +9,8 @@
 
 namespace pbmpi::stepping {
 
-inline constexpr std::array<std::string_view, 3> stepper_kind_names = {"quick", "direct", "sor"};
+inline constexpr std::array<std::string_view, 5> stepper_kind_names = {"quick", "direct", "sor", "bullet",
+                                                                       "mujoco"};
 inline constexpr std::array<std::string_view, 2> precision_names = {"double", "single"};
 inline constexpr std::array<std::string_view, 5> simd_names = {"auto", "sse2", "avx2", "avx512", "off"};
 inline constexpr std::array<std::string_view, 2> colliders_names = {"lanes", "ode"};

@@ -37,7 +37,7 @@ void require_fitting(const StepperSettings& settings, const std::string& dashes)
                                                    is_default(option, settings);
                                           }),
                       options_of_some(dashes) + " are options of " + dashes +
-                          "stepper sor; ODE's steppers have none of them");
+                          "stepper sor; the other steppers have none of them");
 }
 
 }  // namespace

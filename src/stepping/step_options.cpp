@@ -27,9 +27,11 @@ bool is_share(double value) { return value >= 0 && value <= 1; }
 constexpr std::array<StepOption, 23> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
-     .placeholder = "sor|quick|direct",
-     .meaning = "sor: pbmpi's own projected SOR, worlds side by side in vector lanes; quick: ODE's iterative "
-                "dWorldQuickStep; direct: ODE's big-matrix dWorldStep",
+     .placeholder = "sor|quick|direct|bullet|mujoco",
+     .meaning =
+         "sor: pbmpi's own projected SOR, worlds side by side in vector lanes; quick: ODE's iterative "
+         "dWorldQuickStep; direct: ODE's big-matrix dWorldStep; bullet, mujoco: the engines Bullet and "
+         "MuJoCo, where the build has them",
      .shown_default = "sor"},
     {.name = "dt",
      .member = &Settings::dt_s,
@@ -42,7 +44,8 @@ constexpr std::array<StepOption, 23> options = {{
      .member = &Settings::iterations,
      .placeholder = "N",
      .meaning =
-         "sweeps of the iterative solver, in each substep; default: the scene's (20) with quick, 1 with sor",
+         "sweeps of the iterative solver, in each substep; default: the scene's (20) with quick, 1 with sor, "
+         "10 with bullet; with mujoco the most iterations of its Newton solver, 100",
      .allows = at_least_1,
      .limit = "it must be at least 1"},
     {.name = "substeps",
@@ -311,9 +314,9 @@ std::string text_of(const StepOption& option, const StepperSettings& settings) {
 StepperSettings default_settings(StepperKind kind) {
   StepperSettings settings;
   settings.kind = kind;
+  if (traits_of(kind).own_iterations > 0) settings.iterations = traits_of(kind).own_iterations;
   if (!traits_of(kind).tunes_sweeps) return settings;
   settings.substeps = 8;
-  settings.iterations = 1;
   settings.relax = 1;
   settings.sor_factor = 1;
   settings.warm_start = 1;
@@ -325,7 +328,7 @@ StepperSettings default_settings(StepperKind kind) {
 }
 
 int default_iterations(StepperKind kind, int scene_iterations) {
-  return traits_of(kind).has_substeps ? default_settings(kind).iterations : scene_iterations;
+  return traits_of(kind).own_iterations > 0 ? traits_of(kind).own_iterations : scene_iterations;
 }
 
 bool is_default(const StepOption& option, const StepperSettings& settings) {

@@ -59,8 +59,8 @@ StepValue value_of(const StepOption& option, const StepperSettings& settings);
 /// The settings with which a kind of stepper is meant to be used: for `sor` those that hold most of
 /// scenes/hard at least cost (docs/stability.md), for the others what StepperSettings starts with.
 StepperSettings default_settings(StepperKind kind);
-/// The iterations of a stepper in a scene that asks for so many: they are QuickStep's count, and a stepper
-/// with substeps has its own.
+/// The iterations of a stepper in a scene that asks for so many: they are QuickStep's count, and other
+/// steppers have their own.
 int default_iterations(StepperKind kind, int scene_iterations);
 /// Does the option have the value of default_settings()?
 bool is_default(const StepOption& option, const StepperSettings& settings);

@@ -14,9 +14,11 @@
 
 namespace pbmpi::stepping {
 
-enum class StepperKind { quick, direct, sor };
+/// quick and direct are ODE's, sor is pbmpi's own, bullet and mujoco are those of engines that a build may
+/// lack (engines/optional_engines.h).
+enum class StepperKind { quick, direct, sor, bullet, mujoco };
 
-/// Number type of the sor stepper; ODE's steppers are double.
+/// Number type of the sor stepper; the others are double.
 enum class Precision { double_, single };
 
 /// Vector instructions of the sor stepper; all give the same bits. automatic = the widest that the machine

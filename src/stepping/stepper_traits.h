@@ -8,7 +8,9 @@
 namespace pbmpi::stepping {
 
 struct StepperTraits {
-  bool iterates = false;          ///< sweeps over rows: StepperSettings::iterations counts
+  bool iterates = false;          ///< StepperSettings::iterations counts
+  int own_iterations = 0;         ///< by default; 0: those of the scene, which are meant for quick
+  bool has_field = false;         ///< gives islands outside of a field of interest fewer iterations
   bool tunes_sweeps = false;      ///< factor, order and warm start of the sweeps can be chosen
   bool has_substeps = false;      ///< can share one collision detection among parts of a step
   bool has_precision = false;     ///< can compute in another number type than double
@@ -22,10 +24,12 @@ struct StepperTraits {
 };
 
 /// In the order of StepperKind.
-inline constexpr std::array<StepperTraits, 3> stepper_traits = {{
-    {.iterates = true, .profiles_islands = true, .relative_cost = 5},
+inline constexpr std::array<StepperTraits, 5> stepper_traits = {{
+    {.iterates = true, .has_field = true, .profiles_islands = true, .relative_cost = 5},
     {.profiles_islands = true, .relative_cost = 5},
     {.iterates = true,
+     .own_iterations = 1,
+     .has_field = true,
      .tunes_sweeps = true,
      .has_substeps = true,
      .has_precision = true,
@@ -33,6 +37,8 @@ inline constexpr std::array<StepperTraits, 3> stepper_traits = {{
      .is_anytime = true,
      .cuts_spaces = true,
      .shows_residuals = true},
+    {.iterates = true, .own_iterations = 10, .relative_cost = 5},   // Bullet's btContactSolverInfo
+    {.iterates = true, .own_iterations = 100, .relative_cost = 1},  // mjOption::iterations; few are done
 }};
 
 constexpr const StepperTraits& traits_of(StepperKind kind) {

@@ -1,6 +1,7 @@
 #include "app/common/engine_texts.h"
 
 #include "app/common/version.h"
+#include "engines/optional_engines.h"
 #include "ode/ode_stepper.h"
 #include "solver/pack/simd.h"
 #include "stepping/names.h"
@@ -19,6 +20,13 @@ std::string simd_text(const stepping::StepperSettings& settings) {
 std::string ode_text() {
   const std::string version = ode_version;
   return ode::precision_text() == "single" ? version + ", single precision" : version;
+}
+
+std::optional<std::pair<std::string, std::string>> optional_engine_text(stepping::StepperKind kind) {
+  const engines::OptionalEngine* engine = engines::find_optional_engine(kind);
+  if (engine == nullptr) return std::nullopt;
+  return std::pair("library_" + std::string(name_of(kind)),
+                   std::string(engine->version) + ", double precision");
 }
 
 }  // namespace pbmpi::app

@@ -1,16 +1,23 @@
 /// What a run's file and summary say of the engine that steps it.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "stepping/stepper.h"
 
 namespace pbmpi::app {
 
-/// The vector instructions that the stepper uses and its lanes, e.g. "avx512, 16 lanes"; empty for ODE's.
+/// The vector instructions that the stepper uses and its lanes, e.g. "avx512, 16 lanes"; empty where it
+/// has no choice of them.
 std::string simd_text(const stepping::StepperSettings& settings);
 
 /// ODE's version, with its precision if that is single.
 std::string ode_text();
+
+/// Name and version of the engine behind bullet or mujoco, e.g. "library_bullet" and "3.24, double
+/// precision"; nothing for the other steppers.
+std::optional<std::pair<std::string, std::string>> optional_engine_text(stepping::StepperKind kind);
 
 }  // namespace pbmpi::app

@@ -11,6 +11,7 @@
 #include "app/summary/rank_groups_text.h"
 #include "effects/effect_choices.h"
 #include "effects/run_plan.h"
+#include "engines/optional_engines.h"
 #include "engines/stepper_factory.h"
 #include "io/run/run_file.h"
 #include "model/names.h"
@@ -34,8 +35,9 @@ struct Census {
 
 /// Says that the stepper skips the pass, where it does.
 std::string idle_note(const effects::RunPass& pass, stepping::StepperKind stepper) {
-  if (pass.effect->name != "field_of_interest" || traits_of(stepper).iterates) return "";
-  return "; idle, since " + std::string(name_of(stepper)) + " solves without iterations";
+  if (pass.effect->name != "field_of_interest" || traits_of(stepper).has_field) return "";
+  return "; idle, since " + std::string(name_of(stepper)) +
+         (traits_of(stepper).iterates ? " solves all islands alike" : " solves without iterations");
 }
 
 Census take_census(const Work& work) {
@@ -203,6 +205,8 @@ std::string describe(const Work& work, int num_ranks) {
   for (const std::string& note : scene.notes()) out << "note: " << note << '\n';
   if (!spec.effects.empty()) out << "effects chosen: " << effects::to_text(spec.effects) << '\n';
   print_plan(out, census.plan, spec.stepper.kind);
+  for (const std::string& line : engines::inexpressible(spec.stepper.kind, *work.first_world))
+    out << name_of(spec.stepper.kind) << ": " << line << '\n';
   const bool spaces = spec.decomposition == Decomposition::spaces;
   out << "decomposition: " << (spaces ? "spaces" : "worlds") << " over " << num_ranks
       << (num_ranks == 1 ? " rank" : " ranks");

@@ -49,7 +49,7 @@ io::OptionalColumns optional_columns(const Work& work, const effects::RunPlan& p
   };
   columns.breaks = any_world_has(effects::EffectId::breakable_joints);
   columns.interest =
-      traits_of(spec.stepper.kind).iterates && any_world_has(effects::EffectId::field_of_interest);
+      traits_of(spec.stepper.kind).has_field && any_world_has(effects::EffectId::field_of_interest);
   return columns;
 }
 
@@ -110,6 +110,8 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
       Parameter::of("library_hdf5", hdf5_version),
       Parameter::of("library_ode", ode_text()),
   };
+  if (const auto engine = optional_engine_text(spec.stepper.kind))
+    parameters.push_back(Parameter::of(engine->first, engine->second));
   for (const stepping::StepOption& option : stepping::step_options()) {
     const bool is_simd = option.name == "simd";  // the file says what was used, not what was asked for
     parameters.push_back(is_simd ? Parameter::of("simd", simd_text(spec.stepper))

@@ -15,8 +15,9 @@ namespace {
 /// Why this run's worlds stay whole, and what to do about it; nothing if one may be cut.
 std::optional<std::string> why_whole(const RunSpec& spec) {
   if (!traits_of(spec.stepper.kind).cuts_spaces) {
-    return "--decompose spaces needs --stepper sor (ODE's solvers give no access to single islands, and quick"
-           " draws from one random seed for the whole world); add --stepper sor, or use --decompose worlds";
+    return "--decompose spaces needs --stepper sor (the solvers of engines give no access to single islands, "
+           "and quick draws from one random seed for the whole world); add --stepper sor, or use --decompose "
+           "worlds";
   }
   if (spec.stepper.residuals)
     return "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds";

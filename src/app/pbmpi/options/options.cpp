@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
+#include "engines/optional_engines.h"
 #include "model/names.h"
 #include "stepping/step_options.h"
 
@@ -83,7 +84,7 @@ po::options_description options_description() {
        "the precise solve")  //
       ("estimate-iterations", po::value<std::string>()->value_name("N"),
        "sweeps of the estimate; default: 1")  //
-      ("estimate-stepper", po::value<std::string>()->value_name("quick|direct|sor"),
+      ("estimate-stepper", po::value<std::string>()->value_name("quick|direct|sor|bullet|mujoco"),
        "what estimates; default: that of --stepper")  //
       ("estimate-precision", po::value<std::string>()->value_name("double|single"),
        "of an estimate by sor; default: that of --precision, or double")  //
@@ -219,7 +220,8 @@ Manual pbmpi_manual() {
       .notes = {"Signals: INT, TERM and USR2 finish the frame, save the run, close the file and end with 75; "
                 "USR1 saves it and the run goes on (send USR2 and USR1 to mpirun). Before the first frame "
                 "INT and TERM end the run at once, and a second one always does; so does one whose frame "
-                "goes on for 10 s, or three times the longest before."},
+                "goes on for 10 s, or three times the longest before.",
+                "Steppers of other engines: " + engines::builds_text() + "."},
       .files = {{"SCENE.h5", "the run: poses, observables and times, in HDF5"},
                 {"SCENE.xdmf", "the sidecar that opens it in ParaView"},
                 {"SCENE.checkpoint.h5", "what --resume goes on from"}},

@@ -6,6 +6,7 @@
 
 #include "app/pbmpi/options/options.h"
 #include "core/error.h"
+#include "engines/optional_engines.h"
 #include "stepping/names.h"
 
 namespace pbmpi::app {
@@ -35,6 +36,7 @@ stepping::StepperSettings resolve_estimate_stepper(const Options& options,
   const bool has_precision = traits_of(estimate.kind).has_precision;
   require_input(has_precision || !options.estimate.contains("precision"),
                 "--estimate-precision is an option of an estimate by sor; give --estimate-stepper sor");
+  engines::require_in_build(estimate.kind, "--estimate-stepper " + std::string(name_of(estimate.kind)));
   if (!has_precision) estimate.precision = stepping::Precision::double_;
   return estimate;
 }
@@ -161,6 +163,7 @@ void resolve_worlds(const Options& options, const scenes::Scene& scene, std::opt
 stepping::StepperSettings resolve_step(const Options& options, const scenes::RunDefaults& defaults) {
   stepping::StepperSettings step =
       settle_step(options.step, {defaults.dt_s, defaults.iterations, options.seed}, "--");
+  engines::require_in_build(step.kind, "--stepper " + std::string(name_of(step.kind)));
   step.profile = options.record_islands;
   step.residuals = options.record_residuals;
   step.contacts = options.record_contacts;
@@ -171,8 +174,10 @@ stepping::StepperSettings resolve_step(const Options& options, const scenes::Run
 void require_recordable(const Options& options, stepping::StepperKind kind) {
   const stepping::StepperTraits& traits = traits_of(kind);
   require_input(!options.record_islands || traits.profiles_islands,
-                "--record-islands: --stepper sor solves many islands in one vector and has no time of one; "
-                "use quick or direct");
+                "--record-islands: --stepper " + std::string(name_of(kind)) +
+                    (traits.has_lanes ? " solves many islands in one vector and has no time of one; "
+                                      : " has no time of single islands; ") +
+                    "use quick or direct");
   require_input(!options.record_islands || !options.no_output,
                 "--record-islands writes into the run's file; drop --no-output");
   require_input(!options.record_islands || !stability::mends(options.on_blowup),
@@ -181,8 +186,9 @@ void require_recordable(const Options& options, stepping::StepperKind kind) {
                     " may have replaced it; use --on-blowup report or stop");
   require_input(!options.record_contacts || !options.no_output,
                 "--record-contacts writes into the run's file; drop --no-output");
-  require_input(!options.record_residuals || traits.shows_residuals,
-                "--record-residuals: ODE's steppers do not show their rows; use --stepper sor");
+  require_input(
+      !options.record_residuals || traits.shows_residuals,
+      "--record-residuals: --stepper " + std::string(name_of(kind)) + " does not show its rows; use sor");
   require_input(!options.record_residuals || !options.no_output,
                 "--record-residuals writes into the run's file; drop --no-output");
 }

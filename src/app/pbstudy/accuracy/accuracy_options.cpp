@@ -12,7 +12,7 @@ namespace po = boost::program_options;
 
 /// In the order in which cases are crossed, the last varying fastest.
 constexpr std::array<VariedOption, 7> varied = {{
-    {"stepper", "quick, direct, sor; default: quick sor", "quick sor"},
+    {"stepper", "quick, direct, sor, bullet, mujoco; default: quick sor", "quick sor"},
     {"iterations", "default: 1 2 3 5 10 15 19 20 40 80", "1 2 3 5 10 15 19 20 40 80"},
     {"substeps", "sor; default: 1 2 4 8 16", "1 2 4 8 16"},
     {"precision", "sor: double, single; default: both", "double single"},

@@ -15,7 +15,7 @@ namespace po = boost::program_options;
 
 /// In the order in which cases are crossed, the last varying fastest.
 constexpr std::array<VariedOption, 2> varied = {{
-    {"stepper", "quick, direct, sor; default: quick sor", "quick sor"},
+    {"stepper", "quick, direct, sor, bullet, mujoco; default: quick sor", "quick sor"},
     {"precision", "sor: double, single; default: double", "double"},
 }};
 

@@ -6,6 +6,7 @@
 
 #include "app/common/format.h"
 #include "core/error.h"
+#include "engines/optional_engines.h"
 #include "stepping/names.h"
 #include "stepping/step_options.h"
 
@@ -43,6 +44,7 @@ StabilitySetting parse_stability_setting(const std::string& text) {
   require_input(static_cast<bool>(stream >> word),
                 "--setting: it begins with a stepper, e.g. \"sor iterations=80\"");
   set(stepping::step_option("stepper"), word, "--setting '" + text + "': stepper", setting.stepper);
+  engines::require_in_build(setting.stepper.kind, "--setting '" + text + "'");
   setting.stepper = default_settings(setting.stepper.kind);
   while (stream >> word) {
     const std::size_t equals = word.find('=');

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "app/pbstudy/study/option_lists.h"
+#include "engines/optional_engines.h"
 
 namespace pbmpi::app {
 namespace {
@@ -39,7 +40,10 @@ SettingList setting_list(const VariedOption& varied, const boost::program_option
   SettingList given = {&stepping::step_option(varied.name),
                        list<std::string>(values, std::string(varied.name).c_str(), words(varied.fallback))};
   stepping::StepperSettings tried;
-  for (const std::string& value : given.values) set_value(given, value, tried);
+  for (const std::string& value : given.values) {
+    set_value(given, value, tried);
+    if (varied.name == "stepper") engines::require_in_build(tried.kind, "--stepper " + value);
+  }
   return given;
 }
 
