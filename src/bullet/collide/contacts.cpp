@@ -1,0 +1,179 @@
+#include "bullet/collide/contacts.h"
+
+#include <algorithm>
+
+#include "bullet/collide/plane_points.h"
+
+namespace pbmpi::bullet {
+namespace {
+
+/// Stands for an infinite friction coefficient: the limit is a product with the normal impulse, which may be
+/// zero.
+constexpr double no_slip = 1e6;
+
+double depth(const btManifoldPoint& point) { return -point.getDistance(); }
+
+/// Leaves the deepest points of a pair.
+void keep_deepest(btPersistentManifold& manifold, int most) {
+  while (manifold.getNumContacts() > most) {
+    int shallowest = 0;
+    for (int i = 1; i < manifold.getNumContacts(); ++i) {
+      if (depth(manifold.getContactPoint(i)) < depth(manifold.getContactPoint(shallowest))) shallowest = i;
+    }
+    manifold.removeContactPoint(shallowest);
+  }
+}
+
+model::Contact to_contact(const btManifoldPoint& point, const model::GeomPair& geoms, const Touch& touch) {
+  model::Contact contact;
+  contact.body_a = touch.body_a;
+  contact.body_b = touch.body_b;
+  contact.position = 0.5 * (vec3(point.getPositionWorldOnA()) + vec3(point.getPositionWorldOnB()));
+  contact.normal = vec3(point.m_normalWorldOnB);
+  contact.depth = depth(point);
+  contact.mu = point.m_combinedFriction;
+  contact.restitution = point.m_combinedRestitution;
+  contact.geoms = geoms;
+  return contact;
+}
+
+}  // namespace
+
+Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan, const Shapes& shapes,
+                   Bodies& bodies, Collider& collider, const btDispatcherInfo& info)
+    : model_(&model),
+      shapes_(&shapes),
+      bodies_(&bodies),
+      collider_(&collider),
+      info_(&info),
+      friction_(plan.has(effects::EffectId::friction)),
+      restitution_(plan.has(effects::EffectId::restitution)),
+      most_points_(std::min(model.contact_law.max_per_pair, MANIFOLD_CACHE_SIZE)) {}
+
+void Contacts::make(const std::vector<model::GeomPair>& pairs) {
+  forget();
+  for (const model::GeomPair& pair : pairs) collide(pair);
+}
+
+void Contacts::clear() {
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made)
+    collider_->dispatcher().releaseManifold(made->manifold);
+  made_.clear();
+}
+
+void Contacts::forget() {
+  clear();
+  touches_.clear();
+  deepest_m_ = 0;
+}
+
+/// The normal of a manifold points into its first body, which is the real one.
+void Contacts::collide(const model::GeomPair& pair) {
+  const bool swap = model_->geoms[static_cast<std::size_t>(pair.first)].body == model::no_body;
+  const int a = swap ? pair.second : pair.first, b = swap ? pair.first : pair.second;
+  btPersistentManifold& manifold =
+      *collider_->dispatcher().getNewManifold(&shapes_->body(a), &shapes_->body(b));
+  manifold.setContactBreakingThreshold(std::min(shapes_->reach(a), shapes_->reach(b)));
+  run(a, b, manifold);
+  if (manifold.getNumContacts() == 0) return collider_->dispatcher().releaseManifold(&manifold);
+  keep_deepest(manifold, most_points_);
+  keep(manifold, pair);
+}
+
+void Contacts::run(int a, int b, btPersistentManifold& manifold) {
+  const btCollisionObjectWrapper first(nullptr, &shapes_->shape(a), &shapes_->body(a), shapes_->place(a), -1,
+                                       -1);
+  const btCollisionObjectWrapper second(nullptr, &shapes_->shape(b), &shapes_->body(b), shapes_->place(b), -1,
+                                        -1);
+  btManifoldResult result(&first, &second);
+  result.setPersistentManifold(&manifold);
+  if (shapes_->shape(b).getShapeType() == STATIC_PLANE_PROXYTYPE)
+    return find_plane_points(shapes_->shape(a), shapes_->place(a), shapes_->place(b), result);
+  btCollisionDispatcher& dispatcher = collider_->dispatcher_for(shapes_->shape(a), shapes_->shape(b));
+  btCollisionAlgorithm* algorithm =
+      dispatcher.findAlgorithm(&first, &second, &manifold, BT_CONTACT_POINT_ALGORITHMS);
+  algorithm->processCollision(&first, &second, *info_, &result);
+  algorithm->~btCollisionAlgorithm();
+  dispatcher.freeCollisionAlgorithm(algorithm);
+}
+
+void Contacts::keep(btPersistentManifold& manifold, const model::GeomPair& geoms) {
+  const auto body_of = [&](const btCollisionObject* object) {
+    const auto bodies = {model_->geoms[static_cast<std::size_t>(geoms.first)].body,
+                         model_->geoms[static_cast<std::size_t>(geoms.second)].body};
+    for (const int body : bodies) {
+      if (object == &bodies_->get(body)) return body;
+    }
+    return model::no_body;
+  };
+  const int rows = set_surface(manifold, geoms);
+  touches_.push_back(
+      {body_of(manifold.getBody0()), body_of(manifold.getBody1()), manifold.getNumContacts(), rows});
+  made_.push_back({&manifold, geoms});
+  for (int i = 0; i < manifold.getNumContacts(); ++i)
+    deepest_m_ = std::max(deepest_m_, depth(manifold.getContactPoint(i)));
+}
+
+/// Bullet would multiply the two bodies' coefficients. Returns the rows of a contact.
+int Contacts::set_surface(btPersistentManifold& manifold, const model::GeomPair& pair) {
+  const model::Material material =
+      model::pair_material(*model_, pair, model_->geoms[static_cast<std::size_t>(pair.first)].material,
+                           model_->geoms[static_cast<std::size_t>(pair.second)].material);
+  const double mu = friction_ ? std::min(material.mu, no_slip) : 0;
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    btManifoldPoint& point = manifold.getContactPoint(i);
+    point.m_combinedFriction = mu;
+    point.m_combinedRestitution = restitution_ ? material.restitution : 0;
+    point.m_combinedRollingFriction = point.m_combinedSpinningFriction = 0;
+    point.m_contactPointFlags |= BT_CONTACT_FLAG_HAS_CONTACT_CFM;
+    point.m_contactCFM = model_->contact_law.soft_cfm;
+  }
+  return model::contact_rows(mu);
+}
+
+/// A point with a distance lets its bodies close that in a step, and no more.
+void Contacts::make_ahead(const std::vector<model::Contact>& contacts) {
+  for (const model::Contact& contact : contacts) {
+    btRigidBody &a = bodies_->get(contact.body_a), &b = bodies_->get(contact.body_b);
+    const btVector3 on_b = to_bullet(contact.position), normal = to_bullet(contact.normal);
+    const btVector3 on_a = on_b - contact.depth * normal;
+    btManifoldPoint point(a.getWorldTransform().invXform(on_a), b.getWorldTransform().invXform(on_b), normal,
+                          -contact.depth);
+    point.m_positionWorldOnA = on_a;
+    point.m_positionWorldOnB = on_b;
+    btPersistentManifold& manifold = *collider_->dispatcher().getNewManifold(&a, &b);
+    manifold.addManifoldPoint(point);
+    touches_.push_back({contact.body_a, contact.body_b, 1, 1});
+    made_.push_back({&manifold, contact.geoms});
+  }
+}
+
+void Contacts::show(std::span<const model::Vec3> before, double dt_s, std::vector<model::Contact>& contacts,
+                    std::vector<model::ContactForce>& forces) const {
+  for (std::size_t i = 0; i < made_.size(); ++i) {
+    const btPersistentManifold& manifold = *made_[i].manifold;
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& point = manifold.getContactPoint(k);
+      const model::Contact contact = to_contact(point, made_[i].geoms, touches_[i]);
+      model::ContactForce force;
+      force.geoms = contact.geoms;
+      force.body_a = contact.body_a;
+      force.body_b = contact.body_b;
+      force.arm = contact.position - before[static_cast<std::size_t>(contact.body_a)];
+      force.normal = point.m_appliedImpulse / dt_s;
+      force.friction = (point.m_appliedImpulseLateral1 * vec3(point.m_lateralFrictionDir1) +
+                        point.m_appliedImpulseLateral2 * vec3(point.m_lateralFrictionDir2)) /
+                       dt_s;
+      contacts.push_back(contact);
+      forces.push_back(force);
+    }
+  }
+}
+
+int Contacts::count() const {
+  int sum = 0;
+  for (const Touch& touch : touches_) sum += touch.num_contacts;
+  return sum;
+}
+
+}  // namespace pbmpi::bullet

@@ -1,0 +1,76 @@
+/// The narrow phase: contact points of pairs of geoms.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bullet/collide/collider.h"
+#include "bullet/objects/shapes.h"
+#include "effects/effects.h"
+#include "model/contact.h"
+#include "model/step_memory.h"
+
+namespace pbmpi::bullet {
+
+/// Geoms that touch, in one or more points.
+struct Touch {
+  int body_a = model::no_body;  ///< a real one
+  int body_b = model::no_body;
+  int num_contacts = 0;
+  int rows_per_contact = 1;  ///< 3 with friction
+};
+
+/// Makes the contacts of a step by Bullet's algorithms, one manifold a pair, all anew: the points of earlier
+/// steps, with which Bullet completes its manifolds and starts its solver, are no part of a state. Friction
+/// and restitution are there only if the plan has them.
+class Contacts {
+ public:
+  /// All are borrowed.
+  Contacts(const model::Model& model, const effects::StepPlan& plan, const Shapes& shapes, Bodies& bodies,
+           Collider& collider, const btDispatcherInfo& info);
+  ~Contacts() { clear(); }
+  Contacts(const Contacts&) = delete;
+  Contacts& operator=(const Contacts&) = delete;
+
+  /// Collides each pair, in the order of `pairs`.
+  void make(const std::vector<model::GeomPair>& pairs);
+  /// Adds what is ahead of fast bodies (effects::FastBodies): gaps that may close in a step.
+  void make_ahead(const std::vector<model::Contact>& contacts);
+  /// Takes the contacts from the dispatcher. touches() and deepest_m() stay until the next make().
+  void clear();
+  /// Forgets touches(), too: the step has no contacts.
+  void forget();
+
+  /// Appends the contacts and their forces in the step of `dt_s` that was solved since make().
+  /// `before`: the centres of the bodies before it [m].
+  void show(std::span<const model::Vec3> before, double dt_s, std::vector<model::Contact>& contacts,
+            std::vector<model::ContactForce>& forces) const;
+
+  const std::vector<Touch>& touches() const { return touches_; }
+  double deepest_m() const { return deepest_m_; }  ///< 0 without contacts
+  int count() const;
+
+ private:
+  struct Made {
+    btPersistentManifold* manifold;
+    model::GeomPair geoms;
+  };
+  void collide(const model::GeomPair& pair);
+  void run(int a, int b, btPersistentManifold& manifold);
+  void keep(btPersistentManifold& manifold, const model::GeomPair& geoms);
+  int set_surface(btPersistentManifold& manifold, const model::GeomPair& pair);
+
+  const model::Model* model_;
+  const Shapes* shapes_;
+  Bodies* bodies_;
+  Collider* collider_;
+  const btDispatcherInfo* info_;
+  bool friction_;
+  bool restitution_;
+  int most_points_;  ///< of a pair
+  std::vector<Made> made_;
+  std::vector<Touch> touches_;
+  double deepest_m_ = 0;
+};
+
+}  // namespace pbmpi::bullet

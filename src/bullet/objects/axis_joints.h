@@ -1,0 +1,35 @@
+/// Joints of the model as Bullet's constraints of six axes, and their settings that change.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bullet/objects/joint_frames.h"
+
+namespace pbmpi::bullet {
+
+/// One btGeneric6DofSpring2Constraint a joint, in the model's order: each of its axes, three lines and three
+/// turns, is locked, free or limited. `axis`: 0 or 1, as in the model.
+class AxisJoints {
+ public:
+  /// `model` and `bodies` are borrowed. Throws core::InputError for a joint that has a motor or limit on an
+  /// axis that its kind lacks, and for a hinge2 to the world.
+  AxisJoints(const model::Model& model, Bodies& bodies);
+
+  int size() const { return static_cast<int>(joints_.size()); }
+  btGeneric6DofSpring2Constraint& operator[](int joint) { return *joints_[static_cast<std::size_t>(joint)]; }
+
+  void set_motor(int joint, int axis, const model::AxisMotor& motor);
+  void set_limit(int joint, int axis, const model::AxisLimit& limit);
+  /// Angle [rad] or length [m] of an axis, as the bodies stand.
+  double coordinate(int joint, int axis);
+  /// Scalar rows in a step from the present poses (Bullet's getInfo1): a limited axis has two, one a stop.
+  int count_rows(int joint);
+
+ private:
+  const model::Model* model_;
+  std::vector<std::unique_ptr<btGeneric6DofSpring2Constraint>> joints_;
+};
+
+}  // namespace pbmpi::bullet

@@ -1,0 +1,35 @@
+/// The events of a world, fired step by step.
+#pragma once
+
+#include <cstdint>
+
+#include "bullet/objects/held_poses.h"
+
+namespace pbmpi::bullet {
+
+/// Walks through Model::events. Joint settings are a pure function of the step; launches act on the state.
+class Events {
+ public:
+  /// All are borrowed. Throws core::InputError for a motor or steer event on an axis that its joint lacks.
+  Events(const model::Model& model, Bodies& bodies, AxisJoints& joints, HeldPoses& poses);
+
+  /// Brings the joints, as the model has them, to where they stand at the start of step `step`, before that
+  /// step's own events. Launches of earlier steps are part of the state already.
+  void skip_to(std::int64_t step);
+  /// This motor drives an axis from now on.
+  void set_motor(int joint, int axis, const model::AxisMotor& motor);
+  /// Fires the events of step `step`. Steps come in order, without a gap, from skip_to()'s.
+  void fire(std::int64_t step);
+
+ private:
+  void apply(const model::Event& event);
+  void set_joint(const model::Event& event);
+
+  const model::Model* model_;
+  Bodies* bodies_;
+  AxisJoints* joints_;
+  HeldPoses* poses_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace pbmpi::bullet

@@ -1,0 +1,45 @@
+/// What the joints of one world exert on their bodies.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bullet/objects/axis_joints.h"
+#include "effects/breakage.h"
+#include "model/step_memory.h"
+
+namespace pbmpi::bullet {
+
+/// Bullet measures what a joint does to its bodies only if it has somewhere to write it.
+class JointLoads {
+ public:
+  /// `model` and `bodies` are borrowed. `measured`: the joints that can break, or all, ascending.
+  JointLoads(const model::Model& model, const Bodies& bodies, AxisJoints& joints,
+             std::span<const int> measured);
+  JointLoads(const JointLoads&) = delete;
+  JointLoads& operator=(const JointLoads&) = delete;
+
+  /// Before the solver moves the bodies: where the torques are taken (effects::Reaction).
+  void note_places();
+  /// Force [N] on the first body of a measured joint, and torque [N m] about where note_places() was, world
+  /// frame, in the step that was solved last. Limits and motors are part of both.
+  model::JointForce force(int joint) const;
+  /// In the step that was just solved, of a measured joint.
+  effects::Reaction reaction(int joint) const;
+
+ private:
+  struct Measured {
+    int joint = 0;
+    model::Vec3 from_centre = model::Vec3::Zero();  ///< [m] world frame, from the first body's centre of mass
+    btJointFeedback feedback{};
+  };
+
+  const Measured& find(int joint) const;
+  model::Vec3 place_from_centre(const model::Joint& joint) const;
+
+  const model::Model* model_;
+  const Bodies* bodies_;
+  std::vector<Measured> measured_;  ///< Bullet keeps pointers to them
+};
+
+}  // namespace pbmpi::bullet
