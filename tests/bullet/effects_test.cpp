@@ -93,7 +93,7 @@ TEST(FastBodies, do_not_pass_through_a_thin_wall) {
     const int wall = support::add_actor(model, "wall");
     support::add_solid(model, wall, "wall", Shape::box, {0.02, 4, 4}, 500, {0, 0, 0});
     const int actor = support::add_actor(model, "ball");
-    support::add_solid(model, actor, "ball", Shape::sphere, {0.1, 0, 0}, 1, {-2.05, 0.1, 0.1});
+    support::add_solid(model, actor, "ball", Shape::sphere, {0.1, 0, 0}, 1, {-2.5, 0.1, 0.1});
     model.gravity.setZero();
     model.bodies[1].velocity = {100, 0, 0};  // 1 m a step
     model.effects["fast_bodies"] = looks_ahead;

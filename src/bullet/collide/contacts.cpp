@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "bullet/collide/plane_points.h"
-
 namespace pbmpi::bullet {
 namespace {
 
@@ -87,14 +85,7 @@ void Contacts::run(int a, int b, btPersistentManifold& manifold) {
                                         -1);
   btManifoldResult result(&first, &second);
   result.setPersistentManifold(&manifold);
-  if (shapes_->shape(b).getShapeType() == STATIC_PLANE_PROXYTYPE)
-    return find_plane_points(shapes_->shape(a), shapes_->place(a), shapes_->place(b), result);
-  btCollisionDispatcher& dispatcher = collider_->dispatcher_for(shapes_->shape(a), shapes_->shape(b));
-  btCollisionAlgorithm* algorithm =
-      dispatcher.findAlgorithm(&first, &second, &manifold, BT_CONTACT_POINT_ALGORITHMS);
-  algorithm->processCollision(&first, &second, *info_, &result);
-  algorithm->~btCollisionAlgorithm();
-  dispatcher.freeCollisionAlgorithm(algorithm);
+  collider_->collide(first, second, *info_, result);
 }
 
 void Contacts::keep(btPersistentManifold& manifold, const model::GeomPair& geoms) {

@@ -12,4 +12,9 @@ namespace pbmpi::bullet {
 void find_plane_points(const btCollisionShape& shape, const btTransform& place, const btTransform& plane,
                        btManifoldResult& found);
 
+/// Of a capsule or cylinder that lies on a face of a box, which `found` tells by its normal, adds those of
+/// the same points that are over the face.
+void find_face_points(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
+                      btManifoldResult& found);
+
 }  // namespace pbmpi::bullet

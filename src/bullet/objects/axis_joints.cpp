@@ -89,7 +89,8 @@ void AxisJoints::set_motor(int joint, int axis, const model::AxisMotor& motor) {
   const JointTraits& traits = model::traits_of(model_->joints[static_cast<std::size_t>(joint)].kind);
   const int at = bullet_axis(traits, axis);
   constraint.enableMotor(at, motor.active());
-  constraint.setTargetVelocity(at, motor.velocity);
+  // Along a line Bullet's motor drives a as seen from b, and its coordinate is that of b as seen from a.
+  constraint.setTargetVelocity(at, traits.slides ? -motor.velocity : motor.velocity);
   constraint.setMaxMotorForce(at, motor.max_force);
 }
 

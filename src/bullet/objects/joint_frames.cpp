@@ -54,11 +54,12 @@ JointFrames frames_of(const model::Model& model, const model::Joint& joint, cons
     return body == model::no_body ? model::Pose{} : model.bodies[static_cast<std::size_t>(body)].pose;
   };
   const model::Pose a = pose_of(joint.body_a), b = pose_of(joint.body_b);
-  const Vec3 z = traits.num_axes > 0 ? Vec3(-a.direction_to_outer(joint.axis1_a)) : Vec3::UnitZ();
+  Vec3 z = traits.num_axes > 0 ? a.direction_to_outer(joint.axis1_a) : Vec3(Vec3::UnitZ());
+  if (traits.slides) z = -z;
   Vec3 y = z.unitOrthogonal();
   Vec3 x_of_b = y.cross(z);
   if (traits.num_axes == 2) {
-    x_of_b = -b.direction_to_outer(joint.axis2_b);
+    x_of_b = b.direction_to_outer(joint.axis2_b);
     y = z.cross(x_of_b);
     core::require_input(y.norm() > least_sine_between_axes,
                         "joint '" + joint.name + "': its two axes are parallel; turn one of them");

@@ -5,8 +5,9 @@
 
 namespace pbmpi::bullet {
 
-/// The frames between which a btGeneric6DofSpring2Constraint measures. Along z lies minus axis 1, in the
-/// frame of a; along x minus axis 2, in that of b: Bullet counts from a to b, the model as ODE from b to a.
+/// The frames between which a btGeneric6DofSpring2Constraint measures. Along z lies axis 1, in the frame of
+/// a; along x axis 2, in that of b. Bullet's angles then are the model's, of a as seen from b; its lengths
+/// are those of b as seen from a, so that along z of a slider lies minus axis 1.
 struct JointFrames {
   btTransform a, b;
 };
