@@ -39,7 +39,7 @@ World::World(const model::Model& model, stepping::MotorTargets& targets, const m
       world_(model, bodies_, joints_, collider, no_pairs_),
       shapes_(model, bodies_),
       pairs_(model, shapes_),
-      contacts_(model, plan_, shapes_, bodies_, collider, world_.collision_info()),
+      contacts_(model, plan_, shapes_, bodies_, collider, world_.collision_info(), settings.dt_s),
       row_counter_(model, joints_),
       linear_keep_(std::exp(-model.linear_damping * settings.dt_s)),
       angular_keep_(std::exp(-model.angular_damping * settings.dt_s)),
@@ -135,6 +135,7 @@ bool World::take_step(bool is_last, core::LapTimer& timer) {
   }
   moved_ = true;
   held_poses_.aim(settings_.dt_s);
+  joints_.follow();
   if (is_last && settings_.contacts) note_centres();
   if (plan_.has(effects::EffectId::collision)) {
     collide();
@@ -213,7 +214,7 @@ void World::note_centres() {
 
 void World::show_contacts() {
   shown_.clear();
-  contacts_.show(centres_, settings_.dt_s, shown_.contacts, shown_.forces);
+  contacts_.show(centres_, shown_.contacts, shown_.forces);
   for (int joint = 0; joint < joints_.size(); ++joint) shown_.joints.push_back(loads_.force(joint));
 }
 

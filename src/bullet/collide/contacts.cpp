@@ -22,6 +22,23 @@ void keep_deepest(btPersistentManifold& manifold, int most) {
   }
 }
 
+/// Leaves the points that touch, of surfaces that bounce: Bullet would take a gap off the speed with which
+/// they part.
+void drop_gaps(btPersistentManifold& manifold) {
+  for (int i = manifold.getNumContacts() - 1; i >= 0; --i) {
+    if (depth(manifold.getContactPoint(i)) < 0) manifold.removeContactPoint(i);
+  }
+}
+
+/// [m/s] at which the bodies of a manifold approach each other in a point.
+double approach_speed(const btPersistentManifold& manifold, const btManifoldPoint& point) {
+  const auto velocity = [](const btCollisionObject* object, const btVector3& at) {
+    return btRigidBody::upcast(object)->getVelocityInLocalPoint(at - object->getWorldTransform().getOrigin());
+  };
+  return -point.m_normalWorldOnB.dot(velocity(manifold.getBody0(), point.getPositionWorldOnA()) -
+                                     velocity(manifold.getBody1(), point.getPositionWorldOnB()));
+}
+
 model::Contact to_contact(const btManifoldPoint& point, const model::GeomPair& geoms, const Touch& touch) {
   model::Contact contact;
   contact.body_a = touch.body_a;
@@ -29,8 +46,6 @@ model::Contact to_contact(const btManifoldPoint& point, const model::GeomPair& g
   contact.position = 0.5 * (vec3(point.getPositionWorldOnA()) + vec3(point.getPositionWorldOnB()));
   contact.normal = vec3(point.m_normalWorldOnB);
   contact.depth = depth(point);
-  contact.mu = point.m_combinedFriction;
-  contact.restitution = point.m_combinedRestitution;
   contact.geoms = geoms;
   return contact;
 }
@@ -38,12 +53,13 @@ model::Contact to_contact(const btManifoldPoint& point, const model::GeomPair& g
 }  // namespace
 
 Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan, const Shapes& shapes,
-                   Bodies& bodies, Collider& collider, const btDispatcherInfo& info)
+                   Bodies& bodies, Collider& collider, const btDispatcherInfo& info, double dt_s)
     : model_(&model),
       shapes_(&shapes),
       bodies_(&bodies),
       collider_(&collider),
       info_(&info),
+      dt_s_(dt_s),
       friction_(plan.has(effects::EffectId::friction)),
       restitution_(plan.has(effects::EffectId::restitution)),
       most_points_(std::min(model.contact_law.max_per_pair, MANIFOLD_CACHE_SIZE)) {}
@@ -73,9 +89,11 @@ void Contacts::collide(const model::GeomPair& pair) {
       *collider_->dispatcher().getNewManifold(&shapes_->body(a), &shapes_->body(b));
   manifold.setContactBreakingThreshold(std::min(shapes_->reach(a), shapes_->reach(b)));
   run(a, b, manifold);
+  const model::Material material = surface_of(pair);
+  if (material.restitution > 0) drop_gaps(manifold);
   if (manifold.getNumContacts() == 0) return collider_->dispatcher().releaseManifold(&manifold);
   keep_deepest(manifold, most_points_);
-  keep(manifold, pair);
+  keep(manifold, pair, material);
 }
 
 void Contacts::run(int a, int b, btPersistentManifold& manifold) {
@@ -88,7 +106,8 @@ void Contacts::run(int a, int b, btPersistentManifold& manifold) {
   collider_->collide(first, second, *info_, result);
 }
 
-void Contacts::keep(btPersistentManifold& manifold, const model::GeomPair& geoms) {
+void Contacts::keep(btPersistentManifold& manifold, const model::GeomPair& geoms,
+                    const model::Material& material) {
   const auto body_of = [&](const btCollisionObject* object) {
     const auto bodies = {model_->geoms[static_cast<std::size_t>(geoms.first)].body,
                          model_->geoms[static_cast<std::size_t>(geoms.second)].body};
@@ -97,29 +116,42 @@ void Contacts::keep(btPersistentManifold& manifold, const model::GeomPair& geoms
     }
     return model::no_body;
   };
-  const int rows = set_surface(manifold, geoms);
-  touches_.push_back(
-      {body_of(manifold.getBody0()), body_of(manifold.getBody1()), manifold.getNumContacts(), rows});
-  made_.push_back({&manifold, geoms});
-  for (int i = 0; i < manifold.getNumContacts(); ++i)
-    deepest_m_ = std::max(deepest_m_, depth(manifold.getContactPoint(i)));
-}
-
-/// Bullet would multiply the two bodies' coefficients. Returns the rows of a contact.
-int Contacts::set_surface(btPersistentManifold& manifold, const model::GeomPair& pair) {
-  const model::Material material =
-      model::pair_material(*model_, pair, model_->geoms[static_cast<std::size_t>(pair.first)].material,
-                           model_->geoms[static_cast<std::size_t>(pair.second)].material);
-  const double mu = friction_ ? std::min(material.mu, no_slip) : 0;
+  touches_.push_back({body_of(manifold.getBody0()), body_of(manifold.getBody1()), manifold.getNumContacts(),
+                      model::contact_rows(material.mu)});
+  made_.push_back({&manifold, geoms, material});
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     btManifoldPoint& point = manifold.getContactPoint(i);
-    point.m_combinedFriction = mu;
-    point.m_combinedRestitution = restitution_ ? material.restitution : 0;
+    deepest_m_ = std::max(deepest_m_, depth(point));
+    point.m_combinedFriction = material.mu;
     point.m_combinedRollingFriction = point.m_combinedSpinningFriction = 0;
     point.m_contactPointFlags |= BT_CONTACT_FLAG_HAS_CONTACT_CFM;
     point.m_contactCFM = model_->contact_law.soft_cfm;
+    set_bounce(manifold, material.restitution, point);
   }
-  return model::contact_rows(mu);
+}
+
+/// Bullet adds the speed of a bounce and that which pushes bodies apart; ODE takes the larger of the two.
+void Contacts::set_bounce(const btPersistentManifold& manifold, double restitution,
+                          btManifoldPoint& point) const {
+  point.m_combinedRestitution = 0;
+  if (restitution <= 0) return;
+  const double speed = approach_speed(manifold, point);
+  if (speed < model_->contact_law.bounce_velocity ||
+      restitution * speed < model_->contact_law.soft_erp * depth(point) / dt_s_)
+    return;
+  point.m_combinedRestitution = restitution;
+  point.m_contactPointFlags |= BT_CONTACT_FLAG_HAS_CONTACT_ERP;
+  point.m_contactERP = 0;
+}
+
+/// Bullet would multiply the two bodies' coefficients.
+model::Material Contacts::surface_of(const model::GeomPair& pair) const {
+  model::Material material =
+      model::pair_material(*model_, pair, model_->geoms[static_cast<std::size_t>(pair.first)].material,
+                           model_->geoms[static_cast<std::size_t>(pair.second)].material);
+  material.mu = friction_ ? std::min(material.mu, no_slip) : 0;
+  if (!restitution_) material.restitution = 0;
+  return material;
 }
 
 /// A point with a distance lets its bodies close that in a step, and no more.
@@ -135,26 +167,28 @@ void Contacts::make_ahead(const std::vector<model::Contact>& contacts) {
     btPersistentManifold& manifold = *collider_->dispatcher().getNewManifold(&a, &b);
     manifold.addManifoldPoint(point);
     touches_.push_back({contact.body_a, contact.body_b, 1, 1});
-    made_.push_back({&manifold, contact.geoms});
+    made_.push_back({&manifold, contact.geoms, {contact.mu, contact.restitution}});
   }
 }
 
-void Contacts::show(std::span<const model::Vec3> before, double dt_s, std::vector<model::Contact>& contacts,
+void Contacts::show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
                     std::vector<model::ContactForce>& forces) const {
   for (std::size_t i = 0; i < made_.size(); ++i) {
     const btPersistentManifold& manifold = *made_[i].manifold;
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
-      const model::Contact contact = to_contact(point, made_[i].geoms, touches_[i]);
+      model::Contact contact = to_contact(point, made_[i].geoms, touches_[i]);
+      contact.mu = made_[i].material.mu;
+      contact.restitution = made_[i].material.restitution;
       model::ContactForce force;
       force.geoms = contact.geoms;
       force.body_a = contact.body_a;
       force.body_b = contact.body_b;
       force.arm = contact.position - before[static_cast<std::size_t>(contact.body_a)];
-      force.normal = point.m_appliedImpulse / dt_s;
+      force.normal = point.m_appliedImpulse / dt_s_;
       force.friction = (point.m_appliedImpulseLateral1 * vec3(point.m_lateralFrictionDir1) +
                         point.m_appliedImpulseLateral2 * vec3(point.m_lateralFrictionDir2)) /
-                       dt_s;
+                       dt_s_;
       contacts.push_back(contact);
       forces.push_back(force);
     }

@@ -27,7 +27,7 @@ class Contacts {
  public:
   /// All are borrowed.
   Contacts(const model::Model& model, const effects::StepPlan& plan, const Shapes& shapes, Bodies& bodies,
-           Collider& collider, const btDispatcherInfo& info);
+           Collider& collider, const btDispatcherInfo& info, double dt_s);
   ~Contacts() { clear(); }
   Contacts(const Contacts&) = delete;
   Contacts& operator=(const Contacts&) = delete;
@@ -41,9 +41,9 @@ class Contacts {
   /// Forgets touches(), too: the step has no contacts.
   void forget();
 
-  /// Appends the contacts and their forces in the step of `dt_s` that was solved since make().
-  /// `before`: the centres of the bodies before it [m].
-  void show(std::span<const model::Vec3> before, double dt_s, std::vector<model::Contact>& contacts,
+  /// Appends the contacts and their forces in the step that was solved since make(). `before`: the centres of
+  /// the bodies before it [m].
+  void show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
             std::vector<model::ContactForce>& forces) const;
 
   const std::vector<Touch>& touches() const { return touches_; }
@@ -54,17 +54,20 @@ class Contacts {
   struct Made {
     btPersistentManifold* manifold;
     model::GeomPair geoms;
+    model::Material material;  ///< of the pair
   };
   void collide(const model::GeomPair& pair);
   void run(int a, int b, btPersistentManifold& manifold);
-  void keep(btPersistentManifold& manifold, const model::GeomPair& geoms);
-  int set_surface(btPersistentManifold& manifold, const model::GeomPair& pair);
+  void keep(btPersistentManifold& manifold, const model::GeomPair& geoms, const model::Material& material);
+  void set_bounce(const btPersistentManifold& manifold, double restitution, btManifoldPoint& point) const;
+  model::Material surface_of(const model::GeomPair& pair) const;
 
   const model::Model* model_;
   const Shapes* shapes_;
   Bodies* bodies_;
   Collider* collider_;
   const btDispatcherInfo* info_;
+  double dt_s_;
   bool friction_;
   bool restitution_;
   int most_points_;  ///< of a pair

@@ -76,12 +76,39 @@ AxisJoints::AxisJoints(const model::Model& model, Bodies& bodies) : model_(&mode
     }
     suspend(joint, constraint);
     const int index = size() - 1;
+    if (model::moves_along_axis(joint))
+      sliding_.push_back({index, constraint.getFrameOffsetA().getOrigin(), 0, {}});
     for (int axis = 0; axis < 2; ++axis) {
       const auto at = static_cast<std::size_t>(axis);
       if (joint.limits[at].active()) set_limit(index, axis, joint.limits[at]);
       if (joint.motors[at].active()) set_motor(index, axis, joint.motors[at]);
     }
   }
+}
+
+AxisJoints::Sliding* AxisJoints::find_sliding(int joint) {
+  const auto found = std::ranges::find(sliding_, joint, &Sliding::joint);
+  return found == sliding_.end() ? nullptr : &*found;
+}
+
+void AxisJoints::follow() {
+  for (Sliding& sliding : sliding_) {
+    Constraint& constraint = (*this)[sliding.joint];
+    btTransform& frame = constraint.getFrameOffsetA();
+    frame.setOrigin(sliding.origin);
+    constraint.calculateTransforms();
+    sliding.way = constraint.getRelativePivotPosition(line_z);
+    frame.setOrigin(sliding.origin + sliding.way * frame.getBasis().getColumn(2));
+    constraint.setEquilibriumPoint(line_z, -sliding.way);
+    limit_sliding(sliding);
+  }
+}
+
+void AxisJoints::limit_sliding(const Sliding& sliding) {
+  if (!sliding.limit.active()) return;
+  const btScalar most = 1e30;
+  (*this)[sliding.joint].setLimit(line_z, std::clamp(sliding.limit.low - sliding.way, -most, most),
+                                  std::clamp(sliding.limit.high - sliding.way, -most, most));
 }
 
 void AxisJoints::set_motor(int joint, int axis, const model::AxisMotor& motor) {
@@ -99,7 +126,12 @@ void AxisJoints::set_limit(int joint, int axis, const model::AxisLimit& limit) {
   Constraint& constraint = (*this)[joint];
   const JointTraits& traits = model::traits_of(model_->joints[static_cast<std::size_t>(joint)].kind);
   const int at = bullet_axis(traits, axis);
-  const double reach = traits.slides ? 1e30 : std::numbers::pi;
+  if (traits.slides) {
+    Sliding& sliding = *find_sliding(joint);
+    sliding.limit = limit;
+    return limit_sliding(sliding);
+  }
+  const double reach = std::numbers::pi;
   if (limit.low <= -reach && limit.high >= reach) return free_axis(constraint, at);
   constraint.setLimit(at, std::clamp(limit.low, -reach, reach), std::clamp(limit.high, -reach, reach));
 }
@@ -109,7 +141,8 @@ double AxisJoints::coordinate(int joint, int axis) {
   const JointTraits& traits = model::traits_of(model_->joints[static_cast<std::size_t>(joint)].kind);
   const int at = bullet_axis(traits, axis);
   constraint.calculateTransforms();
-  return at == line_z ? constraint.getRelativePivotPosition(line_z) : constraint.getAngle(at - turn_x);
+  if (at == line_z) return constraint.getRelativePivotPosition(line_z) + find_sliding(joint)->way;
+  return constraint.getAngle(at - turn_x);
 }
 
 int AxisJoints::count_rows(int joint) {

@@ -20,6 +20,10 @@ class AxisJoints {
   int size() const { return static_cast<int>(joints_.size()); }
   btGeneric6DofSpring2Constraint& operator[](int joint) { return *joints_[static_cast<std::size_t>(joint)]; }
 
+  /// Before a step, with the bodies in place: Bullet's rows of a joint that slides act on the first body
+  /// where its frame is, so that the frame goes along with the second body. Without that a slider that turns
+  /// gains energy, and its gap is the way it has slid times omega dt / ERP.
+  void follow();
   void set_motor(int joint, int axis, const model::AxisMotor& motor);
   void set_limit(int joint, int axis, const model::AxisLimit& limit);
   /// Angle [rad] or length [m] of an axis, as the bodies stand.
@@ -28,7 +32,18 @@ class AxisJoints {
   int count_rows(int joint);
 
  private:
+  /// A joint whose bodies move along its axis 1.
+  struct Sliding {
+    int joint = 0;
+    btVector3 origin;        ///< [m] of its frame in the first body, as the model has it
+    btScalar way = 0;        ///< [m] that the frame has gone along
+    model::AxisLimit limit;  ///< [m] from `origin`
+  };
+  Sliding* find_sliding(int joint);
+  void limit_sliding(const Sliding& sliding);
+
   const model::Model* model_;
+  std::vector<Sliding> sliding_;  ///< ascending
   std::vector<std::unique_ptr<btGeneric6DofSpring2Constraint>> joints_;
 };
 
