@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what pbmpi needs on Debian 12: `jobs/install_packages.sh` to build and run it, with --packages also what
-# jobs/package.sh needs, with --tests what the tests need, with --gates what tests/gates.sh needs. Does nothing if all of it
-# is there. Needs root, or sudo.
+# jobs/package.sh needs, with --tests what the tests need, with --gates what tests/gates.sh needs. The engines that a build may
+# lack, Bullet and MuJoCo (docs/steppers.md), come with the tests: who wants their steppers alone installs libbullet-dev or
+# libmujoco-dev. Does nothing if all of it is there. Needs root, or sudo.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config git ca-certificates
@@ -9,7 +10,7 @@ packages=(g++ cmake ninja-build pkg-config git ca-certificates
   libboost-program-options-dev libtomlplusplus-dev libpugixml-dev nlohmann-json3-dev libjs-three libjs-chart.js
   pybind11-dev python3-dev python3-numpy)
 package_packages=(dpkg-dev file gzip valgrind)
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libmujoco-dev python3 python3-h5py python3-pandas python3-mpi4py
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libbullet-dev libmujoco-dev python3 python3-h5py python3-pandas python3-mpi4py
   python3-matplotlib python3-selenium
   chromium chromium-driver hdf5-tools slurm-wlm munge procps shellcheck binutils doxygen qemu-user-static groff man-db fish zsh
   debootstrap)
