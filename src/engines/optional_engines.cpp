@@ -10,7 +10,7 @@
 #include "bullet/inexpressible.h"
 #endif
 #ifdef PBMPI_HAS_MUJOCO
-#include "mujoco/inexpressible.h"
+#include "mujoco/mujoco_stepper.h"
 #endif
 
 namespace pbmpi::engines {

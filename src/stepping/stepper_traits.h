@@ -37,7 +37,7 @@ inline constexpr std::array<StepperTraits, 5> stepper_traits = {{
      .is_anytime = true,
      .cuts_spaces = true,
      .shows_residuals = true},
-    {.iterates = true, .own_iterations = 10, .relative_cost = 5},   // Bullet's btContactSolverInfo
+    {.iterates = true, .own_iterations = 10, .relative_cost = 8},   // Bullet's btContactSolverInfo
     {.iterates = true, .own_iterations = 100, .relative_cost = 1},  // mjOption::iterations; few are done
 }};
 
