@@ -134,8 +134,8 @@ bool World::take_step(bool is_last, core::LapTimer& timer) {
     return true;
   }
   moved_ = true;
-  held_poses_.aim(settings_.dt_s);
   joints_.follow();
+  held_poses_.aim(settings_.dt_s);
   if (is_last && settings_.contacts) note_centres();
   if (plan_.has(effects::EffectId::collision)) {
     collide();

@@ -114,6 +114,29 @@ TEST(Determinism, holds_across_a_restart_of_a_heap_of_all_shapes) {
   EXPECT_EQ(with_restarts(heap(), {1, 40, 90, 91}), alone(0, heap()));
 }
 
+/// A slider with a stop and a motor that holds its pose, and a sprung wheel with a motor, in a spin.
+Model machine() {
+  Model model;
+  const int actor = support::add_actor(model, "machine");
+  support::add_solid(model, actor, "frame", model::Shape::box, {1, 0.5, 0.2}, 20, {0, 0, 2});
+  support::add_solid(model, actor, "piston", model::Shape::box, {0.2, 0.2, 0.2}, 3, {1, 0, 2});
+  support::add_solid(model, actor, "wheel", model::Shape::sphere, {0.3, 0, 0}, 5, {-1, 0, 2});
+  support::add_joint(model, model::JointKind::slider, 0, 1, {1, 0, 2}, model::Vec3(1, 0, 1).normalized());
+  model.joints[0].limits[0] = {-0.1, 0.2};
+  model.joints[0].motors[0] = {0, 30, 5};
+  support::add_joint(model, model::JointKind::hinge2, 0, 2, {-1, 0, 2}, model::Vec3::UnitZ(),
+                     model::Vec3::UnitY());
+  model.joints[1].suspension = {900, 20};
+  model.joints[1].motors = {{{0, 50, 8}, {6, 5}}};
+  model.bodies[0].angular_velocity = {1, 2, 0.5};
+  model.bodies[1].velocity = {1.5, 0, 0.4};
+  return model;
+}
+
+TEST(Determinism, holds_across_a_restart_of_joints_that_slide_and_are_driven) {
+  EXPECT_EQ(with_restarts(machine(), {1, 2, 17, 60}), alone(0, machine()));
+}
+
 TEST(Determinism, holds_for_a_state_that_is_set) {
   const Model model = heap();
   Simulation simulation(model, settings);

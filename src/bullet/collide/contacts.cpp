@@ -83,7 +83,8 @@ void Contacts::forget() {
 
 /// The normal of a manifold points into its first body, which is the real one.
 void Contacts::collide(const model::GeomPair& pair) {
-  const bool swap = model_->geoms[static_cast<std::size_t>(pair.first)].body == model::no_body;
+  const auto body_of = [&](int geom) { return model_->geoms[static_cast<std::size_t>(geom)].body; };
+  const bool swap = body_of(pair.first) == model::no_body;
   const int a = swap ? pair.second : pair.first, b = swap ? pair.first : pair.second;
   btPersistentManifold& manifold =
       *collider_->dispatcher().getNewManifold(&shapes_->body(a), &shapes_->body(b));
@@ -93,7 +94,8 @@ void Contacts::collide(const model::GeomPair& pair) {
   if (material.restitution > 0) drop_gaps(manifold);
   if (manifold.getNumContacts() == 0) return collider_->dispatcher().releaseManifold(&manifold);
   keep_deepest(manifold, most_points_);
-  keep(manifold, pair, material);
+  keep(manifold, {body_of(a), body_of(b), manifold.getNumContacts(), model::contact_rows(material.mu)}, pair,
+       material);
 }
 
 void Contacts::run(int a, int b, btPersistentManifold& manifold) {
@@ -106,18 +108,9 @@ void Contacts::run(int a, int b, btPersistentManifold& manifold) {
   collider_->collide(first, second, *info_, result);
 }
 
-void Contacts::keep(btPersistentManifold& manifold, const model::GeomPair& geoms,
+void Contacts::keep(btPersistentManifold& manifold, const Touch& touch, const model::GeomPair& geoms,
                     const model::Material& material) {
-  const auto body_of = [&](const btCollisionObject* object) {
-    const auto bodies = {model_->geoms[static_cast<std::size_t>(geoms.first)].body,
-                         model_->geoms[static_cast<std::size_t>(geoms.second)].body};
-    for (const int body : bodies) {
-      if (object == &bodies_->get(body)) return body;
-    }
-    return model::no_body;
-  };
-  touches_.push_back({body_of(manifold.getBody0()), body_of(manifold.getBody1()), manifold.getNumContacts(),
-                      model::contact_rows(material.mu)});
+  touches_.push_back(touch);
   made_.push_back({&manifold, geoms, material});
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     btManifoldPoint& point = manifold.getContactPoint(i);

@@ -58,7 +58,8 @@ class Contacts {
   };
   void collide(const model::GeomPair& pair);
   void run(int a, int b, btPersistentManifold& manifold);
-  void keep(btPersistentManifold& manifold, const model::GeomPair& geoms, const model::Material& material);
+  void keep(btPersistentManifold& manifold, const Touch& touch, const model::GeomPair& geoms,
+            const model::Material& material);
   void set_bounce(const btPersistentManifold& manifold, double restitution, btManifoldPoint& point) const;
   model::Material surface_of(const model::GeomPair& pair) const;
 

@@ -41,6 +41,11 @@ void Pairs::measure() {
     shapes_->shape(box.geom).getAabb(shapes_->place(box.geom), box.low, box.high);
     box.low -= reach;
     box.high += reach;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (box.low[axis] <= box.high[axis]) continue;
+      box.low[axis] = -model::infinity;  // it is no number, which has no place in an order
+      box.high[axis] = model::infinity;
+    }
   }
 }
 

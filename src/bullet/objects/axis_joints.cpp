@@ -50,7 +50,7 @@ void hold(const model::Joint& joint, double erp, Constraint& constraint) {
 }
 
 /// Bullet's own spring, on the line along axis 1. Bullet keeps stiffness and damping below what the explicit
-/// spring of a step bears (its manual of btGeneric6DofSpring2Constraint: "limitIfNeeded").
+/// spring of a step bears ("limitIfNeeded" of btGeneric6DofSpring2Constraint).
 void suspend(const model::Joint& joint, Constraint& constraint) {
   if (!model::traits_of(joint.kind).has_suspension() || !(joint.suspension.stiffness > 0)) return;
   free_axis(constraint, line_z);

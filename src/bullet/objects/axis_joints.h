@@ -26,7 +26,8 @@ class AxisJoints {
   void follow();
   void set_motor(int joint, int axis, const model::AxisMotor& motor);
   void set_limit(int joint, int axis, const model::AxisLimit& limit);
-  /// Angle [rad] or length [m] of an axis, as the bodies stand.
+  /// Angle [rad] or length [m] of an axis, as the bodies stand; after follow(), so that its bits have no
+  /// past.
   double coordinate(int joint, int axis);
   /// Scalar rows in a step from the present poses (Bullet's getInfo1): a limited axis has two, one a stop.
   int count_rows(int joint);

@@ -92,12 +92,12 @@ class Completion(unittest.TestCase):
 
     def test_closed_lists_are_offered_as_values(self):
         for shell in ("bash", "fish"):
-            self.assertEqual(self.offered(shell, "pbmpi", "--stepper", ""), {"sor", "quick", "direct"})
+            self.assertEqual(self.offered(shell, "pbmpi", "--stepper", ""), {"sor", "quick", "direct", "bullet", "mujoco"})
             self.assertEqual(self.offered(shell, "pbmpi", "--report", "j"), {"json"})
             self.assertEqual(self.offered(shell, "pbstudy", "accuracy", "--precision", ""), {"double", "single"})
             self.assertEqual(self.offered(shell, "pbreport", "ensemble", "--over", "w"), {"worlds"})
         self.assertEqual(self.offered("bash", "pbmpi", "--stepper=qu"), {"quick"})
-        self.assertEqual(self.offered("bash", "pbmpi", "--stepper="), {"sor", "quick", "direct"})
+        self.assertEqual(self.offered("bash", "pbmpi", "--stepper="), {"sor", "quick", "direct", "bullet", "mujoco"})
 
     def test_the_scenes_that_pbmpi_brings_and_files_are_offered(self):
         listed = subprocess.run([os.path.join(BIN, "pbmpi"), "--list-scenes"], check=True, capture_output=True, text=True,
