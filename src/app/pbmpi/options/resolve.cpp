@@ -186,9 +186,9 @@ void require_recordable(const Options& options, stepping::StepperKind kind) {
                     " may have replaced it; use --on-blowup report or stop");
   require_input(!options.record_contacts || !options.no_output,
                 "--record-contacts writes into the run's file; drop --no-output");
-  require_input(
-      !options.record_residuals || traits.shows_residuals,
-      "--record-residuals: --stepper " + std::string(name_of(kind)) + " does not show its rows; use sor");
+  require_input(!options.record_residuals || traits.shows_residuals,
+                "--record-residuals: --stepper " + std::string(name_of(kind)) +
+                    " does not show its rows; use --stepper sor");
   require_input(!options.record_residuals || !options.no_output,
                 "--record-residuals writes into the run's file; drop --no-output");
 }
