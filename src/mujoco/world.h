@@ -1,0 +1,86 @@
+/// One world, stepped by MuJoCo.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/clock.h"
+#include "effects/effects.h"
+#include "effects/step_rules.h"
+#include "mujoco/compiled.h"
+#include "mujoco/drives.h"
+#include "stepping/motor_targets.h"
+#include "stepping/observables.h"
+#include "stepping/step_contacts.h"
+#include "stepping/stepper.h"
+
+namespace pbmpi::mujoco {
+
+/// Its state is the model's: MuJoCo's coordinates are made from it anew in each step, and its solver starts
+/// from nothing, so that a world that runs on and one that is restored have the same bits.
+class World final : effects::RuledWorld {
+ public:
+  /// `model` and `targets` are borrowed. Throws core::InputError for a world that MuJoCo refuses. Needs a
+  /// MessageScope, as do set_state() and advance().
+  World(const model::Model& model, stepping::MotorTargets& targets, const model::State& state,
+        std::int64_t step, const stepping::StepperSettings& settings);
+
+  void set_state(const model::State& state);
+  /// A motor of the world is aimed elsewhere.
+  void aim(const stepping::MotorTargets::Target& target);
+  /// Stops early if the world is lost.
+  void advance(int num_steps, core::LapTimer& timer);
+  void read(model::State& state, stepping::Observables& observables) const;
+
+  /// Is it not finite any more?
+  bool is_lost() const { return is_lost_; }
+  const std::vector<std::int32_t>& broken_in() const { return state_.broken_in; }
+  const stepping::StepContacts& contacts() const { return shown_; }
+  /// The next step.
+  std::int64_t step() const { return step_; }
+
+ private:
+  void fire_events(std::int64_t step) override;
+  void store(std::span<const int> bodies, model::State& state) const override;
+  void set_velocities(std::span<const int> bodies, const model::State& state) override;
+  bool may_be_fast() const override { return false; }
+  void add_contacts_ahead(effects::FastBodies&, const model::State&) override {}
+  std::span<const effects::BodyPair> touching() override { return {}; }
+  effects::Reaction reaction(int joint) const override { return compiled_->loads.reaction(joint); }
+  void show_awake() override {}
+  void show_asleep(std::span<const int>) override {}
+  /// The next step has another tree.
+  void show_broken() override { compiled_.reset(); }
+
+  void compile();
+  void take_step(bool is_last, core::LapTimer& timer);
+  void solve_step(bool is_last, core::LapTimer& timer);
+  bool solve_part(bool is_last, core::LapTimer& timer);
+  void collide();
+  void solve();
+  void show_contacts();
+  void take_in_solution();
+  void lose();
+
+  const model::Model* model_;
+  stepping::MotorTargets* targets_;
+  effects::StepPlan plan_;
+  int num_parts_;  ///< MuJoCo's steps in a step
+  stepping::StepperSettings settings_;
+  stepping::StepperSettings part_settings_;  ///< of one of them
+  Drives drives_;
+  model::State state_;
+  effects::StepRules rules_;
+  bool measures_loads_;                 ///< do joints break under load, or are forces shown?
+  double kept_linear_, kept_angular_;   ///< shares of the velocities that damping leaves in a step
+  std::unique_ptr<Compiled> compiled_;  ///< none once other joints hold
+  std::vector<mjtNum> qpos_;            ///< scratch of collide()
+  stepping::Observables counts_;        ///< of the last step
+  stepping::StepContacts shown_;        ///< with `contacts`: of the last step
+  std::int64_t step_;
+  bool is_lost_ = false;
+};
+
+}  // namespace pbmpi::mujoco

@@ -1,0 +1,52 @@
+#include "simulation.h"
+
+#include "model/validate.h"
+#include "mujoco/mujoco_stepper.h"
+#include "ode/ode_stepper.h"
+
+namespace pbmpi::mujoco {
+
+stepping::StepperSettings settings_with(double dt_s) {
+  stepping::StepperSettings settings;
+  settings.dt_s = dt_s;
+  settings.iterations = 100;
+  return settings;
+}
+
+Simulation::Simulation(const model::Model& model, const stepping::StepperSettings& settings)
+    : Simulation(model, make_mujoco_stepper(settings)) {}
+
+Simulation::Simulation(const model::Model& model, std::unique_ptr<stepping::WorldStepper> stepper)
+    : stepper_(std::move(stepper)) {
+  model::validate(model, "test");
+  stepper_->add(0, std::make_shared<model::Model>(model), model::initial_state(model), 0);
+}
+
+Simulation Simulation::by_ode(const model::Model& model, double dt_s) {
+  stepping::StepperSettings settings = settings_with(dt_s);
+  settings.kind = stepping::StepperKind::direct;
+  return {model, ode::make_ode_stepper(settings, [](const std::string&) {})};
+}
+
+void Simulation::advance(int num_steps) {
+  core::PhaseTimes times;
+  stepper_->advance(num_steps, times);
+}
+
+std::uint64_t hash_after(const model::Model& model, int num_steps) {
+  Simulation simulation(model);
+  simulation.advance(num_steps);
+  return model::hash(simulation.state());
+}
+
+std::uint64_t hash_after_restore(const model::Model& model, int first, int rest) {
+  Simulation simulation(model);
+  simulation.advance(first);
+  const auto stepper = make_mujoco_stepper(settings_with());
+  stepper->add(7, std::make_shared<model::Model>(model), simulation.state(), first);
+  core::PhaseTimes times;
+  stepper->advance(rest, times);
+  return model::hash(stepper->state(7));
+}
+
+}  // namespace pbmpi::mujoco
