@@ -131,7 +131,7 @@ class Completion(unittest.TestCase):
             self.assertEqual((result.returncode, result.stderr), (0, ""))
         for command in (("pbmpi",), ("pbstudy", "accuracy"), ("pbreport", "csv"), ("pbreport",)):
             self.assertEqual(self.offered_by_zsh(" ".join(command) + " --"), options_of(*command), command)
-        self.assertEqual(self.offered_by_zsh("pbmpi --stepper "), {"sor", "quick", "direct"})
+        self.assertEqual(self.offered_by_zsh("pbmpi --stepper "), {"sor", "quick", "direct", "bullet", "mujoco"})
         self.assertEqual(self.offered_by_zsh("pbmpi --scene=Cra"), {"CrashSk", "CrashWa"})
         self.assertEqual(self.offered_by_zsh("pbstudy "), set(commands_of("pbstudy")))
         self.assertEqual(self.offered_by_zsh("pbreport diff r"), {"run.h5"})
