@@ -37,6 +37,9 @@ bool has_no_slip(const Model& model) {
   return std::ranges::any_of(model.geoms,
                              [](const model::Geom& geom) { return geom.material.mu == model::infinity; });
 }
+bool has_gyroscopic_torque(const Model& model) {
+  return effects::StepPlan(model).has(effects::EffectId::gyroscopic_torque);
+}
 bool always(const Model&) { return true; }
 
 struct Difference {
@@ -57,6 +60,9 @@ constexpr std::array differences = {
     Difference{has_many_contacts, "max_per_pair: a pair of geoms has 4 contacts at most"},
     Difference{has_field, "field_of_interest: none, all islands get all iterations"},
     Difference{has_no_slip, "infinite friction: 1e6 times the normal force at most"},
+    Difference{
+        has_gyroscopic_torque,
+        "gyroscopic_torque: implicit, by one step of Newton's method, which takes energy from a fast spin"},
     Difference{always, "a body turns by a quarter of pi in a step at most (btTransformUtil)"},
     Difference{always,
                "contacts keep no memory from step to step, as quick's, so that a state restores a world"},

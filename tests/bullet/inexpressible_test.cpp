@@ -18,6 +18,8 @@ TEST(Inexpressible, names_what_the_model_has_and_nothing_else) {
   model::Model model = support::pendulum(1, 0.1);
   for (const char* word : {"suspension", "limits", "cfm", "max_per_pair", "field", "infinite"})
     EXPECT_FALSE(says(model, word)) << word;
+  EXPECT_FALSE(says(model, "gyroscopic")) << "it is a ball";
+  EXPECT_TRUE(says(support::free_box(), "gyroscopic"));
   model.joints[0].limits[0] = {-1, 1};
   model.cfm = 1e-3;
   model.contact_law.max_per_pair = 8;
