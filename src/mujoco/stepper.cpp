@@ -92,7 +92,7 @@ void MujocoStepper::advance_slot(int id, Slot& slot, int num_steps, core::LapTim
   if (slot.world->is_lost()) {
     std::fprintf(stderr,
                  "%smujoco: world %d, step %lld: this world stops here, its accelerations are not finite\n",
-                 warning_prefix_.c_str(), id, static_cast<long long>(slot.world->step() - 1));
+                 warning_prefix_.c_str(), id, static_cast<long long>(slot.world->step()));
     slot.world.reset();
   }
   timer.lap(core::Phase::integrate);

@@ -9,19 +9,13 @@
 #include "core/marks.h"
 #include "mujoco/mujoco_stepper.h"
 #include "mujoco/observed.h"
+#include "mujoco/parts.h"
 
 namespace pbmpi::mujoco {
 namespace {
 
 /// Contacts that there is room for at first; more room is made when it is short.
 int first_contacts(const model::Model& model) { return 64 + 4 * static_cast<int>(model.geoms.size()); }
-
-/// MuJoCo's own default is 2 ms. In joint coordinates the forces of turning are taken from the start of a
-/// step: with 10 ms, and with 5, ragdolls that a car hits at 25 m/s spin up until nothing is finite.
-constexpr double longest_part_s = 0.0025;
-
-/// A little less than a whole part is rounding.
-int count_parts(double dt_s) { return static_cast<int>(std::ceil(dt_s / longest_part_s - 1e-6)); }
 
 stepping::StepperSettings part_of(stepping::StepperSettings settings, int num_parts) {
   settings.dt_s /= num_parts;
@@ -41,7 +35,7 @@ World::World(const model::Model& model, stepping::MotorTargets& targets, const m
     : model_(&model),
       targets_(&targets),
       plan_(model),
-      num_parts_(std::max(1, count_parts(settings.dt_s))),
+      num_parts_(fewest_parts(settings.dt_s)),
       settings_(settings),
       part_settings_(part_of(settings, num_parts_)),
       drives_(model, step),
@@ -54,6 +48,7 @@ World::World(const model::Model& model, stepping::MotorTargets& targets, const m
   require_no_refusal(model);
   for (const stepping::MotorTargets::Target& target : targets_->all())
     drives_.set_motor(target.joint, target.axis, target.motor);
+  after_.resize(model.num_bodies());
   set_state(state);
 }
 
@@ -115,34 +110,53 @@ void World::advance(int num_steps, core::LapTimer& timer) {
   for (int i = 0; i < num_steps && !is_lost_; ++i) take_step(i + 1 == num_steps, timer);
 }
 
+/// In more and shorter parts until nothing turns far within one: what a step takes follows from the state at
+/// its start alone.
 void World::take_step(bool is_last, core::LapTimer& timer) {
   rules_.begin_step(*this, step_);
   if (!compiled_) compile();
-  for (bool done = false; !done;) {
+  const int most_parts = most_halves * num_parts_;
+  int parts = num_parts_;
+  while (parts < most_parts && !turns_little(state_, settings_.dt_s / parts)) parts *= 2;
+  for (;; parts *= 2) {
+    const bool finite = solve_step(parts, is_last, timer);
+    if (finite) compiled_->at.to_state(compiled_->engine.model(), compiled_->engine.data(), after_);
+    if (finite && (turns_little(after_, settings_.dt_s / parts) || parts >= most_parts)) break;
+    if (parts >= most_parts) return lose();
+  }
+  take_in_solution();
+  timer.lap(core::Phase::integrate);
+  if (is_lost_) return;
+  rules_.after_solve(*this, step_);
+  ++step_;
+}
+
+/// All of the step but what it leaves in the state. A stack that was too small is made larger, and the step
+/// begun anew; false as from solve_part().
+bool World::solve_step(int parts, bool is_last, core::LapTimer& timer) {
+  set_part(*compiled_, *model_, settings_.dt_s / parts);
+  for (;;) {
     try {
-      solve_step(is_last, timer);
-      done = true;
+      return solve_parts(parts, is_last, timer);
     } catch (const EngineError& error) {
       if (!is_stack_overflow(error)) throw;
       compiled_->engine.make_stack();
     }
   }
-  take_in_solution();
-  timer.lap(core::Phase::integrate);
-  if (!is_lost_) rules_.after_solve(*this, step_);
-  ++step_;
 }
 
-/// All of the step but what it leaves in the state.
-void World::solve_step(bool is_last, core::LapTimer& timer) {
+bool World::solve_parts(int parts, bool is_last, core::LapTimer& timer) {
   shown_.clear();
-  compiled_->at.to_mujoco(state_, compiled_->engine.data());
-  for (int part = 0; part < num_parts_; ++part) {
-    if (!solve_part(is_last && part + 1 == num_parts_, timer)) return;
+  mjData& data = compiled_->engine.data();
+  data.warning[mjWARN_BADQACC].number = 0;
+  compiled_->at.to_mujoco(state_, data);
+  for (int part = 0; part < parts; ++part) {
+    if (!solve_part(is_last && part + 1 == parts, timer)) return false;
   }
   if (measures_loads_) compiled_->loads.measure(compiled_->engine.model(), compiled_->engine.data());
   if (is_last && settings_.contacts) show_contacts();
   timer.lap(core::Phase::islands);
+  return true;
 }
 
 /// False if MuJoCo gave the world up: it starts its data anew where an acceleration is not finite or above
@@ -211,11 +225,9 @@ void World::show_contacts() {
 }
 
 void World::take_in_solution() {
-  mjData& data = compiled_->engine.data();
-  if (data.warning[mjWARN_BADQACC].number > 0) return lose();
-  compiled_->at.to_state(compiled_->engine.model(), data, state_);
-  if (model::count_nonfinite(state_) > 0) return lose();
+  if (model::count_nonfinite(after_) > 0) return lose();
   for (int body = 0; body < model_->num_bodies(); ++body) {
+    model::copy_body(body, after_, state_);
     if (kept_linear_ != 1) state_.velocity[body] *= kept_linear_;
     if (kept_angular_ != 1) state_.angular_velocity[body] *= kept_angular_;
   }

@@ -56,7 +56,8 @@ class World final : effects::RuledWorld {
 
   void compile();
   void take_step(bool is_last, core::LapTimer& timer);
-  void solve_step(bool is_last, core::LapTimer& timer);
+  bool solve_step(int parts, bool is_last, core::LapTimer& timer);
+  bool solve_parts(int parts, bool is_last, core::LapTimer& timer);
   bool solve_part(bool is_last, core::LapTimer& timer);
   void collide();
   void solve();
@@ -67,11 +68,12 @@ class World final : effects::RuledWorld {
   const model::Model* model_;
   stepping::MotorTargets* targets_;
   effects::StepPlan plan_;
-  int num_parts_;  ///< MuJoCo's steps in a step
+  int num_parts_;  ///< MuJoCo's steps in a step, the fewest
   stepping::StepperSettings settings_;
   stepping::StepperSettings part_settings_;  ///< of one of them
   Drives drives_;
   model::State state_;
+  model::State after_;  ///< scratch of take_step()
   effects::StepRules rules_;
   bool measures_loads_;                 ///< do joints break under load, or are forces shown?
   double kept_linear_, kept_angular_;   ///< shares of the velocities that damping leaves in a step

@@ -13,6 +13,8 @@ from small_scenes import SIGN, STACKS  # noqa: E402
 PACKAGES = {"bullet": "libbullet-dev", "mujoco": "libmujoco-dev"}
 # Scenes with effects that the engine has, with the frames before a checkpoint and in all.
 EFFECTS = {"bullet": ((STACKS, 22, 45), (SIGN, 6, 20)), "mujoco": ((SIGN, 6, 20),)}
+# MuJoCo factorises a world as a whole: a step of these takes seconds to minutes.
+TOO_LARGE = {"mujoco": ("Environ", "Battle2")}
 PBSTUDY = os.path.join(BIN, "pbstudy")
 
 
@@ -86,7 +88,7 @@ class Engines(ProgramTest):
 
     def test_the_nine_scenes_stay_finite(self):
         for engine in self.each():
-            for scene in SCENES:
+            for scene in (name for name in SCENES if name not in TOO_LARGE.get(engine, ())):
                 replicas = ["--replicas", 2] if scene == "100CrSk" else []
                 summary = self.summary(1, "--scene", scene, *replicas, "--stepper", engine, "--frames", 10, "--no-output")
                 self.assertEqual(summary["invariants"]["nonfinite_bodies"], 0, scene)
