@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/effects.h"
 #include "model/state.h"
 #include "mujoco/compiled.h"
 
@@ -20,11 +21,27 @@ inline constexpr double farthest_turn = 0.25;
 /// Up to so many parts of each of the longest.
 inline constexpr int most_halves = 16;
 
+/// How fast a body turns [rad/s], but for what moves none of its mass: about an axle through its centre of
+/// mass, as a wheel, or as a free ball.
+inline double turning_speed(const model::Model& model, const Link& link, const model::State& state,
+                            int body) {
+  const model::Vec3& velocity = state.angular_velocity[body];
+  if (link.is_free() && !effects::has_gyroscopic_torque(model.bodies[body])) return 0 * velocity.norm();
+  constexpr double at_centre_m = 1e-9;
+  const bool on_axle = link.has_anchor && link.anchor_child.norm() < at_centre_m && !link.axes.empty() &&
+                       link.axes.back().freedom == Freedom::hinge;
+  if (!on_axle) return velocity.norm();
+  const model::Vec3 axle = state.orientation[body].to_eigen() * link.axes.back().direction;
+  return (velocity - axle * axle.dot(velocity)).norm();
+}
+
 /// False for what is not finite, too.
-inline bool turns_little(const model::State& state, double part_s) {
-  return std::ranges::all_of(state.angular_velocity, [&](const model::Vec3& velocity) {
-    return velocity.norm() * part_s <= farthest_turn;
-  });
+inline bool turns_little(const model::Model& model, const std::vector<Link>& links, const model::State& state,
+                         double part_s) {
+  for (int body = 0; body < model.num_bodies(); ++body) {
+    if (!(turning_speed(model, links[body], state, body) * part_s <= farthest_turn)) return false;
+  }
+  return true;
 }
 
 /// A little less than a whole part is rounding.

@@ -80,7 +80,9 @@ void World::aim(const stepping::MotorTargets::Target& target) {
 }
 
 void World::fire_events(std::int64_t step) {
-  for (const model::Event& event : std::ranges::equal_range(model_->events, step, {}, &model::Event::step)) {
+  auto next = std::ranges::lower_bound(model_->events, step, {}, &model::Event::step);
+  for (; next != model_->events.end() && next->step == step; ++next) {
+    const model::Event& event = *next;
     if (event.kind != model::EventKind::launch) continue;
     if (event.pose) {
       state_.position[event.body] = event.pose->position;
@@ -117,11 +119,14 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
   if (!compiled_) compile();
   const int most_parts = most_halves * num_parts_;
   int parts = num_parts_;
-  while (parts < most_parts && !turns_little(state_, settings_.dt_s / parts)) parts *= 2;
+  while (parts < most_parts && !turns_little(*model_, compiled_->links, state_, settings_.dt_s / parts))
+    parts *= 2;
   for (;; parts *= 2) {
     const bool finite = solve_step(parts, is_last, timer);
     if (finite) compiled_->at.to_state(compiled_->engine.model(), compiled_->engine.data(), after_);
-    if (finite && (turns_little(after_, settings_.dt_s / parts) || parts >= most_parts)) break;
+    if (finite &&
+        (turns_little(*model_, compiled_->links, after_, settings_.dt_s / parts) || parts >= most_parts))
+      break;
     if (parts >= most_parts) return lose();
   }
   take_in_solution();
