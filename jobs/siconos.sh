@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# Contact problems of recorded steps in the form of FCLIB, solved again by Siconos: who has which residual.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+Usage: jobs/siconos.sh [--quick-look] [--keep-runs] [OUTDIR]
+
+Writes OUTDIR/siconos.md, .csv and .json (default: ./siconos), and in OUTDIR/problems a file of FCLIB for each problem of the
+reference. Needs python3-siconos, python3-h5py and python3-scipy. Up to half an hour on one core.
+
+  --quick-look   three scenes and four hard cases with fewer sweeps: a minute
+  --keep-runs    go on with the runs that OUTDIR/runs has, e.g. after a change of the scripts alone
+  PBMPI_REFERENCE_TIME    [s] a run of the reference may take, default 30; of a hard case a sixth of it
+TEXT
+}
+
+scenes=(2-Cars 10-Cars CrashSk CrashWa Environ 100CrSk Battle Fight Battle2)
+sweeps=100000
+time=${PBMPI_REFERENCE_TIME:-30}
+steps=40
+cases=()
+keep=no
+out=siconos
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --help) usage; exit 0 ;;
+    --quick-look)
+      scenes=(2-Cars CrashSk Fight) sweeps=20000 time=6 steps=20
+      cases=(hard/rest/column10 hard/contact/ramp_mu05_24 hard/joints/bridge30 hard/free/bounce_half)
+      shift ;;
+    --keep-runs) keep=yes; shift ;;
+    -*) echo "siconos.sh: unknown option '$1'; see --help" >&2; exit 2 ;;
+    *) out=$1; shift ;;
+  esac
+done
+
+jobs=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$jobs/mpi_environment.sh"
+bin=${PBMPI_BIN:-$jobs/../build/release/bin}
+[[ -x $bin/pbmpi ]] || { echo "siconos.sh: $bin/pbmpi is missing; build it with jobs/build.sh release" >&2; exit 2; }
+python=${PYTHON:-python3}
+"$python" -c "import siconos.numerics, h5py, scipy" || {
+  echo "siconos.sh: python3-siconos, python3-h5py or python3-scipy is missing; apt-get install them" >&2; exit 2; }
+
+if [[ ${#cases[@]} == 0 ]]; then
+  mapfile -t cases < <("$bin/pbmpi" --list-scenes | awk '
+    /^Hard cases/ { hard = 1; next } !hard { next } /^  hard\// { group = $1; next } { for (i = 1; i <= NF; ++i) print group $i }')
+fi
+
+# What all three have: a frame is a step, so that a step stands between two states of the file.
+common=(--steps-per-frame 1 --warmup 0 --record-contacts --no-xdmf --quiet --progress never)
+# Rigid rows with the scene's ERP and CFM, one solve a step: the problem that docs/siconos.md writes down.
+cold=(--stepper sor --substeps 1 --relax 0 --contact-frequency 0 --joint-frequency 0 --contact-margin 0 --friction cone)
+
+# record KIND SCENE SECONDS option...
+record() {
+  local file=$out/runs/$1/${2//\//.}.h5 scene=$2 seconds=$3 status=0
+  shift 3
+  [[ ! -e $file ]] || return 0
+  "$bin/pbmpi" --scene "$scene" "${common[@]}" --frames "$steps" --max-time "$seconds" --output "$file" "$@" || status=$?
+  rm -f "${file%.h5}.checkpoint.h5"
+  # 75: the time was up; 1: a number is not finite. What was written is there.
+  [[ $status == 0 || $status == 75 || $status == 1 ]] || { echo "siconos.sh: $scene ended with $status" >&2; exit 1; }
+}
+
+[[ $keep == yes ]] || rm -rf "$out/runs"
+rm -rf "$out/problems"
+mkdir -p "$out"/runs/{default,cold20,reference} "$out/problems"
+for scene in "${scenes[@]}" "${cases[@]}"; do
+  seconds=$time
+  [[ $scene != hard/* ]] || seconds=$((time / 6))
+  more=()
+  [[ $scene != 100CrSk ]] || more=(--replicas 16)
+  record default "$scene" "$seconds" ${more[@]+"${more[@]}"}
+  record cold20 "$scene" "$seconds" "${cold[@]}" --warm-start 0 --iterations 20 ${more[@]+"${more[@]}"}
+  record reference "$scene" "$seconds" "${cold[@]}" --warm-start 1 --joint-solver tree --iterations "$sweeps" ${more[@]+"${more[@]}"}
+done
+
+for kind in default cold20 reference; do
+  "$python" "$jobs/siconos/fclib_export.py" --most-contacts 100 --each 40 --each-hard 12 --output "$out/problems/$kind" "$out/runs/$kind"/*.h5
+done
+"$python" "$jobs/siconos/solve.py" --output "$out/siconos" "$out/problems"/{default,cold20,reference}
+echo "$out/siconos.md"
