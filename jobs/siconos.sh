@@ -4,12 +4,13 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: jobs/siconos.sh [--quick-look] [--keep-runs] [OUTDIR]
+Usage: jobs/siconos.sh [--quick-look] [--page FILE] [--keep-runs] [OUTDIR]
 
 Writes OUTDIR/siconos.md, .csv and .json (default: ./siconos), and in OUTDIR/problems a file of FCLIB for each problem of the
 reference. Needs python3-siconos, python3-h5py and python3-scipy. Up to half an hour on one core.
 
   --quick-look   three scenes and four hard cases with fewer sweeps: a minute
+  --page FILE    replace the tables of this page, too: docs/siconos.md
   --keep-runs    go on with the runs that OUTDIR/runs has, e.g. after a change of the scripts alone
   PBMPI_REFERENCE_TIME    [s] a run of the reference may take, default 30; of a hard case a twelfth of it
 TEXT
@@ -23,6 +24,7 @@ steps=40
 large=" hard/rest/pyramid100 hard/rest/pyramid30_small hard/rest/kapla_tower hard/rest/wall400 hard/rest/cubes125 hard/rest/100CrSk "
 cases=()
 keep=no
+page=()
 out=siconos
 while [[ $# -gt 0 ]]; do
   case $1 in
@@ -31,6 +33,7 @@ while [[ $# -gt 0 ]]; do
       scenes=(2-Cars CrashSk Fight) sweeps=20000 hard_sweeps=20000 time=12 steps=20
       cases=(hard/rest/column10 hard/contact/ramp_mu05_24 hard/joints/bridge30 hard/free/bounce_half)
       shift ;;
+    --page) page=(--page "$2"); shift 2 ;;
     --keep-runs) keep=yes; shift ;;
     -*) echo "siconos.sh: unknown option '$1'; see --help" >&2; exit 2 ;;
     *) out=$1; shift ;;
@@ -70,7 +73,7 @@ record() {
 
 [[ $keep == yes ]] || rm -rf "$out/runs"
 rm -rf "$out/problems"
-mkdir -p "$out"/runs/{default,cold20,reference} "$out/problems"
+mkdir -p "$out"/runs/{default,20_sweeps,1000_sweeps,reference} "$out/problems"
 for scene in "${scenes[@]}" "${cases[@]}"; do
   seconds=$time
   of_reference=$sweeps
@@ -79,12 +82,15 @@ for scene in "${scenes[@]}" "${cases[@]}"; do
   more=()
   [[ $scene != 100CrSk ]] || more=(--replicas 16)
   record default "$scene" "$seconds" ${more[@]+"${more[@]}"}
-  record cold20 "$scene" "$seconds" "${cold[@]}" --warm-start 0 --iterations 20 ${more[@]+"${more[@]}"}
+  for few in 20 1000; do
+    record "${few}_sweeps" "$scene" "$seconds" "${cold[@]}" --warm-start 0 --iterations "$few" ${more[@]+"${more[@]}"}
+  done
   record reference "$scene" "$seconds" "${cold[@]}" --warm-start 1 --joint-solver tree --iterations "$of_reference" ${more[@]+"${more[@]}"}
 done
 
-for kind in default cold20 reference; do
+kinds=(default 20_sweeps 1000_sweeps reference)
+for kind in "${kinds[@]}"; do
   "$python" "$jobs/siconos/fclib_export.py" --most-contacts 100 --each 40 --each-hard 12 --output "$out/problems/$kind" "$out/runs/$kind"/*.h5
 done
-"$python" "$jobs/siconos/solve.py" --output "$out/siconos" "$out/problems"/{default,cold20,reference}
+"$python" "$jobs/siconos/solve.py" --output "$out/siconos" ${page[@]+"${page[@]}"} "${kinds[@]/#/$out/problems/}"
 echo "$out/siconos.md"
