@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-from tables import accuracy, effects, guards, paper, prediction, programs, scaling, scenes, speed, stability
+from tables import accuracy, effects, guards, paper, prediction, programs, scaling, scenes, siconos, speed, stability
 
 # page: below the root. make: computes the lines of the table. has_clock: whether times are among its figures. commands: for
 # a reader who wants to measure it by hand.
@@ -58,6 +58,9 @@ ENTRIES = {
     "paper_instructions": Entry("docs/paper.md", paper.instructions, True, ["jobs/paper.sh"]),
     "paper_prediction": Entry("docs/paper.md", paper.prediction, True, ["jobs/paper.sh --prediction"]),
     "paper_nothing": Entry("docs/paper.md", paper.nothing, False, ["jobs/paper.sh --without-clock"]),
+    "siconos_residuals": Entry("docs/siconos.md", siconos.residuals, True, ["jobs/siconos.sh"]),
+    "siconos_counts": Entry("docs/siconos.md", siconos.counts, True, ["jobs/siconos.sh"]),
+    "siconos_above": Entry("docs/siconos.md", siconos.above, True, ["jobs/siconos.sh"]),
     "scaling": Entry("docs/scaling.md", scaling.scaling, True, [f"jobs/scaling.sh --repeats {scaling.REPEATS} --ranks \"1 2\""]),
     "forecast_traffic": Entry("docs/scaling.md", scaling.forecast_traffic, False,
                               ["mpirun -n 2 pbstudy calibrate", "pbreport calibrate.h5 --worlds 10000 1000000"]),

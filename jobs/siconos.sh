@@ -4,13 +4,12 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: jobs/siconos.sh [--quick-look] [--page FILE] [--keep-runs] [OUTDIR]
+Usage: jobs/siconos.sh [--quick-look] [--keep-runs] [OUTDIR]
 
 Writes OUTDIR/siconos.md, .csv and .json (default: ./siconos), and in OUTDIR/problems a file of FCLIB for each problem of the
-reference. Needs python3-siconos, python3-h5py and python3-scipy. Up to half an hour on one core.
+reference. Needs python3-siconos and python3-h5py. Up to half an hour on one core.
 
   --quick-look   three scenes and four hard cases with fewer sweeps: a minute
-  --page FILE    replace the tables of this page, too: docs/siconos.md
   --keep-runs    go on with the runs that OUTDIR/runs has, e.g. after a change of the scripts alone
   PBMPI_REFERENCE_TIME    [s] a run of the reference may take, default 30; of a hard case a twelfth of it
 TEXT
@@ -24,7 +23,6 @@ steps=40
 large=" hard/rest/pyramid100 hard/rest/pyramid30_small hard/rest/kapla_tower hard/rest/wall400 hard/rest/cubes125 hard/rest/100CrSk "
 cases=()
 keep=no
-page=()
 out=siconos
 while [[ $# -gt 0 ]]; do
   case $1 in
@@ -33,7 +31,6 @@ while [[ $# -gt 0 ]]; do
       scenes=(2-Cars CrashSk Fight) sweeps=20000 hard_sweeps=20000 time=12 steps=20
       cases=(hard/rest/column10 hard/contact/ramp_mu05_24 hard/joints/bridge30 hard/free/bounce_half)
       shift ;;
-    --page) page=(--page "$2"); shift 2 ;;
     --keep-runs) keep=yes; shift ;;
     -*) echo "siconos.sh: unknown option '$1'; see --help" >&2; exit 2 ;;
     *) out=$1; shift ;;
@@ -45,8 +42,8 @@ source "$jobs/mpi_environment.sh"
 bin=${PBMPI_BIN:-$jobs/../build/release/bin}
 [[ -x $bin/pbmpi ]] || { echo "siconos.sh: $bin/pbmpi is missing; build it with jobs/build.sh release" >&2; exit 2; }
 python=${PYTHON:-python3}
-"$python" -c "import siconos.numerics, h5py, scipy" || {
-  echo "siconos.sh: python3-siconos, python3-h5py or python3-scipy is missing; apt-get install them" >&2; exit 2; }
+"$python" -c "import siconos.numerics, h5py" || {
+  echo "siconos.sh: python3-siconos or python3-h5py is missing; apt-get install them" >&2; exit 2; }
 
 if [[ ${#cases[@]} == 0 ]]; then
   mapfile -t cases < <("$bin/pbmpi" --list-scenes | awk '
@@ -92,5 +89,5 @@ kinds=(default 20_sweeps 1000_sweeps reference)
 for kind in "${kinds[@]}"; do
   "$python" "$jobs/siconos/fclib_export.py" --most-contacts 100 --each 40 --each-hard 12 --output "$out/problems/$kind" "$out/runs/$kind"/*.h5
 done
-"$python" "$jobs/siconos/solve.py" --output "$out/siconos" ${page[@]+"${page[@]}"} "${kinds[@]/#/$out/problems/}"
+"$python" "$jobs/siconos/solve.py" --output "$out/siconos" "${kinds[@]/#/$out/problems/}"
 echo "$out/siconos.md"

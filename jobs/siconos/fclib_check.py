@@ -80,12 +80,12 @@ def differences(path):
     """Largest difference of any number, or None without libfclib; and libfclib's merit function of a local solution."""
     import h5py
     import numpy as np
-    import scipy.sparse
+
+    from fclib_matrix import read_matrix
     with h5py.File(path) as file:
         form = "local" if "fclib_local" in file else "global"
         main = file[f"fclib_{form}"]
-        mine = {name: scipy.sparse.csc_matrix((group["x"][:], group["i"][:], group["p"][:]), (group["m"][0], group["n"][0])).toarray()
-                for name, group in main.items() if isinstance(group, h5py.Group) and "nzmax" in group}
+        mine = {name: read_matrix(group) for name, group in main.items() if isinstance(group, h5py.Group) and "nzmax" in group}
         mine.update({name: values[:] for name, values in main["vectors"].items()})
         mine.update({f"solution_{name}": values[:] for name, values in file["solution"].items() if name in "ur"})
     done = subprocess.run([sys.executable, __file__, "--read", path, form], capture_output=True, text=True)

@@ -8,19 +8,9 @@ import sys
 
 import h5py
 import numpy as np
-import scipy.sparse
 
+from fclib_matrix import write_matrix
 from recorded_steps import Steps
-
-
-def write_matrix(group, matrix):
-    """By columns, as FCLIB marks with nz = -1."""
-    matrix = scipy.sparse.csc_matrix(matrix)
-    for name, value in (("nzmax", matrix.nnz), ("m", matrix.shape[0]), ("n", matrix.shape[1]), ("nz", -1)):
-        group.create_dataset(name, data=np.array([value], "i4"))
-    group.create_dataset("p", data=matrix.indptr.astype("i4"))
-    group.create_dataset("i", data=matrix.indices.astype("i4"))
-    group.create_dataset("x", data=matrix.data.astype("f8"))
 
 
 def write(path, problem, form, title):
@@ -53,12 +43,13 @@ def whole(problem):
     a multiplier changes of it is compliance times multiplier."""
     soft_c, soft_d = np.flatnonzero(problem.C > 0), np.flatnonzero(problem.D > 0)
     n, extra = len(problem.v), len(soft_c) + len(soft_d)
-    blocks = [np.linalg.inv(block) for block in problem.inverse_mass]
-    masses = np.concatenate([1 / problem.C[soft_c], 1 / problem.D[soft_d]])
-    M = scipy.sparse.block_diag(blocks + ([scipy.sparse.diags(masses)] if extra else []))
+    M = np.zeros((n + extra, n + extra))
+    for k, block in enumerate(problem.inverse_mass):
+        M[6 * k:6 * k + 6, 6 * k:6 * k + 6] = np.linalg.inv(block)
+    M[range(n, n + extra), range(n, n + extra)] = np.concatenate([1 / problem.C[soft_c], 1 / problem.D[soft_d]])
     H = np.vstack([problem.H, np.zeros((extra, len(problem.r)))])
     H[n + np.arange(len(soft_c)), soft_c] = 1
-    f = np.concatenate([scipy.sparse.block_diag(blocks) @ problem.v_free, np.zeros(extra)])
+    f = M @ np.concatenate([problem.v_free, np.zeros(extra)])
     v = problem.velocities(problem.r)
     matrices, vectors = {"M": M, "H": H}, {"f": f, "w": problem.w}
     multipliers = np.zeros(0)

@@ -12,7 +12,8 @@ import time
 
 import h5py
 import numpy as np
-import scipy.sparse
+
+from fclib_matrix import read_matrix
 
 BAR = 1e-8
 
@@ -40,8 +41,7 @@ class Problem:
     def __init__(self, path):
         with h5py.File(path) as file:
             main = file["fclib_local"]
-            matrix = {name: main["W"][name][:] for name in ("m", "n", "p", "i", "x")}
-            self.W = scipy.sparse.csc_matrix((matrix["x"], matrix["i"], matrix["p"]), (matrix["m"][0], matrix["n"][0])).toarray()
+            self.W = read_matrix(main["W"])
             self.q, self.mu = main["vectors/q"][:], main["vectors/mu"][:]
             self.r = file["solution/r"][:]
             self.forward, self.recorded_gap = file["pbmpi"].attrs["forward"], file["pbmpi"].attrs["recorded_gap"]
@@ -141,21 +141,15 @@ def worst(rows):
 
 
 def statements(facts):
-    share = lambda name: f"{facts[name]} ({100 * facts[name] / facts['problems']:.1f} %)"
-    return [f"{facts['problems']} problems of {facts['runs']} runs. Below 1e-8: {share('reference_below_bar')} of the reference, "
-            f"{share('siconos_below_bar')} of Siconos; {facts['both_above_bar']} are above it in both. The residual of the convexified law, "
-            f"without mu |u_t|, is below 1e-8 in {share('convex_below_bar')}. In {facts['several_solutions']} problems the two solutions are both "
-            f"below 1e-8 and have velocities more than 1 mm/s apart. The state before the step gives v_free to 1e-9 in "
-            f"{share('forward_known')}, median {facts['forward_median']:.1e}. numpy's residual differs from Siconos' by {facts['numpy_apart']:.1e} at most."]
-
-
-def with_tables(page, texts):
-    """The page with the lines of `texts` between its markers."""
-    for name, lines in texts.items():
-        begin, end = f"<!-- siconos: {name} -->\n", "<!-- end siconos -->"
-        start = page.index(begin) + len(begin)
-        page = page[:start] + "\n".join(lines) + "\n" + page[page.index(end, start):]
-    return page
+    """A line of Markdown for each count over the problems of the last folder."""
+    what = (("reference_below_bar", "reference below 1e-8"), ("siconos_below_bar", "Siconos below 1e-8"), ("both_above_bar", "both above it"),
+            ("convex_below_bar", "reference below 1e-8 by the convexified law"),
+            ("several_solutions", "both below 1e-8, with velocities more than 1 mm/s apart"),
+            ("forward_known", "v_free to 1e-9 from the state before"))
+    return [f"| of {facts['problems']} problems of {facts['runs']} runs | | [%] |", "| --- | --- | --- |"] + [
+        f"| {text} | {facts[name]} | {100 * facts[name] / facts['problems']:.1f} |" for name, text in what] + [
+            f"| median distance of v_free from that of the state before | {facts['forward_median']:.1e} | |",
+            f"| largest distance of numpy's residual from Siconos' | {facts['numpy_apart']:.1e} | |"]
 
 
 def main():
@@ -164,7 +158,6 @@ def main():
     parser.add_argument("--output", required=True)
     parser.add_argument("--tolerance", type=float, default=1e-10, help="at which Siconos stops")
     parser.add_argument("--sweeps", type=int, default=5000, help="of Siconos' Gauss-Seidel at most")
-    parser.add_argument("--page", type=pathlib.Path, help="a page of docs whose tables are replaced, too")
     options = parser.parse_args()
     import siconos.numerics as sn
     rows = []
@@ -177,20 +170,18 @@ def main():
         writer.writeheader()
         writer.writerows(rows)
     mine = [row for row in rows if row["kind"] == options.folders[-1].name]
+    count = lambda holds: int(sum(holds))
     facts = {"problems": len(mine), "runs": len({row["run"] for row in mine}),
-             "reference_below_bar": sum(row["residual"] < BAR for row in mine), "siconos_below_bar": sum(row["siconos"] < BAR for row in mine),
-             "both_above_bar": sum(not row["residual"] < BAR and not row["siconos"] < BAR for row in mine),
-             "convex_below_bar": sum(row["residual_convex"] < BAR for row in mine),
+             "reference_below_bar": count(row["residual"] < BAR for row in mine), "siconos_below_bar": count(row["siconos"] < BAR for row in mine),
+             "both_above_bar": count(not row["residual"] < BAR and not row["siconos"] < BAR for row in mine),
+             "convex_below_bar": count(row["residual_convex"] < BAR for row in mine),
              # Other velocities, and both solve the problem: it has several solutions.
-             "several_solutions": sum(max(row["residual"], row["siconos"]) < BAR and row["velocities_apart"] > 1e-3 for row in mine),
+             "several_solutions": count(max(row["residual"], row["siconos"]) < BAR and row["velocities_apart"] > 1e-3 for row in mine),
              "numpy_apart": max(abs(row["residual"] - row["residual_numpy"]) for row in rows),
              "forward_median": float(np.nanmedian([row["forward"] for row in mine])),
-             "forward_known": sum(row["forward"] < 1e-9 for row in mine)}
-    pathlib.Path(options.output + ".json").write_text(json.dumps({"facts": facts, "problems": rows}, indent=1))
-    texts = {"residuals": table(rows) + ["", *statements(facts)], "above": worst(rows)}
-    text = texts["residuals"] + [""] + texts["above"]
-    if options.page:
-        options.page.write_text(with_tables(options.page.read_text(encoding="utf-8"), texts), encoding="utf-8")
+             "forward_known": count(row["forward"] < 1e-9 for row in mine)}
+    pathlib.Path(options.output + ".json").write_text(json.dumps({"facts": facts, "problems": rows}, indent=1, default=float))
+    text = table(rows) + [""] + statements(facts) + [""] + worst(rows)
     pathlib.Path(options.output + ".md").write_text("\n".join(text) + "\n")
     print("\n".join(text))
 

@@ -127,7 +127,7 @@ class Siconos(ProgramTest):
         self.record(self.write("chain.toml", CHAIN), 1)
         problem = self.problem()
         matrices, vectors, solution = fclib_export.whole(problem)
-        M, H, G = matrices["M"].toarray(), matrices["H"], matrices["G"]
+        M, H, G = matrices["M"], matrices["H"], matrices["G"]
         v, r, l = solution["v"], solution["r"], solution["l"]
         self.assertLess(np.abs(M @ v - H @ r - G @ l - vectors["f"]).max(), 1e-9)
         self.assertLess(np.abs(G.T @ v + vectors["b"]).max(), 1e-9)
