@@ -68,23 +68,32 @@ def evenly(things, most):
     return [things[i] for i in np.unique(np.linspace(0, len(things) - 1, min(most, len(things))).round().astype(int))] if things else []
 
 
+def several(places, most):
+    """(turn, place): places once more, for other islands of theirs, where there are few."""
+    rounds = most // max(len(places), 1) + 1
+    return [(i + k, place) for k in range(rounds) for i, place in enumerate(places)][:most]
+
+
 def export(path, out, form, most_contacts, most):
     """Names of problems, evenly over the steps of a run, and why others were left out."""
     steps = Steps(path)
     places = [(frame, world) for frame in range(steps.frames) for world in steps.worlds_with_contacts(frame)]
     written, left_out = [], []
-    for turn, (frame, world) in enumerate(evenly(places, most)):
+    for turn, (frame, world) in several(evenly(places, most), most):
         fitting = [island for island in steps.islands(frame, world) if len(island[1]) <= most_contacts]
         if not fitting:
             left_out.append(f"more than {most_contacts} contacts")
             continue
         # The largest, then the next, and so on: islands of all sizes.
-        problem = steps.problem(frame, world, *fitting[turn % len(fitting)])
+        chosen = turn % len(fitting)
+        name = f"{pathlib.Path(path).stem}-w{world}-s{frame}-i{chosen}.hdf5"
+        if name in written:
+            continue
+        problem = steps.problem(frame, world, *fitting[chosen])
         if isinstance(problem, str):
             left_out.append(problem)
             continue
-        name = f"{pathlib.Path(path).stem}-w{world}-s{frame}.hdf5"
-        write(out / name, problem, form, f"pbmpi {steps.file['parameters/scene'].asstr()[()]}, world {world}, step {frame}")
+        write(out / name, problem, form, f"pbmpi {steps.file['parameters/scene'].asstr()[()]}, world {world}, step {frame}, island {chosen}")
         written.append(name)
     return written, left_out
 
