@@ -38,7 +38,8 @@ while [[ $# -gt 0 ]]; do
 done
 
 jobs=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-source "$jobs/mpi_environment.sh"
+# shellcheck source=jobs/mpi_environment.sh
+. "$jobs/mpi_environment.sh"
 bin=${PBMPI_BIN:-$jobs/../build/release/bin}
 [[ -x $bin/pbmpi ]] || { echo "siconos.sh: $bin/pbmpi is missing; build it with jobs/build.sh release" >&2; exit 2; }
 python=${PYTHON:-python3}
