@@ -222,6 +222,7 @@ void World::solve() {
 void World::show_contacts() {
   const mjData& data = compiled_->engine.data();
   std::vector<model::Vec3> centres;
+  centres.reserve(model_->bodies.size());
   for (int body = 0; body < model_->num_bodies(); ++body)
     centres.emplace_back(data.xpos + 3 * compiled_->at.body_id(body));
   compiled_->touches.show(compiled_->engine.model(), data, centres, shown_);
