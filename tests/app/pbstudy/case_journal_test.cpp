@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Without padding, whose bytes would be any.
 struct Number {
-  int index = 0;
+  std::int64_t index = 0;
   double value = 0;
 };
 struct Row {
