@@ -5,8 +5,16 @@ import subprocess
 
 from tables import programs
 
-REPEATS = 25
+USUAL = ("--repeats", "25", "--ranks", "1 2")
+LONG = ("--repeats", "30", "--frames", "350", "--ranks", "1 2")
+CASES = {LONG: ("100CrSk:worlds:100",)}  # where they are not those of the script
 LARGEST_RANKS = 16384
+
+
+def command(options):
+    """As a reader types it."""
+    words = " ".join(f'"{word}"' if " " in word else word for word in options)
+    return " ".join(["jobs/scaling.sh", words, *(["OUTDIR", *CASES[options]] if options in CASES else [])])
 
 
 def estimated(row, name):
@@ -25,15 +33,24 @@ def work_of(row):
     return f"{row['scene']}, {worlds} worlds" if worlds > 1 else f"{row['scene']}, cut into spaces"
 
 
-def scaling():
-    """Each point beside its base; a figure that the report holds back is not shown."""
+def sweep(*options):
+    """Rows of the points of a sweep."""
     with programs.Folder() as folder:
-        done = subprocess.run([programs.SOURCE / "jobs/scaling.sh", "--repeats", str(REPEATS), "--ranks", "1 2", folder / "out"],
+        out = folder / "out"
+        done = subprocess.run([programs.SOURCE / "jobs/scaling.sh", *options, out, *CASES.get(options, ())],
                               capture_output=True, text=True, check=False, env={**os.environ, "PBMPI_BIN": str(programs.BIN)})
         if done.returncode != 0:
             raise SystemExit(done.stderr)
-        with open(folder / "out" / "scaling.csv", encoding="utf-8", newline="") as file:
-            points = list(csv.DictReader(file))
+        return read_points(out / "scaling.csv")
+
+
+def read_points(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def points_table(points):
+    """Each point beside its base; a figure that the report holds back is not shown."""
     rows = []
     for row in points:
         if row["is_base"] == "1":
@@ -48,6 +65,15 @@ def scaling():
     head = ["work", "ranks", "runs", "speed-up", "bound", "efficiency", "load balance", "serialisation", "transfer", "computation", "root",
             "messages a frame", "kB a frame"]
     return programs.table(head, rows)
+
+
+def scaling():
+    return points_table(sweep(*USUAL))
+
+
+def scaling_long():
+    """Longer runs and more of them, for an interval that can be reported."""
+    return points_table(sweep(*LONG))
 
 
 def forecast(table, *question):
