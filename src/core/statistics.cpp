@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace pbmpi::core {
 
@@ -30,14 +31,14 @@ Interval median_interval(std::vector<double> values, double confidence) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
-  double probability = std::ldexp(1, -static_cast<int>(n));  // of exactly k heads
+  double log_probability = -static_cast<double>(n) * std::numbers::ln2;  // of exactly k heads
   Interval found;
   double outside = 0;  // the median is below the k-th from the bottom, or above that from the top
   for (std::size_t k = 0; 2 * k < n; ++k) {
-    outside += 2 * probability;
+    outside += 2 * std::exp(log_probability);
     if (k > 0 && 1 - outside < confidence) break;
     found = {values[k], values[n - 1 - k], std::max(0.0, 1 - outside)};
-    probability *= static_cast<double>(n - k) / static_cast<double>(k + 1);
+    log_probability += std::log(static_cast<double>(n - k) / static_cast<double>(k + 1));
   }
   return found;
 }

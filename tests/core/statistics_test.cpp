@@ -1,6 +1,8 @@
 #include "core/statistics.h"
 
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -46,6 +48,16 @@ TEST(MedianInterval, is_the_narrowest_that_is_sure_enough) {
   expect(median_interval({9, 8, 7, 6, 5, 4, 3, 2, 1}, 0.8), 3, 7, 1 - 92. / 512);
   expect(median_interval({7}, 0.95), 7, 7, 0);
   expect(median_interval({}, 0.95), 0, 0, 0);
+}
+
+/// By fractions of whole numbers; 2^-2000 is below every double.
+TEST(MedianInterval, is_that_of_long_samples_too) {
+  std::vector<double> values(2000);
+  std::iota(values.begin(), values.end(), 0);
+  const Interval found = median_interval(values, 0.95);
+  EXPECT_EQ(found.low, 955);
+  EXPECT_EQ(found.high, 1044);
+  EXPECT_NEAR(found.confidence, 0.9534471795082162, 1e-12);
 }
 
 TEST(HarmonicMean, is_the_rate_over_equal_work) {
