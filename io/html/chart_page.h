@@ -29,9 +29,9 @@ struct TextTable {
 /// A heading with what belongs to it.
 struct PageSection {
   std::string title;
-  std::string text;  ///< paragraphs, separated by an empty line
-  std::vector<Chart> charts;
-  std::vector<TextTable> tables;
+  std::string text = {};  ///< paragraphs, separated by an empty line
+  std::vector<Chart> charts = {};
+  std::vector<TextTable> tables = {};
 };
 
 struct ChartPage {

@@ -29,4 +29,12 @@ std::optional<std::pair<std::string, std::string>> optional_engine_text(stepping
                    std::string(engine->version) + ", double precision");
 }
 
+std::vector<std::pair<std::string, std::string>> engine_versions() {
+  std::vector<std::pair<std::string, std::string>> versions = {{"library_ode", ode_text()}};
+  for (const engines::OptionalEngine& engine : engines::optional_engines()) {
+    if (engine.in_build()) versions.push_back(*optional_engine_text(engine.stepper));
+  }
+  return versions;
+}
+
 }  // namespace pbmpi::app

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "stepping/stepper.h"
 
@@ -19,5 +20,8 @@ std::string ode_text();
 /// Name and version of the engine behind bullet or mujoco, e.g. "library_bullet" and "3.24, double
 /// precision"; nothing for the other steppers.
 std::optional<std::pair<std::string, std::string>> optional_engine_text(stepping::StepperKind kind);
+
+/// Names and versions of all engines of this build, as above.
+std::vector<std::pair<std::string, std::string>> engine_versions();
 
 }  // namespace pbmpi::app

@@ -11,6 +11,7 @@
 #include "app/pbreport/diff/diff.h"
 #include "app/pbreport/diff/diff_options.h"
 #include "app/pbreport/effects/effects.h"
+#include "app/pbreport/engines/engines.h"
 #include "app/pbreport/ensemble/ensemble.h"
 #include "app/pbreport/ensemble/ensemble_options.h"
 #include "app/pbreport/figures/figures.h"
@@ -71,6 +72,8 @@ const std::vector<ReportCommand>& report_commands() {
        effects_report_manual},
       {"stability", "which settings hold the hard cases: the file of pbstudy stability", run_stability_report,
        stability_report_manual},
+      {"engines", "engines side by side: files of pbstudy accuracy and pbstudy stability", run_engines,
+       engines_manual},
       {"prediction", "what value prediction gains and changes: the file of pbstudy prediction",
        run_prediction_report, prediction_report_manual},
       {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ...", run_csv,

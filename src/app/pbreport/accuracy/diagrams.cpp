@@ -17,10 +17,12 @@ namespace {
 using ChartJson = nlohmann::json;
 
 /// Colours that people with any colour vision can tell apart: Okabe and Ito, "Color Universal Design" (2008).
-const std::map<std::string, std::string>& stepper_colours() {
-  static const std::map<std::string, std::string> colours = {
-      {"quick", "#0072b2"}, {"direct", "#cc79a7"}, {"sor double", "#e69f00"}, {"sor single", "#009e73"}};
-  return colours;
+/// In the order of StepperKind.
+constexpr std::array<const char*, 5> engine_colours = {"#0072b2", "#cc79a7", "#e69f00", "#d55e00", "#56b4e9"};
+
+std::string setting_colour(const stepping::StepperSettings& settings) {
+  constexpr const char* single = "#009e73";
+  return settings.precision == stepping::Precision::single ? single : engine_colour(settings.kind);
 }
 
 /// "2 substeps of 20 iterations": which is which in "2 x 20".
@@ -117,12 +119,14 @@ ChartJson bands_of(const SceneCases& scene, ErrorOf error_mm, bool ranked,
 /// A set of points for each stepper: the shape says how many substeps, the size how many iterations.
 ChartJson setting_sets(const SceneCases& scene, ErrorOf error_mm, const SweepScale& scale) {
   struct Points {
+    std::string colour;
     ChartJson data = ChartJson::array(), shape = ChartJson::array(), radius = ChartJson::array();
   };
   std::map<std::string, Points> by_stepper;
   for (const StudyCase& one : scene.settings) {
     if (!one.finite()) continue;
     Points& points = by_stepper[stepper_text(one.stepper)];
+    points.colour = setting_colour(one.stepper);
     points.data.push_back(point(one, error_mm(one)));
     points.shape.push_back(scale.shape(one.stepper.substeps));
     points.radius.push_back(scale.radius(one.stepper.iterations));
@@ -131,7 +135,7 @@ ChartJson setting_sets(const SceneCases& scene, ErrorOf error_mm, const SweepSca
   for (const auto& [stepper, points] : by_stepper) {
     sets.push_back({{"label", stepper},
                     {"data", points.data},
-                    {"backgroundColor", stepper_colours().at(stepper)},
+                    {"backgroundColor", points.colour},
                     {"keyShape", "bar"},
                     {"pointStyle", points.shape},
                     {"pointRadius", points.radius}});
@@ -173,6 +177,10 @@ std::optional<ChartJson> estimate_set(const SceneCases& scene, ErrorOf error_mm)
 }
 
 }  // namespace
+
+std::string engine_colour(stepping::StepperKind kind) {
+  return engine_colours[static_cast<std::size_t>(kind)];
+}
 
 io::html::Chart diagram(const SceneCases& scene, const AccuracyReportOptions& options, const char* title,
                         const char* axis, ErrorOf error_mm, ErrorMeasure measure) {

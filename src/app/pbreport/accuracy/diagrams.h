@@ -1,10 +1,15 @@
 /// Work-precision diagrams of a study of accuracy.
 #pragma once
 
+#include <string>
+
 #include "app/pbreport/accuracy/study_data.h"
 #include "io/html/chart_page.h"
 
 namespace pbmpi::app {
+
+/// The colour of an engine in all diagrams, e.g. "#0072b2".
+std::string engine_colour(stepping::StepperKind kind);
 
 /// An error of a case [mm].
 using ErrorOf = double (*)(const StudyCase&);

@@ -47,6 +47,10 @@ StudyCase read_case(const CaseRow& row) {
     one.solve_residual_m = row.real("solve_residual");
     one.solve_iterations = row.real("solve_iterations");
   }
+  if (row.has("own")) {  // since version 1.6
+    one.own = row.integer("own");
+    one.own_defect = row.errors("own_defect");
+  }
   one.defect = row.errors("defect");
   one.drift = row.errors("drift");
   return one;
@@ -56,7 +60,9 @@ void add_case(StudyCase one, SceneCases& scene) {
   const std::map<std::string, std::vector<StudyCase> SceneCases::*> lists = {
       {"setting", &SceneCases::settings},
       {"estimate", &SceneCases::estimates},
-      {"floor", &SceneCases::floor}};
+      {"floor", &SceneCases::floor},
+      {"own", &SceneCases::own},
+      {"own_floor", &SceneCases::own_floor}};
   const std::map<std::string, std::optional<StudyCase> SceneCases::*> yardsticks = {
       {"reference", &SceneCases::reference},
       {"more_iterations", &SceneCases::more_iterations},

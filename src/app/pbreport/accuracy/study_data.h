@@ -33,6 +33,10 @@ struct StudyCase {
   /// mean of its iterations. NaN of others, and in older files.
   double solve_residual_m = NAN, solve_iterations = NAN;
   analysis::ErrorTable defect, drift;
+  /// Against the own solution of its equations, and its case in the file; no entries and -1 where there is
+  /// none (since version 1.6). Of kind "own" that against itself with fewer iterations.
+  analysis::ErrorTable own_defect;
+  int own = -1;
 
   /// Did every body and joint stay finite?
   bool finite() const;
@@ -53,6 +57,8 @@ struct SceneCases {
   std::vector<StudyCase> settings;
   std::vector<StudyCase> estimates;  ///< of the scene's own setting; never chosen, since more work follows
   std::vector<StudyCase> floor;
+  std::vector<StudyCase> own;  ///< solutions by the steppers themselves, one for all settings that share it
+  std::vector<StudyCase> own_floor;  ///< the same from disturbed states
   std::optional<StudyCase> reference, more_iterations, second_method,
       halved_dt;                                                ///< older files have not all
   std::optional<StudyCase> halved_iterations, halved_substeps;  ///< of older files

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <utility>
 
+#include "app/common/engine_texts.h"
 #include "app/common/format.h"
 #include "app/common/scene_parameter.h"
 #include "app/common/version.h"
@@ -124,6 +125,8 @@ io::TableFile StudyRunner::file_with(StudyContent content) const {
   file.parameters.push_back(Parameter::of("floor_seeds", std::int64_t{options_.floor_seeds}));
   file.parameters.push_back(Parameter::of("ranks", static_cast<std::int64_t>(provenance_.hosts.size())));
   file.parameters.push_back(Parameter::of("build", build_description));
+  for (const auto& [name, version] : engine_versions())
+    file.parameters.push_back(Parameter::of(name, version));
   for (const StudyScene& scene : scenes_)
     file.parameters.push_back(Parameter::of(scene_text_parameter(scene.source.name), scene.source.text));
   file.tables = std::move(content.tables);
