@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-from tables import accuracy, effects, guards, paper, prediction, programs, scaling, scenes, siconos, speed, stability
+from tables import accuracy, effects, engines_speed, guards, paper, prediction, programs, scaling, scenes, siconos, speed, stability
 
 # page: below the root. make: computes the lines of the table. has_clock: whether times are among its figures. commands: for
 # a reader who wants to measure it by hand.
@@ -67,6 +67,8 @@ ENTRIES = {
                               ["mpirun -n 2 pbstudy calibrate", "pbreport calibrate.h5 --worlds 10000 1000000"]),
     "forecast_times": Entry("docs/scaling.md", scaling.forecast_times, True,
                             [f"mpirun -n 2 pbstudy calibrate --largest-ranks {scaling.LARGEST_RANKS}", "pbreport calibrate.h5"]),
+    "engines_speed": Entry("docs/engines.md", engines_speed.speed, True, ["tests/bench/engines/engines.py --markdown"]),
+    "engines_equal_gap": Entry("docs/engines.md", engines_speed.equal_gap, True, ["tests/bench/engines/engines.py --markdown"]),
     "spaces": Entry("docs/spaces.md", speed.spaces, True, ["tests/bench/decompose.py 3"]),
 }
 

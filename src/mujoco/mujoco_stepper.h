@@ -10,7 +10,7 @@
 
 namespace pbmpi::mujoco {
 
-/// Each articulation is a kinematic tree in MuJoCo's joint coordinates; Newton's solver takes at most
+/// Each articulation is a kinematic tree in MuJoCo's joint coordinates; `constraint_solver` takes at most
 /// `iterations` iterations, with elliptic friction cones, and the integrator is the implicit one
 /// (docs/steppers.md, "mujoco"). Warnings go to stderr behind `warning_prefix`.
 ///

@@ -16,6 +16,7 @@ inline constexpr std::array<std::string_view, 5> simd_names = {"auto", "sse2", "
 inline constexpr std::array<std::string_view, 2> colliders_names = {"lanes", "ode"};
 inline constexpr std::array<std::string_view, 2> row_order_names = {"shuffled", "fixed"};
 inline constexpr std::array<std::string_view, 3> joint_solver_names = {"sweeps", "hanging", "tree"};
+inline constexpr std::array<std::string_view, 3> constraint_solver_names = {"newton", "pgs", "cg"};
 inline constexpr std::array<std::string_view, 2> friction_names = {"pyramid", "cone"};
 
 constexpr std::string_view name_of(StepperKind kind) { return stepper_kind_names[static_cast<int>(kind)]; }
@@ -28,6 +29,9 @@ constexpr std::string_view name_of(Colliders colliders) {
 }
 constexpr std::string_view name_of(JointSolver solver) {
   return joint_solver_names[static_cast<int>(solver)];
+}
+constexpr std::string_view name_of(ConstraintSolver solver) {
+  return constraint_solver_names[static_cast<int>(solver)];
 }
 constexpr std::string_view name_of(Friction friction) { return friction_names[static_cast<int>(friction)]; }
 constexpr std::string_view name_of(RowOrder order) { return row_order_names[static_cast<int>(order)]; }

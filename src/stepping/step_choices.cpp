@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "stepping/names.h"
 
 namespace pbmpi::stepping {
 namespace {
@@ -18,26 +19,40 @@ void require_known(const std::map<std::string, std::string>& texts, const std::s
   }
 }
 
-/// "--substeps, --simd and --colliders": the options that some steppers lack.
-std::string options_of_some(const std::string& dashes) {
-  std::vector<std::string> names;
-  for (const StepOption& option : step_options()) {
-    if (option.needs != nullptr) names.push_back(dashes + std::string(option.name));
-  }
+/// "--substeps, --simd and --colliders"
+std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return text;
 }
 
+std::vector<StepperKind> steppers_with(const StepOption& option) {
+  std::vector<StepperKind> kinds;
+  for (std::size_t i = 0; i < stepper_traits.size(); ++i) {
+    if (fits(option, static_cast<StepperKind>(i))) kinds.push_back(static_cast<StepperKind>(i));
+  }
+  return kinds;
+}
+
+/// All options of the steppers that have this one, and of no other stepper.
+std::string refusal(const StepOption& option, const std::string& dashes) {
+  const std::vector<StepperKind> kinds = steppers_with(option);
+  std::vector<std::string> options, steppers;
+  for (const StepOption& other : step_options()) {
+    if (steppers_with(other) == kinds) options.push_back(dashes + std::string(other.name));
+  }
+  for (const StepperKind kind : kinds) steppers.emplace_back(name_of(kind));
+  const bool is_one = options.size() == 1;
+  return listed(options) + (is_one ? " is an option of " : " are options of ") + dashes + "stepper " +
+         listed(steppers) + "; the other steppers " + (is_one ? "do not have it" : "have none of them");
+}
+
 void require_fitting(const StepperSettings& settings, const std::string& dashes) {
-  core::require_input(std::ranges::all_of(step_options(),
-                                          [&](const StepOption& option) {
-                                            return fits(option, settings.kind) ||
-                                                   is_default(option, settings);
-                                          }),
-                      options_of_some(dashes) + " are options of " + dashes +
-                          "stepper sor; the other steppers have none of them");
+  for (const StepOption& option : step_options()) {
+    if (!fits(option, settings.kind) && !is_default(option, settings))
+      throw core::InputError(refusal(option, dashes));
+  }
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ bool converges(double factor) { return factor > 0 && factor < 2; }
 bool is_thread_count(double value) { return value >= 1 && value <= 1024; }
 bool is_share(double value) { return value >= 0 && value <= 1; }
 
-constexpr std::array<StepOption, 23> options = {{
+constexpr std::array<StepOption, 24> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
      .placeholder = "sor|quick|direct|bullet|mujoco",
@@ -45,7 +45,7 @@ constexpr std::array<StepOption, 23> options = {{
      .placeholder = "N",
      .meaning =
          "sweeps of the iterative solver, in each substep; default: the scene's (20) with quick, 1 with sor, "
-         "10 with bullet; with mujoco the most iterations of its Newton solver, 100",
+         "10 with bullet; with mujoco the most iterations of its --constraint-solver, 100",
      .allows = at_least_1,
      .limit = "it must be at least 1"},
     {.name = "substeps",
@@ -167,6 +167,14 @@ constexpr std::array<StepOption, 23> options = {{
          "what does not move, without limits and motors; default: hanging",
      .needs = &Traits::tunes_sweeps,
      .in_short = "joints by *"},
+    {.name = "constraint-solver",
+     .member = &Settings::constraint_solver,
+     .placeholder = "newton|pgs|cg",
+     .meaning =
+         "mujoco: Newton's method, projected Gauss-Seidel, or conjugate gradients, of which --iterations "
+         "are the most steps, sweeps or steps; default: newton",
+     .needs = &Traits::has_constraint_solvers,
+     .in_short = "*"},
     {.name = "friction",
      .member = &Settings::friction,
      .placeholder = "cone|pyramid",
@@ -226,6 +234,7 @@ constexpr std::array<StepOption, 23> options = {{
 constexpr const auto& names_of(StepperKind) { return stepper_kind_names; }
 constexpr const auto& names_of(RowOrder) { return row_order_names; }
 constexpr const auto& names_of(JointSolver) { return joint_solver_names; }
+constexpr const auto& names_of(ConstraintSolver) { return constraint_solver_names; }
 constexpr const auto& names_of(Friction) { return friction_names; }
 constexpr const auto& names_of(Precision) { return precision_names; }
 constexpr const auto& names_of(Simd) { return simd_names; }

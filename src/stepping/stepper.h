@@ -43,6 +43,10 @@ enum class Friction { pyramid, cone };
 /// alone: its contacts see the foot and not the body.
 enum class JointSolver { sweeps, hanging, tree };
 
+/// MuJoCo's solver of its convex problem of constraints: Newton's method, projected Gauss-Seidel on the dual,
+/// or conjugate gradients.
+enum class ConstraintSolver { newton, pgs, cg };
+
 /// What a run chooses about the step; the rest is in the Model.
 struct StepperSettings {
   StepperKind kind = StepperKind::quick;
@@ -59,9 +63,10 @@ struct StepperSettings {
   double contact_damping = 10;   ///< sor: their damping ratio
   double joint_frequency = 0;    ///< [Hz] sor: of joints as springs; 0: the scene's ERP and CFM
   double joint_damping = 2;      ///< sor: their damping ratio
-  JointSolver joint_solver = JointSolver::sweeps;  ///< sor
-  double contact_margin = 0;                       ///< sor: contacts are found up to so many g dt^2 apart
-  Friction friction = Friction::pyramid;           ///< sor
+  JointSolver joint_solver = JointSolver::sweeps;                 ///< sor
+  ConstraintSolver constraint_solver = ConstraintSolver::newton;  ///< mujoco
+  double contact_margin = 0;              ///< sor: contacts are found up to so many g dt^2 apart
+  Friction friction = Friction::pyramid;  ///< sor
   RowOrder row_order = RowOrder::shuffled;
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;

@@ -17,3 +17,4 @@ python3 tests/bench/batch/batch_python.py
 python3 tests/bench/ranks.py 100CrSk 7 --stepper quick
 python3 tests/bench/ranks.py 100CrSk 7
 python3 tests/bench/decompose.py 7
+python3 tests/bench/engines/engines.py --markdown

@@ -43,6 +43,7 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.joint_frequency = 1.0 / 11;
   settings.joint_damping = 1.0 / 13;
   settings.joint_solver = JointSolver::tree;
+  settings.constraint_solver = ConstraintSolver::pgs;
   settings.friction = Friction::cone;
   settings.row_order = RowOrder::fixed;
   settings.precision = Precision::single;
@@ -125,6 +126,19 @@ TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
   }
   for (const char* name : {"stepper", "dt", "iterations", "solver-seed"})
     EXPECT_TRUE(fits(step_option(name), StepperKind::quick));
+}
+
+TEST(StepOptions, the_constraint_solver_fits_mujoco_alone_and_stands_in_a_settings_text) {
+  for (const StepperKind kind :
+       {StepperKind::quick, StepperKind::direct, StepperKind::sor, StepperKind::bullet})
+    EXPECT_FALSE(fits(step_option("constraint-solver"), kind)) << name_of(kind);
+  StepperSettings settings = default_settings(StepperKind::mujoco);
+  EXPECT_EQ(settings.constraint_solver, ConstraintSolver::newton);
+  EXPECT_EQ(setting_text(settings), "mujoco, 1 x 100");
+  set(step_option("constraint-solver"), "pgs", "", settings);
+  EXPECT_EQ(setting_text(settings), "mujoco, 1 x 100, pgs");
+  EXPECT_EQ(refusal("constraint-solver", "sor"),
+            "--constraint-solver sor: it must be one of newton, pgs, cg");
 }
 
 TEST(StepOptions, files_write_names_with_underscores) {

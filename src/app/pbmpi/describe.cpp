@@ -194,8 +194,10 @@ std::string describe(const Work& work, int num_ranks) {
   out << '\n' << ensemble_lines(work);
   out << "frames: " << spec.warmup << " warm-up + " << spec.frames << " measured, " << spec.steps_per_frame
       << " steps of " << spec.stepper.dt_s << " s\n"
-      << "stepper: " << name_of(spec.stepper.kind) << ", " << spec.stepper.iterations << " iterations, seed "
-      << spec.stepper.seed << '\n';
+      << "stepper: " << name_of(spec.stepper.kind) << ", " << spec.stepper.iterations << " iterations";
+  if (traits_of(spec.stepper.kind).has_constraint_solvers)
+    out << " by " << name_of(spec.stepper.constraint_solver);
+  out << ", seed " << spec.stepper.seed << '\n';
   if (spec.estimate) {
     const stepping::StepperSettings& stepper = spec.estimate->stepper;
     out << "estimate: " << name_of(stepper.kind) << ", " << stepper.iterations << " iteration"

@@ -11,7 +11,7 @@ namespace {
 namespace po = boost::program_options;
 
 /// In the order in which cases are crossed, the last varying fastest.
-constexpr std::array<VariedOption, 7> varied = {{
+constexpr std::array<VariedOption, 8> varied = {{
     {"stepper", "quick, direct, sor, bullet, mujoco; default: quick sor", "quick sor"},
     {"iterations", "default: 1 2 3 5 10 15 19 20 40 80", "1 2 3 5 10 15 19 20 40 80"},
     {"substeps", "sor; default: 1 2 4 8 16", "1 2 4 8 16"},
@@ -19,6 +19,7 @@ constexpr std::array<VariedOption, 7> varied = {{
     {"sor-factor", "sor: over-relaxation; default: 1.3", "1.3"},
     {"warm-start", "sor: share of the forces that a step and a substep take over; default: 0", "0"},
     {"row-order", "sor: shuffled (drawn anew), fixed; default: shuffled", "shuffled"},
+    {"constraint-solver", "mujoco: newton, pgs, cg; default: newton", "newton"},
 }};
 constexpr VariedOption varied_dt = {
     "dt", "step [s], a whole number of which fills a frame; default: the scene's and half of it", ""};
