@@ -63,7 +63,7 @@ class TableWriter {
 };
 
 /// Major and minor version of the layout of a study's file.
-inline constexpr std::array<std::int64_t, 2> study_version = {1, 5};
+inline constexpr std::array<std::int64_t, 2> study_version = {1, 6};
 
 /// The bytes of such a file, made in memory: what is written in one go leaves no half file behind. Sealed
 /// (core/system/seal.h) from minor version 3 on.

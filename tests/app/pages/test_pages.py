@@ -83,6 +83,7 @@ class Files:
         self.page("effects", "effects.h5", "--quiet")
         self.run("pbstudy", "stability", "--scene", *STABILITY, "--setting", "quick", "sor", "--output", "stability.h5", "--quiet")
         self.page("stability", "stability.h5", "--quiet")
+        self.page("engines", "engines", "accuracy.h5", "stability.h5", "--quiet")
         if not values_are_predicted():
             print("no Valgrind: the page of prediction is left out")
             return

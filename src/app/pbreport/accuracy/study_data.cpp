@@ -47,13 +47,27 @@ StudyCase read_case(const CaseRow& row) {
     one.solve_residual_m = row.real("solve_residual");
     one.solve_iterations = row.real("solve_iterations");
   }
+  one.defect = row.errors("defect");
+  one.drift = row.errors("drift");
   if (row.has("own")) {  // since version 1.6
     one.own = row.integer("own");
     one.own_defect = row.errors("own_defect");
   }
-  one.defect = row.errors("defect");
-  one.drift = row.errors("drift");
   return one;
+}
+
+double error_by(ErrorMeasure measure, const analysis::ErrorTable& errors) {
+  switch (measure) {
+    case ErrorMeasure::rms:
+      return errors.body_position.rms;
+    case ErrorMeasure::p99:
+      return errors.body_position.p99;
+    case ErrorMeasure::max:
+      return errors.body_position.max;
+    case ErrorMeasure::joint:
+      return errors.joint_position.rms;
+  }
+  return 0;
 }
 
 void add_case(StudyCase one, SceneCases& scene) {
@@ -85,18 +99,10 @@ bool StudyCase::finite() const {
       [&](const analysis::NamedSummary& named) { return (defect.*named.summary).bands.back() == 0; });
 }
 
-double StudyCase::error_m(ErrorMeasure measure) const {
-  switch (measure) {
-    case ErrorMeasure::rms:
-      return defect.body_position.rms;
-    case ErrorMeasure::p99:
-      return defect.body_position.p99;
-    case ErrorMeasure::max:
-      return defect.body_position.max;
-    case ErrorMeasure::joint:
-      return defect.joint_position.rms;
-  }
-  return 0;
+double StudyCase::error_m(ErrorMeasure measure) const { return error_by(measure, defect); }
+
+double StudyCase::own_error_m(ErrorMeasure measure) const {
+  return has_own() ? error_by(measure, own_defect) : NAN;
 }
 
 std::string setting_text(const StudyCase& one) {
@@ -125,6 +131,14 @@ std::vector<std::pair<std::string, std::string>> setting_options(const StudyCase
 double SceneCases::floor_m(ErrorMeasure measure) const {
   double most = 0;
   for (const StudyCase& one : floor) most = std::max(most, one.error_m(measure));
+  return most;
+}
+
+double SceneCases::own_floor_m(stepping::StepperKind kind, ErrorMeasure measure) const {
+  double most = NAN;
+  for (const StudyCase& one : own_floor) {
+    if (one.stepper.kind == kind) most = std::fmax(most, one.own_error_m(measure));
+  }
   return most;
 }
 

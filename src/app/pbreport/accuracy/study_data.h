@@ -33,10 +33,10 @@ struct StudyCase {
   /// mean of its iterations. NaN of others, and in older files.
   double solve_residual_m = NAN, solve_iterations = NAN;
   analysis::ErrorTable defect, drift;
-  /// Against the own solution of its equations, and its case in the file; no entries and -1 where there is
-  /// none (since version 1.6). Of kind "own" that against itself with fewer iterations.
+  /// Against its own equations solved by its own stepper; of an own solution against itself with a quarter of
+  /// its iterations, and of one from disturbed states against the undisturbed one. No entries: not measured.
   analysis::ErrorTable own_defect;
-  int own = -1;
+  int own = -1;  ///< the row of its own solution; -1: there is none
 
   /// Did every body and joint stay finite?
   bool finite() const;
@@ -44,6 +44,11 @@ struct StudyCase {
   bool fells() const { return rest_fallen > 0; }
   /// The error by which settings are ranked [m].
   double error_m(ErrorMeasure measure) const;
+
+  /// Was it compared with its own solution?
+  bool has_own() const { return own_defect.body_position.count > 0; }
+  /// The error against that [m], by the same number; NaN if it was not.
+  double own_error_m(ErrorMeasure measure) const;
 };
 
 /// "sor single, 2 substeps x 3 iterations"; what all have in common is left out.
@@ -57,14 +62,17 @@ struct SceneCases {
   std::vector<StudyCase> settings;
   std::vector<StudyCase> estimates;  ///< of the scene's own setting; never chosen, since more work follows
   std::vector<StudyCase> floor;
-  std::vector<StudyCase> own;  ///< solutions by the steppers themselves, one for all settings that share it
-  std::vector<StudyCase> own_floor;  ///< the same from disturbed states
+  std::vector<StudyCase> own;        ///< own solutions of the steppers (since version 1.6)
+  std::vector<StudyCase> own_floor;  ///< own solutions from disturbed states
   std::optional<StudyCase> reference, more_iterations, second_method,
       halved_dt;                                                ///< older files have not all
   std::optional<StudyCase> halved_iterations, halved_substeps;  ///< of older files
 
   /// The noise floor [m]: the largest error that another seed alone gave the reference.
   double floor_m(ErrorMeasure measure) const;
+  /// The noise floor [m] of a stepper's own solution: the largest error that a disturbance of its start and
+  /// another seed gave it. NaN if none was measured.
+  double own_floor_m(stepping::StepperKind kind, ErrorMeasure measure) const;
   /// How far the reference may be off [m]: its largest distance from itself with other seeds and more
   /// iterations (in older files half as many), and from a second method. What the length of the step does is
   /// no part of it: all settings share it.

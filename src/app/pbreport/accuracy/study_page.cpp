@@ -14,13 +14,15 @@ namespace {
 std::vector<std::string> table_row(const StudyCase& one, const AccuracyReportOptions& options,
                                    double floor_m) {
   const analysis::ErrorSummary& error = one.defect.body_position;
-  std::vector<std::string> row = {setting_text(one),
-                                  format("%.3f", 1e3 * one.time_s),
-                                  format("%.0f", one.row_visits),
-                                  format("%.4g", 1e3 * error.rms),
-                                  format("%.4g", 1e3 * error.p99),
-                                  format("%.4g", 1e3 * error.max),
-                                  format("%.4g", 1e3 * one.joint_gap_m)};
+  std::vector<std::string> row = {
+      setting_text(one),
+      format("%.3f", 1e3 * one.time_s),
+      format("%.0f", one.row_visits),
+      format("%.4g", 1e3 * error.rms),
+      format("%.4g", 1e3 * error.p99),
+      format("%.4g", 1e3 * error.max),
+      one.has_own() ? format("%.4g", 1e3 * one.own_defect.body_position.rms) : "-",
+      format("%.4g", 1e3 * one.joint_gap_m)};
   for (const std::int64_t count : error.bands) row.push_back(std::to_string(count));
   row.push_back(remarks_text(one, one.error_m(options.measure) <= floor_m));
   return row;
@@ -28,7 +30,7 @@ std::vector<std::string> table_row(const StudyCase& one, const AccuracyReportOpt
 
 io::html::TextTable table_of(const char* title, const char* first, const char* time) {
   io::html::TextTable table{
-      title, {first, time, "row visits", "rms mm", "p99 mm", "max mm", "joint gap mm"}, {}};
+      title, {first, time, "row visits", "rms mm", "p99 mm", "max mm", "own rms mm", "joint gap mm"}, {}};
   for (const std::string_view band : analysis::position_band_names) table.header.emplace_back(band);
   table.header.emplace_back("remarks");
   return table;
@@ -72,6 +74,9 @@ io::html::PageSection section_of(const SceneCases& scene, const AccuracyReportOp
   if (scene.reference)
     section.text += format(" It was solved to %.3g mm a step, with %.0f iterations on average.",
                            1e3 * scene.reference->solve_residual_m, scene.reference->solve_iterations);
+  if (!scene.own.empty())
+    section.text +=
+        " Own rms: the error against the same equations solved by the same stepper with many iterations.";
   if (const auto chosen = chosen_setting(scene, options)) {
     const StudyCase& one = scene.settings[*chosen];
     section.text += "\n\nChosen: " + setting_text(one) +

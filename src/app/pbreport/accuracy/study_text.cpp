@@ -8,6 +8,7 @@
 #include "app/common/json_text.h"
 #include "app/pbreport/study/error_text.h"
 #include "app/pbreport/study/study_file.h"
+#include "stepping/names.h"
 #include "stepping/step_options.h"
 
 namespace pbmpi::app {
@@ -41,12 +42,36 @@ std::string yardstick_text(const std::string& what, const std::optional<StudyCas
          (drift.count > 0 ? format(", drift rms %9.4g mm", 1e3 * drift.rms) : "") + residual + "\n";
 }
 
+std::string number_or_dash(double value) {
+  return std::isfinite(value) ? format("%.4g", value) : std::string("-");
+}
+
 std::string floor_text(const SceneCases& scene) {
   double drift = 0;
   for (const StudyCase& one : scene.floor) drift = std::max(drift, one.drift.body_position.rms);
   return defect_line("noise floor (another solver seed):", scene.floor_m(ErrorMeasure::rms),
                      scene.floor_m(ErrorMeasure::p99), scene.floor_m(ErrorMeasure::max)) +
          format(", drift rms %9.4g mm (largest of %zu seeds)\n", 1e3 * drift, scene.floor.size());
+}
+
+/// The own solutions, and how near to them more iterations and a disturbed start come.
+std::string own_text(const SceneCases& scene) {
+  std::string text;
+  for (const StudyCase& one : scene.own) {
+    const double floor_m = scene.own_floor_m(one.stepper.kind, ErrorMeasure::rms);
+    text += format("    %-40s %9.4g %9.4g %9s %12s\n", setting_text(one).c_str(),
+                   1e3 * one.defect.body_position.rms, 1e3 * one.own_defect.body_position.rms,
+                   number_or_dash(1e3 * floor_m).c_str(), number_or_dash(one.solve_iterations).c_str());
+  }
+  if (text.empty()) return "";
+  return format(
+             "  own solutions: each stepper's equations, solved by it from the iterations below on; rms [mm] "
+             "from the\n"
+             "  reference, from the same with a quarter of the iterations, noise floor of the stepper; mean "
+             "iterations\n"
+             "    %-40s %9s %9s %9s %12s\n",
+             "", "reference", "quarter", "floor", "iterations") +
+         text;
 }
 
 /// How far the reference was solved, and how far it may be off.
@@ -71,9 +96,11 @@ std::string reference_text(const SceneCases& scene, const AccuracyReportOptions&
 std::string row_text(const StudyCase& one, bool at_floor) {
   const std::string remarks = remarks_text(one, at_floor);
   const analysis::ErrorSummary& error = one.defect.body_position;
-  return format("  %9.3f %9.3f %10.3g  %-32s %9.4g %9.4g %9.4g %9.4g %9.4g %9s  %s%s\n", 1e3 * one.time_s,
+  return format("  %9.3f %9.3f %10.3g  %-32s %9.4g %9.4g %9.4g %9s %9.4g %9.4g %9s  %s%s\n", 1e3 * one.time_s,
                 1e3 * one.median_time_s, one.row_visits, setting_text(one).c_str(), 1e3 * error.rms,
-                1e3 * error.p99, 1e3 * error.max, 1e3 * one.joint_gap_m, 1e3 * one.drift.body_position.rms,
+                1e3 * error.p99, 1e3 * error.max,
+                number_or_dash(1e3 * one.own_error_m(ErrorMeasure::rms)).c_str(), 1e3 * one.joint_gap_m,
+                1e3 * one.drift.body_position.rms,
                 std::isnan(one.rest_creep_m_s) ? "-" : format("%.3g", 1e3 * one.rest_creep_m_s).c_str(),
                 bands_text(error.bands).c_str(), remarks.empty() ? "" : ("  (" + remarks + ")").c_str());
 }
@@ -106,6 +133,10 @@ Json case_json(const StudyCase& one, double floor_m, const AccuracyReportOptions
   json["frame_time_s"] = {{"worst", one.time_s}, {"median", one.median_time_s}};
   json["row_visits"] = one.row_visits;
   json["defect"] = errors_json(one.defect);
+  if (one.has_own()) {
+    json["own_defect"] = errors_json(one.own_defect);
+    json["own_error_m"] = one.own_error_m(options.measure);
+  }
   json["joint_gap_m"] = one.joint_gap_m;
   json["error_m"] = one.error_m(options.measure);
   json["at_noise_floor"] = one.error_m(options.measure) <= floor_m;
@@ -119,12 +150,25 @@ Json case_json(const StudyCase& one, double floor_m, const AccuracyReportOptions
   return json;
 }
 
+Json own_json(const StudyCase& own, const SceneCases& scene, const AccuracyReportOptions& options) {
+  const auto or_null = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+  return {{"stepper", std::string(stepping::name_of(own.stepper.kind))},
+          {"setting", setting_text(own)},
+          {"iterations", or_null(own.solve_iterations)},
+          {"from_reference_m", own.error_m(options.measure)},
+          {"from_a_quarter_m", or_null(own.own_error_m(options.measure))},
+          {"noise_floor_m", or_null(scene.own_floor_m(own.stepper.kind, options.measure))}};
+}
+
 std::string scene_text(const SceneCases& scene, const AccuracyReportOptions& options) {
   std::string text = "\nscene: " + scene.name + "\n" + reference_text(scene, options);
-  text += format("  Pareto front of %zu settings\n  %9s %9s %10s  %-32s %9s %9s %9s %9s %9s %9s  %s\n",
-                 scene.settings.size(), "worst ms", "median ms", "row visits",
-                 "setting (substeps x iterations)", "rms mm", "p99 mm", "max mm", "gap mm", "drift mm",
-                 "creep mm/s", "bodies < 1 cm/1-10/10-100/> 100/inf");
+  text += own_text(scene);
+  text += format(
+      "  Pareto front of %zu settings; own: rms against the stepper's own solution\n  %9s %9s %10s  %-32s "
+      "%9s %9s %9s %9s %9s %9s %9s  %s\n",
+      scene.settings.size(), "worst ms", "median ms", "row visits", "setting (substeps x iterations)",
+      "rms mm", "p99 mm", "max mm", "own mm", "gap mm", "drift mm", "creep mm/s",
+      "bodies < 1 cm/1-10/10-100/> 100/inf");
   const double floor = scene.floor_m(options.measure);
   for (const std::size_t i : scene.pareto_front(options.measure)) {
     text += row_text(scene.settings[i], scene.settings[i].error_m(options.measure) <= floor);
@@ -197,6 +241,7 @@ std::string study_to_json(const std::vector<SceneCases>& scenes, const AccuracyR
     if (scene.reference)
       one["reference"] = {{"residual_m", scene.reference->solve_residual_m},
                           {"iterations", scene.reference->solve_iterations}};
+    for (const StudyCase& own : scene.own) one["own"].push_back(own_json(own, scene, options));
     one["front"] = Json::array();
     for (const std::size_t i : scene.pareto_front(options.measure)) {
       one["front"].push_back(case_json(scene.settings[i], floor_m, options));

@@ -20,13 +20,6 @@ void keep_kind(StepperKind kind, Cases& cases) {
   std::erase_if(cases, [kind](const StudyCase& one) { return one.stepper.kind != kind; });
 }
 
-/// The largest own defect of the cases of this kind; NaN without.
-double most_own_defect_m(const std::vector<StudyCase>& cases) {
-  double most = NAN;
-  for (const StudyCase& one : cases) most = std::fmax(most, one.own_defect.body_position.rms);
-  return most;
-}
-
 EngineOfScene engine_of(const SceneCases& scene, StepperKind kind) {
   EngineOfScene engine{.kind = kind, .cases = scene};
   keep_kind(kind, engine.cases.settings);
@@ -35,13 +28,13 @@ EngineOfScene engine_of(const SceneCases& scene, StepperKind kind) {
     engine.not_finite += one.finite() ? 0 : 1;
     engine.felled += one.fells() ? 1 : 0;
   }
-  engine.floor_m = most_own_defect_m(engine.cases.own_floor);
+  engine.floor_m = scene.own_floor_m(kind, ErrorMeasure::rms);
   // The own solution of which the noise was measured is that of the usual settings.
   if (engine.cases.own_floor.empty()) return engine;
   const auto usual = std::ranges::find(scene.own, engine.cases.own_floor.front().own, &StudyCase::own);
   if (usual == scene.own.end()) return engine;
-  engine.law_m = usual->defect.body_position.rms;
-  if (stepping::traits_of(kind).iterates) engine.fewer_m = usual->own_defect.body_position.rms;
+  engine.law_m = usual->error_m(ErrorMeasure::rms);
+  if (stepping::traits_of(kind).iterates) engine.fewer_m = usual->own_error_m(ErrorMeasure::rms);
   return engine;
 }
 
@@ -157,8 +150,8 @@ void read_stability(const EnginesOptions& options, EnginesReport& report) {
 double error_m(const StudyCase& one, Yardstick yardstick) {
   constexpr double none = std::numeric_limits<double>::infinity();
   if (!one.finite() || one.fells()) return none;
-  const analysis::ErrorTable& errors = yardstick == Yardstick::common ? one.defect : one.own_defect;
-  return errors.body_position.count > 0 ? errors.body_position.rms : none;
+  if (yardstick == Yardstick::common) return one.error_m(ErrorMeasure::rms);
+  return one.has_own() ? one.own_error_m(ErrorMeasure::rms) : none;
 }
 
 std::vector<std::size_t> EngineOfScene::front(Yardstick yardstick) const {
@@ -167,7 +160,7 @@ std::vector<std::size_t> EngineOfScene::front(Yardstick yardstick) const {
 
 bool SceneOfEngines::has_own_solutions() const {
   return std::ranges::any_of(engines, [](const EngineOfScene& engine) {
-    return std::ranges::any_of(engine.cases.settings, [](const StudyCase& one) { return one.own >= 0; });
+    return std::ranges::any_of(engine.cases.settings, &StudyCase::has_own);
   });
 }
 

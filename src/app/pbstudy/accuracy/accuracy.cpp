@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/pbstudy/accuracy/accuracy_table.h"
+#include "app/pbstudy/accuracy/own_solution.h"
 #include "app/pbstudy/accuracy/yardsticks.h"
 #include "app/pbstudy/study/study_runner.h"
 
@@ -12,11 +13,13 @@ namespace {
 
 using io::Parameter;
 
-/// The reference of a scene is made by each rank that has cases of it.
+/// The reference of a scene, and the own solutions of its cases, are made by each rank that has cases of
+/// them.
 std::vector<CaseResult> run_cases(const mpi::Communicator& comm, const AccuracyOptions& options,
                                   const std::vector<AccuracyCase>& cases, StudyRunner& runner) {
   std::optional<SolvedReference> reference;
   std::optional<RestRunner> rest;
+  std::optional<OwnSolutions> own;
   int reference_scene = -1;
   const std::vector<int> owner = deal_out(cases, runner.scenes(), comm.size());
   const auto run_one = [&](std::size_t i) {
@@ -24,10 +27,12 @@ std::vector<CaseResult> run_cases(const mpi::Communicator& comm, const AccuracyO
     if (cases[i].scene != reference_scene) {
       reference = solve_reference(scene, reference_solve(scene, options));
       rest.emplace(scene, reference_settings(scene, options), options.rest_s);
+      own.emplace(scene, *reference, cases, options);
       reference_scene = cases[i].scene;
     }
-    return is_yardstick(cases[i].kind) ? run_yardstick(cases[i], scene, *reference, options)
-                                       : run_case(cases[i], scene, *reference, *rest, options.repeats);
+    if (is_own(cases[i].kind)) return own->judge(static_cast<int>(i));
+    if (is_yardstick(cases[i].kind)) return run_yardstick(cases[i], scene, *reference, options);
+    return run_case(cases[i], scene, *reference, *rest, options.repeats, own->ends(cases[i].own));
   };
   return runner
       .run<CaseResult>(cases, owner,
@@ -47,6 +52,8 @@ StudyContent content(const AccuracyOptions& options, const std::vector<StudyScen
       Parameter::of("reference_residual", options.reference_residual_m),
       Parameter::of("reference_most_iterations", std::int64_t{options.reference_most_iterations}),
       Parameter::of("reference_check", std::int64_t{options.reference_check}),
+      Parameter::of("own_iterations", std::int64_t{options.own_iterations}),
+      Parameter::of("own_most_iterations", std::int64_t{options.own_most_iterations}),
       Parameter::of("rest_seconds", options.rest_s)};
   content.cases = case_columns(scenes, cases, results);
   content.next = " --budget 3.33ms";

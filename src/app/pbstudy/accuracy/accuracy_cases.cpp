@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 
 #include "core/error.h"
@@ -158,6 +159,50 @@ void add_yardsticks(int index, const StudyScene& scene, const AccuracyOptions& o
   halved.steps_per_frame *= 2;
 }
 
+bool solve_the_same(const StepperSettings& a, const StepperSettings& b) {
+  return std::ranges::all_of(stepping::step_options(), [&](const stepping::StepOption& option) {
+    return value_of(option, a) == value_of(option, b);
+  });
+}
+
+/// The own solutions of the scene's settings, the cases from `first` on, one for all that share it.
+void add_own_solutions(std::size_t first, const AccuracyOptions& options, std::vector<AccuracyCase>& cases) {
+  const std::size_t end = cases.size();
+  for (std::size_t i = first; i < end; ++i) {
+    if (cases[i].kind != CaseKind::setting) continue;
+    const StepperSettings wanted = own_settings(cases[i].stepper, options.own_iterations);
+    std::size_t own = end;
+    while (own < cases.size() && !solve_the_same(cases[own].stepper, wanted)) ++own;
+    if (own == cases.size()) {
+      cases.push_back({cases[i].scene, CaseKind::own, wanted, cases[i].steps_per_frame});
+      cases.back().own = static_cast<int>(own);
+    }
+    cases[i].own = static_cast<int>(own);
+  }
+}
+
+/// The noise of each kind of stepper at the first step of the study, of its usual equations if they are
+/// studied.
+void add_own_floors(std::size_t first, const AccuracyOptions& options, std::vector<AccuracyCase>& cases) {
+  std::map<stepping::StepperKind, std::size_t> own_of;
+  const std::size_t end = cases.size();
+  for (std::size_t i = first; i < end; ++i) {
+    if (cases[i].kind != CaseKind::own) continue;
+    const StepperSettings& stepper = cases[i].stepper;
+    const std::size_t known = own_of.try_emplace(stepper.kind, i).first->second;
+    const StepperSettings usual = own_settings(remembering(stepper), options.own_iterations);
+    if (cases[known].stepper.dt_s == stepper.dt_s && solve_the_same(stepper, usual)) own_of[stepper.kind] = i;
+  }
+  for (const auto& [kind, own] : own_of) {
+    for (int i = 1; i <= options.floor_seeds; ++i) {
+      AccuracyCase floor = cases[own];
+      floor.kind = CaseKind::own_floor;
+      floor.stepper.seed += static_cast<std::uint64_t>(i);
+      cases.push_back(floor);
+    }
+  }
+}
+
 }  // namespace
 
 int AccuracyCase::sweeps_a_frame() const {
@@ -186,11 +231,30 @@ ReferenceSolve reference_solve(const StudyScene& scene, const AccuracyOptions& o
           options.reference_most_iterations};
 }
 
+StepperSettings own_settings(const StepperSettings& setting, int iterations) {
+  const stepping::StepperTraits& traits = traits_of(setting.kind);
+  StepperSettings own = setting;
+  if (traits.iterates) own.iterations = std::max(1, iterations / setting.substeps);
+  if (!traits.tunes_sweeps) return own;
+  const StepperSettings usual = setting.relax > 0 ? default_settings(setting.kind) : StepperSettings();
+  own.sor_factor = usual.sor_factor;
+  own.warm_start = usual.warm_start;
+  own.row_order = usual.row_order;
+  own.precision = usual.precision;
+  own.tolerance_m = usual.tolerance_m;
+  if (setting.relax > 0) own.relax = own.iterations;
+  return own;
+}
+
 std::vector<AccuracyCase> make_cases(const std::vector<StudyScene>& scenes, const AccuracyOptions& options) {
   std::vector<AccuracyCase> cases;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const std::size_t first = cases.size();
     add_matrix(static_cast<int>(i), scenes[i], options, cases);
     add_yardsticks(static_cast<int>(i), scenes[i], options, cases);
+    if (options.own_iterations == 0) continue;
+    add_own_solutions(first, options, cases);
+    add_own_floors(first, options, cases);
   }
   return cases;
 }

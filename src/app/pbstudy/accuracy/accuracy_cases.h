@@ -21,18 +21,26 @@ enum class CaseKind {
   second_method,    ///< its frames by ODE, with contact points and a solver of its own
   halved_dt,        ///< the reference with half the step: what the step's length does, which no solver mends
   estimate,         ///< FEEC: what a frame of the setting shows before it has ended
+  own,        ///< the equations of settings of one stepper, solved by that stepper itself, by many iterations
+  own_floor,  ///< the same from disturbed states with another solver seed: the engine's noise
 };
-inline constexpr std::array<std::string_view, 7> case_kind_names = {
-    "setting", "reference", "floor", "more_iterations", "second_method", "halved_dt", "estimate"};
+inline constexpr std::array<std::string_view, 9> case_kind_names = {
+    "setting",   "reference", "floor", "more_iterations", "second_method",
+    "halved_dt", "estimate",  "own",   "own_floor"};
 /// Is it there to judge the reference?
-constexpr bool is_yardstick(CaseKind kind) { return kind != CaseKind::setting && kind != CaseKind::estimate; }
+constexpr bool is_yardstick(CaseKind kind) { return kind > CaseKind::setting && kind < CaseKind::estimate; }
+constexpr bool is_own(CaseKind kind) { return kind == CaseKind::own || kind == CaseKind::own_floor; }
 
 struct AccuracyCase {
+  static constexpr int no_own = -1;
+
   int scene = 0;  ///< index into the study's scenes
   CaseKind kind = CaseKind::setting;
   stepping::StepperSettings stepper;
   int steps_per_frame = 3;
   std::optional<EstimateSpec> estimate = {};  ///< of CaseKind::estimate
+  /// The case of its equations' own solution, of a setting and of what is_own(); else no_own.
+  int own = no_own;
 
   int sweeps() const { return sweeps_of(stepper); }  ///< in a step
   int sweeps_a_frame() const;                        ///< until what it shows is there
@@ -43,6 +51,13 @@ StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions&
 /// The setting of the reference: a cold sor in double precision, with the iterations that it begins with.
 stepping::StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options);
 ReferenceSolve reference_solve(const StudyScene& scene, const AccuracyOptions& options);
+
+/// The settings that solve the equations of `setting` by so many iterations a step. What decides how they are
+/// solved is taken from the stepper's usual settings (over-relaxation, warm start, order, precision, and no
+/// tolerance); what decides what is solved stays: the step, and of sor substeps, springs, margin, friction,
+/// sag, and whether there are relaxing sweeps, of which there are then as many as others. Substeps share the
+/// iterations. A stepper without iterations keeps its settings.
+stepping::StepperSettings own_settings(const stepping::StepperSettings& setting, int iterations);
 
 /// All cases of all scenes, scene by scene. Throws core::InputError for a dt that does not fill a frame.
 std::vector<AccuracyCase> make_cases(const std::vector<StudyScene>& scenes, const AccuracyOptions& options);

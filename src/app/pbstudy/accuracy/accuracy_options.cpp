@@ -70,7 +70,17 @@ po::options_description options_description() {
        "... or so many are done")  //
       ("reference-check", po::value<int>()->default_value(30)->value_name("N"),
        "compare the reference with itself solved by N times as many iterations, and with ODE's solution; 0: "
-       "neither");
+       "neither")  //
+      ("own-iterations", po::value<int>()->default_value(640)->value_name("N"),
+       "compare each setting also with its own equations, solved by its own stepper: each frame is tried "
+       "with N "
+       "iterations a step first, then with four times as many again and again until no body ends farther "
+       "than "
+       "--reference-residual from where it did before; and that with itself from disturbed states, as often "
+       "as "
+       "--floor-seeds says; 0: neither")  //
+      ("own-most-iterations", po::value<int>()->default_value(10240)->value_name("N"),
+       "... or so many are done");
   po::options_description all;
   all.add(what).add(how).add(what_to_write("accuracy.h5")).add(common_options_description());
   return all;
@@ -82,6 +92,8 @@ void require_possible(const AccuracyOptions& options) {
   require_at_least({options.reference_most_iterations}, options.reference_iterations,
                    "--reference-most-iterations");
   require_at_least({options.reference_check}, 0, "--reference-check");
+  require_at_least({options.own_iterations}, 0, "--own-iterations");
+  require_at_least({options.own_most_iterations}, 4 * options.own_iterations, "--own-most-iterations");
   require_at_least(options.estimates, 0, "--estimates");
   core::require_input(options.rest_s >= 0 && options.rest_s < 1e6,
                       "--rest-seconds: it must be a time in seconds, or 0 for none");
@@ -95,7 +107,8 @@ Manual accuracy_manual() {
               "pbstudy accuracy measures what accuracy costs in time. Each case is a world of its own (with "
               "its scene's replicas) and a setting. Its defect is the error after one frame from the "
               "reference's own state, anew in every measured frame; its drift is the error along the "
-              "trajectory from the start.",
+              "trajectory from the start. Its own defect is the same against its own equations, solved by "
+              "many iterations of its own stepper.",
           .usage = "mpirun -n RANKS pbstudy accuracy [--scene NAME...] [options]",
           .options = options_description(),
           .notes =
@@ -123,6 +136,8 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   options.reference_residual_m = residual == "0" ? 0 : parse_length_m(residual, "--reference-residual");
   options.reference_most_iterations = values["reference-most-iterations"].as<int>();
   options.reference_check = values["reference-check"].as<int>();
+  options.own_iterations = values["own-iterations"].as<int>();
+  options.own_most_iterations = values["own-most-iterations"].as<int>();
   options.rest_s = values["rest-seconds"].as<double>();
   require_possible(options);
   return options;

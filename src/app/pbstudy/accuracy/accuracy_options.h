@@ -22,6 +22,8 @@ struct AccuracyOptions : StudyOptions {
   double reference_residual_m = 1e-5;     ///< asked of each step; 0: nothing
   int reference_most_iterations = 40960;  ///< of a step that does not get there
   int reference_check = 30;               ///< times as many iterations, for comparison; 0: no such case
+  int own_iterations = 640;  ///< a step with which a stepper's own solution is tried first; 0: there is none
+  int own_most_iterations = 10240;  ///< a step of a frame that does not settle
   double rest_s = 3;  ///< for which the scene at rest is watched under each setting; 0: not at all
 };
 

@@ -26,6 +26,7 @@ std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
                                        ? estimate_source_names[static_cast<std::size_t>(c.estimate->source)]
                                        : "";
                           }),
+      column<std::int64_t>("own", "", cases, [](Case c) { return c.own; }),
       column<std::int64_t>("steps_per_frame", "", cases, [](Case c) { return c.steps_per_frame; }),
       column<std::int64_t>("worlds", "", cases, [&](Case c) { return scene_of(c).num_worlds; }),
       column<std::int64_t>("warmup", "", cases, [&](Case c) { return scene_of(c).warmup; }),
@@ -50,6 +51,7 @@ std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
   };
   add_step_columns(cases, columns);
   add_errors("defect", &CaseResult::defect, results, columns);
+  add_errors("own_defect", &CaseResult::own_defect, results, columns);
   add_errors("drift", &CaseResult::drift, results, columns);
   return columns;
 }

@@ -45,10 +45,10 @@ void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector
 /// stands at the right step. Errors come from the first round, the others give the same bits.
 std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const StudyScene& scene,
                                                 const Reference& reference, const Worlds& worlds, int repeats,
-                                                CaseResult& result) {
+                                                const FrameEnds* own, CaseResult& result) {
   CaseStepper stepper(worlds, one.stepper, one.steps_per_frame, one.estimate);
   std::vector<std::vector<double>> times_s(static_cast<std::size_t>(scene.frames));
-  PoseErrors errors;
+  PoseErrors errors, own_errors;
   for (int round = 0; round < repeats; ++round) {
     if (scene.warmup > 0) {  // what a jump back to another step costs must not be timed
       stepper.start_from(reference.states[static_cast<std::size_t>(scene.warmup - 1)], scene.warmup - 1);
@@ -61,6 +61,7 @@ std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const S
       times_s[static_cast<std::size_t>(i)].push_back(stepper.advance_frame());
       if (round > 0) continue;
       errors.append(errors_of(stepper, worlds, reference.states[frame + 1]));
+      if (own != nullptr) own_errors.append(errors_of(stepper, worlds, (*own)[static_cast<std::size_t>(i)]));
       observe(stepper, worlds, reference.states[frame + 1], result);
     }
   }
@@ -71,6 +72,7 @@ std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const S
     result.row_visits = result.row_visits * one.steps_per_frame / scene.frames;
   }
   result.defect = analysis::summarize(errors);
+  result.own_defect = analysis::summarize(own_errors);
   return times_s;
 }
 
@@ -90,15 +92,25 @@ void measure_drift(const AccuracyCase& one, const StudyScene& scene, const Refer
 }  // namespace
 
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
-                    const RestRunner& rest, int repeats) {
+                    const RestRunner& rest, int repeats, const FrameEnds* own) {
   CaseResult result;
   // Another step length has its events at other steps. The bodies are the same.
   const bool own_step = one.stepper.dt_s == scene.dt_s;
   const Worlds worlds = own_step ? reference.worlds : build_worlds(scene, one.stepper.dt_s, one.stepper.seed);
-  const auto times_s = measure_defect(one, scene, reference, worlds, repeats, result);
+  const auto times_s = measure_defect(one, scene, reference, worlds, repeats, own, result);
   summarize_times(times_s, result);
   measure_drift(one, scene, reference, worlds, result);
   result.rest = one.kind == CaseKind::setting ? rest.run(one.stepper) : RestResult{NAN, NAN, NAN, NAN};
+  return result;
+}
+
+CaseResult unobserved() {
+  CaseResult result;
+  for (double CaseResult::*number : {&CaseResult::rows, &CaseResult::row_visits, &CaseResult::max_joint_gap_m,
+                                     &CaseResult::max_penetration_m, &CaseResult::energy_change_j,
+                                     &CaseResult::momentum_change_ns, &CaseResult::max_stretch})
+    result.*number = NAN;
+  result.rest = {NAN, NAN, NAN, NAN};
   return result;
 }
 

@@ -29,13 +29,21 @@ struct CaseResult {
   double solve_residual = NAN;    ///< of a case that is solved as the reference is (SolveAccount); else NaN
   double solve_iterations = NAN;
   analysis::ErrorTable defect;
+  /// Against the own solution (of what is_own(): see OwnSolutions::judge()); no entries where there is none.
+  analysis::ErrorTable own_defect;
   analysis::ErrorTable drift;
 };
 static_assert(std::is_trivially_copyable_v<CaseResult>);
 
-/// A setting or an estimate.
+/// States at the ends of the measured frames, each begun in the reference's state: [frames][num_worlds].
+using FrameEnds = std::vector<std::vector<model::State>>;
+
+/// A setting or an estimate. `own`: the ends of its own solution; null: it is compared with none.
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
-                    const RestRunner& rest, int repeats);
+                    const RestRunner& rest, int repeats, const FrameEnds* own = nullptr);
+
+/// A result of which nothing is known but what is measured later: NaN.
+CaseResult unobserved();
 
 /// The times of `result` from those of its measured frames [s], [frame][repeat].
 void summarize_times(const std::vector<std::vector<double>>& times_s, CaseResult& result);

@@ -14,17 +14,6 @@ using States = std::vector<State>;
 /// Does frame `frame` from these states.
 using SolveFrame = std::function<States(const States& start, int frame)>;
 
-/// A result of which nothing is known but what is measured here.
-CaseResult unobserved() {
-  CaseResult result;
-  for (double CaseResult::*number : {&CaseResult::rows, &CaseResult::row_visits, &CaseResult::max_joint_gap_m,
-                                     &CaseResult::max_penetration_m, &CaseResult::energy_change_j,
-                                     &CaseResult::momentum_change_ns, &CaseResult::max_stretch})
-    result.*number = NAN;
-  result.rest = {NAN, NAN, NAN, NAN};
-  return result;
-}
-
 /// The defect of the measured frames.
 void measure_defect(const StudyScene& scene, const SolvedReference& reference, const Worlds& worlds,
                     const SolveFrame& solve, CaseResult& result) {

@@ -1,0 +1,84 @@
+"""Tables of engines side by side: fronts and own solutions from `pbstudy accuracy`, what each holds of the hard cases, what it cannot express."""
+import functools
+import json
+
+from tables import programs, stability
+
+SETTINGS = ("--iterations", "5", "20", "80", "--substeps", "1", "8", "16", "--max-sweeps", "80", "--dt", "0.01", "--estimates", "0", "--precision",
+            "double", "--reference-check", "0", "--floor-seeds", "1", "--repeats", "3", "--frames", "3", "--rest-seconds", "1")
+ALL = ("quick", "direct", "sor", "bullet", "mujoco")
+# Battle2: a step takes MuJoCo and `direct` seconds to tens of seconds.
+STUDIES = ((("CrashSk", "CrashWa", "Fight"), ALL, ()), (("100CrSk",), ALL, ("--replicas", "8")), (("Battle2",), ("quick", "sor", "bullet"), ()))
+MAP = ("quick", "direct", "sor", "sor sag=0.2mm", "bullet", "bullet iterations=40", "mujoco")
+# Beyond so many bodies x steps a case takes MuJoCo minutes to hours.
+MOST_WORK = "12000"
+
+
+@functools.cache
+def scenes():
+    """Of the studies of accuracy, as `pbreport engines --json` has them."""
+    found = []
+    for names, steppers, options in STUDIES:
+        with programs.Folder() as folder:
+            path = programs.study("accuracy", folder, names, "--stepper", *steppers, *SETTINGS, *options)
+            found.append(json.loads(programs.pbreport("engines", path, "--json")))
+    return [scene for one in found for scene in one["scenes"]], [difference for one in found for difference in one["differences"]]
+
+
+@functools.cache
+def hard_cases():
+    with programs.Folder() as folder:
+        path = stability.study(folder, "--most-work", MOST_WORK, "--setting", *MAP)
+        found = json.loads(programs.pbreport("engines", path, "--json"))
+    return found["hard_cases"], found["differences"]
+
+
+def millimetres(metres):
+    return "-" if metres is None else programs.millimetres(metres)
+
+
+def engines_of_scenes():
+    for scene in scenes()[0]:
+        for engine in scene["engines"]:
+            yield scene, engine
+
+
+def fronts():
+    rows = []
+    for scene, engine in engines_of_scenes():
+        for point in engine["common_front"]:
+            rows.append([scene["scene"], f"`{engine['engine']}`", programs.short_setting(point["setting"]).replace(", dt 0.01 s", ""),
+                         programs.digits(1e3 * point["frame_time_s"]["worst"]), *(millimetres(point[name]) for name in
+                                                                               ("common_error_m", "own_error_m", "joint_gap_m"))])
+    return programs.table(["scene", "engine", "setting", "worst frame [ms]", "error: common reference [mm]", "error: own solution [mm]", "joint gap [mm]"], rows)
+
+
+def own():
+    rows = []
+    for scene, engine in engines_of_scenes():
+        solution = engine["own_solution"]
+        rows.append([scene["scene"], f"`{engine['engine']}`", *(millimetres(solution[name]) for name in
+                                                               ("from_common_reference_m", "from_fewer_iterations_m", "noise_m")),
+                     f"{engine['settings']}", f"{engine['not_finite']}, {engine['felled']}"])
+    return programs.table(["scene", "engine", "from the common reference [mm]", "from itself with a quarter of the iterations [mm]", "noise [mm]",
+                           "settings", "not finite, fell at rest"], rows)
+
+
+def hard_map():
+    settings = hard_cases()[0]
+    groups = list(settings[0]["groups"])
+    rows = []
+    for one in settings:
+        counts = [one["groups"][group] for group in groups] + [one["all"]]
+        rows.append([programs.short_setting(one["setting"]), *(" / ".join(str(count[verdict]) for verdict in stability.VERDICTS) for count in counts)])
+    return programs.table(["pass / degraded / broken", *groups, "all"], rows)
+
+
+def can():
+    rows, seen = [], {}
+    for one in scenes()[1] + hard_cases()[1]:
+        seen.setdefault((one["engine"], one["text"]), []).extend(one["scenes"])
+    for (engine, text), names in sorted(seen.items()):
+        names = list(dict.fromkeys(names))
+        rows.append([f"`{engine}`", text, ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")])
+    return programs.table(["engine", "what it takes otherwise, or not at all", "in"], rows)

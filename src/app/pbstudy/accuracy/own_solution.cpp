@@ -1,0 +1,173 @@
+#include "app/pbstudy/accuracy/own_solution.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/clock.h"
+#include "core/random.h"
+#include "engines/stepper_factory.h"
+
+namespace pbmpi::app {
+
+using model::State;
+using States = std::vector<State>;
+
+namespace {
+
+/// What the noise floors of engines start from: a few hundred times the rounding of a position in a world of
+/// ten metres.
+constexpr double disturbance = 1e-12;  // [m] and [m/s]
+
+/// Does one frame of some worlds of a case.
+class FrameSolver {
+ public:
+  FrameSolver(const AccuracyCase& one, const Worlds& worlds, int frame)
+      : one_(one), worlds_(worlds), first_step_(static_cast<std::int64_t>(frame) * one.steps_per_frame) {}
+
+  /// Writes the ends of `which` into `ends` [num_worlds].
+  void solve(const std::vector<int>& which, const States& start, int iterations, States& ends) const {
+    const auto stepper = engines::make_stepper(own_settings(one_.stepper, iterations), "own solution: ");
+    for (const int world : which) {
+      const auto place = static_cast<std::size_t>(world);
+      stepper->add(world, worlds_[place], start[place], first_step_);
+    }
+    core::PhaseTimes times;
+    stepper->advance(one_.steps_per_frame, times);
+    for (const int world : which) ends[static_cast<std::size_t>(world)] = stepper->state(world);
+  }
+
+ private:
+  const AccuracyCase& one_;
+  const Worlds& worlds_;
+  std::int64_t first_step_;
+};
+
+/// The longest way [m] between the bodies of two states; NaN if any is.
+double farthest_m(const State& a, const State& b) {
+  double most = 0;
+  for (std::size_t body = 0; body < a.position.size(); ++body) {
+    const double way = (a.position[body] - b.position[body]).norm();
+    if (!(way <= most)) most = way;
+    if (std::isnan(most)) break;
+  }
+  return most;
+}
+
+std::vector<int> all_of(const Worlds& worlds) {
+  std::vector<int> all(worlds.size());
+  for (std::size_t world = 0; world < all.size(); ++world) all[world] = static_cast<int>(world);
+  return all;
+}
+
+}  // namespace
+
+void disturb(double size, std::uint64_t key, State& state) {
+  std::uint64_t drawn = 0;
+  const auto move = [&](std::vector<model::Vec3>& vectors) {
+    for (model::Vec3& vector : vectors) {
+      for (double& coordinate : vector)
+        coordinate += size * (2 * core::to_unit(core::mix_key(key, 0, ++drawn)) - 1);
+    }
+  };
+  move(state.position);
+  move(state.velocity);
+}
+
+OwnSolutions::OwnSolutions(const StudyScene& scene, const Reference& reference,
+                           const std::vector<AccuracyCase>& cases, const AccuracyOptions& options)
+    : scene_(scene), reference_(reference), cases_(cases), options_(options) {}
+
+OwnSolutions::Solution OwnSolutions::solve(const AccuracyCase& one) const {
+  Solution found;
+  // Another step length has its events at other steps. The bodies are the same.
+  const bool own_step = one.stepper.dt_s == scene_.dt_s;
+  found.worlds = own_step ? reference_.worlds : build_worlds(scene_, one.stepper.dt_s, one.stepper.seed);
+  for (int frame = scene_.warmup; frame < scene_.total_frames(); ++frame) {
+    const double start_s = core::thread_cpu_s();
+    const States& start = reference_.states[static_cast<std::size_t>(frame)];
+    const FrameSolver solver(one, found.worlds, frame);
+    std::vector<int> open = all_of(found.worlds);
+    std::vector<int> used(open.size(), options_.own_iterations);
+    States ends(open.size());
+    solver.solve(open, start, options_.own_iterations, ends);
+    States fewer = ends;
+    for (std::int64_t wanted = 4 * std::int64_t{options_.own_iterations};
+         traits_of(one.stepper.kind).iterates && wanted <= options_.own_most_iterations && !open.empty();
+         wanted *= 4) {
+      for (const int world : open) {
+        fewer[static_cast<std::size_t>(world)] = ends[static_cast<std::size_t>(world)];
+        used[static_cast<std::size_t>(world)] = static_cast<int>(wanted);
+      }
+      solver.solve(open, start, static_cast<int>(wanted), ends);
+      std::erase_if(open, [&](int world) {  // what is not finite will not settle either
+        const auto place = static_cast<std::size_t>(world);
+        return !(farthest_m(fewer[place], ends[place]) > options_.reference_residual_m);
+      });
+    }
+    found.ends.push_back(std::move(ends));
+    found.fewer.push_back(std::move(fewer));
+    found.iterations.push_back(std::move(used));
+    found.times_s.push_back(core::thread_cpu_s() - start_s);
+  }
+  return found;
+}
+
+/// With the iterations that the undisturbed solution took.
+OwnSolutions::Solution OwnSolutions::solve_disturbed(const AccuracyCase& one, const Solution& own) const {
+  Solution found;
+  found.worlds = own.worlds;
+  found.iterations = own.iterations;
+  for (std::size_t i = 0; i < own.ends.size(); ++i) {
+    const double start_s = core::thread_cpu_s();
+    const auto frame = static_cast<std::size_t>(scene_.warmup) + i;
+    States start = reference_.states[frame];
+    std::map<int, std::vector<int>> worlds_by_iterations;
+    for (std::size_t world = 0; world < start.size(); ++world) {
+      disturb(disturbance, core::mix_key(one.stepper.seed, world, frame), start[world]);
+      worlds_by_iterations[own.iterations[i][world]].push_back(static_cast<int>(world));
+    }
+    States ends(start.size());
+    const FrameSolver solver(one, own.worlds, static_cast<int>(frame));
+    for (const auto& [iterations, worlds] : worlds_by_iterations)
+      solver.solve(worlds, start, iterations, ends);
+    found.ends.push_back(std::move(ends));
+    found.times_s.push_back(core::thread_cpu_s() - start_s);
+  }
+  found.fewer = own.ends;
+  return found;
+}
+
+const OwnSolutions::Solution& OwnSolutions::solution(int index) {
+  const auto known = solutions_.find(index);
+  return known != solutions_.end() ? known->second
+                                   : solutions_.emplace(index, solve(at(index))).first->second;
+}
+
+const FrameEnds* OwnSolutions::ends(int index) {
+  return index == AccuracyCase::no_own ? nullptr : &solution(index).ends;
+}
+
+CaseResult OwnSolutions::judge(int index) {
+  const AccuracyCase& one = at(index);
+  const Solution& own = solution(one.own);
+  const Solution disturbed = one.kind == CaseKind::own_floor ? solve_disturbed(one, own) : Solution{};
+  const Solution& judged = one.kind == CaseKind::own_floor ? disturbed : own;
+  CaseResult result = unobserved();
+  analysis::PoseErrors errors, own_errors;
+  std::vector<std::vector<double>> times_s;
+  double iterations = 0, num_solves = 0;
+  for (std::size_t i = 0; i < judged.ends.size(); ++i) {
+    const auto frame = static_cast<std::size_t>(scene_.warmup) + i;
+    errors.append(errors_between(own.worlds, judged.ends[i], reference_.states[frame + 1]));
+    own_errors.append(errors_between(own.worlds, judged.ends[i], judged.fewer[i]));
+    times_s.push_back({judged.times_s[i]});
+    for (const int count : judged.iterations[i]) iterations += (count - iterations) / ++num_solves;
+  }
+  result.defect = analysis::summarize(errors);
+  result.own_defect = analysis::summarize(own_errors);
+  if (traits_of(one.stepper.kind).iterates) result.solve_iterations = iterations;
+  summarize_times(times_s, result);
+  return result;
+}
+
+}  // namespace pbmpi::app
