@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-from tables import accuracy, effects, engines_speed, guards, paper, prediction, programs, scaling, scenes, siconos, speed, stability
+from tables import accuracy, effects, engines, engines_speed, guards, paper, prediction, programs, scaling, scenes, siconos, speed, stability
 
 # page: below the root. make: computes the lines of the table. has_clock: whether times are among its figures. commands: for
 # a reader who wants to measure it by hand.
@@ -58,6 +58,11 @@ ENTRIES = {
     "paper_instructions": Entry("docs/paper.md", paper.instructions, True, ["jobs/paper.sh"]),
     "paper_prediction": Entry("docs/paper.md", paper.prediction, True, ["jobs/paper.sh --prediction"]),
     "paper_nothing": Entry("docs/paper.md", paper.nothing, False, ["jobs/paper.sh --without-clock"]),
+    "engines_fronts": Entry("docs/engines.md", engines.fronts, True, ["pbstudy accuracy --stepper quick direct sor bullet mujoco ...", "pbreport engines accuracy.h5"]),
+    "engines_own": Entry("docs/engines.md", engines.own, False, ["pbstudy accuracy --stepper quick direct sor bullet mujoco ...", "pbreport engines accuracy.h5"]),
+    "engines_map": Entry("docs/engines.md", engines.hard_map, False,
+                         [f"pbstudy stability --most-work {engines.MOST_WORK} --setting {' '.join(engines.MAP)}", "pbreport engines stability.h5"]),
+    "engines_can": Entry("docs/engines.md", engines.can, False, ["pbreport engines accuracy.h5 stability.h5"]),
     "siconos_residuals": Entry("docs/siconos.md", siconos.residuals, True, ["jobs/siconos.sh", "fclib_export.py --each 25", "solve.py"]),
     "siconos_counts": Entry("docs/siconos.md", siconos.counts, True, ["jobs/siconos.sh", "fclib_export.py --each 25", "solve.py"]),
     "siconos_above": Entry("docs/siconos.md", siconos.above, True, ["jobs/siconos.sh", "fclib_export.py --each 25", "solve.py"]),

@@ -59,8 +59,8 @@ def study(kind, folder, scenes, *options):
 
 
 def accuracy_cases(folder, scenes, *options):
-    """The cases of `pbstudy accuracy` as rows of {column: text or number}, and {scene: its floors in m}."""
-    path = study("accuracy", folder, scenes, *options)
+    """The cases of `pbstudy accuracy`, by the common reference alone, as rows of {column: text or number}, and {scene: its floors in m}."""
+    path = study("accuracy", folder, scenes, "--own-iterations", "0", *options)
     table = folder / "accuracy.csv"
     floors = json.loads(pbreport(path, "--json", "--csv", table))["scenes"]
     with open(table, encoding="utf-8", newline="") as file:

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/pbstudy/accuracy/case_runner.h"
+#include "app/pbstudy/accuracy/own_solution.h"
 #include "app/pbstudy/accuracy/yardsticks.h"
 #include "core/error.h"
 #include "stepping/step_options.h"
@@ -185,6 +186,8 @@ TEST(AccuracyCases, bad_values_are_named) {
   EXPECT_NE(refusal({"--reference-residual", "1"}).find("--reference-residual"), std::string::npos)
       << "1 what?";
   EXPECT_NE(refusal({"--reference-most-iterations", "639"}).find("at least 640"), std::string::npos);
+  EXPECT_NE(refusal({"--own-iterations", "-1"}).find("--own-iterations"), std::string::npos);
+  EXPECT_NE(refusal({"--own-most-iterations", "2559"}).find("at least 2560"), std::string::npos);
   EXPECT_NE(refusal({"--reference-check", "-1"}).find("--reference-check"), std::string::npos);
   EXPECT_NE(refusal({"--replicas", "0"}).find("--replicas"), std::string::npos);
   EXPECT_NE(refusal({"--warmup", "-1"}).find("--warmup"), std::string::npos);
@@ -277,6 +280,115 @@ TEST(Yardsticks, the_reference_solved_further_is_nearer_to_it_than_half_of_it) {
   EXPECT_LT(further, run_case(few, scene, reference, no_rest, 1).defect.body_position.rms);
   EXPECT_GT(defect(CaseKind::second_method).rms, 0) << "ODE has other contact points";
   EXPECT_GT(defect(CaseKind::halved_dt).rms, further) << "the step is long";
+}
+
+/// The settings, own solutions and floors of these options.
+std::vector<AccuracyCase> own_cases_of(const std::vector<std::string>& args) {
+  const auto cases = cases_of(options_of(args));
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const bool has_own = cases[i].kind == CaseKind::setting || is_own(cases[i].kind);
+    EXPECT_EQ(cases[i].own != AccuracyCase::no_own, has_own && args.back() != "0") << i;
+    if (cases[i].own == AccuracyCase::no_own) continue;
+    const AccuracyCase& own = cases[static_cast<std::size_t>(cases[i].own)];
+    EXPECT_EQ(own.kind, CaseKind::own);
+    EXPECT_EQ(own.stepper.kind, cases[i].stepper.kind);
+    EXPECT_EQ(own.stepper.dt_s, cases[i].stepper.dt_s);
+    EXPECT_EQ(own.steps_per_frame, cases[i].steps_per_frame);
+  }
+  return cases;
+}
+
+TEST(OwnSolution, is_shared_by_all_settings_that_solve_the_same_equations) {
+  const auto cases =
+      own_cases_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20", "--substeps", "1", "8",
+                    "--precision", "double", "single", "--floor-seeds", "3"});
+  // At two lengths of the step: quick, direct, and sor cold and with springs in one and in eight substeps.
+  EXPECT_EQ(count(cases, CaseKind::own), 2 * (1 + 1 + 2 * 2));
+  EXPECT_EQ(count(cases, CaseKind::own_floor), 3 * 3) << "a kind of stepper has one floor";
+  std::set<std::uint64_t> seeds;
+  for (const AccuracyCase& one : cases) {
+    if (one.kind != CaseKind::own_floor) continue;
+    seeds.insert(one.stepper.seed);
+    EXPECT_EQ(one.stepper.dt_s, 0.01) << "at the scene's step";
+    if (one.stepper.kind == stepping::StepperKind::sor) {
+      EXPECT_EQ(one.stepper.substeps, 8);
+      EXPECT_GT(one.stepper.relax, 0) << "of sor as it is by default";
+    }
+  }
+  EXPECT_EQ(seeds, (std::set<std::uint64_t>{2, 3, 4}));
+  EXPECT_EQ(count(own_cases_of({"--own-iterations", "0"}), CaseKind::own), 0);
+}
+
+TEST(OwnSolution, keeps_what_is_solved_and_not_how) {
+  stepping::StepperSettings setting = default_settings(stepping::StepperKind::sor);
+  setting.contact_frequency = 60;
+  setting.sag_m = 1e-3;
+  setting.tolerance_m = 1e-5;
+  setting.precision = stepping::Precision::single;
+  setting.sor_factor = 1.7;
+  setting.warm_start = 0.5;
+  const stepping::StepperSettings own = own_settings(setting, 800);
+  EXPECT_EQ(own.contact_frequency, 60);
+  EXPECT_EQ(own.sag_m, 1e-3) << "stiffer springs are another model";
+  EXPECT_EQ(own.substeps, 8);
+  EXPECT_EQ(own.iterations, 100) << "eight substeps share them";
+  EXPECT_EQ(own.relax, 100);
+  EXPECT_EQ(own.tolerance_m, 0) << "fewer substeps save work";
+  EXPECT_EQ(own.precision, stepping::Precision::double_);
+  EXPECT_EQ(own.sor_factor, 1);
+  EXPECT_EQ(own.warm_start, 1);
+  setting.relax = 0;
+  EXPECT_EQ(own_settings(setting, 800).relax, 0) << "cold";
+  EXPECT_EQ(own_settings(setting, 3).iterations, 1);
+  const stepping::StepperSettings direct{.kind = stepping::StepperKind::direct, .iterations = 7};
+  EXPECT_EQ(own_settings(direct, 800).iterations, 7);
+}
+
+TEST(OwnSolution, is_what_more_iterations_come_to) {
+  const AccuracyOptions options =
+      options_of({"--stepper", "quick", "--iterations", "2", "60", "--reference-iterations", "40",
+                  "--reference-residual", "0.01mm", "--reference-most-iterations", "640", "--own-iterations",
+                  "160", "--own-most-iterations", "640", "--frames", "1", "--warmup", "0", "--dt", "0.01",
+                  "--estimates", "0", "--floor-seeds", "1"});
+  const StudyScene scene = study_scene(scenes::find_scene("2-Cars"), options);
+  const auto cases = make_cases({scene}, options);
+  const SolvedReference reference = solve_reference(scene, reference_solve(scene, options));
+  const RestRunner no_rest(scene, reference_settings(scene, options), 0);
+  OwnSolutions own(scene, reference, cases, options);
+  EXPECT_EQ(own.ends(AccuracyCase::no_own), nullptr);
+  std::map<int, double> error_by_iterations;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const AccuracyCase& one = cases[i];
+    if (one.kind == CaseKind::setting) {
+      const CaseResult result = run_case(one, scene, reference, no_rest, 1, own.ends(one.own));
+      EXPECT_EQ(result.own_defect.body_position.count, result.defect.body_position.count);
+      error_by_iterations[one.stepper.iterations] = result.own_defect.body_position.rms;
+      EXPECT_EQ(run_case(one, scene, reference, no_rest, 1).own_defect.body_position.count, 0);
+    } else if (is_own(one.kind)) {
+      const CaseResult result = own.judge(static_cast<int>(i));
+      EXPECT_LT(result.own_defect.body_position.max, 1e-5) << case_kind_names[static_cast<std::size_t>(one.kind)];
+      EXPECT_TRUE(result.solve_iterations == 640) << "one try, and another that settles";
+      EXPECT_TRUE(std::isnan(result.rows));
+    }
+  }
+  EXPECT_LT(error_by_iterations.at(60), error_by_iterations.at(2));
+  EXPECT_GT(error_by_iterations.at(2), 1e-4);
+}
+
+TEST(OwnSolution, a_disturbance_moves_all_by_no_more_than_its_size) {
+  const auto worlds = build_worlds(study_scene(scenes::find_scene("2-Cars"), options_of({})), 0.01, 1);
+  const model::State start = model::initial_state(*worlds[0]);
+  model::State moved = start, again = start, other = start;
+  disturb(1e-12, 5, moved);
+  disturb(1e-12, 5, again);
+  disturb(1e-12, 6, other);
+  EXPECT_EQ(model::hash(moved), model::hash(again));
+  EXPECT_NE(model::hash(moved), model::hash(other));
+  for (std::size_t body = 0; body < start.position.size(); ++body) {
+    const double way = (moved.position[body] - start.position[body]).cwiseAbs().maxCoeff();
+    EXPECT_GT(way, 0);
+    EXPECT_LT(way, 1.1e-12);  // of coordinates up to 100 m, whose rounding is 1e-14 m
+  }
 }
 
 TEST(RestRunner, counts_what_falls_though_the_reference_holds_it) {
