@@ -43,6 +43,9 @@ enum class Friction { pyramid, cone };
 /// alone: its contacts see the foot and not the body.
 enum class JointSolver { sweeps, hanging, tree };
 
+/// What ends the sweeps of the sor stepper over rigid rows: nothing, or Newton's method on each island.
+enum class Finish { none, newton };
+
 /// What a run chooses about the step; the rest is in the Model.
 struct StepperSettings {
   StepperKind kind = StepperKind::quick;
@@ -62,6 +65,7 @@ struct StepperSettings {
   JointSolver joint_solver = JointSolver::sweeps;  ///< sor
   double contact_margin = 0;                       ///< sor: contacts are found up to so many g dt^2 apart
   Friction friction = Friction::pyramid;           ///< sor
+  Finish finish = Finish::none;                    ///< sor
   RowOrder row_order = RowOrder::shuffled;
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;
