@@ -34,7 +34,8 @@ def natural_map(W, q, mu, r, convex=False):
     R, U = r.reshape(-1, 3), u.reshape(-1, 3).copy()
     if not convex:
         U[:, 0] += mu * np.linalg.norm(U[:, 1:], axis=1)
-    return np.linalg.norm(R - project(R - U, mu)) / max(np.linalg.norm(q), np.linalg.norm(u), np.linalg.norm(r))
+    left, size = np.linalg.norm(R - project(R - U, mu)), max(np.linalg.norm(q), np.linalg.norm(u), np.linalg.norm(r))
+    return left / size if size > 0 else left  # 0 of what neither moves nor pushes
 
 
 class Problem:

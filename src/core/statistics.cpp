@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace pbmpi::core {
 
@@ -31,14 +30,17 @@ Interval median_interval(std::vector<double> values, double confidence) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
-  double log_probability = -static_cast<double>(n) * std::numbers::ln2;  // of exactly k heads
+  double probability = 1;  // of exactly k heads, over 2^exponent: by itself it may be below every double
+  int exponent = -static_cast<int>(n);
   Interval found;
   double outside = 0;  // the median is below the k-th from the bottom, or above that from the top
   for (std::size_t k = 0; 2 * k < n; ++k) {
-    outside += 2 * std::exp(log_probability);
+    outside += 2 * std::ldexp(probability, exponent);
     if (k > 0 && 1 - outside < confidence) break;
     found = {values[k], values[n - 1 - k], std::max(0.0, 1 - outside)};
-    log_probability += std::log(static_cast<double>(n - k) / static_cast<double>(k + 1));
+    int raised = 0;
+    probability = std::frexp(probability * static_cast<double>(n - k) / static_cast<double>(k + 1), &raised);
+    exponent += raised;
   }
   return found;
 }

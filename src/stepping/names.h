@@ -18,6 +18,7 @@ inline constexpr std::array<std::string_view, 2> row_order_names = {"shuffled", 
 inline constexpr std::array<std::string_view, 3> joint_solver_names = {"sweeps", "hanging", "tree"};
 inline constexpr std::array<std::string_view, 3> constraint_solver_names = {"newton", "pgs", "cg"};
 inline constexpr std::array<std::string_view, 2> friction_names = {"pyramid", "cone"};
+inline constexpr std::array<std::string_view, 2> finish_names = {"none", "newton"};
 
 constexpr std::string_view name_of(StepperKind kind) { return stepper_kind_names[static_cast<int>(kind)]; }
 constexpr std::string_view name_of(Precision precision) {
@@ -34,6 +35,7 @@ constexpr std::string_view name_of(ConstraintSolver solver) {
   return constraint_solver_names[static_cast<int>(solver)];
 }
 constexpr std::string_view name_of(Friction friction) { return friction_names[static_cast<int>(friction)]; }
+constexpr std::string_view name_of(Finish finish) { return finish_names[static_cast<int>(finish)]; }
 constexpr std::string_view name_of(RowOrder order) { return row_order_names[static_cast<int>(order)]; }
 
 }  // namespace pbmpi::stepping

@@ -12,7 +12,7 @@ namespace pbmpi::stepping {
 /// largest over the rows of a world, a number that no order of summing can change. With w = J v + cfm p - rhs
 /// of a row with impulse p in [low, high], the natural map is the change of velocity that a projected step
 /// along w still asks for: |p - clamp(p - w / d, low, high)| d, d being the row's diagonal; |w| where
-/// nothing bounds p.
+/// nothing bounds p. Where friction is a cone its two rows have a disc for bounds.
 struct Residuals {
   double joint_speed = 0;        ///< [m/s] |w| of the joints' rows without bounds that act along a line
   double joint_turn = 0;         ///< [rad/s] the same of those about an axis

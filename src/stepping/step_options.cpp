@@ -24,7 +24,7 @@ bool converges(double factor) { return factor > 0 && factor < 2; }
 bool is_thread_count(double value) { return value >= 1 && value <= 1024; }
 bool is_share(double value) { return value >= 0 && value <= 1; }
 
-constexpr std::array<StepOption, 24> options = {{
+constexpr std::array<StepOption, 25> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
      .placeholder = "sor|quick|direct|bullet|mujoco",
@@ -182,6 +182,15 @@ constexpr std::array<StepOption, 24> options = {{
                 "diagonals of two axes; default: cone",
      .needs = &Traits::tunes_sweeps,
      .in_short = "*"},
+    {.name = "finish",
+     .member = &Settings::finish,
+     .placeholder = "none|newton",
+     .meaning =
+         "sor: newton: after the sweeps over rigid rows (--relax 0, no springs, --friction cone) islands of "
+         "up to "
+         "400 rows of contacts, limits and motors are solved to rounding, for references; default: none",
+     .needs = &Traits::tunes_sweeps,
+     .in_short = "by *"},
     {.name = "row-order",
      .member = &Settings::row_order,
      .placeholder = "shuffled|fixed",
@@ -236,6 +245,7 @@ constexpr const auto& names_of(RowOrder) { return row_order_names; }
 constexpr const auto& names_of(JointSolver) { return joint_solver_names; }
 constexpr const auto& names_of(ConstraintSolver) { return constraint_solver_names; }
 constexpr const auto& names_of(Friction) { return friction_names; }
+constexpr const auto& names_of(Finish) { return finish_names; }
 constexpr const auto& names_of(Precision) { return precision_names; }
 constexpr const auto& names_of(Simd) { return simd_names; }
 constexpr const auto& names_of(Colliders) { return colliders_names; }

@@ -18,7 +18,8 @@ using StepMember =
     std::variant<int StepperSettings::*, double StepperSettings::*, std::uint64_t StepperSettings::*,
                  StepperKind StepperSettings::*, RowOrder StepperSettings::*, Friction StepperSettings::*,
                  JointSolver StepperSettings::*, ConstraintSolver StepperSettings::*,
-                 Precision StepperSettings::*, Simd StepperSettings::*, Colliders StepperSettings::*>;
+                 Finish StepperSettings::*, Precision StepperSettings::*, Simd StepperSettings::*,
+                 Colliders StepperSettings::*>;
 
 /// A value as HDF5 files keep it.
 using StepValue = std::variant<std::int64_t, double, std::string>;

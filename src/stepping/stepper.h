@@ -47,6 +47,9 @@ enum class JointSolver { sweeps, hanging, tree };
 /// or conjugate gradients.
 enum class ConstraintSolver { newton, pgs, cg };
 
+/// What ends the sweeps of the sor stepper over rigid rows: nothing, or Newton's method on each island.
+enum class Finish { none, newton };
+
 /// What a run chooses about the step; the rest is in the Model.
 struct StepperSettings {
   StepperKind kind = StepperKind::quick;
@@ -67,6 +70,7 @@ struct StepperSettings {
   ConstraintSolver constraint_solver = ConstraintSolver::newton;  ///< mujoco
   double contact_margin = 0;              ///< sor: contacts are found up to so many g dt^2 apart
   Friction friction = Friction::pyramid;  ///< sor
+  Finish finish = Finish::none;           ///< sor
   RowOrder row_order = RowOrder::shuffled;
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;

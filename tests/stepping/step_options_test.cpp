@@ -45,6 +45,7 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.joint_solver = JointSolver::tree;
   settings.constraint_solver = ConstraintSolver::pgs;
   settings.friction = Friction::cone;
+  settings.finish = Finish::newton;
   settings.row_order = RowOrder::fixed;
   settings.precision = Precision::single;
   settings.simd = Simd::avx2;
@@ -119,7 +120,7 @@ TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
   for (const char* name :
        {"substeps", "tolerance", "sag", "most-substeps", "sor-factor", "warm-start", "relax",
         "contact-frequency", "contact-damping", "contact-margin", "joint-frequency", "joint-damping",
-        "joint-solver", "friction", "row-order", "precision", "simd", "colliders"}) {
+        "joint-solver", "friction", "finish", "row-order", "precision", "simd", "colliders"}) {
     EXPECT_TRUE(fits(step_option(name), StepperKind::sor));
     EXPECT_FALSE(fits(step_option(name), StepperKind::quick));
     EXPECT_FALSE(fits(step_option(name), StepperKind::direct));

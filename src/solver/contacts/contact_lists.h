@@ -60,6 +60,12 @@ class ContactList {
     for (std::size_t i = 0; i < slots_.size(); ++i)
       visit(slots_[i], points_.data() + slots_[i].first_point, order.dealt().data() + i * T::num_lanes);
   }
+  /// Likewise, and may change the points.
+  template <class Visit>
+  void change_slots(Visit visit) {
+    for (std::size_t i = 0; i < slots_.size(); ++i)
+      visit(slots_[i], points_of(slots_[i]), order.dealt().data() + i * T::num_lanes);
+  }
   /// The contacts of one colour.
   void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<Scalar>& law, int color,
              const SweepOrder::Points& points) {
@@ -151,6 +157,11 @@ class ContactLists {
   template <class Visit>
   void visit_slots(Visit visit) const {
     for_each([&](const auto& list) { list.visit_slots(visit); });
+  }
+  /// Likewise, and may change the points.
+  template <class Visit>
+  void change_slots(Visit visit) {
+    for_each([&](auto& list) { list.change_slots(visit); });
   }
   /// Colour by colour, in an order that the key gives; ascending without one.
   void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<typename T::Scalar>& law,

@@ -31,9 +31,10 @@ struct StepParameters {
   int relax = 0;          ///< sweeps at the end of a substep that push nothing out
   Spring contacts, joints;
   stepping::JointSolver joint_solver = stepping::JointSolver::sweeps;
-  bool cone = false;            ///< friction that is the same in all directions
-  bool shuffled = true;         ///< false: the joints of an articulation and the contacts keep their order
-  bool residuals = false;       ///< measure them at the end of the solve
+  bool cone = false;       ///< friction that is the same in all directions
+  bool newton = false;     ///< the sweeps of rigid rows are followed by Newton's method (newton/row_system.h)
+  bool shuffled = true;    ///< false: the joints of an articulation and the contacts keep their order
+  bool residuals = false;  ///< measure them at the end of the solve
   bool show_forces = false;     ///< hand out the forces with which the step ends, whatever the warm start
   std::uint64_t order_key = 0;  ///< (seed, step): the order of joints within an articulation, and of contacts
 };

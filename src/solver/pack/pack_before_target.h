@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -47,5 +48,6 @@
 #include "solver/layout/pack_laws.h"
 #include "solver/layout/passes.h"
 #include "solver/layout/slot_list.h"
+#include "solver/newton/row_system.h"
 #include "solver/pack/pack.h"
 #include "solver/pack/pack_instances.h"

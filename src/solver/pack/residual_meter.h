@@ -111,12 +111,29 @@ class ResidualMeter {
     raise(line_.natural, row_natural(point.normal, normal, 0, huge_bound));
     if constexpr (Solver::friction) {
       const double bound = T::get(point.mu, lane) * impulse;
-      for (const auto& row : point.friction) {
-        const double slip =
+      double errors[2];
+      for (int k = 0; k < 2; ++k) {
+        const auto& row = point.friction[k];
+        errors[k] =
             error(Solver::speed(row, a, b), T::broadcast(0), contacts_.cfm / contacts_.h, row.impulse, lane);
-        raise(line_.natural, row_natural(row, slip, -bound, bound));
+        if (!contacts_.cone) raise(line_.natural, row_natural(row, errors[k], -bound, bound));
       }
+      if (contacts_.cone) raise(line_.natural, cone_natural(point, errors, bound, lane));
     }
+  }
+  /// Of both rows of friction, with a disc for bounds.
+  template <class Point>
+  double cone_natural(const Point& point, const double (&errors)[2], double bound, int lane) const {
+    const double per_d = T::get(point.slide, lane) / contacts_.sor_factor;
+    double before[2], after[2];
+    for (int k = 0; k < 2; ++k) {
+      before[k] = T::get(point.friction[k].impulse, lane);
+      after[k] = before[k] + errors[k] * per_d;
+    }
+    const double length = std::sqrt(after[0] * after[0] + after[1] * after[1]);
+    const double share = length > bound ? bound / length : 1;
+    const double change[2] = {after[0] * share - before[0], after[1] * share - before[1]};
+    return std::sqrt(change[0] * change[0] + change[1] * change[1]) / per_d;
   }
 
   Scalar cfm_;

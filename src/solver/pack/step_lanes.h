@@ -9,6 +9,7 @@
 #include "solver/joints/joint_trees.h"
 #include "solver/pack/body_motion.h"
 #include "solver/pack/contact_twists.h"
+#include "solver/pack/newton_lanes.h"
 #include "solver/pack/pack.h"
 #include "solver/pack/residual_meter.h"
 #include "solver/pack/step_laws.h"
@@ -64,6 +65,7 @@ class StepLanes {
                          static_cast<std::uint64_t>(iteration));
   }
   void end_sweeps();
+  void finish_by_newton();
   void choose_trees(stepping::JointSolver solver);
   /// With exact joints: gets ready for the rows of now.
   void factor_joints() {
@@ -296,7 +298,14 @@ template <class T>
 void StepLanes<T>::end_sweeps() {
   while (iteration_ < parameters_.iterations) sweep();
   twists_.end(worlds_.bodies);
+  if (parameters_.newton) finish_by_newton();
   twists_.need_rows(worlds_.bodies);
+}
+
+template <class T>
+void StepLanes<T>::finish_by_newton() {
+  NewtonLanes<T>(laws_.joint_cfm(), laws_.contacts()).solve(worlds_, contacts_);
+  twists_.start(worlds_.bodies);
 }
 
 /// Ends the last substep.

@@ -23,6 +23,12 @@ void require_valid(const stepping::StepperSettings& settings) {
   core::require_input(settings.sag_m == 0 || remembers(settings),
                       "--sag tells by the forces of the last step what an island carries: it needs a "
                       "--warm-start above 0");
+  const bool is_rigid =
+      settings.relax == 0 && settings.contact_frequency == 0 && settings.joint_frequency == 0;
+  const bool is_cone = settings.friction == stepping::Friction::cone;
+  core::require_input(settings.finish == stepping::Finish::none || (is_rigid && is_cone),
+                      "--finish newton solves rigid rows with friction in cones: it needs --relax 0, "
+                      "--contact-frequency 0, --joint-frequency 0 and --friction cone");
   core::require_input(has_simd(settings.simd),
                       "this machine lacks the instruction set asked for with --simd; use auto");
 }
@@ -51,6 +57,7 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   parameters.contacts = {settings.contact_frequency, settings.contact_damping};
   parameters.joints = {settings.joint_frequency, settings.joint_damping};
   parameters.joint_solver = settings.joint_solver;
+  parameters.newton = settings.finish == stepping::Finish::newton;
   parameters.cone = settings.friction == stepping::Friction::cone;
   parameters.residuals = settings.residuals;
   parameters.show_forces = settings.contacts;

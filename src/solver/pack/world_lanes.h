@@ -85,12 +85,17 @@ class WorldLanes {
   /// visit(rows, lane) of each joint of a world, as last solved.
   template <class Visit>
   void visit_joint_rows(int world, Visit visit) const {
-    for (int joint = 0; joint < model(world).num_joints(); ++joint) {
-      if (!active_.contains(world, model(world).joints[joint].body_a)) continue;
-      if (broken_.contains(world, joint)) continue;
-      const JointPlace& at = places.joint(world, joint);
+    for_each_acting_joint(world, [&](const JointPlace& at) {
       joints.visit_rows(at.shape, at.joint, [&](const auto& rows) { visit(rows, at.lane); });
-    }
+    });
+  }
+  /// Likewise, and may change the rows.
+  template <class Visit>
+  void change_joint_rows(int world, Visit visit) {
+    for_each_acting_joint(world, [&](const JointPlace& at) {
+      joints.change_rows(static_cast<std::size_t>(at.shape), static_cast<std::size_t>(at.joint),
+                         [&](auto& rows) { visit(rows, at.lane); });
+    });
   }
   int num_worlds() const { return static_cast<int>(models_.size()); }
   const model::Model& model(int world) const { return *models_[static_cast<std::size_t>(world)]; }
@@ -104,6 +109,13 @@ class WorldLanes {
  private:
   using Set = SetLanes<T>;
 
+  template <class Visit>
+  void for_each_acting_joint(int world, Visit visit) const {
+    for (int joint = 0; joint < model(world).num_joints(); ++joint) {
+      if (!active_.contains(world, model(world).joints[joint].body_a)) continue;
+      if (!broken_.contains(world, joint)) visit(places.joint(world, joint));
+    }
+  }
   /// `poses`: BodyLane or PoseLane, [slots].
   template <class Poses>
   void store_body(int world, int body, const Poses* poses, model::State& state) const;

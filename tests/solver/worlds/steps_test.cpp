@@ -49,9 +49,16 @@ std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out
 std::vector<Setting> every_setting() {
   const StepperSettings by_default = default_settings(stepping::StepperKind::sor);
   StepperSettings single = by_default, fixed = by_default, cold = {.kind = stepping::StepperKind::sor};
+  StepperSettings newton = cold;
+  newton.friction = stepping::Friction::cone;
+  newton.finish = stepping::Finish::newton;
   single.precision = stepping::Precision::single;
   fixed.row_order = stepping::RowOrder::fixed;
-  return {{"default", by_default}, {"single", single}, {"fixed_order", fixed}, {"cold", cold}};
+  return {{"default", by_default},
+          {"single", single},
+          {"fixed_order", fixed},
+          {"cold", cold},
+          {"newton", newton}};
 }
 
 /// A stepper of crashes, and how many steps each has taken since its start.
