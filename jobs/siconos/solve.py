@@ -24,7 +24,7 @@ def project(x, mu):
     push = np.maximum((normal + mu * across) / (1 + mu**2), 0)
     scale = np.divide(mu * push, across, out=np.zeros_like(across), where=across > 0)
     onto = np.column_stack([push, scale[:, None] * x[:, 1:]])
-    return np.where((across <= mu * normal)[:, None], x, onto)
+    return np.where(((across <= mu * normal) & (normal >= 0))[:, None], x, onto)
 
 
 def natural_map(W, q, mu, r, convex=False):
@@ -35,7 +35,7 @@ def natural_map(W, q, mu, r, convex=False):
     if not convex:
         U[:, 0] += mu * np.linalg.norm(U[:, 1:], axis=1)
     left, size = np.linalg.norm(R - project(R - U, mu)), max(np.linalg.norm(q), np.linalg.norm(u), np.linalg.norm(r))
-    return left / size if size > 0 else left  # 0 of what neither moves nor pushes
+    return left / size if size > np.finfo(float).eps else left  # as Siconos: what is no more than rounding is not divided by
 
 
 class Problem:

@@ -100,6 +100,12 @@ class Siconos(ProgramTest):
         self.assertLess(np.abs(problem.r[1:] + MU * normal * q[1:] / SPEED).max(), 1e-12)
         self.assertLess(solve.natural_map(W, q, problem.mu, problem.r), 1e-12)
 
+    def test_what_parts_without_friction_solves_its_problem(self):
+        nothing, apart = np.zeros(3), np.array([2.0, 0, 0])
+        self.assertEqual(solve.natural_map(np.eye(3), apart, np.zeros(1), nothing), 0)
+        self.assertEqual(solve.natural_map(np.eye(3), -apart, np.zeros(1), nothing), 1, "it must not sink in")
+        self.assertEqual(solve.natural_map(np.eye(3), nothing, np.zeros(1), nothing), 0, "nor is anything divided by nothing")
+
     def test_velocities_follow_from_the_state_before_and_the_recorded_impulses(self):
         """To 1e-12 of the greatest velocity, with joints of all kinds: nothing that acts in the step is missing, and each row
         has the direction that it had in the solver."""
