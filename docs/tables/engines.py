@@ -4,8 +4,9 @@ import json
 
 from tables import programs, stability
 
-SETTINGS = ("--iterations", "5", "20", "80", "--substeps", "1", "8", "16", "--max-sweeps", "80", "--dt", "0.01", "--estimates", "0", "--precision",
-            "double", "--reference-check", "0", "--floor-seeds", "1", "--repeats", "3", "--frames", "3", "--rest-seconds", "1")
+SETTINGS = ("--iterations", "5", "20", "80", "--substeps", "1", "8", "--max-sweeps", "80", "--dt", "0.01", "--estimates", "0", "--precision", "double",
+            "--reference-check", "0", "--reference-most-iterations", "10240", "--own-most-iterations", "2560", "--floor-seeds", "1", "--repeats", "3",
+            "--frames", "2", "--rest-seconds", "1", "--progress", "never", "--quiet")
 ALL = ("quick", "direct", "sor", "bullet", "mujoco")
 # Battle2: a step takes MuJoCo and `direct` seconds to tens of seconds.
 STUDIES = ((("CrashSk", "CrashWa", "Fight"), ALL, ()), (("100CrSk",), ALL, ("--replicas", "8")), (("Battle2",), ("quick", "sor", "bullet"), ()))
@@ -20,7 +21,9 @@ def scenes():
     found = []
     for names, steppers, options in STUDIES:
         with programs.Folder() as folder:
-            path = programs.study("accuracy", folder, names, "--stepper", *steppers, *SETTINGS, *options)
+            path = folder / "accuracy.h5"
+            programs.run(["mpirun", "-n", "2", programs.BIN / "pbstudy", "accuracy", "--scene", *names, "--stepper", *steppers, *SETTINGS, *options,
+                          "-o", path])
             found.append(json.loads(programs.pbreport("engines", path, "--json")))
     return [scene for one in found for scene in one["scenes"]], [difference for one in found for difference in one["differences"]]
 
