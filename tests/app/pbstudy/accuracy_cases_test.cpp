@@ -345,11 +345,31 @@ TEST(OwnSolution, keeps_what_is_solved_and_not_how) {
 }
 
 TEST(OwnSolution, is_what_more_iterations_come_to) {
-  const AccuracyOptions options =
-      options_of({"--stepper", "quick", "--iterations", "2", "60", "--reference-iterations", "40",
-                  "--reference-residual", "0.01mm", "--reference-most-iterations", "640", "--own-iterations",
-                  "160", "--own-most-iterations", "640", "--frames", "1", "--warmup", "0", "--dt", "0.01",
-                  "--estimates", "0", "--floor-seeds", "1"});
+  const AccuracyOptions options = options_of({"--stepper",
+                                              "quick",
+                                              "--iterations",
+                                              "2",
+                                              "60",
+                                              "--reference-iterations",
+                                              "40",
+                                              "--reference-residual",
+                                              "0.01mm",
+                                              "--reference-most-iterations",
+                                              "640",
+                                              "--own-iterations",
+                                              "160",
+                                              "--own-most-iterations",
+                                              "640",
+                                              "--frames",
+                                              "1",
+                                              "--warmup",
+                                              "0",
+                                              "--dt",
+                                              "0.01",
+                                              "--estimates",
+                                              "0",
+                                              "--floor-seeds",
+                                              "1"});
   const StudyScene scene = study_scene(scenes::find_scene("2-Cars"), options);
   const auto cases = make_cases({scene}, options);
   const SolvedReference reference = solve_reference(scene, reference_solve(scene, options));
@@ -366,7 +386,8 @@ TEST(OwnSolution, is_what_more_iterations_come_to) {
       EXPECT_EQ(run_case(one, scene, reference, no_rest, 1).own_defect.body_position.count, 0);
     } else if (is_own(one.kind)) {
       const CaseResult result = own.judge(static_cast<int>(i));
-      EXPECT_LT(result.own_defect.body_position.max, 1e-5) << case_kind_names[static_cast<std::size_t>(one.kind)];
+      EXPECT_LT(result.own_defect.body_position.max, 1e-5)
+          << case_kind_names[static_cast<std::size_t>(one.kind)];
       EXPECT_TRUE(result.solve_iterations == 640) << "one try, and another that settles";
       EXPECT_TRUE(std::isnan(result.rows));
     }
