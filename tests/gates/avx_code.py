@@ -14,13 +14,14 @@ import sys
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:$")
 AVX = re.compile(r"\t(v[a-z0-9]+)\b|\t.*%[yz]mm")
 NOT_AVX = re.compile(r"\tver[rw]\b")
-LANES = re.compile(r"LaneTraits<(\w+), (\d+)>")
+LANES = re.compile(r"LaneTraits(?:<(\w+), (\d+)>|I([df])Li(\d+)E)")  # objdump leaves long names as they are mangled
+TYPES = {"d": "double", "f": "float"}
 WIDE = {("double", "4"), ("float", "8"), ("double", "8"), ("float", "16")}
 MAKERS = re.compile(r"pbmpi::solver::make_(double|single)_avx(2|512)\(")
 
 
 def may_use_avx(function):
-    lanes = set(LANES.findall(function))
+    lanes = {(kind or TYPES[short], number or short_number) for kind, number, short, short_number in LANES.findall(function)}
     return (bool(lanes) and lanes <= WIDE) or MAKERS.match(function) is not None
 
 
