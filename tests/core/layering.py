@@ -40,7 +40,7 @@ STANDS_ON = {
     "src/solver/joints": ["src/solver/layout"],
     "src/solver/contacts": ["src/solver/layout"],
     "src/solver/collide": ["src/solver/layout"],
-    "src/solver/newton": ["src/core"],
+    "src/solver/newton": ["src/model"],
     "src/solver/pack": ["src/solver/joints", "src/solver/contacts", "src/solver/collide", "src/solver/newton", "src/stepping"],
     "src/solver/parts": ["src/solver/pack"],
     "src/solver/worlds": ["src/solver/parts", "src/core/system"],

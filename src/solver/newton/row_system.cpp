@@ -1,9 +1,9 @@
 #include "solver/newton/row_system.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
+#include "model/islands.h"
 #include "solver/newton/cone_solver.h"
 
 namespace pbmpi::solver {
@@ -62,26 +62,6 @@ class Condensed {
   std::vector<Numbers> halves_;  ///< L^-1 B^T, [others][held]
 };
 
-/// Which bodies rows connect.
-class Connections {
- public:
-  explicit Connections(std::size_t num_bodies) : above_(num_bodies) {
-    std::iota(above_.begin(), above_.end(), 0);
-  }
-  int root(int body) {
-    while (above_[static_cast<std::size_t>(body)] != body) body = above_[static_cast<std::size_t>(body)];
-    return body;
-  }
-  void connect(int a, int b) {
-    if (a < 0 || b < 0) return;
-    const int first = root(a), second = root(b);
-    above_[static_cast<std::size_t>(std::max(first, second))] = std::min(first, second);
-  }
-
- private:
-  std::vector<int> above_;
-};
-
 }  // namespace
 
 void RowSystem::start(std::vector<SixVector> twists) {
@@ -110,14 +90,16 @@ int RowSystem::add_contact(const std::array<SystemRow, 3>& rows, double mu) {
 }
 
 std::vector<RowSystem::Island> RowSystem::find_islands() const {
-  Connections connections(twists_.size());
-  for (const SystemRow& row : rows_) connections.connect(row.a, row.b);
+  model::DisjointSets connected(static_cast<int>(twists_.size()));
+  for (const SystemRow& row : rows_) {
+    if (row.a >= 0 && row.b >= 0) connected.unite(row.a, row.b);
+  }
   std::vector<int> island_of(twists_.size(), -1);
   std::vector<Island> islands;
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     const int body = rows_[row].a >= 0 ? rows_[row].a : rows_[row].b;
     if (body < 0) continue;
-    int& island = island_of[static_cast<std::size_t>(connections.root(body))];
+    int& island = island_of[static_cast<std::size_t>(connected.find(body))];
     if (island < 0) {
       island = static_cast<int>(islands.size());
       islands.emplace_back();

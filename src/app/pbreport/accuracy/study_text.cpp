@@ -151,13 +151,12 @@ Json case_json(const StudyCase& one, double floor_m, const AccuracyReportOptions
 }
 
 Json own_json(const StudyCase& own, const SceneCases& scene, const AccuracyReportOptions& options) {
-  const auto or_null = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
   return {{"stepper", std::string(stepping::name_of(own.stepper.kind))},
           {"setting", setting_text(own)},
-          {"iterations", or_null(own.solve_iterations)},
+          {"iterations", finite_or_null(own.solve_iterations)},
           {"from_reference_m", own.error_m(options.measure)},
-          {"from_a_quarter_m", or_null(own.own_error_m(options.measure))},
-          {"noise_floor_m", or_null(scene.own_floor_m(own.stepper.kind, options.measure))}};
+          {"from_a_quarter_m", finite_or_null(own.own_error_m(options.measure))},
+          {"noise_floor_m", finite_or_null(scene.own_floor_m(own.stepper.kind, options.measure))}};
 }
 
 std::string scene_text(const SceneCases& scene, const AccuracyReportOptions& options) {

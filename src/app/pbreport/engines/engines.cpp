@@ -17,7 +17,7 @@ core::ExitCode run_engines(const std::vector<std::string>& args, std::ostream& o
     return core::ExitCode::done;
   }
   const EnginesReport report = read_engines(options);
-  if (options.html) write_engines_page(*options.html, report, options);
+  if (options.html) write_engines_page(*options.html, report);
   if (options.form == PrintForm::json) {
     out << engines_to_json(report);
   } else if (options.form == PrintForm::markdown) {

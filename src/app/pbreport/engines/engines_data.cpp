@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "app/common/options.h"
 #include "app/common/scene_parameter.h"
 #include "app/pbreport/study/case_row.h"
 #include "app/pbreport/study/study_file.h"
@@ -14,6 +15,12 @@ namespace pbmpi::app {
 namespace {
 
 using stepping::StepperKind;
+
+/// At the end of the list, unless it is there already.
+template <class Value>
+void add_new(const Value& value, std::vector<Value>& list) {
+  if (std::ranges::find(list, value) == list.end()) list.push_back(value);
+}
 
 template <class Cases>
 void keep_kind(StepperKind kind, Cases& cases) {
@@ -62,6 +69,12 @@ StudySource source_of(const io::TableFile& file, const std::string& path) {
   return source;
 }
 
+void add_source(const io::TableFile& file, const std::string& path, EnginesReport& report) {
+  if (report.sources.empty())
+    report.provenance = io::html::provenance_of(path, file, version_line("pbreport"));
+  report.sources.push_back(source_of(file, path));
+}
+
 /// The settings of a study of stability, in its order.
 std::vector<SettingVerdicts> settings_of(const io::TableFile& file, const StabilityMap& map,
                                          const std::vector<std::string>& groups) {
@@ -94,7 +107,7 @@ void add_differences(const io::TableFile& file, const std::vector<std::string>& 
         auto known = std::ranges::find_if(
             differences, [&](const Difference& one) { return one.kind == kind && one.text == text; });
         if (known == differences.end()) known = differences.insert(known, {kind, text, {}});
-        if (std::ranges::find(known->scenes, name) == known->scenes.end()) known->scenes.push_back(name);
+        add_new(name, known->scenes);
       }
     }
   }
@@ -104,23 +117,19 @@ void add_differences(const io::TableFile& file, const std::vector<std::string>& 
 void note_unknown(const std::vector<StepperKind>& kinds, std::vector<std::string>& unknown) {
   for (const StepperKind kind : kinds) {
     const engines::OptionalEngine* engine = engines::find_optional_engine(kind);
-    const std::string name(name_of(kind));
-    const bool is_new = std::ranges::find(unknown, name) == unknown.end();
-    if (engine != nullptr && !engine->in_build() && is_new) unknown.push_back(name);
+    if (engine != nullptr && !engine->in_build()) add_new(std::string(name_of(kind)), unknown);
   }
 }
 
 void read_accuracy(const EnginesOptions& options, EnginesReport& report) {
   const io::TableFile file = read_study(*options.accuracy, "accuracy");
-  report.sources.push_back(source_of(file, *options.accuracy));
+  add_source(file, *options.accuracy, report);
   std::vector<std::string> names;
   std::vector<StepperKind> kinds;
   for (const SceneCases& scene : study_scenes(file, options.scenes)) {
     report.scenes.push_back(scene_of(scene));
     names.push_back(scene.name);
-    for (const EngineOfScene& engine : report.scenes.back().engines) {
-      if (std::ranges::find(kinds, engine.kind) == kinds.end()) kinds.push_back(engine.kind);
-    }
+    for (const EngineOfScene& engine : report.scenes.back().engines) add_new(engine.kind, kinds);
   }
   add_differences(file, names, kinds, report.differences);
   note_unknown(kinds, report.unknown);
@@ -128,19 +137,16 @@ void read_accuracy(const EnginesOptions& options, EnginesReport& report) {
 
 void read_stability(const EnginesOptions& options, EnginesReport& report) {
   const io::TableFile file = read_study(*options.stability, "stability");
-  report.sources.push_back(source_of(file, *options.stability));
+  add_source(file, *options.stability, report);
   report.map = stability_map(file, {});
   std::vector<std::string> names;
   std::vector<StepperKind> kinds;
   for (const StabilityScene& scene : report.map->scenes) {
     names.push_back(scene.name);
-    if (std::ranges::find(report.groups, scene.group) == report.groups.end())
-      report.groups.push_back(scene.group);
+    add_new(scene.group, report.groups);
   }
   report.settings = settings_of(file, *report.map, report.groups);
-  for (const SettingVerdicts& setting : report.settings) {
-    if (std::ranges::find(kinds, setting.kind) == kinds.end()) kinds.push_back(setting.kind);
-  }
+  for (const SettingVerdicts& setting : report.settings) add_new(setting.kind, kinds);
   add_differences(file, names, kinds, report.differences);
   note_unknown(kinds, report.unknown);
 }

@@ -11,6 +11,7 @@
 #include "app/pbreport/accuracy/study_data.h"
 #include "app/pbreport/engines/engines_options.h"
 #include "app/pbreport/stability/stability_data.h"
+#include "io/html/provenance.h"
 
 namespace pbmpi::app {
 
@@ -71,6 +72,7 @@ struct StudySource {
 };
 
 struct EnginesReport {
+  io::html::Provenance provenance;  ///< of the first study
   std::vector<StudySource> sources;
   std::vector<SceneOfEngines> scenes;
   std::vector<std::string> groups;  ///< of hard cases

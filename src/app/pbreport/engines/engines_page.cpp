@@ -5,10 +5,8 @@
 
 #include "app/common/format.h"
 #include "app/common/json_text.h"
-#include "app/common/options.h"
 #include "app/pbreport/accuracy/diagrams.h"
 #include "app/pbreport/engines/engines_text.h"
-#include "app/pbreport/study/study_file.h"
 #include "io/html/chart_page.h"
 #include "stepping/names.h"
 
@@ -113,14 +111,12 @@ io::html::TextTable case_table(const EnginesReport& report) {
 
 }  // namespace
 
-void write_engines_page(const std::string& path, const EnginesReport& report, const EnginesOptions& options) {
-  const bool from_accuracy = options.accuracy.has_value();
-  const std::string& first = from_accuracy ? *options.accuracy : *options.stability;
+void write_engines_page(const std::string& path, const EnginesReport& report) {
   io::html::ChartPage page;
   page.title = "Engines side by side";
-  page.subtitle = from_accuracy && options.stability ? *options.accuracy + ", " + *options.stability : first;
-  page.provenance = io::html::provenance_of(
-      first, read_study(first, from_accuracy ? "accuracy" : "stability"), version_line("pbreport"));
+  for (const StudySource& source : report.sources)
+    page.subtitle += (page.subtitle.empty() ? "" : ", ") + source.file;
+  page.provenance = report.provenance;
   for (const SceneOfEngines& scene : report.scenes) page.sections.push_back(section_of(scene));
   if (report.map)
     page.sections.push_back({.title = "Hard cases",

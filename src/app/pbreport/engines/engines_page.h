@@ -8,6 +8,6 @@
 namespace pbmpi::app {
 
 /// Throws core::InputError if the page cannot be written.
-void write_engines_page(const std::string& path, const EnginesReport& report, const EnginesOptions& options);
+void write_engines_page(const std::string& path, const EnginesReport& report);
 
 }  // namespace pbmpi::app

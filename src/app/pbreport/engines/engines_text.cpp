@@ -50,8 +50,6 @@ std::vector<EnginesTable> tables_of(const EnginesReport& report) {
   return tables;
 }
 
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json setting_json(const StudyCase& one) {
   return {{"setting", setting_text(one)},
           {"frame_time_s", {{"worst", one.time_s}, {"median", one.median_time_s}}},
@@ -111,12 +109,13 @@ EnginesTable front_table(const SceneOfEngines& scene, Yardstick yardstick) {
         "depth [mm]"}}};
   for (const EngineOfScene& engine : scene.engines) {
     const std::string name(stepping::name_of(engine.kind));
-    for (const std::size_t i : engine.front(yardstick)) {
+    const std::vector<std::size_t> front = engine.front(yardstick);
+    for (const std::size_t i : front) {
       const StudyCase& one = engine.cases.settings[i];
       table.rows.push_back({name, format("%.3g", 1e3 * one.time_s), millimetres(error_m(one, yardstick)),
                             millimetres(one.joint_gap_m), millimetres(one.penetration_m), setting_text(one)});
     }
-    if (engine.front(yardstick).empty())
+    if (front.empty())
       table.rows.push_back({name, "-", "-", "-", "-", "none that stays finite and holds the scene at rest"});
   }
   return table;

@@ -40,8 +40,6 @@ std::string counts_text(const StabilityMap& map) {
   return text;
 }
 
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json cell_json(const StabilityCell& cell) {
   Json json = {{"setting", cell.setting},
                {"dt_s", cell.dt_s},

@@ -94,9 +94,7 @@ void measure_drift(const AccuracyCase& one, const StudyScene& scene, const Refer
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
                     const RestRunner& rest, int repeats, const FrameEnds* own) {
   CaseResult result;
-  // Another step length has its events at other steps. The bodies are the same.
-  const bool own_step = one.stepper.dt_s == scene.dt_s;
-  const Worlds worlds = own_step ? reference.worlds : build_worlds(scene, one.stepper.dt_s, one.stepper.seed);
+  const Worlds worlds = worlds_at_step(reference, scene, one.stepper.dt_s, one.stepper.seed);
   const auto times_s = measure_defect(one, scene, reference, worlds, repeats, own, result);
   summarize_times(times_s, result);
   measure_drift(one, scene, reference, worlds, result);

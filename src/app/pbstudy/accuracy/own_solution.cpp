@@ -79,9 +79,7 @@ OwnSolutions::OwnSolutions(const StudyScene& scene, const Reference& reference,
 
 OwnSolutions::Solution OwnSolutions::solve(const AccuracyCase& one) const {
   Solution found;
-  // Another step length has its events at other steps. The bodies are the same.
-  const bool own_step = one.stepper.dt_s == scene_.dt_s;
-  found.worlds = own_step ? reference_.worlds : build_worlds(scene_, one.stepper.dt_s, one.stepper.seed);
+  found.worlds = worlds_at_step(reference_, scene_, one.stepper.dt_s, one.stepper.seed);
   for (int frame = scene_.warmup; frame < scene_.total_frames(); ++frame) {
     const double start_s = core::thread_cpu_s();
     const States& start = reference_.states[static_cast<std::size_t>(frame)];

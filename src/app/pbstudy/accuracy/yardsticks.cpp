@@ -45,9 +45,7 @@ void measure_drift(const StudyScene& scene, const SolvedReference& reference, co
 /// The reference anew, with the case's seed and step.
 CaseResult solve_anew(const AccuracyCase& one, const StudyScene& scene, const SolvedReference& reference,
                       const AccuracyOptions& options) {
-  // Another step length has its events at other steps. The bodies are the same.
-  const bool own_step = one.stepper.dt_s == scene.dt_s;
-  const Worlds worlds = own_step ? reference.worlds : build_worlds(scene, one.stepper.dt_s, options.seed);
+  const Worlds worlds = worlds_at_step(reference, scene, one.stepper.dt_s, options.seed);
   ReferenceSolve asked = reference_solve(scene, options);
   asked.stepper = one.stepper;
   ConvergingStepper stepper(worlds, asked);

@@ -110,6 +110,10 @@ analysis::PoseErrors errors_of(const CaseStepper& stepper, const Worlds& worlds,
       reference);
 }
 
+Worlds worlds_at_step(const Reference& reference, const StudyScene& scene, double dt_s, std::uint64_t seed) {
+  return dt_s == scene.dt_s ? reference.worlds : build_worlds(scene, dt_s, seed);
+}
+
 Reference make_reference(const StudyScene& scene, const stepping::StepperSettings& settings) {
   Reference reference{build_worlds(scene, scene.dt_s, settings.seed), {}};
   CaseStepper stepper(reference.worlds, settings, scene.steps_per_frame());

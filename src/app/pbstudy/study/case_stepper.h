@@ -61,6 +61,9 @@ struct Reference {
   std::vector<std::vector<model::State>>
       states;  ///< [total_frames + 1][num_worlds] at the start of each frame
 };
+/// Its worlds with steps of dt. Another length than the scene's has its events at other steps; the bodies are
+/// the same.
+Worlds worlds_at_step(const Reference& reference, const StudyScene& scene, double dt_s, std::uint64_t seed);
 Reference make_reference(const StudyScene& scene, const stepping::StepperSettings& settings);
 
 }  // namespace pbmpi::app
