@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "core/error.h"
@@ -19,6 +20,7 @@ using Traits = StepperTraits;
 bool at_least_1(double value) { return value >= 1; }
 bool is_length(double value) { return std::isfinite(value) && value > 0; }
 bool is_count(double value) { return value >= 0; }
+bool is_frequency(double value) { return value >= 0; }
 bool is_magnitude(double value) { return std::isfinite(value) && value >= 0; }
 bool converges(double factor) { return factor > 0 && factor < 2; }
 bool is_thread_count(double value) { return value >= 1 && value <= 1024; }
@@ -115,18 +117,18 @@ constexpr std::array<StepOption, 25> options = {{
     {.name = "contact-frequency",
      .member = &Settings::contact_frequency,
      .placeholder = "HZ",
-     .meaning =
-         "sor: contacts are springs of this frequency, at most a quarter of a period a substep; 0: they "
-         "have the scene's ERP and CFM; default: 100",
+     .meaning = "sor: contacts are springs of this frequency, at most 0.18 periods a substep; inf: as stiff "
+                "as that; "
+                "0: they have the scene's ERP and CFM; default: inf",
      .needs = &Traits::tunes_sweeps,
-     .allows = is_magnitude,
-     .limit = "a frequency is 0 or more, and finite",
+     .allows = is_frequency,
+     .limit = "a frequency is 0 or more, or inf",
      .in_short = "contacts * Hz",
      .unit = "Hz"},
     {.name = "contact-damping",
      .member = &Settings::contact_damping,
      .placeholder = "RATIO",
-     .meaning = "sor: damping ratio of contacts that are springs; default: 10",
+     .meaning = "sor: damping ratio of contacts that are springs; default: 20",
      .needs = &Traits::tunes_sweeps,
      .allows = is_length,
      .limit = "a damping ratio is above 0, and finite",
@@ -144,16 +146,18 @@ constexpr std::array<StepOption, 25> options = {{
     {.name = "joint-frequency",
      .member = &Settings::joint_frequency,
      .placeholder = "HZ",
-     .meaning = "sor: as --contact-frequency, of joints; default: 100",
+     .meaning =
+         "sor: as --contact-frequency, of joints; rows that hold a turn have up to 0.25 periods a substep; "
+         "default: inf",
      .needs = &Traits::tunes_sweeps,
-     .allows = is_magnitude,
-     .limit = "a frequency is 0 or more, and finite",
+     .allows = is_frequency,
+     .limit = "a frequency is 0 or more, or inf",
      .in_short = "joints * Hz",
      .unit = "Hz"},
     {.name = "joint-damping",
      .member = &Settings::joint_damping,
      .placeholder = "RATIO",
-     .meaning = "sor: damping ratio of joints that are springs; default: 2",
+     .meaning = "sor: damping ratio of joints that are springs; default: 3",
      .needs = &Traits::tunes_sweeps,
      .allows = is_length,
      .limit = "a damping ratio is above 0, and finite",
@@ -335,11 +339,11 @@ StepperSettings default_settings(StepperKind kind) {
   settings.kind = kind;
   if (traits_of(kind).own_iterations > 0) settings.iterations = traits_of(kind).own_iterations;
   if (!traits_of(kind).tunes_sweeps) return settings;
-  settings.substeps = 8;
+  settings.substeps = 12;
   settings.relax = 1;
   settings.sor_factor = 1;
   settings.warm_start = 1;
-  settings.contact_frequency = settings.joint_frequency = 100;
+  settings.contact_frequency = settings.joint_frequency = std::numeric_limits<double>::infinity();
   settings.contact_margin = 1;
   settings.friction = Friction::cone;
   settings.joint_solver = JointSolver::hanging;

@@ -62,10 +62,11 @@ struct StepperSettings {
   double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
   double warm_start = 0;    ///< sor: share of the forces that a step and a substep take over from the last
   int relax = 0;            ///< sor: sweeps at the end of a substep that push nothing out
-  double contact_frequency = 0;  ///< [Hz] sor: of contacts as springs; 0: the scene's ERP and CFM
-  double contact_damping = 10;   ///< sor: their damping ratio
-  double joint_frequency = 0;    ///< [Hz] sor: of joints as springs; 0: the scene's ERP and CFM
-  double joint_damping = 2;      ///< sor: their damping ratio
+  /// [Hz] sor: of contacts as springs, infinite: as stiff as a substep bears; 0: the scene's ERP and CFM.
+  double contact_frequency = 0;
+  double contact_damping = 20;                                    ///< sor: their damping ratio
+  double joint_frequency = 0;                                     ///< [Hz] sor: likewise of joints
+  double joint_damping = 3;                                       ///< sor: their damping ratio
   JointSolver joint_solver = JointSolver::sweeps;                 ///< sor
   ConstraintSolver constraint_solver = ConstraintSolver::newton;  ///< mujoco
   double contact_margin = 0;              ///< sor: contacts are found up to so many g dt^2 apart

@@ -75,7 +75,7 @@ TEST(StepOptions, shown_defaults_are_values) {
 TEST(StepOptions, of_sor_have_a_memory_by_default_and_a_text_names_what_differs) {
   StepperSettings sor = default_settings(StepperKind::sor);
   EXPECT_GT(sor.warm_start, 0);
-  EXPECT_EQ(setting_text(sor), "sor double, 8 x 1");
+  EXPECT_EQ(setting_text(sor), "sor double, 12 x 1");
   sor.contact_frequency = 60;
   sor.substeps = 4;
   EXPECT_EQ(setting_text(sor), "sor double, 4 x 1, contacts 60 Hz");
@@ -99,6 +99,8 @@ TEST(StepOptions, impossible_values_are_refused_by_name) {
   EXPECT_EQ(refusal("dt", "1e-2x"), "--dt 1e-2x: it must be a number");
   EXPECT_EQ(refusal("warm-start", "nan"),
             "--warm-start nan: the share of the impulses to take over is 0 to 1");
+  EXPECT_EQ(refusal("contact-frequency", "-1"), "--contact-frequency -1: a frequency is 0 or more, or inf");
+  EXPECT_EQ(refusal("joint-frequency", "nan"), "--joint-frequency nan: a frequency is 0 or more, or inf");
   EXPECT_EQ(refusal("tolerance", "1km"), "--tolerance 1km: it must be a number");
   EXPECT_EQ(refusal("tolerance", "-1"), "--tolerance -1: a tolerance is a length, e.g. 0.1mm, or 0");
   EXPECT_EQ(refusal("sag", "-1"), "--sag -1: a sag is a length, e.g. 0.2mm, or 0");
@@ -113,6 +115,17 @@ TEST(StepOptions, a_length_may_have_a_unit) {
     set(step_option("sag"), text, "", settings);
     EXPECT_DOUBLE_EQ(settings.tolerance_m, 1e-4) << text;
     EXPECT_DOUBLE_EQ(settings.sag_m, 1e-4) << text;
+  }
+}
+
+TEST(StepOptions, a_frequency_may_be_infinite_as_it_is_by_default) {
+  StepperSettings settings = default_settings(StepperKind::sor);
+  for (const char* name : {"contact-frequency", "joint-frequency"}) {
+    EXPECT_EQ(text_of(step_option(name), settings), "inf");
+    set(step_option(name), "30", "", settings);
+    EXPECT_FALSE(is_default(step_option(name), settings));
+    set(step_option(name), "inf", "", settings);
+    EXPECT_TRUE(is_default(step_option(name), settings));
   }
 }
 

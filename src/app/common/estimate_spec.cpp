@@ -1,5 +1,7 @@
 #include "app/common/estimate_spec.h"
 
+#include <algorithm>
+
 #include "engines/stepper_factory.h"
 #include "estimate/partly_precise.h"
 #include "estimate/same_solve.h"
@@ -12,9 +14,12 @@ namespace pbmpi::app {
 using stepping::StepperSettings;
 
 StepperSettings default_estimate(const StepperSettings& precise) {
+  // Forces that a crash's last substep ended with act for a whole substep of the estimate: six times as long,
+  // not as a whole step.
+  constexpr int substeps_in_one = 6;
   StepperSettings estimate = precise;
   estimate.iterations = 1;
-  estimate.substeps = 1;
+  estimate.substeps = std::max(1, precise.substeps / substeps_in_one);
   estimate.residuals = false;
   estimate.contacts = false;
   return estimate;

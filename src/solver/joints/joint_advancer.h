@@ -17,8 +17,8 @@ class JointAdvancer {
   using Scalar = typename T::Scalar;
 
   /// As JointBuilder; carry: the share of a row's impulse with which its next impulse starts.
-  JointAdvancer(Scalar h, Scalar erp, Scalar cfm, Scalar sor_factor, Scalar carry)
-      : controls_(h, erp), erp_(erp), cfm_(cfm / h), inverse_factor_(1 / sor_factor), carry_(carry) {}
+  JointAdvancer(Scalar h, const JointErp<Scalar>& erp, Scalar cfm, Scalar sor_factor, Scalar carry)
+      : controls_(h, erp.places), erp_(erp), cfm_(cfm / h), inverse_factor_(1 / sor_factor), carry_(carry) {}
 
   /// Before the bodies move on with the twists that they have.
   template <model::JointKind kind>
@@ -46,7 +46,8 @@ class JointAdvancer {
   PBMPI_LANES bool control(const AxisControl<V>& control, Bounded<Row, V>& row) const;
 
   ControlRules<T> controls_;
-  Scalar erp_, cfm_, inverse_factor_, carry_;
+  JointErp<Scalar> erp_;
+  Scalar cfm_, inverse_factor_, carry_;
 };
 
 template <class T>
@@ -55,13 +56,13 @@ PBMPI_LANES void JointAdvancer<T>::advance(JointLane<V>& joint, const BodyLanes<
                                            JointRows<T, kind>& rows) const {
   const Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
   const Vec3L<V> turning = a.angular - b.angular;
-  const V erp = T::broadcast(erp_);
-  for (AxisRow<V>& row : rows.axes) row.rhs = row.rhs - erp * dot(row.axis, turning);
+  const V turn_erp = T::broadcast(erp_.turns), place_erp = T::broadcast(erp_.places);
+  for (AxisRow<V>& row : rows.axes) row.rhs = row.rhs - turn_erp * dot(row.axis, turning);
   for (std::size_t i = 0; i < rows.lines.size(); ++i) {
     LineRow<V>& row = rows.lines[i];
     const bool springs = kind == model::JointKind::hinge2 && joint.sprung && i == 0;
     // A spring's ERP is h k / (h k + damping), its CFM (here over h) 1 / (h (h k + damping)).
-    const V share = springs ? joint.terms.stiffness * row.cfm * (controls_.h() * controls_.h()) : erp;
+    const V share = springs ? joint.terms.stiffness * row.cfm * (controls_.h() * controls_.h()) : place_erp;
     row.rhs = row.rhs - share * relative_speed(row, a, b);
   }
   for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
@@ -80,8 +81,9 @@ template <model::JointKind kind>
 PBMPI_LANES void JointAdvancer<T>::rebuild(const JointLane<V>& joint, const BodyLanes<T>& bodies,
                                            JointRows<T, kind>& rows) const {
   for (PointRows<V>& row : rows.points)
-    build_point<T>(joint.terms, bodies.bodies[rows.slot_a], bodies.bodies[rows.slot_b], erp_ / controls_.h(),
-                   row, [&](const V& diagonal, const V& before) { return scale_of(diagonal, before); });
+    build_point<T>(joint.terms, bodies.bodies[rows.slot_a], bodies.bodies[rows.slot_b],
+                   erp_.places / controls_.h(), row,
+                   [&](const V& diagonal, const V& before) { return scale_of(diagonal, before); });
 }
 
 template <class T>

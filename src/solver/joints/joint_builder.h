@@ -17,8 +17,10 @@ class JointBuilder {
   using L3 = Vec3L<V>;
 
   /// goes_on: there are substeps after this one, so that what they start from is built, too.
-  JointBuilder(Scalar h, Scalar erp, Scalar cfm, Scalar sor_factor, bool goes_on)
-      : rules_(h, erp), rows_(erp / h, cfm / h, sor_factor), controls_(rules_, rows_, goes_on) {}
+  JointBuilder(Scalar h, const JointErp<Scalar>& erp, Scalar cfm, Scalar sor_factor, bool goes_on)
+      : rules_(h, erp.places),
+        rows_(erp.places / h, erp.turns / h, cfm / h, sor_factor),
+        controls_(rules_, rows_, goes_on) {}
 
   /// Rows from the poses, without impulses.
   template <model::JointKind kind>
@@ -50,7 +52,7 @@ void JointBuilder<T>::build(JointLane<V>& joint, const BodyLanes<T>& bodies, Joi
   rows.inv_mass_a = pair.a.inv_mass;
   rows.inv_mass_b = pair.b.inv_mass;
   for (PointRows<V>& point : rows.points) {
-    build_point<T>(joint.terms, pair.a, pair.b, rows_.k(), point,
+    build_point<T>(joint.terms, pair.a, pair.b, rows_.place_k(), point,
                    [&](const V& diagonal, const V&) { return rows_.factor() / (diagonal + rows_.cfm()); });
     point.impulse = {T::broadcast(0), T::broadcast(0), T::broadcast(0)};
   }
@@ -82,7 +84,7 @@ void JointBuilder<T>::set_suspended_point(const JointLane<V>& joint, const Pair&
   directions[0] = pair.a.rotation * terms.axis1_a;
   plane_space<T>(directions[0], directions[1], directions[2]);
   for (int i = 0; i < 3; ++i) {
-    V k = T::broadcast(rows_.k()), cfm = T::broadcast(rows_.cfm());
+    V k = T::broadcast(rows_.place_k()), cfm = T::broadcast(rows_.cfm());
     if (i == 0 && joint.sprung) {
       const V total = rules_.h() * terms.stiffness + terms.damping;  // ERP = h k / total, CFM = 1 / total
       k = terms.stiffness / total;
@@ -104,7 +106,7 @@ void JointBuilder<T>::set_slider_lines(const JointTermsLane<V>& terms, const Pai
   const L3 arm = slider_arm<T>(pair, apart);
   for (int i = 0; i < 2; ++i) {
     const L3 moment = cross(arm, directions[i]);
-    rows_.set_line(directions[i], moment, moment, rows_.k() * dot(directions[i], error),
+    rows_.set_line(directions[i], moment, moment, rows_.place_k() * dot(directions[i], error),
                    T::broadcast(rows_.cfm()), pair, rows[i]);
   }
 }
@@ -117,8 +119,8 @@ void JointBuilder<T>::set_parallel_axes(const JointTermsLane<V>& terms, const Pa
   const L3 error = cross(axis_a, pair.b.rotation * terms.axis1_b);
   L3 p, q;
   plane_space<T>(axis_a, p, q);
-  rows_.set_axis(p, rows_.k() * dot(error, p), pair, rows[0]);
-  rows_.set_axis(q, rows_.k() * dot(error, q), pair, rows[1]);
+  rows_.set_axis(p, rows_.turn_k() * dot(error, p), pair, rows[0]);
+  rows_.set_axis(q, rows_.turn_k() * dot(error, q), pair, rows[1]);
 }
 
 /// fixed, slider: the whole relative orientation stays. The vector part of the relative rotation is half the
@@ -130,7 +132,7 @@ void JointBuilder<T>::set_orientation(const JointTermsLane<V>& terms, const Pair
   const V zero = T::broadcast(0), one = T::broadcast(1);
   const V sign = turn.w < zero ? -one : one;
   const L3 error = pair.a.rotation * (turn.vector * sign);
-  const V twice = T::broadcast(2 * rows_.k());
+  const V twice = T::broadcast(2 * rows_.turn_k());
   rows_.set_axis({one, zero, zero}, twice * error.x, pair, rows[0]);
   rows_.set_axis({zero, one, zero}, twice * error.y, pair, rows[1]);
   rows_.set_axis({zero, zero, one}, twice * error.z, pair, rows[2]);
@@ -148,8 +150,9 @@ void JointBuilder<T>::set_crossed_axes(JointLane<V>& joint, const Pair& pair,
   const V cosine = dot(axis1, axis2);
   // universal: the axes stay at right angles; hinge2: at the angle of the start. cos0 is 0 for ODE's
   // universal.
-  const V rhs = kind == model::JointKind::universal ? -rows_.k() * cosine
-                                                    : rows_.k() * (terms.cos0 * sine - terms.sin0 * cosine);
+  const V rhs = kind == model::JointKind::universal
+                    ? -rows_.turn_k() * cosine
+                    : rows_.turn_k() * (terms.cos0 * sine - terms.sin0 * cosine);
   rows_.set_axis(crossed * (1 / sine), rhs, pair, rows.axes[0]);
   for (int i = 0; i < 2; ++i) {
     AxisControl<V>& control = joint.controls[i];

@@ -74,6 +74,20 @@ PBMPI_LANES void for_each_single_row(Rows& rows, Visit visit) {
   }
 }
 
+/// The laws of a sweep over joints: of the rows that hold a place, and of those that hold a turn.
+template <class Scalar>
+struct JointLaws {
+  RowLaw<Scalar> places, turns;
+
+  static JointLaws relaxing() { return {RowLaw<Scalar>::relaxing(), RowLaw<Scalar>::relaxing()}; }
+};
+
+/// ERP of the same, in a substep.
+template <class Scalar>
+struct JointErp {
+  Scalar places = 0, turns = 0;
+};
+
 /// Sweeps over the rows of a joint. `factor` is in the rows' scale already.
 template <class T>
 class JointSolver {
@@ -81,8 +95,11 @@ class JointSolver {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// cfm [s/kg] of the joints, divided by the step; law: of this sweep.
-  JointSolver(Scalar cfm, const RowLaw<Scalar>& law) : cfm_(cfm), law_(law) {}
+  /// cfm [s/kg] of the joints, divided by the step; laws: of this sweep.
+  JointSolver(Scalar cfm, const JointLaws<Scalar>& laws) : cfm_(cfm), laws_(laws) {}
+
+  /// What a sweep asks for of the speed that closes gaps: all, or nothing.
+  Scalar bias() const { return laws_.places.bias; }
 
   /// Rows in ODE's order, place before angles before limits and motors; places_last: the other way round.
   template <bool places_last, model::JointKind kind>
@@ -163,13 +180,14 @@ class JointSolver {
     for (std::size_t i = 0; i < rows.lines.size(); ++i) {
       LineRow<V>& row = rows.lines[i];
       // A suspension is a spring of its own, in all sweeps.
-      const RowLaw<Scalar>& law = rows.sprung && i == 0 ? RowLaw<Scalar>{} : law_;
+      const RowLaw<Scalar>& law = rows.sprung && i == 0 ? RowLaw<Scalar>{} : laws_.places;
       push(row, step_of(row, row.rhs * law.bias, law, a, b), rows.inv_mass_a, rows.inv_mass_b, a, b);
     }
   }
   template <model::JointKind kind>
   PBMPI_LANES void solve_axes(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
-    for (AxisRow<V>& row : rows.axes) push(row, step_of(row, row.rhs * law_.bias, law_, a, b), a, b);
+    for (AxisRow<V>& row : rows.axes)
+      push(row, step_of(row, row.rhs * laws_.turns.bias, laws_.turns, a, b), a, b);
   }
   template <model::JointKind kind>
   PBMPI_LANES void solve_controls(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
@@ -188,10 +206,11 @@ class JointSolver {
   }
   PBMPI_LANES void solve_point(PointRows<V>& row, const V& inv_mass_a, const V& inv_mass_b, Twist<V>& a,
                                Twist<V>& b) const {
+    const RowLaw<Scalar>& law = laws_.places;
     const Vec3L<V>&ra = row.arm_a, &rb = row.arm_b;
     const auto apply = [&](V speed, V rhs, V scale, V& impulse, V& linear_a, V& linear_b, int k) {
       const V change =
-          (rhs * law_.bias - speed - cfm_ * impulse) * (scale * law_.mass_share) - law_.relief * impulse;
+          (rhs * law.bias - speed - cfm_ * impulse) * (scale * law.mass_share) - law.relief * impulse;
       impulse += change;
       linear_a += inv_mass_a * change;
       linear_b -= inv_mass_b * change;
@@ -216,7 +235,7 @@ class JointSolver {
   /// A motor has a velocity to keep and a limit one side only: neither is a spring.
   template <class Row>
   PBMPI_LANES V rhs_of(const Bounded<Row, V>& control) const {
-    return law_.bias > 0 ? control.row.rhs : control.relaxed_rhs;
+    return bias() > 0 ? control.row.rhs : control.relaxed_rhs;
   }
   /// The impulse of a row after a Gauss-Seidel step on it, before bounds.
   PBMPI_LANES V step_of(const AxisRow<V>& row, const V& rhs, const RowLaw<Scalar>& law, const Twist<V>& a,
@@ -251,7 +270,7 @@ class JointSolver {
   }
 
   Scalar cfm_;
-  RowLaw<Scalar> law_;
+  JointLaws<Scalar> laws_;
 };
 
 }  // namespace pbmpi::solver

@@ -36,7 +36,7 @@ class JointTrees {
   /// Gets ready for the rows of now, in all active batches. cfm [s/kg] of the joints, divided by the step.
   void factor(Scalar cfm, const BodyLanes<T>& bodies);
   /// Limits, motors and what closes loops by a sweep, then all other rows exactly.
-  void solve(const JointSolver<T>& solver, const RowLaw<Scalar>& law, BodyLanes<T>& bodies);
+  void solve(const JointSolver<T>& solver, BodyLanes<T>& bodies);
 
  private:
   struct Shape {
@@ -69,7 +69,7 @@ class JointTrees {
   }
   void sweep_others(const JointSolver<T>& solver, const Shape& shape, const Batch& batch,
                     BodyLanes<T>& bodies);
-  void solve_tree(const RowLaw<Scalar>& law, const Shape& shape, TreeSolver<T>& tree, const Batch& batch,
+  void solve_tree(Scalar bias, const Shape& shape, TreeSolver<T>& tree, const Batch& batch,
                   BodyLanes<T>& bodies);
 
   JointBatches<T>& joints_;
@@ -108,21 +108,21 @@ void JointTrees<T>::sweep_others(const JointSolver<T>& solver, const Shape& shap
 }
 
 template <class T>
-void JointTrees<T>::solve(const JointSolver<T>& solver, const RowLaw<Scalar>& law, BodyLanes<T>& bodies) {
+void JointTrees<T>::solve(const JointSolver<T>& solver, BodyLanes<T>& bodies) {
   for_each_tree([&](const Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
     sweep_others(solver, shape, batch, bodies);
-    solve_tree(law, shape, tree, batch, bodies);
+    solve_tree(solver.bias(), shape, tree, batch, bodies);
   });
 }
 
 template <class T>
-void JointTrees<T>::solve_tree(const RowLaw<Scalar>& law, const Shape& shape, TreeSolver<T>& tree,
-                               const Batch& batch, BodyLanes<T>& bodies) {
+void JointTrees<T>::solve_tree(Scalar bias, const Shape& shape, TreeSolver<T>& tree, const Batch& batch,
+                               BodyLanes<T>& bodies) {
   tree.start_solve();
   for (auto node = shape.nodes.rbegin(); node != shape.nodes.rend(); ++node) {
     if (node->joint < 0) continue;
     with_rows(batch, shape, static_cast<std::size_t>(node->joint), [&](auto& rows) {
-      tree.up(node->body, shape.parent_of(*node), node->is_first, law, bodies, rows);
+      tree.up(node->body, shape.parent_of(*node), node->is_first, bias, bodies, rows);
     });
   }
   for (const TreeNode& node : shape.nodes) {

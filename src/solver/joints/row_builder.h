@@ -42,10 +42,12 @@ class RowBuilder {
   using L3 = Vec3L<V>;
   using Pair = JointBodies<V>;
 
-  /// k [1/s]: of an error, how much a second is to take away; cfm: divided by the step.
-  RowBuilder(Scalar k, Scalar cfm, Scalar sor_factor) : k_(k), cfm_(cfm), factor_(sor_factor) {}
+  /// place_k, turn_k [1/s]: of an error, how much a second is to take away; cfm: divided by the step.
+  RowBuilder(Scalar place_k, Scalar turn_k, Scalar cfm, Scalar sor_factor)
+      : place_k_(place_k), turn_k_(turn_k), cfm_(cfm), factor_(sor_factor) {}
 
-  Scalar k() const { return k_; }
+  Scalar place_k() const { return place_k_; }
+  Scalar turn_k() const { return turn_k_; }
   Scalar cfm() const { return cfm_; }
   Scalar factor() const { return factor_; }
 
@@ -55,7 +57,7 @@ class RowBuilder {
                             const V& cfm, const Pair& pair, LineRow<V>& row) const;
 
  private:
-  Scalar k_, cfm_, factor_;
+  Scalar place_k_, turn_k_, cfm_, factor_;
 };
 
 /// From the centre of a to where a slider's lines act: the middle of its two bodies, which are `apart`; the

@@ -33,14 +33,15 @@ class TreeSolver {
     own.mass.factor(own.sum);
   }
 
-  // A solve: start_solve(); up() children before parents; root(); down() parents before children.
+  // A solve: start_solve(); up() children before parents; root(); down() parents before children. bias: 1, or
+  // 0 where what has opened is left open.
   void start_solve() {
     for (Node& node : nodes_) {
       for (V& f : node.force) f = T::broadcast(0);
     }
   }
   template <model::JointKind kind>
-  void up(int node, int parent, bool is_first, const RowLaw<Scalar>& law, const BodyLanes<T>& bodies,
+  void up(int node, int parent, bool is_first, Scalar bias, const BodyLanes<T>& bodies,
           JointRows<T, kind>& rows);
   void root(int node, Twist<V>& twist);
   template <model::JointKind kind>
@@ -77,7 +78,7 @@ void TreeSolver<T>::start_body(int node, const BodyLane<V>& body) {
   }
   const V mass = 1 / body.inv_mass;
   own.sum[0][0] = own.sum[1][1] = own.sum[2][2] = mass;
-  const Sym3L<V> inertia = rotated(body.rotation, body.inertia_body);
+  const Sym3L<V> inertia = inverse(body.inv_inertia);
   own.sum[3][3] = inertia.xx;
   own.sum[4][3] = inertia.xy;
   own.sum[4][4] = inertia.yy;
@@ -125,8 +126,8 @@ void TreeSolver<T>::eliminate(int node, int parent, bool is_first, Scalar cfm,
 
 template <class T>
 template <model::JointKind kind>
-void TreeSolver<T>::up(int node, int parent, bool is_first, const RowLaw<Scalar>& law,
-                       const BodyLanes<T>& bodies, JointRows<T, kind>& rows) {
+void TreeSolver<T>::up(int node, int parent, bool is_first, Scalar bias, const BodyLanes<T>& bodies,
+                       JointRows<T, kind>& rows) {
   constexpr int n = num_held_rows(kind);
   Node& own = nodes_[static_cast<std::size_t>(node)];
   const Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
@@ -136,7 +137,7 @@ void TreeSolver<T>::up(int node, int parent, bool is_first, const RowLaw<Scalar>
   for (int i = 0; i < 6; ++i) y[i] = own.force[i];
   own.mass.solve(y);
   const auto* child = child_of(own, is_first);
-  for_each_held_row(rows, law.bias, [&](int row, const V& rhs, const V& impulse) {
+  for_each_held_row(rows, bias, [&](int row, const V& rhs, const V& impulse) {
     V error = (rhs - own.jacobian.cfm[row] * impulse) * own.jacobian.holds[row];
     for (int i = 0; i < 6; ++i)
       error -= own.jacobian.a[row][i] * va[i] + own.jacobian.b[row][i] * vb[i] + child[row][i] * y[i];

@@ -182,6 +182,19 @@ struct alignas(sizeof(V)) Sym3L {
   }
 };
 
+/// By cofactors.
+template <class V>
+PBMPI_LANES Sym3L<V> inverse(const Sym3L<V>& m) {
+  const V xx = m.yy * m.zz - m.yz * m.yz, xy = m.xz * m.yz - m.xy * m.zz, xz = m.xy * m.yz - m.xz * m.yy;
+  const V scale = 1 / (m.xx * xx + m.xy * xy + m.xz * xz);
+  return {xx * scale,
+          xy * scale,
+          xz * scale,
+          (m.xx * m.zz - m.xz * m.xz) * scale,
+          (m.xy * m.xz - m.xx * m.yz) * scale,
+          (m.xx * m.yy - m.xy * m.xy) * scale};
+}
+
 /// Rotation matrix by rows.
 template <class V>
 struct alignas(sizeof(V)) Mat3L {

@@ -7,12 +7,22 @@
 
 namespace pbmpi::solver {
 
+/// How many periods in a substep springs may have at most. What is stiffer leans on forces that a substep's
+/// few sweeps have not found yet: walls and columns begin to tremble, chains and limits to swing up. The
+/// values are those that hold most of scenes/hard (docs/stability.md). Rows that hold how a joint turns its
+/// bodies bear more than those that hold a place.
+inline constexpr double most_contact_periods = 0.18, most_place_periods = 0.18, most_turn_periods = 0.25;
+
 /// A constraint as a damped spring between bodies, whatever their masses.
 struct Spring {
-  double frequency_hz = 0;  ///< 0: none, the scene's ERP and CFM hold
+  double frequency_hz =
+      0;  ///< 0: none, the scene's ERP and CFM hold; infinite: as stiff as most_periods says
   double damping_ratio = 1;
+  double most_periods = most_turn_periods;  ///< in a substep
 
   bool is_on() const { return frequency_hz > 0; }
+  /// In substeps of h [s].
+  double frequency_in(double h) const { return std::min(frequency_hz, most_periods / h); }
 };
 
 /// What a sweep makes of a row with effective mass 1 / d, right-hand side and impulse p:
@@ -29,14 +39,13 @@ struct RowLaw {
 };
 
 /// Both follow from an implicit Euler step h [s] of the spring (E. Catto, "Soft constraints", GDC 2011): its
-/// ERP is h w / (2 zeta + h w), its CFM relative to d is 1 / (h w (2 zeta + h w)). A spring of more than
-/// a quarter of a period a step is only as stiff as that; or, where a step stands for several shorter ones, a
-/// quarter of a period in one of those, so that what rests sags alike however few steps it gets.
+/// ERP is h w / (2 zeta + h w), its CFM relative to d is 1 / (h w (2 zeta + h w)). Where a step stands for
+/// several shorter ones, the spring is no stiffer than those would have it, so that what rests sags alike
+/// however few steps it gets.
 class SpringStep {
  public:
   SpringStep(const Spring& spring, double h, double shorter_steps = 1) {
-    const double most_periods = 0.25 * shorter_steps;
-    const double angle = 2 * std::numbers::pi * std::min(spring.frequency_hz * h, most_periods);
+    const double angle = 2 * std::numbers::pi * h * spring.frequency_in(h / shorter_steps);
     const double resistance = 2 * spring.damping_ratio + angle;
     erp_ = angle / resistance;
     relative_cfm_ = 1 / (angle * resistance);

@@ -29,8 +29,10 @@ struct StepParameters {
   double sor_factor = 1.3;
   double warm_start = 0;  ///< share of the impulses that a step and a substep take over from the one before
   int relax = 0;          ///< sweeps at the end of a substep that push nothing out
-  Spring contacts, joints;
+  Spring contacts;
+  Spring joint_places, joint_turns;  ///< of joints: where they hold their bodies, and how they turn them
   stepping::JointSolver joint_solver = stepping::JointSolver::sweeps;
+  bool pushes = true;      ///< false: contacts stay as deep as they are
   bool cone = false;       ///< friction that is the same in all directions
   bool newton = false;     ///< the sweeps of rigid rows are followed by Newton's method (newton/row_system.h)
   bool shuffled = true;    ///< false: the joints of an articulation and the contacts keep their order

@@ -57,7 +57,7 @@ class StepLanes {
   void start_substep();
   void push_carried();
   void sweep();
-  void sweep_joints(const RowLaw<Scalar>& law);
+  void sweep_joints(const JointLaws<Scalar>& laws);
   void sweep_contacts(const RowLaw<Scalar>& law, int iteration);
   /// Of the order of rows in an iteration, relaxing ones included.
   std::uint64_t order_key(int iteration) const {
@@ -169,9 +169,9 @@ void StepLanes<T>::sweep() {
     worlds_.joints.shuffle(order_key(iteration_));
   }
   const bool joints_last = !relaxes() && parameters_.substeps > 1 && iteration_ + 1 == parameters_.iterations;
-  if (!joints_last) sweep_joints(laws_.joint_law());
+  if (!joints_last) sweep_joints(laws_.joint_laws());
   sweep_contacts(laws_.contact_law(), iteration_);
-  if (joints_last) sweep_joints(laws_.joint_law());
+  if (joints_last) sweep_joints(laws_.joint_laws());
   ++iteration_;
 }
 
@@ -187,11 +187,11 @@ void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, int iteration) {
 /// With substeps the rows of a joint that hold its place come after those that hold its angles, which would
 /// open what is closed.
 template <class T>
-void StepLanes<T>::sweep_joints(const RowLaw<Scalar>& law) {
+void StepLanes<T>::sweep_joints(const JointLaws<Scalar>& laws) {
   twists_.need_slots(worlds_.bodies);
-  const JointSolver<T> solver = laws_.joint_solver(law);
+  const JointSolver<T> solver = laws_.joint_solver(laws);
   const auto has_tree = [&](std::size_t shape) { return trees_ && trees_->solves(shape); };
-  if (trees_) trees_->solve(solver, law, worlds_.bodies);
+  if (trees_) trees_->solve(solver, worlds_.bodies);
   if (parameters_.substeps > 1) {
     worlds_.joints.template sweep<true>(solver, has_tree, worlds_.bodies);
   } else {
@@ -204,7 +204,7 @@ void StepLanes<T>::sweep_joints(const RowLaw<Scalar>& law) {
 template <class T>
 void StepLanes<T>::relax() {
   for (int i = 0; i < parameters_.relax; ++i) {
-    sweep_joints(RowLaw<Scalar>::relaxing());
+    sweep_joints(JointLaws<Scalar>::relaxing());
     sweep_contacts(RowLaw<Scalar>::relaxing(), parameters_.iterations + i);
   }
 }

@@ -22,29 +22,26 @@ class StepLaws {
 
   StepLaws(const PackLaws& laws, const Passes& passes, const StepParameters& step)
       : h_(static_cast<Scalar>(step.dt_s / step.substeps)),
-        joint_erp_(laws.erp),
+        joint_erp_{scalar(laws.erp), scalar(laws.erp)},
         joint_cfm_(static_cast<Scalar>(laws.cfm)),
         sor_factor_(static_cast<Scalar>(step.sor_factor)),
         warm_start_(static_cast<Scalar>(step.warm_start)),
         several_(step.substeps > 1) {
     set_joints(step);
     set_contacts(laws, passes, step);
+    if (!step.pushes) contact_law_ = RowLaw<Scalar>::relaxing();
   }
 
   Scalar h() const { return h_; }  ///< [s] a substep
   const ContactParameters<Scalar>& contacts() const { return contacts_; }
   /// Of a sweep that pushes errors of position out.
   const RowLaw<Scalar>& contact_law() const { return contact_law_; }
-  const RowLaw<Scalar>& joint_law() const { return joint_law_; }
+  const JointLaws<Scalar>& joint_laws() const { return joint_laws_; }
 
-  JointBuilder<T> joint_builder() const {
-    return {h_, scalar(joint_erp_), joint_cfm_, sor_factor_, several_};
-  }
-  JointAdvancer<T> joint_advancer() const {
-    return {h_, scalar(joint_erp_), joint_cfm_, sor_factor_, warm_start_};
-  }
+  JointBuilder<T> joint_builder() const { return {h_, joint_erp_, joint_cfm_, sor_factor_, several_}; }
+  JointAdvancer<T> joint_advancer() const { return {h_, joint_erp_, joint_cfm_, sor_factor_, warm_start_}; }
   Scalar joint_cfm() const { return joint_cfm_ / h_; }  ///< divided by the step
-  JointSolver<T> joint_solver(const RowLaw<Scalar>& law) const { return {joint_cfm(), law}; }
+  JointSolver<T> joint_solver(const JointLaws<Scalar>& laws) const { return {joint_cfm(), laws}; }
 
  private:
   static Scalar scalar(double value) { return static_cast<Scalar>(value); }
@@ -54,10 +51,11 @@ class StepLaws {
     return static_cast<double>(step.all_substeps) / step.substeps;
   }
   void set_joints(const StepParameters& step) {
-    if (!step.joints.is_on()) return;
-    const SpringStep spring(step.joints, static_cast<double>(h_), length_of(step));
-    joint_erp_ = spring.erp();
-    joint_law_ = spring.template law<Scalar>();
+    if (!step.joint_places.is_on()) return;
+    const SpringStep places(step.joint_places, static_cast<double>(h_), length_of(step));
+    const SpringStep turns(step.joint_turns, static_cast<double>(h_), length_of(step));
+    joint_erp_ = {scalar(places.erp()), scalar(turns.erp())};
+    joint_laws_ = {places.template law<Scalar>(), turns.template law<Scalar>()};
   }
   void set_contacts(const PackLaws& laws, const Passes& passes, const StepParameters& step) {
     contacts_ = {.h = h_,
@@ -80,10 +78,11 @@ class StepLaws {
   }
 
   Scalar h_;
-  double joint_erp_;
+  JointErp<Scalar> joint_erp_;
   Scalar joint_cfm_, sor_factor_, warm_start_;
   bool several_;  ///< substeps
-  RowLaw<Scalar> joint_law_, contact_law_;
+  JointLaws<Scalar> joint_laws_;
+  RowLaw<Scalar> contact_law_;
   ContactParameters<Scalar> contacts_;
 };
 

@@ -45,6 +45,18 @@ double contact_margin_m(const stepping::StepperSettings& settings, const model::
   return settings.contact_margin * model.gravity.norm() * settings.dt_s * settings.dt_s;
 }
 
+Spring contact_spring(const stepping::StepperSettings& settings) {
+  return {settings.contact_frequency, settings.contact_damping, most_contact_periods};
+}
+
+Spring joint_place_spring(const stepping::StepperSettings& settings) {
+  return {settings.joint_frequency, settings.joint_damping, most_place_periods};
+}
+
+Spring joint_turn_spring(const stepping::StepperSettings& settings) {
+  return {settings.joint_frequency, settings.joint_damping, most_turn_periods};
+}
+
 StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step) {
   StepParameters parameters;
   parameters.dt_s = settings.dt_s;
@@ -54,8 +66,9 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   parameters.sor_factor = settings.sor_factor;
   parameters.warm_start = settings.warm_start;
   parameters.relax = settings.relax;
-  parameters.contacts = {settings.contact_frequency, settings.contact_damping};
-  parameters.joints = {settings.joint_frequency, settings.joint_damping};
+  parameters.contacts = contact_spring(settings);
+  parameters.joint_places = joint_place_spring(settings);
+  parameters.joint_turns = joint_turn_spring(settings);
   parameters.joint_solver = settings.joint_solver;
   parameters.newton = settings.finish == stepping::Finish::newton;
   parameters.cone = settings.friction == stepping::Friction::cone;

@@ -37,6 +37,11 @@ void start_memory(bool remembers, const model::Model& model, model::StepMemory& 
 /// [m] Up to which the lanes are to find contacts in a world: PackedWorld::contact_margin_m.
 double contact_margin_m(const stepping::StepperSettings& settings, const model::Model& model);
 
+/// The springs that contacts are in a run, and joints where they hold a place and where they hold a turn.
+Spring contact_spring(const stepping::StepperSettings& settings);
+Spring joint_place_spring(const stepping::StepperSettings& settings);
+Spring joint_turn_spring(const stepping::StepperSettings& settings);
+
 /// The parameters of a step of a run.
 StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step);
 

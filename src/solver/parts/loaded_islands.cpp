@@ -4,14 +4,16 @@
 
 #include "geometry/body_size.h"
 #include "model/joint_gap.h"
+#include "solver/pack/step_settings.h"
 
 namespace pbmpi::solver {
 namespace {
 
-/// [s^2] By how much a spring of this frequency gives under an acceleration; what is none does not give.
-double give_of(double frequency_hz) {
-  const double w = 2 * std::numbers::pi * frequency_hz;
-  return frequency_hz > 0 ? 1 / (w * w) : 0;
+/// [s^2] By how much a spring gives under an acceleration; what is none does not give.
+double give_per_acceleration(const Spring& spring, const stepping::StepperSettings& settings) {
+  if (!spring.is_on()) return 0;
+  const double w = 2 * std::numbers::pi * spring.frequency_in(settings.dt_s / settings.substeps);
+  return 1 / (w * w);
 }
 
 }  // namespace
@@ -19,9 +21,9 @@ double give_of(double frequency_hz) {
 LoadedIslands::LoadedIslands(const model::Model& model, const stepping::StepperSettings& settings)
     : model_(&model),
       sag_m_(settings.sag_m),
-      stiffer_(static_cast<double>(settings.most_substeps) / settings.substeps),
-      contact_give_(give_of(settings.contact_frequency)),
-      joint_give_(give_of(settings.joint_frequency)),
+      contact_give_(give_per_acceleration(contact_spring(settings), settings)),
+      place_give_(give_per_acceleration(joint_place_spring(settings), settings)),
+      turn_give_(give_per_acceleration(joint_turn_spring(settings), settings)),
       is_among_(model.bodies.size(), 0) {
   for (const model::Body& body : model.bodies) inverse_inertia_.push_back(body.inertia.inverse());
   for (const double size : geometry::sizes_of(model)) radius_m_.push_back(size / 2);
@@ -53,7 +55,8 @@ bool LoadedIslands::gives_little(const model::ContactForce& force) const {
 
 bool LoadedIslands::gives_little(std::size_t joint, const model::JointForce& force) const {
   const JointBounds& most = joint_bounds_[joint];
-  return is_little(joint_give_ * (force.force.norm() * most.force + force.torque.norm() * most.torque));
+  return is_little(place_give_ * force.force.norm() * most.force +
+                   turn_give_ * force.torque.norm() * most.torque);
 }
 
 model::Vec3 LoadedIslands::turned_by(int body, const model::Vec3& torque, const model::State& state) const {
@@ -75,43 +78,44 @@ double LoadedIslands::turning_mobility(int body, const model::Vec3& about, const
   return radius_m_[static_cast<std::size_t>(body)] * about.dot(turned_by(body, about, state));
 }
 
-double LoadedIslands::acceleration_of(const model::Contact& contact, const model::ContactForce& force,
-                                      const model::State& state) const {
+double LoadedIslands::give_of(const model::Contact& contact, const model::ContactForce& force,
+                              const model::State& state) const {
   if (force.normal == 0) return 0;
   const auto arm = [&](int body) -> model::Vec3 {
     return contact.position - state.position[static_cast<std::size_t>(body)];
   };
-  double acceleration = mobility(contact.body_a, arm(contact.body_a), contact.normal, state);
+  double mobility_of_both = mobility(contact.body_a, arm(contact.body_a), contact.normal, state);
   if (contact.body_b != model::no_body)
-    acceleration += mobility(contact.body_b, arm(contact.body_b), contact.normal, state);
-  return force.normal * acceleration;
+    mobility_of_both += mobility(contact.body_b, arm(contact.body_b), contact.normal, state);
+  return contact_give_ * force.normal * mobility_of_both;
 }
 
-double LoadedIslands::acceleration_of(const model::Joint& joint, const model::JointForce& force,
-                                      const model::State& state) const {
+double LoadedIslands::give_of(const model::Joint& joint, const model::JointForce& force,
+                              const model::State& state) const {
   const auto arm = [&](int body, const model::Vec3& anchor) -> model::Vec3 {
     if (body == model::no_body) return model::Vec3::Zero();
     return state.orientation[static_cast<std::size_t>(body)].to_eigen() * anchor;
   };
-  double acceleration = 0;
+  double give = 0;
   if (const double pull = force.force.norm(); pull != 0) {
     const model::Vec3 along = force.force / pull;
-    acceleration += pull * (mobility(joint.body_a, arm(joint.body_a, joint.anchor_a), along, state) +
-                            mobility(joint.body_b, arm(joint.body_b, joint.anchor_b), along, state));
+    give += place_give_ * pull *
+            (mobility(joint.body_a, arm(joint.body_a, joint.anchor_a), along, state) +
+             mobility(joint.body_b, arm(joint.body_b, joint.anchor_b), along, state));
   }
   if (const double torque = force.torque.norm(); torque != 0) {
     const model::Vec3 about = force.torque / torque;
-    acceleration += torque * (turning_mobility(joint.body_a, about, state) +
-                              turning_mobility(joint.body_b, about, state));
+    give += turn_give_ * torque *
+            (turning_mobility(joint.body_a, about, state) + turning_mobility(joint.body_b, about, state));
   }
-  return acceleration;
+  return give;
 }
 
-/// Soft springs are open by their give, stiff ones by that over the square of `stiffer_`: the mean of the two
-/// tells them apart. What is no number is too much.
+/// Soft springs at rest are open by their give, stiff ones by less, even a step after they have become stiff.
+/// What is no number is too much.
 bool LoadedIslands::is_loaded(double give, double opened) const {
   if (is_little(give)) return false;
-  const bool is_held_by_stiff_ones = opened * stiffer_ < give;
+  const bool is_held_by_stiff_ones = opened < 0.9 * give;
   return is_held_by_stiff_ones || !(give <= sag_m_);
 }
 
@@ -121,7 +125,7 @@ void LoadedIslands::find(std::span<const int> bodies, std::span<const model::Con
   for (const int body : bodies) is_among_[static_cast<std::size_t>(body)] = 1;
   for (std::size_t i = 0; i < contacts.size() && i < forces.size(); ++i) {
     if (is_among_[static_cast<std::size_t>(contacts[i].body_a)] == 0 || gives_little(forces[i])) continue;
-    const double give = contact_give_ * acceleration_of(contacts[i], forces[i], state);
+    const double give = give_of(contacts[i], forces[i], state);
     if (is_loaded(give, contacts[i].depth)) loaded.push_back(contacts[i].body_a);
   }
   for (std::size_t i = 0; i < state.memory.joints.size(); ++i) {
@@ -129,7 +133,7 @@ void LoadedIslands::find(std::span<const int> bodies, std::span<const model::Con
     if (is_among_[static_cast<std::size_t>(joint.body_a)] == 0) continue;
     if (gives_little(i, state.memory.joints[i])) continue;
     if (!broken_in.empty() && broken_in[i] != model::unbroken) continue;
-    const double give = joint_give_ * acceleration_of(joint, state.memory.joints[i], state);
+    const double give = give_of(joint, state.memory.joints[i], state);
     if (is_loaded(give, model::joint_gap(*model_, state, joint))) loaded.push_back(joint.body_a);
   }
   for (const int body : bodies) is_among_[static_cast<std::size_t>(body)] = 0;

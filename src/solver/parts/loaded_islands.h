@@ -16,9 +16,9 @@ namespace pbmpi::solver {
 /// where d = J M^-1 J^T is the acceleration of its bodies away from each other under a force of 1
 /// (SpringStep): by little where each body carries its like, by much where light ones carry heavy ones, or
 /// many. That is known before a step from the forces that it carries over, whatever springs the island had in
-/// the last. An island is loaded if a spring gives by more than the sag, and stays so down to half of it,
-/// lest what carries just that much be pushed out and let down in turn: the springs that held it are known
-/// from how far they have given. So what an island gets depends on nothing but its own state.
+/// the last. An island is loaded if a spring gives by more than the sag, and stays so down to an eighth
+/// of it, lest what carries just that much be pushed out and let down in turn: the springs that held it are
+/// known from how far they have given. So what an island gets depends on nothing but its own state.
 ///
 /// Joints that are solved exactly do not give at rest, but they open by about as much where they swing: a
 /// substep takes them along straight lines. They count alike.
@@ -43,22 +43,21 @@ class LoadedIslands {
   double turning_mobility(int body, const model::Vec3& about, const model::State& state) const;
   /// [rad/s^2] World frame.
   model::Vec3 turned_by(int body, const model::Vec3& torque, const model::State& state) const;
-  /// [m/s^2] F d.
-  double acceleration_of(const model::Contact& contact, const model::ContactForce& force,
-                         const model::State& state) const;
-  double acceleration_of(const model::Joint& joint, const model::JointForce& force,
-                         const model::State& state) const;
+  /// [m] By how much their springs give, under the force that they carry.
+  double give_of(const model::Contact& contact, const model::ContactForce& force,
+                 const model::State& state) const;
+  double give_of(const model::Joint& joint, const model::JointForce& force, const model::State& state) const;
   /// Of a spring that would give by `give`, and is open by `opened` [m].
   bool is_loaded(double give, double opened) const;
   /// So little that what is open does not matter. Of bounds of F d that need no poses.
-  bool is_little(double give) const { return give <= sag_m_ / 2; }
+  bool is_little(double give) const { return give <= sag_m_ / 8; }
   bool gives_little(const model::ContactForce& force) const;
   bool gives_little(std::size_t joint, const model::JointForce& force) const;
 
   const model::Model* model_;
   double sag_m_;
-  double stiffer_;                            ///< frequency of a loaded island's springs over that of others
-  double contact_give_, joint_give_;          ///< [s^2] 1 / w^2
+  double contact_give_;                       ///< [s^2] 1 / w^2
+  double place_give_, turn_give_;             ///< [s^2] likewise of joints
   std::vector<model::Mat3> inverse_inertia_;  ///< [num_bodies] body frame
   std::vector<double> radius_m_;              ///< [num_bodies] about the centre of mass
   std::vector<double> most_mobility_;         ///< [num_bodies] of a point within that radius

@@ -97,11 +97,16 @@ StepParameters PartedStep::parameters_of(const Part& part) const {
   StepParameters parameters = parameters_;
   if (part.loaded) {
     const double stiffer = static_cast<double>(parameters.most_substeps) / parameters.substeps;
-    parameters.contacts.frequency_hz *= stiffer;
-    parameters.joints.frequency_hz *= stiffer;
+    for (Spring* spring : {&parameters.contacts, &parameters.joint_places, &parameters.joint_turns})
+      spring->frequency_hz *= stiffer;
     parameters.substeps = parameters.all_substeps = parameters.most_substeps;
   }
-  if (part.on_trial) parameters.substeps = 1;
+  // Springs as stiff as those of all substeps would shake what rests if they pushed in one, and softer ones
+  // would let it sink: the forces that hold it are known, and its depths are right.
+  if (part.on_trial) {
+    parameters.substeps = 1;
+    parameters.pushes = false;
+  }
   parameters.iterations = part.iterations;
   return parameters;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace pbmpi::solver {
 namespace {
@@ -56,14 +57,31 @@ TEST(SpringStep, is_solved_by_one_sweep_from_whatever_impulse) {
   }
 }
 
-TEST(SpringStep, is_no_stiffer_than_a_quarter_of_a_period_a_step) {
+TEST(SpringStep, is_no_stiffer_than_its_most_periods_a_step) {
+  const double infinite = std::numeric_limits<double>::infinity();
   for (const double zeta : {0.1, 1.0, 10.0}) {
-    const SpringStep stiffest({0.25 / h, zeta}, h), beyond({1e6, zeta}, h), below({0.2 / h, zeta}, h);
-    EXPECT_DOUBLE_EQ(beyond.erp(), stiffest.erp());
-    EXPECT_DOUBLE_EQ(beyond.law<double>().mass_share, stiffest.law<double>().mass_share);
-    EXPECT_DOUBLE_EQ(beyond.law<double>().relief, stiffest.law<double>().relief);
-    EXPECT_LT(below.erp(), stiffest.erp());
-    EXPECT_LT(below.law<double>().mass_share, stiffest.law<double>().mass_share);
+    for (const double most : {most_contact_periods, most_place_periods, most_turn_periods}) {
+      const SpringStep stiffest({most / h, zeta, 1}, h), below({0.9 * most / h, zeta, most}, h);
+      for (const double frequency_hz : {1.1 * most / h, 1e6, infinite}) {
+        const SpringStep beyond({frequency_hz, zeta, most}, h);
+        EXPECT_DOUBLE_EQ(beyond.erp(), stiffest.erp());
+        EXPECT_DOUBLE_EQ(beyond.law<double>().mass_share, stiffest.law<double>().mass_share);
+        EXPECT_DOUBLE_EQ(beyond.law<double>().relief, stiffest.law<double>().relief);
+      }
+      EXPECT_LT(below.erp(), stiffest.erp());
+      EXPECT_LT(below.law<double>().mass_share, stiffest.law<double>().mass_share);
+    }
+  }
+}
+
+TEST(SpringStep, that_stands_for_several_is_as_stiff_as_those) {
+  const Spring stiffest{std::numeric_limits<double>::infinity(), 2, most_contact_periods};
+  const Spring as_number{most_contact_periods / h, 2, 1e9};
+  EXPECT_DOUBLE_EQ(stiffest.frequency_in(h), as_number.frequency_hz);
+  for (const double steps : {1.0, 2.0, 12.0}) {
+    EXPECT_DOUBLE_EQ(SpringStep(stiffest, steps * h, steps).erp(), SpringStep(as_number, steps * h).erp());
+    EXPECT_DOUBLE_EQ(SpringStep(stiffest, steps * h, steps).law<double>().relief,
+                     SpringStep(as_number, steps * h).law<double>().relief);
   }
 }
 

@@ -6,8 +6,10 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "core/error.h"
+#include "solver/pack/step_settings.h"
 #include "solver/parts/yards.h"
 
 namespace pbmpi::solver {
@@ -15,10 +17,11 @@ namespace {
 
 using namespace testing_support;
 
-/// All joints are springs, and none is solved exactly.
+/// All joints are springs, and none is solved exactly. Loaded islands get four times as many substeps.
 StepperSettings settings_with(double sag_m) {
   StepperSettings settings = default_settings(stepping::StepperKind::sor);
   settings.joint_solver = stepping::JointSolver::sweeps;
+  settings.substeps = 8;
   settings.sag_m = sag_m;
   return settings;
 }
@@ -76,18 +79,18 @@ TEST(LoadedIslands, are_those_whose_joints_give_by_more_than_the_sag) {
   }
 }
 
-TEST(LoadedIslands, stay_so_down_to_half_the_sag) {
+TEST(LoadedIslands, stay_so_down_to_an_eighth_of_the_sag) {
   for (const double ratio : {1.0, 30.0, 300.0}) {
     const Model model = heavy_on_light(ratio);
     const auto soft = start(settings_with(0), model), stiff = start(settings_with(1e-9), model);
     for (const auto& stepper : {soft.get(), stiff.get()}) advance(*stepper, 1500);
     const double give = soft->observables(0).joint_gap_m;
     EXPECT_NEAR(stiff->observables(0).joint_gap_m, give / 16, give / 160);
-    for (const double share : {0.6, 0.9}) {
+    for (const double share : {0.15, 0.6, 0.9}) {
       EXPECT_FALSE(is_loaded(model, soft->state(0), {}, give / share)) << ratio;
       EXPECT_TRUE(is_loaded(model, stiff->state(0), {}, give / share)) << ratio;
     }
-    EXPECT_FALSE(is_loaded(model, stiff->state(0), {}, give / 0.4)) << ratio;
+    EXPECT_FALSE(is_loaded(model, stiff->state(0), {}, give / 0.1)) << ratio;
   }
 }
 
@@ -103,10 +106,11 @@ TEST(LoadedIslands, a_column_rests_whatever_sag_is_named) {
   for (double sag_m = 1e-4; sag_m < 1.2e-3; sag_m *= 1.15) {
     const auto stepper = start(settings_with(sag_m), model);
     advance(*stepper, 300);
-    const double sweeps = sweeps_a_row(*stepper);
+    double sweeps = sweeps_a_row(*stepper);
     for (int step = 0; step < 100; ++step) {
       advance(*stepper, 1);
-      ASSERT_EQ(sweeps_a_row(*stepper), sweeps) << sag_m;
+      ASSERT_GE(sweeps_a_row(*stepper), sweeps) << sag_m << ": once loaded it stays so";
+      sweeps = sweeps_a_row(*stepper);
       for (const model::Vec3& velocity : stepper->state(0).velocity)
         ASSERT_LT(velocity.norm(), 5e-3) << sag_m;
     }
@@ -146,7 +150,7 @@ TEST(LoadedIslands, forces_that_give_little_wherever_they_act_are_those_of_no_lo
     // By hand: the largest give over all ways in which the bodies may lie is not below that of this one.
     const model::JointForce& force = state.memory.joints[1];
     const auto inverse = model.bodies[0].inertia.inverse().eval();
-    const auto give_of = [&](int body, const model::Vec3& anchor) {
+    const auto accelerations_of = [&](int body, const model::Vec3& anchor) -> std::pair<double, double> {
       const auto b = static_cast<std::size_t>(body);
       const model::Mat3 turn = state.orientation[b].to_eigen().toRotationMatrix();
       const auto turned = [&](const model::Vec3& torque) -> model::Vec3 {
@@ -155,14 +159,20 @@ TEST(LoadedIslands, forces_that_give_little_wherever_they_act_are_those_of_no_lo
       const model::Vec3 arm = turn * anchor, lever = arm.cross(force.force);
       const double pull = force.force.norm(), torque = force.torque.norm();
       const double radius = b == 0 ? 0.1 : 0.3;
-      return pull / model.bodies[b].mass_kg + lever.dot(turned(lever)) / pull +
-             radius * force.torque.dot(turned(force.torque)) / torque;
+      return {pull / model.bodies[b].mass_kg + lever.dot(turned(lever)) / pull,
+              radius * force.torque.dot(turned(force.torque)) / torque};
     };
-    const double w = 2 * std::numbers::pi * 100;
-    const double give =
-        (give_of(1, model.joints[1].anchor_a) + give_of(0, model.joints[1].anchor_b)) / (w * w);
+    const StepperSettings settings = settings_with(0);
+    const auto per_acceleration = [&](const Spring& spring) {
+      const double w = 2 * std::numbers::pi * spring.frequency_in(settings.dt_s / settings.substeps);
+      return 1 / (w * w);
+    };
+    const auto [pulled_a, turned_a] = accelerations_of(1, model.joints[1].anchor_a);
+    const auto [pulled_b, turned_b] = accelerations_of(0, model.joints[1].anchor_b);
+    const double give = (pulled_a + pulled_b) * per_acceleration(joint_place_spring(settings)) +
+                        (turned_a + turned_b) * per_acceleration(joint_turn_spring(settings));
     EXPECT_TRUE(is_loaded(model, state, {}, 0.999 * give));
-    num_loaded += is_loaded(model, state, {}, 2.001 * give) ? 1 : 0;
+    num_loaded += is_loaded(model, state, {}, 8.001 * give) ? 1 : 0;
   }
   EXPECT_EQ(num_loaded, 0) << "beyond the band";
 }
@@ -181,7 +191,7 @@ TEST(LoadedIslands, give_less_and_leave_the_others_as_they_are) {
   const auto soft = start(settings_with(0), model), stiff = start(settings_with(1e-3), model),
              alone = start(settings_with(0), others);
   for (const auto& stepper : {soft.get(), stiff.get(), alone.get()}) advance(*stepper, 1500);
-  EXPECT_GT(soft->observables(0).joint_gap_m, 10e-3);
+  EXPECT_GT(soft->observables(0).joint_gap_m, 5e-3);
   EXPECT_LT(stiff->observables(0).joint_gap_m, soft->observables(0).joint_gap_m / 15)
       << "16 times stiffer springs";
   EXPECT_EQ(model::hash(part(stiff->state(0), 0, num_others)),
@@ -204,8 +214,6 @@ TEST(LoadedIslands, have_the_bits_of_a_run_in_which_all_get_as_much) {
   const Model model = yards(true, false);
   StepperSettings all = settings_with(0);
   all.substeps = 32;
-  all.contact_frequency *= 4;
-  all.joint_frequency *= 4;
   const auto path = start(settings_with(0), model);
   advance(*path, 200);
   const auto loaded = start(settings_with(1e-9), model, path->state(0), 200),
