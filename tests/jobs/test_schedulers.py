@@ -75,10 +75,10 @@ class Pbs(SchedulerTest):
         self.assertIn("-J 0-1", none[1])
 
     def test_a_run_of_a_sweep_ends_by_itself_before_the_walltime(self):
-        self.qsub("sweep.pbs", "CrashSk substeps 2 -- " + LONG, "-l", "walltime=00:00:02", PBMPI_NOTICE="1")
+        self.qsub("sweep.pbs", "CrashSk substeps 24 -- " + LONG, "-l", "walltime=00:00:02", PBMPI_NOTICE="1")
         code, output = self.queue.run_all()[0]
         self.assertEqual(code, 75, output)
-        self.assertEqual(self.left(), ["CrashSk-substeps-2-100.checkpoint.h5", "CrashSk-substeps-2-100.h5"])
+        self.assertEqual(self.left(), ["CrashSk-substeps-24-100.checkpoint.h5", "CrashSk-substeps-24-100.h5"])
 
     def test_a_job_whose_walltime_is_up_is_submitted_again_and_goes_on(self):
         script = os.path.join(SOURCE, "jobs", "pbs", "pbmpi.pbs")
