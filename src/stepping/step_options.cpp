@@ -53,7 +53,7 @@ constexpr std::array<StepOption, 25> options = {{
     {.name = "substeps",
      .member = &Settings::substeps,
      .placeholder = "N",
-     .meaning = "sor: parts of a step that share its collision detection; default: 8",
+     .meaning = "sor: parts of a step that share its collision detection; default: 12",
      .needs = &Traits::has_substeps,
      .allows = at_least_1,
      .limit = "it must be at least 1"},
@@ -117,9 +117,9 @@ constexpr std::array<StepOption, 25> options = {{
     {.name = "contact-frequency",
      .member = &Settings::contact_frequency,
      .placeholder = "HZ",
-     .meaning = "sor: contacts are springs of this frequency, at most 0.18 periods a substep; inf: as stiff "
-                "as that; "
-                "0: they have the scene's ERP and CFM; default: inf",
+     .meaning =
+         "sor: contacts are springs of this frequency, at most 0.18 periods a substep; inf: as stiff as that; "
+         "0: they have the scene's ERP and CFM; default: inf",
      .needs = &Traits::tunes_sweeps,
      .allows = is_frequency,
      .limit = "a frequency is 0 or more, or inf",

@@ -244,7 +244,7 @@ TEST(JointTrees, solve_what_closes_a_loop_by_sweeps) {
 
 // With another inertia than that of contacts and limits a limb that turns far in a step would gain energy,
 // the more the more substeps there are: what the one takes out of it the other puts back.
-TEST(JointTrees, gain_no_energy_in_a_crash_however_many_substeps_there_are) {
+TEST(JointTrees, throw_nobody_in_a_crash_however_many_substeps_there_are) {
   stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
   settings.joint_solver = stepping::JointSolver::tree;
   for (const int substeps : {8, 12, 32}) {

@@ -27,7 +27,8 @@ struct EstimateSpec {
   std::optional<double> due_s;  ///< from the start of a frame until its estimate is due
 };
 
-/// The settings of an estimate of `precise` unless it is given others: one sweep of one substep a step.
+/// The settings of an estimate of `precise` unless it is given others: one sweep in each of a sixth of
+/// its substeps.
 stepping::StepperSettings default_estimate(const stepping::StepperSettings& precise);
 
 /// The precise solve can be looked at where it is the only one left of the frame, and passes the wanted

@@ -78,6 +78,8 @@ void TreeSolver<T>::start_body(int node, const BodyLane<V>& body) {
   }
   const V mass = 1 / body.inv_mass;
   own.sum[0][0] = own.sum[1][1] = own.sum[2][2] = mass;
+  // That of the step's start, as contacts, limits and carried impulses have it, and not of the pose by now:
+  // what solves with two inertias in turn gains energy.
   const Sym3L<V> inertia = inverse(body.inv_inertia);
   own.sum[3][3] = inertia.xx;
   own.sum[4][3] = inertia.xy;

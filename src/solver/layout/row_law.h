@@ -15,8 +15,8 @@ inline constexpr double most_contact_periods = 0.18, most_place_periods = 0.18, 
 
 /// A constraint as a damped spring between bodies, whatever their masses.
 struct Spring {
-  double frequency_hz =
-      0;  ///< 0: none, the scene's ERP and CFM hold; infinite: as stiff as most_periods says
+  /// 0: none, the scene's ERP and CFM hold; infinite: as stiff as most_periods says.
+  double frequency_hz = 0;
   double damping_ratio = 1;
   double most_periods = most_turn_periods;  ///< in a substep
 

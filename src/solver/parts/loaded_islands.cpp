@@ -9,6 +9,10 @@
 namespace pbmpi::solver {
 namespace {
 
+/// A spring that is open by less of its give is held by stiffer ones than that was counted with. Soft ones at
+/// rest are open by all of it, stiff ones by less, even a step after they have become stiff.
+constexpr double opened_by_soft_ones = 0.9;
+
 /// [s^2] By how much a spring gives under an acceleration; what is none does not give.
 double give_per_acceleration(const Spring& spring, const stepping::StepperSettings& settings) {
   if (!spring.is_on()) return 0;
@@ -111,11 +115,10 @@ double LoadedIslands::give_of(const model::Joint& joint, const model::JointForce
   return give;
 }
 
-/// Soft springs at rest are open by their give, stiff ones by less, even a step after they have become stiff.
 /// What is no number is too much.
 bool LoadedIslands::is_loaded(double give, double opened) const {
   if (is_little(give)) return false;
-  const bool is_held_by_stiff_ones = opened < 0.9 * give;
+  const bool is_held_by_stiff_ones = opened < opened_by_soft_ones * give;
   return is_held_by_stiff_ones || !(give <= sag_m_);
 }
 

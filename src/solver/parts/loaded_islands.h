@@ -49,10 +49,13 @@ class LoadedIslands {
   double give_of(const model::Joint& joint, const model::JointForce& force, const model::State& state) const;
   /// Of a spring that would give by `give`, and is open by `opened` [m].
   bool is_loaded(double give, double opened) const;
-  /// So little that what is open does not matter. Of bounds of F d that need no poses.
-  bool is_little(double give) const { return give <= sag_m_ / 8; }
+  /// So little that what is open does not matter.
+  bool is_little(double give) const { return give <= share_to_stay_loaded * sag_m_; }
+  /// By bounds of F d that need no poses.
   bool gives_little(const model::ContactForce& force) const;
   bool gives_little(std::size_t joint, const model::JointForce& force) const;
+
+  static constexpr double share_to_stay_loaded = 0.125;  ///< of the sag
 
   const model::Model* model_;
   double sag_m_;
