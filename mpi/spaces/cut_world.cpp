@@ -116,11 +116,9 @@ void CutWorld::observe() {
 
 void CutWorld::end_watched_frame() {
   if (!guard_ || errors_->failed()) return;
-  std::swap(before_, now_);
-  now_.state = state();
-  now_.seen = observables_;
   errors_->guard([&] {
-    is_mended_ = guard_->end_frame(before_, steps_done_ - steps_per_frame_, steps_per_frame_, now_, events_);
+    is_mended_ = guard_->end_frame(now_, {state(), observables_}, steps_done_ - steps_per_frame_,
+                                   steps_per_frame_, events_);
   });
   observables_ = now_.seen;
 }

@@ -98,7 +98,7 @@ class CutWorld {
   SpaceStep step_;
   stepping::Observables observables_;           ///< on root
   std::optional<stability::WorldGuard> guard_;  ///< on root
-  stability::Watched now_, before_;             ///< on root, with a guard: after this frame and the last
+  stability::Watched now_;                      ///< on root, with a guard: after the last frame
   std::vector<stepping::RunEvent> events_;      ///< on root
   bool is_mended_ = false;                      ///< on root
   bool is_frozen_ = false;                      ///< the world stands

@@ -24,6 +24,7 @@ std::vector<int> measured_joints(const model::Model& model, bool all, std::span<
 World::World(const model::Model& model, stepping::MotorTargets& targets, const model::State& state,
              std::int64_t step, const stepping::StepperSettings& settings, Collider& collider)
     : model_(&model),
+      observer_(model),
       targets_(&targets),
       plan_(model),
       settings_(settings),
@@ -228,7 +229,7 @@ void World::read(model::State& state, stepping::Observables& observables) {
   observables.contacts = contacts_.count();
   observables.fast_bodies = rules_.num_fast();
   observables.max_penetration_m = std::max(0.0, contacts_.deepest_m());
-  stepping::observe_state(*model_, state, observables);
+  observer_.observe(state, observables);
 }
 
 }  // namespace pbmpi::bullet

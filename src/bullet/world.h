@@ -14,6 +14,7 @@
 #include "core/clock.h"
 #include "effects/step_rules.h"
 #include "stepping/motor_targets.h"
+#include "stepping/observables.h"
 #include "stepping/stepper.h"
 
 namespace pbmpi::bullet {
@@ -69,6 +70,7 @@ class World final : private effects::RuledWorld {
   void show_contacts();
 
   const model::Model* model_;
+  stepping::StateObserver observer_;
   stepping::MotorTargets* targets_;
   effects::StepPlan plan_;
   stepping::StepperSettings settings_;

@@ -85,6 +85,7 @@ class StepRules {
   /// State::broken_in was changed from elsewhere.
   void take_in_broken();
 
+  std::span<const int> all_bodies() const { return all_bodies_; }
   std::span<const int> awake() const { return sleepers_ ? sleepers_->awake() : all_bodies_; }
   bool all_asleep() const { return sleepers_ && sleepers_->all_asleep(); }
   std::span<const int> breakable_joints() const {

@@ -1,6 +1,8 @@
 /// How far a joint has been pulled apart.
 #pragma once
 
+#include <vector>
+
 #include "model/model.h"
 #include "model/state.h"
 
@@ -18,7 +20,27 @@ Vec3 joint_gap_vector_in_a(const Model& model, const Joint& joint, const Pose& a
 /// Length [m] of joint_gap_vector().
 double joint_gap(const Model& model, const State& state, const Joint& joint);
 
-/// The largest joint_gap() of the world's joints that hold [m]; 0 without any.
+/// What joint_gap_vector() asks of a joint.
+struct HeldPoint {
+  int body_a = 0, body_b = no_body;
+  bool slides = false;  ///< along the axis
+  Vec3 in_a, in_b;      ///< the point that the joint holds, in the frames of its bodies [m]
+  Vec3 axis;            ///< unit, frame of a
+};
+
+/// The gaps of one model's joints. What they hold is kept beside each other: fetched from among the names and
+/// motors of a model it would cost more than the gaps do.
+class JointGaps {
+ public:
+  explicit JointGaps(const Model& model);
+  /// The largest joint_gap() of the joints that hold [m]; 0 without any.
+  double largest(const State& state) const;
+
+ private:
+  std::vector<HeldPoint> held_;  ///< [num_joints]
+};
+
+/// JointGaps::largest() of a single state.
 double max_joint_gap(const Model& model, const State& state);
 
 }  // namespace pbmpi::model

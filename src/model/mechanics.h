@@ -1,22 +1,43 @@
 /// Energy and momentum of a world, from its model and state.
 #pragma once
 
+#include <vector>
+
 #include "model/model.h"
 #include "model/state.h"
 
 namespace pbmpi::model {
 
+/// Energy and momentum of all bodies, which are summed in order.
+struct Mechanics {
+  double energy_j = 0;                   ///< kinetic and potential, see body_energy()
+  Vec3 linear_momentum = Vec3::Zero();   ///< mass times velocity [kg m/s]
+  Vec3 angular_momentum = Vec3::Zero();  ///< about the origin of the world frame [kg m^2/s]
+};
+
+/// Measures the states of one model, each in one pass over the bodies. Their masses are kept beside each
+/// other: fetched from among the names and poses of a model they would cost more than the sums do.
+class MechanicsMeter {
+ public:
+  explicit MechanicsMeter(const Model& model);
+  Mechanics measure(const State& state) const;
+
+ private:
+  struct Mass {
+    double kg = 0;
+    Mat3 inertia;  ///< [kg m^2], body frame
+  };
+  std::vector<Mass> masses_;  ///< [num_bodies]
+  Vec3 gravity_;              ///< [m/s^2]
+};
+
 /// Kinetic and potential energy of one body [J]; the potential is that of its height above the world's
 /// origin, against gravity.
-double body_energy(const Model& model, const State& state, int body);
+double body_energy(const Model& model, const State& state, int index);
 
-/// Kinetic and potential energy [J]; bodies are summed in order.
+/// For single states, the numbers of Mechanics.
 double mechanical_energy(const Model& model, const State& state);
-
-/// Sum of mass times velocity [kg m/s]; bodies are summed in order.
 Vec3 linear_momentum(const Model& model, const State& state);
-
-/// Angular momentum about the origin of the world frame [kg m^2/s]; bodies are summed in order.
 Vec3 angular_momentum(const Model& model, const State& state);
 
 }  // namespace pbmpi::model

@@ -33,6 +33,7 @@ void require_no_refusal(const model::Model& model) {
 World::World(const model::Model& model, stepping::MotorTargets& targets, const model::State& state,
              std::int64_t step, const stepping::StepperSettings& settings)
     : model_(&model),
+      observer_(model),
       targets_(&targets),
       plan_(model),
       num_parts_(fewest_parts(settings.dt_s)),
@@ -252,7 +253,7 @@ void World::read(model::State& state, stepping::Observables& observables) const 
   state = state_;
   state.guard = guard;
   observables = counts_;
-  stepping::observe_state(*model_, state, observables);
+  observer_.observe(state, observables);
 }
 
 }  // namespace pbmpi::mujoco

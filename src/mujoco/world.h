@@ -66,6 +66,7 @@ class World final : effects::RuledWorld {
   void lose();
 
   const model::Model* model_;
+  stepping::StateObserver observer_;
   stepping::MotorTargets* targets_;
   effects::StepPlan plan_;
   int num_parts_;  ///< MuJoCo's steps in a step, the fewest

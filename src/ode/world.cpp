@@ -56,6 +56,7 @@ World::World(int id, const model::Model& model, stepping::MotorTargets& targets,
              std::int64_t step, const stepping::StepperSettings& settings, const SolverResources& resources)
     : id_(id),
       model_(&model),
+      observer_(model),
       targets_(&targets),
       plan_(model),
       settings_(settings),
@@ -287,7 +288,7 @@ void World::read(model::State& state, stepping::Observables& observables) {
   observables.fast_bodies = rules_.num_fast();
   observables.bodies_inside = rules_.num_inside();
   observables.max_penetration_m = contacts_.deepest_m();
-  stepping::observe_state(*model_, state, observables);
+  observer_.observe(state, observables);
 }
 
 }  // namespace pbmpi::ode

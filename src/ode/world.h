@@ -18,6 +18,7 @@
 #include "ode/rows.h"
 #include "ode/solver_resources.h"
 #include "stepping/motor_targets.h"
+#include "stepping/observables.h"
 #include "stepping/step_profile.h"
 #include "stepping/stepper.h"
 
@@ -90,6 +91,7 @@ class World final : private effects::RuledWorld {
 
   int id_;
   const model::Model* model_;
+  stepping::StateObserver observer_;
   stepping::MotorTargets* targets_;
   effects::StepPlan plan_;
   stepping::StepperSettings settings_;

@@ -1,12 +1,13 @@
 /// Energy that a world gains without a cause.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "model/model.h"
 #include "model/state.h"
+#include "stability/drive_work.h"
+#include "stability/suspensions.h"
 
 namespace pbmpi::stability {
 
@@ -44,8 +45,8 @@ class EnergyGain {
 
  private:
   const model::Model* model_;
-  double dt_s_;
-  std::vector<std::size_t> springs_;  ///< joints
+  DriveWork drives_;
+  std::vector<Suspension> springs_;
 };
 
 }  // namespace pbmpi::stability

@@ -103,11 +103,8 @@ const model::State& GuardedStepper::begun(int world) const {
 void GuardedStepper::end_frame(int world, Slot& slot, int num_steps) {
   const std::int64_t first_step = std::exchange(slot.step, slot.step + num_steps);
   if (slot.now.is_frozen()) return;
-  std::swap(slot.before, slot.now);
-  slot.now.state = inner_->state(world);
-  slot.now.seen = inner_->observables(world);
-  const bool is_mended =
-      slot.guard->end_frame(slot.before, first_step, num_steps, slot.now, events_, slot.targets);
+  const bool is_mended = slot.guard->end_frame(slot.now, {inner_->state(world), inner_->observables(world)},
+                                               first_step, num_steps, events_, slot.targets);
   slot.targets.pass(*slot.model, first_step, num_steps);
   if (!is_mended) return;
   inner_->remove(world);

@@ -54,7 +54,7 @@ class GuardedStepper final : public stepping::FrameStepper, public stepping::Run
     std::int64_t step = 0;
     stepping::MotorTargets targets;
     double begun_cost_s = 0, cost_s = 0;  ///< of what is begun of a frame; of the last frame
-    Watched now, before;                  ///< `before`: the state of a frame ago; kept for its memory
+    Watched now;
   };
 
   void step(int num_steps, core::PhaseTimes& times);

@@ -111,24 +111,41 @@ PassageFinder::PassageFinder(const model::Model& model) : model_(&model), rule_(
     extents_[static_cast<std::size_t>(mover.body)].mover = i;
     extents_[static_cast<std::size_t>(mover.body)].size = mover.size;
     least_size_ = std::min(least_size_, mover.size);
+    least_radius_ = std::min(least_radius_, mover.radius);
   }
 }
 
 std::optional<Passage> PassageFinder::find(const State& before, std::span<const Vec3> from,
                                            const State& after, Pace pace) const {
   find_close_pairs(from, after);
-  for (const Mover& mover : movers_) {
-    const auto body = static_cast<std::size_t>(mover.body);
-    if (auto found = through_planes(mover, from[body], after.position[body])) return found;
-    const double least_way = pace == Pace::fast ? mover.radius : 0;
-    if (static_.empty() || !(squared_lengths_[body] > least_way * least_way)) continue;
-    if (auto found = through_static(mover, from[body], ways_[body])) return found;
+  if (may_pass_static(after, pace)) {
+    for (const Mover& mover : movers_) {
+      const auto body = static_cast<std::size_t>(mover.body);
+      if (auto found = through_planes(mover, from[body], after.position[body])) return found;
+      const double least_way = pace == Pace::fast ? mover.radius : 0;
+      if (static_.empty() || !(squared_lengths_[body] > least_way * least_way)) continue;
+      if (auto found = through_static(mover, from[body], ways_[body])) return found;
+    }
   }
   for (const Pair& pair : close_) {
     if (auto found = through_body(pair.first, pair.second, before, after)) return found;
     if (auto found = through_body(pair.second, pair.first, before, after)) return found;
   }
   return std::nullopt;
+}
+
+/// What holds of every mover is tried without looking at any, which would be most of the cost.
+bool PassageFinder::may_pass_static(const State& after, Pace pace) const {
+  const auto may_be_behind = [&](const Plane& plane) {
+    return std::ranges::any_of(after.position, [&](const Vec3& centre) {
+      return !(plane.normal.dot(centre) - plane.height > -least_size_);
+    });
+  };
+  if (std::ranges::any_of(planes_, may_be_behind)) return true;
+  const double least_way = pace == Pace::fast ? least_radius_ : 0;
+  return !static_.empty() && std::ranges::any_of(squared_lengths_, [&](double squared_length) {
+    return squared_length > least_way * least_way;
+  });
 }
 
 /// Bodies have gone through each other only if the ways of the two differ by twice the size of the smaller.

@@ -96,6 +96,8 @@ class PassageFinder {
     std::vector<std::int32_t> hits_;
   };
 
+  /// False if no body can have passed a static geom, by its place and after find_close_pairs().
+  bool may_pass_static(const model::State& after, Pace pace) const;
   void find_close_pairs(std::span<const model::Vec3> from, const model::State& after) const;
   std::optional<Passage> through_planes(const Mover& mover, const model::Vec3& from,
                                         const model::Vec3& to) const;
@@ -107,9 +109,9 @@ class PassageFinder {
   const model::Model* model_;
   model::TouchRule rule_;
   std::vector<Mover> movers_;
-  std::vector<Solid> static_, moving_;   ///< moving_: by body
-  std::vector<Extent> extents_;          ///< [num_bodies]
-  double least_size_ = model::infinity;  ///< of movers_ [m]
+  std::vector<Solid> static_, moving_;                                    ///< moving_: by body
+  std::vector<Extent> extents_;                                           ///< [num_bodies]
+  double least_size_ = model::infinity, least_radius_ = model::infinity;  ///< of movers_ [m]
   std::vector<Plane> planes_;
   // Results of the last call, members so that they keep their memory.
   mutable std::vector<model::Vec3> ways_;        ///< [num_bodies] of the centres

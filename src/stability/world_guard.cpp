@@ -166,26 +166,24 @@ Watched WorldGuard::begin(const State& state) const {
   return watched;
 }
 
-bool WorldGuard::end_frame(const Watched& before, std::int64_t first_step, int num_steps, Watched& after,
+bool WorldGuard::end_frame(Watched& watched, const Reached& next, std::int64_t first_step, int num_steps,
                            std::vector<RunEvent>& events, const stepping::MotorTargets& targets) const {
-  const model::GuardMemory at_start = before.state.guard;
-  model::GuardMemory memory = at_start;
+  model::GuardMemory memory = watched.state.guard;
   std::vector<Vec3> scratch;
-  const auto from = guards_.launched(before.state.position, first_step, num_steps, scratch);
-  const auto suspicion = guards_.check({seen_of(before), seen_of(after), first_step, num_steps}, from,
-                                       PassageFinder::Pace::fast, memory);
+  const auto from = guards_.launched(watched.state.position, first_step, num_steps, scratch);
+  const Guards::Span frame = {seen_of(watched), {next.state, next.seen}, first_step, num_steps};
   bool mended = false;
-  if (suspicion) {
-    Replay replay(*this, before, first_step, targets, after.seen.nonfinite > 0, events);
+  if (guards_.check(frame, from, PassageFinder::Pace::fast, memory)) {
+    Replay replay(*this, watched, first_step, targets, next.seen.nonfinite > 0, events);
     for (int i = 0; i < num_steps && replay.step(); ++i) continue;
     mended = replay.has_mended();
     if (mended) {
-      after = replay.now();
-      if (after.is_frozen()) {
-        after = begin(after.state);
+      watched = replay.now();
+      if (watched.is_frozen()) {
+        watched = begin(watched.state);
         return true;
       }
-      memory = after.state.guard;
+      memory = watched.state.guard;
     } else if (replay.has_tripped()) {
       // The next report is of what is gained from now on.
       if (memory.energy_gain_j > guards_.energy_limit(memory)) memory.energy_gain_j = 0;
@@ -193,8 +191,13 @@ bool WorldGuard::end_frame(const Watched& before, std::int64_t first_step, int n
       memory = replay.now().state.guard;
     }
   }
-  after.state.guard = memory;
-  if (after.seen.nonfinite == 0) guards_.note_kinetic(after.state, after.seen.energy_j, after.state.guard);
+  if (!mended) {
+    watched.state = next.state;
+    watched.seen = next.seen;
+  }
+  watched.state.guard = memory;
+  if (watched.seen.nonfinite == 0)
+    guards_.note_kinetic(watched.state, watched.seen.energy_j, watched.state.guard);
   return mended;
 }
 

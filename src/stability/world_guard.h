@@ -23,6 +23,12 @@ struct Watched {
   bool is_frozen() const { return state.guard.frozen_in >= 0; }
 };
 
+/// What a stepper has come to.
+struct Reached {
+  const model::State& state;
+  const stepping::Observables& seen;
+};
+
 /// Guards look at the ends of frames, at numbers that are measured there anyway. What one of them suspects is
 /// traced to its step: the world is stepped again from the frame's start, by itself and step by step, with
 /// the same bits. A suspicion that no single step confirms is dropped, as when the straight way of a body
@@ -36,9 +42,10 @@ class WorldGuard {
   /// to know of it.
   Watched begin(const model::State& state) const;
 
-  /// After `num_steps` steps from `first_step` on. With freeze and refine `after` may become another state:
+  /// Takes a world that moves from the end of one frame to that of the next, `num_steps` steps from
+  /// `first_step` on, at which its stepper has `next`. With freeze and refine it may come to another state:
   /// true then. `events`: what happened is added. `targets`: what the motors aimed at when the frame began.
-  bool end_frame(const Watched& before, std::int64_t first_step, int num_steps, Watched& after,
+  bool end_frame(Watched& watched, const Reached& next, std::int64_t first_step, int num_steps,
                  std::vector<stepping::RunEvent>& events, const stepping::MotorTargets& targets = {}) const;
 
  private:

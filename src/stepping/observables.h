@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "model/joint_gap.h"
+#include "model/mechanics.h"
 #include "model/model.h"
 #include "model/state.h"
 
@@ -40,12 +42,23 @@ struct Observables {
   Residuals residuals;                       ///< all 0 unless they are asked for (StepperSettings::residuals)
 };
 
-/// Measures what follows from the state after a step, whatever the engine: all of observe_bodies(), energy
-/// and joint gap.
+/// Measures what follows from the states of one model, whatever the engine.
+class StateObserver {
+ public:
+  explicit StateObserver(const model::Model& model) : mechanics_(model), gaps_(model) {}
+  /// All of observe_bodies(), energy and joint gap.
+  void observe(const model::State& state, Observables& seen) const;
+
+ private:
+  model::MechanicsMeter mechanics_;
+  model::JointGaps gaps_;
+};
+
+/// StateObserver::observe() of a single state.
 void observe_state(const model::Model& model, const model::State& state, Observables& seen);
 
-/// The part of observe_state() that one pass over the bodies gives. Where a world is cut into spaces root
-/// does it, whereas the spaces' owners share energy and joint gap.
+/// Momenta and non-finite bodies of a single state. Where a world is cut into spaces root measures them,
+/// whereas the spaces' owners share energy and joint gap.
 void observe_bodies(const model::Model& model, const model::State& state, Observables& seen);
 
 }  // namespace pbmpi::stepping

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/models.h"
+#include "support/random_state.h"
 
 namespace pbmpi::model {
 namespace {
@@ -86,6 +89,22 @@ TEST(JointGap, is_the_same_vector_in_the_frame_of_the_first_body) {
     const Vec3 in_a = joint_gap_vector_in_a(model, joint, a, b);
     EXPECT_NEAR((joint_gap_vector(model, joint, a, b) - a.direction_to_outer(in_a)).norm(), 0, rounding)
         << joint.name;
+  }
+}
+
+TEST(JointGaps, largest_is_that_of_the_joints_that_hold_to_the_bit) {
+  Model model = support::crash();
+  support::add_joint(model, JointKind::slider, 0, no_body, {0, 0, 1});
+  const JointGaps gaps(model);
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    State state = support::random_state(model, seed);
+    state.broken_in.assign(model.joints.size(), unbroken);
+    for (std::size_t joint = seed; joint < model.joints.size(); joint += 3) state.broken_in[joint] = 0;
+    double largest = 0;
+    for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
+      if (!state.is_broken(joint)) largest = std::max(largest, joint_gap(model, state, model.joints[joint]));
+    }
+    ASSERT_EQ(gaps.largest(state), largest) << "seed " << seed;
   }
 }
 

@@ -173,5 +173,39 @@ TEST(AllowedWork, of_a_joint_that_is_broken_is_nothing) {
   EXPECT_EQ(allowed_work(model, state, state, 0, 10, 0.01), 0);
 }
 
+TEST(AllowedWork, of_a_motor_follows_its_events) {
+  Model model = driven_rod(2);
+  model::Event stronger, off;
+  stronger.kind = off.kind = model::EventKind::motor;
+  stronger.joint = off.joint = 0;
+  stronger.step = 4;
+  stronger.motor = {.velocity = 5, .max_force = 3};
+  off.step = 8;
+  model.events = {stronger, off};
+  const State state = initial_state(model);
+  const auto work = [&](std::int64_t first_step) {
+    return allowed_work(model, state, state, first_step, 2, 0.01);
+  };
+  EXPECT_NEAR(work(2), 2 * 5 * 0.02, 1e-12) << "before the event";
+  EXPECT_NEAR(work(3), 3 * 5 * 0.02, 1e-12) << "the stronger of both counts";
+  EXPECT_NEAR(work(4), 3 * 5 * 0.02, 1e-12);
+  EXPECT_EQ(work(8), 0);
+}
+
+TEST(AllowedWork, of_a_steered_axis_is_that_of_its_lighter_body_at_its_speed) {
+  Model model = sprung_box();
+  model::Event steer;
+  steer.kind = model::EventKind::steer;
+  steer.joint = 0;
+  steer.step = 5;
+  steer.angle = 0.1;
+  model.events = {steer};
+  const State state = initial_state(model);
+  const double lighter = 10 * (1 + 1) / 12.0;  // the box, about any axis
+  EXPECT_EQ(allowed_work(model, state, state, 4, 1, 0.01), 0);
+  EXPECT_NEAR(allowed_work(model, state, state, 5, 1, 0.01), 0.5 * lighter * 10 * 10, 1e-9);
+  EXPECT_EQ(allowed_work(model, state, state, 6, 1, 0.01), 0) << "the angle is reached, and held";
+}
+
 }  // namespace
 }  // namespace pbmpi::stability

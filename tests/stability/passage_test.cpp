@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/random.h"
 #include "support/models.h"
 
 namespace pbmpi::stability {
@@ -139,6 +140,32 @@ TEST(Passage, of_a_body_whose_centre_is_outside_its_geoms_is_not_looked_for) {
     if (geom.body == 0) geom.local.position = Vec3(0, 0, 0.3);
   }
   EXPECT_FALSE(moved(model, 0, {0, 0, 1.5}, {0, 0, 0.5}));
+}
+
+/// What is tried of all bodies at once must hold of each: of a body much smaller and much larger as well.
+TEST(Passage, of_a_body_is_found_whatever_others_are_there) {
+  const Model model = ball_and_cube();
+  Model with_others = model;
+  const int actor = support::add_actor(with_others, "others");
+  support::add_solid(with_others, actor, "mote", Shape::sphere, {0.001}, 1, {50, 0, 9});
+  support::add_solid(with_others, actor, "rock", Shape::sphere, {5}, 1, {-50, 0, 9});
+  int num_found = 0;
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    const auto height = [&](std::uint64_t which) {
+      return -1.5 + 4 * core::to_unit(core::mix_key(seed, which, 0));
+    };
+    const int body = static_cast<int>(seed % 2);
+    const Vec3 from(body, 0, height(0)), to(body, 0, height(1));
+    const auto alone = moved(model, body, from, to), among_others = moved(with_others, body, from, to);
+    ASSERT_EQ(alone.has_value(), among_others.has_value()) << "seed " << seed;
+    if (!alone) continue;
+    ++num_found;
+    EXPECT_EQ(alone->body, among_others->body);
+    EXPECT_EQ(alone->through, among_others->through);
+    EXPECT_EQ(alone->beyond, among_others->beyond);
+  }
+  EXPECT_GT(num_found, 100);
+  EXPECT_LT(num_found, 400);
 }
 
 }  // namespace

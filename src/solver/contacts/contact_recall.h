@@ -19,11 +19,14 @@ class ContactRecall {
   void recall(std::span<const model::Contact> contacts, std::span<const model::ContactForce> before,
               Centre centre, Keeps keeps) {
     forces_.clear();
+    int body = model::no_body;  // whose centre is at hand: contacts of a body follow each other
+    model::Vec3 at = model::Vec3::Zero();
     for (const model::Contact& contact : contacts) {
+      if (contact.body_a != body) at = centre(body = contact.body_a);
       forces_.push_back({.geoms = contact.geoms,
                          .body_a = contact.body_a,
                          .body_b = contact.body_b,
-                         .arm = contact.position - centre(contact.body_a)});
+                         .arm = contact.position - at});
     }
     kept_.clear();
     for (const model::ContactForce& old : before) {

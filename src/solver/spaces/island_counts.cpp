@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "model/islands.h"
+#include "solver/parts/island_rows.h"
 
 namespace pbmpi::solver {
 
@@ -15,37 +15,29 @@ stepping::Observables count_islands(const model::Model& model, const model::Spac
                                     const effects::SpaceSleepers* sleepers) {
   const auto asleep = [&](int body) { return sleepers != nullptr && sleepers->asleep(body); };
   stepping::Observables counts;
-  model::DisjointSets sets(model.num_bodies());
-  std::vector<int> rows(model.bodies.size(), 0);
+  IslandRows island_rows;
+  island_rows.reset(model.num_bodies());
   for (const model::Contact& contact : contacts) {
-    if (contact.body_b != model::no_body) sets.unite(contact.body_a, contact.body_b);
-    rows[contact.body_a] += model::contact_rows(contact.mu);
+    island_rows.join(contact.body_a, contact.body_b);
+    island_rows.add(contact.body_a, model::contact_rows(contact.mu));
     counts.max_penetration_m = std::max(counts.max_penetration_m, contact.depth);
   }
+  std::vector<int> bodies;
   for (const int unit : units) {
     for (const int body : map.bodies_of_unit[unit]) {
-      if (asleep(body)) sets.unite(body, sleepers->island(body));
+      bodies.push_back(body);
+      if (asleep(body)) island_rows.join(body, sleepers->island(body));
     }
     for (const int index : articulations[unit].joints) {
       const std::optional<int> acting_rows = joint_rows(index);
       if (!acting_rows) continue;
       const model::Joint& joint = model.joints[index];
-      if (joint.body_b != model::no_body) sets.unite(joint.body_a, joint.body_b);
-      if (!asleep(joint.body_a)) rows[joint.body_a] += *acting_rows;
+      island_rows.join(joint.body_a, joint.body_b);
+      if (!asleep(joint.body_a)) island_rows.add(joint.body_a, *acting_rows);
     }
   }
-  std::vector<int> island_rows(rows.size(), 0);
-  for (const int unit : units) {
-    for (const int body : map.bodies_of_unit[unit]) {
-      const int island = sets.find(body);
-      counts.islands += island == body ? 1 : 0;
-      island_rows[island] += rows[body];
-      counts.rows += rows[body];
-      if (rows[body] > 0) counts.row_visits += static_cast<double>(rows[body]) * sweeps(body);
-    }
-  }
+  island_rows.count(bodies, sweeps, counts);
   counts.contacts = static_cast<int>(contacts.size());
-  counts.max_island_rows = *std::max_element(island_rows.begin(), island_rows.end());
   return counts;
 }
 

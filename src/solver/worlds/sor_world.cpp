@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "model/islands.h"
 #include "solver/pack/step_settings.h"
 #include "stepping/observable_table.h"
 
@@ -77,8 +76,10 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
       rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::whole, state_),
       narrow_phase_(make_narrow_phase(*model_)),
       remembers_(remembers(settings)),
-      shows_contacts_(settings.contacts) {
+      shows_contacts_(settings.contacts),
+      observer_(*model_) {
   if (shares_differ(settings)) shares_.emplace(*model_, settings);
+  for (const model::Joint& joint : model_->joints) jointed_.emplace_back(joint.body_a, joint.body_b);
   set_state(state, step);
 }
 
@@ -201,35 +202,24 @@ void SorWorld::keep_sleepers(model::State& state) const {
 
 void SorWorld::count_rows(const Pack& pack, int index, const PartedStep& step,
                           std::span<const model::Contact> contacts) {
-  links_.clear();
-  link_rows_.clear();
-  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
-    if (!state_.acted_in(step_ - 1, j)) continue;
-    links_.emplace_back(model_->joints[j].body_a, model_->joints[j].body_b);
-    const bool asleep = rules_.sleepers() != nullptr && state_.rest[model_->joints[j].body_a].asleep();
-    link_rows_.push_back(asleep ? 0 : step.joint_rows(pack, index, static_cast<int>(j)));
+  const bool may_sleep = rules_.sleepers() != nullptr;
+  island_rows_.reset(model_->num_bodies());
+  for (std::size_t joint = 0; joint < jointed_.size(); ++joint) {
+    if (!state_.acted_in(step_ - 1, joint)) continue;
+    const auto [body_a, body_b] = jointed_[joint];
+    island_rows_.join(body_a, body_b);
+    if (may_sleep && state_.rest[body_a].asleep()) continue;
+    island_rows_.add(body_a, step.joint_rows(pack, index, static_cast<int>(joint)));
   }
-  for (int body = 0; rules_.sleepers() != nullptr && body < model_->num_bodies(); ++body) {
-    if (!state_.rest[body].asleep()) continue;
-    links_.emplace_back(body, state_.rest[body].island());
-    link_rows_.push_back(0);
+  for (int body = 0; may_sleep && body < model_->num_bodies(); ++body) {
+    if (state_.rest[body].asleep()) island_rows_.join(body, state_.rest[body].island());
   }
   for (const model::Contact& contact : contacts) {
-    links_.emplace_back(contact.body_a, contact.body_b);
-    link_rows_.push_back(model::contact_rows(contact.mu));
+    island_rows_.join(contact.body_a, contact.body_b);
+    island_rows_.add(contact.body_a, model::contact_rows(contact.mu));
   }
-  const model::Islands islands = model::find_islands(model_->num_bodies(), links_);
-  island_rows_.assign(static_cast<std::size_t>(islands.count), 0);
-  observables_.rows = 0;
-  observables_.row_visits = 0;
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    const int body = links_[i].first;
-    island_rows_[static_cast<std::size_t>(islands.of_body[static_cast<std::size_t>(body)])] += link_rows_[i];
-    observables_.rows += link_rows_[i];
-    observables_.row_visits += static_cast<double>(link_rows_[i]) * step.sweeps(index, body);
-  }
-  observables_.islands = islands.count;
-  observables_.max_island_rows = *std::max_element(island_rows_.begin(), island_rows_.end());
+  island_rows_.count(
+      rules_.all_bodies(), [&](int body) { return step.sweeps(index, body); }, observables_);
 }
 
 /// While all of the pack sleeps there are no contacts, and the forces are those of an older step.
@@ -256,7 +246,7 @@ void SorWorld::observe(const Pack& pack, int index, const PartedStep& step,
   for (const model::Contact& contact : contacts) {
     observables_.max_penetration_m = std::max(observables_.max_penetration_m, contact.depth);
   }
-  stepping::observe_state(*model_, state_, observables_);
+  observer_.observe(state_, observables_);
 }
 
 }  // namespace pbmpi::solver

@@ -15,6 +15,7 @@
 #include "solver/contacts/contact_recall.h"
 #include "solver/layout/pack_laws.h"
 #include "solver/pack/pack.h"
+#include "solver/parts/island_rows.h"
 #include "solver/parts/parted_step.h"
 #include "stepping/motor_targets.h"
 #include "stepping/observables.h"
@@ -109,11 +110,13 @@ class SorWorld {
   std::optional<IslandShares> shares_;  ///< of a run in which they differ
   bool sorted_ = false;                 ///< are the islands, for the step at hand?
   model::State before_, after_;         ///< with shares: see PartedWorld
+  stepping::StateObserver observer_;
   stepping::Observables observables_;
-  stepping::StepContacts shown_;            ///< of the last step, if it is shown
-  bool moved_ = true;                       ///< since the last observe()
-  std::vector<std::pair<int, int>> links_;  ///< scratch of count_rows(), as what follows
-  std::vector<int> link_rows_, island_rows_;
+  stepping::StepContacts shown_;  ///< of the last step, if it is shown
+  bool moved_ = true;             ///< since the last observe()
+  /// [num_joints] The bodies that each joins, beside each other for count_rows().
+  std::vector<std::pair<int, int>> jointed_;
+  IslandRows island_rows_;  ///< scratch of count_rows()
 };
 
 }  // namespace pbmpi::solver

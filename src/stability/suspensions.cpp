@@ -1,0 +1,42 @@
+#include "stability/suspensions.h"
+
+#include "model/joint_traits.h"
+
+namespace pbmpi::stability {
+namespace {
+
+using model::State;
+using model::Vec3;
+
+Vec3 point_in_world(const State& state, int body, const Vec3& local) {
+  if (body == model::no_body) return local;
+  return state.position[body] + state.orientation[body].to_eigen() * local;
+}
+
+/// How far a suspension is from its rest [m].
+double travel_of(const Suspension& suspension, const State& state) {
+  const Vec3 axis = state.orientation[suspension.body_a].to_eigen() * suspension.axis;
+  return axis.dot(point_in_world(state, suspension.body_a, suspension.anchor_a) -
+                  point_in_world(state, suspension.body_b, suspension.anchor_b));
+}
+
+}  // namespace
+
+std::vector<Suspension> suspensions_of(const model::Model& model) {
+  std::vector<Suspension> all;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const model::Joint& joint = model.joints[i];
+    if (!traits_of(joint.kind).has_suspension() || joint.suspension.stiffness <= 0) continue;
+    all.push_back({i, joint.body_a, joint.body_b, joint.anchor_a, joint.anchor_b, joint.axis1_a,
+                   joint.suspension.stiffness});
+  }
+  return all;
+}
+
+double energy_of(const Suspension& suspension, const State& state) {
+  if (state.is_broken(suspension.joint)) return 0;
+  const double travel = travel_of(suspension, state);
+  return 0.5 * suspension.stiffness * travel * travel;
+}
+
+}  // namespace pbmpi::stability
