@@ -117,9 +117,9 @@ constexpr std::array<StepOption, 25> options = {{
     {.name = "contact-frequency",
      .member = &Settings::contact_frequency,
      .placeholder = "HZ",
-     .meaning =
-         "sor: contacts are springs of this frequency, at most 0.18 periods a substep; inf: as stiff as that; "
-         "0: they have the scene's ERP and CFM; default: inf",
+     .meaning = "sor: contacts are springs of this frequency, at most 0.18 periods a substep; inf: as stiff "
+                "as that; "
+                "0: they have the scene's ERP and CFM; default: inf",
      .needs = &Traits::tunes_sweeps,
      .allows = is_frequency,
      .limit = "a frequency is 0 or more, or inf",
@@ -168,7 +168,7 @@ constexpr std::array<StepOption, 25> options = {{
      .meaning =
          "sor: in a sweep joints are solved one after the other, or all of an articulation exactly, but "
          "for limits, motors and what closes loops; hanging: exactly where joints hold an articulation to "
-         "what does not move, without limits and motors; default: hanging",
+         "what does not move; default: hanging",
      .needs = &Traits::tunes_sweeps,
      .in_short = "joints by *"},
     {.name = "constraint-solver",

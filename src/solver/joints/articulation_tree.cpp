@@ -1,7 +1,5 @@
 #include "solver/joints/articulation_tree.h"
 
-#include <algorithm>
-
 namespace pbmpi::solver {
 
 ArticulationTree::ArticulationTree(const ArticulationShape& shape) {
@@ -13,9 +11,7 @@ ArticulationTree::ArticulationTree(const ArticulationShape& shape) {
     queue.push_back(node.body);
     if (node.body != shape.num_bodies) nodes.push_back(node);
   };
-  const bool hangs = std::ranges::any_of(
-      shape.joints, [&](const JointLink& link) { return link.body_b == shape.num_bodies; });
-  reach({.body = hangs ? shape.num_bodies : 0});
+  reach({.body = shape.hangs() ? shape.num_bodies : 0});
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const int body = queue[next];
     for (std::size_t joint = 0; joint < shape.joints.size(); ++joint) {

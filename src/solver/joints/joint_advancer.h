@@ -16,9 +16,16 @@ class JointAdvancer {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// As JointBuilder; carry: the share of a row's impulse with which its next impulse starts.
-  JointAdvancer(Scalar h, const JointErp<Scalar>& erp, Scalar cfm, Scalar sor_factor, Scalar carry)
-      : controls_(h, erp.places), erp_(erp), cfm_(cfm / h), inverse_factor_(1 / sor_factor), carry_(carry) {}
+  /// As JointBuilder; carry: the share of a row's impulse with which its next impulse starts; ahead_s: of
+  /// the substep to come.
+  JointAdvancer(Scalar h, const JointErp<Scalar>& erp, Scalar cfm, Scalar sor_factor, Scalar carry,
+                Scalar ahead_s)
+      : controls_(h, erp.turns),
+        erp_(erp),
+        cfm_(cfm / h),
+        inverse_factor_(1 / sor_factor),
+        carry_(carry),
+        ahead_s_(ahead_s) {}
 
   /// Before the bodies move on with the twists that they have.
   template <model::JointKind kind>
@@ -47,7 +54,7 @@ class JointAdvancer {
 
   ControlRules<T> controls_;
   JointErp<Scalar> erp_;
-  Scalar cfm_, inverse_factor_, carry_;
+  Scalar cfm_, inverse_factor_, carry_, ahead_s_;
 };
 
 template <class T>
@@ -81,8 +88,7 @@ template <model::JointKind kind>
 PBMPI_LANES void JointAdvancer<T>::rebuild(const JointLane<V>& joint, const BodyLanes<T>& bodies,
                                            JointRows<T, kind>& rows) const {
   for (PointRows<V>& row : rows.points)
-    build_point<T>(joint.terms, bodies.bodies[rows.slot_a], bodies.bodies[rows.slot_b],
-                   erp_.places / controls_.h(), row,
+    build_point<T>(joint.terms, bodies, rows.slot_a, rows.slot_b, erp_.places / controls_.h(), ahead_s_, row,
                    [&](const V& diagonal, const V& before) { return scale_of(diagonal, before); });
 }
 

@@ -16,9 +16,12 @@ class JointBuilder {
   using Scalar = typename T::Scalar;
   using L3 = Vec3L<V>;
 
-  /// goes_on: there are substeps after this one, so that what they start from is built, too.
-  JointBuilder(Scalar h, const JointErp<Scalar>& erp, Scalar cfm, Scalar sor_factor, bool goes_on)
-      : rules_(h, erp.places),
+  /// ahead_s: see build_point(). goes_on: there are substeps after this one, so that what they start from is
+  /// built, too.
+  JointBuilder(Scalar h, const JointErp<Scalar>& erp, Scalar cfm, Scalar sor_factor, Scalar ahead_s,
+               bool goes_on)
+      : ahead_s_(ahead_s),
+        rules_(h, erp.turns),
         rows_(erp.places / h, erp.turns / h, cfm / h, sor_factor),
         controls_(rules_, rows_, goes_on) {}
 
@@ -36,6 +39,7 @@ class JointBuilder {
   template <model::JointKind kind>
   void set_crossed_axes(JointLane<V>& joint, const Pair& pair, JointRows<T, kind>& rows) const;
 
+  Scalar ahead_s_;
   ControlRules<T> rules_;
   RowBuilder<T> rows_;
   ControlBuilder<T> controls_;
@@ -52,7 +56,7 @@ void JointBuilder<T>::build(JointLane<V>& joint, const BodyLanes<T>& bodies, Joi
   rows.inv_mass_a = pair.a.inv_mass;
   rows.inv_mass_b = pair.b.inv_mass;
   for (PointRows<V>& point : rows.points) {
-    build_point<T>(joint.terms, pair.a, pair.b, rows_.place_k(), point,
+    build_point<T>(joint.terms, bodies, joint.slot_a, joint.slot_b, rows_.place_k(), ahead_s_, point,
                    [&](const V& diagonal, const V&) { return rows_.factor() / (diagonal + rows_.cfm()); });
     point.impulse = {T::broadcast(0), T::broadcast(0), T::broadcast(0)};
   }

@@ -12,6 +12,7 @@ struct alignas(sizeof(V)) ControlState {
   V rhs, low, high;  ///< of the row
   V relaxed_rhs;     ///< of the row in sweeps that close no gap
   V push;            ///< of a motor that is at its limit: see Bounded
+  V at_limit;        ///< 1: a limit holds; 0: a motor drives
 };
 
 template <class T>
@@ -33,7 +34,7 @@ class ControlRules {
     const V bound = T::broadcast(static_cast<Scalar>(huge_bound));
     const V velocity = control.has_hold ? aim(control, place) : control.velocity;
     const V force = control.max_force * h_;
-    ControlState<V> state{velocity, -force, force, velocity, zero};
+    ControlState<V> state{velocity, -force, force, velocity, zero, zero};
     if (!T::any(at_low_flag + at_high_flag)) return state;
     const auto at_low = at_low_flag != zero;
     const auto at_high = at_high_flag != zero;
@@ -48,6 +49,7 @@ class ControlRules {
     const V push = velocity > zero ? -force : (velocity < zero ? force : at_rest);
     state.push = at_low ? push : (at_high ? push : zero);
     state.push = locked ? zero : state.push;
+    state.at_limit = at_low_flag + at_high_flag;
     return state;
   }
 
@@ -67,6 +69,7 @@ PBMPI_LANES void set_bounds(const ControlState<V>& state, Bounded<Row, V>& row) 
   row.high = state.high;
   row.relaxed_rhs = state.relaxed_rhs;
   row.push = state.push;
+  row.at_limit = state.at_limit;
 }
 
 }  // namespace pbmpi::solver

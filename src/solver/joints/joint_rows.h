@@ -43,6 +43,7 @@ struct alignas(sizeof(V)) Bounded {
   V low, high;    ///< bounds of its impulse [N s or N m s]
   V relaxed_rhs;  ///< in sweeps that close no gap: what a motor aims at
   V push;         ///< impulse of a motor that is at its limit, once a substep; acts on a against the axis
+  V at_limit;     ///< 1: a limit, which is a spring, holds; 0: a motor, which is none, drives
 };
 
 template <class T, model::JointKind kind>
@@ -74,7 +75,8 @@ PBMPI_LANES void for_each_single_row(Rows& rows, Visit visit) {
   }
 }
 
-/// The laws of a sweep over joints: of the rows that hold a place, and of those that hold a turn.
+/// The laws of a sweep over joints: of the rows that hold a place, and of those that hold a turn, or limit
+/// one or a way.
 template <class Scalar>
 struct JointLaws {
   RowLaw<Scalar> places, turns;
@@ -132,13 +134,13 @@ class JointSolver {
     Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
     for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
       if (!rows.control_on[i]) continue;
-      const auto& [row, low, high, relaxed_rhs, push] = rows.axis_controls[i];
+      const auto& [row, low, high, relaxed_rhs, push, at_limit] = rows.axis_controls[i];
       a.angular = a.angular - row.turn_a * push;
       b.angular = b.angular + row.turn_b * push;
     }
     for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
       if (!rows.control_on[i]) continue;
-      const auto& [row, low, high, relaxed_rhs, push] = rows.line_controls[i];
+      const auto& [row, low, high, relaxed_rhs, push, at_limit] = rows.line_controls[i];
       a.linear = a.linear - row.direction * (rows.inv_mass_a * push);
       a.angular = a.angular - row.turn_a * push;
       b.linear = b.linear + row.direction * (rows.inv_mass_b * push);
@@ -194,14 +196,12 @@ class JointSolver {
     for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
       if (!rows.control_on[i]) continue;
       auto& control = rows.axis_controls[i];
-      push(control.row, clamped(control, step_of(control.row, rhs_of(control), RowLaw<Scalar>{}, a, b)), a,
-           b);
+      push(control.row, controlled(control, a, b), a, b);
     }
     for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
       if (!rows.control_on[i]) continue;
       auto& control = rows.line_controls[i];
-      push(control.row, clamped(control, step_of(control.row, rhs_of(control), RowLaw<Scalar>{}, a, b)),
-           rows.inv_mass_a, rows.inv_mass_b, a, b);
+      push(control.row, controlled(control, a, b), rows.inv_mass_a, rows.inv_mass_b, a, b);
     }
   }
   PBMPI_LANES void solve_point(PointRows<V>& row, const V& inv_mass_a, const V& inv_mass_b, Twist<V>& a,
@@ -232,7 +232,7 @@ class JointSolver {
           row.rhs.z, row.scale.z, row.impulse.z, a.linear.z, b.linear.z, 2);
   }
 
-  /// A motor has a velocity to keep and a limit one side only: neither is a spring.
+  /// A motor has a velocity to keep, and none to take back.
   template <class Row>
   PBMPI_LANES V rhs_of(const Bounded<Row, V>& control) const {
     return bias() > 0 ? control.row.rhs : control.relaxed_rhs;
@@ -249,6 +249,16 @@ class JointSolver {
     return row.impulse +
            ((rhs - relative_speed(row, a, b) - row.cfm * row.impulse) * (row.scale * law.mass_share) -
             law.relief * row.impulse);
+  }
+  /// The impulse of a limit or motor after a Gauss-Seidel step on it. A limit gives way to what it carries
+  /// but for the push of its own motor: what both do to the bodies is nothing.
+  template <class Row>
+  PBMPI_LANES V controlled(const Bounded<Row, V>& control, const Twist<V>& a, const Twist<V>& b) const {
+    const V& impulse = control.row.impulse;
+    const V mass_share = 1 - control.at_limit * T::broadcast(1 - laws_.turns.mass_share);
+    const V relief = control.at_limit * T::broadcast(laws_.turns.relief);
+    const V rigid = step_of(control.row, rhs_of(control), RowLaw<Scalar>{}, a, b) - impulse;
+    return clamped(control, impulse + (rigid * mass_share - relief * (impulse - control.push)));
   }
   template <class Row>
   PBMPI_LANES static V clamped(const Bounded<Row, V>& control, const V& impulse) {

@@ -24,7 +24,7 @@ class JointTrees {
       : joints_(joints) {
     for (const LanePlaces::ShapePlace& at : shapes) {
       Shape& shape = shapes_.emplace_back(at.shape);
-      if (!at.shape.joints.empty() && (at.shape.hangs || !only_hanging))
+      if (!at.shape.joints.empty() && (at.shape.hangs() || !only_hanging))
         shape.trees.assign(static_cast<std::size_t>(at.num_batches), TreeSolver<T>(at.shape.num_bodies));
     }
   }

@@ -1,6 +1,5 @@
 #include "solver/layout/articulation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -63,33 +62,6 @@ JointTerms make_terms(const Model& model, const Joint& joint) {
   return terms;
 }
 
-/// [joints] 1: has a limit or a motor, or an event gives it one.
-std::vector<char> find_controlled_joints(const Model& model) {
-  std::vector<char> controlled;
-  for (const Joint& joint : model.joints) {
-    const bool is_controlled = joint.limits[0].active() || joint.limits[1].active() ||
-                               joint.motors[0].active() || joint.motors[1].active();
-    controlled.push_back(is_controlled ? 1 : 0);
-  }
-  for (const model::Event& event : model.events) {
-    if (event.kind == model::EventKind::motor || event.kind == model::EventKind::steer)
-      controlled[static_cast<std::size_t>(event.joint)] = 1;
-  }
-  return controlled;
-}
-
-void find_what_hangs(const Model& model, std::vector<Articulation>& articulations) {
-  const std::vector<char> controlled = find_controlled_joints(model);
-  for (Articulation& articulation : articulations) {
-    const ArticulationShape& shape = articulation.shape;
-    articulation.shape.hangs =
-        std::ranges::any_of(shape.joints,
-                            [&](const JointLink& link) { return link.body_b == shape.num_bodies; }) &&
-        std::ranges::none_of(articulation.joints,
-                             [&](int joint) { return controlled[static_cast<std::size_t>(joint)] != 0; });
-  }
-}
-
 }  // namespace
 
 std::vector<Articulation> find_articulations(const Model& model) {
@@ -114,7 +86,6 @@ std::vector<Articulation> find_articulations(const Model& model) {
     articulation.terms.push_back(make_terms(model, joint));
     articulation.joints.push_back(static_cast<int>(index));
   }
-  find_what_hangs(model, articulations);
   return articulations;
 }
 

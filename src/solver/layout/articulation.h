@@ -3,6 +3,7 @@
 /// joint.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <vector>
 
@@ -36,8 +37,11 @@ struct JointLink {
 /// differ.
 struct ArticulationShape {
   int num_bodies = 0;
-  bool hangs = false;  ///< on the static body, by joints of which none has a limit or a motor at any time
   std::vector<JointLink> joints;
+  /// Does a joint hold it to what does not move?
+  bool hangs() const {
+    return std::ranges::any_of(joints, [this](const JointLink& link) { return link.body_b == num_bodies; });
+  }
   bool operator==(const ArticulationShape&) const = default;
   auto operator<=>(const ArticulationShape&) const = default;
 };

@@ -135,7 +135,7 @@ void StepLanes<T>::start_step() {
 template <class T>
 void StepLanes<T>::start_substep() {
   if (parameters_.warm_start != 1) contacts_.carry(laws_.contacts());
-  const JointAdvancer<T> advancer = laws_.joint_advancer();
+  const JointAdvancer<T> advancer = laws_.joint_advancer(false);
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     if (passes_.gravity) motion_.apply_gravity(batch, laws_.h());
     worlds_.joints.restart(batch, advancer);
@@ -214,7 +214,7 @@ template <class T>
 template <bool last>
 void StepLanes<T>::end_substep() {
   if (!last || relaxes()) contacts_.advance(worlds_.bodies, laws_.contacts());
-  const JointAdvancer<T> advancer = laws_.joint_advancer();
+  const JointAdvancer<T> advancer = laws_.joint_advancer(last);
   const GyroscopicSlot<V>* turning = first_turning();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     if (!last) worlds_.joints.advance(batch, advancer, worlds_.bodies);

@@ -38,8 +38,13 @@ class StepLaws {
   const RowLaw<Scalar>& contact_law() const { return contact_law_; }
   const JointLaws<Scalar>& joint_laws() const { return joint_laws_; }
 
-  JointBuilder<T> joint_builder() const { return {h_, joint_erp_, joint_cfm_, sor_factor_, several_}; }
-  JointAdvancer<T> joint_advancer() const { return {h_, joint_erp_, joint_cfm_, sor_factor_, warm_start_}; }
+  JointBuilder<T> joint_builder() const {
+    return {h_, joint_erp_, joint_cfm_, sor_factor_, joints_ahead_s_, several_};
+  }
+  /// last: no substep comes after this one.
+  JointAdvancer<T> joint_advancer(bool last) const {
+    return {h_, joint_erp_, joint_cfm_, sor_factor_, warm_start_, last ? 0 : joints_ahead_s_};
+  }
   Scalar joint_cfm() const { return joint_cfm_ / h_; }  ///< divided by the step
   JointSolver<T> joint_solver(const JointLaws<Scalar>& laws) const { return {joint_cfm(), laws}; }
 
@@ -56,6 +61,7 @@ class StepLaws {
     const SpringStep turns(step.joint_turns, static_cast<double>(h_), length_of(step));
     joint_erp_ = {scalar(places.erp()), scalar(turns.erp())};
     joint_laws_ = {places.template law<Scalar>(), turns.template law<Scalar>()};
+    joints_ahead_s_ = h_ / 2;
   }
   void set_contacts(const PackLaws& laws, const Passes& passes, const StepParameters& step) {
     contacts_ = {.h = h_,
@@ -80,7 +86,8 @@ class StepLaws {
   Scalar h_;
   JointErp<Scalar> joint_erp_;
   Scalar joint_cfm_, sor_factor_, warm_start_;
-  bool several_;  ///< substeps
+  Scalar joints_ahead_s_ = 0;  ///< at which joints that are springs hold a place: see build_point()
+  bool several_;               ///< substeps
   JointLaws<Scalar> joint_laws_;
   RowLaw<Scalar> contact_law_;
   ContactParameters<Scalar> contacts_;

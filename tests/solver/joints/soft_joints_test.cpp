@@ -1,0 +1,109 @@
+/// Joints that are springs: what they hold of what turns fast, and what of what leans on a limit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/names.h"
+#include "solver/sor_run.h"
+#include "stepping/step_options.h"
+#include "support/models.h"
+
+namespace pbmpi::solver {
+namespace {
+
+using model::JointKind;
+using model::Model;
+using model::Vec3;
+
+stepping::StepperSettings settings_with(int substeps) {
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
+  settings.substeps = substeps;
+  return settings;
+}
+
+/// A bar that spins at 30 rad/s about its end, which a ball joint holds, without gravity.
+Model whirling_bar() {
+  Model model;
+  model.gravity.setZero();
+  const int actor = support::add_actor(model, "bar");
+  const int bar = support::add_solid(model, actor, "bar", model::Shape::box, {1, 0.1, 0.1}, 2, {0.5, 0, 0});
+  support::add_joint(model, JointKind::ball, bar, model::no_body, {0, 0, 0});
+  model.bodies[0].angular_velocity = {0, 0, 30};
+  model.bodies[0].velocity = {0, 15, 0};
+  return model;
+}
+
+/// [m] in its first second.
+double largest_gap_of_whirling_bar(int substeps) {
+  const auto stepper = make_stepper(settings_with(substeps), {whirling_bar()});
+  double gap_m = 0;
+  for (int step = 0; step < 100; ++step) {
+    advance(*stepper, 1);
+    gap_m = std::max(gap_m, stepper->observables(0).joint_gap_m);
+  }
+  return gap_m;
+}
+
+// Along the arms of a substep's start each substep would open a gap of second order, of which half a substep
+// leaves a quarter.
+TEST(SoftJoints, hold_what_whirls_to_third_order) {
+  double before_m = largest_gap_of_whirling_bar(6);
+  EXPECT_LT(before_m, 2e-3)
+      << "a substep turns the bar by 0.05 rad, so that its end is off by 1.25 mm by then";
+  for (const int substeps : {12, 24}) {
+    const double gap_m = largest_gap_of_whirling_bar(substeps);
+    EXPECT_GT(gap_m, 0);
+    EXPECT_LT(gap_m, before_m / 6) << substeps;
+    before_m = gap_m;
+  }
+}
+
+/// Bars that hang on the world one below the other, level at the start, by hinges that bend by 0.1 rad.
+Model bars_at_their_limits(int num_bars) {
+  Model model;
+  model.angular_damping = 2;
+  const int actor = support::add_actor(model, "bars");
+  for (int i = 0; i < num_bars; ++i) {
+    support::add_solid(model, actor, "bar" + std::to_string(i), model::Shape::box, {0.2, 0.05, 0.05}, 1,
+                       {0.1 + 0.2 * i, 0, 0});
+    support::add_joint(model, JointKind::hinge, i, i == 0 ? model::no_body : i - 1, {0.2 * i, 0, 0},
+                       Vec3::UnitY());
+    model.joints.back().limits[0] = {-0.1, 0.1};
+  }
+  return model;
+}
+
+// A limit that pushed as hard as it takes, and remembered it, would let all of them tremble.
+TEST(SoftJoints, rest_at_their_limits) {
+  for (const stepping::JointSolver solver : {stepping::JointSolver::hanging, stepping::JointSolver::tree}) {
+    stepping::StepperSettings settings = settings_with(12);
+    settings.joint_solver = solver;
+    const auto stepper = make_stepper(settings, {bars_at_their_limits(8)});
+    advance(*stepper, 1500);
+    for (int step = 0; step < 100; ++step) {
+      advance(*stepper, 1);
+      for (const Vec3& velocity : stepper->state(0).velocity) ASSERT_LT(velocity.norm(), 1e-3);
+    }
+    EXPECT_LT(stepper->state(0).position[7].z(), -0.5) << "they hang";
+  }
+}
+
+// What a motor pushes into its own limit acts on no body.
+TEST(SoftJoints, give_no_way_to_a_motor_that_pushes_into_its_limit) {
+  Model model;
+  model.gravity.setZero();
+  const int actor = support::add_actor(model, "door");
+  support::add_solid(model, actor, "door", model::Shape::box, {0.8, 0.05, 2}, 20, {0.4, 0, 0});
+  support::add_joint(model, JointKind::hinge, 0, model::no_body, {0, 0, 0}, Vec3::UnitZ());
+  model.joints[0].limits[0] = {-0.5, 0.5};
+  model.joints[0].motors[0] = {.velocity = 1, .max_force = 1e5};
+  const auto stepper = make_stepper(settings_with(12), {model});
+  advance(*stepper, 300);
+  const Vec3& place = stepper->state(0).position[0];
+  EXPECT_NEAR(std::abs(std::atan2(place.y(), place.x())), 0.5, 1e-3);
+  EXPECT_LT(stepper->state(0).angular_velocity[0].norm(), 1e-3);
+}
+
+}  // namespace
+}  // namespace pbmpi::solver
