@@ -148,7 +148,7 @@ void FastBodies::meet(const model::State& state, const Fast& fast, const core::V
   const core::Vec3 centre(fast.pose.position);
   const model::Geom& geom = model_->geoms[fast.geom];
   const auto entry = geometry::enter(model_->geoms[other], met_pose(state, other), centre, way);
-  if (!entry) return;
+  if (!entry || !rule_.may_touch(fast.geom, other)) return;
   const core::Vec3 hit = centre + entry->share * way;
   const double height = entry->normal.dot(centre - hit);
   const int other_body = model_->geoms[other].body;
@@ -175,18 +175,15 @@ void FastBodies::look_from(const model::State& state, const Fast& fast, const Ba
   const model::Geom& geom = model_->geoms[fast.geom];
   const core::Vec3 middle = centre + 0.5 * fast.reach;
   const double half = 0.5 * fast.reach.norm();
-  const auto look_at = [&](const core::Vec3& way, int other) {
-    if (rule_.may_touch(fast.geom, other)) meet(state, fast, way, other);
-  };
   const auto meet_if_near = [&](int index) {
     const Ball& ball = balls_[set.balls[index]];
     const int other = ball.geom;
     if (!accepts(other)) return;
     if (const int too = fast_of_geom_[other]; too >= 0) {
       const core::Vec3 way = with_front(geom, fast.pose, fast.way - fast_[too].way);
-      if (is_near(state, centre + 0.5 * way, 0.5 * way.norm(), ball)) look_at(way, other);
+      if (is_near(state, centre + 0.5 * way, 0.5 * way.norm(), ball)) meet(state, fast, way, other);
     } else if (is_near(state, middle, half, ball)) {
-      look_at(fast.reach, other);
+      meet(state, fast, fast.reach, other);
     }
   };
   // The front is within the geom's ball; the way of what is fast, too, is in its swept ball.

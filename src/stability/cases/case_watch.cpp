@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "geometry/geometry.h"
 #include "model/joint_gap.h"
-#include "model/mechanics.h"
 
 namespace pbmpi::stability {
 namespace {
@@ -45,8 +44,8 @@ Vec3 centre_of_mass(const model::Model& model, const State& state) {
 }
 
 /// Angular momentum about the centre of mass of all bodies.
-Vec3 spin(const model::Model& model, const State& state) {
-  return angular_momentum(model, state) - centre_of_mass(model, state).cross(linear_momentum(model, state));
+Vec3 spin(const model::Model& model, const model::Mechanics& mechanics, const State& state) {
+  return mechanics.angular_momentum - centre_of_mass(model, state).cross(mechanics.linear_momentum);
 }
 
 double quantity_of(const Expectation& expected, const State& start, const State& state, std::size_t body) {
@@ -85,13 +84,15 @@ CaseWatch::CaseWatch(const HardCase& hard_case, const model::Model& model, doubl
       watched_(watched_bodies(hard_case, model)),
       start_(model::initial_state(model)),
       before_(start_),
-      energy_gain_(model, dt_s) {
+      energy_gain_(model, dt_s),
+      mechanics_(model) {
   for (const Expectation& expected : case_->expectations)
     expected_body_.push_back(named_body(model, expected.body));
   now_.expected_off.assign(case_->expectations.size(), NAN);
-  start_energy_j_ = energy_j_ = model::mechanical_energy(model, start_);
-  start_momentum_ = linear_momentum(model, start_);
-  start_spin_ = spin(model, start_);
+  const model::Mechanics mechanics = mechanics_.measure(start_);
+  start_energy_j_ = energy_j_ = mechanics.energy_j;
+  start_momentum_ = mechanics.linear_momentum;
+  start_spin_ = spin(model, mechanics, start_);
   spin_scale_ = start_spin_.norm();
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     momentum_scale_ += model.bodies[i].mass_kg * start_.velocity[i].norm();
@@ -108,8 +109,9 @@ void CaseWatch::see(const State& state, const stepping::Observables& seen, std::
   if (before_step_ > 0) raise(Metric::penetration, seen.max_penetration_m);
   see_joints(state);
   see_bodies(state, time_s);
-  see_energy(state, model::mechanical_energy(*model_, state), step);
-  see_momentum(state);
+  const model::Mechanics mechanics = mechanics_.measure(state);
+  see_energy(state, mechanics.energy_j, step);
+  see_momentum(state, mechanics);
   see_expected(state, time_s);
   before_ = state;
   before_step_ = step;
@@ -165,10 +167,10 @@ void CaseWatch::see_energy(const State& state, double energy_j, std::int64_t ste
   raise(Metric::energy_change, share(std::abs(energy_j - start_energy_j_), std::abs(start_energy_j_)));
 }
 
-void CaseWatch::see_momentum(const State& state) {
+void CaseWatch::see_momentum(const State& state, const model::Mechanics& mechanics) {
   raise(Metric::linear_momentum,
-        share((linear_momentum(*model_, state) - start_momentum_).norm(), momentum_scale_));
-  raise(Metric::angular_momentum, share((spin(*model_, state) - start_spin_).norm(), spin_scale_));
+        share((mechanics.linear_momentum - start_momentum_).norm(), momentum_scale_));
+  raise(Metric::angular_momentum, share((spin(*model_, mechanics, state) - start_spin_).norm(), spin_scale_));
 }
 
 void CaseWatch::see_expected(const State& state, double time_s) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/mechanics.h"
 #include "model/model.h"
 #include "model/state.h"
 #include "stability/cases/hard_case.h"
@@ -40,7 +41,7 @@ class CaseWatch {
   void raise(Metric metric, double value);
   void see_bodies(const model::State& state, double time_s);
   void see_energy(const model::State& state, double energy_j, std::int64_t step);
-  void see_momentum(const model::State& state);
+  void see_momentum(const model::State& state, const model::Mechanics& mechanics);
   void see_joints(const model::State& state);
   void see_expected(const model::State& state, double time_s);
   void note_broken(double time_s);
@@ -54,6 +55,7 @@ class CaseWatch {
   std::int64_t before_step_ = 0;
   double start_energy_j_ = 0, energy_j_ = 0;
   EnergyGain energy_gain_;
+  model::MechanicsMeter mechanics_;
   model::GuardMemory memory_;
   model::Vec3 start_momentum_, start_spin_;
   double momentum_scale_ = 0, spin_scale_ = 0;
