@@ -18,8 +18,9 @@ PBMPI_LANES void recall_forces(const JointForceLane<typename T::V>& memory, cons
   for (auto& row : rows.axes) row.impulse = dot(row.axis, memory.torque) * h;
   const auto recall_control = [&](auto& controls) {
     for (std::size_t i = 0; i < controls.size(); ++i) {
-      auto& [row, low, high, relaxed_rhs, push, at_limit] = controls[i];
-      if (rows.control_on[i]) row.impulse = T::min(T::max(memory.control[i] * h, low), high);
+      if (!rows.control_on[i]) continue;
+      auto& control = controls[i];
+      control.row.impulse = T::min(T::max(memory.control[i] * h, control.low), control.high);
     }
   };
   recall_control(rows.axis_controls);

@@ -134,13 +134,15 @@ class JointSolver {
     Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
     for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
       if (!rows.control_on[i]) continue;
-      const auto& [row, low, high, relaxed_rhs, push, at_limit] = rows.axis_controls[i];
+      const AxisRow<V>& row = rows.axis_controls[i].row;
+      const V& push = rows.axis_controls[i].push;
       a.angular = a.angular - row.turn_a * push;
       b.angular = b.angular + row.turn_b * push;
     }
     for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
       if (!rows.control_on[i]) continue;
-      const auto& [row, low, high, relaxed_rhs, push, at_limit] = rows.line_controls[i];
+      const LineRow<V>& row = rows.line_controls[i].row;
+      const V& push = rows.line_controls[i].push;
       a.linear = a.linear - row.direction * (rows.inv_mass_a * push);
       a.angular = a.angular - row.turn_a * push;
       b.linear = b.linear + row.direction * (rows.inv_mass_b * push);

@@ -29,11 +29,10 @@ void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector
     result.row_visits += seen.row_visits;
     raise(result.max_joint_gap_m, seen.joint_gap_m);
     raise(result.max_penetration_m, seen.max_penetration_m);
-    raise(result.energy_change_j,
-          std::abs(seen.energy_j - model::mechanical_energy(*worlds[i], reference[i])));
-    raise(result.momentum_change_ns,
-          (model::linear_momentum(*worlds[i], state) - model::linear_momentum(*worlds[i], reference[i]))
-              .norm());
+    const model::MechanicsMeter meter(*worlds[i]);
+    const model::Mechanics wanted = meter.measure(reference[i]);
+    raise(result.energy_change_j, std::abs(seen.energy_j - wanted.energy_j));
+    raise(result.momentum_change_ns, (meter.measure(state).linear_momentum - wanted.linear_momentum).norm());
     const auto segments = analysis::human_segments(*worlds[i]);
     for (const double stretch : analysis::segment_stretch(*worlds[i], segments, view(state))) {
       raise(result.max_stretch, stretch);
