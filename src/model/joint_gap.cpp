@@ -8,10 +8,6 @@
 namespace pbmpi::model {
 namespace {
 
-inline Pose pose_of(const State& state, int body) {
-  return body == no_body ? Pose{} : Pose{state.position[body], state.orientation[body]};
-}
-
 Pose start_of(const Model& model, int body) { return body == no_body ? Pose{} : model.bodies[body].pose; }
 
 HeldPoint held_point(const Model& model, const Joint& joint) {
@@ -53,7 +49,7 @@ Vec3 joint_gap_vector_in_a(const Model& model, const Joint& joint, const Pose& a
 }
 
 double joint_gap(const Model& model, const State& state, const Joint& joint) {
-  return joint_gap_vector(model, joint, pose_of(state, joint.body_a), pose_of(state, joint.body_b)).norm();
+  return joint_gap_vector(model, joint, state.pose(joint.body_a), state.pose(joint.body_b)).norm();
 }
 
 JointGaps::JointGaps(const Model& model) {
@@ -67,7 +63,7 @@ double JointGaps::largest(const State& state) const {
   for (std::size_t i = 0; i < held_.size(); ++i) {
     if (state.is_broken(i)) continue;
     const HeldPoint& held = held_[i];
-    const Vec3 gap = gap_vector(held, pose_of(state, held.body_a), pose_of(state, held.body_b));
+    const Vec3 gap = gap_vector(held, state.pose(held.body_a), state.pose(held.body_b));
     square = std::max(square, gap.squaredNorm());
   }
   return std::sqrt(square);

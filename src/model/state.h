@@ -48,6 +48,8 @@ struct State {
 
   int num_bodies() const { return static_cast<int>(position.size()); }
   void resize(int num_bodies);
+  /// The frame of a body; the world's of no_body.
+  Pose pose(int body) const { return body == no_body ? Pose{} : Pose{position[body], orientation[body]}; }
   bool is_broken(std::size_t joint) const { return !broken_in.empty() && broken_in[joint] != unbroken; }
   /// Did the joint act in this step, given that the state is that after it?
   bool acted_in(std::int64_t step, std::size_t joint) const {

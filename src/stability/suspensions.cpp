@@ -8,16 +8,11 @@ namespace {
 using model::State;
 using model::Vec3;
 
-Vec3 point_in_world(const State& state, int body, const Vec3& local) {
-  if (body == model::no_body) return local;
-  return state.position[body] + state.orientation[body].to_eigen() * local;
-}
-
 /// How far a suspension is from its rest [m].
 double travel_of(const Suspension& suspension, const State& state) {
-  const Vec3 axis = state.orientation[suspension.body_a].to_eigen() * suspension.axis;
-  return axis.dot(point_in_world(state, suspension.body_a, suspension.anchor_a) -
-                  point_in_world(state, suspension.body_b, suspension.anchor_b));
+  const model::Pose a = state.pose(suspension.body_a), b = state.pose(suspension.body_b);
+  const Vec3 axis = a.direction_to_outer(suspension.axis);
+  return axis.dot(a.point_to_outer(suspension.anchor_a) - b.point_to_outer(suspension.anchor_b));
 }
 
 }  // namespace
