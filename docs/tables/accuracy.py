@@ -17,10 +17,10 @@ def defect(case):
 def crashwa():
     """Defects of some settings in CrashWa, and what they cost without a clock: visits of rows."""
     wanted = (("quick", False, 1, 1), ("quick", False, 1, 20), ("quick", False, 1, 80), ("sor", True, 1, 1), ("sor", True, 1, 20),
-              ("sor", True, 1, 80), *(("sor", False, substeps, 1) for substeps in (1, 3, 6, 12, 24)))
+              ("sor", True, 1, 80), *(("sor", False, substeps, 1) for substeps in (1, 3, 7, 14, 28)))
     with programs.Folder() as folder:
         cases, _ = programs.accuracy_cases(folder, ["CrashWa"], "--precision", "double", "--iterations", "1", "20", "80",
-                                           "--substeps", "1", "3", "6", "12", "24", "--max-sweeps", "80", *ONLY_SETTINGS,
+                                           "--substeps", "1", "3", "7", "14", "28", "--max-sweeps", "80", *ONLY_SETTINGS,
                                            *QUICK_TO_MEASURE)
     found = {(case["stepper"], programs.is_cold(case), case["substeps"], case["iterations"]): case for case in cases
              if case["kind"] == "setting" and case["dt"] == 0.01}
@@ -78,7 +78,7 @@ def least_defect():
     """The least defect of each kind of setting within the time of the paper's estimate, quick with one iteration."""
     with programs.Folder() as folder:
         cases, _ = programs.accuracy_cases(folder, programs.SCENES, "--iterations", "1", "2", "3", "5", "10", "20", "40", "80",
-                                           "--substeps", "1", "3", "6", "12", *ONLY_SETTINGS, "--repeats", "3", "--floor-seeds",
+                                           "--substeps", "1", "3", "7", "14", *ONLY_SETTINGS, "--repeats", "3", "--floor-seeds",
                                            "1")
     columns = [least_defects([case for case in cases if case["scene"] == scene and case["kind"] == "setting"])
                for scene in programs.SCENES]

@@ -4,7 +4,7 @@ import json
 
 from tables import programs, stability
 
-SETTINGS = ("--iterations", "5", "20", "80", "--substeps", "1", "12", "--max-sweeps", "80", "--dt", "0.01", "--estimates", "0", "--precision", "double",
+SETTINGS = ("--iterations", "5", "20", "80", "--substeps", "1", "14", "--max-sweeps", "80", "--dt", "0.01", "--estimates", "0", "--precision", "double",
             "--reference-check", "0", "--reference-most-iterations", "10240", "--own-most-iterations", "2560", "--floor-seeds", "1", "--repeats", "3",
             "--frames", "2", "--rest-seconds", "1", "--progress", "never", "--quiet")
 ALL = ("quick", "direct", "sor", "bullet", "mujoco")

@@ -106,7 +106,7 @@ def is_cold(case):
 
 
 def setting_name(case):
-    """As the pages call a setting: `quick` 1 x 20, `sor` single 12 x 1, `sor` cold single 1 x 20."""
+    """As the pages call a setting: `quick` 1 x 20, `sor` single 14 x 1, `sor` cold single 1 x 20."""
     kind = "`quick`" if case["stepper"] == "quick" else f"`sor` {'cold ' if is_cold(case) else ''}{case['precision']}"
     return f"{kind}, {case['substeps']:.0f} x {case['iterations']:.0f}"
 

@@ -52,7 +52,7 @@ def by_step():
             for case in found:
                 verdicts = {cell["dt_s"]: cell["verdict"] for cell in case["results"]}
                 rows[case["scene"]] += [largest_step(verdicts, ("pass",)), largest_step(verdicts, ("pass", "degraded"))]
-    head = ["case", "`quick`: right up to", "not broken up to", "`sor` double, 12 x 1: right up to", "not broken up to"]
+    head = ["case", "`quick`: right up to", "not broken up to", "`sor` double, 14 x 1: right up to", "not broken up to"]
     return programs.table(head, rows.values())
 
 
@@ -107,7 +107,7 @@ def at_equal_time():
     """What more substeps of `sor` hold, beside ODE, and the median of the ratios of their times of a step."""
     settings = ["quick", "sor cold", "sor cold iterations=80", "sor iterations=2"]
     settings += [f"sor precision={precision} substeps={substeps}"
-                 for precision in ("double", "single") for substeps in (4, 8, 12, 16)]
+                 for precision in ("double", "single") for substeps in (4, 8, 14, 20)]
     with programs.Folder() as folder:
         found = cases(folder, "--setting", *settings, "--most-work", "300000")
     found = [case for case in found if case["results"][0]["verdict"] != "n/a"]

@@ -53,7 +53,7 @@ constexpr std::array<StepOption, 25> options = {{
     {.name = "substeps",
      .member = &Settings::substeps,
      .placeholder = "N",
-     .meaning = "sor: parts of a step that share its collision detection; default: 12",
+     .meaning = "sor: parts of a step that share its collision detection; default: 14",
      .needs = &Traits::has_substeps,
      .allows = at_least_1,
      .limit = "it must be at least 1"},
@@ -146,9 +146,8 @@ constexpr std::array<StepOption, 25> options = {{
     {.name = "joint-frequency",
      .member = &Settings::joint_frequency,
      .placeholder = "HZ",
-     .meaning =
-         "sor: as --contact-frequency, of joints; rows that hold a turn have up to 0.25 periods a substep; "
-         "default: inf",
+     .meaning = "sor: as --contact-frequency, of joints; rows that hold a place have up to 0.2 periods "
+                "a substep, those that hold a turn 0.25; default: inf",
      .needs = &Traits::tunes_sweeps,
      .allows = is_frequency,
      .limit = "a frequency is 0 or more, or inf",
@@ -157,7 +156,8 @@ constexpr std::array<StepOption, 25> options = {{
     {.name = "joint-damping",
      .member = &Settings::joint_damping,
      .placeholder = "RATIO",
-     .meaning = "sor: damping ratio of joints that are springs; default: 3",
+     .meaning =
+         "sor: damping ratio of joints that are springs, of those solved exactly at most 0.7; default: 3",
      .needs = &Traits::tunes_sweeps,
      .allows = is_length,
      .limit = "a damping ratio is above 0, and finite",
@@ -339,7 +339,7 @@ StepperSettings default_settings(StepperKind kind) {
   settings.kind = kind;
   if (traits_of(kind).own_iterations > 0) settings.iterations = traits_of(kind).own_iterations;
   if (!traits_of(kind).tunes_sweeps) return settings;
-  settings.substeps = 12;
+  settings.substeps = 14;
   settings.relax = 1;
   settings.sor_factor = 1;
   settings.warm_start = 1;

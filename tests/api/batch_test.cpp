@@ -219,10 +219,10 @@ TEST(Batch, shows_the_state_of_each_body_of_each_world) {
   EXPECT_NE(state.position[0], state.position[4 * 3]) << "balls begin elsewhere in each world";
   const double height = state.position[2];
   batch.step(10);
-  // Free fall over n = 120 substeps of h = dt / 12, each of which moves with its new velocity: g h^2 n (n +
+  // Free fall over n = 140 substeps of h = dt / 14, each of which moves with its new velocity: g h^2 n (n +
   // 1) / 2.
-  constexpr double h = 0.01 / 12;
-  const double fall = 9.81 * h * h * 120 * 121 / 2;
+  constexpr double h = 0.01 / 14;
+  const double fall = 9.81 * h * h * 140 * 141 / 2;
   EXPECT_EQ(state.position[2], height) << "the arrays are refreshed by state() only";
   EXPECT_NEAR(batch.state().position[2], height - fall, 1e-12);
 }

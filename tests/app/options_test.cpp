@@ -115,7 +115,7 @@ TEST(Options, sor_starts_with_the_step_that_has_a_memory) {
     EXPECT_TRUE(is_default(option, sor)) << option.name;
     EXPECT_TRUE(is_default(option, quick)) << option.name;
   }
-  EXPECT_EQ(sor.substeps, 12);
+  EXPECT_EQ(sor.substeps, 14);
   EXPECT_EQ(sor.warm_start, 1);
   EXPECT_EQ(quick.substeps, 1);
 }
@@ -142,7 +142,7 @@ TEST(Options, feec_looks_at_the_precise_solve_where_it_is_the_only_one_of_a_fram
   };
   EXPECT_EQ(source({"--substeps", "1"}), EstimateSource::same_solve);
   EXPECT_EQ(source({"--substeps", "1", "--estimate-iterations", "20"}), EstimateSource::same_solve);
-  EXPECT_EQ(source({}), EstimateSource::short_run) << "12 substeps";
+  EXPECT_EQ(source({}), EstimateSource::short_run) << "14 substeps";
   for (const std::vector<std::string>& other : {std::vector<std::string>{"--estimate-iterations", "21"},
                                                 {"--estimate-stepper", "quick"},
                                                 {"--estimate-precision", "single"}}) {

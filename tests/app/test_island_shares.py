@@ -55,7 +55,7 @@ class IslandShares(ProgramTest):
         self.assertIn("--warm-start", result.stderr)
 
     def test_the_file_says_how_much_work_was_done(self):
-        sweeps = 12 * (1 + 1)
+        sweeps = 14 * (1 + 1)
         for cut in ("worlds", "spaces"):
             self.summary(2, *RUN, *TOLERANCE, "--decompose", cut, "--output", f"{cut}.h5")
         self.summary(1, *RUN, "--output", "all.h5")
@@ -78,7 +78,7 @@ class IslandShares(ProgramTest):
             with h5py.File(self.path(f"{sag}.h5")) as file:
                 visits, rows, gap = (file[f"observables/world/{name}"][-20:, 0] for name in ("row_visits", "rows", "joint_gap"))
                 largest[sag] = gap.max()
-                self.assertTrue((visits == (12 if sag == "0" else 32) * (1 + 1) * rows).all())
+                self.assertTrue((visits == (14 if sag == "0" else 32) * (1 + 1) * rows).all())
                 self.assertAlmostEqual(file["parameters/sag"][()], 0 if sag == "0" else 2e-4, 15)
         self.assertLess(largest["0.2mm"], largest["0"] / 3)
 

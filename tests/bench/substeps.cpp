@@ -26,7 +26,7 @@ constexpr int num_rounds = 5;
 constexpr Setting settings[] = {
     {"cold 1 x 20", true, 1, 20, 0}, {"cold 5 x 3", true, 5, 3, 0}, {"1 x 1", false, 1, 1, 1},
     {"2 x 1", false, 2, 1, 1},       {"4 x 1", false, 4, 1, 1},     {"8 x 1", false, 8, 1, 1},
-    {"12 x 1", false, 12, 1, 1},     {"16 x 1", false, 16, 1, 1},   {"12 x 1, no memory", false, 12, 1, 0}};
+    {"14 x 1", false, 14, 1, 1},     {"16 x 1", false, 16, 1, 1},   {"14 x 1, no memory", false, 14, 1, 0}};
 
 stepping::StepperSettings settings_of(const Setting& setting, stepping::Precision precision) {
   stepping::StepperSettings stepper;

@@ -83,7 +83,7 @@ class Arrays(unittest.TestCase):
 
     def test_a_body_falls_as_it_should(self):
         # Semi-implicit Euler in substeps of h from rest: z = -g h^2 n (n + 1) / 2 after n substeps.
-        h, n = 0.01 / 12, 12 * 30
+        h, n = 0.01 / 14, 14 * 30
         start = self.batch.position[0, 1, 2]
         self.batch.step(30)
         self.assertAlmostEqual(self.batch.position[0, 1, 2] - start, -9.81 * h * h * n * (n + 1) / 2, places=9)

@@ -75,7 +75,7 @@ TEST(StepOptions, shown_defaults_are_values) {
 TEST(StepOptions, of_sor_have_a_memory_by_default_and_a_text_names_what_differs) {
   StepperSettings sor = default_settings(StepperKind::sor);
   EXPECT_GT(sor.warm_start, 0);
-  EXPECT_EQ(setting_text(sor), "sor double, 12 x 1");
+  EXPECT_EQ(setting_text(sor), "sor double, 14 x 1");
   sor.contact_frequency = 60;
   sor.substeps = 4;
   EXPECT_EQ(setting_text(sor), "sor double, 4 x 1, contacts 60 Hz");

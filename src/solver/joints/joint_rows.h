@@ -80,8 +80,9 @@ PBMPI_LANES void for_each_single_row(Rows& rows, Visit visit) {
 template <class Scalar>
 struct JointLaws {
   RowLaw<Scalar> places, turns;
+  Scalar exact_bias = 1;  ///< RowLaw::bias of rows that are solved exactly, which have no relief
 
-  static JointLaws relaxing() { return {RowLaw<Scalar>::relaxing(), RowLaw<Scalar>::relaxing()}; }
+  static JointLaws relaxing() { return {RowLaw<Scalar>::relaxing(), RowLaw<Scalar>::relaxing(), 0}; }
 };
 
 /// ERP of the same, in a substep.
@@ -100,8 +101,8 @@ class JointSolver {
   /// cfm [s/kg] of the joints, divided by the step; laws: of this sweep.
   JointSolver(Scalar cfm, const JointLaws<Scalar>& laws) : cfm_(cfm), laws_(laws) {}
 
-  /// What a sweep asks for of the speed that closes gaps: all, or nothing.
-  Scalar bias() const { return laws_.places.bias; }
+  /// What an exact solve asks for of the speed with which the rows close gaps.
+  Scalar exact_bias() const { return laws_.exact_bias; }
 
   /// Rows in ODE's order, place before angles before limits and motors; places_last: the other way round.
   template <bool places_last, model::JointKind kind>
@@ -237,7 +238,7 @@ class JointSolver {
   /// A motor has a velocity to keep, and none to take back.
   template <class Row>
   PBMPI_LANES V rhs_of(const Bounded<Row, V>& control) const {
-    return bias() > 0 ? control.row.rhs : control.relaxed_rhs;
+    return laws_.turns.bias > 0 ? control.row.rhs : control.relaxed_rhs;
   }
   /// The impulse of a row after a Gauss-Seidel step on it, before bounds.
   PBMPI_LANES V step_of(const AxisRow<V>& row, const V& rhs, const RowLaw<Scalar>& law, const Twist<V>& a,

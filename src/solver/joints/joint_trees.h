@@ -111,7 +111,7 @@ template <class T>
 void JointTrees<T>::solve(const JointSolver<T>& solver, BodyLanes<T>& bodies) {
   for_each_tree([&](const Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
     sweep_others(solver, shape, batch, bodies);
-    solve_tree(solver.bias(), shape, tree, batch, bodies);
+    solve_tree(solver.exact_bias(), shape, tree, batch, bodies);
   });
 }
 

@@ -33,8 +33,8 @@ class TreeSolver {
     own.mass.factor(own.sum);
   }
 
-  // A solve: start_solve(); up() children before parents; root(); down() parents before children. bias: 1, or
-  // 0 where what has opened is left open.
+  // A solve: start_solve(); up() children before parents; root(); down() parents before children. bias: of
+  // the right-hand sides; 0 where what has opened is left open.
   void start_solve() {
     for (Node& node : nodes_) {
       for (V& f : node.force) f = T::broadcast(0);

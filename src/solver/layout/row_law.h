@@ -11,7 +11,11 @@ namespace pbmpi::solver {
 /// few sweeps have not found yet: walls and columns begin to tremble, chains and limits to swing up. The
 /// values are those that hold most of scenes/hard (docs/stability.md). Rows that hold how a joint turns its
 /// bodies bear more than those that hold a place.
-inline constexpr double most_contact_periods = 0.18, most_place_periods = 0.18, most_turn_periods = 0.25;
+inline constexpr double most_contact_periods = 0.18, most_place_periods = 0.2, most_turn_periods = 0.25;
+
+/// The damping ratio of joints that are solved exactly, if that of the run is larger. They lean on no force
+/// that has not been found.
+inline constexpr double most_exact_damping = 0.7;
 
 /// A constraint as a damped spring between bodies, whatever their masses.
 struct Spring {

@@ -1,6 +1,8 @@
 /// The numbers by which the rows of a step are built and swept.
 #pragma once
 
+#include <algorithm>
+
 #include "solver/contacts/contact_rows.h"
 #include "solver/joints/joint_advancer.h"
 #include "solver/joints/joint_builder.h"
@@ -60,7 +62,11 @@ class StepLaws {
     const SpringStep places(step.joint_places, static_cast<double>(h_), length_of(step));
     const SpringStep turns(step.joint_turns, static_cast<double>(h_), length_of(step));
     joint_erp_ = {scalar(places.erp()), scalar(turns.erp())};
-    joint_laws_ = {places.template law<Scalar>(), turns.template law<Scalar>()};
+    Spring exact = step.joint_places;
+    exact.damping_ratio = std::min(exact.damping_ratio, most_exact_damping);
+    const SpringStep exact_places(exact, static_cast<double>(h_), length_of(step));
+    joint_laws_ = {places.template law<Scalar>(), turns.template law<Scalar>(),
+                   scalar(exact_places.erp() / places.erp())};
     joints_ahead_s_ = h_ / 2;
   }
   void set_contacts(const PackLaws& laws, const Passes& passes, const StepParameters& step) {

@@ -114,9 +114,9 @@ TEST(AccuracyCases, frames_are_estimated_after_each_number_of_their_steps) {
   EXPECT_EQ(run.estimate->source, EstimateSource::short_run);
   EXPECT_EQ(run.sweeps_a_frame(), 20 + 2 * 2);
   const AccuracyCase& remembers = *found.at({stepping::StepperKind::sor, 1, 2});
-  EXPECT_EQ(remembers.estimate->source, EstimateSource::short_run) << "12 substeps are no single solve";
+  EXPECT_EQ(remembers.estimate->source, EstimateSource::short_run) << "14 substeps are no single solve";
   EXPECT_EQ(remembers.estimate->stepper.substeps, 2) << "a sixth";
-  EXPECT_EQ(remembers.sweeps_a_frame(), 2 * 24 + 2 * 3);
+  EXPECT_EQ(remembers.sweeps_a_frame(), 2 * 28 + 2 * 3);
   EXPECT_EQ(count(cases_of(options_of({"--stepper", "direct"})), CaseKind::estimate), 0);
 }
 
@@ -300,7 +300,7 @@ std::vector<AccuracyCase> own_cases_of(const std::vector<std::string>& args) {
 
 TEST(OwnSolution, is_shared_by_all_settings_that_solve_the_same_equations) {
   const auto cases =
-      own_cases_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20", "--substeps", "1", "12",
+      own_cases_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20", "--substeps", "1", "14",
                     "--precision", "double", "single", "--floor-seeds", "3"});
   // At two lengths of the step: quick, direct, and sor cold and with springs in one and in twelve substeps.
   EXPECT_EQ(count(cases, CaseKind::own), 2 * (1 + 1 + 2 * 2));
@@ -311,7 +311,7 @@ TEST(OwnSolution, is_shared_by_all_settings_that_solve_the_same_equations) {
     seeds.insert(one.stepper.seed);
     EXPECT_EQ(one.stepper.dt_s, 0.01) << "at the scene's step";
     if (one.stepper.kind == stepping::StepperKind::sor) {
-      EXPECT_EQ(one.stepper.substeps, 12);
+      EXPECT_EQ(one.stepper.substeps, 14);
       EXPECT_GT(one.stepper.relax, 0) << "of sor as it is by default";
     }
   }
@@ -327,11 +327,11 @@ TEST(OwnSolution, keeps_what_is_solved_and_not_how) {
   setting.precision = stepping::Precision::single;
   setting.sor_factor = 1.7;
   setting.warm_start = 0.5;
-  const stepping::StepperSettings own = own_settings(setting, 1200);
+  const stepping::StepperSettings own = own_settings(setting, 1400);
   EXPECT_EQ(own.contact_frequency, 60);
   EXPECT_EQ(own.sag_m, 1e-3) << "stiffer springs are another model";
-  EXPECT_EQ(own.substeps, 12);
-  EXPECT_EQ(own.iterations, 100) << "twelve substeps share them";
+  EXPECT_EQ(own.substeps, 14);
+  EXPECT_EQ(own.iterations, 100) << "14 substeps share them";
   EXPECT_EQ(own.relax, 100);
   EXPECT_EQ(own.tolerance_m, 0) << "fewer substeps save work";
   EXPECT_EQ(own.precision, stepping::Precision::double_);

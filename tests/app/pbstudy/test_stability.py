@@ -67,12 +67,12 @@ class Stability(ProgramTest):
     def test_a_world_in_two_spaces_has_the_numbers_of_the_whole(self):
         self.made(1, "study.h5", "--scene", "hard/rest/column10", "--setting", "sor", "sor cut")
         cells = self.cells("study.h5")
-        whole, cut = (cells["hard/rest/column10", f"sor double, 12 x 1{text}"] for text in ("", ", in two spaces"))
+        whole, cut = (cells["hard/rest/column10", f"sor double, 14 x 1{text}"] for text in ("", ", in two spaces"))
         self.assertEqual(whole["metrics"], cut["metrics"])
         self.assertEqual(whole["broken_at_s"], cut["broken_at_s"])
 
     def test_what_an_oracle_says_is_judged_by_the_distance_from_it(self):
-        # Substeps h = 0.01 s / 12: semi-implicit ones fall g h t / 2 = 0.0041 m further than 4.905 m.
+        # Substeps h = 0.01 s / 14: semi-implicit ones fall g h t / 2 = 0.0035 m further than 4.905 m.
         self.write("right.toml", FALLING.format(value=15.095))
         self.write("wrong.toml", FALLING.format(value=14.5))
         self.write("absurd.toml", FALLING.format(value=0))
@@ -80,8 +80,8 @@ class Stability(ProgramTest):
         cells = {name: cell for (name, _), cell in self.cells("study.h5").items()}
         self.assertEqual([cells[name]["verdict"] for name in ("right", "wrong", "absurd")], ["pass", "degraded", "broken"])
         self.assertEqual(cells["wrong"]["decided_by"], "ball.z")
-        self.assertAlmostEqual(cells["right"]["value"], 0.0041, delta=0.0001)
-        self.assertAlmostEqual(cells["wrong"]["value"], 0.5909, delta=0.0001)
+        self.assertAlmostEqual(cells["right"]["value"], 0.0035, delta=0.0001)
+        self.assertAlmostEqual(cells["wrong"]["value"], 0.5915, delta=0.0001)
 
     def test_a_step_of_another_length_is_a_setting(self):
         self.made(1, "study.h5", "--scene", "hard/free/tumbling_box", "--setting", "quick", "--dt", "0.01", "0.001")
@@ -134,8 +134,8 @@ class Stability(ProgramTest):
         closed = self.drawn("page.html")
         self.assertEqual(len(re.findall(r'<button type="button" id="field-', closed)), 3 * 2)
         self.assertRegex(closed, r'<section[^>]*id="replay"[^>]*hidden')
-        opened = self.drawn("page.html#case=hard/rest/column10&setting=sor double, 12 x 1")
-        self.assertIn("hard/rest/column10, sor double, 12 x 1: pass", opened)
+        opened = self.drawn("page.html#case=hard/rest/column10&setting=sor double, 14 x 1")
+        self.assertIn("hard/rest/column10, sor double, 14 x 1: pass", opened)
         self.assertEqual(len(re.findall(r'aria-label="[^"$]+ over time"', opened)), 4, "energy, gap, contact, drift")
         self.assertNotRegex(opened, r'<section[^>]*id="replay"[^>]*hidden')
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "model/names.h"
 #include "solver/sor_run.h"
@@ -57,6 +58,37 @@ TEST(SoftJoints, hold_what_whirls_to_third_order) {
     EXPECT_LT(gap_m, before_m / 6) << substeps;
     before_m = gap_m;
   }
+}
+
+/// What is left, as a share, of a gap of 1 mm at the middle of a free body that a ball joint pulls to the
+/// world.
+double share_left_of_a_gap(stepping::JointSolver solver, double damping) {
+  Model model;
+  model.gravity.setZero();
+  const int actor = support::add_actor(model, "box");
+  support::add_solid(model, actor, "box", model::Shape::box, {0.2, 0.2, 0.2}, 3, {0, 0, 1});
+  support::add_joint(model, JointKind::ball, 0, model::no_body, {0, 0, 1});
+  model::State state = model::initial_state(model);
+  state.position[0].x() += 1e-3;
+  stepping::StepperSettings settings = settings_with(1);
+  settings.joint_solver = solver;
+  settings.joint_damping = damping;
+  const auto stepper = make_stepper(settings);
+  stepper->add(0, std::make_shared<const Model>(model), state, 0);
+  advance(*stepper, 1);
+  EXPECT_LT(stepper->state(0).velocity[0].norm(), 1e-12) << "the relaxing sweep takes the speed back";
+  return stepper->state(0).position[0].x() / 1e-3;
+}
+
+// By the ERP of a spring of 0.2 periods in a substep, a / (2 z + a) with a = 0.4 pi. A swept row is soft
+// besides: with its CFM, 1 / (a (2 z + a)), it takes 1 / (1 + CFM) of its way.
+TEST(SoftJoints, close_gaps_by_their_damping_and_exact_ones_by_a_small_one) {
+  const double a = 0.4 * M_PI;
+  const auto erp = [a](double damping) { return a / (2 * damping + a); };
+  EXPECT_NEAR(share_left_of_a_gap(stepping::JointSolver::hanging, 3), 1 - erp(0.7), 1e-7);
+  EXPECT_NEAR(share_left_of_a_gap(stepping::JointSolver::hanging, 0.3), 1 - erp(0.3), 1e-7);
+  const double cfm = 1 / (a * (6 + a));
+  EXPECT_NEAR(share_left_of_a_gap(stepping::JointSolver::sweeps, 3), 1 - erp(3) / (1 + cfm), 1e-7);
 }
 
 /// Bars that hang on the world one below the other, level at the start, by hinges that bend by 0.1 rad.

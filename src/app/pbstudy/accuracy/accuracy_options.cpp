@@ -14,7 +14,7 @@ namespace po = boost::program_options;
 constexpr std::array<VariedOption, 8> varied = {{
     {"stepper", "quick, direct, sor, bullet, mujoco; default: quick sor", "quick sor"},
     {"iterations", "default: 1 2 3 5 10 15 19 20 40 80", "1 2 3 5 10 15 19 20 40 80"},
-    {"substeps", "sor; default: 1 3 6 12 24", "1 3 6 12 24"},
+    {"substeps", "sor; default: 1 3 7 14 28", "1 3 7 14 28"},
     {"precision", "sor: double, single; default: both", "double single"},
     {"sor-factor", "sor: over-relaxation; default: 1.3", "1.3"},
     {"warm-start", "sor: share of the forces that a step and a substep take over; default: 0", "0"},
