@@ -184,6 +184,7 @@ void ContactBuilder<T, two_bodies, kind>::build_point(const ContactSlot<T>& slot
   // A gap (negative depth) lets the bodies approach until they touch.
   point.rhs =
       given.depth < zero ? given.depth / parameters_.h : (parameters_.relaxes ? push : T::max(push, bounce));
+  if (parameters_.keeps_depths) point.rhs = point.normal.impulse > zero ? zero : point.rhs;
   point.depth = point.planned = given.depth;
   if constexpr (Solver::friction) build_friction(slot, pair, given, arm_a, arm_b, point);
 }
@@ -258,6 +259,7 @@ void ContactBuilder<T, two_bodies, kind>::advance(const ContactSlot<T>& slot, Po
     const V push = (point.depth > zero ? rate : per_h) * point.depth;
     point.rhs =
         parameters_.relaxes ? T::min(push, T::broadcast(parameters_.push_limit)) : push + excess * per_h;
+    if (parameters_.keeps_depths) point.rhs = point.normal.impulse > zero ? zero : point.rhs;
     point.peak = T::max(point.peak, point.normal.impulse);
   }
 }

@@ -23,6 +23,7 @@ struct ContactParameters {
   Scalar warm_start;  ///< share of the impulses that a step and a substep take over from the one before
   bool restitution;   ///< may a contact bounce?
   bool turning;       ///< may a contact turn a body? If not, its rows do not, of whatever kind they are.
+  bool keeps_depths;  ///< does a contact that carries force stay as deep, or as open, as it is?
   bool relaxes;       ///< do sweeps follow that push nothing out? Then contacts bounce after them.
   bool cone;          ///< friction that is the same in all directions
 };

@@ -32,7 +32,7 @@ struct StepParameters {
   Spring contacts;
   Spring joint_places, joint_turns;  ///< of joints: where they hold their bodies, and how they turn them
   stepping::JointSolver joint_solver = stepping::JointSolver::sweeps;
-  bool pushes = true;      ///< false: contacts stay as deep as they are
+  bool pushes = true;      ///< false: contacts that carry force stay as deep, or as open, as they are
   bool cone = false;       ///< friction that is the same in all directions
   bool newton = false;     ///< the sweeps of rigid rows are followed by Newton's method (newton/row_system.h)
   bool shuffled = true;    ///< false: the joints of an articulation and the contacts keep their order

@@ -80,6 +80,7 @@ class StepLaws {
                  .warm_start = warm_start_,
                  .restitution = passes.restitution,
                  .turning = laws.turning_contacts,
+                 .keeps_depths = !step.pushes,
                  .relaxes = step.relax > 0,
                  .cone = step.cone};
     if (!step.contacts.is_on()) return;

@@ -6,6 +6,11 @@
 namespace pbmpi::solver {
 namespace {
 
+/// Relaxing sweeps of a step of one substep, at least, if there are any. What stands high leans a little, and
+/// forces that follow too late tip it over by its weight before so few sweeps as a substep has take its speed
+/// back: it would have to be put back again and again.
+constexpr int trial_relax = 6;
+
 /// The larger of each.
 stepping::Residuals join(const stepping::Residuals& a, const stepping::Residuals& b) {
   return {std::max(a.joint_speed, b.joint_speed), std::max(a.joint_turn, b.joint_turn),
@@ -106,6 +111,7 @@ StepParameters PartedStep::parameters_of(const Part& part) const {
   if (part.on_trial) {
     parameters.substeps = 1;
     parameters.pushes = false;
+    if (parameters.relax > 0) parameters.relax = std::max(parameters.relax, trial_relax);
   }
   parameters.iterations = part.iterations;
   return parameters;
