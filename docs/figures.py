@@ -43,7 +43,7 @@ ENTRIES = {
     "island_shares": Entry("docs/stability.md", stability.island_shares, False,
                            ["pbstudy stability --setting sor \"sor sag=0.2mm\" ...", "pbmpi --scene SCENE --warmup 150 --frames 10 --sag 0.2mm"]),
     "at_equal_time": Entry("docs/stability.md", stability.at_equal_time, True,
-                           ["pbstudy stability --most-work 300000 --setting quick \"sor substeps=16\" ..."]),
+                           ["pbstudy stability --most-work 300000 --setting quick \"sor substeps=20\" ..."]),
     "guards": Entry("docs/guards.md", guards.guards, False, ["pbmpi --scene CASE --steps-per-frame 3 --stepper ..."]),
     "speed": Entry("docs/speed.md", speed.against_bare, True,
                    ["bench_worlds SCENE 0 10 3", "pbstudy accuracy --scene SCENE"]),
