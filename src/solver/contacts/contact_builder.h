@@ -52,6 +52,11 @@ class ContactBuilder {
   Given read(const Manifold* manifolds, int point) const;
   template <bool bounces>
   void build_point(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, Point& point) const;
+  /// Where depths are kept: what carries force lets its bodies come no closer, though it has opened a little.
+  PBMPI_LANES void keep_depth(Point& point) const {
+    const V zero = T::broadcast(0);
+    if (parameters_.keeps_depths) point.rhs = point.normal.impulse > zero ? zero : point.rhs;
+  }
   void build_friction(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, const L3& arm_a,
                       const L3& arm_b, Point& point) const;
   PBMPI_LANES static void build_row(const ContactSlot<T>& slot, const BodyPair& pair, const L3& direction,
@@ -184,7 +189,7 @@ void ContactBuilder<T, two_bodies, kind>::build_point(const ContactSlot<T>& slot
   // A gap (negative depth) lets the bodies approach until they touch.
   point.rhs =
       given.depth < zero ? given.depth / parameters_.h : (parameters_.relaxes ? push : T::max(push, bounce));
-  if (parameters_.keeps_depths) point.rhs = point.normal.impulse > zero ? zero : point.rhs;
+  keep_depth(point);
   point.depth = point.planned = given.depth;
   if constexpr (Solver::friction) build_friction(slot, pair, given, arm_a, arm_b, point);
 }
@@ -259,7 +264,7 @@ void ContactBuilder<T, two_bodies, kind>::advance(const ContactSlot<T>& slot, Po
     const V push = (point.depth > zero ? rate : per_h) * point.depth;
     point.rhs =
         parameters_.relaxes ? T::min(push, T::broadcast(parameters_.push_limit)) : push + excess * per_h;
-    if (parameters_.keeps_depths) point.rhs = point.normal.impulse > zero ? zero : point.rhs;
+    keep_depth(point);
     point.peak = T::max(point.peak, point.normal.impulse);
   }
 }
