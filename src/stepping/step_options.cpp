@@ -82,7 +82,9 @@ constexpr std::array<StepOption, 25> options = {{
     {.name = "most-substeps",
      .member = &Settings::most_substeps,
      .placeholder = "N",
-     .meaning = "sor: substeps of an island that would give by more than --sag; default: 32",
+     .meaning =
+         "sor: substeps of an island that would give by more than --sag, and the most of one that is so tall "
+         "that its top would sink by more than a hundredth of a body; default: 32",
      .needs = &Traits::has_substeps,
      .allows = at_least_1,
      .limit = "it must be at least 1"},

@@ -58,7 +58,7 @@ struct StepperSettings {
   int substeps = 1;         ///< sor: parts of a step without new collision detection
   double tolerance_m = 0;   ///< sor: islands that move less get fewer substeps; 0: all get all of them
   double sag_m = 0;         ///< sor: islands whose springs give more get more substeps; 0: none do
-  int most_substeps = 32;   ///< sor: of these, if that is more
+  int most_substeps = 32;   ///< sor: of these, and of tall islands at most, if that is more
   double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
   double warm_start = 0;    ///< sor: share of the forces that a step and a substep take over from the last
   int relax = 0;            ///< sor: sweeps at the end of a substep that push nothing out

@@ -19,7 +19,8 @@ StepperSettings default_estimate(const StepperSettings& precise) {
   constexpr int substeps_in_one = 6;
   StepperSettings estimate = precise;
   estimate.iterations = 1;
-  estimate.substeps = std::max(1, precise.substeps / substeps_in_one);
+  for (int* substeps : {&estimate.substeps, &estimate.most_substeps})
+    *substeps = std::max(1, *substeps / substeps_in_one);
   estimate.residuals = false;
   estimate.contacts = false;
   return estimate;

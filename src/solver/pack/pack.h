@@ -24,7 +24,6 @@ struct StepParameters {
   double dt_s = 0.01;
   int substeps = 1;
   int all_substeps = 1;   ///< of the run: an island may get fewer, and has the springs of all
-  int most_substeps = 1;  ///< of a loaded island
   int iterations = 20;
   double sor_factor = 1.3;
   double warm_start = 0;  ///< share of the impulses that a step and a substep take over from the one before

@@ -61,7 +61,6 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   StepParameters parameters;
   parameters.dt_s = settings.dt_s;
   parameters.substeps = parameters.all_substeps = settings.substeps;
-  parameters.most_substeps = settings.most_substeps;
   parameters.iterations = settings.iterations;
   parameters.sor_factor = settings.sor_factor;
   parameters.warm_start = settings.warm_start;

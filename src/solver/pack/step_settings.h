@@ -21,13 +21,10 @@ inline bool spares_substeps(const stepping::StepperSettings& settings) {
   return settings.tolerance_m > 0 && settings.substeps > 1;
 }
 
-/// Do loaded islands get more substeps than others (loaded_islands.h)? Their springs are to be of use.
+/// May islands get more substeps than others (loaded_islands.h, tall_islands.h)? Their springs are to be of
+/// use.
 inline bool adds_substeps(const stepping::StepperSettings& settings) {
-  return settings.sag_m > 0 && settings.most_substeps > settings.substeps && remembers(settings);
-}
-
-inline bool shares_differ(const stepping::StepperSettings& settings) {
-  return spares_substeps(settings) || adds_substeps(settings);
+  return settings.most_substeps > settings.substeps && remembers(settings);
 }
 
 /// Makes the memory of a state with which a world starts what the steps of a run need: no force where nothing

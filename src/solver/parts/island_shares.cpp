@@ -1,15 +1,29 @@
 #include "solver/parts/island_shares.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "solver/pack/step_settings.h"
 
 namespace pbmpi::solver {
 
 IslandShares::IslandShares(const model::Model& model, const stepping::StepperSettings& settings)
-    : islands_(model), loaded_marks_(model), is_loaded_(model.bodies.size(), 0) {
+    : substeps_(settings.substeps),
+      most_substeps_(settings.most_substeps),
+      islands_(model),
+      loaded_marks_(model),
+      is_loaded_(model.bodies.size(), 0) {
   if (spares_substeps(settings)) quiet_.emplace(model, settings);
-  if (adds_substeps(settings)) loaded_.emplace(model, settings);
+  if (adds_substeps(settings) && settings.sag_m > 0) loaded_.emplace(model, settings);
+  tall_.emplace(model, settings);
+  if (!tall_->can_be()) tall_.reset();
+}
+
+std::optional<IslandShares> IslandShares::find(const model::Model& model,
+                                               const stepping::StepperSettings& settings) {
+  IslandShares shares(model, settings);
+  const bool any = shares.quiet_ || shares.loaded_ || shares.tall_;
+  return any ? std::optional(std::move(shares)) : std::nullopt;
 }
 
 /// Islands are found only where a body may be in one that differs.
@@ -21,6 +35,7 @@ void IslandShares::sort(std::span<const int> bodies, std::span<const model::Cont
   overloaded_.clear();
   if (loaded_) loaded_->find(bodies, contacts, forces, broken_in, before, overloaded_);
   any_loaded_ = !overloaded_.empty();
+  any_tall_ = tall_ && tall_->find(bodies, contacts, broken_in, islands_);
   if (any_slow || any_loaded_) islands_.connect(contacts, broken_in);
   if (any_loaded_) mark_loaded(bodies);
   if (any_slow) {

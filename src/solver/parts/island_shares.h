@@ -12,26 +12,36 @@
 #include "solver/parts/loaded_islands.h"
 #include "solver/parts/quiet_islands.h"
 #include "solver/parts/step_islands.h"
+#include "solver/parts/tall_islands.h"
 #include "stepping/stepper.h"
 
 namespace pbmpi::solver {
 
 class IslandShares {
  public:
-  /// `model` is borrowed; shares_differ(settings).
-  IslandShares(const model::Model& model, const stepping::StepperSettings& settings);
+  /// None where all islands get the same. `model` is borrowed.
+  static std::optional<IslandShares> find(const model::Model& model,
+                                          const stepping::StepperSettings& settings);
 
-  /// Are the forces of all joints asked of sort()? Else none are.
+  /// Does sort() look at poses and velocities?
+  bool wants_state() const { return quiet_ || loaded_; }
+  /// Does it at the forces of all joints?
   bool wants_joints() const { return loaded_.has_value(); }
+  /// Can there be any that get more?
+  bool may_add_substeps() const { return loaded_ || tall_; }
   /// Sorts these bodies, which are whole islands of joints and contacts. `forces` [contacts] with which they
-  /// start; `before`: poses, velocities and, if asked for, joints' forces; `broken_in`: as State has it.
+  /// start; `before`: what sort() looks at; `broken_in`: as State has it.
   void sort(std::span<const int> bodies, std::span<const model::Contact> contacts,
             std::span<const model::ContactForce> forces, std::span<const std::int32_t> broken_in,
             const model::State& before);
   /// Is there a body that gets more or less than most?
-  bool differ() const { return any_loaded_ || (quiet_ && !quiet_->bodies().empty()); }
+  bool differ() const { return any_loaded_ || any_tall_ || (quiet_ && !quiet_->bodies().empty()); }
   bool is_quiet(int body) const { return quiet_ && quiet_->contains(body); }
-  bool is_loaded(int body) const { return any_loaded_ && is_loaded_[static_cast<std::size_t>(body)] != 0; }
+  /// Those of a body that is not quiet.
+  int substeps(int body) const {
+    if (any_loaded_ && is_loaded_[static_cast<std::size_t>(body)] != 0) return most_substeps_;
+    return any_tall_ ? tall_->substeps(body) : substeps_;
+  }
   /// In the order in which they were given.
   std::span<const int> quiet_bodies() const { return quiet_ ? quiet_->bodies() : std::span<const int>(); }
   /// Of quiet bodies, whole islands: as QuietIslands::judge().
@@ -41,15 +51,18 @@ class IslandShares {
   }
 
  private:
+  IslandShares(const model::Model& model, const stepping::StepperSettings& settings);
   void mark_loaded(std::span<const int> bodies);
 
+  int substeps_, most_substeps_;
   StepIslands islands_;
   std::optional<QuietIslands> quiet_;
   std::optional<LoadedIslands> loaded_;
+  std::optional<TallIslands> tall_;
   IslandMarks loaded_marks_;     ///< scratch
   std::vector<int> overloaded_;  ///< a body of each loaded island, in the last sort()
   std::vector<char> is_loaded_;  ///< [num_bodies]
-  bool any_loaded_ = false;
+  bool any_loaded_ = false, any_tall_ = false;
 };
 
 }  // namespace pbmpi::solver

@@ -21,8 +21,8 @@ stepping::Residuals join(const stepping::Residuals& a, const stepping::Residuals
 }  // namespace
 
 bool PartedStep::Part::operator<(const Part& other) const {
-  return std::tuple(!on_trial, loaded, iterations) <
-         std::tuple(!other.on_trial, other.loaded, other.iterations);
+  return std::tuple(!on_trial, substeps, iterations) <
+         std::tuple(!other.on_trial, other.substeps, other.iterations);
 }
 
 bool PartedStep::Part::is_empty() const {
@@ -58,7 +58,7 @@ void PartedStep::sort_bodies() {
     for (const int body : world.bodies) {
       Part like;
       like.on_trial = world.shares != nullptr && world.shares->is_quiet(body);
-      like.loaded = world.shares != nullptr && world.shares->is_loaded(body);
+      like.substeps = world.shares != nullptr ? world.shares->substeps(body) : parameters_.substeps;
       like.iterations = world.field != nullptr ? world.field->iterations_of(body) : parameters_.iterations;
       bodies_of(like)[w].push_back(body);
       if (!like.on_trial) continue;
@@ -100,12 +100,10 @@ std::vector<std::vector<int>>& PartedStep::bodies_of(const Part& like) {
 /// A spring keeps its periods a substep: shorter ones bear stiffer springs as well.
 StepParameters PartedStep::parameters_of(const Part& part) const {
   StepParameters parameters = parameters_;
-  if (part.loaded) {
-    const double stiffer = static_cast<double>(parameters.most_substeps) / parameters.substeps;
-    for (Spring* spring : {&parameters.contacts, &parameters.joint_places, &parameters.joint_turns})
-      spring->frequency_hz *= stiffer;
-    parameters.substeps = parameters.all_substeps = parameters.most_substeps;
-  }
+  const double stiffer = static_cast<double>(part.substeps) / parameters.substeps;
+  for (Spring* spring : {&parameters.contacts, &parameters.joint_places, &parameters.joint_turns})
+    spring->frequency_hz *= stiffer;
+  parameters.substeps = parameters.all_substeps = part.substeps;
   // Springs as stiff as those of all substeps would shake what rests if they pushed in one, and softer ones
   // would let it sink: the forces that hold it are known, and its depths are right.
   if (part.on_trial) {
@@ -172,7 +170,7 @@ void PartedStep::judge(Pack& pack, std::size_t part) {
 /// Bodies that have gone too far, as they were before the step, into the part that gives them all substeps.
 void PartedStep::put_back(Pack& pack, int world, std::span<const int> far, std::size_t part) {
   const auto w = static_cast<std::size_t>(world);
-  const Part like = {.loaded = parts_[part].loaded, .iterations = parts_[part].iterations};
+  const Part like = {.substeps = parts_[part].substeps, .iterations = parts_[part].iterations};
   const auto rest = std::ranges::find_if(parts_, [&](const Part& other) { return other.gets_as(like); });
   const int rest_index = static_cast<int>(rest - parts_.begin());
   Seen& seen = seen_[w];

@@ -61,7 +61,7 @@ class PartedStep {
  private:
   struct Part {
     bool on_trial = false;  ///< one substep
-    bool loaded = false;    ///< more substeps than most, and stiffer springs
+    int substeps = 1;       ///< of an island that is not: if more than most have, with stiffer springs
     int iterations = 1;
     std::vector<std::vector<int>> bodies = {};  ///< [num_worlds]
 

@@ -124,10 +124,10 @@ SorSpaceStepper::SorSpaceStepper(const stepping::StepperSettings& settings,
       cross_(*model_, bodies_),
       packed_(*model_),
       rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::cut, packed_.state()),
-      active_(map_) {
+      active_(map_),
+      shares_(IslandShares::find(*model_, settings)) {
   if (effects::StepPlan(*model_).has(effects::EffectId::fast_bodies))
     fast_bodies_.emplace(*model_, map_, settings.dt_s);
-  if (shares_differ(settings)) shares_.emplace(*model_, settings);
   rules_.start();
 }
 
@@ -135,7 +135,7 @@ std::vector<PackedWorld> SorSpaceStepper::packed_own_first() const {
   std::vector<PackedWorld> packed = {pack_own_first(*model_, map_, articulations_, is_own_)};
   packed[0].fallback = narrow_phase_.get();
   packed[0].lanes_collide = settings_.colliders == stepping::Colliders::lanes;
-  packed[0].in_parts = shares_differ(settings_);
+  packed[0].in_parts = shares_.has_value();
   packed[0].contact_margin_m = contact_margin_m(settings_, *model_);
   return packed;
 }

@@ -77,8 +77,8 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
       narrow_phase_(make_narrow_phase(*model_)),
       remembers_(remembers(settings)),
       shows_contacts_(settings.contacts),
+      shares_(IslandShares::find(*model_, settings)),
       observer_(*model_) {
-  if (shares_differ(settings)) shares_.emplace(*model_, settings);
   for (const model::Joint& joint : model_->joints) jointed_.emplace_back(joint.body_a, joint.body_b);
   set_state(state, step);
 }
@@ -143,18 +143,20 @@ void SorWorld::before_solve(Pack& pack, int index, bool may_be_slow, std::vector
   InPack world(*this, pack, index, &contacts, nullptr);
   rules_.before_solve(world);
   if (remembers_ || shows_contacts_) recall(pack, index, contacts);
-  sorted_ = shares_ && (may_be_slow || shares_->wants_joints());
+  sorted_ = shares_ && (may_be_slow || shares_->may_add_substeps());
   if (sorted_) sort_islands(pack, index, contacts);
 }
 
 /// What a trial of quiet islands may put back includes the forces of their joints.
 void SorWorld::sort_islands(const Pack& pack, int index, std::span<const model::Contact> contacts) {
-  for (model::State* room : {&before_, &after_}) room->resize(model_->num_bodies());
   const std::size_t num_forces = state_.memory.joints.size();
-  before_.memory.joints.resize(shares_->wants_joints() ? num_forces : 0);
-  pack.store(index, rules_.awake(), before_);
+  if (shares_->wants_state()) {
+    for (model::State* room : {&before_, &after_}) room->resize(model_->num_bodies());
+    before_.memory.joints.resize(shares_->wants_joints() ? num_forces : 0);
+    pack.store(index, rules_.awake(), before_);
+  }
   shares_->sort(rules_.awake(), contacts, recall_.forces(), state_.broken_in, before_);
-  if (shares_->wants_joints()) return;
+  if (!shares_->wants_state() || shares_->wants_joints()) return;
   before_.memory.joints.resize(num_forces);
   pack.store(index, shares_->quiet_bodies(), before_);
 }

@@ -82,6 +82,8 @@ class SorWorld {
     observables_.residuals = step.residuals(pack, index);
   }
   /// Bodies that the last step moved.
+  /// May some islands get more or less of a step than others?
+  bool moves_in_parts() const { return shares_.has_value(); }
   int num_awake() const { return static_cast<int>(rules_.awake().size()); }
 
   double cost_s = 0;  ///< of the last advance()
