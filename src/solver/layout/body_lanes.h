@@ -12,7 +12,8 @@ namespace pbmpi::solver {
 /// What a body is besides its velocity. Lane vectors only, so that a lane of it can be gathered by a stride.
 template <class V>
 struct alignas(sizeof(V)) BodyLane {
-  Vec3L<V> position;
+  Vec3L<V> position;      ///< rounded to the precision of the lanes
+  Vec3L<V> position_low;  ///< what single precision lacks there: see move_by()
   V qw, qx, qy, qz;
   Mat3L<V> rotation;
   Sym3L<V> inv_inertia;       ///< world frame
@@ -94,7 +95,7 @@ PBMPI_LANES void refresh(BodyLane<V>& body) {
 /// Where a body is, in lanes.
 template <class V>
 struct alignas(sizeof(V)) PoseLane {
-  Vec3L<V> position;
+  Vec3L<V> position, position_low;
   V qw, qx, qy, qz;
 };
 
@@ -112,12 +113,36 @@ PBMPI_LANES typename T::V near_inverse_root(const typename T::V& square) {
   return is_far ? 1 / T::sqrt(square) : series;
 }
 
+/// Adds to a place, which single precision keeps in two numbers: the way that slow bodies go in a substep is
+/// below the rounding of one, so that what settles would be held above where its contacts carry it, and creep
+/// by the speed that this leaves it. (D. E. Knuth's TwoSum, The Art of Computer Programming 2, 4.2.2.) The
+/// low number is rounded so that a double holds the sum of both, and rounds to the high one.
+template <class T>
+PBMPI_LANES void move_by(typename T::V& place, typename T::V& low, const typename T::V& way) {
+  using V = typename T::V;
+  if constexpr (sizeof(typename T::Scalar) == sizeof(double)) {
+    place += way;
+  } else {
+    const V change = way + low;
+    const V sum = place + change;
+    const V added = sum - place;
+    const V lost = (place - (sum - added)) + (change - added);
+    const V unit = sum * T::broadcast(0x1p-20F);
+    const V left = (lost + unit) - unit;
+    place = sum + left;
+    low = left - (place - sum);
+  }
+}
+
 /// ODE's dxStepBody without finite rotation: q += h/2 w q, normalised. `body` is a BodyLane or a PoseLane.
 /// last: the step ends here; before, the quaternion's length is brought back to 1 by near_inverse_root().
 template <class T, bool last, class Body>
 PBMPI_LANES void integrate(Body& body, const Twist<typename T::V>& twist, typename T::Scalar h) {
   using V = typename T::V;
-  body.position = body.position + twist.linear * T::broadcast(h);
+  const Vec3L<V> way = twist.linear * T::broadcast(h);
+  move_by<T>(body.position.x, body.position_low.x, way.x);
+  move_by<T>(body.position.y, body.position_low.y, way.y);
+  move_by<T>(body.position.z, body.position_low.z, way.z);
   const Vec3L<V>& w = twist.angular;
   const typename T::Scalar half = h / 2;
   const V dw = -(w.x * body.qx) - w.y * body.qy - w.z * body.qz;
@@ -150,7 +175,7 @@ PBMPI_LANES void integrate_turning(BodyLane<typename T::V>& body, const typename
     const Vec3L<V> turned = rotation * (body.inv_inertia_body * rotation.transposed_times(momentum));
     return {has ? turned.x : w.x, has ? turned.y : w.y, has ? turned.z : w.z};
   };
-  PoseLane<V> half{body.position, body.qw, body.qx, body.qy, body.qz};
+  PoseLane<V> half{body.position, body.position_low, body.qw, body.qx, body.qy, body.qz};
   integrate<T, false>(half, twist, h / 2);
   twist.angular = velocity_in(to_matrix(half.qw, half.qx, half.qy, half.qz));
   integrate<T, last>(body, twist, h);

@@ -34,6 +34,7 @@ class HeldLanes {
     for (const Slot& held : slots_) {
       BodyLane<V>& body = bodies.bodies[held.slot];
       put_back(held, held.body.position, body.position);
+      put_back(held, held.body.position_low, body.position_low);
       for (V BodyLane<V>::*q : {&BodyLane<V>::qw, &BodyLane<V>::qx, &BodyLane<V>::qy, &BodyLane<V>::qz})
         body.*q = is_held(held) ? held.body.*q : body.*q;
       refresh(body);

@@ -23,7 +23,7 @@ namespace pbmpi::solver {
 struct StepParameters {
   double dt_s = 0.01;
   int substeps = 1;
-  int all_substeps = 1;   ///< of the run: an island may get fewer, and has the springs of all
+  int all_substeps = 1;  ///< of the run: an island may get fewer, and has the springs of all
   int iterations = 20;
   double sor_factor = 1.3;
   double warm_start = 0;  ///< share of the impulses that a step and a substep take over from the one before

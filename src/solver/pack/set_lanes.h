@@ -32,6 +32,8 @@ struct SetLanes {
   /// Position and quaternion; refresh() makes the rest of them.
   static void set(BodyLane<V>& body, int lane, const model::Pose& pose) {
     set(body.position, lane, pose.position);
+    const model::Vec3 rounded = pose.position.cast<Scalar>().template cast<double>();
+    set(body.position_low, lane, pose.position - rounded);
     set(body.qw, lane, pose.orientation.w);
     set(body.qx, lane, pose.orientation.x);
     set(body.qy, lane, pose.orientation.y);

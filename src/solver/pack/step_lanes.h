@@ -337,7 +337,8 @@ void StepLanes<T>::look(std::span<model::State> states) {
   worlds_.for_each_active_slot([&](int slot) {
     BodyLane<V> body = worlds_.bodies.bodies[slot];
     motion_.template move_slot<true>(slot, laws_.h(), turning, body, twists[slot]);
-    look_poses_[static_cast<std::size_t>(slot)] = {body.position, body.qw, body.qx, body.qy, body.qz};
+    look_poses_[static_cast<std::size_t>(slot)] = {body.position, body.position_low, body.qw,
+                                                   body.qx,       body.qy,           body.qz};
   });
   worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
   for (std::size_t world = 0; world < states.size(); ++world)

@@ -74,8 +74,7 @@ class WorldLanes {
   effects::Reaction reaction(int world, int joint, double h) const;
   model::Vec3 centre(int world, int body) const {
     const LanePlace at = places.body(world, body);
-    const Vec3L<V>& position = bodies.bodies[at.slot].position;
-    return {T::get(position.x, at.lane), T::get(position.y, at.lane), T::get(position.z, at.lane)};
+    return position(bodies.bodies[at.slot], at.lane);
   }
   void poses(int world, std::span<model::BodyPose> poses) const {
     for (std::size_t body = 0; body < poses.size(); ++body) poses[body] = pose(world, static_cast<int>(body));
@@ -115,6 +114,15 @@ class WorldLanes {
       if (!active_.contains(world, model(world).joints[joint].body_a)) continue;
       if (!broken_.contains(world, joint)) visit(places.joint(world, joint));
     }
+  }
+  /// [m] Of a BodyLane or a PoseLane.
+  template <class Body>
+  static model::Vec3 position(const Body& body, int lane) {
+    const auto number = [lane](const V& high, const V& low) {
+      return static_cast<double>(T::get(high, lane)) + static_cast<double>(T::get(low, lane));
+    };
+    return {number(body.position.x, body.position_low.x), number(body.position.y, body.position_low.y),
+            number(body.position.z, body.position_low.z)};
   }
   /// `poses`: BodyLane or PoseLane, [slots].
   template <class Poses>
@@ -245,7 +253,7 @@ void WorldLanes<T>::store_body(int world, int body, const Poses* poses, model::S
   };
   const LanePlace at = places.body(world, body);
   const Poses& lanes = poses[at.slot];
-  state.position[body] = vector_of(lanes.position, at.lane);
+  state.position[body] = position(lanes, at.lane);
   state.orientation[body] = {T::get(lanes.qw, at.lane), T::get(lanes.qx, at.lane), T::get(lanes.qy, at.lane),
                              T::get(lanes.qz, at.lane)};
   state.velocity[body] = vector_of(bodies.twists[at.slot].linear, at.lane);
@@ -353,9 +361,7 @@ model::BodyPose WorldLanes<T>::pose(int world, int body) const {
   const LanePlace at = places.body(world, body);
   const BodyLane<V>& lanes = bodies.bodies[at.slot];
   model::BodyPose pose;
-  pose.position[0] = T::get(lanes.position.x, at.lane);
-  pose.position[1] = T::get(lanes.position.y, at.lane);
-  pose.position[2] = T::get(lanes.position.z, at.lane);
+  Eigen::Map<model::Vec3>(pose.position) = position(lanes, at.lane);
   geometry::to_rotation(T::get(lanes.qw, at.lane), T::get(lanes.qx, at.lane), T::get(lanes.qy, at.lane),
                         T::get(lanes.qz, at.lane), pose.rotation);
   return pose;
