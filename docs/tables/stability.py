@@ -1,5 +1,6 @@
 """Tables of what settings hold: the map of the hard cases, the same over step lengths, and beside ODE at equal time."""
 import json
+import re
 import statistics
 
 import h5py
@@ -101,6 +102,20 @@ def visits_of(folder, *run):
     programs.pbmpi("--scene", *run, "--frames", "10", "--quiet", "-o", path)
     with h5py.File(path) as file:
         return f"{file['observables/world/row_visits'][:][-10:].sum(axis=1).mean() / 1000:.0f}"
+
+
+def quiet():
+    """What a tolerance saves once little moves, and where all does, with the defects of both."""
+    rows = []
+    for scene, seconds in (("Environ", 5), ("Battle2", 5), ("Battle2", 30), ("Warehouse", 5), ("100CrSk", 0)):
+        text = programs.run([programs.BENCH, "--quiet", scene, seconds, 10])
+        found = re.search(r"time x ([\d.]+) \[([\d.]+), ([\d.]+)\] +row visits x ([\d.]+) +"
+                          r"defect rms (\S+) mm, with the tolerance (\S+) mm", text)
+        median, low, high, visits, without, tolerant = found.groups()
+        name = {"Warehouse": "Warehouse without `sleeping`"}.get(scene, scene)
+        rows.append([name, seconds, f"x {median} ({low} to {high})", f"x {visits}", without, tolerant])
+    return programs.table(["scene", "from [s]", "time without over with", "row visits likewise", "defect rms without [mm]",
+                           "with [mm]"], rows)
 
 
 def at_equal_time():

@@ -2,6 +2,7 @@
 /// same worlds. bench_worlds --spaces: ODE's spaces against each other. bench_worlds --effects: what
 /// effects cost. bench_worlds --guards: what guards cost. bench_worlds --sleeping: what sleeping saves.
 /// bench_worlds --substeps [SUBJECT] [WORLDS] [FRAMES]: substeps and memory against iterations.
+/// bench_worlds --quiet [SUBJECT] [SECONDS] [MICROMETRES]: what a tolerance saves from then on.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +13,7 @@
 #include "effects.h"
 #include "guards.h"
 #include "mpi/comm/session.h"
+#include "quiet.h"
 #include "sleeping.h"
 #include "spaces.h"
 #include "substeps.h"
@@ -49,6 +51,11 @@ void run(int argc, char** argv) {
     const std::string scene = argc > 2 ? argv[2] : "100CrSk";
     const auto subject = pbmpi::bench::load_subject(scene, number(argc, argv, 3, 0));
     pbmpi::bench::compare_substeps(subject, std::max(1, number(argc, argv, 4, 100)));
+    return;
+  }
+  if (name == "--quiet") {
+    const auto subject = pbmpi::bench::load_subject(argc > 2 ? argv[2] : "Environ", 0);
+    pbmpi::bench::compare_quiet(subject, number(argc, argv, 3, 5), 1e-6 * number(argc, argv, 4, 10));
     return;
   }
   const auto subject = pbmpi::bench::load_subject(name, number(argc, argv, 2, 0));

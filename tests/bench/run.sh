@@ -11,6 +11,10 @@ build/release/tests/bench/bench_worlds --substeps 100CrSk 0 100
 python3 tests/bench/spheres.py
 python3 tests/bench/interest.py
 build/release/tests/bench/bench_worlds --sleeping
+for quiet in "Environ 5" "Battle2 5" "Battle2 30" "Warehouse 5" "100CrSk 0"; do
+  # shellcheck disable=SC2086
+  build/release/tests/bench/bench_worlds --quiet $quiet
+done
 build/release/tests/bench/bench_worlds --guards
 build/release/tests/bench/batch/bench_batch 4096 24 3
 python3 tests/bench/batch/batch_python.py

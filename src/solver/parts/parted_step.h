@@ -29,8 +29,8 @@ struct PartedWorld {
 };
 
 /// Where islands get different shares of a step, it is taken part by part, each time with the bodies of one
-/// part active: first quiet islands, which are on trial, then the rest with what has failed, loaded islands
-/// last, and fewest iterations first. An island has the bits that a pack without the other islands would give
+/// part active: first quiet islands, which are on trial, then the rest with what has failed, fewest substeps
+/// and iterations first. An island has the bits that a pack without the other islands would give
 /// it.
 ///
 /// A step is begin(), start(), perhaps iterate() and look(), finish().
@@ -61,7 +61,7 @@ class PartedStep {
  private:
   struct Part {
     bool on_trial = false;  ///< one substep
-    int substeps = 1;       ///< of an island that is not: if more than most have, with stiffer springs
+    int substeps = 1;       ///< otherwise; with stiffer springs where they are more than most have
     int iterations = 1;
     std::vector<std::vector<int>> bodies = {};  ///< [num_worlds]
 
