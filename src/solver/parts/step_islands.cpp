@@ -7,14 +7,14 @@ namespace pbmpi::solver {
 StepIslands::StepIslands(const model::Model& model)
     : model_(&model), jointed_(model::jointed_bodies(model, {})), islands_(jointed_) {}
 
-void StepIslands::hold(std::span<const std::int32_t> broken_in) {
+void StepIslands::connect_joints(std::span<const std::int32_t> broken_in) {
   if (std::ranges::equal(broken_in, broken_in_)) return;
   broken_in_.assign(broken_in.begin(), broken_in.end());
   jointed_ = model::jointed_bodies(*model_, broken_in);
 }
 
 void StepIslands::connect(std::span<const model::Contact> contacts, std::span<const std::int32_t> broken_in) {
-  hold(broken_in);
+  connect_joints(broken_in);
   islands_ = jointed_;
   int last_a = model::no_body, last_b = model::no_body;
   for (const model::Contact& contact : contacts) {

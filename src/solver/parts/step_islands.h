@@ -16,11 +16,11 @@ class StepIslands {
   /// `model` is borrowed.
   explicit StepIslands(const model::Model& model);
 
-  /// `broken_in`: as State has it.
-  void hold(std::span<const std::int32_t> broken_in);
-  /// The lowest of the bodies that whole joints hold together with this one, as of the last hold().
+  /// By joints that are whole. `broken_in`: as State has it.
+  void connect_joints(std::span<const std::int32_t> broken_in);
+  /// The lowest of the bodies that whole joints hold together with this one, as of the last connect_joints().
   int unit_of(int body) { return jointed_.find(body); }
-  /// As hold(), and by `contacts` in canonical order.
+  /// By these and `contacts`, which are in canonical order.
   void connect(std::span<const model::Contact> contacts, std::span<const std::int32_t> broken_in);
   /// The lowest body of the island of this one, as of the last connect().
   int find(int body) { return islands_.find(body); }

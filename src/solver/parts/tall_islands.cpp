@@ -89,7 +89,7 @@ int TallIslands::count_levels(std::span<const model::Contact> contacts, StepIsla
 
 bool TallIslands::find(std::span<const int> bodies, std::span<const model::Contact> contacts,
                        std::span<const std::int32_t> broken_in, StepIslands& islands) {
-  islands.hold(broken_in);
+  islands.connect_joints(broken_in);
   if (count_levels(contacts, islands) < least_tall_) return false;
   islands.connect(contacts, broken_in);
   islands_.assign(model_->bodies.size(), {});
