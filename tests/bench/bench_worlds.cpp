@@ -13,8 +13,8 @@
 #include "effects.h"
 #include "guards.h"
 #include "mpi/comm/session.h"
-#include "quiet.h"
-#include "sleeping.h"
+#include "rest/quiet.h"
+#include "rest/sleeping.h"
 #include "spaces.h"
 #include "substeps.h"
 

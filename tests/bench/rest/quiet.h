@@ -1,7 +1,7 @@
 /// What a tolerance saves where little moves, and what it costs where all does.
 #pragma once
 
-#include "subjects.h"
+#include "bench/subjects.h"
 
 namespace pbmpi::bench {
 
