@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
-#include <ranges>
 
 #include "geometry/body_size.h"
 #include "solver/pack/step_settings.h"
@@ -77,7 +76,7 @@ int TallIslands::count_levels(std::span<const model::Contact> contacts, StepIsla
   while (changes) {
     changes = false;
     std::ranges::for_each(touching_, pass_on);
-    if (changes) std::ranges::for_each(touching_ | std::views::reverse, pass_on);
+    if (changes) std::for_each(touching_.rbegin(), touching_.rend(), pass_on);
   }
   int highest = 0;
   for (int& level : level_) {
