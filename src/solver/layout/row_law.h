@@ -27,6 +27,12 @@ struct Spring {
   bool is_on() const { return frequency_hz > 0; }
   /// In substeps of h [s].
   double frequency_in(double h) const { return std::min(frequency_hz, most_periods / h); }
+  /// [s^2] By how much it then gives under an acceleration; what is none does not give.
+  double give_in(double h) const {
+    if (!is_on()) return 0;
+    const double w = 2 * std::numbers::pi * frequency_in(h);
+    return 1 / (w * w);
+  }
 };
 
 /// What a sweep makes of a row with effective mass 1 / d, right-hand side and impulse p:

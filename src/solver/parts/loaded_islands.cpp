@@ -1,7 +1,5 @@
 #include "solver/parts/loaded_islands.h"
 
-#include <numbers>
-
 #include "geometry/body_size.h"
 #include "model/joint_gap.h"
 #include "solver/pack/step_settings.h"
@@ -13,21 +11,14 @@ namespace {
 /// rest are open by all of it, stiff ones by less, even a step after they have become stiff.
 constexpr double opened_by_soft_ones = 0.9;
 
-/// [s^2] By how much a spring gives under an acceleration; what is none does not give.
-double give_per_acceleration(const Spring& spring, const stepping::StepperSettings& settings) {
-  if (!spring.is_on()) return 0;
-  const double w = 2 * std::numbers::pi * spring.frequency_in(settings.dt_s / settings.substeps);
-  return 1 / (w * w);
-}
-
 }  // namespace
 
 LoadedIslands::LoadedIslands(const model::Model& model, const stepping::StepperSettings& settings)
     : model_(&model),
       sag_m_(settings.sag_m),
-      contact_give_(give_per_acceleration(contact_spring(settings), settings)),
-      place_give_(give_per_acceleration(joint_place_spring(settings), settings)),
-      turn_give_(give_per_acceleration(joint_turn_spring(settings), settings)),
+      contact_give_(contact_spring(settings).give_in(settings.dt_s / settings.substeps)),
+      place_give_(joint_place_spring(settings).give_in(settings.dt_s / settings.substeps)),
+      turn_give_(joint_turn_spring(settings).give_in(settings.dt_s / settings.substeps)),
       is_among_(model.bodies.size(), 0) {
   for (const model::Body& body : model.bodies) inverse_inertia_.push_back(body.inertia.inverse());
   for (const double size : geometry::sizes_of(model)) radius_m_.push_back(size / 2);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include "geometry/body_size.h"
 #include "solver/pack/step_settings.h"
@@ -23,7 +22,7 @@ TallIslands::TallIslands(const model::Model& model, const stepping::StepperSetti
     : model_(&model),
       settings_(settings),
       size_m_(geometry::sizes_of(model)),
-      most_levels_(adds_substeps(settings) && contact_spring(settings).is_on() ? model.num_bodies() : 0),
+      most_levels_(adds_substeps(settings) ? model.num_bodies() : 0),
       least_tall_(1) {
   // An island has as many bodies as levels, at least, so that their mean size is not below that of the
   // smallest.
@@ -40,8 +39,7 @@ TallIslands::TallIslands(const model::Model& model, const stepping::StepperSetti
 double TallIslands::sink_m(int levels, double substeps) const {
   Spring spring = contact_spring(settings_);
   spring.frequency_hz *= substeps / settings_.substeps;
-  const double w = 2 * std::numbers::pi * spring.frequency_in(settings_.dt_s / substeps);
-  return 0.5 * levels * levels * model_->gravity.norm() / (w * w);
+  return 0.5 * levels * levels * model_->gravity.norm() * spring.give_in(settings_.dt_s / substeps);
 }
 
 int TallIslands::substeps_for(int levels, double size_m) const {
