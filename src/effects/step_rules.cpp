@@ -13,11 +13,11 @@ StepRules::StepRules(const model::Model& model, double dt_s, std::optional<int> 
     if (pass.effect->make_velocity_rule != nullptr)
       velocity_rules_.push_back(pass.effect->make_velocity_rule(model));
   }
-  if (plan.has(EffectId::fast_bodies) && world == World::whole) fast_bodies_.emplace(model);
+  looks_ahead_ = plan.has(EffectId::fast_bodies) && world == World::whole;
   if (plan.has(EffectId::field_of_interest) && iterations) field_.emplace(model, *iterations);
   if (plan.has(EffectId::sleeping)) sleepers_.emplace(model, dt_s, state);
   if (plan.has(EffectId::breakable_joints)) breakage_.emplace(model);
-  if (fast_bodies_ || field_ || !velocity_rules_.empty()) before_.resize(model.num_bodies());
+  if (looks_ahead_ || field_ || !velocity_rules_.empty()) before_.resize(model.num_bodies());
 }
 
 bool StepRules::start() {
@@ -78,11 +78,17 @@ void StepRules::change_velocities(RuledWorld& world) {
 }
 
 void StepRules::look_ahead(RuledWorld& world) {
-  if (!fast_bodies_ || !world.may_be_fast()) return;
+  if (!looks_ahead_ || !world.may_be_fast()) return;
+  if (!fast_bodies_) make_fast_bodies();
   world.store(all_bodies_, before_);
   has_before_ = true;
   if (fast_bodies_->look(before_, dt_s_)) world.add_contacts_ahead(*fast_bodies_, before_);
   num_fast_ = static_cast<int>(fast_bodies_->bodies().size());
+}
+
+void StepRules::make_fast_bodies() {
+  fast_bodies_.emplace(*model_);
+  fast_bodies_->set_broken(state_->broken_in);
 }
 
 bool StepRules::wake_touched(RuledWorld& world) {

@@ -106,6 +106,7 @@ class StepRules {
   void wake_called(RuledWorld& world, std::int64_t step);
   void change_velocities(RuledWorld& world);
   void look_ahead(RuledWorld& world);
+  void make_fast_bodies();
   bool wake_touched(RuledWorld& world);
   void sort_by_interest(RuledWorld& world);
   void break_overloaded_joints(RuledWorld& world, std::int64_t step);
@@ -116,7 +117,8 @@ class StepRules {
   model::State* state_;
   std::vector<int> all_bodies_;
   std::vector<VelocityRule> velocity_rules_;
-  std::optional<FastBodies> fast_bodies_;  ///< none without the pass, or in a cut world
+  bool looks_ahead_;                       ///< false without the pass, or in a cut world
+  std::optional<FastBodies> fast_bodies_;  ///< none before a body may be fast
   int num_fast_ = 0;
   std::optional<FieldOfInterest> field_;   ///< none without the pass
   std::optional<SpaceSleepers> sleepers_;  ///< likewise

@@ -94,16 +94,14 @@ struct LaneTraits {
   PBMPI_LANES static unsigned bits(const V& flags) {
     if constexpr (num_lanes == 1) {
       return flags != 0 ? 1u : 0u;
-#if defined(__x86_64__)
-    } else if constexpr (is_512 && is_single) {
-      return _mm512_cmp_ps_mask(__m512(flags), _mm512_setzero_ps(), _CMP_NEQ_UQ);
-    } else if constexpr (is_512) {
-      return _mm512_cmp_pd_mask(__m512d(flags), _mm512_setzero_pd(), _CMP_NEQ_UQ);
-#endif
     } else {
+#if defined(__x86_64__)
+      return bits_x86(flags);
+#else
       unsigned result = 0;
       for (int lane = 0; lane < num_lanes; ++lane) result |= flags[lane] != 0 ? 1u << lane : 0u;
       return result;
+#endif
     }
   }
   /// base[index[lane]] for each lane.
@@ -130,6 +128,21 @@ struct LaneTraits {
   static constexpr bool is_256 = sizeof(Scalar) * num_lanes == 32;
 
 #if defined(__x86_64__)
+  PBMPI_LANES static unsigned bits_x86(const V& flags) {
+    if constexpr (is_512 && is_single) {
+      return _mm512_cmp_ps_mask(__m512(flags), _mm512_setzero_ps(), _CMP_NEQ_UQ);
+    } else if constexpr (is_512) {
+      return _mm512_cmp_pd_mask(__m512d(flags), _mm512_setzero_pd(), _CMP_NEQ_UQ);
+    } else if constexpr (is_256 && is_single) {
+      return static_cast<unsigned>(_mm256_movemask_ps(__m256(flags != 0)));
+    } else if constexpr (is_256) {
+      return static_cast<unsigned>(_mm256_movemask_pd(__m256d(flags != 0)));
+    } else if constexpr (is_single) {
+      return static_cast<unsigned>(_mm_movemask_ps(__m128(flags != 0)));
+    } else {
+      return static_cast<unsigned>(_mm_movemask_pd(__m128d(flags != 0)));
+    }
+  }
   PBMPI_LANES static V sqrt_x86(const V& a) {
     if constexpr (is_512 && is_single) {
       return V(_mm512_sqrt_ps(__m512(a)));

@@ -25,6 +25,12 @@ class SpeedBounds {
  private:
   struct alignas(sizeof(V)) Slot {
     V way2, turn2;  ///< squares of a body's SlowBound; infinite in idle lanes
+    /// Above zero in the lanes of bodies that do not keep it. What is not finite is not fast.
+    V excess(const Twist<V>& twist, const V& dt2) const {
+      const V way = dot(twist.linear, twist.linear) * dt2 - way2;
+      const V turn = dot(twist.angular, twist.angular) * dt2 - turn2;
+      return T::max(way, turn);
+    }
   };
   std::vector<Slot> slots_;
 };
@@ -45,17 +51,21 @@ SpeedBounds<T>::SpeedBounds(const WorldLanes<T>& worlds) {
   }
 }
 
+/// Most steps have nothing fast: they pass over the slots once, without a branch.
 template <class T>
 void SpeedBounds<T>::find_fast(const WorldLanes<T>& worlds, double dt_s,
                                std::vector<char>& may_be_fast) const {
   const V zero = T::broadcast(0), one = T::broadcast(1);
-  const V square = T::broadcast(static_cast<Scalar>(dt_s * dt_s));
+  const V dt2 = T::broadcast(static_cast<Scalar>(dt_s * dt_s));
+  const Twist<V>* twists = worlds.bodies.twists.data();
+  V most = zero;
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-    const Twist<V>& twist = worlds.bodies.twists[slot];
-    const V way2 = dot(twist.linear, twist.linear) * square;
-    const V turn2 = dot(twist.angular, twist.angular) * square;
-    const V in_bounds = way2 <= slots_[slot].way2 ? (turn2 <= slots_[slot].turn2 ? one : zero) : zero;
-    for (unsigned lanes = T::bits(one - in_bounds); lanes != 0; lanes &= lanes - 1) {
+    most = T::max(slots_[slot].excess(twists[slot], dt2), most);
+  }
+  if (!T::any(most > zero ? one : zero)) return;
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    const V is_fast = slots_[slot].excess(twists[slot], dt2) > zero ? one : zero;
+    for (unsigned lanes = T::bits(is_fast); lanes != 0; lanes &= lanes - 1) {
       const int world = worlds.places.world_at({static_cast<int>(slot), std::countr_zero(lanes)});
       if (world >= 0) may_be_fast[static_cast<std::size_t>(world)] = 1;
     }
