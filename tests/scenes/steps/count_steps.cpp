@@ -1,15 +1,17 @@
-// count_steps SCENE quick|sor: steps world 0 of a scene. For callgrind, which is to count in counted_steps()
-// or, as a check of the counting, in counted_plan() only.
+// count_steps SCENE quick|sor [+EFFECT,-EFFECT]: steps world 0 of a scene. For callgrind, which is to count
+// in counted_steps() or, as a check of the counting, in counted_plan() only.
 #include <malloc.h>
 
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "effects/effect_choices.h"
 #include "effects/effects.h"
 #include "model/names.h"
 #include "model/state.h"
@@ -18,6 +20,7 @@
 #include "scenes/scene.h"
 #include "solver/worlds/sor_stepper.h"
 #include "stepping/names.h"
+#include "stepping/step_options.h"
 
 using namespace pbmpi;
 
@@ -56,14 +59,17 @@ void put_the_registry_out_of_the_way() {
 std::unique_ptr<stepping::WorldStepper> make_stepper(const std::string& name) {
   const auto kind = model::enum_from_name<stepping::StepperKind>(name, stepping::stepper_kind_names);
   core::require_input(kind.has_value(), name + ": no stepper");
-  stepping::StepperSettings settings;
-  settings.kind = *kind;
+  const stepping::StepperSettings settings = stepping::default_settings(*kind);
   if (kind == stepping::StepperKind::sor) return solver::make_sor_stepper(settings, ode::make_narrow_phase);
   return ode::make_ode_stepper(settings, [](const std::string&) {});
 }
 
-void run(const std::string& scene, const std::string& stepper_name) {
-  const auto model = scenes::parse_scene(scenes::find_scene(scene))->build(0, 1);
+void run(const std::string& scene, const std::string& stepper_name, const std::string& choices) {
+  auto changed = std::make_shared<model::Model>(*scenes::parse_scene(scenes::find_scene(scene))->build(0, 1));
+  for (const auto& [effect, wanted] : effects::parse_effect_choices(choices))
+    changed->effects[effect] = wanted;
+  effects::leave_out_effects(*changed);
+  const std::shared_ptr<const model::Model> model = std::move(changed);
   const auto stepper = make_stepper(stepper_name);
   const model::State start = model::initial_state(*model);
   stepper->add(0, model, start, 0);
@@ -79,9 +85,9 @@ void run(const std::string& scene, const std::string& stepper_name) {
 
 int main(int argc, char** argv) {
   try {
-    core::require_input(argc == 3, "usage: count_steps SCENE quick|sor");
+    core::require_input(argc == 3 || argc == 4, "usage: count_steps SCENE quick|sor [+EFFECT,-EFFECT]");
     put_the_registry_out_of_the_way();
-    run(argv[1], argv[2]);
+    run(argv[1], argv[2], argc == 4 ? argv[3] : "");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "count_steps: %s\n", error.what());
     return static_cast<int>(core::ExitCode::bad_input);
