@@ -117,7 +117,7 @@ class StepRules {
   model::State* state_;
   std::vector<int> all_bodies_;
   std::vector<VelocityRule> velocity_rules_;
-  bool looks_ahead_;                       ///< false without the pass, or in a cut world
+  bool looks_ahead_ = false;               ///< false without the pass, or in a cut world
   std::optional<FastBodies> fast_bodies_;  ///< none before a body may be fast
   int num_fast_ = 0;
   std::optional<FieldOfInterest> field_;   ///< none without the pass

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "geometry/geometry.h"
 #include "support/models.h"
+#include "support/slow_bounds.h"
 
 namespace pbmpi::effects {
 namespace {
@@ -44,14 +45,7 @@ bool any_is_fast(const model::Model& model) {
   return fast.look(model::initial_state(model), dt_s);
 }
 
-bool bounds_hold(const model::Model& model) {
-  const std::vector<SlowBound> bounds = slow_bounds(model);
-  for (std::size_t body = 0; body < bounds.size(); ++body) {
-    const model::Body& moving = model.bodies[body];
-    if (!bounds[body].holds(moving.velocity, moving.angular_velocity, dt_s)) return false;
-  }
-  return true;
-}
+bool bounds_hold(const model::Model& model) { return support::keeps_slow_bounds(model, dt_s); }
 
 TEST(FastBodies, are_those_that_move_further_than_half_their_extent_along_their_way) {
   model::Model model;

@@ -10,6 +10,15 @@
 
 namespace pbmpi::solver {
 
+/// Sets marks[num_worlds] of the worlds whose lanes of a slot have a flag that is not 0.
+template <class T>
+void mark_worlds(const LanePlaces& places, int slot, const typename T::V& flags, std::vector<char>& marks) {
+  for (unsigned lanes = T::bits(flags); lanes != 0; lanes &= lanes - 1) {
+    const int world = places.world_at({slot, std::countr_zero(lanes)});
+    if (world >= 0) marks[static_cast<std::size_t>(world)] = 1;
+  }
+}
+
 template <class T>
 class SpeedBounds {
  public:
@@ -25,7 +34,7 @@ class SpeedBounds {
  private:
   struct alignas(sizeof(V)) Slot {
     V way2, turn2;  ///< squares of a body's SlowBound; infinite in idle lanes
-    /// Above zero in the lanes of bodies that do not keep it. What is not finite is not fast.
+    /// Above 0 in the lanes of bodies that do not keep it. What is no number is not fast.
     V excess(const Twist<V>& twist, const V& dt2) const {
       const V way = dot(twist.linear, twist.linear) * dt2 - way2;
       const V turn = dot(twist.angular, twist.angular) * dt2 - turn2;
@@ -55,21 +64,16 @@ SpeedBounds<T>::SpeedBounds(const WorldLanes<T>& worlds) {
 template <class T>
 void SpeedBounds<T>::find_fast(const WorldLanes<T>& worlds, double dt_s,
                                std::vector<char>& may_be_fast) const {
-  const V zero = T::broadcast(0), one = T::broadcast(1);
   const V dt2 = T::broadcast(static_cast<Scalar>(dt_s * dt_s));
   const Twist<V>* twists = worlds.bodies.twists.data();
+  const V zero = T::broadcast(0);
   V most = zero;
-  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot)
     most = T::max(slots_[slot].excess(twists[slot], dt2), most);
-  }
-  if (!T::any(most > zero ? one : zero)) return;
-  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-    const V is_fast = slots_[slot].excess(twists[slot], dt2) > zero ? one : zero;
-    for (unsigned lanes = T::bits(is_fast); lanes != 0; lanes &= lanes - 1) {
-      const int world = worlds.places.world_at({static_cast<int>(slot), std::countr_zero(lanes)});
-      if (world >= 0) may_be_fast[static_cast<std::size_t>(world)] = 1;
-    }
-  }
+  if (!T::any(most)) return;
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot)
+    mark_worlds<T>(worlds.places, static_cast<int>(slot),
+                   T::max(slots_[slot].excess(twists[slot], dt2), zero), may_be_fast);
 }
 
 /// Sets may_be_slow[num_worlds], 0 before, where the centre of a body moves by no more than `way_m` in a step
@@ -83,11 +87,8 @@ void find_slow(const WorldLanes<T>& worlds, double dt_s, double way_m, std::vect
   const V square = T::broadcast(static_cast<Scalar>(speed * speed * 1.001));  // what is rounded stays below
   for (int slot = 0; slot < worlds.places.num_slots(); ++slot) {
     const Twist<V>& twist = worlds.bodies.twists[slot];
-    const V slow = dot(twist.linear, twist.linear) <= square ? one : zero;
-    for (unsigned lanes = T::bits(slow); lanes != 0; lanes &= lanes - 1) {
-      const int world = worlds.places.world_at({slot, std::countr_zero(lanes)});
-      if (world >= 0) may_be_slow[static_cast<std::size_t>(world)] = 1;
-    }
+    const V is_slow = dot(twist.linear, twist.linear) <= square ? one : zero;
+    mark_worlds<T>(worlds.places, slot, is_slow, may_be_slow);
   }
 }
 

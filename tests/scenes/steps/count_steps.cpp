@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -65,11 +65,9 @@ std::unique_ptr<stepping::WorldStepper> make_stepper(const std::string& name) {
 }
 
 void run(const std::string& scene, const std::string& stepper_name, const std::string& choices) {
-  auto changed = std::make_shared<model::Model>(*scenes::parse_scene(scenes::find_scene(scene))->build(0, 1));
-  for (const auto& [effect, wanted] : effects::parse_effect_choices(choices))
-    changed->effects[effect] = wanted;
-  effects::leave_out_effects(*changed);
-  const std::shared_ptr<const model::Model> model = std::move(changed);
+  const auto parsed = scenes::parse_scene(scenes::find_scene(scene), std::nullopt, std::nullopt,
+                                          effects::parse_effect_choices(choices));
+  const auto model = parsed->build(0, 1);
   const auto stepper = make_stepper(stepper_name);
   const model::State start = model::initial_state(*model);
   stepper->add(0, model, start, 0);

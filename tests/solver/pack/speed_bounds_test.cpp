@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/random.h"
@@ -11,6 +10,7 @@
 #include "solver/pack/simd.h"
 #include "solver/sor_run.h"
 #include "support/models.h"
+#include "support/slow_bounds.h"
 
 namespace pbmpi::solver {
 namespace {
@@ -40,15 +40,6 @@ model::Model model_of(int world) {
   return model;
 }
 
-bool keeps_bounds(const model::Model& model) {
-  const std::vector<effects::SlowBound> bounds = effects::slow_bounds(model);
-  for (std::size_t body = 0; body < bounds.size(); ++body) {
-    const model::Body& moving = model.bodies[body];
-    if (!bounds[body].holds(moving.velocity, moving.angular_velocity, dt_s)) return false;
-  }
-  return true;
-}
-
 TEST(SpeedBounds, tell_the_worlds_in_which_a_body_does_not_keep_its_own) {
   std::vector<model::Model> models;
   for (int world = 0; world < num_worlds; ++world) models.push_back(model_of(world));
@@ -56,7 +47,7 @@ TEST(SpeedBounds, tell_the_worlds_in_which_a_body_does_not_keep_its_own) {
   std::vector<char> expected;
   for (const model::Model& model : models) {
     worlds.push_back({&model, find_articulations(model)});
-    expected.push_back(keeps_bounds(model) ? 0 : 1);
+    expected.push_back(support::keeps_slow_bounds(model, dt_s) ? 0 : 1);
   }
   ASSERT_GT(std::count(expected.begin(), expected.end(), 1), 8);
   ASSERT_GT(std::count(expected.begin(), expected.end(), 0), 20);
