@@ -78,8 +78,9 @@ class Runs(ToolTest):
     def test_each_frame_is_a_section_and_each_estimate_one(self):
         report, _ = self.run_scene(scene=("2-Cars", "--stepper", "quick", "--feec"))
         self.assertEqual([s["section"] for s in report["sections"]], ["estimate", "precise"] * 8)
-        for section in report["sections"]:
-            self.assertTrue(section["complete"])
+        self.assertTrue(all(section["complete"] for section in report["sections"]))
+        # The first one also binds the functions that it calls: instructions that depend on the other names of the program.
+        for section in report["sections"][1:]:
             inside = section["collision_instructions"] + section["forward_instructions"]
             self.assertTrue(0.5 * section["instructions"] < inside < section["instructions"])
 
