@@ -19,12 +19,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-Pose pose_of(PoseView poses, int body) {
-  if (body == model::no_body) return {};
-  const auto i = static_cast<std::size_t>(body);
-  return {poses.position[i], poses.orientation[i]};
-}
-
 Pose start_of(const Model& model, int body) {
   return body == model::no_body ? Pose{} : model.bodies[static_cast<std::size_t>(body)].pose;
 }
@@ -36,11 +30,6 @@ double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b
 Vec3 at_start_in_b(const Model& model, const Joint& joint, const Vec3& direction) {
   const Pose a = start_of(model, joint.body_a), b = start_of(model, joint.body_b);
   return b.orientation.to_eigen().conjugate() * a.direction_to_outer(direction);
-}
-
-Vec3 joint_gap(const Model& model, const Joint& joint, PoseView poses) {
-  return model::joint_gap_vector_in_a(model, joint, pose_of(poses, joint.body_a),
-                                      pose_of(poses, joint.body_b));
 }
 
 /// Zero for a finite pose, else NaN: added to an angle that does not depend on all of the pose, it keeps a
@@ -63,8 +52,12 @@ double rotation_angle(const Quat& a, const Quat& b) {
   return std::isfinite(turn.coeffs().sum()) ? angle : nan;
 }
 
+Vec3 joint_gap_vector(const Model& model, const Joint& joint, PoseView poses) {
+  return model::joint_gap_vector_in_a(model, joint, poses.pose(joint.body_a), poses.pose(joint.body_b));
+}
+
 double joint_axis_angle(const Model& model, const Joint& joint, PoseView poses) {
-  const Pose a = pose_of(poses, joint.body_a), b = pose_of(poses, joint.body_b);
+  const Pose a = poses.pose(joint.body_a), b = poses.pose(joint.body_b);
   const Vec3 axis1 = a.direction_to_outer(joint.axis1_a);
   const double spoilt = poison(a) + poison(b);
   switch (model::traits_of(joint.kind).turn) {
@@ -119,7 +112,7 @@ PoseErrors compare(const Model& model, PoseView poses, PoseView reference) {
     const Joint& joint = model.joints[i];
     errors.joints.push_back(i);
     errors.joint_position_m.push_back(
-        distance(joint_gap(model, joint, poses), joint_gap(model, joint, reference)));
+        distance(joint_gap_vector(model, joint, poses), joint_gap_vector(model, joint, reference)));
     errors.joint_orientation_rad.push_back(
         std::abs(joint_axis_angle(model, joint, poses) - joint_axis_angle(model, joint, reference)));
   }

@@ -17,7 +17,15 @@ struct PoseView {
   std::span<const std::int32_t> broken_in = {};
 
   bool holds(std::size_t joint) const { return broken_in.empty() || broken_in[joint] == model::unbroken; }
+  /// That of no body is the world frame.
+  model::Pose pose(int body) const {
+    if (body == model::no_body) return {};
+    return {position[static_cast<std::size_t>(body)], orientation[static_cast<std::size_t>(body)]};
+  }
 };
+
+/// How far a joint is open: model::joint_gap_vector_in_a() of two poses of the view [m].
+model::Vec3 joint_gap_vector(const model::Model& model, const model::Joint& joint, PoseView poses);
 
 /// Angle [rad, 0 to pi] of the shortest rotation between two orientations; q and -q are the same one. NaN if
 /// a number is.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "geometry/geometry.h"
 #include "geometry/ray_cast.h"
@@ -10,17 +9,11 @@
 namespace pbmpi::effects {
 namespace {
 
-model::BodyPose body_pose(const core::Vec3& position, const core::Quat& q) {
-  model::BodyPose pose;
-  std::memcpy(pose.position, position.data(), sizeof pose.position);
-  geometry::to_rotation(q.w, q.x, q.y, q.z, pose.rotation);
-  return pose;
-}
-
 model::BodyPose pose_of(const model::State& state, const model::Geom& geom) {
-  return geom.body == model::no_body
-             ? geometry::geom_pose(geom, geometry::static_pose())
-             : geometry::geom_pose(geom, body_pose(state.position[geom.body], state.orientation[geom.body]));
+  return geometry::geom_pose(
+      geom, geom.body == model::no_body
+                ? geometry::static_pose()
+                : geometry::body_pose({state.position[geom.body], state.orientation[geom.body]}));
 }
 
 /// `body`, `pose`: the body's; `geom_at`: the geom's.

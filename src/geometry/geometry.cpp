@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/error.h"
 #include "model/shape_traits.h"
@@ -35,6 +36,14 @@ void to_rotation(double w, double x, double y, double z, double rotation[9]) {
   rotation[6] = 2 * (x * z - w * y);
   rotation[7] = 2 * (y * z + w * x);
   rotation[8] = 1 - xx - yy;
+}
+
+model::BodyPose body_pose(const core::Pose& pose) {
+  const core::Quat& q = pose.orientation;
+  model::BodyPose at;
+  std::memcpy(at.position, pose.position.data(), sizeof at.position);
+  to_rotation(q.w, q.x, q.y, q.z, at.rotation);
+  return at;
 }
 
 model::BodyPose static_pose() { return {{0, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}}; }

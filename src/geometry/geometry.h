@@ -11,6 +11,9 @@ namespace pbmpi::geometry {
 /// Rotation matrix, by rows, of the quaternion (w, x, y, z) as it stands (not normalised; ODE's dQtoR).
 void to_rotation(double w, double x, double y, double z, double rotation[9]);
 
+/// A pose with the rotation matrix of its quaternion, as it stands.
+model::BodyPose body_pose(const core::Pose& pose);
+
 /// The pose of the world frame, for static geoms.
 model::BodyPose static_pose();
 

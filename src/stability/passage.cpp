@@ -43,11 +43,7 @@ double inner_radius(const Geom& geom) {
 
 BodyPose pose_of(const State& state, int body) {
   if (body == model::no_body) return geometry::static_pose();
-  BodyPose pose{};
-  for (int axis = 0; axis < 3; ++axis) pose.position[axis] = state.position[body][axis];
-  const core::Quat& q = state.orientation[body];
-  geometry::to_rotation(q.w, q.x, q.y, q.z, pose.rotation);
-  return pose;
+  return geometry::body_pose({state.position[body], state.orientation[body]});
 }
 
 /// Does a way come into the geom of a body from outside?

@@ -88,6 +88,9 @@ constexpr int sweeps_of(const StepperSettings& settings) {
   return (settings.iterations + settings.relax) * settings.substeps;
 }
 
+/// [s] Length of a substep.
+constexpr double substep_s(const StepperSettings& settings) { return settings.dt_s / settings.substeps; }
+
 /// Steps the worlds that one rank owns. A world's result depends on nothing but its model, its state, the
 /// step number and the settings: not on the other worlds, nor on the order of the calls.
 class WorldStepper {

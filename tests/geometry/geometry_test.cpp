@@ -19,6 +19,14 @@ model::Geom geom_of(model::Shape shape, const std::array<double, 3>& size) {
   return geom;
 }
 
+TEST(BodyPose, has_the_place_and_the_rotation_by_rows) {
+  const model::BodyPose pose =
+      body_pose({{1, 2, 3}, support::rotation(core::Vec3::UnitY(), std::numbers::pi / 2)});  // z comes to x
+  const double place[3] = {1, 2, 3}, rotation[9] = {0, 0, 1, 0, 1, 0, -1, 0, 0};
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(pose.position[k], place[k]);
+  for (int k = 0; k < 9; ++k) EXPECT_NEAR(pose.rotation[k], rotation[k], rounding);
+}
+
 TEST(HalfExtent, is_known_along_the_axes_and_between_them) {
   double turned[9], straight[9];
   const core::Quat q =

@@ -19,10 +19,7 @@ model::Geom solid(model::Shape shape, const std::array<double, 3>& size) {
 }
 
 model::BodyPose placed(const core::Vec3& position, const core::Quat& q = {}) {
-  model::BodyPose pose;
-  std::copy_n(position.data(), 3, pose.position);
-  to_rotation(q.w, q.x, q.y, q.z, pose.rotation);
-  return pose;
+  return body_pose({position, q});
 }
 
 void expect_entry(const model::Geom& geom, const model::BodyPose& pose, const core::Vec3& from,

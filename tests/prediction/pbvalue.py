@@ -2,13 +2,17 @@
 import json
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "app"))
+
+from harness import alone  # noqa: E402
 
 BIN = os.environ["PBMPI_BIN"]
 TOOL_FOLDER = os.path.join(os.path.dirname(BIN), "lib", "pbvalue")
 TIMEOUT_S = 250  # a hang, not a slow run: the longest takes seconds
-ENVIRONMENT = {**os.environ, "VALGRIND_LIB": TOOL_FOLDER}
 
 
 class ToolTest(unittest.TestCase):
@@ -16,6 +20,7 @@ class ToolTest(unittest.TestCase):
         holder = tempfile.TemporaryDirectory(prefix="pbmpi-test-")
         self.addCleanup(holder.cleanup)
         self.folder = holder.name
+        self.environment = alone(self.folder)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -23,7 +28,8 @@ class ToolTest(unittest.TestCase):
     def start(self, program, *options, data=b""):
         """The finished process of valgrind --tool=pbvalue, which writes out.json."""
         command = ["valgrind", "--quiet", "--tool=pbvalue", f"--pbvalue-out-file={self.path('out.json')}", *options, *map(str, program)]
-        return subprocess.run(command, input=data, capture_output=True, env=ENVIRONMENT, cwd=self.folder, timeout=TIMEOUT_S, check=False)
+        return subprocess.run(command, input=data, capture_output=True, env={**self.environment, "VALGRIND_LIB": TOOL_FOLDER},
+                              cwd=self.folder, timeout=TIMEOUT_S, check=False)
 
     def run_tool(self, program, *options, data=b""):
         """(what the tool wrote, what the program wrote) of a run that must succeed."""

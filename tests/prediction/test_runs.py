@@ -28,7 +28,8 @@ class Runs(ToolTest):
         return report, json.loads(out)
 
     def native(self, scene=("2-Cars", "--stepper", "quick")):
-        out = subprocess.run([PBMPI, "--scene", *scene, "--no-output", "--report", "json"], capture_output=True, check=True, timeout=60)
+        out = subprocess.run([PBMPI, "--scene", *scene, "--no-output", "--report", "json"], capture_output=True, check=True, timeout=60,
+                             env=self.environment)
         return json.loads(out.stdout)
 
     def test_exact_prediction_leaves_every_bit_of_a_result(self):
@@ -89,7 +90,7 @@ class Runs(ToolTest):
         positions = {}
         for program in (PBMPI, SINGLE):
             subprocess.run([program, "--scene", "2-Cars", "--stepper", "quick", "--warmup", "0", "--frames", "1", "--no-xdmf", "--quiet",
-                            "--output", self.path("run.h5")], check=True, timeout=60)
+                            "--output", self.path("run.h5")], check=True, timeout=60, env=self.environment)
             with h5py.File(self.path("run.h5")) as file:
                 positions[program] = file["particles/bodies/position/value"][:]
                 self.assertEqual(file["parameters/library_ode"][()].endswith(b", single precision"), program == SINGLE)
@@ -102,7 +103,7 @@ class Runs(ToolTest):
 
     @unittest.skipUnless(os.path.exists(SINGLE), "this build has no ODE in single precision")
     def test_exact_prediction_leaves_every_bit_in_single_precision(self):
-        native = subprocess.run([SINGLE, *OPTIONS], capture_output=True, check=True, timeout=60)
+        native = subprocess.run([SINGLE, *OPTIONS], capture_output=True, check=True, timeout=60, env=self.environment)
         report, out = self.run_tool([SINGLE, *OPTIONS], "--predict=all")
         self.assertEqual(json.loads(out)["state_hash"], json.loads(native.stdout)["state_hash"])
         self.assertGreater(total(report, "fp_load", "exact"), 1000)
@@ -115,7 +116,7 @@ class Runs(ToolTest):
             subprocess.run(["valgrind", "--quiet", "--tool=callgrind", f"--callgrind-out-file={prefix}", f"--toggle-collect={frame}",
                             f"--dump-after={frame}", "--dump-instr=yes", "--dump-line=no", "--compress-pos=no", "--compress-strings=no",
                             PBMPI, "--scene", scene, "--stepper", "quick", "--no-output", "--quiet"],
-                           capture_output=True, check=True, timeout=250)
+                           capture_output=True, check=True, timeout=250, env=self.environment)
             dumps = sorted((p for p in figure3.pathlib.Path(self.folder).glob(scene + ".callgrind.*")), key=lambda p: int(p.suffix[1:]))
             expected = figure3.summarize(dumps[figure3.WARMUP:], {})
             report, _ = self.run_scene("--predict=none", scene=(scene, "--stepper", "quick"))

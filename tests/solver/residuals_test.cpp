@@ -87,11 +87,8 @@ Vector velocities(const model::State& state) {
 }
 
 model::Contact only_contact(const model::Model& model) {
-  std::vector<model::BodyPose> poses(2);
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    std::copy_n(model.bodies[i].pose.position.data(), 3, poses[i].position);
-    geometry::to_rotation(1, 0, 0, 0, poses[i].rotation);
-  }
+  const model::BodyPose poses[] = {geometry::body_pose(model.bodies[0].pose),
+                                   geometry::body_pose(model.bodies[1].pose)};
   const model::GeomPair pair{0, 2};
   std::vector<model::Contact> contacts;
   ode::make_narrow_phase(model)->collide(poses, {&pair, 1}, contacts);

@@ -40,12 +40,8 @@ model::Model cloud(int count, double side) {
 }
 
 std::vector<model::BodyPose> poses_of(const model::Model& model) {
-  std::vector<model::BodyPose> poses(model.bodies.size());
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    std::copy_n(model.bodies[i].pose.position.data(), 3, poses[i].position);
-    const model::Quat& q = model.bodies[i].pose.orientation;
-    geometry::to_rotation(q.w, q.x, q.y, q.z, poses[i].rotation);
-  }
+  std::vector<model::BodyPose> poses;
+  for (const model::Body& body : model.bodies) poses.push_back(geometry::body_pose(body.pose));
   return poses;
 }
 

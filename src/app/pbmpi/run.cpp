@@ -138,7 +138,7 @@ std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const 
   setup.num_frames = spec.frames_to_do();
   setup.record_every = spec.record_every;
   setup.optional = optional_columns(work, plan);
-  setup.substep_s = spec.stepper.dt_s / spec.stepper.substeps;
+  setup.substep_s = stepping::substep_s(spec.stepper);
   return std::make_unique<io::RunFile>(io::FileGroup{comm.fortran_handle(), comm.rank(), comm.size()},
                                        std::move(setup));
 }

@@ -38,6 +38,8 @@ struct StepParameters {
   bool residuals = false;  ///< measure them at the end of the solve
   bool show_forces = false;     ///< hand out the forces with which the step ends, whatever the warm start
   std::uint64_t order_key = 0;  ///< (seed, step): the order of joints within an articulation, and of contacts
+
+  double substep_s() const { return dt_s / substeps; }
 };
 
 /// One implementation for each number type, number of lanes and instruction set; all give the same bits for a

@@ -48,7 +48,7 @@ class StepLanes {
   void sort_contacts(Contacts contacts, Forces forces);
 
   void damp(const Batch& batch) {
-    if (passes_.damping) motion_.damp(batch, parameters_.dt_s / parameters_.substeps);
+    if (passes_.damping) motion_.damp(batch, parameters_.substep_s());
   }
   bool relaxes() const { return parameters_.relax > 0; }
   bool remembers() const { return parameters_.warm_start > 0; }

@@ -23,7 +23,7 @@ class StepLaws {
   using Scalar = typename T::Scalar;
 
   StepLaws(const PackLaws& laws, const Passes& passes, const StepParameters& step)
-      : h_(static_cast<Scalar>(step.dt_s / step.substeps)),
+      : h_(static_cast<Scalar>(step.substep_s())),
         joint_erp_{scalar(laws.erp), scalar(laws.erp)},
         joint_cfm_(static_cast<Scalar>(laws.cfm)),
         sor_factor_(static_cast<Scalar>(step.sor_factor)),

@@ -16,9 +16,9 @@ constexpr double opened_by_soft_ones = 0.9;
 LoadedIslands::LoadedIslands(const model::Model& model, const stepping::StepperSettings& settings)
     : model_(&model),
       sag_m_(settings.sag_m),
-      contact_give_(contact_spring(settings).give_in(settings.dt_s / settings.substeps)),
-      place_give_(joint_place_spring(settings).give_in(settings.dt_s / settings.substeps)),
-      turn_give_(joint_turn_spring(settings).give_in(settings.dt_s / settings.substeps)),
+      contact_give_(contact_spring(settings).give_in(substep_s(settings))),
+      place_give_(joint_place_spring(settings).give_in(substep_s(settings))),
+      turn_give_(joint_turn_spring(settings).give_in(substep_s(settings))),
       is_among_(model.bodies.size(), 0) {
   for (const model::Body& body : model.bodies) inverse_inertia_.push_back(body.inertia.inverse());
   for (const double size : geometry::sizes_of(model)) radius_m_.push_back(size / 2);

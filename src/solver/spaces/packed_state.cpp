@@ -17,9 +17,7 @@ void PackedState::start(const model::State& state, Pack& pack) {
 }
 
 void PackedState::place(int body) {
-  const model::Quat& q = state_.orientation[body];
-  std::memcpy(poses_[body].position, state_.position[body].data(), sizeof poses_[body].position);
-  geometry::to_rotation(q.w, q.x, q.y, q.z, poses_[body].rotation);
+  poses_[body] = geometry::body_pose({state_.position[body], state_.orientation[body]});
 }
 
 void PackedState::put_pose(int body, const double* row) {

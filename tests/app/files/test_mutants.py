@@ -12,7 +12,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import AT_ONCE, BIN, PBMPI, PBREPORT, SOURCE, ProgramTest, seal  # noqa: E402
+from harness import AT_ONCE, BIN, PBMPI, PBREPORT, SOURCE, ProgramTest, alone, seal  # noqa: E402
 
 PBSTUDY = os.path.join(BIN, "pbstudy")
 LIMIT_S = 60  # a hang: each of these takes a fraction of a second
@@ -71,15 +71,11 @@ def mutated_bytes(draw, data):
     return bytes(data)
 
 
-# One process a mutant, which needs no way to others: MPI then starts in a tenth of the time.
-ALONE = {**os.environ, **AT_ONCE, "OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_btl": "self", "OMPI_MCA_pml": "ob1"}
-
 
 class Mutants(ProgramTest):
     def setUp(self):
         super().setUp()
-        # A session folder of its own: all such processes of a machine would use the same one, at the same time.
-        self.alone = {**ALONE, "OMPI_MCA_orte_tmpdir_base": self.folder}
+        self.alone = {**alone(self.folder), **AT_ONCE}
         self.scenes = self.texts(f"{SOURCE}/scenes/*.toml", f"{SOURCE}/scenes/hard/*/*.toml")
         self.models = self.texts(f"{SOURCE}/scenes/models/*.xml", f"{SOURCE}/scenes/models/*.urdf")
 

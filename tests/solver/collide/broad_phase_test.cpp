@@ -35,13 +35,7 @@ model::Model cloud(int count, double side) {
 
 std::vector<model::BodyPose> poses_of(const model::Model& model) {
   std::vector<model::BodyPose> poses;
-  for (const model::Body& body : model.bodies) {
-    model::BodyPose pose{};
-    std::copy_n(body.pose.position.data(), 3, pose.position);
-    const model::Quat& q = body.pose.orientation;
-    geometry::to_rotation(q.w, q.x, q.y, q.z, pose.rotation);
-    poses.push_back(pose);
-  }
+  for (const model::Body& body : model.bodies) poses.push_back(geometry::body_pose(body.pose));
   return poses;
 }
 

@@ -170,13 +170,7 @@ TEST(NarrowLanes, a_cylinder_is_as_deep_in_a_plane_as_dcollide_says) {
     const model::Model model = make_model(kind, dice);
     const model::Pose pose{dice.in_cube(0.7), dice.rotation()};
     const auto own = contacts_of(model.geoms[0], pose, model.geoms[1]);
-    model::BodyPose poses[2];
-    poses[0].position[0] = pose.position.x();
-    poses[0].position[1] = pose.position.y();
-    poses[0].position[2] = pose.position.z();
-    const model::Quat& q = pose.orientation;
-    geometry::to_rotation(q.w, q.x, q.y, q.z, poses[0].rotation);
-    poses[1] = geometry::static_pose();
+    const model::BodyPose poses[] = {geometry::body_pose(pose), geometry::static_pose()};
     std::vector<Contact> oracle;
     const model::GeomPair pair{0, 1};
     ode::make_narrow_phase(model)->collide(poses, {&pair, 1}, oracle);

@@ -5,12 +5,10 @@
 #include <set>
 
 #include "app/pbreport/diff/actors.h"
-#include "model/joint_gap.h"
 
 namespace pbmpi::app {
 namespace {
 
-using core::Pose;
 using core::Vec3;
 
 /// What some joints and contacts are off by.
@@ -36,11 +34,6 @@ struct FrameViolations {
   std::vector<Violations> by_actor;
 };
 
-Pose pose_of(const analysis::PoseView& poses, int body) {
-  if (body == model::no_body) return {};
-  return {poses.position[static_cast<std::size_t>(body)], poses.orientation[static_cast<std::size_t>(body)]};
-}
-
 void add_joints(const RunModels& models, const RecordedPoses& recorded,
                 const std::vector<std::size_t>& actor_of_joint, FrameViolations& found) {
   for (std::size_t world = 0; world < models.worlds.size(); ++world) {
@@ -54,9 +47,7 @@ void add_joints(const RunModels& models, const RecordedPoses& recorded,
         continue;
       }
       const model::Joint& joint = model.joints[i];
-      const double gap_m = model::joint_gap_vector_in_a(model, joint, pose_of(poses, joint.body_a),
-                                                        pose_of(poses, joint.body_b))
-                               .norm();
+      const double gap_m = analysis::joint_gap_vector(model, joint, poses).norm();
       const double bend_rad = analysis::joint_axis_angle(model, joint, poses);
       for (Violations* all : {&found.all, &of_actor}) {
         all->gap_m.push_back(gap_m);

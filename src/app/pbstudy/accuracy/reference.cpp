@@ -62,7 +62,7 @@ void ConvergingStepper::try_step(std::span<const int> worlds, int iterations) {
   }
   core::PhaseTimes times;
   with.stepper->advance(1, times);
-  const double h_s = solve_.stepper.dt_s / solve_.stepper.substeps;
+  const double h_s = stepping::substep_s(solve_.stepper);
   for (const int world : worlds) {
     const auto place = static_cast<std::size_t>(world);
     const stepping::Residuals& left = with.stepper->observables(world).residuals;
