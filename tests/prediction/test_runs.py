@@ -76,6 +76,16 @@ class Runs(ToolTest):
         for report, _ in runs:
             self.assertEqual(report["sections"], runs[0][0]["sections"])
 
+    def test_with_a_table_for_all_a_fuzzy_run_does_not_follow_the_addresses_of_code(self):
+        options = ("--threshold=1e-6", "--table-entries=0")
+        report, summary = self.run_scene(*options)
+        self.environment["LD_PRELOAD"] = os.environ["PBMPI_SPACER"]
+        moved, moved_summary = self.run_scene(*options)
+        self.assertNotEqual(summary["state_hash"], self.native()["state_hash"])
+        self.assertEqual(moved_summary["state_hash"], summary["state_hash"])
+        for number in ("executed", "exact", "fuzzy"):
+            self.assertEqual(total(moved, "fp_operation", number), total(report, "fp_operation", number))
+
     def test_each_frame_is_a_section_and_each_estimate_one(self):
         report, _ = self.run_scene(scene=("2-Cars", "--stepper", "quick", "--feec"))
         self.assertEqual([s["section"] for s in report["sections"]], ["estimate", "precise"] * 8)
