@@ -52,7 +52,7 @@ double rotation_angle(const Quat& a, const Quat& b) {
   return std::isfinite(turn.coeffs().sum()) ? angle : nan;
 }
 
-Vec3 joint_gap_vector(const Model& model, const Joint& joint, PoseView poses) {
+Vec3 joint_gap_vector_in_a(const Model& model, const Joint& joint, PoseView poses) {
   return model::joint_gap_vector_in_a(model, joint, poses.pose(joint.body_a), poses.pose(joint.body_b));
 }
 
@@ -112,7 +112,7 @@ PoseErrors compare(const Model& model, PoseView poses, PoseView reference) {
     const Joint& joint = model.joints[i];
     errors.joints.push_back(i);
     errors.joint_position_m.push_back(
-        distance(joint_gap_vector(model, joint, poses), joint_gap_vector(model, joint, reference)));
+        distance(joint_gap_vector_in_a(model, joint, poses), joint_gap_vector_in_a(model, joint, reference)));
     errors.joint_orientation_rad.push_back(
         std::abs(joint_axis_angle(model, joint, poses) - joint_axis_angle(model, joint, reference)));
   }

@@ -25,7 +25,7 @@ struct PoseView {
 };
 
 /// How far a joint is open: model::joint_gap_vector_in_a() of two poses of the view [m].
-model::Vec3 joint_gap_vector(const model::Model& model, const model::Joint& joint, PoseView poses);
+model::Vec3 joint_gap_vector_in_a(const model::Model& model, const model::Joint& joint, PoseView poses);
 
 /// Angle [rad, 0 to pi] of the shortest rotation between two orientations; q and -q are the same one. NaN if
 /// a number is.

@@ -83,15 +83,13 @@ class Runs(ToolTest):
         moved, moved_summary = self.run_scene(*options)
         self.assertNotEqual(summary["state_hash"], self.native()["state_hash"])
         self.assertEqual(moved_summary["state_hash"], summary["state_hash"])
-        for number in ("executed", "exact", "fuzzy"):
-            self.assertEqual(total(moved, "fp_operation", number), total(report, "fp_operation", number))
+        self.assertEqual(moved["sections"], report["sections"])
 
     def test_each_frame_is_a_section_and_each_estimate_one(self):
         report, _ = self.run_scene(scene=("2-Cars", "--stepper", "quick", "--feec"))
         self.assertEqual([s["section"] for s in report["sections"]], ["estimate", "precise"] * 8)
-        self.assertTrue(all(section["complete"] for section in report["sections"]))
-        # The first one also binds the functions that it calls: instructions that depend on the other names of the program.
-        for section in report["sections"][1:]:
+        for section in report["sections"]:
+            self.assertTrue(section["complete"])
             inside = section["collision_instructions"] + section["forward_instructions"]
             self.assertTrue(0.5 * section["instructions"] < inside < section["instructions"])
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/geometry.h"
 #include "ode/collide/narrow_phase.h"
 #include "solver/sor_run.h"
+#include "support/body_poses.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -87,8 +87,7 @@ Vector velocities(const model::State& state) {
 }
 
 model::Contact only_contact(const model::Model& model) {
-  const model::BodyPose poses[] = {geometry::body_pose(model.bodies[0].pose),
-                                   geometry::body_pose(model.bodies[1].pose)};
+  const auto poses = support::body_poses(model);
   const model::GeomPair pair{0, 2};
   std::vector<model::Contact> contacts;
   ode::make_narrow_phase(model)->collide(poses, {&pair, 1}, contacts);

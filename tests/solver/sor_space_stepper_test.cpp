@@ -11,6 +11,7 @@
 #include "solver/sor_run.h"
 #include "solver/spaces/cross_broad_phase.h"
 #include "solver/spaces/space_bodies.h"
+#include "support/body_poses.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -39,16 +40,10 @@ model::Model cloud(int count, double side) {
   return model;
 }
 
-std::vector<model::BodyPose> poses_of(const model::Model& model) {
-  std::vector<model::BodyPose> poses;
-  for (const model::Body& body : model.bodies) poses.push_back(geometry::body_pose(body.pose));
-  return poses;
-}
-
 TEST(CrossBroadPhase, finds_the_pairs_of_the_whole_world_that_cross_owners) {
   const model::Model model = cloud(120, 2.5);
   const model::SpaceMap map = model::make_space_map(model);
-  const auto poses = poses_of(model);
+  const auto poses = support::body_poses(model);
   std::vector<geometry::Box> boxes(num_spaces);
   for (int space = 0; space < num_spaces; ++space) {
     for (const int geom : map.geoms_of_space[space])
@@ -77,7 +72,7 @@ TEST(CrossBroadPhase, looks_at_no_geom_of_spaces_whose_boxes_stay_apart) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     model.bodies[i].pose.position.x() += 100.0 * model.geoms[i + 1].space;
   const model::SpaceMap map = model::make_space_map(model);
-  const auto poses = poses_of(model);
+  const auto poses = support::body_poses(model);
   std::vector<geometry::Box> boxes(num_spaces);
   for (int space = 0; space < num_spaces; ++space) {
     for (const int geom : map.geoms_of_space[space])
@@ -96,7 +91,7 @@ TEST(SpaceBodies, hold_all_geoms_of_a_space_in_its_box) {
   model.geoms[7].local.position = {0.5, -0.3, 0.2};  // away from its body's centre
   const model::SpaceMap map = model::make_space_map(model);
   const SpaceBodies bodies(model, map);
-  const auto poses = poses_of(model);
+  const auto poses = support::body_poses(model);
   std::size_t num_geoms = 0;
   for (int space = 0; space < num_spaces; ++space) {
     const geometry::Box box = bodies.space_box(space, poses);

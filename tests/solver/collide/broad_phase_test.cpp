@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "geometry/geometry.h"
 #include "model/state.h"
+#include "support/body_poses.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -31,12 +32,6 @@ model::Model cloud(int count, double side) {
                        support::rotation(model::Vec3(number(5), number(6), 1).normalized(), 6 * number(7)));
   }
   return model;
-}
-
-std::vector<model::BodyPose> poses_of(const model::Model& model) {
-  std::vector<model::BodyPose> poses;
-  for (const model::Body& body : model.bodies) poses.push_back(geometry::body_pose(body.pose));
-  return poses;
 }
 
 BroadPhase broad_phase_of_all(const model::Model& model) {
@@ -72,7 +67,7 @@ std::vector<GeomPair> brute_force(const model::Model& model, const std::vector<m
 TEST(BroadPhase, finds_the_pairs_of_brute_force_in_order) {
   for (const int count : {20, 60, 150, 400}) {  // by list, and by sweeping
     const model::Model model = cloud(count, std::cbrt(count) * 0.5);
-    const auto poses = poses_of(model);
+    const auto poses = support::body_poses(model);
     BroadPhase broad_phase = broad_phase_of_all(model);
     std::vector<GeomPair> pairs;
     broad_phase.find_pairs(poses, nullptr, pairs);
@@ -85,7 +80,7 @@ TEST(BroadPhase, finds_the_pairs_of_brute_force_in_order) {
 TEST(BroadPhase, leaves_out_the_pairs_of_which_neither_is_awake) {
   for (const int count : {60, 400}) {  // by list, and by sweeping
     const model::Model model = cloud(count, std::cbrt(count) * 0.5);
-    const auto poses = poses_of(model);
+    const auto poses = support::body_poses(model);
     const std::vector<int> geoms = support::all_geoms(model);
     BroadPhase broad_phase = broad_phase_of_all(model);
     for (const int one_in : {1, 2, 7, 1000}) {
@@ -110,7 +105,7 @@ TEST(BroadPhase, leaves_out_the_pairs_of_which_neither_is_awake) {
 
 TEST(BroadPhase, of_some_geoms_finds_the_pairs_among_them) {
   const model::Model model = cloud(150, 3);
-  const auto poses = poses_of(model);
+  const auto poses = support::body_poses(model);
   std::vector<int> some;
   for (int geom = 0; geom < static_cast<int>(model.geoms.size()); geom += 2) some.push_back(geom);
   std::vector<GeomPair> pairs, expected;
@@ -124,7 +119,7 @@ TEST(BroadPhase, of_some_geoms_finds_the_pairs_among_them) {
 
 TEST(BroadPhase, the_history_of_a_sweep_does_not_matter) {
   const model::Model model = cloud(150, 3);
-  auto poses = poses_of(model);
+  auto poses = support::body_poses(model);
   BroadPhase travelled = broad_phase_of_all(model);
   std::vector<GeomPair> pairs, fresh_pairs;
   for (int step = 0; step < 10; ++step) {
@@ -142,10 +137,10 @@ TEST(BroadPhase, bodies_that_share_a_joint_do_not_pair) {
   const int a = support::add_solid(model, first, "a", model::Shape::box, {1, 1, 1}, 1, {0, 0, 0});
   const int b = support::add_solid(model, second, "b", model::Shape::box, {1, 1, 1}, 1, {0.5, 0, 0});
   std::vector<GeomPair> pairs;
-  broad_phase_of_all(model).find_pairs(poses_of(model), nullptr, pairs);
+  broad_phase_of_all(model).find_pairs(support::body_poses(model), nullptr, pairs);
   EXPECT_EQ(pairs, (std::vector<GeomPair>{{0, 1}}));
   support::add_joint(model, model::JointKind::ball, a, b, {0.25, 0, 0});
-  broad_phase_of_all(model).find_pairs(poses_of(model), nullptr, pairs);
+  broad_phase_of_all(model).find_pairs(support::body_poses(model), nullptr, pairs);
   EXPECT_TRUE(pairs.empty());
 }
 

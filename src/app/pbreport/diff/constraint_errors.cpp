@@ -47,7 +47,7 @@ void add_joints(const RunModels& models, const RecordedPoses& recorded,
         continue;
       }
       const model::Joint& joint = model.joints[i];
-      const double gap_m = analysis::joint_gap_vector(model, joint, poses).norm();
+      const double gap_m = analysis::joint_gap_vector_in_a(model, joint, poses).norm();
       const double bend_rad = analysis::joint_axis_angle(model, joint, poses);
       for (Violations* all : {&found.all, &of_actor}) {
         all->gap_m.push_back(gap_m);
