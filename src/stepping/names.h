@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, 2> colliders_names = {"lanes", "od
 inline constexpr std::array<std::string_view, 2> row_order_names = {"shuffled", "fixed"};
 inline constexpr std::array<std::string_view, 3> joint_solver_names = {"sweeps", "hanging", "tree"};
 inline constexpr std::array<std::string_view, 3> constraint_solver_names = {"newton", "pgs", "cg"};
-inline constexpr std::array<std::string_view, 2> friction_names = {"pyramid", "cone"};
+inline constexpr std::array<std::string_view, 3> friction_names = {"pyramid", "cone", "patch"};
 inline constexpr std::array<std::string_view, 2> finish_names = {"none", "newton"};
 
 constexpr std::string_view name_of(StepperKind kind) { return stepper_kind_names[static_cast<int>(kind)]; }

@@ -14,7 +14,8 @@ namespace pbmpi::stepping {
 /// largest over the rows of a world, a number that no order of summing can change. With w = J v + cfm p - rhs
 /// of a row with impulse p in [low, high], the natural map is the change of velocity that a projected step
 /// along w still asks for: |p - clamp(p - w / d, low, high)| d, d being the row's diagonal; |w| where
-/// nothing bounds p. Where friction is a cone its two rows have a disc for bounds.
+/// nothing bounds p. Where friction is a cone its two rows have a disc for bounds; those of a patch have a
+/// ball, with the twist divided by a length.
 struct Residuals {
   double joint_speed = 0;        ///< [m/s] |w| of the joints' rows without bounds that act along a line
   double joint_turn = 0;         ///< [rad/s] the same of those about an axis
@@ -26,9 +27,9 @@ struct Residuals {
 /// Numbers of the last step of a frame, except where it says otherwise. With the effect "sleeping" contacts,
 /// rows and penetration count what is awake; islands count all bodies.
 struct Observables {
-  int contacts = 0;         ///< contact points
-  int rows = 0;             ///< scalar constraint rows of joints and contacts
-  int islands = 0;          ///< sets of connected bodies
+  int contacts = 0;  ///< contact points
+  int rows = 0;      ///< scalar constraint rows of joints and contacts, three of a contact with friction
+  int islands = 0;   ///< sets of connected bodies
   int max_island_rows = 0;  ///< rows of the island that has most
   int fast_bodies = 0;      ///< those that armed that effect; 0 without it
   int bodies_inside = 0;    ///< awake ones in the field of interest; 0 without that effect

@@ -183,9 +183,11 @@ constexpr std::array<StepOption, 25> options = {{
      .in_short = "*"},
     {.name = "friction",
      .member = &Settings::friction,
-     .placeholder = "cone|pyramid",
-     .meaning = "sor: friction that is the same in all directions, or ODE's, which holds more along the "
-                "diagonals of two axes; default: cone",
+     .placeholder = "cone|patch|pyramid",
+     .meaning =
+         "sor: cone: the same in all directions, at each contact; patch: the contacts of two bodies share "
+         "friction at their middle, and resist a twist about it; pyramid: as ODE's, which holds more "
+         "along the diagonals of two axes; default: cone",
      .needs = &Traits::tunes_sweeps,
      .in_short = "*"},
     {.name = "finish",

@@ -33,9 +33,11 @@ enum class Colliders { lanes, ode };
 /// ODE's quickstep) and contacts in each, or that of the model in all.
 enum class RowOrder { shuffled, fixed };
 
-/// Which directions friction may take at a contact: all alike (the cone of Coulomb's law), or each of two
-/// axes for itself (the pyramid of ODE's dContactApprox1, which along its diagonal holds 1.41 times as much).
-enum class Friction { pyramid, cone };
+/// How friction is bounded: at each contact along each of two axes for itself (the pyramid of ODE's
+/// dContactApprox1, which along its diagonal holds 1.41 times as much); at each contact alike in all
+/// directions (the cone of Coulomb's law); or for all contacts of two bodies that lie in a plane together,
+/// with their twist about the normal.
+enum class Friction { pyramid, cone, patch };
 
 /// Which articulations the sor stepper solves exactly in a sweep, but for limits, motors and what closes
 /// loops; the joints of the others one after the other. `hanging`: those that joints hold to what does not

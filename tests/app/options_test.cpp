@@ -102,7 +102,7 @@ TEST(Options, those_of_the_sweeps_are_refused_outside_of_their_range) {
       EXPECT_NE(with(frequency.c_str(), impossible).find("0 or more"), std::string::npos);
     EXPECT_NE(with(damping.c_str(), "0").find("above 0"), std::string::npos);
   }
-  EXPECT_NE(with("--friction", "ball").find("pyramid, cone"), std::string::npos);
+  EXPECT_NE(with("--friction", "ball").find("pyramid, cone, patch"), std::string::npos);
 }
 
 TEST(Options, sor_starts_with_the_step_that_has_a_memory) {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
+#include <string>
 #include <tuple>
 
 #include "core/hash.h"
@@ -18,13 +20,14 @@ namespace {
 
 constexpr int num_steps = 60;  // well past the impact of the crash, where one wrong bit has grown to metres
 
-/// A step without a memory, and that with which sor is meant to be used.
-enum class Step { cold, remembering };
+/// A step without a memory, that with which sor is meant to be used, and the same with patches of friction.
+enum class Step { cold, remembering, patched };
 using Kind = std::tuple<Step, stepping::Precision>;
 
 stepping::StepperSettings settings_of(const Kind& kind, stepping::Simd simd) {
   stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
   if (std::get<Step>(kind) == Step::cold) settings = {.kind = stepping::StepperKind::sor};
+  if (std::get<Step>(kind) == Step::patched) settings.friction = stepping::Friction::patch;
   settings.precision = std::get<stepping::Precision>(kind);
   settings.simd = simd;
   settings.seed = 7;
@@ -53,7 +56,7 @@ TEST_P(Lanes, every_width_gives_the_bits_of_one_lane) {
   const auto worlds = crashes(19);  // fills some lanes of each width, and leaves some idle
   const auto one_lane = hashes(worlds, settings_of(GetParam(), stepping::Simd::off));
   for (const stepping::Simd simd : machine_simds()) {
-    EXPECT_EQ(hashes(worlds, settings_of(GetParam(), simd)), one_lane) << name_of(simd);
+    EXPECT_EQ(hashes(worlds, settings_of(GetParam(), simd)), one_lane) << stepping::name_of(simd);
   }
 }
 
@@ -75,10 +78,12 @@ TEST_P(Lanes, a_crash_ends_in_the_same_bits_everywhere) {
       {{Step::cold, stepping::Precision::single}, 0xd19beff400219b25},
       {{Step::remembering, stepping::Precision::double_}, 0x5dd537f70a2fe2ac},
       {{Step::remembering, stepping::Precision::single}, 0xf0d7021267fdd09f},
+      {{Step::patched, stepping::Precision::double_}, 0x6d06a4eca5ba1a47},
+      {{Step::patched, stepping::Precision::single}, 0x5ed205c634008c70},
   };
   for (const stepping::Simd simd : machine_simds())
     EXPECT_EQ(hashes(crashes(1), settings_of(GetParam(), simd)).front(), golden.at(GetParam()))
-        << name_of(simd);
+        << stepping::name_of(simd);
 }
 
 TEST_P(Lanes, worlds_differ_from_each_other) {
@@ -99,15 +104,17 @@ TEST_P(Lanes, a_world_that_moves_to_another_stepper_goes_on_bit_for_bit) {
   EXPECT_EQ(hash(moved->state(1)), hash(stayed->state(1)));
 }
 
+std::string name_of(const testing::TestParamInfo<Kind>& test) {
+  constexpr std::array steps = {"cold_", "remembering_", "patched_"};
+  const auto [step, precision] = test.param;
+  return steps.at(static_cast<std::size_t>(step)) + std::string(stepping::name_of(precision));
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryStep, Lanes,
-                         testing::Combine(testing::Values(Step::cold, Step::remembering),
+                         testing::Combine(testing::Values(Step::cold, Step::remembering, Step::patched),
                                           testing::Values(stepping::Precision::double_,
                                                           stepping::Precision::single)),
-                         [](const auto& test) {
-                           return std::string(std::get<Step>(test.param) == Step::cold ? "cold_"
-                                                                                       : "remembering_") +
-                                  std::string(name_of(std::get<stepping::Precision>(test.param)));
-                         });
+                         name_of);
 
 }  // namespace
 }  // namespace pbmpi::solver

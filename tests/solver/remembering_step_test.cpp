@@ -7,6 +7,7 @@
 
 #include "model/mechanics.h"
 #include "solver/sor_run.h"
+#include "stepping/names.h"
 #include "stepping/step_options.h"
 #include "support/models.h"
 
@@ -43,9 +44,11 @@ double way_of_sliding_box(double heading, Friction friction) {
 
 TEST(RememberingStep, brakes_a_sliding_box_alike_in_every_direction) {
   const double expected_m = 3 * 3 / (2 * 0.3 * 9.81);
-  for (const double heading : {0.0, 15.0, 30.0, 45.0, 100.0, 225.0, 340.0})
-    EXPECT_NEAR(way_of_sliding_box(heading * degree, Friction::cone), expected_m, 0.01 * expected_m)
-        << heading;
+  for (const Friction friction : {Friction::cone, Friction::patch}) {
+    for (const double heading : {0.0, 15.0, 30.0, 45.0, 100.0, 225.0, 340.0})
+      EXPECT_NEAR(way_of_sliding_box(heading * degree, friction), expected_m, 0.01 * expected_m)
+          << heading << " " << name_of(friction);
+  }
 }
 
 TEST(RememberingStep, with_the_pyramid_brakes_harder_along_the_diagonal) {

@@ -19,18 +19,21 @@ class ContactBuilder {
   using Row = typename Solver::Row;
   using Point = typename Solver::Point;
   using Motion = typename Solver::Motion;
+  using Slot = typename Solver::Slot;
+  using Friction = typename Solver::Friction;
+  static constexpr bool rubs = Solver::friction || Solver::patched;
 
   ContactBuilder(const BodyLanes<T>& bodies, const ContactParameters<Scalar>& parameters)
       : bodies_(&bodies), parameters_(parameters) {}
 
   /// Rows of manifolds[num_lanes], before forces act on the twists (bounce looks at the speed of approach).
   /// Impulses start with their share of what the manifolds remember. `points`: [slot.num_points].
-  void build(const Manifold* manifolds, ContactSlot<T>& slot, Point* points) const;
+  void build(const Manifold* manifolds, Slot& slot, Point* points) const;
 
   /// Next substep, with the velocities as the last sweep left them: the depth that the normal speed has left,
   /// the same directions and arms. What is deeper than the push has planned is taken back at once: that is no
   /// more than the last sweep's residual.
-  void advance(const ContactSlot<T>& slot, Point* points) const;
+  void advance(const Slot& slot, Point* points) const;
 
  private:
   /// What is read of a manifold's bodies.
@@ -48,8 +51,14 @@ class ContactBuilder {
     L3 friction_force;
   };
 
+  /// From the centres of the bodies to a point.
+  struct Arms {
+    L3 a, b;
+  };
+
   BodyPair gather(const Manifold* manifolds, ContactSlot<T>& slot) const;
   Given read(const Manifold* manifolds, int point) const;
+  PBMPI_LANES Arms arms_of(const BodyPair& pair, const Given& given) const;
   template <bool bounces>
   void build_point(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, Point& point) const;
   /// Where depths are kept: what carries force lets its bodies come no closer, though it has opened a little.
@@ -57,10 +66,20 @@ class ContactBuilder {
     const V zero = T::broadcast(0);
     if (parameters_.keeps_depths) point.rhs = point.normal.impulse > zero ? zero : point.rhs;
   }
-  void build_friction(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, const L3& arm_a,
-                      const L3& arm_b, Point& point) const;
+  /// What a patch has of a point.
+  struct PatchPart {
+    Arms arms;
+    L3 force;    ///< [N] of friction, that the point remembers
+    V is_there;  ///< 1, or 0 in lanes whose manifold has no such point
+  };
+  /// first: of points[0]; parts[slot.num_points].
+  void build_patch(const BodyPair& pair, const Given& first, const PatchPart* parts, Slot& slot,
+                   Point* points) const;
+  /// At these arms, with the normal and mu of `given`, for the points' friction force `carried` [N].
+  void build_friction(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, const Arms& arms,
+                      const L3& carried, Friction& friction) const;
   PBMPI_LANES static void build_row(const ContactSlot<T>& slot, const BodyPair& pair, const L3& direction,
-                                    const L3& arm_a, const L3& arm_b, Scalar cfm, const V& factor, Row& row);
+                                    const Arms& arms, Scalar cfm, const V& factor, Row& row);
   PBMPI_LANES Motion gather_motion(const std::int32_t* index) const {
     const Twist<V> twist = bodies_->gather_twist(index);
     if constexpr (Solver::central) {
@@ -85,9 +104,9 @@ class ContactBuilder {
 };
 
 template <class T, bool two_bodies, ContactKind kind>
-void ContactBuilder<T, two_bodies, kind>::build(const Manifold* manifolds, ContactSlot<T>& slot,
-                                                Point* points) const {
+void ContactBuilder<T, two_bodies, kind>::build(const Manifold* manifolds, Slot& slot, Point* points) const {
   const BodyPair pair = gather(manifolds, slot);
+  [[maybe_unused]] PatchPart parts[ManifoldOrder::most_points];
   for (int i = 0; i < slot.num_points; ++i) {
     const Given given = read(manifolds, i);
     if (parameters_.restitution) {
@@ -95,7 +114,11 @@ void ContactBuilder<T, two_bodies, kind>::build(const Manifold* manifolds, Conta
     } else {
       build_point<false>(slot, pair, given, points[i]);
     }
+    if constexpr (Solver::patched)
+      parts[i] = {arms_of(pair, given), given.friction_force,
+                  given.factor > T::broadcast(0) ? T::broadcast(1) : T::broadcast(0)};
   }
+  if constexpr (Solver::patched) build_patch(pair, read(manifolds, 0), parts, slot, points);
 }
 
 template <class T, bool two_bodies, ContactKind kind>
@@ -149,13 +172,13 @@ typename ContactBuilder<T, two_bodies, kind>::Given ContactBuilder<T, two_bodies
     T::set(given.normal.y, lane, static_cast<Scalar>(contact.normal.y()));
     T::set(given.normal.z, lane, static_cast<Scalar>(contact.normal.z()));
     T::set(given.depth, lane, static_cast<Scalar>(contact.depth));
-    if constexpr (Solver::friction) T::set(given.mu, lane, static_cast<Scalar>(contact.mu));
+    if constexpr (rubs) T::set(given.mu, lane, static_cast<Scalar>(contact.mu));
     T::set(given.restitution, lane, static_cast<Scalar>(contact.restitution));
     T::set(given.factor, lane, parameters_.sor_factor);
     if (manifolds[lane].forces == nullptr) continue;
     const model::ContactForce& force = manifolds[lane].forces[point];
     T::set(given.normal_force, lane, static_cast<Scalar>(force.normal));
-    if constexpr (Solver::friction) {
+    if constexpr (rubs) {
       T::set(given.friction_force.x, lane, static_cast<Scalar>(force.friction.x()));
       T::set(given.friction_force.y, lane, static_cast<Scalar>(force.friction.y()));
       T::set(given.friction_force.z, lane, static_cast<Scalar>(force.friction.z()));
@@ -165,17 +188,23 @@ typename ContactBuilder<T, two_bodies, kind>::Given ContactBuilder<T, two_bodies
 }
 
 template <class T, bool two_bodies, ContactKind kind>
+PBMPI_LANES typename ContactBuilder<T, two_bodies, kind>::Arms ContactBuilder<T, two_bodies, kind>::arms_of(
+    const BodyPair& pair, const Given& given) const {
+  const V zero = T::broadcast(0);
+  Arms arms{{zero, zero, zero}, {zero, zero, zero}};
+  if (!parameters_.turning) return arms;
+  arms.a = given.position - pair.centre_a;
+  if constexpr (two_bodies) arms.b = given.position - pair.centre_b;
+  return arms;
+}
+
+template <class T, bool two_bodies, ContactKind kind>
 template <bool bounces>
 void ContactBuilder<T, two_bodies, kind>::build_point(const ContactSlot<T>& slot, const BodyPair& pair,
                                                       const Given& given, Point& point) const {
   const V zero = T::broadcast(0);
-  L3 arm_a{zero, zero, zero}, arm_b = arm_a;
-  if (parameters_.turning) {
-    arm_a = given.position - pair.centre_a;
-    if constexpr (two_bodies) arm_b = given.position - pair.centre_b;
-  }
-  build_row(slot, pair, given.normal, arm_a, arm_b, parameters_.soft_cfm / parameters_.h, given.factor,
-            point.normal);
+  const Arms arms = arms_of(pair, given);
+  build_row(slot, pair, given.normal, arms, parameters_.soft_cfm / parameters_.h, given.factor, point.normal);
   const V carried = T::broadcast(parameters_.h * parameters_.warm_start);
   point.normal.impulse = given.normal_force * carried;
   V bounce = zero;
@@ -191,24 +220,78 @@ void ContactBuilder<T, two_bodies, kind>::build_point(const ContactSlot<T>& slot
       given.depth < zero ? given.depth / parameters_.h : (parameters_.relaxes ? push : T::max(push, bounce));
   keep_depth(point);
   point.depth = point.planned = given.depth;
-  if constexpr (Solver::friction) build_friction(slot, pair, given, arm_a, arm_b, point);
+  if constexpr (Solver::friction)
+    build_friction(slot, pair, given, arms, given.friction_force, point.friction);
+}
+
+/// The middle is that of the points, whatever they carry, so that a patch is the same throughout a step. What
+/// they remember acts at it as a force and a twist.
+template <class T, bool two_bodies, ContactKind kind>
+void ContactBuilder<T, two_bodies, kind>::build_patch(const BodyPair& pair, const Given& first,
+                                                      const PatchPart* parts, Slot& slot,
+                                                      Point* points) const {
+  const V zero = T::broadcast(0), one = T::broadcast(1);
+  V count = zero;
+  Arms middle{{zero, zero, zero}, {zero, zero, zero}};
+  L3 force{zero, zero, zero}, torque = force;
+  for (int i = 0; i < slot.num_points; ++i) {
+    const PatchPart& part = parts[i];
+    count += part.is_there;
+    middle.a = middle.a + part.arms.a * part.is_there;
+    middle.b = middle.b + part.arms.b * part.is_there;
+    force = force + part.force;
+  }
+  const V share = 1 / T::max(count, one);
+  middle = {middle.a * share, middle.b * share};
+  slot.normal = first.normal;
+  for (int i = 0; i < slot.num_points; ++i) {
+    const L3 away = (parts[i].arms.a - middle.a) * parts[i].is_there;
+    const L3 lever = away - slot.normal * dot(slot.normal, away);
+    points[i].lever = lever;
+    points[i].distance = T::sqrt(dot(lever, lever));
+    torque = torque + cross(lever, parts[i].force);
+  }
+  build_friction(slot, pair, first, middle, force, slot.friction);
+  slot.turn_a = pair.inv_inertia_a * slot.normal;
+  V diagonal = dot(slot.normal, slot.turn_a);
+  if constexpr (two_bodies) {
+    slot.turn_b = pair.inv_inertia_b * slot.normal;
+    diagonal += dot(slot.normal, slot.turn_b);
+  }
+  diagonal += T::broadcast(parameters_.cfm / parameters_.h);
+  const auto turns = diagonal > zero;
+  slot.twist_scale = turns ? first.factor / (turns ? diagonal : one) : zero;
+  const Row &row0 = slot.friction.rows[0], &row1 = slot.friction.rows[1];
+  V made0 = dot(slot.normal, row0.turn_a), made1 = dot(slot.normal, row1.turn_a);
+  if constexpr (two_bodies) {
+    made0 -= dot(slot.normal, row0.turn_b);
+    made1 -= dot(slot.normal, row1.turn_b);
+  }
+  const auto is_idle = first.factor <= zero;
+  const V per_factor = 1 / (is_idle ? one : first.factor);
+  slot.lean[0] = (row0.scale * made0 + slot.friction.coupling * made1) * per_factor;
+  slot.lean[1] = (slot.friction.coupling * made0 + row1.scale * made1) * per_factor;
+  const V rest = diagonal - slot.lean[0] * made0 - slot.lean[1] * made1;
+  const auto is_apart = rest > diagonal * T::broadcast(static_cast<Scalar>(1e-5));  // beyond rounding
+  slot.free_twist_scale = is_apart ? first.factor / (is_apart ? rest : one) : zero;
+  slot.twist = dot(slot.normal, torque) * T::broadcast(parameters_.h * parameters_.warm_start);
 }
 
 template <class T, bool two_bodies, ContactKind kind>
 void ContactBuilder<T, two_bodies, kind>::build_friction(const ContactSlot<T>& slot, const BodyPair& pair,
-                                                         const Given& given, const L3& arm_a, const L3& arm_b,
-                                                         Point& point) const {
-  point.mu = given.mu;
+                                                         const Given& given, const Arms& arms,
+                                                         const L3& carried, Friction& friction) const {
+  friction.mu = given.mu;
   L3 directions[2];
   plane_space<T>(given.normal, directions[0], directions[1]);
-  const V carried = T::broadcast(parameters_.h * parameters_.warm_start);
+  const V per_force = T::broadcast(parameters_.h * parameters_.warm_start);
   const Scalar cfm = parameters_.cfm / parameters_.h;
-  Row &row0 = point.friction[0], &row1 = point.friction[1];
+  Row &row0 = friction.rows[0], &row1 = friction.rows[1];
   for (int i = 0; i < 2; ++i) {
-    build_row(slot, pair, directions[i], arm_a, arm_b, cfm, given.factor, point.friction[i]);
-    point.friction[i].impulse = dot(directions[i], given.friction_force) * carried;
+    build_row(slot, pair, directions[i], arms, cfm, given.factor, friction.rows[i]);
+    friction.rows[i].impulse = dot(directions[i], carried) * per_force;
   }
-  point.coupling = point.slide = T::broadcast(0);
+  friction.coupling = friction.slide = T::broadcast(0);
   if (!parameters_.cone) return;
   // Inverse of the 2 x 2 block, times the factor.
   V off = dot(row0.moment_a, row1.turn_a);
@@ -219,8 +302,8 @@ void ContactBuilder<T, two_bodies, kind>::build_friction(const ContactSlot<T>& s
   const V scale0 = row0.scale, scale1 = row1.scale;
   const V share = 1 / (factor - off * off * scale0 * scale1 / factor);
   const V sum = scale0 + scale1;
-  point.slide = scale0 * scale1 / (is_idle ? one : sum);
-  point.coupling = -off * scale0 * scale1 * share;
+  friction.slide = scale0 * scale1 / (is_idle ? one : sum);
+  friction.coupling = -off * scale0 * scale1 * share;
   row0.scale = scale0 * factor * share;
   row1.scale = scale1 * factor * share;
 }
@@ -228,19 +311,19 @@ void ContactBuilder<T, two_bodies, kind>::build_friction(const ContactSlot<T>& s
 template <class T, bool two_bodies, ContactKind kind>
 PBMPI_LANES void ContactBuilder<T, two_bodies, kind>::build_row(const ContactSlot<T>& slot,
                                                                 const BodyPair& pair, const L3& direction,
-                                                                const L3& arm_a, const L3& arm_b, Scalar cfm,
-                                                                const V& factor, Row& row) {
+                                                                const Arms& arms, Scalar cfm, const V& factor,
+                                                                Row& row) {
   row.direction = direction;
   V diagonal = slot.inv_mass_a;
   if constexpr (!Solver::central) {
-    row.moment_a = cross(arm_a, direction);
+    row.moment_a = cross(arms.a, direction);
     row.turn_a = pair.inv_inertia_a * row.moment_a;
     diagonal += dot(row.moment_a, row.turn_a);
   }
   if constexpr (two_bodies && Solver::central) {
     diagonal += slot.inv_mass_b;
   } else if constexpr (two_bodies) {
-    row.moment_b = -cross(arm_b, direction);
+    row.moment_b = -cross(arms.b, direction);
     row.turn_b = pair.inv_inertia_b * row.moment_b;
     diagonal += slot.inv_mass_b + dot(row.moment_b, row.turn_b);
   }
@@ -249,7 +332,7 @@ PBMPI_LANES void ContactBuilder<T, two_bodies, kind>::build_row(const ContactSlo
 }
 
 template <class T, bool two_bodies, ContactKind kind>
-void ContactBuilder<T, two_bodies, kind>::advance(const ContactSlot<T>& slot, Point* points) const {
+void ContactBuilder<T, two_bodies, kind>::advance(const Slot& slot, Point* points) const {
   const Motion a = Solver::gather(bodies_->contact_twists, slot.row_a);
   const Motion b = two_bodies ? Solver::gather(bodies_->contact_twists, slot.row_b) : Motion{};
   const V zero = T::broadcast(0);

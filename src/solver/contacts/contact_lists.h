@@ -1,5 +1,5 @@
-/// The contacts of a pack in one step. They are of six kinds: with or without a second body, and central,
-/// smooth or rough.
+/// The contacts of a pack in one step. They are of eight kinds: with or without a second body, and central,
+/// smooth, rough or patched.
 #pragma once
 
 #include <algorithm>
@@ -35,11 +35,11 @@ class ContactList {
   /// Leads the rows on to the next substep.
   void advance(const BodyLanes<T>& bodies, const Parameters& parameters) {
     const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
-    for (const ContactSlot<T>& slot : slots_) builder.advance(slot, points_of(slot));
+    for (const Slot& slot : slots_) builder.advance(slot, points_of(slot));
   }
   void carry(const Parameters& parameters) {
     const ContactMemory<T, two_bodies, kind> memory(parameters);
-    for (const ContactSlot<T>& slot : slots_) memory.carry(slot, points_of(slot));
+    for (Slot& slot : slots_) memory.carry(slot, points_of(slot));
   }
   void remember(const Parameters& parameters) {
     const ContactMemory<T, two_bodies, kind> memory(parameters);
@@ -48,10 +48,10 @@ class ContactList {
   }
   void bounce(TwistRows<T>& twists, const Parameters& parameters) {
     const ContactSolver<T, two_bodies, kind> solver(parameters, {});
-    for (const ContactSlot<T>& slot : slots_) solver.bounce(twists, slot, points_of(slot));
+    for (const Slot& slot : slots_) solver.bounce(twists, slot, points_of(slot));
   }
   void push_carried(TwistRows<T>& twists) {
-    for (const ContactSlot<T>& slot : slots_)
+    for (const Slot& slot : slots_)
       ContactSolver<T, two_bodies, kind>::push_carried(twists, slot, points_of(slot));
   }
   /// visit(slot, its points, the manifold of each lane).
@@ -73,19 +73,20 @@ class ContactList {
     if (range.first == range.end) return;
     const ContactSolver<T, two_bodies, kind> solver(parameters, law);
     for (int i = range.first; i < range.end; ++i) {
-      const ContactSlot<T>& slot = slots_[static_cast<std::size_t>(i)];
+      Slot& slot = slots_[static_cast<std::size_t>(i)];
       solver.solve(twists, slot, points_of(slot), points);
     }
   }
 
  private:
   using Point = ContactPoint<typename T::V, two_bodies, kind>;
+  using Slot = SlotOf<T, two_bodies, kind>;
 
   void cut() {
     slots_.resize(static_cast<std::size_t>(order.num_slots()));
     int num_points = 0;
     for (int i = 0; i < order.num_slots(); ++i) {
-      ContactSlot<T>& slot = slots_[static_cast<std::size_t>(i)];
+      Slot& slot = slots_[static_cast<std::size_t>(i)];
       slot.first_point = num_points;
       slot.num_points = order.num_points(i);
       num_points += slot.num_points;
@@ -93,9 +94,9 @@ class ContactList {
     if (static_cast<std::size_t>(num_points) > points_.size())  // to make points anew costs more than room
       points_.resize(static_cast<std::size_t>(num_points));
   }
-  Point* points_of(const ContactSlot<T>& slot) { return points_.data() + slot.first_point; }
+  Point* points_of(const Slot& slot) { return points_.data() + slot.first_point; }
 
-  std::vector<ContactSlot<T>> slots_;
+  std::vector<Slot> slots_;
   std::vector<Point> points_;
 };
 
@@ -104,12 +105,14 @@ class ContactLists {
  public:
   using Parameters = ContactParameters<typename T::Scalar>;
 
-  /// Says which kind of rows contacts without friction get.
+  /// Says which kind of rows contacts without friction get; `rough`: the same as those with friction.
   explicit ContactLists(ContactKind frictionless) : frictionless_(frictionless) {}
 
-  void clear() {
+  /// rubbing: the kind of rows that contacts with friction get, rough or patched.
+  void clear(ContactKind rubbing) {
     for_each([](auto& list) { list.order.clear(); });
     num_colors_ = 0;
+    rubbing_ = rubbing;
   }
 
   /// The contacts of one world, in canonical order, of the bodies of which `moves(body)`. `place_of(body)`:
@@ -181,22 +184,38 @@ class ContactLists {
   }
 
  private:
-  static bool belong_together(const model::Contact& a, const model::Contact& b) {
-    return a.body_a == b.body_a && a.body_b == b.body_b && (a.mu > 0) == (b.mu > 0);
+  bool belong_together(const model::Contact& a, const model::Contact& b) const {
+    if (a.body_a != b.body_a || a.body_b != b.body_b || (a.mu > 0) != (b.mu > 0)) return false;
+    return rubbing_ != ContactKind::patched || a.mu == 0 || make_a_patch(a, b);
+  }
+  /// Friction along one plane, to a hundredth of its force.
+  static bool make_a_patch(const model::Contact& a, const model::Contact& b) {
+    constexpr double least_cosine = 0.99995;
+    return a.mu == b.mu && a.normal.dot(b.normal) > least_cosine;
   }
   template <bool two_bodies>
-  using Kinds = std::tuple<ContactList<T, two_bodies, ContactKind::central>,
-                           ContactList<T, two_bodies, ContactKind::smooth>,
-                           ContactList<T, two_bodies, ContactKind::rough>>;
+  using Kinds = std::tuple<
+      ContactList<T, two_bodies, ContactKind::central>, ContactList<T, two_bodies, ContactKind::smooth>,
+      ContactList<T, two_bodies, ContactKind::rough>, ContactList<T, two_bodies, ContactKind::patched>>;
 
   ManifoldOrder& order_of(const model::Contact& contact) {
-    const ContactKind kind = contact.mu > 0 ? ContactKind::rough : frictionless_;
+    const bool rubs = contact.mu > 0 || frictionless_ == ContactKind::rough;
+    const ContactKind kind = rubs ? rubbing_ : frictionless_;
     return contact.body_b == model::no_body ? order_of(one_body_, kind) : order_of(two_bodies_, kind);
   }
   template <class Lists>
   static ManifoldOrder& order_of(Lists& lists, ContactKind kind) {
-    if (kind == ContactKind::central) return std::get<0>(lists).order;
-    return kind == ContactKind::smooth ? std::get<1>(lists).order : std::get<2>(lists).order;
+    switch (kind) {
+      case ContactKind::central:
+        return std::get<0>(lists).order;
+      case ContactKind::smooth:
+        return std::get<1>(lists).order;
+      case ContactKind::rough:
+        return std::get<2>(lists).order;
+      case ContactKind::patched:
+        break;
+    }
+    return std::get<3>(lists).order;
   }
   template <class Visit>
   void for_each(Visit visit) {
@@ -213,7 +232,7 @@ class ContactLists {
     std::apply(all, self.two_bodies_);
   }
 
-  ContactKind frictionless_;
+  ContactKind frictionless_, rubbing_ = ContactKind::rough;
   ContactColors painter_;
   int num_colors_ = 0;  ///< the most that a world has
   SweepOrder order_;

@@ -12,48 +12,100 @@ class ContactMemory {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
   using Solver = ContactSolver<T, two_bodies, kind>;
-  using Row = typename Solver::Row;
   using Point = typename Solver::Point;
+  using Slot = typename Solver::Slot;
 
   explicit ContactMemory(const ContactParameters<Scalar>& parameters)
       : h_(parameters.h), warm_start_(parameters.warm_start) {}
 
   /// Reduces the impulses to the share that the next substep takes over.
-  void carry(const ContactSlot<T>& slot, Point* points) const;
+  void carry(Slot& slot, Point* points) const;
 
   /// Writes the forces of the points to where their manifolds remember them.
-  void remember(const ContactSlot<T>& slot, const Point* points, const Manifold* manifolds) const;
+  void remember(const Slot& slot, const Point* points, const Manifold* manifolds) const;
 
  private:
+  using L3 = Vec3L<V>;
+  using Friction = typename Solver::Friction;
+
+  PBMPI_LANES void reduce(V& impulse) const {
+    impulse = warm_start_ > 0 ? impulse * T::broadcast(warm_start_) : T::broadcast(0);
+  }
+  /// [N s] Without impulses +0, as of a contact that has no friction rows.
+  PBMPI_LANES static L3 impulse_of(const Friction& friction) {
+    const V zero = T::broadcast(0);
+    return L3{zero, zero, zero} + friction.rows[0].direction * friction.rows[0].impulse +
+           friction.rows[1].direction * friction.rows[1].impulse;
+  }
+  static void share_out(const Slot& slot, const Point* points, L3* impulses);
+
   Scalar h_, warm_start_;
 };
 
 template <class T, bool two_bodies, ContactKind kind>
-void ContactMemory<T, two_bodies, kind>::carry(const ContactSlot<T>& slot, Point* points) const {
-  const auto carried = [&](const V& impulse) {
-    return warm_start_ > 0 ? impulse * T::broadcast(warm_start_) : T::broadcast(0);
-  };
+void ContactMemory<T, two_bodies, kind>::carry(Slot& slot, Point* points) const {
   for (int i = 0; i < slot.num_points; ++i) {
-    points[i].normal.impulse = carried(points[i].normal.impulse);
+    reduce(points[i].normal.impulse);
     if constexpr (Solver::friction) {
-      for (Row& row : points[i].friction) row.impulse = carried(row.impulse);
+      for (auto& row : points[i].friction.rows) reduce(row.impulse);
     }
+  }
+  if constexpr (Solver::patched) {
+    for (auto& row : slot.friction.rows) reduce(row.impulse);
+    reduce(slot.twist);
+  }
+}
+
+/// What a patch does, as impulses [N s] at its points [slot.num_points], to each by what it carries, n_i:
+///   n_i (c + b normal x (r_i - r)),  r = sum n_i r_i / sum n_i,
+/// with c and b such that they have the patch's sum and twist. Single points may so do more than mu n_i, but
+/// b turns none by more than 2 mu n_i: where only one point carries, or those that do lie close together,
+/// less of the twist is left, or none.
+template <class T, bool two_bodies, ContactKind kind>
+void ContactMemory<T, two_bodies, kind>::share_out(const Slot& slot, const Point* points, L3* impulses) {
+  constexpr Scalar least_pressure = static_cast<Scalar>(1e-25);  // [N s] below any that bears something
+  const V zero = T::broadcast(0), one = T::broadcast(1);
+  const L3 none{zero, zero, zero}, sum = impulse_of(slot.friction);
+  V pressure = zero, spread = zero, farthest = zero;
+  L3 pressed = none;
+  for (int i = 0; i < slot.num_points; ++i) {
+    const V& carried = points[i].normal.impulse;
+    pressure += carried;
+    pressed = pressed + points[i].lever * carried;
+  }
+  const auto carries = pressure > T::broadcast(least_pressure);
+  const V per_pressure = carries ? 1 / (carries ? pressure : one) : zero;
+  const L3 middle = pressed * per_pressure, even = sum * per_pressure;
+  for (int i = 0; i < slot.num_points; ++i) {
+    const L3 lever = points[i].lever - middle;
+    const V square = dot(lever, lever);
+    spread += points[i].normal.impulse * square;
+    farthest = points[i].normal.impulse > zero ? T::max(farthest, square) : farthest;
+  }
+  // b = twist / spread, or 2 mu / the farthest lever: the smaller.
+  const V twist = slot.twist - dot(slot.normal, cross(middle, sum));
+  const V most = 2 * slot.friction.mu * spread, length = T::sqrt(farthest) * T::abs(twist);
+  const auto is_little = length <= most;
+  const auto twists = carries ? spread > zero : carries;
+  const V within = is_little ? one : most / (is_little ? one : length);
+  const V turning = twists ? twist * within / (twists ? spread : one) : zero;
+  for (int i = 0; i < slot.num_points; ++i) {
+    const L3 share = even + cross(slot.normal, points[i].lever - middle) * turning;
+    impulses[i] = none + share * points[i].normal.impulse;
   }
 }
 
 template <class T, bool two_bodies, ContactKind kind>
-void ContactMemory<T, two_bodies, kind>::remember(const ContactSlot<T>& slot, const Point* points,
+void ContactMemory<T, two_bodies, kind>::remember(const Slot& slot, const Point* points,
                                                   const Manifold* manifolds) const {
   const V per_h = T::broadcast(1 / h_), zero = T::broadcast(0);
+  L3 impulses[ManifoldOrder::most_points];
+  if constexpr (Solver::patched) share_out(slot, points, impulses);
   for (int i = 0; i < slot.num_points; ++i) {
-    const Point& point = points[i];
-    const V normal = point.normal.impulse * per_h;
-    Vec3L<V> friction{zero, zero, zero};
-    if constexpr (Solver::friction)
-      // Without impulses +0, as of a contact that has no friction rows.
-      friction = (friction + point.friction[0].direction * point.friction[0].impulse +
-                  point.friction[1].direction * point.friction[1].impulse) *
-                 per_h;
+    const V normal = points[i].normal.impulse * per_h;
+    L3 friction{zero, zero, zero};
+    if constexpr (Solver::friction) friction = impulse_of(points[i].friction) * per_h;
+    if constexpr (Solver::patched) friction = impulses[i] * per_h;
     for (int lane = 0; lane < T::num_lanes; ++lane) {
       if (i >= manifolds[lane].num_points || manifolds[lane].forces == nullptr) continue;
       model::ContactForce& force = manifolds[lane].forces[i];

@@ -162,10 +162,10 @@ typename NewtonLanes<T>::Touch NewtonLanes<T>::touch(const ContactSlot<T>& slot,
   found.rows[0] = contact_row<Solver>(slot, point.normal, manifold, lane, T::get(point.rhs, lane),
                                       parameters_.soft_cfm / parameters_.h);
   if constexpr (Solver::friction) {
-    found.mu = T::get(point.mu, lane);
+    found.mu = T::get(point.friction.mu, lane);
     found.num_rows = 3;
     for (std::size_t k = 0; k < 2; ++k) {
-      auto& row = point.friction[k];
+      auto& row = point.friction.rows[k];
       found.rows[k + 1] = contact_row<Solver>(slot, row, manifold, lane, 0, parameters_.cfm / parameters_.h);
       found.homes[k + 1] = &row.impulse;
     }

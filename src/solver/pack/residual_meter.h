@@ -42,9 +42,8 @@ class ResidualMeter {
   }
 
   /// The contacts of a slot for which is_wanted(lane, point).
-  template <class Point, class IsWanted>
-  void add_contacts(const ContactSlot<T>& slot, const Point* points, const TwistRows<T>& twists,
-                    IsWanted is_wanted) {
+  template <class Slot, class Point, class IsWanted>
+  void add_contacts(const Slot& slot, const Point* points, const TwistRows<T>& twists, IsWanted is_wanted) {
     using Solver = ContactSolver<T, Point::two_bodies, Point::kind>;
     using Motion = typename Solver::Motion;
     const Motion a = Solver::gather(twists, slot.row_a);
@@ -52,6 +51,11 @@ class ResidualMeter {
     for (int i = 0; i < slot.num_points; ++i) {
       for (int lane = 0; lane < T::num_lanes; ++lane) {
         if (is_wanted(lane, i)) add_contact<Solver>(points[i], a, b, lane);
+      }
+    }
+    if constexpr (Solver::patched) {
+      for (int lane = 0; lane < T::num_lanes; ++lane) {
+        if (is_wanted(lane, 0)) add_patch<Solver>(slot, points, a, b, lane);
       }
     }
   }
@@ -109,31 +113,65 @@ class ResidualMeter {
                                 contacts_.soft_cfm / contacts_.h, point.normal.impulse, lane);
     raise(complementarity_, impulse * normal);
     raise(line_.natural, row_natural(point.normal, normal, 0, huge_bound));
-    if constexpr (Solver::friction) {
-      const double bound = T::get(point.mu, lane) * impulse;
-      double errors[2];
-      for (int k = 0; k < 2; ++k) {
-        const auto& row = point.friction[k];
-        errors[k] =
-            error(Solver::speed(row, a, b), T::broadcast(0), contacts_.cfm / contacts_.h, row.impulse, lane);
-        if (!contacts_.cone) raise(line_.natural, row_natural(row, errors[k], -bound, bound));
-      }
-      if (contacts_.cone) raise(line_.natural, cone_natural(point, errors, bound, lane));
-    }
+    if constexpr (Solver::friction)
+      add_friction<Solver>(point.friction, T::get(point.friction.mu, lane) * impulse, a, b, lane);
   }
-  /// Of both rows of friction, with a disc for bounds.
-  template <class Point>
-  double cone_natural(const Point& point, const double (&errors)[2], double bound, int lane) const {
-    const double per_d = T::get(point.slide, lane) / contacts_.sor_factor;
-    double before[2], after[2];
+  template <class Solver>
+  void add_friction(const typename Solver::Friction& friction, double bound, const typename Solver::Motion& a,
+                    const typename Solver::Motion& b, int lane) {
+    double errors[2];
     for (int k = 0; k < 2; ++k) {
-      before[k] = T::get(point.friction[k].impulse, lane);
-      after[k] = before[k] + errors[k] * per_d;
+      const auto& row = friction.rows[k];
+      errors[k] =
+          error(Solver::speed(row, a, b), T::broadcast(0), contacts_.cfm / contacts_.h, row.impulse, lane);
+      if (!contacts_.cone)
+        raise(line_.natural,
+              natural(errors[k], T::get(row.impulse, lane), -bound, bound, T::get(row.scale, lane)));
     }
-    const double length = std::sqrt(after[0] * after[0] + after[1] * after[1]);
-    const double share = length > bound ? bound / length : 1;
-    const double change[2] = {after[0] * share - before[0], after[1] * share - before[1]};
-    return std::sqrt(change[0] * change[0] + change[1] * change[1]) / per_d;
+    if (!contacts_.cone) return;
+    const double impulses[2] = {T::get(friction.rows[0].impulse, lane),
+                                T::get(friction.rows[1].impulse, lane)};
+    raise(line_.natural,
+          ball_natural(errors, impulses, bound, T::get(friction.slide, lane) / contacts_.sor_factor));
+  }
+  /// Of rows with one ball for bounds.
+  template <std::size_t num_rows>
+  static double ball_natural(const double (&errors)[num_rows], const double (&impulses)[num_rows],
+                             double bound, double per_d) {
+    double after[num_rows], square = 0, moved = 0;
+    for (std::size_t k = 0; k < num_rows; ++k) {
+      after[k] = impulses[k] + errors[k] * per_d;
+      square += after[k] * after[k];
+    }
+    const double share = square > bound * bound ? bound / std::sqrt(square) : 1;
+    for (std::size_t k = 0; k < num_rows; ++k)
+      moved += (after[k] * share - impulses[k]) * (after[k] * share - impulses[k]);
+    return std::sqrt(moved) / per_d;
+  }
+  /// See ContactSolver::solve_patch().
+  template <class Solver>
+  void add_patch(const typename Solver::Slot& slot, const typename Solver::Point* points,
+                 const typename Solver::Motion& a, const typename Solver::Motion& b, int lane) {
+    double force = 0, torque = 0;
+    for (int i = 0; i < slot.num_points; ++i) {
+      const double impulse = T::get(points[i].normal.impulse, lane);
+      force += impulse;
+      torque += impulse * T::get(points[i].distance, lane);
+    }
+    const double bound = T::get(slot.friction.mu, lane) * force;
+    if (!(torque > 0)) return add_friction<Solver>(slot.friction, bound, a, b, lane);
+    const double distance = torque / force, cfm = contacts_.cfm / contacts_.h;
+    double errors[3], impulses[3];
+    for (int k = 0; k < 2; ++k) {
+      const auto& row = slot.friction.rows[k];
+      impulses[k] = T::get(row.impulse, lane);
+      errors[k] = error(Solver::speed(row, a, b), T::broadcast(0), cfm, row.impulse, lane);
+    }
+    impulses[2] = T::get(slot.twist, lane) / distance;
+    errors[2] = distance * error(Solver::twist_speed(slot, a, b), T::broadcast(0), cfm, slot.twist, lane);
+    const double step = std::min<double>(T::get(slot.friction.slide, lane),
+                                         T::get(slot.twist_scale, lane) / (distance * distance));
+    raise(line_.natural, ball_natural(errors, impulses, bound, step / contacts_.sor_factor));
   }
 
   Scalar cfm_;

@@ -70,7 +70,8 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   parameters.joint_turns = joint_turn_spring(settings);
   parameters.joint_solver = settings.joint_solver;
   parameters.newton = settings.finish == stepping::Finish::newton;
-  parameters.cone = settings.friction == stepping::Friction::cone;
+  parameters.cone = settings.friction != stepping::Friction::pyramid;
+  parameters.patches = settings.friction == stepping::Friction::patch;
   parameters.residuals = settings.residuals;
   parameters.show_forces = settings.contacts;
   parameters.shuffled = settings.row_order == stepping::RowOrder::shuffled;

@@ -19,6 +19,7 @@ SOR = {
     "solver seed 3, single": ("--solver-seed", 3, "--precision", "single"),
     "cold": COLD,
     "4 x 2, pyramid": ("--substeps", 4, "--iterations", 2, "--friction", "pyramid"),
+    "patch": ("--friction", "patch"),
     "tree": ("--joint-solver", "tree"),
     "joints one by one, no margin": ("--joint-solver", "sweeps", "--contact-margin", 0),
     "half the step": ("--dt", 0.005),
