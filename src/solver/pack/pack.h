@@ -31,9 +31,8 @@ struct StepParameters {
   Spring contacts;
   Spring joint_places, joint_turns;  ///< of joints: where they hold their bodies, and how they turn them
   stepping::JointSolver joint_solver = stepping::JointSolver::sweeps;
+  stepping::Friction friction = stepping::Friction::pyramid;
   bool pushes = true;      ///< false: contacts that carry force stay as deep, or as open, as they are
-  bool cone = false;       ///< friction that is the same in all directions
-  bool patches = false;    ///< friction that the points of a manifold share; needs `cone`
   bool newton = false;     ///< the sweeps of rigid rows are followed by Newton's method (newton/row_system.h)
   bool shuffled = true;    ///< false: the joints of an articulation and the contacts keep their order
   bool residuals = false;  ///< measure them at the end of the solve

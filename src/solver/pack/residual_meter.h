@@ -119,20 +119,27 @@ class ResidualMeter {
   template <class Solver>
   void add_friction(const typename Solver::Friction& friction, double bound, const typename Solver::Motion& a,
                     const typename Solver::Motion& b, int lane) {
-    double errors[2];
+    double errors[2], impulses[2];
+    read_friction<Solver>(friction, a, b, lane, errors, impulses);
+    if (contacts_.cone) {
+      raise(line_.natural,
+            ball_natural(errors, impulses, bound, T::get(friction.slide, lane) / contacts_.sor_factor));
+      return;
+    }
+    for (int k = 0; k < 2; ++k)
+      raise(line_.natural,
+            natural(errors[k], impulses[k], -bound, bound, T::get(friction.rows[k].scale, lane)));
+  }
+  /// Into the first two of each.
+  template <class Solver>
+  void read_friction(const typename Solver::Friction& friction, const typename Solver::Motion& a,
+                     const typename Solver::Motion& b, int lane, double* errors, double* impulses) const {
     for (int k = 0; k < 2; ++k) {
       const auto& row = friction.rows[k];
+      impulses[k] = T::get(row.impulse, lane);
       errors[k] =
           error(Solver::speed(row, a, b), T::broadcast(0), contacts_.cfm / contacts_.h, row.impulse, lane);
-      if (!contacts_.cone)
-        raise(line_.natural,
-              natural(errors[k], T::get(row.impulse, lane), -bound, bound, T::get(row.scale, lane)));
     }
-    if (!contacts_.cone) return;
-    const double impulses[2] = {T::get(friction.rows[0].impulse, lane),
-                                T::get(friction.rows[1].impulse, lane)};
-    raise(line_.natural,
-          ball_natural(errors, impulses, bound, T::get(friction.slide, lane) / contacts_.sor_factor));
   }
   /// Of rows with one ball for bounds.
   template <std::size_t num_rows>
@@ -160,15 +167,12 @@ class ResidualMeter {
     }
     const double bound = T::get(slot.friction.mu, lane) * force;
     if (!(torque > 0)) return add_friction<Solver>(slot.friction, bound, a, b, lane);
-    const double distance = torque / force, cfm = contacts_.cfm / contacts_.h;
+    const double distance = torque / force;
     double errors[3], impulses[3];
-    for (int k = 0; k < 2; ++k) {
-      const auto& row = slot.friction.rows[k];
-      impulses[k] = T::get(row.impulse, lane);
-      errors[k] = error(Solver::speed(row, a, b), T::broadcast(0), cfm, row.impulse, lane);
-    }
+    read_friction<Solver>(slot.friction, a, b, lane, errors, impulses);
     impulses[2] = T::get(slot.twist, lane) / distance;
-    errors[2] = distance * error(Solver::twist_speed(slot, a, b), T::broadcast(0), cfm, slot.twist, lane);
+    errors[2] = distance * error(Solver::twist_speed(slot, a, b), T::broadcast(0),
+                                 contacts_.cfm / contacts_.h, slot.twist, lane);
     const double step = std::min<double>(T::get(slot.friction.slide, lane),
                                          T::get(slot.twist_scale, lane) / (distance * distance));
     raise(line_.natural, ball_natural(errors, impulses, bound, step / contacts_.sor_factor));

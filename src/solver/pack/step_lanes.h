@@ -102,7 +102,8 @@ class StepLanes {
 
 template <class T>
 void StepLanes<T>::sort_contacts(Contacts contacts, Forces forces) {
-  contacts_.clear(parameters_.patches ? ContactKind::patched : ContactKind::rough);
+  contacts_.clear(parameters_.friction == stepping::Friction::patch ? ContactKind::patched
+                                                                    : ContactKind::rough);
   for (int world = 0; world < worlds_.num_worlds(); ++world) {
     const auto w = static_cast<std::size_t>(world);
     contacts_.add_world(

@@ -82,7 +82,7 @@ class StepLaws {
                  .turning = laws.turning_contacts,
                  .keeps_depths = !step.pushes,
                  .relaxes = step.relax > 0,
-                 .cone = step.cone};
+                 .cone = step.friction != stepping::Friction::pyramid};
     if (!step.contacts.is_on()) return;
     const SpringStep spring(step.contacts, static_cast<double>(h_), length_of(step));
     contacts_.push_rate = scalar(spring.erp()) / h_;

@@ -70,8 +70,7 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   parameters.joint_turns = joint_turn_spring(settings);
   parameters.joint_solver = settings.joint_solver;
   parameters.newton = settings.finish == stepping::Finish::newton;
-  parameters.cone = settings.friction != stepping::Friction::pyramid;
-  parameters.patches = settings.friction == stepping::Friction::patch;
+  parameters.friction = settings.friction;
   parameters.residuals = settings.residuals;
   parameters.show_forces = settings.contacts;
   parameters.shuffled = settings.row_order == stepping::RowOrder::shuffled;

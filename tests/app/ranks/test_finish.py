@@ -43,7 +43,8 @@ class Finish(ProgramTest):
         self.assertEqual(self.summary(2, "--resume", "state.h5", "--frames", 4, "--no-output")["state_hash"], whole)
 
     def test_springs_pyramids_patches_and_other_steppers_are_refused(self):
-        for options in (("--finish", "newton"), (*NEWTON, "--friction", "pyramid"), (*NEWTON, "--friction", "patch"), ("--stepper", "quick", "--finish", "newton")):
+        for options in (("--finish", "newton"), (*NEWTON, "--friction", "pyramid"), (*NEWTON, "--friction", "patch"),
+                        ("--stepper", "quick", "--finish", "newton")):
             result = self.pbmpi(1, "--scene", "CrashSk", *RUN, "--no-output", *options)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn("--finish", result.stderr)

@@ -53,11 +53,8 @@ class Patch : public testing::TestWithParam<Precision> {};
 /// Each corner resists with mu times a quarter of the weight, across its way from the middle.
 TEST_P(Patch, brakes_a_spinning_cube_as_its_corners_would) {
   const double spin = 6;
-  const model::Model model = [&] {
-    model::Model one = cube();
-    one.bodies[0].angular_velocity = {0, 0, spin};
-    return one;
-  }();
+  model::Model model = cube();
+  model.bodies[0].angular_velocity = {0, 0, spin};
   const double torque = mu * 10 * gravity * std::numbers::sqrt2 / 2;
   const double expected_s = spin * model.bodies[0].inertia(2, 2) / torque;
   for (const Friction friction : {Friction::patch, Friction::cone}) {
