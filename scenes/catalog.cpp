@@ -50,7 +50,7 @@ SceneSource find_scene(const std::string& name_or_path) {
     }
     if ((scene.group == SceneGroup::hard) == is_hard_case(name_or_path)) names.emplace_back(scene.name);
   }
-  // All hard cases would be too long a list.
+  // Naming all hard cases would make the list too long.
   const bool none_is_near = is_hard_case(name_or_path) && core::nearest_name(name_or_path, names).empty();
   throw core::InputError("unknown scene " + core::in_quotes(name_or_path) +
                          (none_is_near ? "" : core::suggestion(name_or_path, names)) +

@@ -1,4 +1,4 @@
-/// The scene files that are part of the program.
+/// The scene files that are embedded in the program.
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@ struct EmbeddedScene {
   std::string_view text;
 };
 
-/// Group by group, in the order of list_scenes(). The source is generated at build time from scenes/*.toml,
-/// scenes/effects/*.toml and scenes/hard/*/*.toml.
+/// The scenes by group, in the order of list_scenes(). The source is generated at build time from
+/// scenes/*.toml, scenes/effects/*.toml and scenes/hard/*/*.toml.
 std::span<const EmbeddedScene> embedded_scenes();
 
 }  // namespace pbmpi::scenes

@@ -18,11 +18,11 @@ namespace {
 
 constexpr std::string_view whole_world = "world";
 
-/// What an override replaces.
+/// The value that an override replaces.
 struct Target {
   std::string_view array;         ///< "actor" or "joint"; empty: the scene itself
   std::string_view name;          ///< of the actor or joint
-  std::vector<std::string> path;  ///< of the key, from there on; not empty
+  std::vector<std::string> path;  ///< keys from there on; not empty
 };
 
 std::string place_of(const Override& one) {
@@ -59,7 +59,8 @@ std::vector<std::string> split(const Override& one, std::string_view path) {
   }
 }
 
-/// What a run has once, for all of its worlds, and what is reached by its name.
+/// Refuses keys that have one value for all worlds of a run, and arrays, whose elements are addressed by
+/// name.
 void require_of_a_world(const Override& one, const std::string& key) {
   constexpr std::array common = {"title", "base", "spaces", "run", "case"};
   if (std::ranges::find(common, key) != common.end())
@@ -79,7 +80,7 @@ Target target_of(const Override& one, const toml::table& scene) {
     const std::vector<std::string> names = names_in(scene, array);
     known.insert(known.end(), names.begin(), names.end());
   }
-  // A name may hold a dot itself: of those that the key begins with, the longest is meant.
+  // A name may itself contain a dot: among the names that the key begins with, the longest is meant.
   std::string_view longest;
   for (const std::string& name : known) {
     const bool begins = key.size() > name.size() && key.starts_with(name) && key[name.size()] == '.';
@@ -102,7 +103,7 @@ Target target_of(const Override& one, const toml::table& scene) {
   return target;
 }
 
-/// Refuses a text that is more than a value, or less.
+/// Refuses a text that is not exactly one value.
 void require_value(const Override& one) {
   try {
     if (toml::parse("value = " + one.value).size() == 1) return;
@@ -113,7 +114,7 @@ void require_value(const Override& one) {
   refuse(one, core::in_quotes(one.value) + " is more than one TOML value");
 }
 
-/// The scene file that would say so of a scene that has this one as its base.
+/// The scene file that would give this value if it had this scene as its base.
 toml::table file_of(const Override& one, const Target& target) {
   std::string text;
   if (!target.array.empty())

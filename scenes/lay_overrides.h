@@ -1,4 +1,4 @@
-/// Overrides as TOML, laid over that of their scene.
+/// Lays overrides, as TOML, over the TOML of their scene.
 #pragma once
 
 #include <toml++/toml.h>
@@ -10,14 +10,14 @@
 namespace pbmpi::scenes {
 
 /// Lays each override over `scene` as a scene file is laid over its base (lay_over()), so that readers find
-/// it where a file would have it, and tell a mistake at the override's place. Throws core::InputError: a key
-/// that names no actor or joint of the scene (with the nearest names), or what the worlds of a run have in
-/// common; a value that is no TOML. What only a reader knows (keys of an actor, ranges) is for readers to
-/// find.
+/// it where a file would have it, and report an error at the override's place. Throws core::InputError for a
+/// key that names no actor or joint of the scene (with the nearest names) or that all worlds of a run share,
+/// and for a value that is not TOML. Errors that only a reader can see (keys of an actor, ranges) are left to
+/// the readers.
 void lay_overrides(toml::table& scene, const Overrides& overrides);
 
-/// A value as TOML. Its texts stand in quotes, in one line, where everything that a text may hold has an
-/// escape: ''' ends one that is spread over lines, which also loses a line break that it begins with.
+/// A value as TOML. Its texts are quoted, on one line, with escapes for every character that needs one: a
+/// multi-line literal could not hold ''' and would lose a leading line break.
 std::string toml_text(const toml::node& value);
 std::string toml_string(std::string_view text);
 

@@ -15,7 +15,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-/// A word is a text, unless it is a value of its own: true, false, inf, nan.
+/// An unquoted word is a text, unless it is a TOML value: true, false, inf, nan.
 std::string value_of_cell(const std::string& cell) {
   constexpr const char* of_their_own[] = {"true", "false", "inf", "nan"};
   const bool begins_as_word =
@@ -24,7 +24,7 @@ std::string value_of_cell(const std::string& cell) {
                                                                                            : cell;
 }
 
-/// The values of a [[world]] table and of those in it, by keys with dots.
+/// Adds the values of a [[world]] table and of its sub-tables, with dotted keys.
 void flatten(const toml::table& table, const std::string& before, Overrides& overrides) {
   for (const auto& [key, node] : table) {
     const std::string name = before + std::string(key.str());

@@ -1,4 +1,4 @@
-/// The parameters of an ensemble: what each of its worlds has otherwise than the scene, as a table.
+/// The parameters of an ensemble: a table of the values in which its worlds differ from the scene.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,12 @@
 
 namespace pbmpi::scenes {
 
-/// A world a row, a key (Override::key) a column. Immutable.
+/// One row per world, one column per key (Override::key). Immutable.
 class ParameterTable {
  public:
-  /// `text`: TOML if the name of its file ends in ".toml", a [[world]] table a world, whose keys are those of
-  /// overrides; else comma-separated values, the first line the keys, where a cell that is empty leaves the
-  /// world as the scene has it, and a word without quotes is a text. Throws core::InputError
-  /// "file:line:column: ...".
+  /// `text` is TOML if the name of its file ends in ".toml": one [[world]] table per world, with the keys of
+  /// overrides. Otherwise it is comma-separated values: the first line has the keys, an empty cell leaves the
+  /// world as in the scene, and an unquoted word is a text. Throws core::InputError "file:line:column: ...".
   ParameterTable(std::string file, std::string text);
 
   const std::string& file() const { return file_; }
@@ -23,9 +22,9 @@ class ParameterTable {
   int num_worlds() const { return static_cast<int>(rows_.size()); }
   const std::vector<std::string>& keys() const { return keys_; }  ///< in the order of their first use
 
-  /// Of world 0 .. num_worlds() - 1.
+  /// The overrides of world 0 .. num_worlds() - 1.
   const Overrides& of_world(int world) const { return rows_.at(static_cast<std::size_t>(world)); }
-  /// [num_worlds][keys] values as TOML; empty where the world is as the scene has it.
+  /// [num_worlds][keys] values as TOML; empty where the world is as in the scene.
   std::vector<std::vector<std::string>> values() const;
 
  private:
@@ -38,7 +37,7 @@ class ParameterTable {
   std::vector<Overrides> rows_;
 };
 
-/// The number that a TOML value is, if it is one.
+/// The number that a TOML value represents, if it is a number.
 std::optional<double> number_in(const std::string& value);
 
 }  // namespace pbmpi::scenes

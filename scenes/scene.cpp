@@ -55,7 +55,7 @@ struct ActorEntry {
   PartVelocities parts;
 };
 
-/// What the caller replaces of the scene's own defaults.
+/// The defaults of the scene that the caller replaces.
 struct Choices {
   std::optional<double> dt_s;
   std::optional<SpacesForm> spaces;
@@ -101,7 +101,8 @@ class FileScene final : public Scene {
     try {
       return with(overrides, toml_).build(world, seed);
     } catch (const core::InputError&) {
-      // A copy of a table has lost its places in the file: what is wrong is found again where they are known.
+      // A copy of a table has lost its places in the file: an error is found again where the places are
+      // known.
       return build_or_tell(world, seed, overrides);
     }
   }
@@ -131,14 +132,14 @@ class FileScene final : public Scene {
     return result;
   }
 
-  /// The scene whose file says what `overrides` say, too.
+  /// The scene with the TOML in which `overrides` are laid over the file.
   FileScene with(const Overrides& overrides, toml::table toml) const {
     lay_overrides(toml, overrides);
     return {source_, choices_, std::move(toml)};
   }
 
-  /// What is wrong with the world alone is told at the scene's place; where its parameters come from is
-  /// added.
+  /// Reports an error of this world alone at the scene's place, and adds the source of the world's
+  /// parameters.
   std::shared_ptr<const model::Model> build_or_tell(int world, std::uint64_t seed,
                                                     const Overrides& overrides) const {
     const FileScene scene = with(overrides, parse_with_base(source_));
@@ -166,7 +167,7 @@ class FileScene final : public Scene {
     run->finish();
   }
 
-  /// Effects by name, true or false.
+  /// Reads effects by name, true or false.
   void read_effects(TableReader& scene) {
     auto table = scene.table("effects");
     if (!table) return;
@@ -219,7 +220,7 @@ class FileScene final : public Scene {
     actors_.push_back(std::move(actor));
   }
 
-  /// Where the scene's own file speaks of the actor, though a base may have placed it.
+  /// The place where the scene's own file mentions the actor, even if a base has placed it.
   std::string place_of(const TableReader& table) const {
     const std::string own = source_.file + ":";
     if (table.where().starts_with(own)) return table.where();
@@ -249,7 +250,7 @@ class FileScene final : public Scene {
     const ActorEntry& actor = actors_[index];
     const int copies = actor.copies.in(world);
     for (int copy = 0; copy < copies; ++copy) {
-      // A million copies (the most that a file may ask for) of each actor have keys of their own.
+      // Each actor has keys for a million copies (the most that a file may ask for).
       const std::uint64_t key = (static_cast<std::uint64_t>(index) << 20) + static_cast<std::uint64_t>(copy);
       const Offset offset = draw(actor.variation, seed, world, key);
       Placement place;
@@ -299,7 +300,7 @@ class FileScene final : public Scene {
     if (!overlap) return;
     const std::string& a = model.actors[overlap->actor_a].name;
     const std::string& b = model.actors[overlap->actor_b].name;
-    // At the one of the two of which the scene's own file speaks, if the other stands in a base.
+    // The error is reported at the actor that the scene's own file mentions, if the other comes from a base.
     const std::string own = source_.file + ":";
     const bool at_b = where_of(b).starts_with(own) || !where_of(a).starts_with(own);
     throw core::InputError(where_of(at_b ? b : a) + ": actor " + core::in_quotes(b) + ": in world " +
@@ -323,7 +324,7 @@ class FileScene final : public Scene {
   toml::table toml_;
   std::string title_;
   RunDefaults defaults_;
-  model::Model empty_;  ///< what every world has before its actors come
+  model::Model empty_;  ///< what every world has before its actors are added
   std::vector<ActorEntry> actors_;
   std::vector<PairPlan> pairs_;
   std::vector<JointPlan> joints_;
@@ -333,7 +334,7 @@ class FileScene final : public Scene {
   std::vector<std::string> notes_;
   std::optional<InterestPlan> interest_;
   bool at_rest_ = false;
-  std::optional<double> most_overlap_m_;  ///< none: what find_overlap() takes by itself
+  std::optional<double> most_overlap_m_;  ///< none: find_overlap() uses its own
   std::optional<CaseReader> case_reader_;
   std::optional<stability::HardCase> hard_case_;
 };
@@ -348,7 +349,7 @@ std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<doub
   }
   auto scene = std::make_unique<FileScene>(source, Choices{dt_s, spaces, effects}, parse_with_base(source));
   scene->build(0, 0,
-               {});  // finds at once what only shows in a built world: joints to bodies that do not exist
+               {});  // detects early what only shows in a built world: joints to bodies that do not exist
   return scene;
 }
 

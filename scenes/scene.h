@@ -13,11 +13,11 @@
 
 namespace pbmpi::scenes {
 
-/// A scene's named spaces, or all of them as one: the same world, cut differently. A world's physics does not
+/// A scene's named spaces, or one space instead: the same world, cut differently. A world's physics does not
 /// depend on it.
 enum class SpacesForm { one, many };
 
-/// What a scene file proposes for a run; the command line overrides each.
+/// What a scene file proposes for a run; the command line overrides each value.
 struct RunDefaults {
   int replicas = 1;
   int warmup = 3;
@@ -26,11 +26,11 @@ struct RunDefaults {
   double dt_s = 0.01;
   int iterations = 20;
   SpacesForm spaces = SpacesForm::many;
-  model::EffectChoices effects;  ///< merged effect by effect
+  model::EffectChoices effects;  ///< merged one effect at a time
 };
 
-/// Immutable once loaded. A world depends on (scene, world id, seed, overrides) only, so that each rank
-/// builds just its own.
+/// Immutable once loaded. A world depends on (scene, world id, seed, overrides) only, so each rank builds
+/// just its own worlds.
 class Scene {
  public:
   virtual ~Scene() = default;
@@ -38,15 +38,15 @@ class Scene {
   virtual const std::string& title() const = 0;  ///< one line for --list-scenes
   virtual const std::string& text() const = 0;   ///< the scene file's TOML or XML
   virtual const RunDefaults& defaults() const = 0;
-  /// What models from elsewhere say that is taken otherwise or left out: "file:line:column: ...".
+  /// Parts of model files that are interpreted differently or left out: "file:line:column: ...".
   virtual const std::vector<std::string>& notes() const = 0;
-  /// What the file's [case] says, if it has one.
+  /// The file's [case], if it has one.
   virtual const std::optional<stability::HardCase>& hard_case() const = 0;
-  /// The model of world `world`, validated, as if the scene's file said what `overrides` say. Throws
+  /// The validated model of world `world`, as if the scene's file contained `overrides`. Throws
   /// core::InputError with file:line:column, or with the place of the override.
   virtual std::shared_ptr<const model::Model> build(int world, std::uint64_t seed,
                                                     const Overrides& overrides = {}) const = 0;
-  /// Are all worlds without overrides the same, whatever their seed, so that they may share a model?
+  /// Are all worlds without overrides the same for any seed, so that they may share a model?
   virtual bool is_uniform() const { return false; }
 };
 
@@ -55,35 +55,35 @@ struct SceneInfo {
   std::string title;
 };
 
-/// Why pbmpi brings a scene.
+/// The group of a scene that comes with pbmpi.
 enum class SceneGroup {
-  paper,    ///< the nine of PhysicsBench, in the order of the paper's Table 1
-  effects,  ///< they call for the effects that none of the nine calls for; in alphabetical order
+  paper,    ///< the nine scenes of PhysicsBench, in the order of the paper's Table 1
+  effects,  ///< scenes for the effects that none of the nine needs; in alphabetical order
   hard,     ///< hard cases, "hard/GROUP/NAME", in alphabetical order
 };
 
 std::vector<SceneInfo> list_scenes(SceneGroup group);
 
 /// The text of scene `name_or_path`: a path if it ends in ".toml", ".xml", ".mjcf" or ".urdf", else a scene
-/// that pbmpi brings (their texts are part of the program, so that it needs no data folder). Behind a scene
-/// that names model files stand these, as [files]. Throws core::InputError: unknown name (with the nearest
-/// names), unreadable file.
+/// that comes with pbmpi (these texts are embedded in the program, so it needs no data folder). If the scene
+/// names model files, their texts follow as [files]. Throws core::InputError for an unknown name (with the
+/// nearest names) or an unreadable file.
 struct SceneSource {
-  std::string name;  ///< scene name; of a file, its stem
-  std::string file;  ///< what error messages call it
+  std::string name;  ///< scene name; for a file, its stem
+  std::string file;  ///< its name in error messages
   std::string text;
 };
 SceneSource find_scene(const std::string& name_or_path);
 
-/// The scenes on which this one stands: its `base`, the base of that, and so on; none without. Throws
-/// core::InputError as parse_scene() does.
+/// The scenes on which this one is based: its `base`, the base's own base, and so on; none without a base.
+/// Throws core::InputError as parse_scene() does.
 std::vector<SceneSource> bases_of(const SceneSource& source);
 
-/// Parses a scene, TOML or, if the text begins with '<', a model that is the scene's one actor. Throws
+/// Parses a scene: TOML, or, if the text begins with '<', a model that becomes the scene's only actor. Throws
 /// core::InputError ("file:line:column: ...") for malformed files, unknown keys and impossible values. Rank 0
 /// finds and reads the text, and every rank parses the same text. `dt_s` replaces the file's own time step:
-/// programmes given in seconds (steering) become steps with it. `spaces` replaces the file's `[run] spaces`;
-/// `effects` go before those of the file's `[effects]`.
+/// programmes given in seconds (steering) are converted to steps with it. `spaces` replaces the file's `[run]
+/// spaces`; `effects` take precedence over those of the file's `[effects]`.
 std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s = std::nullopt,
                                    std::optional<SpacesForm> spaces = std::nullopt,
                                    const model::EffectChoices& effects = {});

@@ -26,7 +26,7 @@ toml::table* find_by_name(toml::array& entries, const toml::node& name) {
   return nullptr;
 }
 
-/// A compound's geoms have no names: a file that gives some replaces all of its base's.
+/// A compound's geoms have no names: a file that lists geoms replaces all of its base's.
 constexpr std::string_view whole_array = "geoms";
 
 bool is_array_of_tables(const toml::node& node) {
@@ -47,13 +47,13 @@ void merge_by_name(toml::array& base, toml::array&& over) {
   }
 }
 
-/// What a case expects belongs to its own numbers: a file that expects something replaces all of its base's.
+/// A case's expectations belong to its own numbers: a file with expectations replaces all of its base's.
 void drop_replaced_expectations(toml::table& base, const toml::table& over) {
   toml::table* old = base["case"].as_table();
   if (old && over["case"]["expect"]) old->erase("expect");
 }
 
-/// The scene that `base` names, if this one has a base.
+/// The scene that `base` names, if this scene has a base.
 std::optional<SceneSource> base_of(const toml::table& scene) {
   const toml::node* base_node = scene.get("base");
   if (!base_node) return std::nullopt;
@@ -68,9 +68,10 @@ std::optional<SceneSource> base_of(const toml::table& scene) {
   }
 }
 
-/// A model alone, as scene: its frames come nearest to 1/30 s, and are 10 s in all.
+/// A scene with a model as its only actor: its frames are as close to 1/30 s as possible, and cover 10 s in
+/// all.
 toml::table scene_of_model(const SceneSource& source) {
-  xml::Notes told_later;  // by those who read the actor
+  xml::Notes told_later;  // the readers of the actor report these
   const links::ModelFile model = read_model_file(source.text, source.file, {}, told_later);
   constexpr double frame_s = 1.0 / 30, run_s = 10;
   toml::table run;
@@ -86,7 +87,7 @@ toml::table scene_of_model(const SceneSource& source) {
   scene.insert("run", std::move(run));
   if (model.gravity)
     scene.insert("gravity", toml::array{model.gravity->x(), model.gravity->y(), model.gravity->z()});
-  scene.insert("overlap", std::numeric_limits<double>::infinity());  // what the file's own simulator allows
+  scene.insert("overlap", std::numeric_limits<double>::infinity());  // as in the file's own simulator
   scene.insert("actor",
                toml::array{toml::table{{"name", source.name}, {"type", "model"}, {"file", source.file}}});
   scene.insert("files", toml::table{{source.file, toml::table{{"text", source.text}}}});
@@ -104,7 +105,7 @@ toml::table parse_text(const SceneSource& source) {
   }
 }
 
-// Nodes are moved, never copied: only a move keeps a node's place in its file.
+// Nodes are moved, never copied: only a moved node keeps its place in its file.
 void lay_over(toml::table& base, toml::table&& over) {
   for (auto&& [key, node] : over) {
     toml::node* old = base.get(key.str());
@@ -113,7 +114,7 @@ void lay_over(toml::table& base, toml::table&& over) {
     } else if (old && is_array_of_tables(*old) && is_array_of_tables(node) && key.str() != whole_array) {
       merge_by_name(*old->as_array(), std::move(*node.as_array()));
     } else {
-      base.erase(key.str());  // the key, too, must tell the new place
+      base.erase(key.str());  // the key must also report the new place
       base.insert_or_assign(key, std::move(node));
     }
   }

@@ -1,4 +1,4 @@
-/// From a scene's text to one TOML table, bases included.
+/// Turns a scene's text, with its bases, into one TOML table.
 #pragma once
 
 #include <toml++/toml.h>
@@ -8,23 +8,23 @@
 namespace pbmpi::scenes {
 
 /// Parses the text; if it names a `base`, parses that scene too and lays this one over it: tables merge key
-/// by key, [[actor]] and [[joint]] entries merge with those of the same name or are appended, as are [[pair]]
-/// and [[event]] entries; [[case.expect]] replaces the base's, as does anything else. Every node keeps its
-/// file, line and column. A base is one of the scenes that pbmpi brings, so that a scene's text alone says
-/// what it is. A text in XML becomes the scene of one actor, the model, with the gravity and the step that it
-/// proposes. Throws core::InputError.
+/// by key, [[actor]] and [[joint]] entries merge with base entries of the same name or are appended; [[pair]]
+/// and [[event]] entries are appended; [[case.expect]] and all other values replace the base's. Every node
+/// keeps its file, line and column. A base is always a scene that comes with pbmpi, so a scene's text alone
+/// determines the scene. An XML text becomes a scene whose only actor is the model, with the gravity and the
+/// step that the model proposes. Throws core::InputError.
 toml::table parse_with_base(const SceneSource& source);
 
 /// Parses the text alone. Throws core::InputError.
 toml::table parse_text(const SceneSource& source);
 
-/// Lays a table over its base, as parse_with_base() says.
+/// Lays a table over its base as parse_with_base() does.
 void lay_over(toml::table& base, toml::table&& over);
 
-/// The model files that a scene's actors name and whose texts it does not have.
+/// The model files that a scene's actors name but whose texts the scene does not have.
 std::vector<std::string> missing_files(const SceneSource& source);
 
-/// `text` with the text of a file behind it, as missing_files() wants it.
+/// `text` with the text of a file appended, in the form that missing_files() looks for.
 std::string with_file(const std::string& text, const std::string& file, const std::string& file_text);
 
 }  // namespace pbmpi::scenes

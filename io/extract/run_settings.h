@@ -1,4 +1,4 @@
-/// What a parameter of a run means for its results.
+/// How a parameter of a run matters for its results.
 #pragma once
 
 #include <map>
@@ -10,23 +10,23 @@ namespace pbmpi::io {
 
 enum class Matters {
   results,   ///< another value gives other results: scene, stepper, iterations ...
-  seed,      ///< which sample of the same it is
-  estimate,  ///< what FEEC's estimates are, beside which results stay as they are
-  nothing    ///< what results are computed and recorded with: ranks, threads, build, number of frames ...
+  seed,      ///< which sample of the same case it is
+  estimate,  ///< changes FEEC's estimates, but no results
+  nothing    ///< how results are computed and recorded: ranks, threads, build, number of frames ...
 };
 
-/// `name`: of a dataset of /parameters.
+/// `name`: a dataset of /parameters.
 Matters matters_for(std::string_view name);
 
-/// A parameter of which two runs have other values; "(none)" where a run has none.
+/// A parameter whose value differs between two runs; "(none)" where a run does not have it.
 struct ParameterDifference {
   std::string name, a, b;
 };
 using Parameters = std::map<std::string, std::string>;
-/// Those that matter so, by name.
+/// The differences of this kind, by name.
 std::vector<ParameterDifference> differences(const Parameters& a, const Parameters& b, Matters matters);
 
-/// "iterations is 20 in a.h5 and 10 in b.h5"; of a long text only that it differs.
+/// "iterations is 20 in a.h5 and 10 in b.h5"; for a long text only that it differs.
 std::string text_of(const ParameterDifference& difference, const std::string& path_a,
                     const std::string& path_b);
 

@@ -21,7 +21,7 @@ struct RunTables::Impl {
 
 namespace {
 
-/// A table by the group, the items and the rows of its columns.
+/// Names a table by the group, the items and the rows of its columns.
 struct TableName {
   const char* name;
   const char* group;
@@ -75,7 +75,7 @@ std::string unit_of(hid_t file, const std::string& path) {
   return unit == attributes.end() ? "" : unit->second;
 }
 
-/// The first value of each part of `bytes` up to its NUL.
+/// The text in each part of `bytes`, up to its NUL.
 std::vector<std::string> texts_in(const std::vector<char>& bytes, std::size_t length) {
   std::vector<std::string> texts;
   for (std::size_t at = 0; at + length <= bytes.size(); at += length) {
@@ -229,7 +229,7 @@ void RunTables::find_tables() {
   tables_.push_back(std::move(events));
 }
 
-/// Tables with a row a world, without frames.
+/// Finds the tables with a row per world and no frames.
 void RunTables::find_tables_of_the_run() {
   const hid_t file = impl_->file.id();
   const auto add = [&](const char* name, const char* meaning, const std::string& group) {
@@ -296,7 +296,7 @@ std::vector<TableColumn> RunTables::read(const RunTable& table, std::int64_t fir
       return read_contacts(impl_->file.id(), begin, points);
     }
     std::vector<TableColumn> columns;
-    if (table.rows == RowsOf::run) {  // their rows are the items
+    if (table.rows == RowsOf::run) {  // the items are its rows
       for (const std::string& path : table.columns)
         columns.push_back(read_column(impl_->file.id(), path, 0, count * num_items(table, 0), 1));
       return columns;

@@ -1,4 +1,4 @@
-/// The tables of a run's file as they stand in it, some rows at a time: for those who hand them on.
+/// The tables of a run's file as the file stores them, some rows at a time, for export.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace pbmpi::io {
 
-/// What the items of a row are; run: a row has one. Contacts: as many as the frame had.
+/// The items of a row; run: the row has one item. Contacts: as many as the frame had.
 enum class ItemsOf { run, ranks, worlds, bodies, joints, contacts };
 
-/// What a row tells of: a frame, a frame in which the motion of bodies was stored, an event, or all of the
+/// What a row describes: a frame, a frame in which the motion of bodies was stored, an event, or the whole
 /// run.
 enum class RowsOf { frames, recorded, events, run };
 
@@ -26,14 +26,14 @@ struct RunTable {
   std::vector<std::string> columns;  ///< paths of datasets
 };
 
-/// When a frame was, counted from the start of the first run.
+/// The time of a frame, counted from the start of the first run.
 struct FrameTime {
   std::int64_t frame = 0, step = 0;
   double time_s = 0;
   bool is_measured = false;
 };
 
-/// What the items of rows are called, in the order of the file.
+/// The names of the items of rows, in the order of the file.
 struct RunItems {
   int num_worlds = 0;
   std::vector<std::int64_t> world_id;                     ///< [W] numbers in the ensemble
@@ -47,7 +47,8 @@ struct RunItems {
 /// Reads the committed rows of a run's file, which stays open.
 class RunTables {
  public:
-  /// Throws core::InputError as read_run() does, also where a committed row has changed since it was written.
+  /// Throws core::InputError as read_run() does, and also where a committed row has changed since it was
+  /// written.
   explicit RunTables(const std::string& path);
   ~RunTables();
   RunTables(RunTables&&) noexcept;
@@ -60,20 +61,20 @@ class RunTables {
   const std::vector<FrameTime>& frames() const { return frames_; }  ///< [T]
   std::int64_t record_every() const { return record_every_; }
 
-  /// Those that the file has.
+  /// The tables that the file has.
   const std::vector<RunTable>& tables() const { return tables_; }
-  /// The one of this name; null if the file has none.
+  /// The table of this name; null if the file has none.
   const RunTable* find(const std::string& name) const;
   std::int64_t num_rows(const RunTable& table) const;
-  /// The frame of a row; not of events, which have a column of their own, nor of the run.
+  /// The frame of a row; not for events, which have a column of their own, nor for the run.
   const FrameTime& frame_of(const RunTable& table, std::int64_t row) const;
-  /// Items of a row.
+  /// Number of items of a row.
   std::int64_t num_items(const RunTable& table, std::int64_t row) const;
 
-  /// Columns of the rows [first, first + count): values of the items of one row after those of the other.
-  /// Throws core::InputError where they cannot be read.
+  /// Columns of the rows [first, first + count): the values of one row's items after those of the previous
+  /// row's. Throws core::InputError where they cannot be read.
   std::vector<TableColumn> read(const RunTable& table, std::int64_t first, std::int64_t count) const;
-  /// A column that is written once, e.g. "/particles/bodies/mass"; whole.
+  /// Reads a whole column that is written once, e.g. "/particles/bodies/mass".
   TableColumn read_once(const std::string& path) const;
 
  private:

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the lock file says of the process that holds it, or held it when it was killed.
+/// The lock file's record of the process that holds it, or held it when it was killed.
 struct Holder {
   long process = 0, parent = 0;
   std::string host, temporary;
@@ -53,7 +53,7 @@ std::optional<std::pair<char, long>> state_of(long process) {
   return state;
 }
 
-/// Is the holder about to end: dead, or without the launcher that started it?
+/// Is the holder ending: dead, or without the launcher that started it?
 bool is_ending(const Holder& holder) {
   if (holder.host != host_name() || holder.process <= 0) return false;
   const auto state = state_of(holder.process);
@@ -70,8 +70,8 @@ std::string name_of(const Holder& holder) {
   return "process " + std::to_string(holder.process) + " on host " + holder.host;
 }
 
-/// A name in the folder of `path` for a file that belongs to it: prefix + name + suffix, the name cut where
-/// that is too long for a file system.
+/// A name for a file next to `path` that belongs to it: prefix + name + suffix, with the name cut where it is
+/// too long for a file system.
 std::string beside(const std::string& path, const std::string& prefix, const std::string& suffix) {
   constexpr std::size_t longest_name = 255, hash_digits = 16;
   const fs::path file(path);
@@ -85,7 +85,7 @@ std::string beside(const std::string& path, const std::string& prefix, const std
   return (file.parent_path() / (prefix + name + suffix)).string();
 }
 
-/// Only what has the form of a temporary file of `path` is removed.
+/// Removes a dead holder's file only if its name has the form of a temporary file of `path`.
 void remove_unfinished(const std::string& path, const Holder& holder) {
   const fs::path temporary = fs::path(path).parent_path() / holder.temporary;
   if (holder.temporary.empty() || holder.temporary.find('/') != std::string::npos ||
@@ -109,7 +109,8 @@ OutputLock::OutputLock(const std::string& path, bool has_locks)
       lock_path_(beside(path_, ".", ".lock")),
       temporary_path_(beside(path_, "", "." + host_name() + "-" + std::to_string(getpid()) + ".part")) {
   using namespace std::chrono_literals;
-  // 30 s: the ranks of a dead run end 1 to 2 s after it, and on a busy machine have been seen to take over 5.
+  // 30 s: the ranks of a dead run end 1 to 2 s after it, but on a busy machine have been seen to take over 5
+  // s.
   constexpr int most_tries = 600;
   for (int tries = 0;; ++tries) {
     const Taken taken = has_locks ? take() : take_by_name();
@@ -147,12 +148,13 @@ OutputLock::Taken OutputLock::take() {
   if (flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) return Taken::held;
     if (errno == EINTR) return Taken::again;
-    // A file system without locks: a lock by name says whose it is, so an empty file is what was just made
-    // here.
+    // On a file system without locks the contents of the lock file name its holder, so an empty file was just
+    // made here.
     if (lseek(file.get(), 0, SEEK_END) == 0) unlink(lock_path_.c_str());
     return take_by_name();
   }
-  // Its holder removes the file before the lock goes, and then this is a lock on nothing.
+  // The holder removes the file before it frees the lock, in which case this process has locked a removed
+  // file.
   if (!file.is_at(lock_path_)) return Taken::again;
   file_ = std::move(file);
   return Taken::yes;
@@ -176,7 +178,7 @@ OutputLock::Taken OutputLock::take_by_name() {
 void OutputLock::write_record() {
   const std::string record = std::to_string(getpid()) + " " + std::to_string(getppid()) + " " + host_name() +
                              "\n" + fs::path(temporary_path_).filename().string() + "\n";
-  // A full disk may keep it from being written; the lock holds all the same.
+  // A full disk may prevent the write; the lock holds nevertheless.
   if (ftruncate(file_.get(), 0) != 0) return;
   static_cast<void>(file_.write(std::as_bytes(std::span(record))));
 }

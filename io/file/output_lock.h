@@ -1,4 +1,4 @@
-/// Who may write a file.
+/// Decides which process may write a file.
 #pragma once
 
 #include <string>
@@ -8,39 +8,40 @@
 
 namespace pbmpi::io {
 
-/// Throws core::InputError: an output cannot be created.
+/// Throws core::InputError for an output that cannot be created.
 [[noreturn]] void refuse_output(const std::string& path, const std::string& why, const std::string& advice);
-/// `error`: the errno of making a file in its folder.
+/// `error`: the errno of creating a file in its folder.
 [[noreturn]] void refuse_output_in_folder(const std::string& path, int error);
 
-/// While one lives nobody else may write `path`, by whatever links it is named: not on this host, nor on
-/// another one that sees the file system, as far as that passes locks on. It is a lock of the system (flock)
-/// on a file beside it, `.NAME.lock`, so that the death of the process frees it, whatever it dies of. The
-/// file goes with the lock; a killed process leaves it, of no effect. On a file system without locks the file
-/// itself is the lock; then one that is left by a dead process of this host counts for nothing, and one of
-/// another host must be removed by hand.
+/// While a lock lives, no other process may write `path`, whatever links name it: neither on this host nor on
+/// another host that sees the file system, as far as the file system passes locks on. It is a lock of the
+/// system (flock) on `.NAME.lock` next to the file, so the death of the process frees it, whatever the cause.
+/// The lock file is removed with the lock; a killed process leaves it behind, with no effect. On a file
+/// system without locks the existence of the lock file is the lock; a lock file left by a dead process of
+/// this host is then ignored, and one left by another host must be removed by hand.
 ///
-/// A lock on the data would keep readers out, and on a network file system MPI-IO too.
+/// A lock on the data would keep readers out, and on a network file system MPI-IO as well.
 class OutputLock {
  public:
   OutputLock() = default;
-  /// Throws core::InputError: another process holds it (the message names host and process), or the folder
-  /// cannot be written to. What a dead holder left unfinished is removed. `has_locks`: for tests, what the
-  /// file system can do.
+  /// Throws core::InputError if another process holds the lock (the message names host and process), or the
+  /// folder cannot be written to. Removes what a dead holder left unfinished. `has_locks`: whether the file
+  /// system has locks, for tests.
   explicit OutputLock(const std::string& path, bool has_locks = true);
   ~OutputLock() { release(); }
   OutputLock(OutputLock&& other) noexcept = default;
   OutputLock& operator=(OutputLock&& other) noexcept;
 
   bool is_held() const { return file_.is_open(); }
-  /// The final name, links followed.
+  /// The final name, with links resolved.
   const std::string& path() const { return path_; }
-  /// A name of this process's own beside it, NAME.HOST-PROCESS.part, for what is not complete yet.
+  /// A name next to the file, NAME.HOST-PROCESS.part, that only this process uses for output that is not
+  /// complete yet.
   const std::string& temporary_path() const { return temporary_path_; }
   void release();
 
  private:
-  enum class Taken { yes, held, again };  ///< again: the lock file went away meanwhile
+  enum class Taken { yes, held, again };  ///< again: the lock file disappeared meanwhile
   Taken take();
   Taken take_by_name();
   void write_record();

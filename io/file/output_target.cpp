@@ -26,10 +26,10 @@ bool has_free(const std::string& path, std::int64_t bytes) {
          static_cast<double>(bytes);
 }
 
-/// errno of reserving `bytes` for the file, 0 if all went well. A file system that cannot reserve is only
+/// Reserves `bytes` for the file; returns errno, 0 on success. A file system that cannot reserve is only
 /// asked for its free space.
 int reserve_whole(const core::Descriptor& file, const std::string& path, std::int64_t bytes) {
-  // The limit is asked for first: a write beyond it raises SIGXFSZ.
+  // The limit is checked first: a write beyond it raises SIGXFSZ.
   if (core::largest_file_bytes() < static_cast<std::uint64_t>(bytes)) return EFBIG;
   while (fallocate(file.get(), 0, 0, bytes) != 0) {
     if (errno == EOPNOTSUPP || errno == ENOSYS) return has_free(path, bytes) ? 0 : ENOSPC;
@@ -71,7 +71,7 @@ OutputTarget::OutputTarget(const std::string& path, std::int64_t bytes) {
   lock_ = OutputLock(path);
   file_ = core::Descriptor(temporary_path(), O_CREAT | O_RDWR | O_TRUNC);
   if (!file_.is_open()) refuse_output_in_folder(path, errno);
-  // This only asks whether it would fit: what is kept ahead of the rows is up to SpaceAhead.
+  // This only checks that the file would fit: SpaceAhead decides what is reserved ahead of the rows.
   if (const int error = reserve_whole(file_, temporary_path(), bytes); error != 0) {
     remove_unpublished();
     refuse_space(path, bytes, error);

@@ -19,14 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Flushes a folder, so that a new name in it outlives a power failure. File systems that cannot do it need
-/// not.
+/// Flushes a folder, so that a new name in it survives a power failure. A file system that cannot do it does
+/// not need it.
 void sync_folder(const fs::path& folder) {
   const core::Descriptor opened(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
   if (opened.is_open()) fsync(opened.get());
 }
 
-/// Pieces of bytes, one after the other; `put` returns 0, or the errno of what failed, and then takes no
+/// Hands out pieces of bytes in order; `put` returns 0 or the errno of a failure, after which it takes no
 /// more.
 using BytePieces = std::function<int(const std::function<int(std::span<const std::byte>)>& put)>;
 
@@ -44,7 +44,7 @@ BytePieces bytes_of(const TextPieces& pieces) {
   };
 }
 
-/// Returns 0, or the errno of what failed.
+/// Returns 0, or the errno of the failed call.
 int write_new(const OutputLock& lock, const BytePieces& pieces) {
   core::Descriptor file(lock.temporary_path(), O_CREAT | O_WRONLY | O_TRUNC);
   if (!file.is_open()) return errno;
@@ -52,7 +52,7 @@ int write_new(const OutputLock& lock, const BytePieces& pieces) {
   std::size_t written = 0;
   const int error = pieces([&](std::span<const std::byte> bytes) {
     written += bytes.size();
-    // The limit is asked for first: a write beyond it raises SIGXFSZ.
+    // The limit is checked first: a write beyond it raises SIGXFSZ.
     return core::largest_file_bytes() < written ? EFBIG : file.write(bytes);
   });
   if (error != 0) return error;
@@ -60,7 +60,7 @@ int write_new(const OutputLock& lock, const BytePieces& pieces) {
   return file.close();
 }
 
-/// The new file takes the place of the old one when it is whole.
+/// Puts the new file in the place of the old one once it is complete.
 void replace(const OutputLock& lock, const BytePieces& pieces) {
   int error = 0;
   try {
@@ -78,7 +78,7 @@ void replace(const OutputLock& lock, const BytePieces& pieces) {
 }
 
 /// A name below /proc/PROCESS/fd, such as /dev/stdout, stands for an open file; a new file under that name
-/// would reach nobody. `own`: its number, if it is this process's.
+/// would reach nobody. `own`: its descriptor, if it is this process's.
 struct OpenFile {
   bool is_one = false;
   int own = -1;
@@ -101,7 +101,7 @@ OpenFile open_file_of(const std::string& path) {
   return {};
 }
 
-/// Devices and pipes, but for what files are on.
+/// Devices and pipes, except block devices.
 bool is_stream(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) return false;
@@ -109,9 +109,10 @@ bool is_stream(const std::string& path) {
          open_file_of(path).is_one;
 }
 
-/// Returns 0, or the errno of what failed.
+/// Returns 0, or the errno of the failed call.
 int write_stream(const std::string& path, const BytePieces& pieces) {
-  // What this process has open is written where it stands: opened anew it would begin at its start again.
+  // A file that this process has open is written at its current position: opened anew it would be overwritten
+  // from the start.
   if (const int own = open_file_of(path).own; own >= 0)
     return pieces([own](std::span<const std::byte> bytes) { return core::write_all(own, bytes); });
   core::Descriptor stream(path, O_WRONLY);

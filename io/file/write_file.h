@@ -1,4 +1,4 @@
-/// The one way in which a file is written whole.
+/// Writes whole files, each in one go.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace pbmpi::io {
 
-/// What a file holds, as far as it matters for what may take its place.
+/// What a file holds, as far as it decides whether it may be replaced.
 enum class Content {
   nothing,  ///< missing, empty, or no regular file
   hdf5,
@@ -19,24 +19,24 @@ enum class Content {
 };
 Content content_of(const std::string& path);
 
-/// Puts `bytes` under the name `path`: written beside it under a name of this process's own, waited for until
-/// they are on the disk, and renamed, with the rights of the file that was there. A kill at any moment leaves
-/// the old file or the new one. Links are followed, also one that points to nothing. Devices, pipes and the
-/// process's own open files (/dev/stdout) are written to and stay what they are. Throws core::InputError with
-/// the system's reason, and then the old file stays: also if another process writes it, or if it is an HDF5
-/// file, which a text never replaces.
+/// Puts `bytes` under the name `path`: writes them next to it under a name of this process's own, waits until
+/// they are on the disk, and renames, keeping the permissions of the old file. A kill at any moment leaves
+/// either the old file or the new one. Links are followed, even one that points to nothing. Devices, pipes
+/// and the process's own open files (/dev/stdout) are written to directly. Throws core::InputError with the
+/// system's reason and keeps the old file; also if another process writes it, or if it is an HDF5 file, which
+/// a text never replaces.
 void write_file(const std::string& path, std::string_view text);
 
 /// Hands out a text piece by piece, where it is too long to be held.
 using TextPieces = std::function<void(const std::function<void(std::string_view)>& put)>;
-/// The same for such a text. What `pieces` throws leaves the old file, too.
+/// write_file() for such a text. If `pieces` throws, the old file stays as well.
 void write_file(const std::string& path, const TextPieces& pieces);
 
-/// The same for whoever holds the lock of the file, and for HDF5 files: these replace nothing else. Throws
-/// core::RunError.
+/// write_file() for the holder of the file's lock, with the bytes of an HDF5 file, which replaces only an
+/// HDF5 file. Throws core::RunError.
 void replace_file(const OutputLock& lock, std::span<const std::byte> bytes);
 
-/// Gives the file that is to replace `path` the rights of what is there.
+/// Gives the file that is to replace `path` the permissions of the existing one.
 void keep_rights(const core::Descriptor& file, const std::string& path);
 
 }  // namespace pbmpi::io

@@ -1,4 +1,4 @@
-/// Where the rows of a chunked dataset stand in its file.
+/// Finds where the rows of a chunked dataset lie in its file.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 namespace pbmpi::io {
 
 /// The bytes of the rows [first, end) of a chunked dataset whose chunks are allocated and not filtered, as
-/// far as it has so many rows. Where rows are cut into several chunks these count as a whole, if they begin
-/// at `first` or behind it.
+/// far as it has that many rows. Where rows are cut into several chunks, a chunk counts as a whole if it
+/// begins at `first` or after it.
 std::vector<core::ByteRange> bytes_of_rows(hid_t dataset, hsize_t first, hsize_t end);
 
-/// Row at which the next chunk begins; `row` itself if it is the first of one.
+/// Row at which the next chunk begins; `row` itself if it is the first row of a chunk.
 hsize_t end_of_chunk(hid_t dataset, hsize_t row);
 
 }  // namespace pbmpi::io

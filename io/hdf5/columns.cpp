@@ -20,7 +20,7 @@ PropertyList allocated_now() {
   return creation;
 }
 
-/// In ASCII, as H5MD's module of units wants it.
+/// Writes the unit in ASCII, as H5MD's module of units requires.
 void write_unit(hid_t dataset, const std::string& unit) {
   const Datatype type = text_type(unit.size());
   check(H5Tset_cset(type.id(), H5T_CSET_ASCII), "H5Tset_cset");
@@ -109,7 +109,7 @@ void write_reference(hid_t object, const std::string& name, hid_t file, const st
 
 void rewrite_attribute(hid_t file, const char* group, const std::string& name, const Datatype& type,
                        const void* value) {
-  // Through the group, because HDF5 1.10 cannot write what H5Aopen_by_name has opened.
+  // Opened through the group, because HDF5 1.10 cannot write an attribute opened with H5Aopen_by_name.
   const auto owner = owned<Group>(H5Gopen2(file, group, H5P_DEFAULT), std::string("H5Gopen(") + group + ")");
   const auto attribute =
       owned<Attribute>(H5Aopen(owner.id(), name.c_str(), H5P_DEFAULT), "H5Aopen(" + name + ")");

@@ -19,8 +19,8 @@ void create_commit_attributes(hid_t root, hid_t events, const EventCounts& count
 }
 
 CommitRecord::CommitRecord(const std::string& path) {
-  // With the serial driver a flush is a write; with MPI-IO it waits until all data since the last flush are
-  // on the disk.
+  // With the serial driver a flush is a write; with MPI-IO it waits until all data since the previous flush
+  // are on the disk.
   const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
   check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");
   file_ = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "H5Fopen");

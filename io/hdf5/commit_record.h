@@ -12,26 +12,26 @@ namespace pbmpi::io {
 /// Digits of state_hash.
 inline constexpr std::size_t hash_digits = 16;
 
-/// Attributes of /events that count: name -> number.
+/// Counts among the attributes of /events: name -> number.
 using EventCounts = std::map<std::string, std::int64_t>;
 
-/// Makes the attributes that a CommitRecord overwrites, at their final size: a change later is a few bytes in
-/// place. Part of the skeleton: collective.
+/// Creates the attributes that a CommitRecord overwrites, at their final size: a later change is a few bytes
+/// in place. Part of the skeleton: collective.
 void create_commit_attributes(hid_t root, hid_t events, const EventCounts& counts);
 
-/// Root's own handle of the file beside the one through which all ranks write data. With it no rank changes
-/// metadata through the common handle once the skeleton stands: there an error on one rank (a full disk)
-/// would leave the others waiting inside HDF5.
+/// Root's own handle of the file, separate from the one through which all ranks write data. With it no rank
+/// changes metadata through the common handle once the skeleton is complete: there an error on one rank (a
+/// full disk) would leave the others waiting inside HDF5.
 class CommitRecord {
  public:
   CommitRecord() = default;
   explicit CommitRecord(const std::string& path);
 
-  /// Declares the first frames committed; the caller has seen to it that their rows are in the file.
+  /// Declares the first frames committed; the caller has made sure that their rows are in the file.
   void commit(std::int64_t num_frames, const EventCounts& events);
   /// Stores what is known only at the end of the run.
   void finish(bool complete, const std::string& state_hash, const EventCounts& events);
-  /// Its handle of the file, to look at datasets by.
+  /// Its handle of the file, for looking at datasets.
   hid_t id() const { return file_.id(); }
   /// False if HDF5 could not write all of it.
   bool close() { return file_.close(); }

@@ -19,10 +19,10 @@ constexpr const char *fixed_name = "checksum", *end_name = "end_checksum";
 
 void add_text(const std::string& text, core::Checksum& sum) {
   sum.add(std::as_bytes(std::span(text)));
-  sum.add(std::as_bytes(std::span("", 1)));  // ends it
+  sum.add(std::as_bytes(std::span("", 1)));  // ends the text
 }
 
-/// Attributes that change while the file grows: of the root these, of /events and /world_results all.
+/// Attributes that change while the file grows: these of the root, and all of /events and /world_results.
 bool changes(const std::string& object, const std::string& attribute) {
   constexpr std::array names = {"frames_committed", "complete", "state_hash", fixed_name, end_name};
   return object == "/events" || object == world_results ||
@@ -37,7 +37,7 @@ void add_attributes(hid_t file, const std::string& object, bool that_change, cor
   }
 }
 
-/// Shape and bytes of a dataset.
+/// Adds the shape and bytes of a dataset.
 void add_values(hid_t file, const std::string& path, core::Checksum& sum) {
   const RawRows rows = raw_rows(file, path);
   std::vector<std::byte> values(rows.num_rows * rows.row_bytes);
@@ -46,14 +46,14 @@ void add_values(hid_t file, const std::string& path, core::Checksum& sum) {
   sum.add(values);
 }
 
-/// Type, and of a dataset that is not chunked shape and bytes.
+/// Adds the type of a dataset and, if it is not chunked, its shape and bytes.
 void add_dataset(hid_t file, const std::string& path, core::Checksum& sum) {
   const auto dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
   const auto type = owned<Datatype>(H5Dget_type(dataset.id()), "H5Dget_type");
   const auto creation = owned<PropertyList>(H5Dget_create_plist(dataset.id()), "H5Dget_create_plist");
   std::size_t length = 0;
   check(H5Tencode(type.id(), nullptr, &length), "H5Tencode");
-  std::vector<std::byte> encoded(length);  // with precision, offset and padding: what the bytes mean
+  std::vector<std::byte> encoded(length);  // X
   check(H5Tencode(type.id(), encoded.data(), &length), "H5Tencode");
   sum.add(encoded);
   if (H5Pget_layout(creation.id()) != H5D_CHUNKED) add_values(file, path, sum);
@@ -81,7 +81,7 @@ herr_t visit(hid_t, const char* name, const H5L_info_t*, void* data) {
   }
 }
 
-/// Never 0, which means that none is stored.
+/// Never 0, which means that no checksum is stored.
 std::int64_t stored_form(const core::Checksum& sum) {
   return std::max<std::int64_t>(static_cast<std::int64_t>(sum.value() >> 1), 1);
 }

@@ -3,7 +3,7 @@
 
 namespace pbmpi::io {
 
-/// Where this rank stands, and through which communicator the file is opened.
+/// This rank's place in the group, and the communicator with which the file is opened.
 struct FileGroup {
   int fortran_communicator = 0;  ///< MPI_Comm_c2f of the ranks that write together
   int rank = 0;

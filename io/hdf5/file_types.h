@@ -1,5 +1,5 @@
-/// The kinds of HDF5 files that pbmpi's programs write: the root's attribute `filetype`, and what goes with
-/// it.
+/// The kinds of HDF5 files that pbmpi's programs write: the root's attribute `filetype`, and related
+/// constants.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ inline constexpr std::int64_t layout_major = 1;
 inline constexpr std::int64_t layout_minor = 6;
 inline constexpr const char* filetype = "pbmpi-run";
 
-/// Group of a run's file that is written last of all: a row a world.
+/// Group of a run's file that is written last: one row per world.
 inline constexpr const char* world_results = "/world_results";
 
 inline constexpr const char* checkpoint_filetype = "pbmpi-checkpoint";

@@ -29,7 +29,7 @@ std::vector<hsize_t> extent_of(hid_t dataset) {
   return dims;
 }
 
-/// Adds the bytes of the chunks that lie behind row `num_rows` altogether.
+/// Adds the bytes of the chunks that lie entirely after row `num_rows`.
 void add_unused_chunks(hid_t dataset, hsize_t num_rows, std::vector<core::ByteRange>& unused) {
   const auto space = owned<Dataspace>(H5Dget_space(dataset), "H5Dget_space");
   hsize_t num_chunks = 0;
@@ -62,7 +62,8 @@ GrowingTable::GrowingTable(hid_t file, const FileRanks& ranks, const std::string
   shape_.capacity = std::clamp<hsize_t>(shape.capacity, 1, std::max<hsize_t>(shape.num_rows, 1));
   std::string paths;
   for (const ColumnSpec& spec : columns) paths += group + "/" + spec.name + "\n";
-  // Made first: what stands last in the file goes when a run is cut, if it is large.
+  // The checksums are created first: the last dataset in the file is dropped when a run is cut, if it is
+  // large.
   Column checksums = make_column(file, row_checksum_path(group + "/" + columns.front().name),
                                  number_type(H5T_NATIVE_UINT64), 0, 1, "");
   write_attribute(checksums.dataset.id(), "columns", paths);
@@ -111,7 +112,7 @@ std::size_t GrowingTable::row_bytes(const std::vector<ColumnSpec>& columns, hsiz
     const std::size_t value = column.text_bytes > 0 ? column.text_bytes : H5Tget_size(column.native_type);
     bytes += value * column.width * std::max<hsize_t>(num_items, 1);
   }
-  return bytes + sizeof(std::uint64_t);  // the row's checksum
+  return bytes + sizeof(std::uint64_t);  // with the row's checksum
 }
 
 void GrowingTable::pack(hsize_t row, std::vector<std::byte>& message) {

@@ -1,4 +1,4 @@
-/// Columns with a row a frame: their rows wait in memory and go to the file together.
+/// Columns with one row per frame: their rows wait in memory and are written to the file together.
 #pragma once
 
 #include <cstddef>
@@ -15,30 +15,29 @@
 
 namespace pbmpi::io {
 
-/// A column of a table: its name in the group, the type and number of an item's values, their unit.
+/// A column of a table: its name in the group, the type and number of an item's values, and their unit.
 struct ColumnSpec {
   std::string name;
   hid_t native_type;  ///< borrowed; copied by create()
-  hsize_t width = 1;  ///< values of an item; 1 = no extra dimension
+  hsize_t width = 1;  ///< values per item; 1 = no extra dimension
   std::string unit = {};
-  std::size_t text_bytes = 0;  ///< > 0: text of this length, native_type is ignored
+  std::size_t text_bytes = 0;  ///< > 0: text of this length; native_type is ignored
 };
 
-/// Which shape the rows of a table have.
+/// The shape of a table's rows.
 struct TableShape {
   hsize_t num_rows = 0;   ///< full length in the file
-  hsize_t num_items = 0;  ///< of a row; 0 = the column is one-dimensional
+  hsize_t num_items = 0;  ///< per row; 0 = the column is one-dimensional
   hsize_t capacity = 1;   ///< rows that can wait
 };
 
-/// Columns of one group that get the same rows, of which each rank owns some items. Before they are written
-/// the ranks exchange items, so that each has some rows whole and writes them in one piece: that is what
-/// MPI-IO's collective buffering is for, which loses errors (parallel_file.cpp). Each row has a checksum,
-/// which that rank computes. A waiting row has room for all items; pages that a rank never touches take no
-/// memory.
+/// Columns of one group that get the same rows, of which each rank owns some items. Before writing, the ranks
+/// exchange items, so that each rank has some rows whole and writes them in one piece: this replaces MPI-IO's
+/// collective buffering, which loses errors (parallel_file.cpp). Each row has a checksum, computed by the
+/// rank that writes it. A waiting row has room for all items; pages that a rank never touches take no memory.
 class GrowingTable {
  public:
-  /// Paths of the datasets of a table: of its columns, and of its rows' checksums.
+  /// Paths of a table's datasets: of its columns, and of its rows' checksums.
   static std::vector<std::string> datasets(const std::string& group, const std::vector<ColumnSpec>& columns);
   /// Makes the datasets. Collective.
   GrowingTable(hid_t file, const FileRanks& ranks, const std::string& group,
@@ -47,7 +46,7 @@ class GrowingTable {
   /// Begins the next row, in which this rank writes the items of `ranges` ({0, 1} or nothing in a
   /// one-dimensional table).
   void begin_row(const std::vector<Range>& ranges);
-  /// Puts `count` items, each a T, into the row begun last.
+  /// Puts `count` items, each a T, into the row that was begun last.
   template <class T>
   void put(std::size_t column, hsize_t first_item, const T* items, hsize_t count) {
     core::require_invariant(sizeof(T) == columns_[column].item_bytes,
@@ -63,10 +62,10 @@ class GrowingTable {
   hsize_t num_waiting() const { return num_waiting_; }
   bool full() const { return num_waiting_ == shape_.capacity; }
   hsize_t num_rows() const { return written_; }
-  /// Bytes of a row, all items and columns.
+  /// Bytes of a row with all items and columns.
   static std::size_t row_bytes(const std::vector<ColumnSpec>& columns, hsize_t num_items);
 
-  /// Writes the waiting rows; collective, and so done to the end even if a column fails. Returns the first
+  /// Writes the waiting rows. Collective, and therefore completed even if a column fails. Returns the first
   /// error of this rank, empty if there was none.
   std::string write(const PropertyList& transfer);
   /// Was each column of the last write() written collectively?
@@ -74,7 +73,7 @@ class GrowingTable {
 
   /// Closes the datasets.
   void close();
-  /// cut_rows() for all its datasets, to the rows written.
+  /// Calls cut_rows() for all its datasets, with the rows written.
   void cut(hid_t file, std::vector<core::ByteRange>& unused) const;
 
  private:
@@ -83,7 +82,7 @@ class GrowingTable {
     Datatype type;
     Dataset dataset;
     std::size_t item_bytes;
-    hsize_t items;                         ///< of a row
+    hsize_t items;                         ///< per row
     std::unique_ptr<std::byte[]> waiting;  ///< [capacity][items][width]
   };
   std::byte* place(Column& column, hsize_t row, hsize_t item) {
@@ -95,13 +94,13 @@ class GrowingTable {
   /// Completes the rows that this rank writes.
   void exchange_items();
   /// Appends this rank's items of a waiting row to `message`; unpack() puts such items into the row, and
-  /// returns where the next ones begin.
+  /// returns where the next items begin.
   void pack(hsize_t row, std::vector<std::byte>& message);
   const std::byte* unpack(hsize_t row, const std::byte* message);
   void write(Column& column, Range rows, const PropertyList& transfer);
   /// The columns of the table, without the checksums.
   std::span<Column> own_columns() { return std::span(columns_).first(columns_.size() - 1); }
-  /// Puts the checksums of rows that this rank has whole.
+  /// Puts the checksums of the rows that this rank has whole.
   void add_checksums(Range rows);
   Column make_column(hid_t file, const std::string& path, const Datatype& type, hsize_t num_items,
                      hsize_t width, const std::string& unit) const;
@@ -109,16 +108,16 @@ class GrowingTable {
   const FileRanks& ranks_;
   TableShape shape_;
   hsize_t items_;
-  std::vector<Column> columns_;  ///< the last has the checksums of the rows (io/hdf5/file_checksum.h)
+  std::vector<Column> columns_;            ///< the last one has the checksums of the rows (file_checksum.h)
   std::vector<std::vector<Range>> owned_;  ///< [num_waiting] this rank's items of each row
   hsize_t num_waiting_ = 0;
   hsize_t written_ = 0;
   bool collective_ = false;
 };
 
-/// Cuts a growing dataset, of a file that was opened anew, to its first rows; adds to `unused` the bytes of
-/// the file that this frees. One rank alone: HDF5 1.10 gets stuck if ranks cut together a dataset whose
-/// chunks only some of them have written.
+/// Cuts a growing dataset, in a file that was opened anew, to its first rows; adds the bytes of the file that
+/// this frees to `unused`. One rank alone: HDF5 1.10 hangs if ranks together cut a dataset whose chunks only
+/// some of them have written.
 void cut_rows(hid_t file, const std::string& path, hsize_t num_rows, std::vector<core::ByteRange>& unused);
 
 }  // namespace pbmpi::io

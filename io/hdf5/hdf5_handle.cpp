@@ -7,7 +7,7 @@
 namespace pbmpi::io {
 namespace {
 
-/// Joins the descriptions of the error stack, from the library call that failed outwards; two are enough to
+/// Joins the descriptions of the error stack, starting with the library call that failed; two are enough to
 /// tell what HDF5 was doing.
 herr_t collect(unsigned depth, const H5E_error2_t* entry, void* text) {
   constexpr unsigned max_depth = 2;

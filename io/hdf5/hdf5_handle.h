@@ -1,4 +1,4 @@
-/// Owners of HDF5 ids, and the one way in which io checks a call of the HDF5 library.
+/// Owners of HDF5 ids, and the functions through which io checks calls of the HDF5 library.
 #pragma once
 
 #include <hdf5.h>
@@ -8,8 +8,8 @@
 
 namespace pbmpi::io {
 
-/// Move-only owner of one HDF5 id. The destructor never throws: an error of closing is dropped there; call
-/// close() where it matters.
+/// Move-only owner of one HDF5 id. The destructor never throws and drops an error of closing; call close()
+/// where the error matters.
 template <herr_t (*close_id)(hid_t)>
 class Handle {
  public:
@@ -52,10 +52,10 @@ using Object = Handle<H5Oclose>;
 /// abort.
 void prepare_hdf5();
 
-/// Throws core::RunError with `call` and what the HDF5 error stack says if `status` is negative.
+/// Throws core::RunError with `call` and the text of the HDF5 error stack if `status` is negative.
 void check(herr_t status, const std::string& call);
 
-/// check() for calls that return an id, which gets its owner.
+/// check() for calls that return an id; returns its owner.
 template <class Owner>
 Owner owned(hid_t id, const std::string& call) {
   if (id < 0) check(-1, call);

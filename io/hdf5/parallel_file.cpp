@@ -25,8 +25,8 @@ int to_count(std::size_t bytes) {
   return static_cast<int>(bytes);
 }
 
-/// Root alone writes metadata, and no rank drops an entry of its cache that another keeps: HDF5 broadcasts
-/// entries from root in collective calls, and gets stuck if ranks disagree on which they need.
+/// Root alone writes metadata, and no rank drops a cache entry that another rank keeps: HDF5 broadcasts
+/// entries from root in collective calls, and hangs if ranks disagree on which entries they need.
 void set_metadata_cache(const PropertyList& access) {
   H5AC_cache_config_t cache{};
   cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
@@ -119,8 +119,8 @@ std::string FileRanks::first_error(const std::string& error) const {
 
 File FileRanks::create(const std::string& path) const {
   const PropertyList access = access_through(MPI_Comm_f2c(fortran_communicator_));
-  // The oldest format on purpose: its superblock has no "open for writing" mark, which after a kill would
-  // keep readers out until someone runs h5clear.
+  // The oldest format, chosen on purpose: its superblock has no "open for writing" mark, which after a kill
+  // would keep readers out until someone runs h5clear.
   check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), "H5Pset_libver_bounds");
   constexpr hsize_t metadata_block =
       hsize_t{64} * 1024;  // few, large metadata writes instead of many of 2 KiB
@@ -138,8 +138,8 @@ PropertyList collective_transfer() {
   check(H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE), "H5Pset_dxpl_mpio");
   // One operation for all chunks: if it fails on one rank, no other rank is left in a loop over chunks.
   check(H5Pset_dxpl_mpio_chunk_opt(transfer.id(), H5FD_MPIO_CHUNK_ONE_IO), "H5Pset_dxpl_mpio_chunk_opt");
-  // Each rank writes its own bytes: Open MPI 4.1's collective buffering (OMPIO, fcoll vulcan) drops the
-  // errors of its aggregators, so that a full disk would look like success.
+  // Each rank writes its own bytes: the collective buffering of Open MPI 4.1 (OMPIO, fcoll vulcan) drops the
+  // errors of its aggregators, so a full disk would look like success.
   check(H5Pset_dxpl_mpio_collective_opt(transfer.id(), H5FD_MPIO_INDIVIDUAL_IO),
         "H5Pset_dxpl_mpio_collective_opt");
   return transfer;

@@ -1,4 +1,4 @@
-/// The ranks that write one file together: how they open it, and how they agree on an error.
+/// The ranks that write one file together: how they open it, and how they agree on errors.
 #pragma once
 
 #include <cstddef>
@@ -23,19 +23,20 @@ class FileRanks {
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
 
-  /// Root's value, on every rank.
+  /// Returns root's text on every rank.
   std::string broadcast(std::string text) const;
   bool broadcast(bool flag) const;
   /// Element-wise sum over the ranks, in place.
   void sum(std::span<std::int64_t> values) const;
   std::int64_t max(std::int64_t value) const;
-  /// Sends messages[r] to rank r; returns what the ranks sent to this one, in their order. 2 GiB at most.
+  /// Sends messages[r] to rank r; returns what the ranks sent to this one, in order of rank. 2 GiB at most.
   std::vector<std::byte> exchange(const std::vector<std::vector<std::byte>>& messages) const;
 
-  /// The error of the lowest rank that has one, with the rank's number if it is not root; empty if none has.
+  /// The error of the lowest rank that has one, with the rank's number if it is not root; empty if no rank
+  /// has one.
   std::string first_error(const std::string& error) const;
 
-  /// Does `work` on every rank; if it threw on any, throws Error with the same message on all.
+  /// Does `work` on every rank; if it throws on any rank, throws Error with the same message on all.
   template <class Error = core::RunError, class Work>
   void together(Work&& work) const {
     std::string error;
@@ -47,7 +48,7 @@ class FileRanks {
     if (const std::string first = first_error(error); !first.empty()) throw Error(first);
   }
 
-  /// Creates `path` (cut to nothing if it exists) for parallel writing.
+  /// Creates `path` (truncated if it exists) for parallel writing.
   File create(const std::string& path) const;
 
  private:
@@ -56,8 +57,8 @@ class FileRanks {
   int size_;
 };
 
-/// Opens a file for writing by this rank alone. MPI-IO here too: unlike the serial driver it holds no
-/// metadata back, so that a kill between two writes never leaves the superblock behind the length of the
+/// Opens a file for writing by this rank alone. Uses MPI-IO here too: unlike the serial driver it holds no
+/// metadata back, so a kill between two writes never leaves a superblock that lags behind the length of the
 /// file.
 File open_alone(const std::string& path);
 

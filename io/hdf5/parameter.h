@@ -7,7 +7,7 @@
 
 namespace pbmpi::io {
 
-/// A value of /parameters or of a root attribute, kept by its type.
+/// A value of /parameters or of a root attribute, with its type.
 struct Parameter {
   enum class Type { text, integer, real };
   std::string name;

@@ -59,8 +59,8 @@ hsize_t num_points(const Dataspace& space) {
   return static_cast<hsize_t>(points);
 }
 
-/// Throws unless so many values of so many bytes fit into the file: before memory is made for them. pbmpi's
-/// files are not compressed. `count`: values, or a product that overflowed.
+/// Throws unless that many values of that many bytes fit into the file; called before memory is allocated for
+/// them. pbmpi's files are not compressed. `count`: values, or none for a product that overflowed.
 void require_in_file(hid_t object, std::optional<hsize_t> count, std::size_t bytes, const std::string& path) {
   hsize_t file_bytes = 0;
   const auto file = owned<File>(H5Iget_file_id(object), "H5Iget_file_id");
@@ -69,7 +69,7 @@ void require_in_file(hid_t object, std::optional<hsize_t> count, std::size_t byt
     throw core::RunError(path + " says that it holds more than the file does");
 }
 
-/// The product of the extents, none if it overflows.
+/// The product of the extents; none if it overflows.
 std::optional<hsize_t> product(std::span<const hsize_t> dims) {
   hsize_t count = 1;
   for (const hsize_t dim : dims) {
@@ -177,7 +177,7 @@ File open_file(const std::string& path, const std::string& type, std::int64_t ma
 }
 
 bool has_object(hid_t file, const std::string& path) {
-  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {  // H5Lexists wants each group
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {  // H5Lexists needs each group
     const htri_t found = H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT);
     check(found < 0 ? -1 : 0, "H5Lexists(" + path + ")");
     if (found == 0 || end == std::string::npos) return found > 0;

@@ -1,4 +1,4 @@
-/// Which part of a dataset a rank writes, and how a dataset [rows][items][...] is cut into chunks.
+/// The part of a dataset that a rank writes, and how a dataset [rows][items][...] is cut into chunks.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +8,28 @@
 
 namespace pbmpi::io {
 
-/// Neighbours among the items of a row, or among rows: [first, first + count).
+/// Consecutive items of a row, or consecutive rows: [first, first + count).
 struct Range {
   hsize_t first = 0;
   hsize_t count = 0;
   bool operator==(const Range&) const = default;
 };
 
-/// Adds a range behind the others; if it begins where the last one ends the two become one. Empty ranges are
-/// dropped.
+/// Appends a range; if it begins where the last one ends, the two are merged. Empty ranges are dropped.
 void append_range(std::vector<Range>& ranges, hsize_t first, hsize_t count);
 
 /// Items in all ranges.
 hsize_t count_items(const std::vector<Range>& ranges);
 
-/// The rows that each of `num_ranks` ranks writes of `num_rows`: nearly equal shares, in order of the ranks.
+/// The rows that each of `num_ranks` ranks writes out of `num_rows`: nearly equal shares, in order of the
+/// ranks.
 Range share_of_rows(hsize_t num_rows, int rank, int num_ranks);
 
 /// Selects `ranges` of items in `space` [items][...].
 void select_ranges(const Dataspace& space, const std::vector<Range>& ranges);
 
 /// Chunks for `dims`, row first: whole rows of 1 to 4 MiB (a row beyond that is cut along its items), or the
-/// whole dataset if it is smaller. Rows are spread evenly over the chunks, so that the last is not half
-/// empty.
+/// whole dataset if it is smaller. Rows are spread evenly over the chunks, so the last is not half empty.
 std::vector<hsize_t> chunk_shape(const std::vector<hsize_t>& dims, std::size_t element_bytes);
 
 }  // namespace pbmpi::io

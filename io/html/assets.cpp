@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-// asset_list.inc is made by CMake beside the assembly that embeds the files: one PBMPI_ASSET(id) each.
+// CMake generates asset_list.inc along with the assembly that embeds the files: one PBMPI_ASSET(id) each.
 extern "C" {
 #define PBMPI_ASSET(id) extern const char pbmpi_asset_##id##_begin[], pbmpi_asset_##id##_end[];
 #include "asset_list.inc"

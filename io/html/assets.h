@@ -5,8 +5,8 @@
 
 namespace pbmpi::io::html {
 
-/// The text of an embedded file; '.' in its name is written '_' ("page_css"). Throws std::logic_error for a
-/// name that was not embedded.
+/// The text of an embedded file; '.' in its name becomes '_' ("page_css"). Throws std::logic_error for a name
+/// that was not embedded.
 std::string_view asset(std::string_view id);
 
 }  // namespace pbmpi::io::html

@@ -1,4 +1,4 @@
-/// Base64 (RFC 4648, section 4): how arrays of numbers travel inside the page's JSON.
+/// Base64 (RFC 4648, section 4), which encodes arrays of numbers inside the page's JSON.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,18 @@
 
 namespace pbmpi::io::html {
 
-/// With padding, without line breaks.
+/// Encodes with padding, without line breaks.
 std::string base64(std::span<const std::byte> bytes);
 
-/// The bytes of the numbers in this machine's order, which the browser's typed arrays must share: both are
-/// little-endian on every machine that Debian's MPI packages serve (checked at compile time).
+/// Encodes the bytes of the numbers in this machine's byte order, which the browser's typed arrays must
+/// share: both are little-endian on every machine that Debian's MPI packages support (checked at compile
+/// time).
 template <class Number>
 std::string base64_of(const std::vector<Number>& numbers) {
   return base64(std::as_bytes(std::span(numbers)));
 }
 
-/// Characters that base64 makes of so many bytes.
+/// Number of base64 characters for this number of bytes.
 constexpr std::int64_t base64_length(std::int64_t bytes) { return (bytes + 2) / 3 * 4; }
 
 }  // namespace pbmpi::io::html

@@ -10,10 +10,10 @@ namespace pbmpi::io::html {
 
 /// One chart: a configuration of Chart.js 3 as JSON text (type, data, options). Two additions: in
 /// "options.plugins.pbmpi", {"bands": [{"from", "to", "label", "colour"}]} draws bands behind the data, at
-/// values of the y axis or of the one that "axis" names; a line where both ends are equal, dashed by "dash".
-/// What is off the scale gets an arrow. {"key": [{"label", "shape", "radius", "colour"}]} adds to the key
-/// below the chart, which names data sets and bands with their values ("showValue": false: without). A
-/// point's "label" is what is read off it. A data set with "unread" is passed over by the keyboard.
+/// values of the y axis or of the axis that "axis" names; where both ends are equal it draws a line, dashed
+/// by "dash". Values off the scale get an arrow. {"key": [{"label", "shape", "radius", "colour"}]} adds to
+/// the key below the chart, which names data sets and bands with their values ("showValue": false: without).
+/// A point's "label" is the text read off it. The keyboard skips a data set with "unread".
 struct Chart {
   std::string title;
   std::string text;    ///< one line below the title
@@ -26,7 +26,7 @@ struct TextTable {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// A heading with what belongs to it.
+/// A heading with its text, charts and tables.
 struct PageSection {
   std::string title;
   std::string text = {};  ///< paragraphs, separated by an empty line
@@ -43,7 +43,7 @@ struct ChartPage {
 
 std::string make_chart_page(const ChartPage& page);
 
-/// By way of a temporary file beside it. Throws core::InputError if it cannot be written.
+/// Writes the page through a temporary file next to it. Throws core::InputError if it cannot be written.
 void write_chart_page(const std::string& path, const ChartPage& page);
 
 }  // namespace pbmpi::io::html

@@ -1,4 +1,4 @@
-/// How the pages are put together.
+/// Fills the templates of the pages.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 namespace pbmpi::io::html {
 
-/// `text` with each {{name}} replaced by what `field` gives for it.
+/// `text` with each {{name}} replaced by field(name).
 std::string fill_template(std::string_view text, const std::function<std::string(std::string_view)>& field);
 
 }  // namespace pbmpi::io::html

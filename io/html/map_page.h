@@ -1,5 +1,5 @@
-/// A self-contained HTML page of a map, a row a case and a column a setting, whose fields open curves and a
-/// replay. It loads nothing from anywhere.
+/// A self-contained HTML page of a map with one row per case and one column per setting, whose fields open
+/// curves and a replay. It loads nothing from anywhere.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ struct MapCurve {
 struct MapCell {
   std::string verdict;  ///< "pass", "degraded", "broken", "n/a"
   std::string label;    ///< a few words; may be empty
-  std::string detail;   ///< a line for those who click
-  double severity = 0;  ///< 0 to 1: how far beyond what is right
+  std::string detail;   ///< a line that is shown on a click
+  double severity = 0;  ///< 0 to 1: how far outside the acceptable range
   std::vector<MapCurve> curves;
   RunData replay;  ///< bodies, geoms and recorded poses of one world; without poses there is no replay
 };
@@ -38,7 +38,7 @@ struct MapPage {
   Provenance provenance = {};
 };
 
-/// By way of a temporary file beside it. Throws core::InputError if it cannot be written.
+/// Writes the page through a temporary file next to it. Throws core::InputError if it cannot be written.
 void write_map_page(const std::string& path, const MapPage& page);
 
 }  // namespace pbmpi::io::html

@@ -48,7 +48,7 @@ std::string about_json(const RunData& run, const PageOptions& options) {
   return dump(about);
 }
 
-/// The text for one {{field}} of page.html.
+/// The text of one {{field}} of page.html.
 std::string field(std::string_view name, const RunData& run, const PageOptions& options) {
   if (name == "title") return escape_html(text_or(run.attributes, "scene", "run"));
   if (name == "about") return about_json(run, options);

@@ -29,7 +29,7 @@ struct PageOptions {
 /// The page's text.
 std::string make_page(const RunData& run, const PageOptions& options);
 
-/// Writes make_page() to `path`, by way of a temporary file beside it, so that no half page is left. Throws
+/// Writes make_page() to `path` through a temporary file next to it, so that no partial page is left. Throws
 /// core::InputError if it cannot be written.
 void write_page(const std::string& path, const RunData& run, const PageOptions& options);
 

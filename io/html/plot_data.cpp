@@ -33,7 +33,7 @@ json to_json(const Band& band, double scale = 1) {
           {"max", scaled(band.max)}};
 }
 
-/// Null if the run has no such observable.
+/// JSON of an observable's band; null if the run has no such observable.
 json band_json(const RunData& run, const std::string& observable, std::size_t per_bin, double scale = 1) {
   const auto found = run.observables.find(observable);
   return found == run.observables.end() ? json() : to_json(band_of(found->second, per_bin), scale);
@@ -44,7 +44,7 @@ json length_json(const RunData& run, const std::string& observable, std::size_t 
                                                : to_json(band_of(lengths_of(found->second), per_bin));
 }
 
-/// Mean over the measured frames (over all, if none is measured) of one phase, for each rank [ms].
+/// [num_ranks] mean of one phase over the measured frames (over all frames if none is measured), in ms.
 std::vector<double> mean_ms_per_rank(const RunData& run, const Table& seconds) {
   const bool any =
       std::find(run.frame_measured.begin(), run.frame_measured.end(), true) != run.frame_measured.end();
@@ -59,7 +59,7 @@ std::vector<double> mean_ms_per_rank(const RunData& run, const Table& seconds) {
   return mean;
 }
 
-/// In the order of the step; phases in which no rank spent any time are left out.
+/// Phases in the order of the step; phases in which no rank spent any time are left out.
 json phases_json(const RunData& run) {
   json phases = json::array();
   for (std::string_view name : core::phase_names) {

@@ -1,4 +1,4 @@
-/// What a page says of the files and the programs that it was made from.
+/// A page's account of the files and the programs that it was made from.
 #pragma once
 
 #include <map>
@@ -16,17 +16,17 @@ struct Provenance {
   std::vector<std::pair<std::string, std::string>> entries;  ///< name and text, folded out on demand
 };
 
-/// Of a file of tables: its name, attributes and parameters. `maker`: the program that makes the page, with
-/// its version.
+/// The provenance of a file of tables: its name, attributes and parameters. `maker`: the program that makes
+/// the page, with its version.
 Provenance provenance_of(const std::string& path, const TableFile& file, const std::string& maker);
 
-/// Of a run. Its attributes and parameters stand in its page elsewhere.
+/// The provenance of a run. Its page shows its attributes and parameters elsewhere.
 Provenance provenance_of(const RunData& run, const std::string& maker);
 
 /// The attributes of a file's root, by the file's name.
 using FileAttributes = std::pair<std::string, std::map<std::string, std::string>>;
 
-/// Of several runs: of each how it was started, by which program, and its state hash.
+/// The provenance of several runs: for each its command line, its program, and its state hash.
 Provenance provenance_of(const std::vector<FileAttributes>& runs, const std::string& maker);
 
 /// JSON for io/html/web/base.js.

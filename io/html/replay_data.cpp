@@ -19,7 +19,7 @@ std::int64_t bodies_before(const RunData& run, int num_worlds) {
   return std::lower_bound(world.begin(), world.end(), num_worlds) - world.begin();
 }
 
-/// Every k-th record, counted so that the last one is in.
+/// Every k-th record, aligned so that the last one is included.
 std::vector<std::size_t> every_kth(std::size_t count, std::size_t k) {
   std::vector<std::size_t> records;
   for (std::size_t i = (count + k - 1) % k; i < count; i += k) records.push_back(i);
@@ -90,7 +90,7 @@ void add_times(json& replay, const RunData& run, const Selection& selection) {
   replay["step"] = step;
 }
 
-/// One column a property; `local` is [G][7]: position, then orientation. An unknown kind, of a file of a
+/// One column per property; `local` is [G][7]: position, then orientation. An unknown kind, from a file of a
 /// newer minor version, counts as prop; a geom of unknown shape is not drawn.
 void add_geoms(json& replay, const RunData& run, const Selection& selection) {
   std::vector<std::uint8_t> kind, shape;
@@ -129,7 +129,7 @@ std::int64_t integer_attribute_of(const RunData& run, const std::string& name, s
 Selection select_replay(const RunData& run, std::int64_t max_pose_bytes) {
   const std::size_t num_records = run.position.size();
   const std::int64_t most = poses_in(max_pose_bytes);
-  // The initial pose is a frame more, whatever is chosen.
+  // The initial pose counts as one more frame, whatever is selected.
   const auto fits = [most](std::int64_t bodies, std::size_t records) {
     return bodies * static_cast<std::int64_t>(records + 1) <= most;
   };

@@ -1,4 +1,4 @@
-/// What of a run's poses the page carries.
+/// Selects which of a run's poses the page holds.
 #pragma once
 
 #include <cstdint>
@@ -13,28 +13,28 @@ namespace pbmpi::io::html {
 struct Selection {
   int num_worlds = 0;                ///< worlds 0 .. num_worlds - 1
   std::int64_t num_bodies = 0;       ///< bodies of these worlds: ids 0 .. num_bodies - 1
-  std::vector<std::size_t> records;  ///< indices into RunData::position, ascending; the last record is in
+  std::vector<std::size_t> records;  ///< indices into RunData::position, ascending; last record included
   std::string note;                  ///< what was left out and why; empty if nothing was
 };
 
-/// Three bytes are 4 characters of the page; a pose is 7 single-precision numbers.
+/// Three bytes become 4 characters of the page; a pose is 7 single-precision numbers.
 inline constexpr std::int64_t three_poses_bytes = std::int64_t{7} * 4 * 4;
 
-/// A root attribute of the run that is a whole number; `absent` if it has none.
+/// An integer root attribute of the run; `absent` if the run does not have it.
 std::int64_t integer_attribute_of(const RunData& run, const std::string& name, std::int64_t absent);
 
-/// Bytes that the poses of so many bodies take in the page.
+/// Bytes that this number of poses takes in the page.
 constexpr std::int64_t pose_bytes(std::int64_t count) { return (three_poses_bytes * count + 2) / 3; }
 
-/// How many poses have room in so many bytes.
+/// Number of poses that fit into this number of bytes.
 constexpr std::int64_t poses_in(std::int64_t bytes) { return 3 * bytes / three_poses_bytes; }
 
 /// Frames beyond this number are thinned before worlds are left out: 20 s of simulated time at 30 Hz.
 inline constexpr std::size_t preferred_records = 600;
 
-/// The largest selection whose poses fit into `max_pose_bytes`. All worlds and frames if they fit; else at
-/// most preferred_records frames of as many worlds as fit; else fewer frames of world 0, but at least its
-/// last.
+/// The largest selection whose poses fit into `max_pose_bytes`. It has all worlds and frames if they fit;
+/// else at most preferred_records frames of as many worlds as fit; else fewer frames of world 0, but at least
+/// the last one.
 Selection select_replay(const RunData& run, std::int64_t max_pose_bytes);
 
 /// JSON of the selected poses and geoms, for io/html/data.js.

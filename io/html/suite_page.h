@@ -1,4 +1,4 @@
-/// One self-contained HTML page of all scenes: frame rates, islands and cores beside the paper's.
+/// One self-contained HTML page of all scenes: frame rates, islands and cores, next to the paper's values.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 namespace pbmpi::io::html {
 
 struct SuiteScene {
-  std::string islands_json;  ///< as "pbreport islands --json" prints a row
-  std::string cores_json;    ///< as "pbreport cores --json" does
+  std::string islands_json;  ///< a row as "pbreport islands --json" prints it
+  std::string cores_json;    ///< a row as "pbreport cores --json" prints it
   std::string name;
   std::string still_png;  ///< bytes of a picture; empty = none
 };

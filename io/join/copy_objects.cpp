@@ -20,7 +20,7 @@ herr_t note_path(hid_t, const char* name, const H5L_info_t*, void* data) {
   }
 }
 
-/// An attribute that points to another object, for which there is a place when all objects are made.
+/// An attribute that points to another object, written once all objects exist.
 struct PendingReference {
   std::string object, name, target;
 };
@@ -85,7 +85,7 @@ class Copier {
 
   bool is_left_out(const std::string& path) const { return left_out_.contains(address_of(from_, path)); }
 
-  /// A table of which nothing is left, and an element of H5MD without its value.
+  /// Is this the group of a table with no dataset left, or an H5MD element without its value?
   bool is_left_out_group(const std::string& path) const {
     if (has_object(from_, path + "/value") && is_left_out(path + "/value")) return true;
     const std::vector<std::string> names = names_in(from_, path);
@@ -147,7 +147,7 @@ class Copier {
   std::map<haddr_t, GrownDataset> grown_;
   std::set<haddr_t> left_out_;
   std::vector<std::string> left_out_groups_;
-  std::map<haddr_t, std::string> made_;  ///< first name of each dataset
+  std::map<haddr_t, std::string> made_;  ///< first path of each dataset
   std::vector<PendingReference> references_;
 };
 

@@ -1,4 +1,4 @@
-/// Copies of what a run's file has beside its rows.
+/// Copies everything in a run's file except its rows.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +11,31 @@
 
 namespace pbmpi::io {
 
-/// What a dataset of the new file is to be; its type and attributes are those of the old one.
+/// How the new file's dataset is created; its type and attributes are those of the old one.
 struct GrownDataset {
   hsize_t num_rows = 0;
   hsize_t num_items = 0;     ///< > 0: another extent of the second dimension
-  hsize_t rows_a_chunk = 0;  ///< 0: as create_growing() has it
+  hsize_t rows_a_chunk = 0;  ///< 0: as create_growing() chooses
 };
 
 struct CopyPlan {
-  std::map<std::string, GrownDataset> grown;  ///< by path; made without rows written
+  std::map<std::string, GrownDataset> grown;  ///< by path; created without writing rows
   std::set<std::string> left_out;             ///< paths of datasets; groups that hold one as `value` go, too
-  std::set<std::string> made_by_caller;       ///< paths of datasets that are passed over
+  std::set<std::string> made_by_caller;       ///< paths of datasets that are skipped
 };
 
 /// Paths of all links of a file below the root, in alphabetical order.
 std::vector<std::string> paths_in(hid_t file);
 
-/// Where the object of a path stands in its file: the same for all its names.
+/// Address of an object in its file; all paths of one object have the same.
 haddr_t address_of(hid_t file, const std::string& path);
 
-/// Makes in the empty file `to` what `from` has: groups, attributes, datasets, further names of datasets.
+/// Creates in the empty file `to` what `from` has: groups, attributes, datasets, and further names of
+/// datasets.
 void copy_objects(hid_t from, hid_t to, const CopyPlan& plan);
 
-/// Throws core::InputError unless the datasets that are written once have the same bytes in both files, those
-/// of /parameters and /ranks apart.
+/// Throws core::InputError unless the datasets that are written once have the same bytes in both files,
+/// except those of /parameters and /ranks.
 void require_same_objects(hid_t a, const std::string& path_a, hid_t b, const std::string& path_b,
                           const std::set<std::string>& growing);
 

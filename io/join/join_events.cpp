@@ -20,7 +20,7 @@ struct EventRow {
   std::int64_t frame = 0;
   std::string kind;
   double value = 0;
-  std::vector<std::byte> bytes;  ///< of the columns, one after the other
+  std::vector<std::byte> bytes;  ///< bytes of the columns in order
 };
 
 struct PartEvents {
@@ -30,7 +30,7 @@ struct PartEvents {
 
 std::vector<std::string> column_paths() {
   std::vector<std::string> paths = EventColumns::datasets();
-  paths.pop_back();  // the checksums
+  paths.pop_back();  // removes the path of the checksums
   return paths;
 }
 
@@ -72,7 +72,7 @@ bool knows_all(const PartEvents& events, const Stretch& frames) {
          (last != events.rows.rend() && last->frame >= frames.end());
 }
 
-/// The events of worlds in frames that two parts have, by the part that knows them.
+/// The events of worlds in frames that two parts share, from the part that has them all.
 std::vector<const EventRow*> common_events(const JoinPart& a, const PartEvents& in_a, const JoinPart& b,
                                            const PartEvents& in_b, const Stretch& overlap) {
   const bool a_knows = knows_all(in_a, overlap), b_knows = knows_all(in_b, overlap);
@@ -90,7 +90,7 @@ std::vector<const EventRow*> common_events(const JoinPart& a, const PartEvents& 
   return a_knows ? of_a : of_b;
 }
 
-/// One event less of its kind.
+/// Counts one event less of its kind.
 void take_off(const EventRow& row, EventCounts& counts) {
   --counts[EventColumns::count_name(row.kind)];
   if (row.kind == event_kind::rebalance)
@@ -115,7 +115,7 @@ JoinedEvents::JoinedEvents(const std::vector<JoinPart>& parts, const JoinPlan& p
     for (const EventRow& row : events[i].rows) {
       const bool of_the_run = EventColumns::is_of_the_run(row.kind);
       if (plan.part_of(row.frame) != i) {
-        // Those of worlds in frames of both are taken off above.
+        // Events of worlds in frames that both parts have are taken off above.
         if (of_the_run || !plan.parts()[i].has(row.frame)) take_off(row, counts);
         continue;
       }

@@ -10,12 +10,12 @@
 
 namespace pbmpi::io {
 
-/// The rows of /events, and how often each kind happened, those without a row included.
+/// The rows of /events, and the number of events of each kind, including those without a row.
 class JoinedEvents {
  public:
-  /// What happened in a frame is taken from the part from which the frame comes. As in the file of one run
-  /// there is room for so many rows (EventColumns). Throws core::InputError where frames that several parts
-  /// have do not have the same events of worlds, or these are not known.
+  /// The events of a frame come from the part from which the frame comes. There is room for as many rows as
+  /// in the file of one run (EventColumns). Throws core::InputError where several parts share frames but
+  /// disagree on the events of worlds, or the events are not known.
   JoinedEvents(const std::vector<JoinPart>& parts, const JoinPlan& plan);
 
   std::int64_t num_rows() const { return static_cast<std::int64_t>(rows_.size()); }
@@ -23,7 +23,7 @@ class JoinedEvents {
   void write(hid_t to) const;
 
  private:
-  std::vector<std::vector<std::byte>> rows_;  ///< [rows] bytes of the columns, one after the other
+  std::vector<std::vector<std::byte>> rows_;  ///< [rows] bytes of the columns in order
   EventCounts counts_;
 };
 

@@ -1,4 +1,4 @@
-/// Which frames of a joined run come from which file.
+/// Decides which frames of a joined run come from which file.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace pbmpi::io {
 
-/// The frames that a file has, counted from the start of the first run.
+/// The frames of a file, counted from the start of the first run.
 struct PartFrames {
   std::string path;
   std::int64_t first = 0, count = 0;
@@ -16,7 +16,7 @@ struct PartFrames {
   bool has(std::int64_t frame) const { return frame >= first && frame < end(); }
 };
 
-/// Neighbouring frames that come from one file.
+/// Consecutive frames that come from one file.
 struct Stretch {
   std::size_t part = 0;
   std::int64_t first = 0, count = 0;
@@ -26,9 +26,9 @@ struct Stretch {
 
 class JoinPlan {
  public:
-  /// `parts` by first frame, and by their ends where that is equal. What several have comes from the last of
-  /// them. Throws core::InputError: frames that none has, or a part whose intervals of recording do not go on
-  /// where those of the first stop.
+  /// `parts` are sorted by first frame, and by their ends where those are equal. A frame that several parts
+  /// have comes from the last of them. Throws core::InputError for frames that no part has, or for a part
+  /// whose recording intervals do not continue those of the first.
   JoinPlan(std::vector<PartFrames> parts, std::int64_t record_every);
 
   const std::vector<PartFrames>& parts() const { return parts_; }
@@ -36,11 +36,11 @@ class JoinPlan {
   std::int64_t first() const { return parts_.front().first; }
   std::int64_t num_frames() const { return stretches_.back().end() - first(); }
   std::int64_t record_every() const { return record_every_; }
-  /// The part from which a frame comes; of one behind the end the last stretch's.
+  /// The part from which a frame comes; the part of the last stretch for a frame after the end.
   std::size_t part_of(std::int64_t frame) const;
-  /// Frames that `part` has, and that come from another one.
+  /// Frames that `part` has, but that come from another part.
   std::vector<Stretch> overlaps_of(std::size_t part) const;
-  /// Rows of the recorded frames of [first, first + count), of a file that begins with frame `begin`.
+  /// Rows of the recorded frames among [first, first + count), in a file that begins with frame `begin`.
   struct Rows {
     std::int64_t first = 0, count = 0;
   };

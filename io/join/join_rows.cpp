@@ -18,8 +18,8 @@ namespace {
 constexpr const char* contact_frames = "/contacts/frame";
 constexpr std::size_t piece_bytes = std::size_t{4} << 20;
 
-/// What clocks have measured or decided, or is told of ranks, of which parts have different numbers: no two
-/// executions of a frame agree on it. Estimates that are due at some time are what was there by then.
+/// Columns that clocks have measured or decided, or that describe ranks, whose number differs between parts:
+/// no two executions of a frame agree on them. Estimates with a deadline depend on what was ready by then.
 bool is_of_one_execution(const JoinPart& part, const std::string& column) {
   if (column.starts_with("/estimate/") && has_object(part.file, "/parameters/estimate_by")) return true;
   constexpr std::array clocks = {"/timings/frame/wall",
@@ -47,7 +47,7 @@ JoinPlan::Rows rows_of(const JoinedTable& table, const JoinPlan& plan, const Str
   return plan.recorded_rows(frames.first, frames.count, begin);
 }
 
-/// Rows of `bytes_old` each with zeros behind them: of a rank that a part did not have.
+/// Rows of `bytes_old` each, padded with zeros for ranks that a part did not have.
 std::vector<std::byte> widened(const std::vector<std::byte>& values, std::size_t bytes_old,
                                std::size_t bytes_new) {
   if (bytes_old == bytes_new) return values;
@@ -118,7 +118,7 @@ struct ContactFrames {
   }
 };
 
-/// Contacts of a stretch of frames go behind those of the frames before.
+/// Writes the contacts of a stretch of frames after those of the frames before.
 void write_contacts(const std::vector<JoinPart>& parts, const JoinPlan& plan, hid_t to) {
   std::int64_t next = 0;
   for (const Stretch& stretch : plan.stretches()) {
@@ -174,7 +174,7 @@ void require_equal(const JoinPart& a, JoinPlan::Rows rows_a, const JoinPart& b, 
   }
 }
 
-/// Do both record the motion of the same frames?
+/// Do both parts record the motion of the same frames?
 bool record_alike(const PartFrames& a, const PartFrames& b, std::int64_t record_every) {
   return (a.first - b.first) % record_every == 0;
 }
@@ -210,7 +210,7 @@ CommonTables common_tables(const std::vector<JoinPart>& parts) {
   if (found > 0 && !common.has_contacts) {
     std::vector<std::string> datasets = GrowingTable::datasets(contact_frames, ContactRows::frame_columns());
     datasets.emplace_back(ContactRows::points);
-    datasets.emplace_back(contact_frames);  // so that the group above it has nothing left
+    datasets.emplace_back(contact_frames);  // leaves the group above it empty
     add_to_some(ContactRows::points, datasets);
   }
   return common;

@@ -19,41 +19,41 @@ struct JoinPart {
   std::int64_t num_ranks = 1;
 };
 
-/// A table of the frames that all parts have.
+/// A table of frames that all parts have.
 struct JoinedTable {
   std::vector<std::string> columns;
   std::string checksums;  ///< path of the rows' checksums
   Rows rows = Rows::frames;
-  bool has_ranks = false;  ///< an item a rank
+  bool has_ranks = false;  ///< has an item per rank
 };
 
-/// Tables that all parts have; names (their first columns) of those that only some have.
+/// Tables that all parts have, and the names (first columns) of those that only some have.
 struct CommonTables {
   std::vector<JoinedTable> tables;
   bool has_contacts = false;
   std::vector<std::string> of_some;
-  std::set<std::string> left_out;  ///< datasets of those, in the first part
+  std::set<std::string> left_out;  ///< datasets of the tables that only some have, in the first part
 };
 CommonTables common_tables(const std::vector<JoinPart>& parts);
 
-/// Datasets whose rows are those of frames or events, of whatever a run records.
+/// Datasets with a row per frame or event, for everything that a run can record.
 std::set<std::string> growing_datasets();
 
-/// What the datasets of the joined file are to be. Events have `num_events` rows.
+/// How the datasets of the joined file are created. Events have `num_events` rows.
 std::map<std::string, GrownDataset> grown_datasets(const std::vector<JoinPart>& parts,
                                                    const CommonTables& common, const JoinPlan& plan,
                                                    std::int64_t num_events);
 
-/// Throws core::InputError unless frames that several parts have are equal bit for bit, times that clocks
-/// have measured apart.
+/// Throws core::InputError unless frames that several parts have are equal bit for bit, except times that
+/// clocks have measured.
 void require_equal_overlaps(const std::vector<JoinPart>& parts, const CommonTables& common,
                             const JoinPlan& plan);
 
-/// Writes all rows but those of events, and their checksums.
+/// Writes all rows except those of events, and their checksums.
 void write_joined_rows(const std::vector<JoinPart>& parts, const CommonTables& common, const JoinPlan& plan,
                        hid_t to);
 
-/// Writes rows [first, first + count) of a dataset of `to`, bytes as it holds them.
+/// Writes rows [first, first + count) of a dataset of `to`, as the bytes that the file stores.
 void write_rows(hid_t to, const std::string& path, hsize_t first, hsize_t count, const void* values);
 
 }  // namespace pbmpi::io

@@ -44,7 +44,7 @@ void require_distinct(const std::vector<std::string>& paths) {
   }
 }
 
-/// By first frame, and by their ends where that is equal.
+/// Opens all files, sorted by first frame, and by their ends where those are equal.
 std::vector<std::unique_ptr<Source>> open_all(const std::vector<std::string>& paths) {
   std::vector<std::unique_ptr<Source>> sources;
   sources.reserve(paths.size());
@@ -66,7 +66,7 @@ void require_same_attribute(const Source& a, const Source& b, const std::string&
                                                 value(b) + "; " + advice);
 }
 
-/// Frames have the same number of steps, and begin with the first.
+/// Throws unless all frames have the same number of steps, starting from the first frame.
 void require_steps(const Source& source) {
   const std::int64_t steps_per_frame = std::atoll(source.run.parameters().at("steps_per_frame").c_str());
   for (const FrameTime& frame : source.run.frames())
@@ -75,7 +75,7 @@ void require_steps(const Source& source) {
                             std::to_string(frame.step) + ", which is none of one run");
 }
 
-/// What each part says of its own frames, in columns of /world_results.
+/// The columns of /world_results that describe each part's own frames.
 std::set<std::string> result_datasets(hid_t file) {
   std::set<std::string> paths;
   if (!has_object(file, world_results)) return paths;
@@ -129,7 +129,8 @@ File create_alone(const std::string& path) {
   return owned<File>(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), "H5Fcreate");
 }
 
-/// Ranks and hosts of the part that has most of them; a rank that had another host before has both.
+/// Writes the ranks and hosts of the part with the most ranks; a rank that had another host before lists
+/// both.
 void write_ranks(const std::vector<std::unique_ptr<Source>>& sources, hid_t to) {
   std::vector<std::string> hosts;
   for (const auto& source : sources) {
@@ -164,7 +165,7 @@ void write_ranks(const std::vector<std::unique_ptr<Source>>& sources, hid_t to) 
   write("/ranks/worlds_at_start", number_type(H5T_NATIVE_INT32), owned_worlds.data());
 }
 
-/// What differs from the first part beside what matters, e.g. "ranks is 3".
+/// Differences from the first part in settings that do not matter, e.g. "ranks is 3".
 std::vector<std::string> differences_from(const Source& first, const Source& other) {
   std::vector<std::string> texts;
   for (const ParameterDifference& one :
@@ -196,7 +197,7 @@ JoinedRun describe(const std::vector<std::unique_ptr<Source>>& sources, const Jo
   return joined;
 }
 
-/// A line a part, for /parameters/joined_from.
+/// One line per part, for /parameters/joined_from.
 std::string provenance(const JoinedRun& joined, const std::vector<std::unique_ptr<Source>>& sources) {
   std::string text;
   for (std::size_t i = 0; i < joined.parts.size(); ++i) {
@@ -229,7 +230,7 @@ void write_parameters(const std::vector<std::unique_ptr<Source>>& sources, const
   put(Parameter::of("joined_from", joined_from));
 }
 
-/// What the files take on the disk: that of a killed run is as long as the run was planned to be.
+/// Bytes of the files on the disk: the file of a killed run is as long as the run was planned to be.
 std::int64_t bytes_of(const std::vector<std::string>& paths) {
   constexpr std::int64_t block_bytes = 512;
   std::int64_t bytes = 0;

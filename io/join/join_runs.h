@@ -1,4 +1,4 @@
-/// A run and what went on from its checkpoints as one file.
+/// Joins a run and its continuations from checkpoints into one file.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace pbmpi::io {
 struct JoinedRun {
   struct Part {
     std::string path;
-    std::int64_t first_frame = 0, num_frames = 0;  ///< that the file has
-    std::int64_t num_used = 0;                     ///< that come from it
+    std::int64_t first_frame = 0, num_frames = 0;  ///< of the file
+    std::int64_t num_used = 0;                     ///< frames taken from the file
     std::vector<std::string> differs;  ///< from the first part, in what does not matter for results
   };
   std::vector<Part> parts;  ///< in the order of their frames
@@ -21,11 +21,10 @@ struct JoinedRun {
   std::vector<std::string> left_out;  ///< tables that not all parts have
 };
 
-/// Writes the file `output`, which has all that the file of a run has that was never stopped. Frames that
-/// several files have must be equal bit for bit but for what clocks have measured; the later file's are
-/// taken. `common_only`: tables that not all files have are left out instead of refused. Throws
-/// core::InputError: files that are not of one run, frames that are missing, an output that cannot be
-/// written.
+/// Writes the file `output`, which holds all that the file of an uninterrupted run holds. Frames that several
+/// files have must be equal bit for bit, except what clocks have measured; the later file's frames are taken.
+/// `common_only`: tables that not all files have are left out instead of refused. Throws core::InputError for
+/// files that are not of one run, frames that are missing, or an output that cannot be written.
 JoinedRun join_runs(const std::vector<std::string>& paths, const std::string& output, bool common_only);
 
 }  // namespace pbmpi::io

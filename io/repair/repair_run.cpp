@@ -58,7 +58,7 @@ std::int64_t bytes_on_disk(const core::Descriptor& file) {
 /// Bytes of the file that no committed row needs.
 struct Unused {
   std::vector<core::ByteRange> all;
-  std::vector<core::ByteRange> in_kept_chunks;  ///< of `all`, those in chunks that hold committed rows, too
+  std::vector<core::ByteRange> in_kept_chunks;  ///< the part of `all` in chunks that also hold committed rows
 };
 
 Unused unused_bytes(hid_t file, const std::vector<Cut>& cuts) {
@@ -94,7 +94,7 @@ Repair repair(const std::string& path) {
   const std::vector<Cut> cuts = cuts_of(file.id(), done.frames);
   if (cuts.empty()) return done;
   const Unused unused = unused_bytes(file.id(), cuts);
-  // Holes first: they change nothing that a reader sees, so that a kill here leaves the file as it was.
+  // Holes first: they change nothing that a reader sees, so a kill here leaves the file as it was.
   core::punch_holes(disk.get(), unused.all);
   shorten(file.id(), cuts);
   if (!file.close()) check(-1, "H5Fclose");
@@ -104,8 +104,8 @@ Repair repair(const std::string& path) {
   return done;
 }
 
-/// Removes what dead holders of locks have left that belong to the run, such as that of its checkpoints:
-/// taking a lock does it, and giving it back removes its file.
+/// Removes what dead lock holders left behind that belongs to the run, such as its checkpoints' lock: taking
+/// a lock cleans up, and giving it back removes its file.
 void remove_dead_locks(const std::string& path) {
   namespace fs = std::filesystem;
   const fs::path run(path), folder = run.parent_path();
@@ -117,7 +117,7 @@ void remove_dead_locks(const std::string& path) {
     try {
       const OutputLock dead((folder / name.substr(1, name.size() - 1 - end.size())).string());
     } catch (const core::InputError&) {
-      // Another run lives.
+      // Another run is still alive.
     }
   }
 }
@@ -128,7 +128,7 @@ Repair repair_run(const std::string& path) {
   prepare_hdf5();
   const OutputLock lock(path);
   remove_dead_locks(lock.path());
-  open_run(lock.path());  // refuses what is no file of a run
+  open_run(lock.path());  // refuses a file that is not a run's
   try {
     return repair(lock.path());
   } catch (const core::RunError& error) {

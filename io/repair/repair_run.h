@@ -1,4 +1,4 @@
-/// Makes the file of a killed run as short as that of a run which ended by itself.
+/// Makes the file of a killed run as short as that of a run which ended normally.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@ namespace pbmpi::io {
 
 struct Repair {
   std::int64_t frames = 0;       ///< committed; they stay as they are
-  std::int64_t bytes_freed = 0;  ///< of the disk
+  std::int64_t bytes_freed = 0;  ///< on the disk
 };
 
-/// Gives back the disk space behind the committed frames of a run's file and cuts its datasets to them, as
-/// the end of a run would have done; removes what else the killed run left beside it. A file that needs none
-/// of it stays as it is. Throws core::InputError: a run still writes the file, it is no run's file, or cannot
-/// be written.
+/// Gives back the disk space after the committed frames of a run's file and cuts its datasets to them, as the
+/// end of the run would have done; removes what else the killed run left next to it. A file that needs none
+/// of this is not touched. Throws core::InputError if a run still writes the file, if it is not a run's file,
+/// or if it cannot be written.
 Repair repair_run(const std::string& path);
 
 }  // namespace pbmpi::io

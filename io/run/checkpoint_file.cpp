@@ -31,16 +31,16 @@ void append(Doubles& column, const Vec3& vector) {
 }
 void append(Doubles& column, const Quat& q) { column.insert(column.end(), {q.w, q.x, q.y, q.z}); }
 
-/// The columns of all worlds, one world's rows after the other's.
+/// The columns of all worlds, one world's rows after the previous world's.
 struct Columns {
   Integers bodies, resting, joints;  ///< [W] rows of each world
   Doubles position, orientation, velocity, angular_velocity;
   Doubles rest_position, rest_orientation;
   Integers idle_steps, broken_in;
-  Doubles energy_gain, largest_kinetic;  ///< [W] as is frozen_in
+  Doubles energy_gain, largest_kinetic;  ///< [W], as frozen_in
   Integers frozen_in;
   Integers num_contact_forces, num_joint_forces;  ///< [W] rows of each world
-  Doubles contact_force_rows, joint_force_rows;   ///< as put_row() makes them
+  Doubles contact_force_rows, joint_force_rows;   ///< as put_row() writes them
 
   void add(const model::State& state) {
     bodies.push_back(std::ssize(state.position));
@@ -157,7 +157,7 @@ const Parameter& parameter(const TableFile& file, const std::string& name) {
   return *found;
 }
 
-/// Of a parameter that a checkpoint before layout 1.4 does not have.
+/// The text of a parameter; empty for a checkpoint before layout 1.4, which does not have it.
 std::string text_or_none(const TableFile& file, const std::string& name) {
   const auto found = std::ranges::find(file.parameters, name, &Parameter::name);
   return found == file.parameters.end() ? "" : found->text;
@@ -170,7 +170,7 @@ std::string attribute(const TableFile& file, const std::string& name) {
 }
 
 std::int64_t count(const TableFile& file, const std::string& name) {
-  const std::string& text = parameter(file, name).text;  // parameters that were read from a file are text
+  const std::string& text = parameter(file, name).text;  // all parameters read from a file are text
   char* end = nullptr;
   const long long value = std::strtoll(text.c_str(), &end, 10);
   if (end == text.c_str() || *end != '\0' || value < 1)

@@ -22,7 +22,7 @@ std::string column_names() {
   return names;
 }
 
-/// Small chunks for a short run, so that little stays unused at the end of the file.
+/// Small chunks for a short run leave little unused space at the end of the file.
 hsize_t chunk_rows(hsize_t capacity) {
   constexpr hsize_t least = (hsize_t{64} << 10) / bytes_a_row, most = (hsize_t{4} << 20) / bytes_a_row;
   constexpr hsize_t num_chunks = 128;
@@ -45,7 +45,7 @@ std::vector<ColumnSpec> ContactRows::frame_columns() {
 }
 
 hsize_t ContactRows::capacity(const RunShape& shape) {
-  // A body in a dense heap has about ten; a world of few bodies may lie on many geoms.
+  // A body in a dense heap has about ten contacts; a world of few bodies may lie on many geoms.
   const std::int64_t most_a_frame = 16 * shape.num_bodies + 16 * shape.num_worlds;
   return static_cast<hsize_t>(std::max<std::int64_t>(shape.num_frames * most_a_frame, 1));
 }
@@ -82,7 +82,7 @@ void ContactRows::add(const FrameSource& source) {
   }
 }
 
-/// The contacts of the step, and between them, by their geoms, what is remembered of those that sleep.
+/// Adds the contacts of the step, merged by their geoms with the remembered contacts of sleeping bodies.
 void ContactRows::add_world(const FrameSource& source, const stepping::LocalWorld& world, Part& part) const {
   static const stepping::StepContacts none;
   const stepping::StepContacts& shown = world.contacts != nullptr ? *world.contacts : none;
@@ -133,8 +133,8 @@ std::vector<std::int64_t> ContactRows::count_rows() const {
   return counts;
 }
 
-/// On the wire a row has the number of its frame before it. A world's rows of a frame come from one rank, in
-/// their order.
+/// When sent, a row is preceded by the number of its frame. A world's rows of a frame come from one rank, in
+/// order.
 std::vector<ContactRows::Row> ContactRows::exchange(const std::vector<std::int64_t>& counts,
                                                     Range frames) const {
   using WireRow = std::array<double, num_columns + 1>;
@@ -153,7 +153,7 @@ std::vector<ContactRows::Row> ContactRows::exchange(const std::vector<std::int64
   const std::vector<std::byte> received =
       ranks_.size() == 1 ? std::move(messages[0]) : ranks_.exchange(messages);
   const std::size_t num_worlds = geom_offset_.size() - 1;
-  std::vector<std::size_t> next;  // [frames][num_worlds] where a world's next row goes
+  std::vector<std::size_t> next;  // [frames][num_worlds] where a world's next row is put
   std::size_t num_rows = 0;
   for (std::size_t i = frames.first * num_worlds; i < (frames.first + frames.count) * num_worlds; ++i) {
     next.push_back(num_rows);

@@ -1,4 +1,5 @@
-/// Group /contacts of a run's file: the contacts of the last step of each frame, as many rows as there are.
+/// Group /contacts of a run's file: the contacts of the last step of each frame, with as many rows as there
+/// are contacts.
 #pragma once
 
 #include <array>
@@ -30,15 +31,15 @@ struct ContactSpan {
   std::uint64_t checksum = 0;
 };
 
-/// One dataset [rows][columns], the last of the file, so that what a run does not use of it goes when it is
-/// cut; and a row a frame that says where the frame's rows are. A frame that finds no room has no rows and is
-/// counted as dropped.
+/// One dataset [rows][columns], the last of the file, so that its unused space is freed when the run is cut,
+/// and a table with one row per frame that says where the frame's rows are. A frame that finds no room has no
+/// rows and is counted as dropped.
 class ContactRows {
  public:
   static constexpr const char* points = "/contacts/point";
   /// Columns of the frames' table in the group /contacts/frame.
   static std::vector<ColumnSpec> frame_columns();
-  /// Rows for which a file has room; bytes of those that are expected, and of the others.
+  /// Rows for which a file has room; bytes of the rows that are expected, and of the others.
   static hsize_t capacity(const RunShape& shape);
   static std::int64_t expected_bytes(const RunShape& shape);
   static std::int64_t spare_bytes(const RunShape& shape);
@@ -49,9 +50,9 @@ class ContactRows {
 
   /// Keeps this rank's contacts of a frame.
   void add(const FrameSource& source);
-  /// Collective: brings waiting rows to the ranks that write them, and finds out where they go.
+  /// Collective: sends waiting rows to the ranks that write them, and determines where they are written.
   void settle();
-  /// Collective, after settle(). The first error of this rank, empty if there was none.
+  /// Collective, after settle(). Returns the first error of this rank, empty if there was none.
   std::string write(const PropertyList& transfer);
 
   bool wrote_collectively() const { return collective_; }
@@ -83,13 +84,13 @@ class ContactRows {
   GrowingTable frames_;
   std::vector<Part> waiting_;  ///< [frames]
   std::vector<Row> own_rows_;  ///< settled, of this rank's frames
-  hsize_t first_own_ = 0;      ///< where they go
+  hsize_t first_own_ = 0;      ///< row at which they are written
   hsize_t settled_ = 0, written_ = 0;
   bool collective_ = true;
 };
 
-/// Spans of the first frames; none if the file has no contacts. Throws core::RunError where they do not
-/// follow each other.
+/// Spans of the first frames; none if the file has no contacts. Throws core::RunError where the spans are not
+/// consecutive.
 std::vector<ContactSpan> read_contact_spans(hid_t file, std::int64_t num_frames);
 
 /// Throws core::RunError unless the rows of each span have its checksum.

@@ -12,7 +12,7 @@ namespace {
 namespace event_kind = stepping::event_kind;
 
 constexpr const char* events_group = "/events";
-/// EventColumns::add() puts values in this order.
+/// The columns in the order in which EventColumns::add() puts values.
 const std::vector<ColumnSpec>& columns() {
   static const std::vector<ColumnSpec> specs = {{"frame", H5T_NATIVE_INT64}, {"kind", 0, 1, "", 24},
                                                 {"detail", 0, 1, "", 160},   {"step", H5T_NATIVE_INT64},

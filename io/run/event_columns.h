@@ -1,4 +1,4 @@
-/// Group /events of a run's file: what happened beside the frames, a row each, and how often in all.
+/// Group /events of a run's file: a row for each event, and the number of events of each kind.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ namespace pbmpi::io {
 class EventColumns {
  public:
   static constexpr int max_rows = 512;
-  /// Rows kept for what happens to the run and not to its worlds (rebalances, signals ...). How many of those
-  /// there are depends on clocks and ranks, so they must take no row from the others: these are the same for
-  /// any number of ranks, also where there is no room for all.
+  /// Rows kept for events of the run rather than of its worlds (rebalances, signals ...). The number of these
+  /// events depends on clocks and ranks, so they must take no row from events of worlds, which are the same
+  /// for any number of ranks even where there is not room for all.
   static constexpr int max_rows_of_the_run = 64;
   /// Paths of the datasets.
   static std::vector<std::string> datasets();
@@ -27,26 +27,26 @@ class EventColumns {
   /// Makes the datasets. Collective.
   EventColumns(hid_t file, const FileRanks& ranks);
 
-  /// Every rank is told of the same event. Without room for its row it is counted all the same. Throws
+  /// Every rank is given the same event. An event without room for its row is still counted. Throws
   /// std::logic_error for a kind that event_kind does not list.
   void add(const stepping::RunEvent& event);
 
   GrowingTable& rows() { return rows_; }
   const GrowingTable& rows() const { return rows_; }
-  /// Rows written, rows for which there was no room, and events told of each kind.
+  /// Rows written, rows for which there was no room, and events of each kind.
   EventCounts counts() const;
-  /// Does a kind of events happen to the run? All others happen to a world.
+  /// Are events of this kind events of the run? All others are events of a world.
   static bool is_of_the_run(const std::string& kind);
-  /// Name of the count of a kind; of the counts that no kind has.
+  /// Name of the count of a kind; the names of the counts without a kind follow.
   static std::string count_name(const std::string& kind);
   static constexpr const char* num_rows = "num_events";
   static constexpr const char* num_dropped = "num_dropped";
   static constexpr const char* worlds_moved = "worlds_moved";
-  /// Names of all counts, each zero: for the attributes of a file that begins.
+  /// Names of all counts, each zero: for the attributes of a new file.
   static EventCounts no_counts();
 
  private:
-  /// Is there a row for one more event of this kind? It is then taken.
+  /// Takes a row for one more event of this kind; false if there is no room.
   bool take_row(const std::string& kind);
 
   bool is_root_;
@@ -55,8 +55,8 @@ class EventColumns {
   EventCounts told_ = no_counts();
 };
 
-/// Events and their counts; those of a layout before 1.2 have neither step, world, joint, name nor value, and
-/// only rows are counted.
+/// Reads events and their counts. Events of a layout before 1.2 have neither step, world, joint, name nor
+/// value, and only rows are counted.
 void read_events(hid_t file, RunData& run);
 
 }  // namespace pbmpi::io

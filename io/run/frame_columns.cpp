@@ -15,7 +15,8 @@ std::size_t mean_bytes(const RunShape& shape) {
       bytes.every_frame + bytes.recorded / static_cast<std::size_t>(shape.record_every), 1);
 }
 
-/// Frames that wait at most: what all ranks together hold of them stays below 32 MiB, unless one is larger.
+/// Largest number of frames that wait: on all ranks together they stay below 32 MiB, unless one frame is
+/// larger.
 std::int64_t frames_to_hold(const RunShape& shape) {
   constexpr std::size_t most_bytes = std::size_t{32} << 20;
   return std::max<std::int64_t>(static_cast<std::int64_t>(most_bytes / mean_bytes(shape)), 1);
@@ -34,7 +35,7 @@ void link(hid_t file, const std::string& from, const std::string& to) {
         "H5Lcreate_hard(" + to + ")");
 }
 
-/// H5MD wants step and time beside each value; all four elements share one pair.
+/// H5MD wants step and time next to each value; all four elements share one pair.
 void link_step_and_time(hid_t file) {
   for (const char* element : {"orientation", "velocity", "angular_velocity"}) {
     for (const char* column : {"step", "time"}) {
@@ -45,7 +46,7 @@ void link_step_and_time(hid_t file) {
   }
 }
 
-/// Each column of a table of observables as an element of H5MD, with the step and the time of its frames:
+/// Makes each column of a table of observables an element of H5MD, with the step and the time of its frames:
 /// /observables/world/energy is also /observables/energy/value.
 void link_observables(hid_t file, const std::vector<FrameTable>& tables) {
   const std::string root = "/observables/";

@@ -15,7 +15,7 @@
 
 namespace pbmpi::io {
 
-/// Bytes that one frame adds to the file: those of every frame, and those of a frame that is recorded.
+/// Bytes that one frame adds to the file: those of every frame, and those added only by a recorded frame.
 struct FrameBytes {
   std::size_t every_frame;
   std::size_t recorded;
@@ -29,10 +29,10 @@ struct ColumnRows {
   int frames_per_row;
 };
 
-/// Makes the growing datasets, takes in frames and events, and writes what waits.
+/// Creates the growing datasets, takes in frames and events, and writes the waiting rows.
 class FrameColumns {
  public:
-  /// Collective. `setup` counts for the tables of worlds.
+  /// Collective. `setup` matters for the tables of worlds.
   FrameColumns(hid_t file, const FileRanks& ranks, const RunSetup& setup, const RunShape& shape);
 
   void add(const stepping::FrameRecord& frame);
@@ -43,22 +43,23 @@ class FrameColumns {
   std::int64_t frames_written() const { return frames_written_; }
   EventCounts event_counts() const { return events_.counts(); }
 
-  /// All but those of events.
+  /// All growing datasets except those of events.
   std::vector<ColumnRows> column_rows() const;
-  /// Frames that make a step of this many bytes, one at least.
+  /// Number of frames that fill this many bytes, at least one.
   hsize_t frames_in(std::size_t bytes) const;
 
-  /// Collective, before column_rows() and write(): finds out where rows go whose number is not fixed.
+  /// Collective, before column_rows() and write(): determines where rows are written whose number is not
+  /// fixed.
   void settle() {
     if (contacts_) contacts_->settle();
   }
-  /// Collective. The first error of this rank, empty if there was none.
+  /// Collective. Returns the first error of this rank, empty if there was none.
   std::string write(const PropertyList& transfer);
   bool wrote_collectively() const { return wrote_collectively_; }
   /// Closes the datasets.
   void close();
-  /// Cuts all to what was written, in the closed file that one rank has opened anew; returns the bytes of the
-  /// file that this frees.
+  /// Cuts all datasets to what was written, in the closed file that one rank has opened anew; returns the
+  /// bytes of the file that this frees.
   std::vector<core::ByteRange> cut(hid_t file);
 
  private:
@@ -71,7 +72,7 @@ class FrameColumns {
   const FileRanks& ranks_;
   stepping::WorldTable table_;
   int record_every_;
-  std::size_t bytes_each_;  ///< of a frame, on average
+  std::size_t bytes_each_;  ///< of an average frame
   std::int64_t first_frame_;
   std::int64_t frames_held_;  ///< frames that can wait
   std::int64_t frames_added_ = 0, frames_written_ = 0;

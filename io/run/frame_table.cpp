@@ -35,7 +35,7 @@ std::vector<Range> own_items(Items items, const FrameSource& source) {
   return ranges;
 }
 
-/// Every committed row has its checksum.
+/// Throws unless every committed row matches its checksum.
 void check_committed_rows(hid_t file, std::int64_t num_frames, std::int64_t num_recorded) {
   std::map<std::string, std::int64_t> rows;
   for (const FrameTable& table : all_frame_tables()) {
@@ -80,7 +80,7 @@ void begin_row(const FrameTable& table, const FrameSource& source, GrowingTable&
 
 std::vector<FrameTable> frame_tables(const OptionalColumns& optional) {
   std::vector<FrameTable> tables;
-  // The largest optional one last: only space at the end of the file goes when a run is cut.
+  // The largest optional table comes last: only space at the end of the file is freed when a run is cut.
   for (const auto& group : {body_tables(), observable_tables(optional), joint_tables(optional),
                             timing_tables(optional), estimate_tables(optional)}) {
     tables.insert(tables.end(), group.begin(), group.end());

@@ -1,5 +1,5 @@
-/// The groups of a run's file that grow with its frames, each as one table: its columns, and what puts a
-/// frame's row into them.
+/// The groups of a run's file that grow with its frames, each as one table: its columns, and the function
+/// that puts a frame's row into them.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 
 namespace pbmpi::io {
 
-/// What the items of a row belong to; `run`: a row has one, and the columns are one-dimensional.
+/// What the items of a row belong to; `run`: a row has one item, and the columns are one-dimensional.
 enum class Items { run, ranks, worlds, bodies, joints };
 
-/// Which frames have a row: all, or those in which the bodies are stored.
+/// Which frames have a row: all frames, or those in which the bodies are stored.
 enum class Rows { frames, recorded };
 
-/// A finished frame, and where its items stand in a row.
+/// A finished frame, and the places of its items in a row.
 struct FrameSource {
   const stepping::FrameRecord& frame;
   const stepping::WorldTable& table;
-  const std::vector<std::int64_t>& joint_offset;  ///< [num_worlds + 1] as WorldTable::body_offset
+  const std::vector<std::int64_t>& joint_offset;  ///< [num_worlds + 1], as WorldTable::body_offset
   int rank = 0;
 
   hsize_t own_rank() const { return static_cast<hsize_t>(rank); }
@@ -38,12 +38,12 @@ struct FrameTable {
   std::vector<ColumnSpec> columns;
   Items items;
   Rows rows;
-  /// Puts this rank's items into the row that begin_row() has begun, columns in the order of `columns`. Of a
-  /// table with Items::run root alone is called.
+  /// Puts this rank's items into the row that begin_row() has begun, columns in the order of `columns`. For a
+  /// table with Items::run it is called on root only.
   void (*put)(const FrameSource& source, GrowingTable& row);
 };
 
-/// Items of a row; 0 for Items::run.
+/// Number of items of a row; 0 for Items::run.
 std::int64_t num_items(const FrameTable& table, const RunShape& shape);
 
 /// Bytes of a row, all ranks together.
@@ -52,22 +52,22 @@ std::size_t row_bytes(const FrameTable& table, const RunShape& shape);
 /// Begins the next row with the items that this rank has in this frame.
 void begin_row(const FrameTable& table, const FrameSource& source, GrowingTable& row);
 
-/// Groups of the file, in the order in which they are made.
+/// Groups of the file, in the order in which they are created.
 std::vector<FrameTable> body_tables();
 std::vector<FrameTable> observable_tables(const OptionalColumns& optional);
 std::vector<FrameTable> joint_tables(const OptionalColumns& optional);
 std::vector<FrameTable> timing_tables(const OptionalColumns& optional);
 std::vector<FrameTable> estimate_tables(const OptionalColumns& optional);
 
-/// All of them.
+/// All tables with these optional columns.
 std::vector<FrameTable> frame_tables(const OptionalColumns& optional);
-/// All of them for this run.
+/// All tables of this run.
 std::vector<FrameTable> frame_tables(const RunShape& shape);
-/// All that a file of any run can have.
+/// All tables that a run's file can have.
 std::vector<FrameTable> all_frame_tables();
 
-/// Throws core::RunError unless what is written once, what the end of the run has written and every committed
-/// row have their checksums, as far as the file's layout has them.
+/// Throws core::RunError unless the data that are written once, the data that the end of the run has written,
+/// and every committed row match their checksums, as far as the file's layout has them.
 void check_run(hid_t file);
 
 }  // namespace pbmpi::io

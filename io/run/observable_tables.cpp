@@ -1,5 +1,5 @@
-/// Group /observables: the columns of stepping/observable_table.h; what joints hold with, and in which step
-/// they broke.
+/// Group /observables: the columns of stepping/observable_table.h, the forces of joints, and the step in
+/// which they broke.
 #include "io/run/frame_table.h"
 #include "stepping/observable_table.h"
 
@@ -54,7 +54,8 @@ void put_broken(const FrameSource& source, GrowingTable& row) {
   }
 }
 
-/// What is remembered is part of the state, and so of its hash. Otherwise what does not act has no force.
+/// Remembered forces are part of the state, and therefore of its hash. Otherwise a joint that does not act
+/// has no force.
 model::JointForce force_of(const stepping::LocalWorld& world, std::size_t joint) {
   const model::State& state = *world.state;
   if (!state.memory.joints.empty()) return state.memory.joints[joint];

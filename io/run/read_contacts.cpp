@@ -31,7 +31,7 @@ void require_body(double body, std::size_t num_bodies, bool may_be_static) {
     throw core::RunError(std::string(ContactRows::points) + " names a body that is not there");
 }
 
-/// `row`: one of /contacts/point, columns as contact_columns has them.
+/// `row`: a row of /contacts/point, with columns as in contact_columns.
 ContactRow contact_of(const double* row, std::size_t num_bodies) {
   require_body(row[3], num_bodies, false);
   require_body(row[4], num_bodies, true);

@@ -139,7 +139,7 @@ void read_estimate(hid_t file, std::int64_t num_recorded, RunData& run) {
   run.estimate.precise_s = read_doubles(file, "/estimate/precise", run.frames_committed, 1);
 }
 
-/// What is broken stays so: the last frame tells of all.
+/// Joints that are broken stay broken: the last frame has them all.
 void read_broken(hid_t file, RunData& run) {
   const std::string path = "/observables/joint/broken_in";
   if (!has_object(file, "/observables/joint") || !has_object(file, path) || run.frames_committed == 0) return;
@@ -158,7 +158,7 @@ std::vector<bool> to_flags(const std::vector<std::int64_t>& values) {
   return flags;
 }
 
-/// A file of an older layout has no column for what was not measured then.
+/// A file of an older layout has no column for observables that were not measured then.
 void read_observables(hid_t file, RunData& run) {
   for (const stepping::WorldColumn& column : stepping::world_observables) {
     const std::string name(column.name), path = "/observables/world/" + name;
@@ -184,7 +184,7 @@ void read_frames(hid_t file, RunData& run) {
   }
 }
 
-/// Only a run with --record-islands has them.
+/// Only a run with --record-islands has profiles.
 void read_profiles(hid_t file, RunData& run) {
   if (H5Lexists(file, "/timings/island", H5P_DEFAULT) <= 0) return;
   const std::int64_t rows = run.frames_committed;

@@ -41,19 +41,19 @@ struct GeomRow {
 struct IslandRow {
   std::int64_t first_body = 0;  ///< global id of its lowest body
   int bodies = 0, contacts = 0, rows = 0;
-  double solve_s = 0;  ///< alone
+  double solve_s = 0;  ///< solved alone
 };
 
 /// Per-frame columns of one observable: [T][W], frame first.
 using Table = std::vector<std::vector<double>>;
 using VectorTable = std::vector<std::vector<core::Vec3>>;
 
-/// What FEEC adds to a run. Empty without it.
+/// The part of a run's data that FEEC adds. Empty without it.
 struct EstimateData {
   std::vector<std::vector<core::Vec3>> position;     ///< [P][N] m
   std::vector<std::vector<core::Quat>> orientation;  ///< [P][N]
   std::vector<double> delivered_s;                   ///< [T] start of the frame until root had the estimate
-  std::vector<double> precise_s;                     ///< [T] the same for the precise result
+  std::vector<double> precise_s;  ///< [T] start of the frame until root had the precise result
 };
 
 struct RunData {
@@ -77,22 +77,22 @@ struct RunData {
   std::vector<bool> deadline_met;               ///< [T]
   std::map<std::string, Table> rank_times;      ///< phase, "useful" -> [T][R] s; "messages", "bytes"
   std::vector<std::vector<IslandRow>> islands;  ///< [T] of all worlds; empty unless the run recorded them
-  std::map<std::string, Table> space_times;     ///< cross_contacts, collide, collide_spaces; as islands
+  std::map<std::string, Table> space_times;     ///< cross_contacts, collide, collide_spaces; as for islands
   EstimateData estimate;
-  std::vector<std::int32_t> broken_in;  ///< [J] as after the last frame; empty: none can break, or not known
-  std::vector<std::string> hosts;       ///< [R]
-  std::vector<stepping::RunEvent> events;          ///< that have a row in the file, as they came
+  std::vector<std::int32_t> broken_in;     ///< [J] after the last frame; empty: none can break, or unknown
+  std::vector<std::string> hosts;          ///< [R]
+  std::vector<stepping::RunEvent> events;  ///< events that have a row in the file, in order of arrival
   std::map<std::string, std::int64_t> num_events;  ///< kind -> number, those without a row included
   std::int64_t worlds_moved = 0;                   ///< in all rebalances: worlds, or spaces
   std::vector<std::int64_t> world_id;              ///< [W] numbers of the worlds in their ensemble
-  std::vector<WorldResult> world_results;          ///< [W]; empty of a run that did not come to its end
+  std::vector<WorldResult> world_results;          ///< [W]; empty if the run did not come to its end
 };
 
 /// Reads the committed frames of a pbmpi-run file (also one that was cut off by a kill). Throws
-/// core::InputError: missing, not HDF5, of another file type, of a newer major version.
+/// core::InputError if the file is missing, not HDF5, of another file type, or of a newer major version.
 RunData read_run(const std::string& path);
 
-/// A contact of the last step of a frame, world frame.
+/// A contact of the last step of a frame, in the world frame.
 struct ContactRow {
   std::int64_t body_a = 0, body_b = -1;  ///< global ids; -1 = static
   core::Vec3 position, normal;           ///< [m]; unit, into body a
@@ -101,13 +101,13 @@ struct ContactRow {
   core::Vec3 friction;      ///< [N] on body a
 };
 
-/// What was recorded of a frame beside poses; of contacts those that acted.
+/// The data recorded of a frame in addition to poses; only contacts that acted.
 struct RecordedContacts {
   std::vector<ContactRow> contacts;
   std::vector<core::Vec3> velocity, angular_velocity;  ///< [N] m/s, rad/s
 };
 
-/// Reads contacts frame by frame: of a long run they are too many to hold.
+/// Reads contacts frame by frame: those of a long run are too many to hold.
 class ContactReader {
  public:
   /// Throws core::InputError as read_run() does.

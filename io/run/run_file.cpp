@@ -60,14 +60,14 @@ class RunFile::Impl {
  private:
   void make_skeleton();
   void flush();
-  /// Root only, before what waits is written.
+  /// Root only, before the waiting rows are written.
   void reserve_ahead();
-  /// Does `work` on every rank; an error on any closes the file on all and becomes the same RunError.
+  /// Does `work` on every rank; an error on any rank closes the file on all and becomes the same RunError.
   template <class Work>
   void write_together(Work&& work);
   /// After an error on which all ranks agree: closes what is open, and drops errors of closing.
   void close_all();
-  /// Root only, when the file is closed for data.
+  /// Root only, once the file is closed for data.
   void finish(bool complete, const std::string& state_hash, std::span<const WorldResult> results);
 
   RunSetup setup_;
@@ -134,7 +134,7 @@ void RunFile::Impl::add(const stepping::FrameRecord& frame) {
   core::require_invariant(open_, "a frame after the run's file was closed");
   columns_->add(frame);
   const bool due = core::now_s() - last_flush_s_ >= setup_.flush_interval_s;
-  // Root's clock decides for all; that the columns are full is known to every rank.
+  // Root's clock decides for all; every rank knows whether the columns are full.
   if (ranks_.broadcast(due) || columns_->full()) flush();
 }
 
@@ -153,7 +153,7 @@ void RunFile::Impl::flush() {
       const std::string error = columns_->write(transfer_);
       if (!error.empty()) throw core::RunError(error);
     });
-    // The data of all ranks are in the file before the number that vouches for them. They may still be on
+    // The data of all ranks are in the file before the number that declares them valid. They may still be on
     // their way to the disk: a kill does not lose them, and waiting would cost some percent of the run.
     write_together([this] {
       if (ranks_.is_root()) record_.commit(columns_->frames_written(), columns_->event_counts());

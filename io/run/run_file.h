@@ -15,15 +15,15 @@ namespace pbmpi::io {
 
 /// The file of one run. Every call is collective over the file's ranks. Throws core::InputError from the
 /// constructor if the file cannot be created, core::RunError if a write fails (the same error on every rank,
-/// so that no rank waits for another).
+/// so no rank waits for another).
 ///
 /// A SIGKILL loses at most the frames since the last flush; a power failure may lose more, since only close()
 /// waits for the disk.
 ///
-/// The skeleton (all datasets at their full length, allocated, with all metadata) is made under a temporary
-/// name, flushed, and renamed to `path`; from then on only raw data and the attribute frames_committed
-/// change, so that the file opens after a SIGKILL at any moment. Frames are held in memory and written at the
-/// flush cadence, or when those of all ranks pass 32 MiB.
+/// The skeleton (all datasets at their full length, allocated, with all metadata) is created under a
+/// temporary name, flushed, and renamed to `path`; from then on only raw data and the attribute
+/// frames_committed change, so the file opens after a SIGKILL at any moment. Frames are held in memory and
+/// written at the flush cadence, or when those of all ranks exceed 32 MiB.
 ///
 /// The destructor does not communicate, since it may run on one rank alone: without close(), frames since the
 /// last flush are lost.
@@ -36,11 +36,11 @@ class RunFile final : public stepping::FrameObserver {
 
   void frame_done(const stepping::FrameRecord& frame) override;
   void event(const stepping::RunEvent& event) override;
-  void secure() override;  ///< writes what is held
+  void secure() override;  ///< writes the held frames
 
-  /// Writes what is held, cuts the datasets to the frames committed, stores the final attributes and closes.
-  /// `complete` = all planned frames were simulated. `state_hash` and `results` ([num_worlds], or none where
-  /// they are not known) count on root only.
+  /// Writes the held frames, cuts the datasets to the frames committed, stores the final attributes and
+  /// closes. `complete` = all planned frames were simulated. `state_hash` and `results` ([num_worlds], or
+  /// none where they are not known) matter on root only.
   void close(bool complete, const std::string& state_hash, std::span<const WorldResult> results = {});
 
   /// Was every dataset of the last flush written by all ranks together, as HDF5 reports it on this rank
@@ -52,8 +52,8 @@ class RunFile final : public stepping::FrameObserver {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Bytes of the file for these numbers, within 10 %, if it has about one contact a body: what --describe
-/// prints.
+/// Bytes of the file for these numbers, within 10 %, if it has about one contact per body; --describe prints
+/// it.
 std::int64_t estimate_file_bytes(const RunShape& shape);
 
 }  // namespace pbmpi::io

@@ -36,7 +36,7 @@ void write_boundary(hid_t box) {
   check(H5Awrite(attribute.id(), type.id(), "nonenonenone"), "H5Awrite(boundary)");
 }
 
-/// What H5MD 1.1 (nongnu.org/h5md) asks for beside the elements of a particle group.
+/// Writes what H5MD 1.1 (nongnu.org/h5md) requires in addition to the elements of a particle group.
 void write_h5md(hid_t file, const RunSetup& setup) {
   const Group h5md = create_group(file, "/h5md");
   write_version(h5md.id(), {1, 1});

@@ -1,4 +1,4 @@
-/// All that a run's file holds before the first frame.
+/// Everything that a run's file holds before the first frame.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// Rows of a table, put into it and handed out one after the other.
+/// Puts rows into a table's columns, and reads them one after the other.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace pbmpi::io {
 
-/// Cuts such rows into a column for each of their parts.
+/// Cuts packed rows into a column for each of their parts.
 template <std::size_t N>
 std::vector<TableColumn> columns_of(const std::array<model::RowPart, N>& parts,
                                     const std::vector<double>& rows) {
@@ -38,8 +38,8 @@ std::vector<TableColumn> columns_of(const std::array<model::RowPart, N>& parts,
   return columns;
 }
 
-/// A column whose rows belong to worlds that say how many of them they have. Throws core::RunError where it
-/// is not as long as all of them say, or a number is out of range.
+/// A column whose rows belong to worlds, each of which says how many it has. Throws core::RunError where the
+/// column's length is not their sum, or a number is out of range.
 template <class Value>
 class RowReader {
  public:
@@ -58,7 +58,8 @@ class RowReader {
     return {q[0], q[1], q[2], q[3]};
   }
   std::int32_t integer() { return in_range(*next()); }
-  /// The next row as doubles, whole numbers within the range of int; returns where one more would begin.
+  /// The next row as doubles, with whole numbers within the range of int; returns where the row after it
+  /// begins.
   double* put(double* to) {
     const Value* from = next();
     for (std::size_t i = 0; i < width_; ++i) {
@@ -86,8 +87,8 @@ class RowReader {
   std::size_t width_, next_ = 0;
 };
 
-/// Reads what columns_of() made of the forces of all worlds. A column of /worlds, of the table's name, says
-/// how many each world has.
+/// Reads the forces of all worlds that columns_of() wrote. A column of /worlds with the table's name says how
+/// many each world has.
 template <class Force, std::size_t N>
 class ForceReader {
  public:

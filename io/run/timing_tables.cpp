@@ -33,7 +33,7 @@ void put_rank(const FrameSource& source, GrowingTable& row) {
   row.put(core::num_phases + 2, rank, source.frame.traffic.bytes);
 }
 
-/// A world that has ended has none.
+/// The profile of a world, empty for one that has ended.
 const stepping::StepProfile& profile_of(const stepping::LocalWorld& world) {
   static const stepping::StepProfile nothing;
   return world.profile != nullptr ? *world.profile : nothing;

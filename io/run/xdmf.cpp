@@ -15,10 +15,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* bodies = "/particles/bodies/";
 
-/// What the sidecar has to know of the run.
+/// The data of the run that the sidecar needs.
 struct Bodies {
   std::string file;      ///< as written into the sidecar
-  hsize_t num_rows = 0;  ///< extent in the file: in a killed run longer than `times`
+  hsize_t num_rows = 0;  ///< extent in the file: longer than `times` in a killed run
   hsize_t count = 0;
   std::vector<double> times;  ///< of the committed rows [s]
 };
@@ -62,9 +62,9 @@ Bodies read_bodies(const std::string& run_path, const std::string& xdmf_path) {
   }
 }
 
-/// Row `row` of an array [rows][bodies][width] of the run's file, said twice: ParaView's "XDMF Reader" takes
-/// the hyperslab that the two children describe (it knows Type as well as ItemType), and its Xdmf3 readers,
-/// which crash on an ItemType of HyperSlab, take the text "dataset|start:stride:count:extent".
+/// Row `row` of an array [rows][bodies][width] of the run's file, given in two forms: ParaView's "XDMF
+/// Reader" takes the hyperslab that the two children describe (it knows Type as well as ItemType), and its
+/// Xdmf3 readers, which crash on an ItemType of HyperSlab, take the text "dataset|start:stride:count:extent".
 void row_item(std::ostream& out, const Bodies& b, const std::string& name, int width, std::size_t row) {
   const std::string dataset = b.file + ":" + bodies + name;
   const std::string number = "\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">";
@@ -86,7 +86,7 @@ void row_attribute(std::ostream& out, const Bodies& b, const std::string& name, 
   out << "</Attribute>\n";
 }
 
-/// A column that does not change with time.
+/// Writes a column that does not change with time.
 void fixed_attribute(std::ostream& out, const Bodies& b, const std::string& name, const char* number) {
   out << "    <Attribute Name=\"" << name
       << "\" Center=\"Node\" AttributeType=\"Scalar\"><DataItem Dimensions=\"" << b.count << "\" " << number
@@ -124,7 +124,7 @@ std::string document(const Bodies& b) {
   return out.str();
 }
 
-/// Does a file that is there show the bodies of another run, or is it no sidecar at all?
+/// Does an existing file show the bodies of another run, or is it no sidecar at all?
 bool is_of_others(const std::string& run_path, const std::string& xdmf_path) {
   std::ifstream file(xdmf_path, std::ios::binary);
   constexpr std::size_t enough = 4096;  // the first grid names the run

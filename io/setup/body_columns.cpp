@@ -1,4 +1,4 @@
-/// What a world is made of: /particles/bodies, /geoms, /pair_materials.
+/// The contents of a world: /particles/bodies, /geoms, /pair_materials.
 #include <algorithm>
 
 #include "io/setup/static_columns.h"

@@ -1,4 +1,4 @@
-/// Columns that are written once, each rank its own rows.
+/// Columns that are written once, where each rank writes its own rows.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace pbmpi::io {
 
-/// Which rows of a table a rank writes.
+/// The rows of a table that a rank writes.
 struct OwnRows {
   std::vector<Range> ranges;
   hsize_t num_rows = 0;  ///< of all ranks
@@ -32,7 +32,7 @@ class ColumnWriter {
   void numbers(const std::string& name, const std::vector<std::int32_t>& values);
   void numbers(const std::string& name, const std::vector<std::int64_t>& values,
                const std::vector<hsize_t>& item = {});
-  /// `length` bytes each; 0 = as many as the longest on any rank.
+  /// `length` bytes each; 0 = the length of the longest text on any rank.
   void texts(const std::string& name, const std::vector<std::string>& values, std::size_t length = 0);
 
  private:

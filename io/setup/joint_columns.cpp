@@ -1,4 +1,4 @@
-/// What holds bodies, and in what they stand: /joints, /worlds.
+/// The joints between bodies, and the settings of their worlds: /joints, /worlds.
 #include <algorithm>
 
 #include "io/hdf5/columns.h"
@@ -10,7 +10,7 @@ namespace {
 
 using stepping::LocalWorld;
 
-/// A number of each joint, or one for each of its two axes.
+/// One number per joint, or one for each of its two axes.
 struct JointNumbers {
   const char* name;
   const char* unit;
@@ -62,7 +62,7 @@ std::vector<JointNumbers> joint_numbers() {
           {"break_torque", "N m", {}, [](const Joint& j, Values& v) { v.push_back(j.break_torque); }}};
 }
 
-/// A number of each world.
+/// One number per world.
 struct WorldNumbers {
   const char* name;
   const char* unit;

@@ -1,4 +1,4 @@
-/// What is known of a run's file before its first frame.
+/// The data of a run's file that are known before its first frame.
 #pragma once
 
 #include <cstdint>
@@ -30,18 +30,18 @@ struct RunShape {
   OptionalColumns optional;
   std::int64_t first_frame = 0;  ///< number of the file's first frame
   std::int64_t num_geoms = 0, num_joints = 0;
-  double substep_s = 0;  ///< in which the forces of contacts act
+  double substep_s = 0;  ///< length of the substep in which the forces of contacts act
 
   std::int64_t num_recorded() const { return num_frames / record_every; }
 };
 
-/// A parameter that worlds have otherwise than the scene: a column of /world_parameters. One of the two is
-/// [num_worlds].
+/// A parameter in which worlds differ from the scene: a column of /world_parameters. Either `numbers` or
+/// `texts` is [num_worlds].
 struct WorldParameter {
   std::string key;
-  std::vector<double> numbers;  ///< NaN: as the scene has it
+  std::vector<double> numbers;  ///< NaN: as in the scene
   std::vector<std::string>
-      texts;  ///< as TOML, of what is no number in every world; empty: as the scene has it
+      texts;  ///< as TOML, if the value is not a number in every world; empty: as in the scene
 };
 
 /// Everything that is known before the first frame. Equal on every rank, except `worlds`.
@@ -55,9 +55,9 @@ struct RunSetup {
   std::vector<stepping::LocalWorld> worlds;  ///< this rank's worlds at the start, by ascending id
   std::int64_t first_world = 0;              ///< number in the ensemble of the run's first world
   std::vector<std::string> hosts;            ///< [num_ranks]
-  std::int64_t first_frame = 0;              ///< of a run that goes on: frames done before
+  std::int64_t first_frame = 0;              ///< frames done before, for a resumed run
   std::int64_t num_frames = 0;               ///< of this file, warm-up included
-  int record_every = 1;                      ///< bodies of each so many frames of this file are stored
+  int record_every = 1;  ///< the bodies of every record_every-th frame of this file are stored
   double flush_interval_s = 1;
   double substep_s = 0;  ///< dt over the substeps: forces of contacts times it are impulses
   OptionalColumns optional;

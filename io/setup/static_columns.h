@@ -1,4 +1,4 @@
-/// The columns that are written once: bodies, geoms, joints, what they stand in, and ranks.
+/// The columns that are written once: bodies, geoms, joints, worlds and ranks.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace pbmpi::io {
 /// /connectivity, /worlds, /world_parameters and /ranks. Collective.
 void write_static_columns(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 
-/// Their bytes, with names of usual length.
+/// Bytes of the static columns, with names of usual length.
 std::int64_t estimate_static_bytes(const RunShape& shape);
 
 /// Parts of write_static_columns(), in its order.
@@ -23,18 +23,19 @@ void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 void write_geoms(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 void write_pair_materials(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 void write_joints(const FileRanks& ranks, hid_t file, const RunSetup& setup);
-/// /connectivity/joints, as H5MD has it: the joints between two bodies.
+/// Writes /connectivity/joints in the form of H5MD: the joints between two bodies.
 void write_connectivity(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 void write_worlds(const FileRanks& ranks, hid_t file, const RunSetup& setup);
-/// /world_parameters, if worlds have some.
+/// Writes /world_parameters, if worlds have some.
 void write_world_parameters(const FileRanks& ranks, hid_t file, const RunSetup& setup);
 
-/// [num_worlds + 1] where the things of each world begin, of which it has `count` of its model. Collective.
+/// [num_worlds + 1] where the items of each world begin; `count` gives their number from its model.
+/// Collective.
 std::vector<std::int64_t> offsets(const FileRanks& ranks, const RunSetup& setup,
                                   const std::function<std::size_t(const model::Model&)>& count);
 
-/// This rank's rows of a table in (world, thing) order, of which a world has `count` of its model.
-/// Collective.
+/// This rank's rows of a table in (world, item) order; `count` gives the number of items from a world's
+/// model. Collective.
 OwnRows rows_in_world_order(const FileRanks& ranks, const RunSetup& setup,
                             const std::function<std::size_t(const model::Model&)>& count);
 

@@ -1,4 +1,4 @@
-/// Group /world_parameters: what worlds have otherwise than the scene.
+/// Group /world_parameters: the parameters in which worlds differ from the scene.
 #include <algorithm>
 
 #include "io/setup/static_columns.h"
@@ -17,7 +17,7 @@ void write_world_parameters(const FileRanks& ranks, hid_t file, const RunSetup& 
   };
   for (const WorldParameter& parameter : setup.world_parameters) {
     std::string name = parameter.key;
-    std::ranges::replace(name, '/', '.');  // it would open a group
+    std::ranges::replace(name, '/', '.');  // a slash would open a group
     if (parameter.texts.empty()) {
       columns.numbers(name, own(parameter.numbers));
     } else {

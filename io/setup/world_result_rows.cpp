@@ -33,7 +33,7 @@ void write_column(hid_t file, const ResultColumn& column, const void* values) {
         "H5Dwrite(" + path + ")");
 }
 
-/// Text is as long in the file as here.
+/// Packs texts at the fixed length that they have in the file.
 std::string packed_texts(std::span<const WorldResult> results, std::string WorldResult::*member) {
   std::string packed;
   for (const WorldResult& result : results) {
@@ -53,7 +53,7 @@ std::int64_t bytes_of_a_world_result() {
 void create_world_results(hid_t file, int num_worlds) {
   const Group group = create_group(file, world_results);
   write_attribute(group.id(), rows_written, std::int64_t{0});
-  // Chunked, as what changes after the skeleton is.
+  // Chunked, like everything that changes after the skeleton.
   for (const ResultColumn& column : world_result_columns)
     create_growing(file, path_of(column), type_of(column), {static_cast<hsize_t>(num_worlds)},
                    std::string(column.unit));

@@ -10,17 +10,18 @@
 
 namespace pbmpi::io {
 
-/// Makes the columns, [num_worlds] each, whose rows nobody has written: part of the skeleton, collective.
+/// Creates the columns, [num_worlds] each, with no row written yet. Part of the skeleton, collective.
 void create_world_results(hid_t file, int num_worlds);
 
-/// Writes all rows, serially, and says in the group's attribute `num_worlds` that they are there.
+/// Writes all rows, serially, and sets the group's attribute `num_worlds`, which marks them as written.
 void write_world_results(hid_t file, std::span<const WorldResult> results);
 
-/// [num_worlds]; none if the run did not come to its end, or the file is of a layout before 1.6. Throws
+/// [num_worlds]; none if the run did not come to its end, or the file has a layout before 1.6. Throws
 /// core::RunError.
 std::vector<WorldResult> read_world_results(hid_t file);
 
-/// [num_worlds] numbers of the worlds in their ensemble; a file of a layout before 1.6 has all of it.
+/// [num_worlds] numbers of the worlds in their ensemble; a file with a layout before 1.6 holds the whole
+/// ensemble.
 std::vector<std::int64_t> read_world_ids(hid_t file, int num_worlds);
 
 }  // namespace pbmpi::io

@@ -1,4 +1,4 @@
-/// Group /world_results of a run's file: what has become of each world, over the frames of the file.
+/// Group /world_results of a run's file: the outcome of each world over the frames of the file.
 #pragma once
 
 #include <array>
@@ -10,18 +10,18 @@
 namespace pbmpi::io {
 
 struct WorldResult {
-  std::int64_t survived = 1;  ///< 0: it lost its numbers, or a guard has frozen it
+  std::int64_t survived = 1;  ///< 0: it had a non-finite body, or a guard has frozen it
   std::int64_t nonfinite_step =
       -1;                        ///< steps done at the end of the first frame that was not finite; -1: none
-  std::int64_t frozen_in = -1;   ///< the step from whose start on it stands; -1: none
+  std::int64_t frozen_in = -1;   ///< first step in which it stands frozen; -1: none
   std::int64_t frames = 0;       ///< of the file
-  double energy_first_j = 0;     ///< after the first of them
-  double energy_last_j = 0;      ///< after the last
-  double joint_gap_max_m = 0;    ///< largest finite one of the ends of frames
-  double penetration_max_m = 0;  ///< likewise
-  double contacts_mean = 0;      ///< of the ends of frames
+  double energy_first_j = 0;     ///< after the first of these frames
+  double energy_last_j = 0;      ///< after the last of these frames
+  double joint_gap_max_m = 0;    ///< largest finite value at the ends of frames
+  double penetration_max_m = 0;  ///< largest finite value at the ends of frames
+  double contacts_mean = 0;      ///< mean over the ends of frames
   double row_visits = 0;         ///< sum over the ends of frames
-  double cost_s = 0;             ///< that ranks spent on it
+  double cost_s = 0;             ///< time that ranks spent on it
   std::int64_t moves = 0;        ///< from rank to rank
   std::string state_hash;        ///< model::hash() of its last state, 16 digits
 };
@@ -47,7 +47,7 @@ inline constexpr auto world_result_columns = std::to_array<ResultColumn>({
     {"state_hash", "", &WorldResult::state_hash},
 });
 
-/// Bytes of a world's row.
+/// Bytes of one world's row.
 std::int64_t bytes_of_a_world_result();
 
 }  // namespace pbmpi::io

@@ -203,7 +203,7 @@ std::string filetype_of(const std::string& path) {
   prepare_hdf5();
   if (content_of(path) != Content::hdf5) return "";  // a pipe is not even opened
   try {
-    if (core::seal_of(path) == core::Seal::broken) return "";  // nothing of it can be trusted
+    if (core::seal_of(path) == core::Seal::broken) return "";  // nothing in the file can be trusted
     const auto file = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "H5Fopen");
     return core::value_in(attributes_as_text(file.id(), "/"), "filetype");
   } catch (const std::runtime_error&) {

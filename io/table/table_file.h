@@ -44,8 +44,8 @@ struct TableFile {
   [[noreturn]] static void throw_type(const std::string& table, const std::string& name);
 };
 
-/// Makes sure that `path` can be written before the work begins; the file appears under its name only when it
-/// is complete.
+/// Makes sure that `path` can be written before the work begins; the file gets its name only when it is
+/// complete.
 class TableWriter {
  public:
   /// Throws core::InputError if the file cannot be created.
@@ -54,7 +54,7 @@ class TableWriter {
   TableWriter(const TableWriter&) = delete;
   TableWriter& operator=(const TableWriter&) = delete;
 
-  /// Throws core::RunError if it cannot be written.
+  /// Throws core::RunError if the file cannot be written.
   void write(const std::string& filetype, const TableFile& file);
 
  private:
@@ -65,21 +65,20 @@ class TableWriter {
 /// Major and minor version of the layout of a study's file.
 inline constexpr std::array<std::int64_t, 2> study_version = {1, 6};
 
-/// The bytes of such a file, made in memory: what is written in one go leaves no half file behind. Sealed
+/// The bytes of a table file, made in memory: a file written in one go is never left half done. Sealed
 /// (core/system/seal.h) from minor version 3 on.
 std::vector<std::byte> table_image(const std::string& filetype, const std::array<std::int64_t, 2>& version,
                                    const TableFile& file);
 
-/// Throws core::InputError: missing, not HDF5, of another file type or layout, damaged. `major`: version of
-/// the layout.
+/// Throws core::InputError if the file is missing, not HDF5, of another file type or layout, or damaged.
+/// `major`: version of the layout.
 TableFile read_table_file(const std::string& path, const std::string& filetype,
                           std::int64_t major = study_version[0]);
 
-/// Throws core::InputError if `path` is a file of pbmpi of another type than this, whose place the new one
-/// would take.
+/// Throws core::InputError if `path` is a pbmpi file of another type, which the new file would replace.
 void require_kind(const std::string& path, const std::string& filetype);
 
-/// The attribute filetype of an HDF5 file; empty if `path` is none or has none.
+/// The attribute filetype of an HDF5 file; empty if `path` is not one, or has no such attribute.
 std::string filetype_of(const std::string& path);
 
 }  // namespace pbmpi::io

@@ -1,5 +1,5 @@
-/// Which rank owns which world: pure data, without communication. Every function is deterministic (ties go
-/// to the lower world and the lower rank), so that all ranks may compute the same placement.
+/// Which rank owns which world: pure data, without communication. Every function is deterministic (ties go to
+/// the lower world and the lower rank), so all ranks may compute the same placement.
 #pragma once
 
 #include <span>
@@ -24,10 +24,10 @@ std::vector<double> rank_loads(std::span<const int> placement, std::span<const d
 /// Largest over average load; 1 if nothing costs anything.
 double imbalance(std::span<const double> loads);
 
-/// What changes its owner: a world, or a space of a world that is cut into spaces.
+/// A change of owner: of a world, or of a space of a world that is cut into spaces.
 struct Move {
   int part = 0;  ///< the world or space
-  int to = 0;    ///< rank
+  int to = 0;    ///< the rank that owns it afterwards
 };
 
 }  // namespace pbmpi::mpi

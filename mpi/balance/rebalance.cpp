@@ -19,7 +19,7 @@ double mean_load(const std::vector<double>& loads) {
 /// A world that leaves the most loaded rank, and perhaps one that comes back for it.
 struct Exchange {
   int out = -1;
-  int back = -1;  ///< -1: nothing comes back
+  int back = -1;  ///< the world that comes back; -1 for none
   int to = 0;
 };
 
@@ -42,7 +42,7 @@ class Balancer {
   double makespan() const { return by_load_.rbegin()->first; }
   double imbalance_now() const { return mean_ > 0 ? makespan() / mean_ : 1.0; }
 
-  /// Takes load off the most loaded rank. False if no move and no swap does.
+  /// Takes load off the most loaded rank. False if no move and no swap achieves that.
   bool improve() {
     const int from = by_load_.lower_bound({makespan(), -1})->second;  // the lowest rank with that load
     std::optional<Exchange> exchange = best_move(from);
@@ -83,7 +83,7 @@ class Balancer {
     std::optional<Exchange> best;
     double best_distance = gap;
     for (const int world : worlds_[from]) {
-      // The best partner costs as near as can be to cost - gap / 2: one of the two around that value.
+      // The best partner's cost is the closest to cost - gap / 2: one of the two around that value.
       const auto above = std::lower_bound(others.begin(), others.end(), cost_[world] - gap / 2,
                                           [&](int other, double value) { return cost_[other] < value; });
       const auto first = above == others.begin() ? above : above - 1;
@@ -104,7 +104,7 @@ class Balancer {
     if (exchange.back >= 0) pass(exchange.back, exchange.to, from);
     for (const int rank : {from, exchange.to}) {
       by_load_.erase({loads_[rank], rank});
-      loads_[rank] = 0;  // summed anew, in order: no rounding left over from earlier moves
+      loads_[rank] = 0;  // summed anew, in order, which leaves no rounding errors of earlier moves
       for (const int world : worlds_[rank]) loads_[rank] += cost_[world];
       by_load_.emplace(loads_[rank], rank);
     }
@@ -121,7 +121,7 @@ class Balancer {
   std::span<const double> cost_;
   std::vector<double> loads_;                 ///< [num_ranks]
   std::set<std::pair<double, int>> by_load_;  ///< (load, rank): a round must not look at every rank
-  double mean_;                               ///< of the loads, which no exchange changes
+  double mean_;                               ///< mean of the loads, which no exchange changes
   std::vector<std::vector<int>> worlds_;      ///< [num_ranks] ascending
 };
 

@@ -1,4 +1,4 @@
-/// Decides frame by frame whether worlds move: what root does with the costs that it gathers.
+/// Decides frame by frame whether worlds move, from the costs that root gathers.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace pbmpi::mpi {
 
-/// Smooths the costs of the last frames and keeps a distance between two rebalances. Communicates nothing.
+/// Smooths the costs of the last frames and keeps a minimum distance between rebalances. Communicates
+/// nothing.
 ///
-/// A world's cost is its median over the last 3 frames, so that one frame disturbed by something else on the
-/// machine counts for nothing. The first decision falls after frame 2 (the first frame meets cold caches),
-/// and after a rebalance 4 frames pass before the next one, in which the costs are measured on the new
-/// owners.
+/// A world's cost is its median over the last 3 frames, so a single frame disturbed by something else on the
+/// machine does not count. The first decision falls after frame 2 (the first frame runs with cold caches).
+/// After a rebalance 4 frames pass before the next decision, and the costs are measured on the new owners.
 class Rebalancer {
  public:
   static constexpr int window = 3;      ///< frames that are smoothed over

@@ -1,4 +1,4 @@
-/// One error for all ranks: what fails on one rank alone must not leave the others waiting.
+/// One error for all ranks: an error on one rank must not leave the others waiting.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace pbmpi::mpi {
 
-/// What is said of std::bad_alloc, which as an error of all ranks is a core::RunError.
+/// Message for std::bad_alloc, which becomes a core::RunError when it is an error of all ranks.
 inline constexpr const char* out_of_memory =
     "there is not enough memory; ask for fewer worlds, frames or bodies, or use more nodes";
 
-/// The class of an error, by which it is thrown again on the other ranks.
+/// The class of an error, which decides what is thrown again on the other ranks.
 enum class ErrorKind : std::int8_t {
   none,
   input,  ///< core::InputError
@@ -26,7 +26,7 @@ enum class ErrorKind : std::int8_t {
 /// Keeps the first error of this rank until the ranks next agree on errors.
 class ErrorHold {
  public:
-  /// Calls `function`; what it throws is kept, unless an earlier error is.
+  /// Calls `function` and keeps what it throws, unless an earlier error is already held.
   template <class Function>
   void guard(Function&& function) {
     try {
@@ -56,8 +56,8 @@ class ErrorHold {
 void agree(const Communicator& comm, const ErrorHold& mine);
 
 /// Collective. Calls `function` on every rank and returns what it returns; if it throws on any rank, every
-/// rank throws the same error (see agree). It may communicate only if it cannot throw on one rank
-/// alone before that.
+/// rank throws the same error (see agree). `function` may communicate only if it cannot throw on one rank
+/// alone before it does.
 template <class Function>
 auto agree_on_errors(const Communicator& comm, Function&& function) {
   using Result = std::invoke_result_t<Function>;

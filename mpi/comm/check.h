@@ -1,4 +1,4 @@
-/// The one way in which pbmpi calls MPI. Internal to this folder.
+/// The one function through which pbmpi checks its MPI calls. Internal to this folder.
 #pragma once
 
 #include <mpi.h>

@@ -23,8 +23,9 @@ struct Communicator::Handle {
     check(MPI_Comm_rank(comm, &rank), "MPI_Comm_rank");
     check(MPI_Comm_size(comm, &size), "MPI_Comm_size", rank);
   }
-  // MPI_Comm_free is collective: while this rank alone unwinds it could wait for ever, so it is left out. So
-  // it is when MPI has ended, as it may for who was given the communicator by another library.
+  // MPI_Comm_free is collective: it could wait for ever while only this rank unwinds, so it is skipped then.
+  // It is also skipped once MPI has been finalised, which can happen when another library gave us the
+  // communicator.
   ~Handle() {
     int ended = 0;
     if (owned && std::uncaught_exceptions() == 0 && MPI_Finalized(&ended) == MPI_SUCCESS && ended == 0)
@@ -44,7 +45,8 @@ int to_count(std::int64_t count) {
   return static_cast<int>(count);
 }
 
-/// The MPI type of one element. Words of 8 bytes where they fit, since MPI counts in int: 16 GiB a message.
+/// The MPI type of one element. Uses words of 8 bytes where they fit, since MPI counts in int: 16 GiB a
+/// message.
 class ElementType {
  public:
   ElementType(std::size_t element_size, int rank) {

@@ -18,12 +18,12 @@ concept Sendable = std::is_trivially_copyable_v<T>;
 /// Operation that reduces the values of several ranks to one.
 enum class Reduce { sum, min, max };
 
-/// Where each rank's elements stand in the gathered array: counts[r] of them from displacements[r] on.
+/// The place of each rank's elements in the gathered array: counts[r] of them from displacements[r] on.
 struct GatherLayout {
   std::vector<int> counts;
   std::vector<int> displacements;
 
-  /// One rank's elements after the other's. Throws core::RunError if MPI's int counts cannot hold them.
+  /// Packs one rank's elements after the other's. Throws core::RunError if MPI's int counts cannot hold them.
   static GatherLayout packed(std::span<const std::int64_t> counts);
 };
 
@@ -43,26 +43,27 @@ class Communicator {
 
   /// All ranks of the program; borrowed. Not collective.
   static Communicator world();
-  /// A communicator of the ranks of another library's, which gives it as MPI_Comm_c2f; owned. Its errors are
-  /// returned, whatever the other's do. Throws core::InputError if MPI does not run, or there is no such
-  /// communicator.
+  /// An owned communicator of the same ranks as another library's, which is given as its MPI_Comm_c2f handle.
+  /// Its errors are returned, whatever error handler the original has. Throws core::InputError if MPI does
+  /// not run, or there is no such communicator.
   static Communicator dup_of(int fortran_handle);
-  /// A communicator of the same ranks, whose messages never match those of another; owned. Null stays null.
+  /// An owned communicator of the same ranks, whose messages never match those of another. Null stays null.
   Communicator dup() const;
-  /// A communicator of the ranks that give the same `group` (>= 0), in the order that they have here; owned.
-  /// Null stays null.
+  /// An owned communicator of the ranks that give the same `group` (>= 0), in their present order. Null stays
+  /// null.
   Communicator split(int group) const;
 
   bool is_null() const { return handle_ == nullptr; }
   int rank() const;
   int size() const;
   bool is_root() const { return rank() == root; }
-  /// MPI_Comm_c2f, by which other libraries get it without mpi.h; MPI_COMM_NULL's for the null communicator.
+  /// The MPI_Comm_c2f handle, which other libraries take without mpi.h; that of MPI_COMM_NULL for the null
+  /// communicator.
   int fortran_handle() const;
 
   void barrier() const;
 
-  /// `values` of `from` reach every rank; equal lengths everywhere.
+  /// Copies the `values` of `from` to every rank; the lengths are equal everywhere.
   template <Sendable T>
   void bcast(std::span<T> values, int from = root) const {
     bcast_bytes(values.data(), values.size(), sizeof(T), from);
@@ -71,7 +72,7 @@ class Communicator {
   void bcast_value(T& value, int from = root) const {
     bcast(std::span<T>(&value, 1), from);
   }
-  /// The text of `from`, of any length, replaces that of every other rank.
+  /// Replaces the text of every other rank with that of `from`, of any length.
   void bcast_string(std::string& text, int from = root) const;
 
   /// The `value` of every rank, [num_ranks].
@@ -91,12 +92,12 @@ class Communicator {
     return all;
   }
 
-  /// Element by element over the ranks, in place; equal lengths everywhere.
+  /// Reduces element by element over the ranks, in place; the lengths are equal everywhere.
   void allreduce(std::span<double> values, Reduce op) const;
   void allreduce(std::span<std::int64_t> values, Reduce op) const;
   void allreduce(std::span<std::uint64_t> values, Reduce op) const;
 
-  /// Blocking, between two ranks. The lengths must agree: core::RunError at the receiver otherwise.
+  /// Blocking message between two ranks. The lengths must agree: core::RunError at the receiver otherwise.
   template <Sendable T>
   void send(std::span<const T> values, int to, int tag = 0) const {
     send_bytes(values.data(), values.size(), sizeof(T), to, tag);

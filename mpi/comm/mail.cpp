@@ -20,7 +20,8 @@ Mail::Mail(const Communicator& comm) : comm_(&comm), posted_(std::make_unique<Po
   posted_->comm = MPI_Comm_f2c(comm.fortran_handle());
 }
 
-// Messages that have not left when an error unwinds are abandoned: nobody may be there to receive them.
+// Messages that are still on their way when an error unwinds are abandoned: nobody may be there to receive
+// them.
 Mail::~Mail() {
   if (std::uncaught_exceptions() == 0) {
     MPI_Waitall(static_cast<int>(posted_->requests.size()), posted_->requests.data(), MPI_STATUSES_IGNORE);

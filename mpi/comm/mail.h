@@ -10,8 +10,8 @@
 
 namespace pbmpi::mpi {
 
-/// Sends from buffers that it keeps until they have left; the communicator is borrowed. Every call throws
-/// core::RunError with the name of the MPI call, MPI's message and the rank.
+/// Sends from buffers that it keeps until the messages have left. The communicator is borrowed. Every call
+/// throws core::RunError with the name of the MPI call, MPI's message and the rank.
 class Mail {
  public:
   explicit Mail(const Communicator& comm);
@@ -19,7 +19,7 @@ class Mail {
   Mail(const Mail&) = delete;
   Mail& operator=(const Mail&) = delete;
 
-  /// Returns at once.
+  /// Posts a message and returns at once.
   void post(std::vector<std::byte> message, int to, int tag);
   /// Waits for the next message of `from` with this tag, whatever its length.
   std::vector<std::byte> take(int from, int tag) const;

@@ -41,8 +41,8 @@ class MessageWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads what a MessageWriter put, in the same order; throws std::logic_error for a message that does not
-/// hold it (the ranks would then run different programs).
+/// Reads the arrays of a MessageWriter, in the same order. Throws std::logic_error if the message does not
+/// hold them (the ranks would then run different programs).
 class MessageReader {
  public:
   explicit MessageReader(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}

@@ -11,9 +11,9 @@ namespace pbmpi::mpi {
 /// Non-blocking messages of one rank. The memory that they use must stay valid until wait(). The communicator
 /// is borrowed.
 ///
-/// A message goes in pieces of 3.5 KiB: MPI sends what is that short at once ("eagerly"), while a longer
-/// message waits until both ranks are inside MPI, which a rank that computes is not. Sender and receiver
-/// must give the same length.
+/// A message is sent in pieces of 3.5 KiB: MPI sends such short messages at once ("eagerly"), while a longer
+/// one waits until both ranks are inside MPI, and a rank that computes is not. Sender and receiver must give
+/// the same length.
 class PendingMessages {
  public:
   explicit PendingMessages(const Communicator& comm);

@@ -9,11 +9,11 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// Keeps Open MPI's files without shared file pointers, which nothing here uses: its component "sm" makes a
-/// semaphore of the host by the last part of the file's name. One that a killed run held keeps each later run
-/// of that name waiting for ever, and two runs of one name share it. A file goes without shared pointers if
-/// the only component of their framework gets a priority below all; without any component it could not be
-/// opened.
+/// Makes Open MPI open files without shared file pointers, which nothing here uses: the component "sm"
+/// creates a semaphore on the host that is named after the last part of the file's name. A semaphore held by
+/// a killed run makes each later run of that name wait for ever, and two runs of one name share it. Files are
+/// opened without shared pointers if the only component of that framework has a negative priority; without
+/// any component they could not be opened.
 void do_without_shared_file_pointers() {
   setenv("OMPI_MCA_sharedfp", "sm", 1);
   setenv("OMPI_MCA_sharedfp_sm_priority", "-1", 1);

@@ -5,12 +5,12 @@
 
 namespace pbmpi::mpi {
 
-/// Starts MPI, and ends it with the scope. One a program, first thing in main(). MPI's calls return errors
-/// from here on, which the wrappers turn into exceptions.
+/// Starts MPI, and ends it with the scope. Create one per program, first thing in main(). From then on MPI's
+/// calls return errors, which the wrappers turn into exceptions.
 ///
-/// While an exception unwinds through it MPI is not finalised: MPI_Finalize waits for ranks that may wait for
-/// this one in another call. The launcher then sees a rank end without MPI_Finalize and ends the others.
-/// Errors on which all ranks agreed are therefore best caught inside the session's scope.
+/// While an exception unwinds through the session MPI is not finalised: MPI_Finalize waits for ranks that may
+/// wait for this one in another call. The launcher then sees a rank end without MPI_Finalize and ends the
+/// others. Errors on which all ranks agreed are therefore best caught inside the session's scope.
 class Session {
  public:
   /// Throws core::RunError if MPI cannot start. Takes MPI's own arguments out of argv.
@@ -19,7 +19,7 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Ends all ranks with this exit code at once: for main(), when this rank alone met an error.
+  /// Ends all ranks with this exit code at once: for main(), when only this rank met an error.
   [[noreturn]] static void abort(int exit_code);
 
  private:

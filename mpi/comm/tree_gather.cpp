@@ -61,7 +61,7 @@ void TreeGather::gather_bytes(std::span<const std::byte> own, std::span<std::byt
   leaving_.clear();
 }
 
-/// Pieces end at multiples of their length in what this rank hands on: its parent counts on it.
+/// What this rank hands on is cut at multiples of the piece length, which its parent relies on.
 void TreeGather::hand_on(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     if (leaving_.empty() && bytes.size() >= piece_bytes_) {

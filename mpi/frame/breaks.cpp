@@ -7,7 +7,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// A broken joint as it travels. Longer names are cut.
+/// A broken joint as it is sent. Longer names are cut.
 struct Break {
   std::int32_t step = 0, world = 0, joint = 0;
   std::array<char, 100> name{};

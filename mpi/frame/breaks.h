@@ -1,4 +1,4 @@
-/// Which joints broke, told to every rank.
+/// Finds the joints that broke, and tells every rank.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,12 @@
 
 namespace pbmpi::mpi {
 
-/// Collective: does any world have the effect "breakable_joints"? `worlds`: those that this rank reports.
+/// Collective: does any world have the effect "breakable_joints"? `worlds`: the worlds that this rank
+/// reports.
 bool any_breakage(const Communicator& comm, std::span<const stepping::LocalWorld> worlds);
 
 /// Collective. The joints that broke in step `first_step` or later, the same on every rank: one event each,
-/// by step, world and joint. In words the first world is called `first_world`.
+/// ordered by step, world and joint. The events' texts number the worlds from `first_world`.
 std::vector<stepping::RunEvent> find_breaks(const Communicator& comm,
                                             std::span<const stepping::LocalWorld> worlds, int first_world,
                                             std::int64_t frame, std::int64_t first_step);

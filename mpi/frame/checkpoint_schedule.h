@@ -11,7 +11,7 @@
 
 namespace pbmpi::mpi {
 
-/// A run as it stands between two frames: all that is needed to resume it.
+/// A run as it stands between two frames: everything that is needed to resume it.
 struct Snapshot {
   std::int64_t frames = 0;  ///< done, warm-up included
   std::int64_t steps = 0;   ///< done
@@ -24,26 +24,27 @@ struct Snapshot {
 class SnapshotKeeper {
  public:
   virtual ~SnapshotKeeper() = default;
-  /// Called on root only. Returns one line on what was done; throws core::RunError if it failed.
+  /// Called on root only. Returns one line that says what was stored; throws core::RunError if storing
+  /// failed.
   virtual std::string keep(Snapshot snapshot) = 0;
 };
 
-/// When to save. Equal on every rank, but for the clock and the requests.
+/// When to save. Equal on every rank, except the clock and the requests.
 struct CheckpointPlan {
   const std::atomic<int>* requests = nullptr;  ///< rises with each request from outside; borrowed
-  double every_s = std::numeric_limits<double>::infinity();  ///< since the start or the last time
-  bool at_stop = true;                                       ///< when a run ends early on request
-  bool at_end = false;                                       ///< after the last frame
+  double every_s = std::numeric_limits<double>::infinity();  ///< seconds since the start or the last save
+  bool at_stop = true;                                       ///< save when a run ends early on request
+  bool at_end = false;                                       ///< save after the last frame
 };
 
-/// Decides after each frame, on root, if the run is saved. Sends nothing.
+/// Decides on root after each frame whether the run is saved. Sends nothing.
 class CheckpointSchedule {
  public:
   enum class Then { next_frame, stop, end };  ///< what follows the frame
 
   CheckpointSchedule(const CheckpointPlan& plan, double start_s) : plan_(plan), last_s_(start_s) {}
 
-  /// Is the run to be saved now? `requests`: the largest number of requests that any rank has seen so far (a
+  /// Should the run be saved now? `requests`: the largest number of requests that any rank has seen so far (a
   /// signal that reaches all ranks is one request, though they see it in different frames).
   bool due(Then then, std::int64_t requests, double now_s);
 

@@ -111,7 +111,7 @@ void FrameDriver::run_frame() {
 
 FrameDriver::Status FrameDriver::agree_on_status() {
   // One maximum over the ranks agrees on all six numbers. The lowest rank that failed, and the lowest world,
-  // are sent as their distance from the number of ranks or worlds, so that they win the maximum.
+  // are sent as their distance from the number of ranks or worlds, so the lowest wins the maximum.
   enum { stop, save_requests, failed, all_failed, nonfinite, guards, count };
   const bool failed_here = errors_.failed();
   std::array<std::int64_t, count> agreed{};
@@ -188,8 +188,8 @@ void FrameDriver::save(std::int64_t step) {
 
 void FrameDriver::publish(const stepping::FrameRecord& frame) {
   const double start_s = core::now_s();
-  // If one observer throws the others are called all the same: they may do collective work, and a rank that
-  // left it out would leave the other ranks waiting.
+  // If one observer throws, the others are still called: they may do collective work, and a rank that skipped
+  // it would leave the other ranks waiting.
   for (stepping::FrameObserver* observer : observers_) {
     errors_.guard([&] { observer->frame_done(frame); });
   }

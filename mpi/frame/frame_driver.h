@@ -1,4 +1,4 @@
-/// The frame loop, which all decompositions of the work over ranks share.
+/// The frame loop that all decompositions of the work over ranks share.
 #pragma once
 
 #include <atomic>
@@ -18,12 +18,12 @@
 
 namespace pbmpi::mpi {
 
-/// Times of one frame: equal on every rank for wall_s, this rank's for the rest.
+/// Times of one frame: wall_s is equal on every rank, the rest is this rank's own.
 struct FrameTimes {
   double wall_s = 0;       ///< root's time from the start of the frame to the end of its gather
-  double delivered_s = 0;  ///< with FEEC: until root had the estimate; 0 without
+  double delivered_s = 0;  ///< with FEEC: root's time until it had the estimate; 0 without
   bool measured = false;
-  core::PhaseTimes phases;  ///< as in stepping::FrameRecord: `output` is that of the frame before
+  core::PhaseTimes phases;  ///< as in stepping::FrameRecord: `output` belongs to the frame before
   core::Traffic traffic{};  ///< of this rank
 };
 
@@ -35,7 +35,7 @@ struct WorldCost {
 
 /// Result of a run. Equal on every rank, except `times` (phases are this rank's own) and `rebalance_s`.
 struct WorldRunResult {
-  std::int64_t frames_done = 0;  ///< warm-up included, and those before the run was resumed
+  std::int64_t frames_done = 0;  ///< warm-up included, and the frames before the run was resumed
   bool stopped = false;          ///< a stop was requested, or the time was up, before the last frame
   std::string failure;  ///< empty, or why the run failed (e.g. "world 17 has 3 non-finite bodies in frame 4")
   std::uint64_t state_hash = 0;   ///< over all bodies in (world, body) order
@@ -43,20 +43,20 @@ struct WorldRunResult {
   std::string save_failure;       ///< why the snapshot that ends the run could not be stored; else empty
   int num_rebalances = 0;
   std::int64_t worlds_moved = 0;  ///< worlds, or spaces of worlds that are cut
-  double rebalance_s = 0;         ///< time that this rank spent moving work between frames; part of no wall_s
+  double rebalance_s = 0;  ///< time that this rank spent moving work between frames; not part of any wall_s
 };
 
 /// The state hash of a run from the hashes of its worlds [num_worlds], in order of world: independent of
 /// their owners.
 std::uint64_t combine_world_hashes(std::span<const std::uint64_t> world_hashes);
 
-/// Collective. The same from the hashes of each rank's worlds `own`, by ascending world, on every rank; only
-/// root holds those of all. `owner` [num_worlds]: the same on every rank.
+/// Collective. The state hash on every rank, from the hashes of each rank's own worlds, `own`, by ascending
+/// world; only root holds the hashes of all. `owner` [num_worlds]: the same on every rank.
 std::uint64_t gather_state_hash(const Communicator& comm, std::span<const int> owner,
                                 std::span<const std::uint64_t> own);
 
 /// Runs the frames of a run on all ranks, which construct and run it together. The communicator is
-/// duplicated. How a frame is stepped is up to the derived class, one for each decomposition.
+/// duplicated. The derived class, one for each decomposition, decides how a frame is stepped.
 ///
 /// A frame is: perhaps estimate -> advance -> agree (one allreduce of 6 numbers: stop, save, error,
 /// non-finite, guards) -> perhaps settle what guards found -> gather -> verdict (one bcast of 32 bytes: the
@@ -85,14 +85,14 @@ class FrameDriver {
   /// The worlds that this rank reports, by ascending id.
   virtual std::vector<stepping::LocalWorld> local_worlds() const = 0;
 
-  /// What this rank spent in the last frame on each world that it steps, alone or with others.
+  /// Seconds that this rank spent in the last frame on each world that it steps, alone or with other ranks.
   virtual std::vector<WorldCost> costs() const = 0;
 
   /// Collective. Ranks that own no bodies, ascending; the same on every rank.
   virtual std::vector<int> idle_ranks() const = 0;
 
-  /// To be called once. What a stepper or observer throws on one rank is thrown on every rank: a stepper's in
-  /// the same frame, an observer's in the next one or at the end.
+  /// To be called once. An error that a stepper or observer throws on one rank is thrown on every rank: a
+  /// stepper's in the same frame, an observer's in the next one or at the end.
   WorldRunResult run();
 
  protected:
@@ -101,7 +101,7 @@ class FrameDriver {
 
   const Communicator& comm() const { return comm_; }
   const WorldRunSettings& settings() const { return settings_; }
-  /// The first error of this rank that the others do not know of yet.
+  /// The first error of this rank that the other ranks do not know of yet.
   ErrorHold& errors() { return errors_; }
   void hand_to_consumers(std::int64_t frame, stepping::PoseKind kind, std::span<const core::Vec3> position,
                          std::span<const core::Quat> orientation);
@@ -113,47 +113,46 @@ class FrameDriver {
     static_cast<void>(frame), static_cast<void>(frame_start_s), static_cast<void>(times);
     return 0;
   }
-  /// The record of make_estimate()'s estimate, or none; `delivered_s` is root's.
+  /// The record of the estimate that make_estimate() made, or null; `delivered_s` is root's.
   virtual const stepping::EstimateRecord* estimate(double delivered_s) {
     static_cast<void>(delivered_s);
     return nullptr;
   }
   /// This rank's worlds with their profiles (settings().profile); outside of the frame's time.
   virtual std::vector<stepping::LocalWorld> profiled_worlds() { return local_worlds(); }
-  /// Does the steps of a frame. Errors are held in errors(), and messages are exchanged all the same.
+  /// Does the steps of a frame. Errors are held in errors(), and messages are exchanged regardless.
   virtual void advance(core::PhaseTimes& times) = 0;
   /// Lowest world that this rank reports with a non-finite body; num_worlds if there is none.
   virtual int lowest_nonfinite_world() const = 0;
   virtual std::int64_t count_nonfinite(int world) const = 0;  ///< on the rank that reports the world
-  /// What guards found in the frame, on the rank that reports the world.
+  /// Events that guards found in the frame, on the rank that reports the world.
   virtual std::vector<stepping::RunEvent> take_events() { return {}; }
   /// Collective, in a frame in which guards found something, before gather().
   virtual void settle_events() {}
-  virtual int reporter_of(int world) const = 0;  ///< that rank
+  virtual int reporter_of(int world) const = 0;  ///< the rank that reports the world
   virtual void gather(core::PhaseTimes& times) = 0;
-  virtual std::span<const core::Vec3> position() const = 0;  ///< gathered, on root: all bodies'
+  virtual std::span<const core::Vec3> position() const = 0;  ///< gathered positions of all bodies, on root
   virtual std::span<const core::Quat> orientation() const = 0;
-  /// On root, after gather(): plans what is to move, and returns the number of moves. `last`: no frame
-  /// follows.
+  /// On root, after gather(): plans the moves and returns their number. `last`: no frame follows.
   virtual std::int64_t plan_moves(bool last) = 0;
-  /// Collective. Makes the moves planned on root, between two frames; returns one line on what was done.
+  /// Collective. Makes the moves planned on root, between two frames; returns one line that describes them.
   virtual std::string make_moves(std::int64_t num_moves, std::int64_t step) = 0;
   virtual std::uint64_t state_hash() const = 0;  ///< collective
-  /// Collective. On root the states of all worlds after the frame, [num_worlds].
+  /// Collective. The states of all worlds after the frame, [num_worlds], on root.
   virtual std::vector<model::State> gather_states() const = 0;
-  virtual core::Traffic take_traffic() { return {}; }  ///< since the last call
+  virtual core::Traffic take_traffic() { return {}; }  ///< messages and bytes since the last call
 
   /// What the ranks agree on after they advanced.
   struct Status {
     int stop = 0;                    ///< the stop flag
-    std::int64_t save_requests = 0;  ///< so far
+    std::int64_t save_requests = 0;  ///< number of requests so far
     int nonfinite_world = -1;        ///< lowest world with a non-finite body
-    bool guards_found = false;       ///< something, on any rank
+    bool guards_found = false;       ///< a guard found something, on any rank
     bool fails(const WorldRunSettings& settings) const {
       return nonfinite_world >= 0 || (guards_found && settings.stop_at_blowup);
     }
   };
-  /// What root decides after gather().
+  /// Root's decisions after gather().
   struct Verdict {
     double wall_s = 0;
     double delivered_s = 0;
@@ -182,13 +181,13 @@ class FrameDriver {
   const std::atomic<int>* stop_flag_ = nullptr;
   const std::atomic<int>* save_requests_ = nullptr;
   SnapshotKeeper* keeper_ = nullptr;
-  std::optional<CheckpointSchedule> schedule_;  ///< with a keeper; used on root
+  std::optional<CheckpointSchedule> schedule_;  ///< only with a keeper; used on root
   double until_s_ = std::numeric_limits<double>::infinity();
   ErrorHold errors_;
   std::int64_t frame_ = 0;                      ///< frames done, including those before the run was resumed
   bool joints_break_ = false;                   ///< the effect "breakable_joints", in any world
-  std::vector<stepping::RunEvent> own_events_;  ///< of this frame, from guards
-  double last_output_s_ = 0;  ///< time that observers and consumers took in the frame before
+  std::vector<stepping::RunEvent> own_events_;  ///< events of this frame, from guards
+  double last_output_s_ = 0;  ///< time that observers and consumers took in the previous frame
   WorldRunResult result_;
 };
 

@@ -1,4 +1,4 @@
-/// Brings the poses of all bodies, and a number of each world, to root.
+/// Brings the poses of all bodies, and one number per world, to root.
 #pragma once
 
 #include <cstddef>
@@ -14,25 +14,25 @@
 
 namespace pbmpi::mpi {
 
-/// A gather over a tree of ranks each frame, into buffers that persist, or messages straight to root that
-/// travel while the ranks go on. Root copies its own worlds without a message, and none is sent where all
-/// worlds are root's. The communicator and the table are borrowed.
+/// Gathers poses in one of two ways: over a tree of ranks each frame, into buffers that persist, or by
+/// messages straight to root that travel while the ranks go on. Root copies its own worlds without a message,
+/// and nothing is sent where root owns all worlds. The communicator and the table are borrowed.
 class PoseGather {
  public:
-  /// `radix`: of the tree.
+  /// `radix`: the radix of the tree.
   PoseGather(const Communicator& comm, const stepping::WorldTable& table, std::span<const int> placement,
              int radix = RankTree::usual_radix);
 
-  /// After worlds have moved.
+  /// To be called after worlds have moved.
   void set_placement(std::span<const int> placement);
 
-  /// Collective. `worlds`: this rank's, by ascending id; `number` [worlds.size()]: what else root is to know
-  /// of each, as its cost.
+  /// Collective. `worlds`: this rank's, by ascending id; `number` [worlds.size()]: one more number of each
+  /// for root, such as its cost.
   void gather(std::span<const stepping::LocalWorld> worlds, std::span<const double> number);
 
   /// Gathers without holding up the other ranks: root calls expect() before its own share, every rank calls
-  /// start() with its share, root calls deliver() when it wants the poses, and the others call it before the
-  /// next start(). Throws core::RunError on the rank whose message failed.
+  /// start() with its share, root calls deliver() when it wants the poses, and the others call deliver()
+  /// before the next start(). Throws core::RunError on the rank whose message failed.
   void expect();
   void start(std::span<const stepping::LocalWorld> worlds, std::span<const double> number);
   void deliver();
@@ -42,7 +42,7 @@ class PoseGather {
   std::span<const core::Quat> orientation() const { return gathered_.orientation; }
   std::span<const double> number() const { return gathered_.number; }
 
-  /// What gather() has sent since the last call.
+  /// Messages and bytes that gather() has sent since the last call.
   core::Traffic take_traffic() { return tree_.take_traffic(); }
 
  private:
@@ -53,11 +53,11 @@ class PoseGather {
 
   const Communicator* comm_;
   const stepping::WorldTable* table_;
-  std::vector<int> placement_;  ///< root
+  std::vector<int> placement_;  ///< used on root
   TreeGather tree_;
-  std::vector<double> sent_;      ///< this rank's share
-  std::vector<double> received_;  ///< root: the ranks' shares by rank
-  GatheredPoses gathered_;        ///< root
+  std::vector<double> sent_;      ///< the share of this rank
+  std::vector<double> received_;  ///< on root: the ranks' shares by rank
+  GatheredPoses gathered_;        ///< on root
   PendingMessages messages_;      ///< last member: cancels its messages before their memory is freed
 };
 

@@ -14,7 +14,7 @@ constexpr int state_tag = 1;
 
 }  // namespace
 
-/// States differ in length, also from step to step: the contact forces that they hold come and go.
+/// The length of a state may change from step to step, because the contact forces that it holds come and go.
 void send_state(const Communicator& comm, const model::State& state, int to) {
   const std::vector<double> packed = pack(state);
   const std::int64_t size = std::ssize(packed);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t numbers_of_guard = 3;
 
-/// Rows of a state, with which its packed form begins.
+/// Numbers of rows of a state, with which its packed form begins.
 struct Lengths {
   std::size_t bodies = 0, rests = 0, joints = 0, contact_forces = 0, joint_forces = 0;
 
@@ -25,7 +25,7 @@ struct Lengths {
   static constexpr std::array<std::size_t Lengths::*, 5> all = {
       &Lengths::bodies, &Lengths::rests, &Lengths::joints, &Lengths::contact_forces, &Lengths::joint_forces};
 
-  /// Numbers of the packed state.
+  /// Length of the packed state in numbers.
   std::size_t packed() const {
     return all.size() + model::numbers_of_state * bodies + model::numbers_of_rest * rests + joints +
            model::numbers_of_contact_force * contact_forces + model::numbers_of_joint_force * joint_forces +
@@ -47,7 +47,7 @@ const double* take(const double* from, std::vector<Row>& rows) {
   return from + rows.size() * sizeof(Row) / sizeof(double);
 }
 
-/// Throws unless there is an entry for each joint of the model, or none at all.
+/// Throws unless there is one entry for each joint of the model, or none at all.
 void require_joints(int world, std::size_t num_joints, const model::Model& model) {
   if (num_joints == 0 || num_joints == model.joints.size()) return;
   throw core::RunError("world " + std::to_string(world) + " was built with " +

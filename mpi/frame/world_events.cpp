@@ -8,7 +8,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// A stepping::RunEvent as it travels. Longer texts are cut.
+/// A stepping::RunEvent as it is sent. Longer texts are cut.
 struct WireEvent {
   std::int64_t step = -1;
   double value = 0;

@@ -1,4 +1,4 @@
-/// Events that only the owners of worlds know, told to every rank.
+/// Tells every rank the events that only the owners of worlds know.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace pbmpi::mpi {
 
-/// Collective. The events of all ranks, the same on every rank, in `frame`: by step, world and, of one world
-/// and step, as they happened.
+/// Collective. The events of all ranks in `frame`, the same on every rank: ordered by step and world, and
+/// within one world and step as they happened.
 std::vector<stepping::RunEvent> share_events(const Communicator& comm,
                                              std::span<const stepping::RunEvent> own, std::int64_t frame);
 

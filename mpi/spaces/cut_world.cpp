@@ -44,7 +44,7 @@ void CutWorld::begin(const model::State& state, std::int64_t steps_done) {
 
 void CutWorld::watch(int number, const stability::GuardSettings& settings) {
   if (!comm_->is_root()) return;
-  // The stepper, which is borrowed, keeps the model for as long.
+  // The stepper is borrowed and keeps the model alive as long as this is used.
   guard_.emplace(number, std::shared_ptr<const model::Model>(std::shared_ptr<void>(), &model()), settings);
   now_ = guard_->begin(now_.state);
   observables_ = now_.seen;
@@ -88,7 +88,7 @@ void CutWorld::advance(core::PhaseTimes& times) {
 void CutWorld::step_frame(core::PhaseTimes& times) {
   const double start_s = core::now_s();
   core::LapTimer timer(times);
-  // A rank without bodies only waits for the others, whatever the phases in which it does so.
+  // A rank without bodies only waits for the others, whichever phases it does that in.
   const bool idle = !comm_->is_root() && ownership_.bodies[comm_->rank()].empty();
   core::PhaseTimes unused;
   for (int i = 0; i < steps_per_frame_; ++i) {
@@ -109,7 +109,7 @@ void CutWorld::step_frame(core::PhaseTimes& times) {
 void CutWorld::observe() {
   const FrameFindings& found = step_.findings();
   observables_ = found.seen;
-  // In the order of the bodies, so that the sum is that of model::mechanical_energy(), bit for bit.
+  // Summed in the order of the bodies, which gives the sum of model::mechanical_energy(), bit for bit.
   observables_.energy_j = std::accumulate(found.energy_j.begin(), found.energy_j.end(), 0.0);
   stepping::observe_bodies(model(), state(), observables_);
 }
@@ -158,7 +158,7 @@ void CutWorld::make_moves() {
   rebalancer_.forget_times();
 }
 
-/// Root's whole state replaces that of every rank, so that any rank can own any space.
+/// Replaces the state of every rank with root's whole state, so that any rank can own any space.
 void CutWorld::broadcast_state() {
   const std::vector<int> bodies = all_of(model().num_bodies());
   std::vector<double> rows(model::numbers_of_state * bodies.size());

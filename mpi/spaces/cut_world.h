@@ -27,30 +27,30 @@
 
 namespace pbmpi::mpi {
 
-/// Steps its world frame by frame (step/space_step.h says what a step is). Root of the communicator has the
-/// whole state after each frame, watches over it, and decides when spaces change their owner. The result is
-/// that of the undecomposed world, bit for bit.
+/// Steps its world frame by frame (step/space_step.h describes a step). After each frame root of the
+/// communicator has the whole state, guards the world, and decides when spaces change their owner. The result
+/// is that of the undecomposed world, bit for bit.
 ///
 /// Every call is made by all ranks of the communicator, unless it says otherwise; worlds that share a
-/// communicator are called in one order by all of its ranks. What fails on one rank is held in `errors`, and
-/// messages are exchanged all the same.
+/// communicator are called in one order by all of its ranks. An error on one rank is held in `errors`, and
+/// messages are exchanged regardless.
 class CutWorld {
  public:
-  /// All borrowed. `owners` [num_spaces]: at the start.
+  /// All borrowed. `owners` [num_spaces]: the owner of each space at the start.
   CutWorld(const Communicator& comm, stepping::SpaceStepper& stepper, ErrorHold& errors,
            const WorldRunSettings& settings, std::vector<int> owners);
 
-  /// The world stands at `state`, the same on every rank, after `steps_done` steps.
+  /// Sets the world to `state`, the same on every rank, after `steps_done` steps.
   void begin(const model::State& state, std::int64_t steps_done);
 
-  /// Root steps the world again by itself where a guard suspects something. `number`: in its ensemble;
-  /// `settings` is borrowed. After begin().
+  /// Makes root step the world again by itself where a guard suspects a defect. `number`: that of the world
+  /// in its ensemble; `settings` is borrowed. To be called after begin().
   void watch(int number, const stability::GuardSettings& settings);
 
-  /// Estimates frames with a stepper of the same world and messages of `comm`; SpaceEstimate says how.
+  /// Estimates frames with a stepper of the same world and messages of `comm`, as SpaceEstimate describes.
   /// Borrowed.
   void estimate_with(const Communicator& comm, stepping::SpaceStepper& stepper, std::optional<double> due_s);
-  void estimate(core::PhaseTimes& times);                                     ///< the frame to come
+  void estimate(core::PhaseTimes& times);                                     ///< estimates the next frame
   const model::State& estimated_state() const { return estimate_->state(); }  ///< on root
   stepping::EstimatedSteps estimated_steps() const { return estimate_->steps(); }
 
@@ -58,15 +58,15 @@ class CutWorld {
   void advance(core::PhaseTimes& times);
   double cost_s() const { return estimate_s_ + frame_s_; }  ///< useful time of this rank in the last frame
 
-  // On root, after advance():
+  // On root, after advance().
   const model::State& state() const { return stepper_->state(); }
-  const model::State& saved_state() const;  ///< with what its guard remembers, as it is hashed and saved
+  const model::State& saved_state() const;  ///< the state with its guard's memory, as it is hashed and saved
   const stepping::Observables& observables() const { return observables_; }
-  const stepping::StepContacts* contacts() const;  ///< of the last step, if they are recorded; null else
+  const stepping::StepContacts* contacts() const;  ///< of the last step if recorded; else null
   std::vector<stepping::RunEvent> take_events() { return std::exchange(events_, {}); }
-  bool is_mended() const { return is_mended_; }  ///< a guard has replaced what the ranks have computed
+  bool is_mended() const { return is_mended_; }  ///< a guard has replaced the result of the ranks
 
-  /// Root's mended state replaces that of every rank.
+  /// Replaces the state of every rank with root's mended state.
   void share_mended();
 
   /// On root. Plans which spaces are to change their owner; returns their number.
@@ -76,7 +76,7 @@ class CutWorld {
   const Reassignment& planned() const { return planned_; }  ///< on root
 
   const model::Model& model() const { return stepper_->model(); }
-  const SpaceOwnership& ownership() const { return ownership_; }  ///< now
+  const SpaceOwnership& ownership() const { return ownership_; }  ///< at present
   core::Traffic take_traffic();
 
   /// Called after each step with the contacts that this rank solved. For tests.
@@ -98,13 +98,13 @@ class CutWorld {
   SpaceStep step_;
   stepping::Observables observables_;           ///< on root
   std::optional<stability::WorldGuard> guard_;  ///< on root
-  stability::Watched now_;                      ///< on root, with a guard: after the last frame
-  std::vector<stepping::RunEvent> events_;      ///< on root
-  bool is_mended_ = false;                      ///< on root
-  bool is_frozen_ = false;                      ///< the world stands
+  stability::Watched now_;                  ///< on root, with a guard: what it watches, after the last frame
+  std::vector<stepping::RunEvent> events_;  ///< on root
+  bool is_mended_ = false;                  ///< on root
+  bool is_frozen_ = false;                  ///< a guard has frozen the world
   std::int64_t steps_done_ = 0;
   SpaceRebalancer rebalancer_;  ///< used on root
-  Reassignment planned_;        ///< on root: what rebalancer_ decided after the last frame
+  Reassignment planned_;        ///< on root: the decision of rebalancer_ after the last frame
   StepHook hook_;
   std::unique_ptr<SpaceEstimate> estimate_;  ///< with FEEC
   bool is_advanced_ = false;                 ///< the frame is done: its estimate was the precise result

@@ -16,7 +16,7 @@ struct Weights {
   std::vector<double> collision;  ///< [num_spaces] contact rows and bodies
 };
 
-/// Islands of one space go to SpaceLoads::inside, others to SpaceLoads::islands.
+/// Adds islands of one space to SpaceLoads::inside, and others to SpaceLoads::islands.
 void add_islands(const std::map<int, std::map<int, SpacePart>>& islands, SpaceLoads& loads) {
   for (const auto& [island, parts] : islands) {
     if (parts.size() == 1) {
@@ -33,7 +33,8 @@ Weights weigh(const MeasuredFrame& frame) {
   const model::SpaceMap& map = frame.stepper->map();
   const auto num_spaces = static_cast<std::size_t>(map.num_spaces());
   const auto num_shapes = static_cast<std::size_t>(map.num_shapes());
-  // Units of a shape that get few iterations are solved apart from the others: they count as other shapes.
+  // Units of a shape that get few iterations are solved apart from the others, so they count as another
+  // shape.
   const std::size_t num_sorts = frame.field == nullptr ? 1 : 2;
   Weights weights{{}, std::vector<double>(num_spaces, 0)};
   SpaceLoads& loads = weights.loads;
@@ -61,7 +62,7 @@ Weights weigh(const MeasuredFrame& frame) {
   return weights;
 }
 
-/// [num_spaces] Seconds of collision.
+/// [num_spaces] seconds of collision.
 std::vector<double> collision_seconds(const MeasuredFrame& frame, std::span<const double> weight) {
   const std::vector<int>& owner = frame.ownership->owner;
   std::vector<double> rank_weight(frame.times.size(), 0), seconds;
@@ -78,7 +79,7 @@ double solver_seconds(const core::PhaseTimes& times) {
   return times[Phase::rows] + times[Phase::solve] + times[Phase::integrate];
 }
 
-/// [num_ranks] What each rank's solver had to do, from `loads` in weights, and how long it took.
+/// [num_ranks] the work of each rank's solver, from `loads` in weights, and how long it took.
 std::vector<RankSample> samples_of(const SpaceLoads& loads, const MeasuredFrame& frame) {
   const auto num_ranks = static_cast<int>(frame.times.size());
   SpaceLoads no_contacts = loads, no_batches = loads;

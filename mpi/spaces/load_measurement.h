@@ -12,19 +12,19 @@
 
 namespace pbmpi::mpi {
 
-/// Measurements of a frame, and what they are of.
+/// The measurements of a frame, and what they were measured on.
 struct MeasuredFrame {
-  const stepping::SpaceStepper* stepper = nullptr;  ///< map and lanes
+  const stepping::SpaceStepper* stepper = nullptr;  ///< gives the map of spaces and the lanes
   const effects::FieldOfInterest* field = nullptr;  ///< null without one
-  const SpaceOwnership* ownership = nullptr;        ///< under which it was measured
-  const FrameFindings* findings = nullptr;          ///< of its last step
+  const SpaceOwnership* ownership = nullptr;        ///< the ownership during the frame
+  const FrameFindings* findings = nullptr;          ///< findings of its last step
   std::span<const core::PhaseTimes> times;          ///< [num_ranks] seconds a frame by phase
   int steps_per_frame = 1;
 };
 
-/// Splits the ranks' seconds. Those of collision go to the spaces of the rank that spent them, by contact
-/// rows and bodies; those of the solver to batches of equal units and to contacts, by their rows, over all
-/// ranks (an island costs the same anywhere).
+/// Splits the ranks' seconds. Seconds of collision go to the spaces of the rank that spent them, by contact
+/// rows and bodies. Seconds of the solver go to batches of equal units and to contacts, by their rows, over
+/// all ranks (an island costs the same anywhere).
 SpaceLoads measure_loads(const MeasuredFrame& frame);
 
 }  // namespace pbmpi::mpi

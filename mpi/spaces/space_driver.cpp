@@ -25,7 +25,7 @@ std::string describe_many(std::int64_t num_moves, std::int64_t num_worlds) {
          std::to_string(num_worlds) + (num_worlds == 1 ? " world" : " worlds");
 }
 
-/// Parts that a placement places; a rank that is idle takes it as it is.
+/// The number of parts that a placement places; an idle rank takes the placement as it is.
 int num_parts(std::span<stepping::SpaceStepper* const> steppers, const WorldRunSettings& settings) {
   return steppers.empty() ? static_cast<int>(std::ssize(settings.placement))
                           : steppers.front()->map().num_spaces();
@@ -141,7 +141,7 @@ void SpaceDriver::estimate_with(std::span<stepping::SpaceStepper* const> stepper
   }
 }
 
-/// Messages are sent whatever fails here, so that root never waits for one in vain.
+/// Messages are sent even if something fails here, so that root never waits for one in vain.
 double SpaceDriver::make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) {
   if (!estimates_) return 0;
   const double start_s = core::now_s();
@@ -211,7 +211,7 @@ void SpaceDriver::settle_events() {
 }
 
 /// Root of a group has all poses since the last step of the frame: SpaceStep sends them. Root of all plans
-/// its moves when the frame's time is taken; of those that the other groups plan it learns here.
+/// its own moves once the frame's time is taken, and learns here of the moves that the other groups plan.
 void SpaceDriver::gather(core::PhaseTimes& times) {
   core::LapTimer timer(times);
   const std::vector<stepping::LocalWorld> worlds = local_worlds();

@@ -1,4 +1,4 @@
-/// Runs worlds that are cut into spaces over the ranks: one world over all of them, or many, each over a
+/// Runs worlds that are cut into spaces over the ranks: one world over all ranks, or many worlds, each over a
 /// group.
 #pragma once
 
@@ -19,42 +19,43 @@
 namespace pbmpi::mpi {
 
 /// The frame loop of the spaces decomposition. Ranks form groups, each with a communicator of its own, and
-/// step the worlds of their group one after the other (CutWorld). Root of a group has the whole states of its
-/// worlds after each frame and reports them; other ranks report no world. Root of all gets the poses from the
-/// roots of groups by one PoseGather, and without any message where there is one group.
+/// step the worlds of their group one after the other (CutWorld). After each frame root of a group has the
+/// whole states of its worlds and reports them; other ranks report no world. Root of all gets the poses from
+/// the roots of groups through one PoseGather, and without any message where there is one group.
 ///
 /// Between two frames spaces change their owner within their group if the last frames predict that its
-/// busiest rank then has less to do: settings.rebalance_threshold; SpaceRebalancer decides when, SpaceLoads
-/// says what is weighed.
+/// busiest rank then has less to do (settings.rebalance_threshold). SpaceRebalancer decides when; SpaceLoads
+/// describes the costs.
 class SpaceDriver final : public FrameDriver {
  public:
   /// One world over all ranks. `stepper` is borrowed and holds the world; settings.num_worlds is 1, and
-  /// settings.placement of its spaces. `states`: on root, the one state after settings.first_frame frames, if
-  /// that is above 0.
+  /// settings.placement places its spaces. `states`: on root, the one state after settings.first_frame
+  /// frames, if that is above 0.
   SpaceDriver(const Communicator& comm, stepping::SpaceStepper& stepper, const WorldRunSettings& settings,
               std::span<const model::State> states = {});
 
-  /// Worlds in groups. `steppers`: those of this rank's group, by ascending world, borrowed;
-  /// settings.placement, if it is not empty, has ranks of a group for the spaces of each world. `states`: on
-  /// root, [num_worlds]. `groups` are the same on every rank.
+  /// Worlds in groups. `steppers`: the steppers of this rank's group, by ascending world, borrowed;
+  /// settings.placement, if it is not empty, gives the spaces of each world ranks of its group. `states`: on
+  /// root, [num_worlds]. `groups` is the same on every rank.
   SpaceDriver(const Communicator& comm, std::span<stepping::SpaceStepper* const> steppers,
               const RankGroups& groups, const WorldRunSettings& settings,
               std::span<const model::State> states = {});
 
-  /// Watches the worlds: root of a group, which has their whole states after each frame, steps one again by
-  /// itself where a guard suspects something, and shares what has become of it. `settings` is borrowed. On
+  /// Guards the worlds: root of a group, which has their whole states after each frame, steps a world again
+  /// by itself where a guard suspects a defect, and shares the result. `settings` is borrowed. Called on
   /// every rank or on none, before run().
   void watch(const stability::GuardSettings& settings);
 
-  /// Estimates every frame first (FEEC), with steppers of the same worlds; by `due_s` after the start of the
-  /// frame, if it is due, which only one world can be. Borrowed. On every rank or on none, before run().
+  /// Estimates every frame first (FEEC), with steppers of the same worlds. `due_s`: the deadline from the
+  /// start of the frame, which only a run of one world can have. Borrowed. Called on every rank or on none,
+  /// before run().
   void estimate_with(std::span<stepping::SpaceStepper* const> steppers, std::optional<double> due_s);
 
   const stepping::WorldTable& table() const override { return table_; }
   std::vector<stepping::LocalWorld> local_worlds() const override;
   std::vector<WorldCost> costs() const override;
   std::vector<int> idle_ranks() const override;
-  /// [num_spaces] owner of each space of this rank's first world now, as a rank of its group
+  /// [num_spaces] present owner of each space of this rank's first world, as a rank of its group
   const std::vector<int>& placement() const { return worlds_.front()->ownership().owner; }
 
   /// Has the hook called after each step of this rank's first world. For tests.
@@ -84,9 +85,9 @@ class SpaceDriver final : public FrameDriver {
   const CutWorld& at(int world) const { return *worlds_[world - ids_.front()]; }
 
   RankGroups groups_;
-  Placement roots_;                                ///< [num_worlds] who reports each
-  Communicator group_;                             ///< this rank's
-  Communicator estimating_;                        ///< the same ranks, with FEEC
+  Placement roots_;                                ///< [num_worlds] rank that reports each
+  Communicator group_;                             ///< the ranks of this rank's group
+  Communicator estimating_;                        ///< the same ranks as group_, with FEEC
   std::vector<int> ids_;                           ///< worlds of this rank's group, ascending
   std::vector<std::unique_ptr<CutWorld>> worlds_;  ///< [ids_]
   stepping::WorldTable table_;

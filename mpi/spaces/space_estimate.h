@@ -17,9 +17,9 @@
 
 namespace pbmpi::mpi {
 
-/// A short run of all ranks together, with a stepper and messages of its own, from the precise state of the
-/// frame before. With a deadline root chooses for all: the precise frame itself if that fits, else the short
-/// run, else motion without forces.
+/// A short run by all ranks together, with a stepper and messages of its own, from the precise state of the
+/// previous frame. With a deadline root chooses for all ranks: the precise frame itself if that fits, else
+/// the short run, else motion without forces.
 class SpaceEstimate {
  public:
   enum class How : std::int32_t { precise, coarse, glide };
@@ -28,17 +28,17 @@ class SpaceEstimate {
   SpaceEstimate(const Communicator& comm, stepping::SpaceStepper& stepper, ErrorHold& errors,
                 int steps_per_frame, double dt_s, std::optional<double> due_s);
 
-  /// Collective with a deadline. How the next frame is to be estimated.
+  /// How the next frame is estimated. Collective with a deadline.
   How choose();
-  /// What a precise frame took, on root.
+  /// Tells root how long a precise frame took.
   void note_precise(double frame_s);
 
   /// Collective. Estimates the frame from `start`, the rank's copy of the precise state at the start of
-  /// `step`: all of it on root, elsewhere the rows of own spaces.
+  /// `step`: root needs all rows, the other ranks those of their own spaces.
   void run(const SpaceOwnership& ownership, const model::State& start, std::int64_t step,
            core::PhaseTimes& times);
   void glide(const model::State& start);
-  /// The estimate is this precise state, after the frame.
+  /// Takes this precise state, after the frame, as the estimate.
   void take(const model::State& precise);
 
   const model::State& state() const { return state_; }  ///< of the last estimate, on root

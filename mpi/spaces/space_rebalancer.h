@@ -1,4 +1,4 @@
-/// When spaces change their owner, and to whom: what root does with the findings of the frames.
+/// Decides when spaces change their owner, and to which rank, from the findings of the frames.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,21 @@
 
 namespace pbmpi::mpi {
 
-/// Used on root, by SpaceDriver; sends nothing. The first decision falls after frame 2 (the first frame meets
-/// cold caches), and after spaces have moved 4 frames pass before the next one, in which the new owners are
-/// timed. Of the last 3 frames under the present owners the least seconds of each phase count: the machine
-/// can make a rank wait in one frame, but never saves it work.
+/// Used on root, by SpaceDriver; sends nothing. The first decision falls after frame 2 (the first frame runs
+/// with cold caches). After spaces have moved, 4 frames pass before the next decision, and the new owners are
+/// timed. Each phase counts with its least seconds over the last 3 frames under the present owners: the
+/// machine can make a rank wait in one frame, but never saves it work.
 class SpaceRebalancer {
  public:
   /// `stepper` is borrowed. `threshold` >= 1; infinity = never.
   SpaceRebalancer(stepping::SpaceStepper& stepper, int steps_per_frame, double threshold)
       : stepper_(&stepper), steps_per_frame_(steps_per_frame), threshold_(threshold) {}
 
-  /// After each frame.
+  /// To be called after each frame.
   void note_times(const FrameFindings& findings);
   /// After note_times(): which spaces move now, if any. `may_move`: there are other ranks, and another frame.
   Reassignment decide(const FrameFindings& findings, const SpaceOwnership& ownership, bool may_move);
-  /// Spaces have moved.
+  /// To be called when spaces have moved.
   void forget_times() { last_times_.clear(); }
 
  private:
@@ -34,14 +34,14 @@ class SpaceRebalancer {
   static constexpr int frames_between_decisions = 4;
   static constexpr std::size_t window = 3;  ///< frames
 
-  /// [num_ranks] Seconds a frame by phase, the least of each of the last frames.
+  /// [num_ranks] seconds a frame by phase, the least of the last frames for each phase.
   std::vector<core::PhaseTimes> least_times() const;
 
   stepping::SpaceStepper* stepper_;
   int steps_per_frame_;
   double threshold_;
   int frames_until_decision_ = frames_before_decisions;
-  std::vector<std::vector<core::PhaseTimes>> last_times_;  ///< [<= window][num_ranks] with the present owners
+  std::vector<std::vector<core::PhaseTimes>> last_times_;  ///< [<= window][num_ranks] with present owners
 };
 
 }  // namespace pbmpi::mpi

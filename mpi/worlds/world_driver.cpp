@@ -51,7 +51,7 @@ void WorldDriver::set_estimator(stepping::Estimator& estimator) {
   estimates_ = std::make_unique<PoseGather>(comm(), worlds_.table(), worlds_.placement());
 }
 
-/// Messages are sent whatever fails here, so that root never waits for one in vain.
+/// Messages are sent even if something fails here, so that root never waits for one in vain.
 double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) {
   if (estimator_ == nullptr) return 0;
   const double start_s = core::now_s();
@@ -60,7 +60,7 @@ double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core
   errors().guard([&] {
     const int steps = settings().steps_per_frame;
     const core::SectionMark mark(core::SectionMark::Section::estimate);
-    // Estimators look into the stepper, and call worlds as it does.
+    // Estimators look into the stepper, and number worlds as it does.
     std::vector<stepping::LocalWorld> numbered = estimated_worlds_;
     for (stepping::LocalWorld& world : numbered) world.id = worlds_.number_of(world.id);
     estimator_->estimate(numbered, frame * steps, steps, times);

@@ -18,8 +18,8 @@
 namespace pbmpi::mpi {
 
 /// The frame loop of the worlds decomposition. The stepper is borrowed and holds this rank's worlds, also
-/// after the run. advance sends no message; poses and costs are
-/// gathered over a tree of ranks, which is flat up to 32 of them (mpi/comm/rank_tree.h).
+/// after the run. advance sends no message; poses and costs are gathered over a tree of ranks, which is flat
+/// for up to 32 ranks (mpi/comm/rank_tree.h).
 ///
 /// With an estimator (FEEC) a frame begins with: estimate -> send the estimated poses to root, without
 /// waiting -> root waits for them and hands them on, while the other ranks advance. The precise states are
@@ -27,13 +27,13 @@ namespace pbmpi::mpi {
 class WorldDriver final : public FrameDriver {
  public:
   /// Throws core::InputError for settings that make no sense, and what BuildWorld or the stepper throws.
-  /// `states`: on root, those after settings.first_frame frames, if that is above 0.
+  /// `states`: on root, the states after settings.first_frame frames, if that is above 0.
   WorldDriver(const Communicator& comm, stepping::WorldStepper& stepper, BuildWorld build,
               const WorldRunSettings& settings, std::span<const model::State> states = {});
 
   /// Estimates every frame first. Borrowed; it must outlive run(). On every rank or on none.
   void set_estimator(stepping::Estimator& estimator);
-  /// Announces the events of the worlds that the stepper has. Borrowed; on every rank or on none.
+  /// Announces the events of the stepper's worlds. Borrowed. Called on every rank or on none.
   void set_event_source(stepping::RunEventSource& source) { events_ = &source; }
 
   const stepping::WorldTable& table() const override { return worlds_.table(); }

@@ -1,4 +1,4 @@
-/// What an actor builder is, and the registry of all of them.
+/// The interface of actor builders, and the registry of all of them.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace pbmpi::scenes {
 
-/// Where one actor of one world goes.
+/// The place of one actor in one world.
 struct Placement {
   std::string name;              ///< unique in the world
   Pose pose;                     ///< of the actor's own frame: x forward, y left, z up
@@ -23,20 +23,20 @@ struct Placement {
   int copy = 0;                  ///< 0-based number among the copies of one [[actor]]
 };
 
-/// What a builder must know of the scene around its actor.
+/// What a builder needs to know of the scene around its actor.
 struct SceneContext {
   Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
-  double dt_s = 0.01;         ///< turns times of a programme into steps
-  /// Texts of the model files that actors name, and by which messages call them.
+  double dt_s = 0.01;         ///< converts times of a programme into steps
+  /// Texts of the model files that actors name, by their names in messages.
   const std::map<std::string, std::string>* files = nullptr;
-  std::vector<std::string>* notes = nullptr;  ///< gets what a model file says that is taken otherwise
+  std::vector<std::string>* notes = nullptr;  ///< receives what pbmpi takes differently in a model file
 };
 
-/// How deep actors begin in what they stand on, and blocks in each other. A contact needs some depth to
-/// exist; ODE takes a fifth of it away each step, so that this little is gone before it shows.
+/// Initial penetration depth of actors in what they stand on, and of blocks in each other. A contact needs
+/// some depth to exist; ODE removes a fifth of it each step, so this small depth is gone before it shows.
 inline constexpr double initial_depth_m = 1e-4;
 
-/// Adds an actor to a model. Holds the parameters read from the file, so that building reads no TOML.
+/// Adds an actor to a model. Holds the parameters read from the file, so that building does not read TOML.
 using ActorPlan = std::function<void(const Placement&, model::Model&)>;
 
 struct ActorType {
@@ -48,10 +48,10 @@ struct ActorType {
 /// All types, by name.
 const std::vector<ActorType>& actor_types();
 
-/// Refuses an unknown type at the value of `type`, with the nearest known ones.
+/// Reads the type; refuses an unknown one at the value of `type`, naming the nearest known types.
 const ActorType& read_actor_type(TableReader& actor);
 
-/// `material = { mu = 0.9, restitution = 0 }`, or `fallback` without the key.
+/// Reads `material = { mu = 0.9, restitution = 0 }`; returns `fallback` without the key.
 model::Material read_material(TableReader& actor, const model::Material& fallback);
 
 ActorPlan read_ground(TableReader& actor, const SceneContext& context);

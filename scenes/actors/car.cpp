@@ -13,7 +13,7 @@ namespace {
 struct Car {
   double chassis_mass_kg = 1200;
   double wheel_mass_kg = 20;                 // tyre, rim, hub and brake
-  double length_m = 4.2, width_m = 1.4;      // of the body, which leaves the wheels free at its sides
+  double length_m = 4.2, width_m = 1.4;      // of the body, which leaves room for the wheels at its sides
   double floor_m = 0.2, bonnet_m = 0.8;      // heights of its underside and of the bonnet above the ground
   double roof_m = 1.4;                       // height of the cabin's roof
   double wheelbase_m = 2.6, track_m = 1.62;  // distances of the wheels' centres, along and across
@@ -21,9 +21,9 @@ struct Car {
   // Passenger cars bounce at 1 to 1.5 Hz and are damped at 0.2 to 0.4 of critical (Gillespie, Fundamentals of
   // Vehicle Dynamics, ch. 5).
   double suspension_hz = 1.2, damping_ratio = 0.4;
-  double wheel_break_force_n = 0;  // that its joint bears; 0 = any
+  double wheel_break_force_n = 0;  // joint force that breaks a wheel off; 0 = unbreakable
   double speed_m_s = 0;
-  double drive_torque_nm = 0;             // largest, on each rear wheel, to keep the speed
+  double drive_torque_nm = 0;             // largest on each rear wheel, for keeping the speed
   double tyre_mu = 0.9;                   // as the ground's: dry asphalt
   model::Material body_material{0.4, 0};  // painted steel
   std::vector<std::array<double, 2>> steering;
@@ -90,8 +90,8 @@ class CarBuilder {
  private:
   void add_chassis() {
     // The centre of mass lies in the middle of the lower box, 0.5 m above the ground, as in saloons; the
-    // inertia is that of the lower box, within a tenth of measured saloons of this mass (Heydinger et al.,
-    // SAE 1999-01-1336: yaw about 2000 kg m^2).
+    // inertia is that of the lower box, within 10 % of measured saloons of this mass (Heydinger et al., SAE
+    // 1999-01-1336: yaw about 2000 kg m^2).
     const double height = car_.bonnet_m - car_.floor_m;
     const std::array<double, 3> size = {car_.length_m, car_.width_m, height};
     model::Body body;
@@ -103,8 +103,8 @@ class CarBuilder {
     body.velocity = velocity();
     chassis_ = add_body(model_, std::move(body));
     add_geom(chassis_, model::Shape::box, size, {}, car_.body_material);
-    // The cabin begins behind the bonnet and ends before the boot: the middle half of the length, a little
-    // to the rear, and narrower than the body, as windows lean inwards.
+    // The cabin begins behind the bonnet and ends before the boot: the middle half of the length, slightly to
+    // the rear, and narrower than the body, since windows lean inwards.
     const double cabin_height = car_.roof_m - car_.bonnet_m;
     add_geom(chassis_, model::Shape::box, {car_.length_m / 2, 0.85 * car_.width_m, cabin_height},
              {{-0.05 * car_.length_m, 0, height / 2 + cabin_height / 2}, {}}, car_.body_material);
@@ -118,9 +118,9 @@ class CarBuilder {
     body.actor = actor_;
     body.mass_kg = car_.wheel_mass_kg;
     body.inertia = solid_inertia(model::Shape::cylinder, size, body.mass_kg);
-    // A cylinder bears on its whole width, as a tyre does, and lies within the body, where a sphere would
-    // bulge by its radius; ODE keeps it steady at rest, rolling and on a ramp. Cylinders lie along z; the
-    // axle lies along y.
+    // A cylinder touches along its whole width, as a tyre does, and lies within the body, where a sphere
+    // would bulge by its radius; ODE keeps it steady at rest, rolling and on a ramp. Cylinders lie along z;
+    // the axle lies along y.
     body.pose = compose(place_.pose, {hub + Vec3(0, 0, car_.wheel_radius_m - initial_depth_m),
                                       rotation(std::numbers::pi / 2, Vec3::UnitX())});
     body.velocity = velocity();
@@ -130,8 +130,8 @@ class CarBuilder {
     return add_suspension(name, wheel, driven);
   }
 
-  /// ODE counts a hinge2's angles as chassis against wheel: axes that point down and right make a positive
-  /// steering angle a left turn, and a positive motor velocity a forward drive.
+  /// ODE measures a hinge2's angles as chassis against wheel: with axes that point down and right, a positive
+  /// steering angle is a left turn, and a positive motor velocity drives forward.
   int add_suspension(const std::string& name, int wheel, bool driven) {
     const Vec3 hub = model_.bodies[wheel].pose.position;
     model::Joint joint = join(model_, place_.name + "." + name + "_suspension", model::JointKind::hinge2,
@@ -140,8 +140,8 @@ class CarBuilder {
     const double quarter_mass = car_.chassis_mass_kg / 4;
     joint.suspension.stiffness = quarter_mass * omega * omega;
     joint.suspension.damping = 2 * car_.damping_ratio * quarter_mass * omega;
-    // The spring has no force where the anchors meet. The chassis' anchor lies below the hub by the
-    // deflection under a quarter of the chassis' weight, so that the car starts at rest at its ride height.
+    // The spring exerts no force where the anchors coincide. The chassis' anchor lies below the hub by the
+    // deflection under a quarter of the chassis' weight, so the car starts at rest at its ride height.
     const double weight_n = quarter_mass * std::max(0.0, -car_.context.gravity.dot(up_));
     joint.anchor_a -= weight_n / joint.suspension.stiffness * Vec3::UnitZ();
     joint.limits[0] = {0, 0};
@@ -153,7 +153,7 @@ class CarBuilder {
     return static_cast<int>(model_.joints.size()) - 1;
   }
 
-  /// One event a step, along straight lines between the points of the programme.
+  /// Adds one event per step, interpolated linearly between the points of the programme.
   void add_steering(int joint) {
     for (std::size_t i = 0; i < car_.steering.size(); ++i) {
       const auto [time_s, angle_deg] = car_.steering[i];

@@ -9,7 +9,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-/// Defaults are a monster of a man's height in length units of a car: 8 segments of 0.6 m.
+/// Defaults are a monster as tall as a man and of a car's length: 8 segments of 0.6 m.
 struct Centipede {
   int num_segments = 8;
   double segment_length_m = 0.6, segment_width_m = 0.5, segment_height_m = 0.3;
@@ -17,14 +17,14 @@ struct Centipede {
   double leg_radius_m = 0.05, leg_reach_m = 0.45;  // the foot's distance from the segment's side
   double density_kg_m3 = 1000;                     // flesh, about water's
   double stride_s = 0.5;                           // period of the legs' swing
-  double walk_s = 2;                               // how long they swing; then they hold
+  double walk_s = 2;                               // how long the legs swing; then they hold
   double torque_nm = 400;                          // of each of a leg's two motors
   model::Material material{0.8, 0};
   double dt_s = 0.01;
   std::string where;  ///< place in the file
 };
 
-constexpr double gap_m = 0.05;          // between segments, so that they can bend
+constexpr double gap_m = 0.05;          // between segments, lets them bend
 constexpr double most_bend_deg = 30;    // of a joint between segments, to each side
 constexpr double back_torque_nm = 600;  // holds the back straight: a segment's weight at three lengths
 constexpr double reach_deg = 20, lift_deg = 12;  // of a leg fore and aft, and up
@@ -75,8 +75,8 @@ class CentipedeBuilder {
     const std::string name = (side > 0 ? "left_leg" : "right_leg") + std::to_string(number + 1);
     const int leg =
         add_part(name, model::Shape::capsule, size, {(hip + foot) / 2, rotation(angle, Vec3::UnitX())});
-    // Axis 1 swings the leg fore and aft, axis 2 lifts it. ODE counts the segment's turn against the leg's:
-    // with these axes a positive angle is a swing forward, and a lift.
+    // Axis 1 swings the leg fore and aft, axis 2 lifts it. ODE measures the segment's turn against the leg's:
+    // with these axes a positive angle is a swing forward, or a lift.
     model::Joint joint = join(model_, place_.name + "." + name + "_hip", model::JointKind::universal, segment,
                               leg, at(hip), side * up(), -side * forward());
     joint.limits[0] = {-radians(reach_deg), radians(reach_deg)};
@@ -87,8 +87,8 @@ class CentipedeBuilder {
     add_gait(static_cast<int>(model_.joints.size()) - 1, first_group);
   }
 
-  /// Alternating groups, as insects walk: in one half of the stride a group is lifted and swings ahead, in
-  /// the other it stands and pushes back. Both quarters of a swing have constant speed.
+  /// Alternating groups of legs, as in insects: in one half of the stride a group is lifted and swings
+  /// forward, in the other half it stands and pushes back. Each quarter of a swing has constant speed.
   void add_gait(int joint, bool first_group) {
     const auto half = std::max<std::int64_t>(2, step_at(c_.stride_s / 2, c_.dt_s, c_.where + ": stride"));
     const std::int64_t end = step_at(c_.walk_s, c_.dt_s, c_.where + ": walk");

@@ -1,4 +1,4 @@
-/// How often a scene places one [[actor]], and where.
+/// How often, and where, a scene places one [[actor]].
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace pbmpi::scenes {
 
-/// Copies of an actor: a row, rows of rows, or one at each of several places. Without any there is one actor,
-/// whose name has no number.
+/// Copies of an actor: a row, rows of rows, or one copy at each of several places. Without copies there is
+/// one actor, whose name has no number.
 class Copies {
  public:
   Copies() = default;
@@ -20,7 +20,7 @@ class Copies {
   bool are_numbered() const { return numbered_; }
   int in(int world) const { return count_.in(world); }
   bool are_as_many_everywhere() const { return count_.is_constant(); }
-  /// Where copy 0, 1, ... stands against the actor's position [m], world frame.
+  /// Offset of copy 0, 1, ... from the actor's position [m], world frame.
   Vec3 offset(int copy) const;
 
  private:
@@ -29,9 +29,9 @@ class Copies {
 
   bool numbered_ = false;
   WorldCount count_;
-  std::vector<int> row_lengths_;  ///< [rows of rows], the innermost first; the last is not asked for
-  std::vector<Vec3> spacings_;    ///< likewise
-  std::vector<Vec3> places_;      ///< instead of these
+  std::vector<int> row_lengths_;  ///< [rows of rows] innermost first; the last length is not used
+  std::vector<Vec3> spacings_;    ///< [rows of rows] innermost first
+  std::vector<Vec3> places_;      ///< used instead of rows, if not empty
 };
 
 }  // namespace pbmpi::scenes

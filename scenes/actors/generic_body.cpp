@@ -1,4 +1,4 @@
-// One rigid body of one shape or of several, or a static obstacle.
+// One rigid body of one or several shapes, or a static obstacle.
 #include "core/error.h"
 #include "core/text.h"
 #include "model/names.h"
@@ -37,17 +37,18 @@ double read_mass(TableReader& actor, const std::vector<Solid>& solids) {
   return actor.number("density", Sign::positive) * volume(solids);
 }
 
-/// About the centre, in the body's axes. No mass distribution has a moment above the sum of the other two.
+/// Inertia about the centre, in the body's axes. No mass distribution has a moment above the sum of the other
+/// two.
 model::Mat3 read_inertia(TableReader& actor) {
   const Vec3 moments = actor.vector("inertia", Sign::positive);
-  constexpr double rounding = 1e-9;  // of a flat body's digits, for which the two are equal
+  constexpr double rounding = 1e-9;  // for rounded digits of a flat body, where the two are equal
   if (2 * moments.maxCoeff() > (1 + rounding) * moments.sum()) {
     actor.fail("inertia", "no body has a moment of inertia above the sum of the other two; change one");
   }
   return moments.asDiagonal();
 }
 
-/// Composing two rotations rounds; a geom that fills its frame keeps the bits of the frame.
+/// Composing two rotations rounds; a geom whose frame coincides with the body's keeps the frame's bits.
 Pose pose_of(const Solid& solid, const Pose& frame) {
   const bool fills_frame = solid.pose.position.isZero() && solid.pose.orientation == Quat{};
   return fills_frame ? frame : compose(frame, solid.pose);

@@ -4,8 +4,8 @@
 namespace pbmpi::scenes {
 namespace {
 
-// Rubber on dry asphalt reaches about 0.9 (Wong, Theory of Ground Vehicles, table of road adhesion); a pair
-// takes the geometric mean of its two materials, so that tyre and road both have the pair's value.
+// Rubber on dry asphalt reaches about 0.9 (Wong, Theory of Ground Vehicles, table of road adhesion). A pair
+// takes the geometric mean of its two materials, so tyre and road both have the pair's value.
 constexpr double dry_asphalt_mu = 0.9;
 
 }  // namespace

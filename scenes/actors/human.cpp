@@ -18,14 +18,15 @@ struct Human {
   double mass_kg = 75;
   double height_m = 1.75;
   double stance_deg = 0;             ///< of the legs from the vertical, the left one forward
-  double tone = 1;                   ///< share of the greatest voluntary torque with which each joint is held
+  double tone = 1;                   ///< share of the greatest voluntary torque that holds each joint
   model::Material material{0.6, 0};  ///< cloth and leather on road or steel
 };
 
 // Breadth to depth of the trunk (chest 0.32 m to 0.21 m in men).
 constexpr double trunk_aspect = 1.5;
-// [1/s] At which muscles undo a displacement, in 20 ms: dry friction alone creeps, as 20 iterations do not
-// carry the whole weight, and a standing man falls within 2 s. Half of what a step of 0.01 s can undo.
+// [1/s] Rate at which muscles undo a displacement, within 20 ms: dry friction alone creeps, since 20
+// iterations do not carry the whole weight, and a standing man falls within 2 s. Half of what a step of 0.01
+// s can undo.
 constexpr double hold_rate = 50;
 // Breadth of the hand over its thickness, 0.085 m to 0.028 m.
 constexpr double hand_aspect = 3;
@@ -70,8 +71,8 @@ class HumanBuilder {
     const int upper = add_upright(upper_arm, name, y, s.shoulder, s.elbow);
     const int lower = add_upright(forearm, name, y, s.elbow, s.wrist);
     const int palm = add_hand(name, y);
-    // What hangs below its joint bends forward by a turn about -y. The palm faces the thigh: it bends
-    // inwards, and the thumb points forward.
+    // Segments that hang below their joint bend forward by a turn about -y. The palm faces the thigh: it
+    // bends inwards, and the thumb points forward.
     add_joint(name + "shoulder", JointKind::ball, chest, upper, at(y, s.shoulder));
     add_hinge(name + "elbow", upper, lower, at(y, s.elbow), -Vec3::UnitY(), elbow_bend);
     add_universal(name + "wrist", lower, palm, at(y, s.wrist), -side * Vec3::UnitX(), wrist_bend,
@@ -94,13 +95,13 @@ class HumanBuilder {
     add_universal(name + "hip", pelvis, upper, hip.position, -Vec3::UnitY(), hip_bend.from(swing_deg),
                   hip.direction_to_outer(side * Vec3::UnitX()), hip_tilt);
     add_hinge(name + "knee", upper, lower, knee, Vec3::UnitY(), knee_bend);
-    // The feet are stiff, as in boots. An ankle held by a motor would bear the whole body through a foot of 1
-    // kg: QuickStep's 20 iterations pass so little of such a torque that a standing man falls within 1.5 s,
-    // whatever the torque (with 1000 iterations he stands).
+    // The feet are stiff, as in boots. An ankle held by a motor would have to carry the whole body through a
+    // foot of 1 kg: QuickStep's 20 iterations transmit so little of such a torque that a standing man falls
+    // within 1.5 s, whatever the torque (with 1000 iterations he stands).
     add_joint(name + "ankle", JointKind::fixed, lower, sole, ankle);
   }
 
-  /// By how much the stance lowers the hips.
+  /// How far the stance lowers the hips.
   double hip_drop() const {
     return (skeleton_.hip - skeleton_.ankle) * (1 - core::cosine(radians(human_.stance_deg)));
   }
@@ -110,7 +111,7 @@ class HumanBuilder {
     return add_limb(segment, side, {{0, y, top - hip_drop()}, {}}, top - bottom);
   }
 
-  /// A segment that reaches from the origin of `top` down along its z axis: a box of the trunk, or a capsule
+  /// A segment that reaches from the origin of `top` down along its z axis: a box for the trunk, or a capsule
   /// that ends at the endpoints.
   int add_limb(const Segment& segment, const std::string& side, const Pose& top, double length) {
     const double mass = segment.mass_fraction * human_.mass_kg;
@@ -129,7 +130,7 @@ class HumanBuilder {
     return body;
   }
 
-  /// The whole hand, fingers stretched downwards, is longer than de Leva's wrist to knuckle.
+  /// The whole hand with fingers stretched downwards, which is longer than de Leva's wrist to knuckle.
   int add_hand(const std::string& side, double y) {
     const double knuckle = hand.length_m * skeleton_.scale;
     const double com = skeleton_.wrist - hip_drop() - hand.com_fraction * knuckle;
@@ -171,8 +172,8 @@ class HumanBuilder {
 
   model::Joint& add_joint(const std::string& name, JointKind kind, int inner, int outer, const Vec3& anchor,
                           const Vec3& axis1 = Vec3::UnitY(), const Vec3& axis2 = Vec3::UnitX()) {
-    // ODE counts an angle as the first body against the second; the outer segment's turn has the other sign,
-    // hence the minus.
+    // ODE measures an angle as the first body against the second; the outer segment's turn has the opposite
+    // sign, hence the minus.
     model_.joints.push_back(join(model_, place_.name + "." + name, kind, inner, outer,
                                  place_.pose.point_to_outer(anchor - Vec3(0, 0, initial_depth_m)),
                                  -place_.pose.direction_to_outer(axis1),
@@ -211,12 +212,12 @@ ActorPlan read_human(TableReader& actor, const SceneContext&) {
   human.mass_kg = actor.number("mass", Sign::positive, human.mass_kg);
   human.height_m = actor.number("height", Sign::positive, human.height_m);
   human.stance_deg = actor.number("stance", Sign::non_negative, human.stance_deg);
-  // With more the rear foot, flat on the ground, would bend the ankle beyond its range.
+  // With a larger angle the rear foot, flat on the ground, would bend the ankle beyond its range.
   if (human.stance_deg > ankle_dorsiflexion_deg) actor.fail("stance", "'stance' must lie in 0 to 20 degrees");
   human.tone = actor.number("tone", Sign::non_negative, human.tone);
   human.material = read_material(actor, human.material);
-  // The sections of the limbs follow from the mass: outside these proportions a limb would be wider than
-  // long.
+  // The cross-sections of the limbs follow from the mass: outside these proportions a limb would be wider
+  // than long.
   const double body_mass_index = human.mass_kg / (human.height_m * human.height_m);
   if (body_mass_index < 10 || body_mass_index > 60) {
     actor.fail("mass", "mass and height do not make a human (mass / height^2 must lie in 10 to 60 kg/m^2)");

@@ -2,9 +2,9 @@
 
 namespace pbmpi::scenes {
 
-/// De Leva's lengths are those of lying men, and the neck's endpoint is on the back; stacked on ankles and
-/// legs they exceed the stature by 3 cm. The trunk's and the head's lengths give way, so that the stature is
-/// exact and the legs keep their lengths.
+/// De Leva's lengths were measured on lying men, and the neck's endpoint is on the back; stacked on ankles
+/// and legs they exceed the stature by 3 cm. The trunk's and the head's lengths are scaled down, so that the
+/// stature is exact and the legs keep their lengths.
 Skeleton::Skeleton(double stature_m) {
   scale = stature_m / mean_stature_m;
   ankle = ankle_height * stature_m;

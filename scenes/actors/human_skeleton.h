@@ -1,4 +1,4 @@
-/// The numbers of a human body: segments, joints, and what they are taken from.
+/// The numbers of a human body: segments, joints, and their sources.
 #pragma once
 
 #include <array>
@@ -9,13 +9,14 @@
 
 namespace pbmpi::scenes {
 
-/// One segment, of one side where it is paired. From de Leva, "Adjustments to Zatsiorsky-Seluyanov's segment
-/// inertia parameters", J. Biomech. 29(9), 1996, table 4, men (mean stature 1.741 m, mean mass 73.0 kg).
+/// One segment, or that of one side where it is paired. From de Leva, "Adjustments to Zatsiorsky-Seluyanov's
+/// segment inertia parameters", J. Biomech. 29(9), 1996, table 4, men (mean stature 1.741 m, mean mass 73.0
+/// kg).
 struct Segment {
   std::string_view name;
   double mass_fraction;  ///< of the body's mass
   double length_m;       ///< between the endpoints, at the mean stature
-  double com_fraction;   ///< of the length, from the upper (foot: rear) endpoint to the centre of mass
+  double com_fraction;  ///< fraction of the length from the upper (foot: rear) endpoint to the centre of mass
   /// Radii of gyration as fractions of the length, about the sagittal (front-back), transverse (left-right)
   /// and longitudinal axes.
   double gyration_sagittal, gyration_transverse, gyration_longitudinal;
@@ -44,20 +45,20 @@ inline constexpr double shoulder_height = 0.818;
 inline constexpr double half_shoulder_breadth = 0.129;
 inline constexpr double hand_length = 0.108;
 inline constexpr double foot_breadth = 0.055;
-/// Chosen: hip joint centres are about 0.17 m apart in men; legs hang straight down from them.
+/// A chosen value: hip joint centres are about 0.17 m apart in men; legs hang straight down from them.
 inline constexpr double half_hip_distance = 0.05;
-/// Chosen: of the foot's length, from the heel. The line of gravity then meets the ground a little behind the
-/// middle of the foot, where a standing man drifts least to either side.
+/// A chosen fraction of the foot's length, from the heel. The line of gravity then meets the ground slightly
+/// behind the middle of the foot, where a standing man drifts least to either side.
 inline constexpr double ankle_from_heel = 0.3;
 
-/// A body is about as dense as water; sizes follow from masses with this (Dempster 1955: limbs 1.05 to 1.16,
-/// trunk with lungs 1.03 kg/l).
+/// A body is about as dense as water; this density turns masses into sizes (Dempster 1955: limbs 1.05 to
+/// 1.16, trunk with lungs 1.03 kg/l).
 inline constexpr double tissue_density_kg_m3 = 1050;
 
-/// How one axis of a joint moves, and how strongly its muscles can hold it.
+/// The range of one axis of a joint, and the strength with which its muscles can hold it.
 struct Motion {
   double low_deg = 0, high_deg = 0;  ///< of the lower (outer) segment against the upper (inner) one
-  double torque_nm = 0;              ///< greatest voluntary torque, the weaker direction's order of magnitude
+  double torque_nm = 0;  ///< greatest voluntary torque, of the order of magnitude of the weaker direction
 
   /// This motion with its angles counted from a pose that is already bent by `start_deg`.
   constexpr Motion from(double start_deg) const {
@@ -67,10 +68,10 @@ struct Motion {
 
 /// Ranges of motion: American Academy of Orthopaedic Surgeons, Joint Motion: Method of Measuring and
 /// Recording, 1965. Positive: flexion; abduction (hip), to the left (neck, trunk), towards the thumb (wrist).
-/// Torques, rounded: legs Anderson, Madigan and Nussbaum, J. Biomech. 40, 2007; arms Holzbaur et al.,
-/// J. Biomech. 40, 2007; neck Vasavada, Li and Delp, Spine 26, 2001; trunk about 250 N m in extension.
-/// Knees and elbows stretch 5 degrees beyond straight, as most people's do: a motor that holds a pose needs
-/// play on both sides of it.
+/// Torques, rounded: legs Anderson, Madigan and Nussbaum, J. Biomech. 40, 2007; arms Holzbaur et al., J.
+/// Biomech. 40, 2007; neck Vasavada, Li and Delp, Spine 26, 2001; trunk about 250 N m in extension. Knees and
+/// elbows extend 5 degrees beyond straight, as in most people: a motor that holds a pose needs play on both
+/// sides of it.
 inline constexpr Motion neck_bend = {-45, 45, 40};
 inline constexpr Motion neck_tilt = {-45, 45, 40};
 inline constexpr Motion trunk_bend = {-30, 80, 250};
@@ -88,12 +89,12 @@ struct Skeleton {
   explicit Skeleton(double stature_m);
 
   double scale;        ///< stature / mean stature
-  double trunk_scale;  ///< of the trunk's and the head's lengths
+  double trunk_scale;  ///< scale of the trunk's and the head's lengths
   double ankle, knee, hip, navel, xiphoid, neck, vertex, shoulder, elbow, wrist;
 };
 
 /// Inertia [kg m^2] of a segment of this mass and length; `longitudinal` is the axis (0 = x, 2 = z) along
-/// which it lies. Transverse is y.
+/// which the segment lies. The transverse axis is y.
 model::Mat3 segment_inertia(const Segment& segment, double mass_kg, double length_m, int longitudinal);
 
 }  // namespace pbmpi::scenes

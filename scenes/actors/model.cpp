@@ -1,4 +1,4 @@
-// A mechanism from a file of MJCF or URDF.
+// A mechanism from an MJCF or URDF file.
 #include <memory>
 
 #include "core/text.h"

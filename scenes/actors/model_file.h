@@ -1,4 +1,4 @@
-/// Files of other simulators' models, whichever of the known formats they have.
+/// Model files of other simulators, in any of the known formats.
 #pragma once
 
 #include <set>
@@ -9,11 +9,11 @@
 
 namespace pbmpi::scenes {
 
-/// Ends of the names of model files, e.g. ".urdf".
+/// Does the path end like a model file's, e.g. in ".urdf"?
 bool is_model_file(const std::string& path);
 
-/// Reads MJCF (root `<mujoco>`) or URDF (root `<robot>`); `file`: what messages call it; `leave_out`: names
-/// of elements or types that are dropped instead of refused. Throws core::InputError "file:line:column: ...".
+/// Reads MJCF (root `<mujoco>`) or URDF (root `<robot>`). `file`: its name in messages; `leave_out`: names of
+/// elements or types that are dropped instead of refused. Throws core::InputError "file:line:column: ...".
 links::ModelFile read_model_file(const std::string& text, const std::string& file,
                                  const std::set<std::string>& leave_out, xml::Notes& notes);
 

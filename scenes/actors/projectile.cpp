@@ -1,4 +1,4 @@
-// Projectiles: bodies that lie ready from the start, and that a tank fires at their time.
+// Projectiles: bodies that exist from the start, and that a tank fires at a given time.
 #include <array>
 #include <numbers>
 #include <string>
@@ -13,10 +13,10 @@ namespace pbmpi::scenes {
 namespace {
 
 struct Shot {
-  std::string tank;       ///< name of the actor that fires; empty: it stays where it lies
-  std::string where;      ///< of that name in the file
-  double first_s = 0;     ///< when copy 0 leaves the muzzle; each further copy ...
-  double interval_s = 0;  ///< ... this much later
+  std::string tank;       ///< name of the actor that fires; empty: the projectile stays where it lies
+  std::string where;      ///< place of that name in the file
+  double first_s = 0;     ///< when copy 0 leaves the muzzle; ...
+  double interval_s = 0;  ///< ... each further copy follows after this interval
   double speed_m_s = 0;
   double azimuth_deg = 0, elevation_deg = 0;  ///< against the barrel, to the left and up
 };
@@ -32,7 +32,7 @@ struct Projectile {
 
 constexpr std::array shapes = {model::Shape::sphere, model::Shape::cylinder, model::Shape::box};
 
-/// Half of the extent along z as it lies, and along x as it flies (a cylinder flies with its axis ahead).
+/// Half of the extent along z as it lies, and along x as it flies (a cylinder flies axis first).
 double half_height(const Projectile& p) {
   if (p.shape == model::Shape::sphere) return p.size[0];
   return (p.shape == model::Shape::cylinder ? p.size[1] : p.size[2]) / 2;
@@ -41,7 +41,7 @@ double half_length(const Projectile& p) {
   return p.shape == model::Shape::box ? p.size[0] / 2 : half_height(p);
 }
 
-/// The muzzle: the end of the barrel's only geom, x ahead.
+/// The muzzle: the end of the barrel's only geom, with x pointing forward.
 Pose muzzle(const Projectile& projectile, const model::Model& model) {
   const Shot& shot = projectile.shot;
   const int barrel = find_body(model, shot.tank + ".barrel");
@@ -49,7 +49,7 @@ Pose muzzle(const Projectile& projectile, const model::Model& model) {
                                                     " stands above this actor in the file; place it there");
   for (const model::Geom& geom : model.geoms) {
     if (geom.body != barrel) continue;
-    // A hand's breadth clear of the barrel.
+    // A hand's breadth beyond the barrel.
     const double ahead = geom.size[1] / 2 + half_length(projectile) + 0.1;
     const Quat aim = compose({{}, rotation(radians(shot.azimuth_deg), Vec3::UnitZ())},
                              {{}, rotation(-radians(shot.elevation_deg), Vec3::UnitY())})

@@ -14,8 +14,8 @@ struct Ramp {
 
 }  // namespace
 
-/// The board's upper face starts at the actor's origin, on the ground, and ends `length` further and `height`
-/// up; its foot lies below the ground, so that a wheel meets no edge there.
+/// The board's upper face starts at the actor's origin, on the ground, and ends `length` further along and
+/// `height` higher up; its foot lies below the ground, so a wheel meets no edge there.
 ActorPlan read_ramp(TableReader& actor, const SceneContext&) {
   Ramp ramp{};
   ramp.length_m = actor.number("length", Sign::positive);

@@ -17,12 +17,12 @@ struct Tank {
   double ground_clearance_m = 0.5, deck_m = 1.6;  // heights of the hull's underside and of its deck
   double turret_length_m = 3.6, turret_width_m = 2.6, turret_height_m = 0.8;
   double barrel_length_m = 5.0, barrel_radius_m = 0.16;
-  double turret_deg = 0, elevation_deg = 0;  // where the gun points, against the hull
+  double turret_deg = 0, elevation_deg = 0;  // direction of the gun relative to the hull
   model::Material material{0.7, 0};          // rubber pads and steel on the ground
 };
 
-// The drives hold the gun against any blow that the scenes deal; four times the barrel's weight at its
-// middle, and the turret's ring likewise.
+// The drives hold the gun against any blow in the scenes: four times the barrel's weight at its middle. The
+// turret's ring has the same torque.
 constexpr double elevation_torque_nm = 2e5;
 constexpr double traverse_torque_nm = 2e5;
 
@@ -47,7 +47,7 @@ class TankBuilder {
   }
 
  private:
-  /// Tracks that stand still are two long feet: part of the hull.
+  /// Tracks that do not move are two long feet: part of the hull.
   int add_hull() {
     const double belly_height = tank_.deck_m - tank_.ground_clearance_m;
     const double belly_width = tank_.width_m - 2 * tank_.track_width_m;
@@ -71,7 +71,7 @@ class TankBuilder {
     return turret;
   }
 
-  /// Its body's x axis points to the muzzle, so that a projectile knows where it leaves.
+  /// The barrel body's x axis points to the muzzle, from which a projectile finds where it leaves.
   int add_barrel(const Pose& trunnion) {
     const std::array<double, 3> size = {tank_.barrel_length_m, 2 * tank_.barrel_radius_m,
                                         2 * tank_.barrel_radius_m};
@@ -127,7 +127,7 @@ ActorPlan read_tank(TableReader& actor, const SceneContext&) {
   positive("barrel_radius", tank.barrel_radius_m);
   tank.turret_deg = actor.number("turret", Sign::any, 0.0);
   tank.elevation_deg = actor.number("elevation", Sign::any, 0.0);
-  // Guns of tanks move between about -9 and 20 degrees.
+  // Tank guns move between about -9 and 20 degrees.
   if (tank.elevation_deg < -10 || tank.elevation_deg > 20) {
     actor.fail("elevation", "'elevation' must lie in -10 to 20 degrees");
   }

@@ -19,7 +19,7 @@ Variation read_variation(TableReader& actor) {
 }
 
 Offset draw(const Variation& variation, std::uint64_t seed, int world, std::uint64_t actor) {
-  // 16 numbers are set aside for an actor, so that a new kind of variation moves none of the old draws.
+  // Each actor has 16 numbers reserved, so a new kind of variation does not shift the old draws.
   std::uint64_t index = 16 * actor;
   const auto uniform = [&](double half_width) {
     const auto bits = core::mix_key(seed, static_cast<std::uint64_t>(world), index++);

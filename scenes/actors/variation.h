@@ -1,4 +1,4 @@
-/// What differs between the replicas of a scene.
+/// Differences between the replicas of a scene.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace pbmpi::scenes {
 
-/// Uniform half-widths about the values in the file.
+/// Half-widths of uniform distributions around the values in the file.
 struct Variation {
   Vec3 position = Vec3::Zero();  ///< [m]
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
@@ -19,24 +19,24 @@ struct Variation {
   bool is_none() const { return position.isZero(0) && velocity.isZero(0) && heading_deg == 0; }
 };
 
-/// What is drawn for one actor of one world.
+/// The values drawn for one actor of one world.
 struct Offset {
   Vec3 position = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
   double heading_deg = 0;
 };
 
-/// Reads `[variation]` of an actor; all zero without it.
+/// Reads `[variation]` of an actor; all zero without the table.
 Variation read_variation(TableReader& actor);
 
-/// Draws from the key (seed, world, actor) alone, whatever was drawn before.
+/// Draws from the key (seed, world, actor) alone, independent of earlier draws.
 Offset draw(const Variation& variation, std::uint64_t seed, int world, std::uint64_t actor);
 
-/// A whole number that may change with the world: pairs (first world, number), ascending from world 0.
+/// An integer that may change with the world: pairs (first world, number), ascending from world 0.
 class WorldCount {
  public:
   explicit WorldCount(int everywhere = 1) : steps_{{0, everywhere}} {}
-  /// Reads `key = 3` or `key = [[0, 50], [4, 1]]` (from world 0 on 50, from world 4 on 1).
+  /// Reads `key = 3` or `key = [[0, 50], [4, 1]]` (50 from world 0 on, 1 from world 4 on).
   static WorldCount read(TableReader& table, std::string_view key);
   int in(int world) const;
   bool is_constant() const { return steps_.size() == 1; }

@@ -11,8 +11,8 @@ namespace pbmpi::scenes {
 namespace {
 
 struct Opening {
-  double from_m = 0, to_m = 0;  ///< along the wall, from its middle; an empty range is no opening
-  int num_courses = 0;          ///< of its height; the next course carries the lintel
+  double from_m = 0, to_m = 0;  ///< along the wall, from its middle; an empty range means no opening
+  int num_courses = 0;          ///< number of courses of its height; the next course holds the lintel
 };
 
 struct Wall {
@@ -24,10 +24,11 @@ struct Wall {
   model::Material material;
 };
 
-// Between neighbours of a course. Dry blocks bear on the courses below and above them; without the gap every
-// one would also lean on its neighbours, and rounding would decide how hard.
+// Gap between neighbours of a course. Dry blocks rest on the courses below and carry those above; without the
+// gap each block would also press on its neighbours, and rounding would decide how hard.
 constexpr double joint_width_m = 0.002;
-// Shares of a block's length: masons put no shorter piece than a quarter, and bear a lintel on a half.
+// Fractions of a block's length: masons place no piece shorter than a quarter, and support a lintel on a
+// half.
 constexpr double shortest_piece = 0.25;
 constexpr double lintel_bearing = 0.5;
 constexpr std::size_t most_pieces = 1'000'000;  // of a course: beyond any memory
@@ -36,8 +37,8 @@ struct Piece {
   double from_m = 0, to_m = 0;  ///< along the wall, from its middle
 };
 
-/// Pieces that fill [from, to], cut at `phase` + whole block lengths; a cut that would leave a splinter is
-/// not made.
+/// Adds the pieces that fill [from, to], cut at `phase` + whole block lengths; a cut that would leave a
+/// splinter is not made.
 void lay(const Wall& wall, double from_m, double to_m, double phase_m, std::vector<Piece>& pieces) {
   const double block = wall.block_length_m;
   const double least = shortest_piece * block;
@@ -56,7 +57,7 @@ void lay(const Wall& wall, double from_m, double to_m, double phase_m, std::vect
 
 std::vector<Piece> pieces_of_course(const Wall& wall, int course) {
   const double half = wall.length_m / 2;
-  // Every second course starts with half a block: each block bears on two.
+  // Every second course starts with half a block, so each block rests on two.
   const double phase = -half + (course % 2 == 0 ? 0 : wall.block_length_m / 2);
   const Opening& hole = wall.opening;
   std::vector<Piece> pieces;
@@ -104,7 +105,7 @@ void build(const Wall& wall, const Placement& place, model::Model& model) {
   }
 }
 
-/// A wall is laid in whole courses; `key` is told if the height is not.
+/// A wall has a whole number of courses; otherwise the error is reported at `key`.
 int courses(TableReader& table, const char* key, double height_m, double block_height_m) {
   const double courses = height_m / block_height_m;
   const double whole = std::round(courses);

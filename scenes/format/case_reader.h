@@ -16,7 +16,7 @@ class CaseReader {
 
   const stability::HardCase& hard_case() const { return case_; }
   /// Throws core::InputError at the name of a body that `model`, a world of the scene, does not have, or at a
-  /// beginning of names with which no body's name begins.
+  /// name prefix that no body's name begins with.
   void require_bodies(const model::Model& model) const;
 
  private:
@@ -26,7 +26,7 @@ class CaseReader {
 
   stability::HardCase case_;
   std::string watch_where_;
-  std::vector<std::string> expect_where_;  ///< [expectations] of the body's name in the file
+  std::vector<std::string> expect_where_;  ///< [expectations] place of the body's name in the file
 };
 
 }  // namespace pbmpi::scenes

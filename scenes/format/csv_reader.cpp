@@ -93,7 +93,7 @@ class CsvReader {
   const std::string& file_;
   std::string_view rest_;
   int line_ = 1, column_ = 1;
-  bool row_is_quoted_ = false;  ///< the last cell is
+  bool row_is_quoted_ = false;  ///< whether the last cell is quoted
 };
 
 }  // namespace

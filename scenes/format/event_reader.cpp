@@ -7,7 +7,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-/// A launch: velocities of a body, and a pose if it appears elsewhere.
+/// A launch: a body's velocities, and its pose if the body appears elsewhere.
 EventPlan read_launch(TableReader& table, model::Event event) {
   const std::string body = table.text("body"), where = table.where("body") + ": event";
   event.kind = model::EventKind::launch;

@@ -1,4 +1,4 @@
-/// Events that a scene file gives one by one.
+/// Events that a scene file lists one by one.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@
 
 namespace pbmpi::scenes {
 
-/// Adds an event to a model whose bodies and joints are all there. Throws core::InputError if it names one
-/// that is not.
+/// Adds an event to a model that has all its bodies and joints. Throws core::InputError if the event names
+/// one that does not exist.
 using EventPlan = std::function<void(model::Model&)>;
 
 /// Reads an [[event]] table (scenes/FORMAT.md); its time becomes the nearest step of `dt_s`.

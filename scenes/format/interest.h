@@ -12,8 +12,8 @@ class InterestPlan {
  public:
   explicit InterestPlan(TableReader& table);
 
-  /// Puts it into a model that has all its actors. Throws core::InputError at the name if no actor is called
-  /// so, or if that actor has no body.
+  /// Puts the field of interest into a model that has all its actors. Throws core::InputError at the name if
+  /// no actor has that name, or if that actor has no body.
   void put_into(model::Model& model) const;
 
  private:
@@ -21,7 +21,7 @@ class InterestPlan {
 
   model::Interest interest_;
   std::string follows_;  ///< an actor; empty: the center is fixed
-  std::string where_;    ///< of its name in the file
+  std::string where_;    ///< place of its name in the file
 };
 
 }  // namespace pbmpi::scenes

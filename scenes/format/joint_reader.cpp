@@ -30,7 +30,7 @@ struct JointSpec {
   std::array<model::AxisMotor, 2> motors;
   model::Spring suspension;
   double break_force = 0, break_torque = 0;
-  int num_copies = 0;  ///< 0: one joint, whose name bears no number
+  int num_copies = 0;  ///< 0: one joint, whose name has no number
   Vec3 spacing = Vec3::Zero();
 };
 
@@ -61,7 +61,7 @@ model::AxisLimit read_limit(TableReader& table, const char* key, JointKind kind)
   if (!table.has(key)) return {};
   const auto [low, high] = table.pair(key);
   if (low > high) table.fail(key, "the low limit is above the high one; swap them");
-  // Angles are known within one turn only (ODE manual, "Stops and motor parameters").
+  // Angles are known only within one turn (ODE manual, "Stops and motor parameters").
   const bool is_angle = !model::traits_of(kind).slides;
   if (is_angle && (low < -180 || high > 180)) table.fail(key, "limits must lie in -180 to 180 degrees");
   return is_angle ? model::AxisLimit{radians(low), radians(high)} : model::AxisLimit{low, high};
@@ -106,7 +106,7 @@ void read_axes(TableReader& table, JointSpec& joint) {
   }
 }
 
-/// A fixed joint needs its anchor for the torque alone.
+/// Reads the strength. A fixed joint needs its anchor only for the torque.
 void read_strength(TableReader& table, JointSpec& joint) {
   joint.break_force = table.number("break_force", Sign::non_negative, 0.0);
   joint.break_torque = table.number("break_torque", Sign::non_negative, 0.0);
@@ -126,7 +126,7 @@ int resolve(const JointSpec& joint, const model::Model& model, const std::string
   return named_body(model, name, joint.bodies_where + ": joint " + core::in_quotes(joint.name));
 }
 
-/// "link.7" for copy 4 of "link.3"; a name that does not end in a number is that of every copy.
+/// "link.7" for copy 4 of "link.3"; a name that does not end in a number is the same for every copy.
 std::string body_of_copy(const std::string& name, int copy) {
   const std::size_t dot = name.rfind('.');
   int number = 0;

@@ -1,4 +1,4 @@
-/// Joints that a scene file gives one by one.
+/// Joints that a scene file lists one by one.
 #pragma once
 
 #include <functional>
@@ -8,11 +8,11 @@
 
 namespace pbmpi::scenes {
 
-/// Adds a joint to a model whose bodies are all placed. Throws core::InputError if it names a body that is
-/// not there.
+/// Adds a joint to a model that has all its bodies. Throws core::InputError if the joint names a body that
+/// does not exist.
 using JointPlan = std::function<void(model::Model&)>;
 
-/// Reads a [[joint]] table (scenes/FORMAT.md) and refuses what its kind does not have.
+/// Reads a [[joint]] table (scenes/FORMAT.md) and refuses keys that its kind does not have.
 JointPlan read_joint(TableReader& table);
 
 }  // namespace pbmpi::scenes

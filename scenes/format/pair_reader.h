@@ -9,13 +9,13 @@
 
 namespace pbmpi::scenes {
 
-/// A [[pair]] of the file (scenes/FORMAT.md): two actors, or all copies of one, and what they are to each
-/// other.
+/// A [[pair]] of the file (scenes/FORMAT.md): two actors, or all copies of one, and the material of their
+/// contacts.
 class PairPlan {
  public:
   explicit PairPlan(TableReader& table);
 
-  /// Puts it into a model that has all its actors, instead of what an earlier [[pair]] said. Throws
+  /// Puts the pair into a model that has all its actors, replacing what an earlier [[pair]] set. Throws
   /// core::InputError at a name that no actor has.
   void put_into(model::Model& model) const;
 

@@ -15,8 +15,8 @@ class PartVelocities {
   /// Reads the actor's `parts`, a table of tables: `parts = { head = { velocity = [0, 0, 1] } }`.
   explicit PartVelocities(TableReader& actor);
 
-  /// Gives them to the parts of the actor called `actor`, one of the copies. Throws core::InputError at a
-  /// part that it lacks.
+  /// Gives the velocities to the parts of the actor called `actor`, one of the copies. Throws
+  /// core::InputError at a part that the actor does not have.
   void put_into(model::Model& model, const std::string& actor) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace pbmpi::scenes {
 
-/// Reads `rotation = { axis = [x, y, z], angle = deg }`; no turn without the key.
+/// Reads `rotation = { axis = [x, y, z], angle = deg }`; the identity without the key.
 Quat read_rotation(TableReader& table);
 
 }  // namespace pbmpi::scenes

@@ -9,14 +9,14 @@
 
 namespace pbmpi::scenes {
 
-/// Those that enclose a volume.
+/// The shapes that enclose a volume.
 inline constexpr std::array solid_shapes = {model::Shape::sphere, model::Shape::box, model::Shape::capsule,
                                             model::Shape::cylinder};
 
 /// Reads `shape = "box"`, one of `allowed`.
 model::Shape read_shape(TableReader& table, std::span<const model::Shape> allowed);
 
-/// Reads what a solid shape has of `size`, `radius` and `length`, all above 0, as Geom::size [m].
+/// Reads the keys `size`, `radius` and `length` that a solid shape has, all above 0, as Geom::size [m].
 std::array<double, 3> read_size(TableReader& table, model::Shape shape);
 
 }  // namespace pbmpi::scenes

@@ -48,7 +48,7 @@ const toml::array& TableReader::need_array(std::string_view key, std::string_vie
 double TableReader::checked_number(std::string_view key, const toml::node& node, Sign sign,
                                    Range range) const {
   if (!node.is_number()) fail_at(node, core::in_quotes(key) + " must be a number");
-  // node.value<double>() has nothing to say of integers that no double is equal to.
+  // node.value<double>() returns nothing for integers that no double represents exactly.
   const double value =
       node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
   const auto refuse = [&](const char* rule) {

@@ -1,4 +1,4 @@
-/// Reads one TOML table with types, ranges and the place of every mistake.
+/// Reads one TOML table with types, ranges and the place of each error.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 
 namespace pbmpi::scenes {
 
-/// What a number may be, besides finite.
+/// The allowed sign of a number, which must always be finite.
 enum class Sign { any, positive, non_negative };
 
-/// Each getter marks its key as known; finish() then refuses every key that nobody asked for. All errors are
-/// core::InputError "file:line:column: what: ...". A getter without a fallback needs its key.
+/// Each getter marks its key as known; finish() then refuses every other key. All errors are core::InputError
+/// "file:line:column: what: ...". A getter without a fallback requires its key.
 class TableReader {
  public:
   /// `table` must outlive the reader; `what` names it in messages, e.g. "actor 'car'".
@@ -25,7 +25,7 @@ class TableReader {
 
   bool has(std::string_view key);
   bool is_array(std::string_view key);
-  /// Is it an array that begins with an array?
+  /// Is the value an array that begins with an array?
   bool is_nested_array(std::string_view key);
   double number(std::string_view key, Sign sign, std::optional<double> fallback = std::nullopt);
   /// A number that may also be infinite (`inf` in TOML).
@@ -36,28 +36,28 @@ class TableReader {
   core::Vec3 vector(std::string_view key, Sign sign,
                     const std::optional<core::Vec3>& fallback = std::nullopt);
   core::Vec3 vector_or_infinity(std::string_view key);
-  /// A vector scaled to unit length; refuses zero.
+  /// Reads a vector and scales it to unit length; refuses zero.
   core::Vec3 direction(std::string_view key, const std::optional<core::Vec3>& fallback = std::nullopt);
   std::vector<std::string> texts(std::string_view key);
-  /// [a, b, ...], not empty.
+  /// Reads [a, b, ...], not empty.
   std::vector<int> integers(std::string_view key, int least);
-  /// [[x, y, z], ...], not empty.
+  /// Reads [[x, y, z], ...], not empty.
   std::vector<core::Vec3> vectors(std::string_view key, Sign sign);
-  /// [a, b]
+  /// Reads [a, b].
   std::array<double, 2> pair(std::string_view key);
-  /// [[a, b], [c, d], ...] with a < c < ...; empty without the key.
+  /// Reads [[a, b], [c, d], ...] with a < c < ...; empty without the key.
   std::vector<std::array<double, 2>> ascending_pairs(std::string_view key);
-  /// A sub-table, or nothing without the key.
+  /// Reads a sub-table; nothing without the key.
   std::optional<TableReader> table(std::string_view key);
-  /// [[key]] tables; empty without the key.
+  /// Reads [[key]] tables; empty without the key.
   std::vector<TableReader> tables(std::string_view key);
 
   const toml::table& toml() const { return *table_; }
 
-  /// The table's own keys, whether asked for or not, in alphabetical order.
+  /// The table's own keys, whether read or not, in alphabetical order.
   std::vector<std::string> keys() const;
 
-  /// Call when all keys have been asked for.
+  /// To be called when all keys have been read.
   void finish() const;
 
   /// Renames the table in messages, once its name is known.
@@ -86,10 +86,10 @@ class TableReader {
   std::vector<std::string> known_;
 };
 
-/// Begins the name of a text that is a part of another one and says its own place, e.g. a cell of a table.
+/// Marks the name of a text that is part of another text and holds its own place, e.g. a cell of a table.
 inline constexpr char place_mark = '\x1f';
 
-/// "file:line:column", or the place that the text's name says.
+/// "file:line:column", or the place that the text's name holds.
 std::string to_string(const toml::source_region& source);
 
 }  // namespace pbmpi::scenes

@@ -1,4 +1,4 @@
-/// What a scene file says of the world as a whole.
+/// Reads a scene file's settings of the world as a whole.
 #pragma once
 
 #include "model/model.h"
@@ -7,7 +7,7 @@
 namespace pbmpi::scenes {
 
 /// Reads gravity, solver constants, damping, [air], [contact], [sleep], `spaces` and `inter_space` into the
-/// model that every world begins with.
+/// model from which every world starts.
 void read_world(TableReader& scene, model::Model& world);
 
 }  // namespace pbmpi::scenes

@@ -24,7 +24,7 @@ void refuse_double_names(const Mechanism& mechanism) {
   }
 }
 
-/// Does one joint of the Model connect the body to its parent?
+/// Does a single joint of the Model connect the body to its parent?
 bool is_joined(const JointChain& chain) { return chain.pieces.size() == 1 || chain.is_gimbal; }
 
 std::vector<std::pair<int, int>> rigids_of(const Mechanism& mechanism, const RigidTree& tree) {
@@ -35,7 +35,7 @@ std::vector<std::pair<int, int>> rigids_of(const Mechanism& mechanism, const Rig
   return pairs;
 }
 
-/// The friction that all geoms of a group have; NaN where they differ, with a note.
+/// The friction that all geoms of a group share; NaN where they differ, with a note.
 std::vector<double> frictions(const RigidTree& tree, const ContactGroups& groups, xml::Notes& notes) {
   constexpr double unknown = -1;
   std::vector<double> mu(groups.groups.size(), unknown);
@@ -62,7 +62,7 @@ std::string name_of(const ChainPiece& piece) {
   return name;
 }
 
-/// The motors of a piece, with what is said of them.
+/// The motors of a piece, with their notes.
 std::vector<model::AxisMotor> motors_of(const ChainPiece& piece, double dt_s, xml::Notes& notes) {
   std::vector<model::AxisMotor> motors;
   for (const LinkJoint& joint : piece.joints)
@@ -124,7 +124,7 @@ class Assembly::Builder {
   std::string named(const std::string& name) const { return place_.name + "." + name; }
   Pose frame_of(std::size_t rigid) const { return compose(place_.pose, assembly_.tree_.rigids[rigid].pose); }
 
-  /// The group in which bodies touch each other bears the mechanism's name alone.
+  /// The group in which bodies touch each other has the mechanism's name alone.
   void add_actors() {
     first_actor_ = static_cast<int>(model_.actors.size());
     int parted = 0;
@@ -141,7 +141,7 @@ class Assembly::Builder {
     if (assembly_.groups_.groups.empty()) add_actor(model_, place_.name, model::ActorKind::prop);
   }
 
-  /// A pair of MuJoCo's geoms has the larger friction of the two, and not the geometric mean.
+  /// A pair of MuJoCo's geoms has the larger friction of the two, not the geometric mean.
   void add_frictions() {
     const std::vector<double>& mu = assembly_.mu_of_group_;
     for (std::size_t a = 0; a < mu.size(); ++a) {
@@ -154,7 +154,7 @@ class Assembly::Builder {
     }
   }
 
-  /// The actor to which most geoms of a body belong: that of the first.
+  /// The actor of a body's first geom that can touch anything, to which most of the body's geoms belong.
   int actor_of(std::size_t rigid) const {
     for (const int group : assembly_.groups_.group_of[rigid]) {
       if (group >= 0) return first_actor_ + group;
@@ -182,7 +182,7 @@ class Assembly::Builder {
     add_geoms(rigid, bodies_.back(), {-mass.centre, {}});
   }
 
-  /// frame: that of the rigid, in the body's frame, or in the world.
+  /// `frame`: the rigid's frame in the body's frame, or in the world.
   void add_geoms(std::size_t rigid, int body, const Pose& frame) {
     const std::vector<LinkGeom>& geoms = assembly_.tree_.rigids[rigid].geoms;
     for (std::size_t i = 0; i < geoms.size(); ++i) {
@@ -217,8 +217,8 @@ class Assembly::Builder {
     }
   }
 
-  /// An angle counts the lower body's turn against the upper one, as that of the first body in ODE. A
-  /// universal's first axis is fixed in its first body, and so is that of the link's second joint.
+  /// An angle measures the lower body's turn against the upper one, as ODE does for its first body. A
+  /// universal's first axis is fixed in its first body, as is that of the link's second joint.
   void add_joint(const ChainPiece& piece, const Pose& frame, int lower, int upper) {
     const LinkJoint &outer = piece.joints.front(), &inner = piece.joints.back();
     const Vec3 axis1 = frame.direction_to_outer(inner.axis), axis2 = frame.direction_to_outer(outer.axis);

@@ -1,4 +1,4 @@
-/// A mechanism, ready to be put into Models.
+/// A mechanism that is ready to be put into Models.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace pbmpi::scenes::links {
 
-/// Where a mechanism of a world goes.
+/// The place of a mechanism in a world.
 struct Place {
-  std::string name;              ///< before those of its bodies, joints and actors: "name.link"
+  std::string name;              ///< prefix of the names of its bodies, joints and actors: "name.link"
   Pose pose;                     ///< of the mechanism's frame
   Vec3 velocity = Vec3::Zero();  ///< of all its bodies, world frame [m/s]
   int space = 0;                 ///< index into Model::spaces
@@ -19,11 +19,13 @@ struct Place {
 
 class Assembly {
  public:
-  /// Throws core::InputError where a body that moves has no mass, or two things of one kind have one name.
-  /// What pbmpi takes otherwise goes to `notes`; dt_s: the step, which bounds how fast servos return.
+  /// Throws core::InputError where a body that moves has no mass, or two things of one kind have the same
+  /// name. `notes` receives what pbmpi interprets differently; dt_s: the step, which limits how fast servos
+  /// return.
   Assembly(const Mechanism& mechanism, double dt_s, xml::Notes& notes);
 
-  /// Bodies of the links first, in the mechanism's order, then those between joints of one link.
+  /// Puts in the bodies of the links first, in the mechanism's order, then the bodies between joints of one
+  /// link.
   void put_into(const Place& place, model::Model& model) const;
 
  private:
@@ -33,7 +35,7 @@ class Assembly {
   RigidTree tree_;
   std::vector<JointChain> chains_;  ///< [num_rigids]
   ContactGroups groups_;
-  std::vector<double> mu_of_group_;  ///< friction; that of all its geoms
+  std::vector<double> mu_of_group_;  ///< friction that all geoms of a group share
   double dt_s_;
 };
 

@@ -18,14 +18,14 @@ Pairs sorted(const std::vector<std::pair<int, int>>& pairs) {
   return result;
 }
 
-/// The geoms of one body that have the same type and affinity.
+/// The geoms of one body with the same type and affinity.
 struct Kind {
   int rigid;
   unsigned contype, conaffinity;
   auto operator<=>(const Kind&) const = default;
 };
 
-/// May the two touch by their types and affinities? As MuJoCo has it ("Collision detection").
+/// May the two touch by their types and affinities? The rule is MuJoCo's ("Collision detection").
 bool meet(const Kind& a, const Kind& b) {
   return (a.contype & b.conaffinity) != 0 || (b.contype & a.conaffinity) != 0;
 }
@@ -54,7 +54,7 @@ class Grouping {
     std::vector<int> size(kinds_.size(), 0);
     for (std::size_t i = 0; i < kinds_.size(); ++i) ++size[find(i)];
     ContactGroups result;
-    std::map<std::size_t, int> group_at;  // by leader; kinds that are parted from none share two groups
+    std::map<std::size_t, int> group_at;  // by leader; kinds that never need parting share two groups
     std::map<Kind, int> group_of_kind;
     const auto add = [&](bool is_static, bool self_collision) {
       result.groups.push_back({is_static, self_collision});
@@ -87,7 +87,7 @@ class Grouping {
     return kind;
   }
 
-  /// visit(a, b, touch) of all pairs that could touch in a Model if nothing were said of them.
+  /// Calls visit(a, b, touch) for all pairs that could touch in a Model by default.
   template <class Visit>
   void for_each_pair(Visit visit) const {
     for (std::size_t a = 0; a < kinds_.size(); ++a) {

@@ -1,4 +1,4 @@
-/// Which geoms of a mechanism may touch, as actors of a Model.
+/// Turns the contact rules of a mechanism's geoms into actors of a Model.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 namespace pbmpi::scenes::links {
 
 struct ContactGroup {
-  bool is_static = false;       ///< has it the world's geoms alone?
-  bool self_collision = false;  ///< may geoms of different bodies of it touch?
+  bool is_static = false;       ///< does it have the world's geoms alone?
+  bool self_collision = false;  ///< may geoms of its different bodies touch?
 };
 
 /// Geoms of different groups may touch.
@@ -19,9 +19,9 @@ struct ContactGroups {
   std::vector<std::vector<int>> group_of;  ///< [num_rigids][num_geoms]
 };
 
-/// `apart`: pairs of rigids that never touch; `joined`: pairs that do not because joints of the Model connect
-/// them. Geoms that must not touch share a group in which none touch: where that parts more of them than
-/// asked for, a note says which. A geom that meets no other at all has the group -1.
+/// `apart`: pairs of rigids that never touch; `joined`: pairs that do not touch because joints of the Model
+/// connect them. Geoms that must not touch share a group whose geoms never touch each other: where this
+/// separates more geoms than required, a note says which. A geom that touches no other geom has the group -1.
 ContactGroups contact_groups(const Mechanism& mechanism, const RigidTree& tree,
                              const std::vector<std::pair<int, int>>& apart,
                              const std::vector<std::pair<int, int>>& joined, xml::Notes& notes);

@@ -11,7 +11,7 @@ namespace {
 using model::JointKind;
 using model::Mat3;
 
-constexpr double rounding = 1e-6;  // of a user's digits: [m], and the cosine of a right angle
+constexpr double rounding = 1e-6;  // of a user's digits: [m], and for the cosine of a right angle
 
 JointKind kind_of(Motion motion) {
   if (motion == Motion::slide) return JointKind::slider;
@@ -43,8 +43,8 @@ std::vector<ChainPiece> pieces_of(const std::vector<LinkJoint>& joints) {
 
 Mat3 about(const Vec3& arm) { return arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose(); }
 
-/// Of a body of mass m at d from the point, the part s m goes into the point, and the rest moves out to
-/// d / (1 - s): that leaves mass and centre, and costs its inertia s / (1 - s) m d^2.
+/// Splits a body of mass m at distance d from the point: the part s m moves into the point, and the rest
+/// moves out to d / (1 - s). This keeps mass and centre, and costs the inertia s / (1 - s) m d^2.
 void split_about(const Vec3& point, std::size_t count, JointChain& chain) {
   const Vec3 arm = chain.rest.centre - point;
   const double mass = chain.rest.mass_kg;
@@ -70,7 +70,7 @@ void split_evenly(std::size_t count, JointChain& chain) {
   chain.rest.inertia *= rest;
 }
 
-/// A rotor's inertia goes to the body that turns by its joint.
+/// A rotor's inertia is added to the body that its joint turns.
 void add_armatures(JointChain& chain) {
   for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
     MassProperties& turned = i < chain.between.size() ? chain.between[i] : chain.rest;

@@ -1,5 +1,5 @@
-/// A mechanism as trees of links, each placed in the one above it and moving by joints: what MJCF and URDF
-/// have in common, before it becomes bodies and joints of a Model.
+/// A mechanism as trees of links, each of which is placed in its parent and moves by joints: what MJCF and
+/// URDF have in common, before it becomes bodies and joints of a Model.
 #pragma once
 
 #include <optional>
@@ -13,23 +13,23 @@
 
 namespace pbmpi::scenes::links {
 
-/// Stands for the world where a link is expected.
+/// Means the world where a link is expected.
 inline constexpr int no_link = -1;
 
 enum class Motion { free, hinge, slide, ball };
 
-/// What acts along a joint's axis besides its limits (drive.h).
+/// The forces along a joint's axis other than its limits (drive.h).
 struct Drive {
   double friction = 0;   ///< [N m] or [N] dry
-  double damping = 0;    ///< [N m s/rad] or [N s/m]: of the joint and of what drives it
+  double damping = 0;    ///< [N m s/rad] or [N s/m]: of the joint and of its drives
   double stiffness = 0;  ///< [N m/rad] or [N/m]
-  double target = 0;     ///< [rad] or [m] from the start: where the spring or the servo is at rest
-  double velocity = 0;   ///< [rad/s] or [m/s] at which a servo aims
-  double most_force = model::infinity;  ///< [N m] or [N] of a servo
+  double target = 0;     ///< [rad] or [m] from the start: rest position of the spring or the servo
+  double velocity = 0;   ///< [rad/s] or [m/s] target velocity of a servo
+  double most_force = model::infinity;  ///< [N m] or [N] limit of a servo
 };
 
-/// Moves a link against the one above it. Several joints of one link act in their order, the first of them
-/// next to the link above; each is described in the link's frame as it is at the start.
+/// Moves a link relative to its parent. Several joints of one link act in their order, starting at the
+/// parent; each is described in the link's frame at the start.
 struct LinkJoint {
   Motion motion = Motion::hinge;
   std::string name;
@@ -38,7 +38,7 @@ struct LinkJoint {
   Vec3 axis = Vec3::UnitZ();   ///< unit; hinge and slide
   model::AxisLimit limit;      ///< [rad] or [m] from the start
   Drive drive;
-  double armature = 0;  ///< [kg m^2] inertia of what turns with a hinge alone, e.g. a motor's rotor
+  double armature = 0;  ///< [kg m^2] inertia that turns only with a hinge, e.g. a motor's rotor
 };
 
 struct LinkGeom {
@@ -54,8 +54,8 @@ struct Link {
   std::string name;
   std::string where;
   int parent = no_link;                ///< index of an earlier link
-  Pose pose;                           ///< at the start, in the frame of the link above
-  std::vector<LinkJoint> joints;       ///< none: rigidly part of the link above, or of the world
+  Pose pose;                           ///< at the start, in the parent's frame
+  std::vector<LinkJoint> joints;       ///< none: rigidly part of the parent, or of the world
   std::optional<MassProperties> mass;  ///< in the link's frame
   std::vector<LinkGeom> geoms;
 };
@@ -63,16 +63,16 @@ struct Link {
 struct Mechanism {
   std::string name;
   std::vector<Link> links;
-  /// Pairs of links whose geoms never touch, besides those that a joint connects.
+  /// Pairs of links whose geoms never touch, in addition to those that a joint connects.
   std::vector<std::pair<int, int>> apart;
   bool self_collision = true;  ///< may geoms of different links touch at all?
 };
 
-/// What a file of another simulator describes.
+/// What a model file of another simulator describes.
 struct ModelFile {
   Mechanism mechanism;
   std::optional<Vec3> gravity;  ///< [m/s^2]
-  std::optional<double> dt_s;   ///< the step that it proposes
+  std::optional<double> dt_s;   ///< the step that the file proposes
 };
 
 }  // namespace pbmpi::scenes::links

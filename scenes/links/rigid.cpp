@@ -14,7 +14,7 @@ Mat3 steiner(double mass, const Vec3& arm) {
   return mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
 }
 
-/// Takes a link's mass and geoms over; `pose`: of the link in the rigid's frame.
+/// Moves a link's mass and geoms into the rigid; `pose`: that of the link in the rigid's frame.
 void take_over(const Link& link, const Pose& pose, Rigid& rigid) {
   if (link.mass) rigid.mass = together(rigid.mass, moved(*link.mass, pose));
   for (LinkGeom geom : link.geoms) {

@@ -1,4 +1,4 @@
-/// Links that no joint moves against each other, as one rigid body.
+/// Joins links that no joint separates into one rigid body.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace pbmpi::scenes::links {
 
-/// One body, or, as the first of all, what stands fast in the world.
+/// One body; the first one is everything fixed to the world.
 struct Rigid {
   std::string name;
   std::string where;
-  int parent = no_link;           ///< index of an earlier one; 0: the world
-  Pose pose;                      ///< of its frame, that of its uppermost link, in the mechanism's frame
-  std::vector<LinkJoint> joints;  ///< to the parent; none only of the world
-  MassProperties mass{0, Vec3::Zero(), model::Mat3::Zero()};  ///< in its frame
-  std::vector<LinkGeom> geoms;                                ///< in its frame
+  int parent = no_link;           ///< index of an earlier rigid; 0: the world
+  Pose pose;                      ///< pose of its frame (that of its uppermost link) in the mechanism's frame
+  std::vector<LinkJoint> joints;  ///< joints to the parent; only the world has none
+  MassProperties mass{0, Vec3::Zero(), model::Mat3::Zero()};  ///< in the rigid's frame
+  std::vector<LinkGeom> geoms;                                ///< in the rigid's frame
 };
 
 struct RigidTree {
@@ -24,14 +24,13 @@ struct RigidTree {
   std::vector<int> rigid_of;  ///< [num_links]
 };
 
-/// Joins links without joints to those above them. Throws core::InputError where a body that moves has no
-/// mass.
+/// Joins links without joints to their parents. Throws core::InputError where a body that moves has no mass.
 RigidTree merge(const Mechanism& mechanism);
 
-/// Two masses, rigidly together, in one frame.
+/// The mass properties of two masses that are rigidly joined, in one frame.
 MassProperties together(const MassProperties& a, const MassProperties& b);
 
-/// A mass whose frame lies at `pose`, in the outer frame.
+/// The mass properties of a mass whose frame lies at `pose`, in the outer frame.
 MassProperties moved(const MassProperties& mass, const Pose& pose);
 
 }  // namespace pbmpi::scenes::links

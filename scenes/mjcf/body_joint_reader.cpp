@@ -18,8 +18,8 @@ Motion read_motion(Attributes& joint) {
   return type == "ball" ? Motion::ball : Motion::hinge;
 }
 
-/// From the start; angles of more than half a turn are not told apart (ODE manual, "Stops and motor
-/// parameters").
+/// Reads the limits relative to the start. Angles of more than half a turn are ambiguous (ODE manual, "Stops
+/// and motor parameters").
 model::AxisLimit read_range(Attributes& joint, bool is_angle, double start, const Compiler& compiler,
                             xml::Notes& notes) {
   const std::vector<double> range = joint.numbers("range", 2, 2);
@@ -34,7 +34,7 @@ model::AxisLimit read_range(Attributes& joint, bool is_angle, double start, cons
   return limit;
 }
 
-/// Neither a ball joint nor a free body has an axis that a motor or a limit could hold.
+/// Neither a ball joint nor a free body has an axis for a motor or a limit.
 void refuse_axis_laws(Attributes& joint, const links::LinkJoint& read, bool is_limited) {
   const auto refuse = [&](std::string_view name, bool is_on) {
     if (is_on)

@@ -7,14 +7,14 @@
 
 namespace pbmpi::scenes::mjcf {
 
-/// A joint, and what its servos need to know.
+/// A joint, with the data that its servos need.
 struct ReadJoint {
   links::LinkJoint joint;
-  double start = 0;  ///< [rad] or [m] its value at the start (`ref`), from which they count
-  double most_servo_force = model::infinity;  ///< [N m] or [N] of all of them together
+  double start = 0;  ///< [rad] or [m] value at the start (`ref`), from which servos and limits count
+  double most_servo_force = model::infinity;  ///< [N m] or [N] limit of all servos together
 };
 
-/// `attributes`: with the defaults of the joint's class; `name`: of a joint that has none.
+/// `attributes` include the defaults of the joint's class; `name`: used for a joint without a name.
 ReadJoint read_joint(xml::Attributes attributes, const std::string& name, const Compiler& compiler,
                      const Option& option, xml::Notes& notes);
 

@@ -14,7 +14,7 @@ namespace {
 
 using xml::Attributes;
 
-/// They are seen or measured, and move nothing.
+/// Elements that are seen or measured, and do not affect motion.
 constexpr std::array<std::string_view, 3> onlookers_of_bodies = {"site", "camera", "light"};
 
 void collect_names(const xml::Element& element, std::set<std::string>& names) {
@@ -62,14 +62,14 @@ class BodyReader {
     read_children(element, index, childclass);
   }
 
-  /// Of a body without one.
+  /// A name for a body that has none.
   std::string unused_name(int index) const {
     std::string name = "body" + std::to_string(index);
     while (given_names_.contains(name)) name += '_';
     return name;
   }
 
-  /// Bodies last: their links come after this one's.
+  /// Child bodies come last, since their links come after this one's.
   void read_children(const xml::Element& element, int index, const std::string& childclass) {
     std::optional<MassProperties> inertial, of_geoms;
     for (const xml::Element& child : element.children) {
@@ -140,7 +140,8 @@ class BodyReader {
     }
   }
 
-  /// The world has none, whatever stands in it; every body has the least that <compiler> asks for.
+  /// The world has no mass, whatever stands in it; every other body has at least the mass that <compiler>
+  /// asks for.
   void set_mass(const std::optional<MassProperties>& inertial, const std::optional<MassProperties>& of_geoms,
                 int index) {
     if (index == 0) return;

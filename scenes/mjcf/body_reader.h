@@ -10,7 +10,7 @@
 
 namespace pbmpi::scenes::mjcf {
 
-/// What the rest of the file says of its bodies.
+/// What the rest of the file specifies about bodies.
 struct Context {
   Compiler compiler;
   Option option;
@@ -18,8 +18,8 @@ struct Context {
   std::set<std::string> leave_out;
 };
 
-/// Bodies below `<worldbody>` as links, parents before children; the geoms of the world itself are a link
-/// without joints. Returns the joints.
+/// Reads the bodies below `<worldbody>` as links, parents before children; the geoms of the world itself are
+/// a link without joints. Returns the joints.
 std::vector<JointPlace> read_bodies(const xml::Element& worldbody, const Context& context,
                                     links::Mechanism& mechanism, xml::Notes& notes);
 

@@ -193,7 +193,7 @@ Pose read_pose(Attributes& element, const Compiler& compiler) {
 
 Quat turn_of_z(const Vec3& direction) {
   const Vec3 to = direction.normalized();
-  const Eigen::Quaterniond q(1 + to.z(), -to.y(), to.x(), 0);  // half way from no turn to twice the turn
+  const Eigen::Quaterniond q(1 + to.z(), -to.y(), to.x(), 0);  // halfway between no turn and twice the turn
   constexpr double opposite = 1e-10;
   if (q.norm() < opposite) return {0, 1, 0, 0};
   return Quat::from_eigen(q.normalized());

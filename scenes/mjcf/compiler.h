@@ -1,4 +1,4 @@
-/// MJCF's `<compiler>` and `<option>`: how the rest of the file is to be read, and what holds for the world.
+/// MJCF's `<compiler>` and `<option>`: how to read the rest of the file, and settings of the world.
 #pragma once
 
 #include <optional>
@@ -14,18 +14,18 @@ enum class InertiaFrom { geoms_if_none, geoms, inertial };
 
 struct Compiler {
   bool in_degrees = true;
-  std::string euler_sequence = "xyz";  ///< a small letter: about the axis as turned so far
+  std::string euler_sequence = "xyz";  ///< lower case: about the axes as turned so far
   bool autolimits = true;
   InertiaFrom inertia_from = InertiaFrom::geoms_if_none;
-  int first_inertia_group = 0, last_inertia_group = 5;  ///< of geoms whose mass counts
+  int first_inertia_group = 0, last_inertia_group = 5;  ///< groups of geoms whose mass counts
   double least_mass = 0, least_inertia = 0;
-  bool balances_inertia = false;     ///< a moment above the sum of the others: all three become their mean
+  bool balances_inertia = false;  ///< if a moment exceeds the sum of the others, all three become their mean
   std::optional<double> total_mass;  ///< [kg] to which all masses are scaled
 
   double angle(double value) const { return in_degrees ? radians(value) : value; }
-  /// `limited` of a joint or an actuator that has a range, or has none.
+  /// Reads `limited` of a joint or an actuator, which may have a range or not.
   bool is_limited(xml::Attributes& attributes, std::string_view limited, std::string_view range) const;
-  /// The force that such a range allows, in either direction; infinite without one.
+  /// The force that such a range allows in either direction; infinite without one.
   double most_force(xml::Attributes& attributes, std::string_view limited, std::string_view range,
                     xml::Notes& notes) const;
 };
@@ -38,15 +38,15 @@ struct Option {
   bool has_actuators = true;
 };
 
-/// Later elements of one kind complete earlier ones.
+/// Reads the element; later elements of one kind complete earlier ones.
 void read_compiler(const xml::Element& element, Compiler& compiler);
 void read_option(const xml::Element& element, Option& option, xml::Notes& notes);
 
-/// The position and the orientation of an element in the frame around it: `pos`, and one of `quat`,
+/// Reads the position and the orientation of an element in the frame around it: `pos`, and one of `quat`,
 /// `axisangle`, `euler`, `xyaxes`, `zaxis`.
 Pose read_pose(xml::Attributes& attributes, const Compiler& compiler);
 
-/// The shortest turn of the z axis into a direction, which need not have unit length.
+/// The smallest rotation of the z axis into a direction, which need not have unit length.
 Quat turn_of_z(const Vec3& direction);
 
 }  // namespace pbmpi::scenes::mjcf

@@ -16,12 +16,12 @@ constexpr std::string_view topmost = "main";
 constexpr std::array<std::string_view, 11> actuators = {"general",     "motor",  "position", "velocity",
                                                         "intvelocity", "damper", "cylinder", "muscle",
                                                         "adhesion",    "plugin", "dcmotor"};
-/// They have the defaults of <tendon>.
+/// Elements that take the defaults of <tendon>.
 constexpr std::array<std::string_view, 2> tendons = {"spatial", "fixed"};
 constexpr std::array<std::string_view, 10> others = {"mesh",   "material", "joint", "geom",     "site",
                                                      "camera", "light",    "pair",  "equality", "tendon"};
 
-/// What all kinds of actuators have in common stands under this name: a default of one is a default of all.
+/// The name under which all kinds of actuators share their defaults: a default of one is a default of all.
 constexpr const char* any_actuator = "actuator";
 constexpr std::array<std::string_view, 5> common = {"ctrllimited", "ctrlrange", "forcelimited", "forcerange",
                                                     "gear"};
@@ -39,7 +39,7 @@ void Defaults::read(const xml::Element& element) {
   read_class(element, std::string(topmost));
 }
 
-/// The classes below have what this one has, behind their own.
+/// Reads a class. The classes inside it inherit what it has, after their own attributes.
 void Defaults::read_class(const xml::Element& element, const std::string& name) {
   ByElement& own = classes_[name];
   for (const xml::Element& child : element.children) {

@@ -1,4 +1,4 @@
-/// MJCF's default classes: attributes that elements have unless they say otherwise.
+/// MJCF's default classes: attributes that elements have unless they override them.
 #pragma once
 
 #include <map>
@@ -15,11 +15,12 @@ bool is_actuator(std::string_view element);
 
 class Defaults {
  public:
-  /// A top-level `<default>`, with the classes in it; of several, later ones complete earlier ones.
+  /// Reads a top-level `<default>` with the classes in it; later ones complete earlier ones.
   void read(const xml::Element& element);
 
-  /// What `element` takes from its own class, or else from `childclass` of the bodies around it ("": the
-  /// topmost class). The first attribute of a name counts. Throws core::InputError for an unknown class.
+  /// The defaults that `element` takes from its own class, or else from `childclass` of the bodies around it
+  /// ("": the topmost class). The first attribute of a name counts. Throws core::InputError for an unknown
+  /// class.
   std::vector<xml::Attribute> of(const xml::Element& element, const std::string& childclass) const;
 
  private:

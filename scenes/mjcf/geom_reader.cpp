@@ -14,7 +14,7 @@ using model::Shape;
 using xml::Attributes;
 using xml::Range;
 
-constexpr double water = 1000;  // [kg/m^3] MuJoCo's default
+constexpr double water = 1000;  // [kg/m^3] MuJoCo's default density
 
 /// The middle, half the length, and the direction of `fromto`.
 struct Segment {
@@ -34,7 +34,7 @@ std::optional<Segment> read_segment(Attributes& geom) {
 /// `size` as in model::Geom.
 std::array<double, 3> read_sizes(Attributes& geom, Shape shape, const std::optional<Segment>& segment) {
   if (shape == Shape::plane) {
-    geom.allow({"size"});  // what is drawn of it: it has no end
+    geom.allow({"size"});  // only affects how a plane is drawn, which has no end
     return {};
   }
   const std::size_t own = shape == Shape::box ? 3 : shape == Shape::sphere ? 1 : 2;
@@ -66,7 +66,7 @@ std::optional<Shape> shape_of(const std::string& type) {
   return std::nullopt;
 }
 
-/// Only the first of the friction coefficients, along the surface, acts here.
+/// Reads the friction. Only the first coefficient, for sliding along the surface, has an effect here.
 double read_friction(Attributes& geom, xml::Notes& notes) {
   const std::vector<double> friction = geom.numbers("friction", 1, 3);
   const int condim = geom.integer("condim", 1, 3);
@@ -154,7 +154,7 @@ MassProperties read_inertial(const xml::Element& element, const Compiler& compil
     inertia << full[0], full[3], full[4], full[3], full[1], full[5], full[4], full[5], full[2];
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(inertia, Eigen::EigenvaluesOnly);
-  constexpr double rounding = 1e-9;  // of a flat body's digits, for which the two are equal
+  constexpr double rounding = 1e-9;  // for rounded digits of a flat body, where the two are equal
   if (!compiler.balances_inertia &&
       2 * eigen.eigenvalues().maxCoeff() > (1 + rounding) * eigen.eigenvalues().sum())
     inertial.fail("no body has a moment of inertia above the sum of the other two; change one");

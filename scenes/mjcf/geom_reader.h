@@ -12,18 +12,18 @@ namespace pbmpi::scenes::mjcf {
 
 /// A geom, its mass, and whether it counts for the inertia of its body.
 struct ReadGeom {
-  std::optional<links::LinkGeom> geom;  ///< none: a mesh that nothing touches
+  std::optional<links::LinkGeom> geom;  ///< none: a mesh that touches nothing
   std::optional<MassProperties> mass;   ///< in the body's frame
 };
 
-/// `attributes`: with the defaults of the geom's class. A geom of which contype and conaffinity are 0 touches
-/// nothing, but has mass.
+/// `attributes` include the defaults of the geom's class. A geom whose contype and conaffinity are both 0
+/// touches nothing, but has mass.
 ReadGeom read_geom(xml::Attributes attributes, const Compiler& compiler,
                    const std::set<std::string>& leave_out, xml::Notes& notes);
 
 MassProperties read_inertial(const xml::Element& element, const Compiler& compiler);
 
-/// What `<compiler>` makes of a body's mass.
+/// A body's mass properties after the changes that `<compiler>` asks for.
 MassProperties adjusted(const MassProperties& mass, const Compiler& compiler);
 
 }  // namespace pbmpi::scenes::mjcf

@@ -12,7 +12,7 @@ namespace {
 
 using xml::Attributes;
 
-/// They are seen, measured, or asked for by name, and move nothing.
+/// Sections whose elements are seen, measured, or looked up by name, and do not affect motion.
 constexpr std::array<std::string_view, 7> sections_that_move_nothing = {
     "asset", "visual", "statistic", "size", "sensor", "custom", "keyframe"};
 
@@ -85,7 +85,7 @@ class Reader {
     }
   }
 
-  /// Refuses what changes how bodies move, and is not read.
+  /// Refuses elements that affect motion and that pbmpi does not read.
   void require_known(const xml::Element& one) {
     constexpr std::array<std::string_view, 6> read = {"compiler",  "option",  "default",
                                                       "worldbody", "contact", "actuator"};
@@ -114,7 +114,7 @@ class Reader {
     }
   }
 
-  /// Has it neither a spring nor a damper nor a limit, nor friction?
+  /// Does the tendon have no spring, damper, limit or friction?
   bool is_idle_tendon(const xml::Element& tendon) const {
     Attributes attributes(tendon, context_.defaults.of(tendon, ""));
     constexpr std::array<std::string_view, 6> laws = {"limited", "range",        "stiffness",

@@ -1,4 +1,4 @@
-/// Reads MuJoCo's MJCF, in the part of it that a Model can express (docs/models.md).
+/// Reads MuJoCo's MJCF, as far as a Model can express it (docs/models.md).
 #pragma once
 
 #include <set>
@@ -10,9 +10,9 @@
 
 namespace pbmpi::scenes::mjcf {
 
-/// `root`: `<mujoco>`. Meaning and defaults as in MuJoCo's XML reference. What cannot be expressed and
-/// changes how bodies move is refused, unless its element's name stands in `leave_out`; what is taken
-/// otherwise or left out goes to `notes`. Throws core::InputError "file:line:column: ...".
+/// `root`: `<mujoco>`. Meaning and defaults as in MuJoCo's XML reference. Elements that cannot be expressed
+/// and affect motion are refused, unless their name is in `leave_out`; `notes` receives what is interpreted
+/// differently or left out. Throws core::InputError "file:line:column: ...".
 links::ModelFile read(const xml::Element& root, const std::set<std::string>& leave_out, xml::Notes& notes);
 
 }  // namespace pbmpi::scenes::mjcf

@@ -30,7 +30,7 @@ void allow_others(Attributes& actuator) {
   actuator.refuse({"timeconst", "dampratio"}, "the servos here have no such term; give 'kp' and 'kv'");
 }
 
-/// MuJoCo clips controls, which nobody sets here, to their range.
+/// MuJoCo clips controls to their range; nothing sets controls here.
 double control_of(Attributes& actuator, const Compiler& compiler) {
   if (!compiler.is_limited(actuator, "ctrllimited", "ctrlrange")) return 0;
   const std::vector<double> range = actuator.numbers("ctrlrange", 2, 2);
@@ -39,7 +39,7 @@ double control_of(Attributes& actuator, const Compiler& compiler) {
   return std::clamp(0.0, range[0], range[1]);
 }
 
-/// The control of a position servo may have the range of its joint, so many times as wide, instead.
+/// Alternatively a position servo's control range is its joint's range times a factor.
 double control_of_position(Attributes& servo, const Compiler& compiler, const links::LinkJoint& joint,
                            double start) {
   const double times = servo.number("inheritrange", Range::non_negative, 0.0);
@@ -51,7 +51,7 @@ double control_of_position(Attributes& servo, const Compiler& compiler, const li
   return std::clamp(0.0, middle - reach, middle + reach);
 }
 
-/// The value at which several, that each pull towards their own with a weight, are at rest.
+/// The rest value of two springs, each of which pulls towards its own value with its own weight.
 double balance(double weight, double value, double other_weight, double other_value) {
   const double sum = weight + other_weight;
   return sum > 0 ? (weight * value + other_weight * other_value) / sum : value;
@@ -70,7 +70,7 @@ void read_servo(const xml::Element& element, const Defaults& defaults, const Com
   const bool is_position = element.name == "position";
   const double control =
       is_position ? control_of_position(actuator, compiler, joint, at.start) : control_of(actuator, compiler);
-  const double aim = gear == 0 ? 0 : control / gear;  // of the joint itself
+  const double aim = gear == 0 ? 0 : control / gear;  // target of the joint itself
   links::Drive& drive = joint.drive;
   const double kp = is_position ? actuator.number("kp", Range::non_negative, 1.0) : 0;
   const double kv = actuator.number("kv", Range::non_negative, is_position ? 0.0 : 1.0);

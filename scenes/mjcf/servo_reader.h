@@ -1,4 +1,4 @@
-/// MJCF's `<actuator>`: servos become part of what acts along a joint's axis.
+/// MJCF's `<actuator>`: servos become part of the drive along a joint's axis.
 #pragma once
 
 #include <set>
@@ -12,7 +12,7 @@
 
 namespace pbmpi::scenes::mjcf {
 
-/// Where a joint of the mechanism is, and the rest as in ReadJoint.
+/// The place of a joint in the mechanism, and its data as in ReadJoint.
 struct JointPlace {
   std::string name;
   int link = 0, joint = 0;
@@ -20,7 +20,7 @@ struct JointPlace {
   double most_servo_force = model::infinity;
 };
 
-/// All controls are 0, as in MuJoCo before somebody sets them, or as near to it as a `ctrlrange` allows: a
+/// All controls are 0, as in MuJoCo before anybody sets them, or as close to 0 as a `ctrlrange` allows: a
 /// position servo holds the joint's zero, a velocity servo resists like a damper, a motor does nothing.
 void read_actuators(const xml::Element& element, const Defaults& defaults, const Compiler& compiler,
                     const std::vector<JointPlace>& joints, const std::set<std::string>& leave_out,

@@ -9,7 +9,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-// A contact needs some depth to exist; the actors stand as deep.
+// A contact needs some depth to exist; actors start with the same depth.
 constexpr double initial_depth_m = 1e-4;
 
 model::BodyPose to_body_pose(const Pose& pose) {
@@ -32,7 +32,7 @@ std::optional<double> ground_below(const model::Model& model, double height_m) {
   return ground;
 }
 
-/// How far the body reaches below its centre.
+/// How far the body extends below its centre.
 double reach_down(const model::Model& model, int body) {
   const model::BodyPose at = to_body_pose(model.bodies[body].pose);
   double reach = 0;

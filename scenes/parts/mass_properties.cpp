@@ -13,8 +13,8 @@ using std::numbers::pi;
 model::Mat3 diagonal(double xx, double yy, double zz) { return model::Vec3(xx, yy, zz).asDiagonal(); }
 
 model::Mat3 capsule_inertia(double radius, double length, double mass) {
-  // A cylinder and a ball that is cut in two and moved to its ends; the ball's halves have their centre of
-  // mass 3/8 r from the cut.
+  // A cylinder, and a ball that is cut in two halves at the cylinder's ends; each half has its centre of mass
+  // 3/8 r from the cut.
   const double cylinder = volume(Shape::cylinder, {radius, length, 0});
   const double ball = volume(Shape::sphere, {radius, 0, 0});
   const double cylinder_mass = mass * cylinder / (cylinder + ball);

@@ -21,7 +21,7 @@ struct Solid {
   core::Pose pose;
 };
 
-/// The sum over the parts [m^3]: where two overlap counts twice.
+/// The sum of the parts' volumes [m^3]: where two parts overlap, the overlap counts twice.
 double volume(const std::vector<Solid>& solids);
 
 struct MassProperties {
@@ -30,7 +30,7 @@ struct MassProperties {
   model::Mat3 inertia = model::Mat3::Identity();  ///< [kg m^2] about the centre, axes of the parts' frame
 };
 
-/// Parts of one density, which have `mass_kg` in all.
+/// The properties of parts of one density with a total mass of `mass_kg`.
 MassProperties mass_properties(const std::vector<Solid>& solids, double mass_kg);
 
 }  // namespace pbmpi::scenes

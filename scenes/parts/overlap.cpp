@@ -21,10 +21,10 @@ struct InnerBox {
   Vec3 centre;
   model::Mat3 axes;  ///< columns
   Vec3 half;
-  Vec3 low, high;  ///< of its axis-parallel hull
+  Vec3 low, high;  ///< of its axis-aligned hull
 };
 
-/// Half sides of a box inside the geom, in its own frame.
+/// Half sides of a box inside the geom, in the geom's own frame.
 Vec3 inner_half_sides(const model::Geom& geom) {
   const auto& size = geom.size;
   const double in_circle = size[0] / std::numbers::sqrt2;
@@ -64,14 +64,14 @@ double reach_along(const InnerBox& box, const Vec3& direction) {
   return (box.axes.transpose() * direction).cwiseAbs().dot(box.half);
 }
 
-/// Least overlap over the separating axes of two boxes (Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996);
-/// at most 0 if they are apart.
+/// Smallest overlap over the separating axes of two boxes (Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH
+/// 1996); at most 0 if they are apart.
 double depth(const InnerBox& a, const InnerBox& b) {
   const Vec3 between = b.centre - a.centre;
   double least = model::infinity;
   const auto try_axis = [&](const Vec3& axis) {
     const double length = axis.norm();
-    if (length < 1e-6) return;  // parallel edges: the faces' axes say all
+    if (length < 1e-6) return;  // parallel edges: the faces' axes suffice
     const Vec3 unit = axis / length;
     least = std::min(least, reach_along(a, unit) + reach_along(b, unit) - std::abs(between.dot(unit)));
   };
@@ -88,7 +88,7 @@ double depth_in_plane(const InnerBox& box, const Pose& plane) {
   return reach_along(box, normal) - normal.dot(box.centre - plane.position);
 }
 
-/// Actors that a joint connects may overlap: a door in its frame.
+/// Pairs of actors that a joint connects, which may overlap: a door in its frame.
 std::set<ActorPair> joined_actors(const model::Model& model) {
   std::set<ActorPair> pairs;
   for (const model::Joint& joint : model.joints) {

@@ -12,7 +12,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-/// Bodies and events that a world may have.
+/// Most bodies or events that a world may have.
 constexpr std::size_t most_things = 4'000'000;
 
 Pose pose_of(const model::Model& model, int body) {
@@ -42,7 +42,7 @@ Quat rotation(double angle_rad, const Vec3& axis) {
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 std::int64_t step_at(double time_s, double dt_s, const std::string& where) {
-  constexpr double most_steps = 9007199254740992;  // 2^53: beyond it a double does not tell two steps apart
+  constexpr double most_steps = 9007199254740992;  // 2^53: beyond it a double cannot tell two steps apart
   const double step = std::round(time_s / dt_s);
   if (!(std::abs(step) <= most_steps)) {
     std::ostringstream text;

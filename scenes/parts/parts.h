@@ -1,4 +1,4 @@
-/// The steps by which actors put bodies, geoms and joints into a model.
+/// Functions with which actors add bodies, geoms and joints to a model.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@ using core::Pose;
 using core::Quat;
 using core::Vec3;
 
-/// The pose of a frame that is given in frame `outer`, in outer's outer frame.
+/// The pose of `inner`, given in frame `outer`, in the frame in which `outer` is given.
 Pose compose(const Pose& outer, const Pose& inner);
 
-/// A turn by `angle_rad` about a unit axis.
+/// A rotation by `angle_rad` about a unit axis.
 Quat rotation(double angle_rad, const Vec3& axis);
 
 double radians(double degrees);
@@ -25,7 +25,7 @@ double radians(double degrees);
 /// The step that begins nearest to `time_s`. Throws core::InputError beyond 2^53 steps: "`where`: ...".
 std::int64_t step_at(double time_s, double dt_s, const std::string& where);
 
-/// Appends an event. Throws std::length_error for the 4,000,001st of a world.
+/// Appends an event. Throws std::length_error for a world's 4,000,001st.
 void add_event(model::Model& model, const model::Event& event);
 
 /// Appends an actor or a body, and returns its index. Throws std::length_error for the 4,000,001st body.

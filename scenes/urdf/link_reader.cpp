@@ -32,7 +32,7 @@ const Element& need_child(const Element& element, std::string_view name) {
   return *child;
 }
 
-/// Refuses children that nobody reads.
+/// Refuses child elements that are not read.
 void require_children(const Element& element, const std::vector<std::string>& known) {
   for (const Element& child : element.children) {
     if (std::ranges::find(known, child.name) == known.end())
@@ -92,7 +92,7 @@ Motion motion_of(const std::string& type) {
   return type == "prismatic" ? Motion::slide : Motion::hinge;
 }
 
-/// `continuous` turns without end; the others need their range.
+/// `continuous` turns without end; the other types need their range.
 void read_limit(const Element& element, const std::string& type, links::LinkJoint& joint, xml::Notes& notes) {
   const Element* limit = child_of(element, "limit");
   if (limit == nullptr) {
@@ -111,7 +111,7 @@ void read_limit(const Element& element, const std::string& type, links::LinkJoin
   joint.limit = {low, high};
   if (joint.motion != Motion::hinge) return;
   constexpr double half_turn =
-      std::numbers::pi;  // farther turns are not told apart (ODE manual, "Stops ...")
+      std::numbers::pi;  // larger angles cannot be told apart (ODE manual, "Stops ...")
   if (low < -half_turn || high > half_turn)
     notes.add(limit->where, "a limit of more than half a turn from the start is left out");
   if (low < -half_turn) joint.limit.low = -model::infinity;

@@ -1,4 +1,4 @@
-/// URDF's `<link>` and `<joint>`, each for itself.
+/// Reads URDF's `<link>` and `<joint>` elements one by one.
 #pragma once
 
 #include <set>
@@ -10,10 +10,10 @@
 
 namespace pbmpi::scenes::urdf {
 
-/// `<origin xyz rpy>`; none is none.
+/// Reads `<origin xyz rpy>`; the identity without one.
 Pose read_origin(const xml::Element& element);
 
-/// Mass and geoms; what joins it to others is left to the caller.
+/// Reads mass and geoms; the caller adds the joints to other links.
 links::Link read_link(const xml::Element& element, const std::set<std::string>& leave_out, xml::Notes& notes);
 
 /// A joint between two links.
@@ -22,7 +22,7 @@ struct ReadJoint {
   std::string parent_where, child_where;
   Pose origin;  ///< of the child in the parent's frame
   bool is_fixed = false;
-  links::LinkJoint joint;  ///< unless it is fixed
+  links::LinkJoint joint;  ///< not used if the joint is fixed
 };
 
 ReadJoint read_joint(const xml::Element& element, const std::set<std::string>& leave_out, xml::Notes& notes);

@@ -12,7 +12,7 @@
 namespace pbmpi::scenes::urdf {
 namespace {
 
-/// What other programs read from a URDF: colours, drives, simulators' own settings.
+/// Elements for other programs: colours, drives, simulators' own settings.
 constexpr std::array<std::string_view, 8> of_others = {"material",           "transmission", "gazebo",
                                                        "ros2_control",       "sensor",       "group_state",
                                                        "disable_collisions", "mujoco"};
@@ -97,7 +97,7 @@ class Reader {
     return index;
   }
 
-  /// Has the link a mass, or one that is fixed to it?
+  /// Does the link have a mass, or a link with mass that is fixed to it?
   bool has_mass(std::size_t root) const {
     for (std::vector<std::size_t> fixed{root}; !fixed.empty();) {
       const std::size_t link = fixed.back();
@@ -125,7 +125,7 @@ class Reader {
     }
   }
 
-  /// Whom no way from the root reaches stands in a ring.
+  /// A link that cannot be reached from the root is part of a ring.
   void require_all_placed() const {
     if (file_.mechanism.links.size() == links_.size()) return;
     throw core::InputError(root_.where + ": some joints form a ring; a URDF is a tree");

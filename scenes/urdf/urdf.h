@@ -1,4 +1,4 @@
-/// Reads ROS's URDF, in the part of it that a Model can express (docs/models.md).
+/// Reads ROS's URDF, as far as a Model can express it (docs/models.md).
 #pragma once
 
 #include <set>
@@ -11,9 +11,9 @@
 namespace pbmpi::scenes::urdf {
 
 /// `root`: `<robot>`. Meaning as in ROS's XML specifications of links and joints. A root link called "world",
-/// or without mass, stands fast in the world; any other is free. Links of one robot do not touch each other.
-/// What cannot be expressed and changes how bodies move is refused, unless its element's name (of a shape, or
-/// `mimic`) stands in `leave_out`; what is taken otherwise or left out goes to `notes`. Throws
+/// or one without mass, is fixed to the world; any other is free. Links of one robot do not touch each other.
+/// Elements that cannot be expressed and affect motion are refused, unless their name (of a shape, or
+/// `mimic`) is in `leave_out`; `notes` receives what is interpreted differently or left out. Throws
 /// core::InputError "file:line:column: ...".
 links::ModelFile read(const xml::Element& root, const std::set<std::string>& leave_out, xml::Notes& notes);
 

@@ -12,7 +12,7 @@
 namespace pbmpi::scenes::xml {
 namespace {
 
-/// Lines and columns of a text that the parser changes in place: names stay where they were.
+/// Lines and columns of a text that the parser changes in place: names stay at their positions.
 class Places {
  public:
   Places(std::string_view text, const std::string& file) : file_(file), size_(text.size()) {

@@ -1,4 +1,4 @@
-/// What a model from elsewhere says that pbmpi takes otherwise, or leaves out.
+/// Notes on the parts of another simulator's model that pbmpi interprets differently or leaves out.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace pbmpi::scenes::xml {
 
-/// Equal notes are told once, with the first place and how many there are.
+/// Equal notes are reported once, with the first place and their number.
 class Notes {
  public:
   void add(const std::string& where, const std::string& text);

@@ -1,4 +1,4 @@
-/// The paper's five error categories (section 5.3), and what a set of errors amounts to.
+/// The paper's five error categories (section 5.3), and summaries of sets of errors.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ inline constexpr std::array<double, 3> position_edges_m = {0.01, 0.1, 1.0};
 inline constexpr std::array<std::string_view, num_bands> position_band_names = {
     "< 1 cm", "1-10 cm", "10-100 cm", "> 100 cm", "inf/NaN"};
 /// Edges of the orientation categories as shares of 2 pi: < 5 %, 5 to 25 %, 25 to 50 %, > 50 %; then inf or
-/// NaN. The shortest rotation between two orientations is at most 50 %, so that the fourth stays empty; it is
-/// kept for the comparison with the paper.
+/// NaN. The shortest rotation between two orientations is at most 50 %, so the fourth category stays empty;
+/// it is kept for comparison with the paper.
 inline constexpr std::array<double, 3> orientation_edges = {0.05, 0.25, 0.5};
 inline constexpr std::array<std::string_view, num_bands> orientation_band_names = {
     "< 5 %", "5-25 %", "25-50 %", "> 50 %", "inf/NaN"};
@@ -28,11 +28,10 @@ int position_band(double error_m);
 /// Index of the category of an angle [rad]; half a turn is in the category 25-50 %.
 int orientation_band(double angle_rad);
 
-/// A set of errors, every one of which is in one category. rms, p99 and max are over the finite ones, 0 if
-/// there is none. What is broken has no error, and is a class of its own, so that every method has as many
-/// entries.
+/// A set of errors, each in one category. rms, p99 and max are over the finite errors, 0 if there is none. A
+/// broken joint has no error and is a class of its own, so that every method has as many entries.
 struct ErrorSummary {
-  std::int64_t count = 0;            ///< of all categories, and what is broken
+  std::int64_t count = 0;            ///< over all categories, and broken joints
   double rms = 0, p99 = 0, max = 0;  ///< [m] or [rad]
   BandCounts bands{};
   std::int64_t broken = 0;

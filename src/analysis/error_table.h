@@ -8,16 +8,16 @@
 
 namespace pbmpi::analysis {
 
-/// Errors of all bodies and all joints, summed up.
+/// Errors of all bodies and all joints, summarised.
 struct ErrorTable {
   ErrorSummary body_position;      ///< [m]
   ErrorSummary body_orientation;   ///< [rad]
-  ErrorSummary joint_position;     ///< [m] of the anchor gap
-  ErrorSummary joint_orientation;  ///< [rad] of the axis angle
+  ErrorSummary joint_position;     ///< [m] between the anchor gaps
+  ErrorSummary joint_orientation;  ///< [rad] between the axis angles
 };
 ErrorTable summarize(const PoseErrors& errors);
 
-/// The four summaries of a table with the names that they have in reports and files.
+/// The four summaries of a table, with their names in reports and files.
 struct NamedSummary {
   const char* name;
   const char* unit;

@@ -15,12 +15,12 @@ using model::Model;
 
 namespace {
 
-/// Anchor of `joint` in the frame of `body`, one of its two.
+/// Anchor of `joint` in the frame of `body`, one of its two bodies.
 const Vec3& anchor_in(const Joint& joint, int body) {
   return joint.body_a == body ? joint.anchor_a : joint.anchor_b;
 }
 
-/// Anchor of `joint` where the other body than `body` has it [m, world frame].
+/// Anchor of `joint` as the body other than `body` has it [m, world frame].
 Vec3 anchor_of_neighbour(const Joint& joint, int body, PoseView poses) {
   const int other = joint.body_a == body ? joint.body_b : joint.body_a;
   const auto i = static_cast<std::size_t>(other);

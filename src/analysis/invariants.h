@@ -1,4 +1,4 @@
-/// What a world must keep, whatever it is compared with: the length of human segments.
+/// An invariant of a world, independent of any reference: the length of human segments.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace pbmpi::analysis {
 
-/// A part of a human between two joints: a body of an actor of kind human, and two joints that it has with
+/// A part of a human between two joints: a body of an actor of kind human, and two joints between it and
 /// other bodies.
 struct Segment {
   int body = 0;
@@ -20,14 +20,14 @@ struct Segment {
 
 std::vector<Segment> human_segments(const model::Model& model);
 
-/// |d / length - 1| of each segment: d is the distance of the two anchors where the neighbouring segments
-/// have them, so that joints pulled apart show as stretch. NaN if d is not finite. A segment with a joint
-/// that is broken is left out.
+/// |d / length - 1| of each segment, where d is the distance between the two anchors as the neighbouring
+/// segments have them, so that joints pulled apart show as stretch. NaN if d is not finite. A segment with a
+/// broken joint is left out.
 std::vector<double> segment_stretch(const model::Model& model, const std::vector<Segment>& segments,
                                     PoseView poses);
 
 /// Stretch below 3 %, 3 to 20 %, beyond 20 %, not finite. Harrison, Rensink and van de Panne (SIGGRAPH 2004):
-/// 3 % can be seen with full attention; more than 20 % can go unnoticed without.
+/// with full attention 3 % can be seen; without it more than 20 % can go unnoticed.
 inline constexpr std::array<double, 2> stretch_edges = {0.03, 0.20};
 using StretchBands = std::array<std::int64_t, 4>;
 StretchBands count_stretch(const std::vector<double>& stretch);

@@ -26,14 +26,14 @@ Pose start_of(const Model& model, int body) {
 /// Angle between two directions [rad]; exact for small angles, where acos loses half the digits.
 double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-/// `direction`, given in the frame of a, in the frame of b as the two stood at the start.
+/// `direction`, given in the frame of a, in the frame of b, with both bodies as they stood at the start.
 Vec3 at_start_in_b(const Model& model, const Joint& joint, const Vec3& direction) {
   const Pose a = start_of(model, joint.body_a), b = start_of(model, joint.body_b);
   return b.orientation.to_eigen().conjugate() * a.direction_to_outer(direction);
 }
 
-/// Zero for a finite pose, else NaN: added to an angle that does not depend on all of the pose, it keeps a
-/// NaN from being hidden.
+/// Zero for a finite pose, otherwise NaN. Added to an angle that depends on a part of the pose only, it makes
+/// a NaN in the rest visible.
 double poison(const Pose& pose) {
   const Quat& q = pose.orientation;
   return 0 * (pose.position.sum() + q.w + q.x + q.y + q.z);

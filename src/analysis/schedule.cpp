@@ -32,8 +32,7 @@ int fewest_cores(std::span<const double> lengths, double tolerance) {
     sum += length;
   }
   if (longest <= 0) return 0;
-  // No schedule is shorter than the mean load, so that fewer cores need not be tried; the margin is for
-  // rounding.
+  // No schedule is shorter than the mean load, so fewer cores need not be tried; the margin is for rounding.
   const double most = longest * (1 + tolerance);
   int cores = std::max(1, static_cast<int>(sum / most * (1 - 1e-9)));
   while (longest_first_makespan(lengths, cores) > most) ++cores;

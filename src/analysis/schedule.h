@@ -13,18 +13,18 @@ double longest_first_makespan(std::span<const double> lengths, int cores);
 /// jobs that take time.
 int fewest_cores(std::span<const double> lengths, double tolerance);
 
-/// One frame of a run whose islands, and then also spaces, have a core each. The step that was profiled
-/// stands for all of its frame.
+/// One frame of a run as if each island, and then also each space, had a core. The profiled step stands for
+/// all steps of the frame.
 struct ParallelFrame {
   double serial_s = 0;       ///< as measured
-  double collide_s = 0;      ///< of that, collision detection
+  double collide_s = 0;      ///< part of it for collision detection
   double islands_share = 1;  ///< longest island / all islands, of the profiled step
-  double spaces_share = 1;   ///< collision detection with a core a space / in one piece, of that step
-  double solve_s = 0;        ///< of serial_s, the solver: what islands divide
+  double spaces_share = 1;   ///< collision detection with one core per space / in one piece, in that step
+  double solve_s = 0;        ///< part of serial_s for the solver, which islands divide
 
-  /// Only the solver is divided.
+  /// Divides only the solver.
   double islands_parallel_s() const { return serial_s - solve_s + solve_s * islands_share; }
-  /// Solver and collision detection are.
+  /// Divides solver and collision detection.
   double spaces_parallel_s() const { return islands_parallel_s() - collide_s + collide_s * spaces_share; }
 };
 

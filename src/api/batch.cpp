@@ -1,4 +1,4 @@
-/// The border of the library: what is thrown inside becomes what its header says.
+/// The border of the library: turns exceptions thrown inside into those that its header promises.
 #include "pbmpi/batch.h"
 
 #include <stdexcept>
@@ -25,7 +25,7 @@ decltype(auto) translated(Function&& function) {
 
 }  // namespace
 
-// Hidden, whatever the compiler is told of the class that it belongs to.
+// Hidden, whatever visibility the compiler is told for the enclosing class.
 struct __attribute__((visibility("hidden"))) Batch::Worlds final : api::WorldSet {
   using WorldSet::WorldSet;
 };

@@ -17,7 +17,7 @@
 namespace pbmpi::api {
 namespace {
 
-/// Which names stand beside the options of a step.
+/// The name of the one setting that is not an option of a step.
 constexpr std::string_view effects_name = "effects";
 
 /// Throws core::InputError on every rank unless `given` is the same on all of them.
@@ -30,7 +30,7 @@ void require_same(const mpi::Communicator& comm, std::uint64_t given) {
 
 /// The scene that `options` name, or whose text they hold.
 scenes::SceneSource source_of(const mpi::Communicator& comm, const BatchOptions& options) {
-  require_same(comm, options.scene_text.empty() ? 0 : 1);  // or some would wait for a name's text
+  require_same(comm, options.scene_text.empty() ? 0 : 1);  // or some ranks would wait for a scene's text
   if (!options.scene_text.empty()) {
     const std::string name = options.scene.empty() ? "scene_text" : options.scene;
     return {name, name, options.scene_text};
@@ -64,7 +64,7 @@ void add_text(core::Checksum& checksum, std::string_view text) {
   checksum.add(std::as_bytes(std::span(text)));
 }
 
-/// Of all that decides the worlds, and what they begin from.
+/// Checksum of everything that decides the worlds and their initial states.
 std::uint64_t checksum_of(std::uint64_t recipe, const BatchOptions& options) {
   core::Checksum checksum;
   add_text(checksum, std::to_string(recipe));
@@ -127,7 +127,7 @@ std::uint64_t Recipe::scene_checksum() const {
 }
 
 std::uint64_t Recipe::settings_checksum() const {
-  constexpr std::uint64_t any_seed = 0;  // the worlds' own decide, unless one was chosen for the solver
+  constexpr std::uint64_t any_seed = 0;  // the worlds' own seeds decide, unless one was chosen for the solver
   const stepping::StepperSettings all = settings(any_seed);
   core::Checksum checksum;
   for (const stepping::StepOption& option : stepping::step_options()) {

@@ -12,7 +12,7 @@
 
 namespace pbmpi::api {
 
-/// From what one world is built, beside its number.
+/// What one world is built from, in addition to its number.
 struct WorldSeed {
   std::uint64_t seed = 1;
   Parameters parameters;
@@ -23,18 +23,19 @@ struct WorldSeed {
 /// Scene and settings. Immutable.
 class Recipe {
  public:
-  /// Collective. Throws core::InputError on every rank: for what pbmpi refuses on its command line, and where
+  /// Collective. Throws core::InputError on every rank for what pbmpi refuses on its command line, and where
   /// the ranks were given different options.
   Recipe(const mpi::Communicator& comm, const BatchOptions& options);
 
   int num_worlds() const { return num_worlds_; }
   int steps_per_frame() const { return scene_->defaults().steps_per_frame; }
   const std::string& scene_name() const { return source_.name; }
-  /// Of a world with this seed: the solver draws from it, too, unless its own was chosen.
+  /// Settings of a world with this seed; its solver also draws from the seed, unless a solver seed was
+  /// chosen.
   stepping::StepperSettings settings(std::uint64_t seed) const;
 
-  /// From what the solver of a world with this seed draws: from the same for all where it draws nothing, so
-  /// that they may share lanes.
+  /// The seed from which the solver of a world with this seed draws; one seed for all worlds where it draws
+  /// nothing, so that they may share lanes.
   std::uint64_t solver_seed(std::uint64_t seed) const;
 
   /// Throws core::InputError.
@@ -42,8 +43,8 @@ class Recipe {
   /// May worlds without parameters share a model, whatever their numbers and seeds?
   bool is_uniform() const { return scene_->is_uniform(); }
 
-  /// All that decides the bits of a world beside its number, seed, parameters and step: scene with its bases,
-  /// effects, and settings, a checksum each.
+  /// Checksums of everything that decides the bits of a world, except its number, seed, parameters and step:
+  /// one of the scene with its bases and effects, one of the settings.
   std::uint64_t scene_checksum() const;
   std::uint64_t settings_checksum() const;
 

@@ -12,7 +12,7 @@
 namespace pbmpi::api {
 namespace {
 
-/// The number at its end is raised when the layout changes.
+/// The number at the end is raised when the layout changes.
 constexpr std::string_view magic = "pbmpi worlds 1\n";
 
 class Writer {
@@ -36,7 +36,8 @@ class Writer {
   std::vector<std::byte>* to_;
 };
 
-/// No length that it reads makes it take more than there is.
+/// Checks each length that it reads against the bytes left, so that a wrong one allocates no more than there
+/// is.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> from) : left_(from) {}

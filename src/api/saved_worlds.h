@@ -1,4 +1,4 @@
-/// The bytes of worlds that are saved.
+/// Saved worlds as bytes.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace pbmpi::api {
 
 /// What a batch must have in common with the one that was saved.
 struct SavedFrom {
-  std::string version;  ///< of pbmpi: another may step to other bits
+  std::string version;  ///< pbmpi's; another version may step to other bits
   std::string scene;    ///< its name
   std::uint64_t scene_checksum = 0, settings_checksum = 0;
 };
@@ -24,15 +24,15 @@ struct SavedWorld {
   int id = 0;
   std::int64_t step = 0;
   WorldSeed from;
-  std::vector<double> aims;  ///< [num_motors] velocities at which motors aim; NaN: as the scene has it
+  std::vector<double> aims;  ///< [num_motors] velocities at which motors aim; NaN: the scene's own
   model::State state;
 };
 
-/// All bits, behind a header and before a checksum; the numbers are this machine's.
+/// All bits, between a header and a checksum; numbers in this machine's representation.
 std::vector<std::byte> write_worlds(const SavedFrom& from, std::span<const SavedWorld> worlds);
 
-/// Inverse of write_worlds(). Throws core::InputError for what it did not write, for what has changed since,
-/// and where `expected` differs; which ids, lengths and states fit is for the caller to find.
+/// Inverse of write_worlds(). Throws core::InputError for bytes that it did not write, for bytes that have
+/// changed since, and where `expected` differs; the caller checks which ids, lengths and states fit.
 std::vector<SavedWorld> read_worlds(std::span<const std::byte> saved, const SavedFrom& expected);
 
 }  // namespace pbmpi::api

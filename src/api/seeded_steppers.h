@@ -11,14 +11,14 @@
 
 namespace pbmpi::api {
 
-/// A stepper has one seed: worlds that share it share a stepper, and those of another have another.
+/// Keeps one stepper for each seed, shared by all worlds with that seed.
 class SeededSteppers {
  public:
   using MakeStepper = std::function<std::unique_ptr<stepping::WorldStepper>(std::uint64_t seed)>;
 
   explicit SeededSteppers(MakeStepper make_stepper) : make_stepper_(std::move(make_stepper)) {}
 
-  /// As WorldStepper's.
+  /// These do what WorldStepper's do.
   void add(int world, std::uint64_t solver_seed, std::shared_ptr<const model::Model> model,
            const model::State& state, std::int64_t step);
   void remove(int world);
@@ -34,7 +34,7 @@ class SeededSteppers {
   };
 
   MakeStepper make_stepper_;
-  std::map<std::uint64_t, Seat> by_seed_;  ///< none without a world
+  std::map<std::uint64_t, Seat> by_seed_;  ///< only seeds that have a world
   std::map<int, Seat*> seats_;             ///< by world
 };
 

@@ -12,7 +12,7 @@ namespace pbmpi::api {
 namespace {
 
 constexpr int of_vector = 3, of_quaternion = 4;
-/// A caller may have normalised in single precision, or in no way that rounds as another's.
+/// A caller may have normalised in single precision, or rounded otherwise.
 constexpr double length_tolerance = 1e-3;
 
 void require_length(std::size_t length, int num_worlds, int num_bodies, int k, const char* name) {

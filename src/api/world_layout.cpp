@@ -8,7 +8,7 @@
 namespace pbmpi::api {
 namespace {
 
-/// Has the axis a motor, at the start or by an event?
+/// Does the axis have a motor, at the start or by an event?
 bool has_motor(const model::Model& model, int joint, int axis) {
   const model::Joint& held = model.joints[static_cast<std::size_t>(joint)];
   return held.motors[static_cast<std::size_t>(axis)].active() ||

@@ -19,14 +19,14 @@ struct Axis {
 
 class WorldLayout {
  public:
-  /// Of the worlds that are like this one.
+  /// The layout of `model` and of all worlds like it.
   explicit WorldLayout(const model::Model& model);
 
   int num_bodies() const { return static_cast<int>(body_names_.size()); }
   int num_motors() const { return static_cast<int>(motors_.size()); }
   std::span<const std::string> body_names() const { return body_names_; }
   std::span<const Motor> motors() const { return motors_; }
-  /// [num_motors] what each drives.
+  /// [num_motors] the axis that each motor drives.
   std::span<const Axis> axes() const { return axes_; }
 
   /// Throws core::InputError, naming the world and what differs, unless it has the same bodies and motors.

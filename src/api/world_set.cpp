@@ -38,7 +38,7 @@ std::vector<int> own_worlds(const mpi::Communicator& comm, int num_worlds) {
   return own;
 }
 
-/// Of which parameters world `world` begins.
+/// The parameters with which world `world` begins.
 Parameters parameters_of(const BatchOptions& options, int world) {
   return options.parameters.empty() ? Parameters{} : options.parameters[static_cast<std::size_t>(world)];
 }
@@ -51,7 +51,7 @@ void require_mask(std::span<const bool> mask, std::size_t num_worlds) {
 
 bool chosen(std::span<const bool> mask, std::size_t index) { return mask.empty() || mask[index]; }
 
-/// Throws unless every body of the state that sleeps does so in an island of the world.
+/// Throws unless every sleeping body of the state sleeps in an island that the world has.
 void require_islands(int world, const model::State& state) {
   const bool fit = std::all_of(state.rest.begin(), state.rest.end(), [&](const model::Rest& rest) {
     return rest.idle_steps >= -static_cast<std::int32_t>(state.rest.size());
@@ -280,7 +280,7 @@ void WorldSet::load(std::span<const std::byte> bytes) {
     steppers.add(ids_[i], solver_seed(worlds.back().from), worlds.back().model, saved[i].state,
                  saved[i].step);
   }
-  // From here on nothing throws but for want of memory.
+  // From here on nothing throws unless memory runs out.
   steppers_ = std::move(steppers);
   worlds_ = std::move(worlds);
   arrays_are_old_ = true;
@@ -292,7 +292,7 @@ void WorldSet::load(std::span<const std::byte> bytes) {
       aim(i, motor, saved[i].aims[motor]);
       has_aims = true;
     }
-    // Aiming a motor wakes what it drives, which may have slept with that aim.
+    // Aiming a motor wakes the bodies that it drives, which may have slept with that aim.
     if (has_aims) steppers_.of(ids_[i]).set_state(ids_[i], saved[i].state, saved[i].step);
   }
 }

@@ -19,7 +19,7 @@
 
 namespace pbmpi::api {
 
-/// What Batch says of its calls holds here; errors are core::InputError and core::RunError.
+/// Does what Batch documents for its calls; errors are core::InputError and core::RunError.
 class WorldSet {
  public:
   explicit WorldSet(const BatchOptions& options);
@@ -45,19 +45,19 @@ class WorldSet {
  private:
   /// Velocities at which the motors of a world were told to aim.
   struct Aims {
-    std::vector<double> velocity;     ///< [num_motors]; NaN: as the scene has it
-    std::vector<std::int64_t> since;  ///< [num_motors] the step before which each was told
+    std::vector<double> velocity;     ///< [num_motors]; NaN: the scene's own
+    std::vector<std::int64_t> since;  ///< [num_motors] the step before which each aim was set
   };
   struct World {
     WorldSeed from;
     std::shared_ptr<const model::Model> model;
     Aims aims;
-    bool measured = false;  ///< has it stepped since it was last put anywhere?
+    bool measured = false;  ///< has it stepped since its state was last set?
   };
 
   std::size_t num_worlds() const { return ids_.size(); }
   SeededSteppers make_steppers() const;
-  /// What world `id` is from `from` on; throws unless it is like the others.
+  /// Builds world `id` from `from`; throws unless it is like the others.
   World build(int id, WorldSeed from) const;
   std::uint64_t solver_seed(const WorldSeed& from) const { return recipe_.solver_seed(from.seed); }
   const model::State& state_of(std::size_t index) const {
@@ -69,14 +69,14 @@ class WorldSet {
   double aim_now(std::size_t index, std::size_t motor) const;
   void aim(std::size_t index, std::size_t motor, double velocity);
   SavedFrom saved_from() const;
-  /// Throws unless `saved` can be put into the world of this index, built as `world`.
+  /// Throws unless `saved` fits the world of this index, built as `world`.
   void require_fit(std::size_t index, const SavedWorld& saved, const World& world) const;
 
   mpi::Communicator comm_;
   Recipe recipe_;
   std::vector<int> ids_;
-  Parameters first_parameters_;                      ///< those of world 0, ...
-  std::shared_ptr<const model::Model> first_world_;  ///< ... which all are like
+  Parameters first_parameters_;                      ///< world 0's
+  std::shared_ptr<const model::Model> first_world_;  ///< world 0, which all others are like
   WorldLayout layout_;
   std::vector<World> worlds_;        ///< [num_worlds]
   std::vector<std::int64_t> steps_;  ///< [num_worlds]

@@ -47,7 +47,7 @@ struct Difference {
   const char* text;
 };
 
-/// The sources are Bullet 3.24's.
+/// The sources are those of Bullet 3.24.
 constexpr std::array differences = {
     Difference{
         has_suspension,

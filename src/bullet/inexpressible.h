@@ -1,4 +1,4 @@
-/// What Bullet has no word for, or another meaning.
+/// Lists the features of a model that Bullet cannot express, or treats differently.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace pbmpi::bullet {
 
-/// What of this model Bullet steps otherwise than ODE, or not at all, a line each, e.g. "max_per_pair 16: a
-/// pair of geoms has 4 contacts at most".
+/// The features of this model that Bullet steps differently from ODE, or not at all, one per line, e.g.
+/// "max_per_pair 16: a pair of geoms has 4 contacts at most".
 std::vector<std::string> inexpressible(const model::Model& model);
 
 }  // namespace pbmpi::bullet

@@ -11,14 +11,14 @@
 
 namespace pbmpi::bullet {
 
-/// From the joints and contacts, between collision detection and the solver.
+/// Counts from the joints and contacts, between collision detection and the solver.
 class RowCounter {
  public:
   /// Both are borrowed.
   RowCounter(const model::Model& model, AxisJoints& joints);
 
-  /// Sets rows, islands and max_island_rows. `state`: its `rest` and `broken_in` are of now; what sleeps has
-  /// no rows.
+  /// Sets rows, islands and max_island_rows. `state`: its `rest` and `broken_in` are current; sleeping bodies
+  /// have no rows.
   void count(const std::vector<Touch>& touches, const model::State& state,
              stepping::Observables& observables);
 

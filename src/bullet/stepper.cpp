@@ -41,7 +41,7 @@ void BulletStepper::set_state(int world, const model::State& state, std::int64_t
   slot.state = state;
   if (slot.world && slot.world->step() == step) {
     slot.world->set_state(state);
-  } else {  // another step has other joint settings; a world that was lost has no world of Bullet any more
+  } else {  // another step has other joint settings; a world that was lost no longer has a Bullet world
     slot.targets->move_to(*slot.model, step);
     make_world(slot, step);
   }
@@ -50,7 +50,7 @@ void BulletStepper::set_state(int world, const model::State& state, std::int64_t
 
 void BulletStepper::set_motor_velocity(int world, int joint, int axis, double velocity) {
   Slot& slot = get(world);
-  const std::int64_t step = slot.world ? slot.world->step() : 0;  // a lost world goes on at another one
+  const std::int64_t step = slot.world ? slot.world->step() : 0;  // a lost world continues in another one
   const auto* target = slot.targets->set(*slot.model, step, joint, axis, velocity);
   if (target == nullptr || !slot.world) return;
   slot.world->aim(*target);

@@ -29,7 +29,7 @@ class BulletStepper final : public stepping::WorldStepper {
   const stepping::StepContacts* contacts(int world) const override;
 
  private:
-  /// What is known of a world after the last advance().
+  /// The data of a world after the last advance().
   struct Slot {
     std::shared_ptr<const model::Model> model;
     std::unique_ptr<stepping::MotorTargets> targets;
@@ -38,8 +38,8 @@ class BulletStepper final : public stepping::WorldStepper {
     double cost_s = 0;
     std::unique_ptr<World> world;  ///< none once the state is not finite
 
-    /// A state from elsewhere may lack what the effects "sleeping" and "breakable_joints" add, and have
-    /// forces of a stepper that remembers them.
+    /// Completes a state from elsewhere, which may lack what the effects "sleeping" and "breakable_joints"
+    /// add, and drops forces that a stepper with memory left in it.
     void complete_state() {
       state.memory.clear();
       state.rest.assign(world->rest().begin(), world->rest().end());
@@ -53,7 +53,7 @@ class BulletStepper final : public stepping::WorldStepper {
 
   stepping::StepperSettings settings_;
   std::string warning_prefix_;
-  Collider collider_;  ///< outlives the worlds
+  Collider collider_;  ///< must outlive the worlds
   std::map<int, Slot> slots_;
 };
 

@@ -161,7 +161,7 @@ bool World::take_step(bool is_last, core::LapTimer& timer) {
   return true;
 }
 
-/// A step of a world in which all bodies sleep, and that no event wakes, changes nothing.
+/// A step of a world in which all bodies sleep and that no event wakes changes nothing.
 void World::sleep_on(bool is_last) {
   contacts_.forget();
   shown_.clear();
@@ -180,7 +180,7 @@ void World::collide() {
   } while (rules_.after_collision(*this));
 }
 
-/// The pairs of which a geom is awake.
+/// The pairs with at least one awake geom.
 const std::vector<model::GeomPair>& World::awake_pairs(const std::vector<model::GeomPair>& pairs) {
   if (rules_.sleepers() == nullptr) return pairs;
   awake_pairs_.clear();
@@ -194,7 +194,7 @@ const std::vector<model::GeomPair>& World::awake_pairs(const std::vector<model::
   return awake_pairs_;
 }
 
-/// Damping after the step, as ODE has it: Bullet's own is a power of 1 - d, and not exp(-d t).
+/// Applies damping after the step, as ODE does: Bullet's own is a power of 1 - d, not exp(-d t).
 void World::settle() {
   for (const int body : rules_.awake()) {
     bodies_.settle(body);

@@ -19,9 +19,9 @@
 
 namespace pbmpi::bullet {
 
-/// A world that follows from its model, its state and the step number alone. effects::StepRules has the rules
-/// that act round the step; bodies that sleep by them sleep in Bullet, whose own deactivation is off. A
-/// broken joint is disabled.
+/// A world that depends only on its model, its state and the step number. effects::StepRules has the rules
+/// that act around the step. Bodies that these rules put to sleep also sleep in Bullet, whose own
+/// deactivation is off. A broken joint is disabled.
 class World final : private effects::RuledWorld {
  public:
   /// `model`, `targets` and `collider` are borrowed; `state`: at the start of step `step`.
@@ -30,17 +30,17 @@ class World final : private effects::RuledWorld {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Takes `num_steps` >= 1 steps; false as soon as a body has a number that is not finite: the world must
-  /// not be stepped again.
+  /// Takes `num_steps` >= 1 steps. Returns false as soon as a body has a non-finite number: the world must
+  /// then not be stepped again.
   [[nodiscard]] bool advance(int num_steps, core::LapTimer& timer);
-  /// Puts the bodies into the state at the start of step(), where the world stands.
+  /// Puts the bodies into the state at the start of step(), the world's present step.
   void set_state(const model::State& state);
-  /// A motor aims elsewhere: wakes what it drives. `target` is one of the targets.
+  /// Gives a motor a new target, and wakes the bodies that it drives. `target` is one of the targets.
   void aim(const stepping::MotorTargets::Target& target);
-  /// Reads out the state after the last step, and what was observed in it: both as they were after the last
-  /// call if all bodies have slept since then.
+  /// Reads the state after the last step, and its observables: both are as after the last call if all bodies
+  /// have slept since then.
   void read(model::State& state, stepping::Observables& observables);
-  /// Of the last step, with the setting `contacts`.
+  /// Contacts of the last step, with the setting `contacts`.
   const stepping::StepContacts& contacts() const { return shown_; }
   /// As in model::State.
   std::span<const model::Rest> rest() const { return state_.rest; }
@@ -79,10 +79,10 @@ class World final : private effects::RuledWorld {
   AxisJoints joints_;
   HeldPoses held_poses_;
   Events events_;
-  model::State state_;  ///< its `rest` and `broken_in` are of now, its poses where the rules have stored them
+  model::State state_;  ///< `rest` and `broken_in` of now; poses where the rules have stored them
   effects::StepRules rules_;
   JointLoads loads_;
-  btSimpleBroadphase no_pairs_;  ///< asked for by Bullet's world, and never run
+  btSimpleBroadphase no_pairs_;  ///< Bullet's world requires it, but never runs it
   IslandWorld world_;
   Shapes shapes_;
   Pairs pairs_;
@@ -93,8 +93,8 @@ class World final : private effects::RuledWorld {
   RowCounter row_counter_;
   stepping::Observables counts_;       ///< rows and islands of the last step
   std::vector<model::Vec3> centres_;   ///< [bodies] with `contacts`: before the last step
-  stepping::StepContacts shown_;       ///< with `contacts`: of the last step
-  double linear_keep_, angular_keep_;  ///< shares of the velocities that a step's damping leaves
+  stepping::StepContacts shown_;       ///< with `contacts`: those of the last step
+  double linear_keep_, angular_keep_;  ///< factors that a step's damping applies to the velocities
   std::int64_t step_;
   bool moved_ = true;  ///< since the last read()
 };

@@ -9,22 +9,22 @@
 
 namespace pbmpi::core {
 
-/// Seconds of a clock that never goes back; its zero has no meaning.
+/// Seconds of a clock that never goes backwards; its zero has no meaning.
 inline double now_s() {
   using namespace std::chrono;
   return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-/// Seconds of processor time that this thread has used: what else runs on the core does not count.
+/// Seconds of processor time that this thread has used, without other processes on the core.
 inline double thread_cpu_s() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// The timed parts of a frame. Of one world cut into spaces: `cross_space` is root's section (collisions
-/// across spaces, islands joined over the ranks), `ship` the passing of islands from rank to rank and back.
-/// `wait` is time in which another rank's part is awaited.
+/// The timed parts of a frame. For one world cut into spaces, `cross_space` is root's section (collisions
+/// across spaces, islands joined over the ranks), and `ship` the passing of islands from rank to rank and
+/// back. `wait` is time spent waiting for another rank's part.
 enum class Phase { collide, islands, rows, solve, integrate, cross_space, ship, gather, wait, output };
 inline constexpr int num_phases = 10;
 inline constexpr std::array<std::string_view, num_phases> phase_names = {

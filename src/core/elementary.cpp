@@ -7,13 +7,14 @@
 namespace pbmpi::core {
 namespace {
 
-/// pi / 2 in three parts, of which the first two have 33 bits: their multiples by less than 2^20 are exact.
+/// pi / 2 in three parts, of which the first two have 33 bits: multiples of these by less than 2^20 are
+/// exact.
 constexpr double half_pi[3] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
 /// ln 2 in two parts; multiples of the first by less than 2^11 are exact.
 constexpr double ln_2[2] = {0x1.62e42feep-1, 0x1.a39ef35793c76p-33};
 
-/// 1 - x / (first (first + 1)) (1 - x / ((first + 2) (first + 3)) (1 - ...)): what the series of sine and
-/// cosine end in.
+/// 1 - x / (first (first + 1)) (1 - x / ((first + 2) (first + 3)) (1 - ...)): the tail of the series of sine
+/// and cosine.
 double alternating_series(double x, int first, int num_terms) {
   double sum = 1;
   for (int i = num_terms - 1; i >= 0; --i) {
@@ -23,7 +24,7 @@ double alternating_series(double x, int first, int num_terms) {
   return sum;
 }
 
-/// See angle_of_right_half().
+/// Plain numbers for angle_of_right_half().
 struct Numbers {
   using V = double;
   using Scalar = double;
@@ -49,7 +50,7 @@ Reduced reduce(double angle) {
           (rest - (rest + tail)) + tail};
 }
 
-/// Of the rest of a reduced angle.
+/// Sine and cosine of the rest of a reduced angle.
 double sine_of(const Reduced& angle) {
   const double square = angle.rest * angle.rest;
   const double less = angle.rest * (square / 6 * alternating_series(square, 4, 7));
@@ -61,7 +62,7 @@ double cosine_of(const Reduced& angle) {
   return 1 - (less + angle.rest * angle.tail);
 }
 
-/// The sine of an angle that lies `quarters` turns of a quarter further.
+/// The sine of `angle` plus `quarters` quarter turns.
 double sine_after(double angle, int quarters) {
   if (!std::isfinite(angle)) return std::numeric_limits<double>::quiet_NaN();
   const Reduced reduced = reduce(angle);
@@ -90,13 +91,13 @@ double exponential(double x) {
   const double high = x - twos * ln_2[0], low = twos * ln_2[1];
   const double rest = high - low, tail = (high - rest) - low;
   constexpr int num_terms = 14;
-  double sum = 1;  // of the series after 1, over the rest
+  double sum = 1;  // of the series after 1, divided by the rest
   for (int n = num_terms; n > 1; --n) sum = 1 + rest / n * sum;
   return std::ldexp(1 + (rest * sum + tail), static_cast<int>(twos));
 }
 
 double angle_of(double y, double x) {
-  const double scale = std::fmax(std::abs(x), std::abs(y));  // so that no square is too large or small
+  const double scale = std::fmax(std::abs(x), std::abs(y));  // so that no square overflows or underflows
   if (scale == 0 || std::isnan(x) || std::isnan(y)) return scale == 0 ? 0 : x + y;
   const auto part = [&](double value) {
     return std::isinf(scale) ? (std::isinf(value) ? std::copysign(1.0, value) : 0) : value / scale;

@@ -1,14 +1,15 @@
-/// Elementary functions with the same bits on every machine: they use nothing but the operations that IEEE
-/// 754 rounds. The C library's have several versions, of which it picks one by the CPU, and these differ in
-/// their last bits. What a state depends on takes its functions from here.
+/// Elementary functions with the same bits on every machine: they use only operations that IEEE 754 rounds.
+/// The C library has several versions of each function, chooses one by the CPU, and these differ in their
+/// last bits. Code that a state depends on takes its functions from here.
 ///
-/// The series are those of Taylor, after the argument has been reduced until few terms are left (J.-M.
-/// Muller, "Elementary Functions: Algorithms and Implementation", chapters 3 and 11).
+/// The series are Taylor's, after the argument has been reduced until few terms are left (J.-M. Muller,
+/// "Elementary Functions: Algorithms and Implementation", chapters 3 and 11).
 #pragma once
 
 namespace pbmpi::core {
 
-/// Of an angle [rad]; within 2 units in the last place below 1e5 rad. NaN of what is not finite.
+/// Sine and cosine of an angle [rad]; within 2 units in the last place below 1e5 rad. NaN for a non-finite
+/// angle.
 double sine(double angle);
 double cosine(double angle);
 /// e^x within 2 units in the last place; 0 below -745, infinity above 709.8.
@@ -17,9 +18,9 @@ double exponential(double x);
 /// origin.
 double angle_of(double y, double x);
 
-/// The angle [rad] of the direction (x, y), for x >= 0, in numbers or in lanes of them: T has their type V,
-/// the type Scalar of one, broadcast(Scalar) and sqrt(V). Halving the angle four times leaves a tangent below
-/// 0.1, for which the series of the arc tangent ends soon.
+/// The angle [rad] of the direction (x, y), for x >= 0, in numbers or in lanes of numbers: T has their type
+/// V, the type Scalar of a single number, broadcast(Scalar) and sqrt(V). Halving the angle four times leaves
+/// a tangent below 0.1, for which the series of the arc tangent ends soon.
 template <class T>
 [[gnu::always_inline]] inline typename T::V angle_of_right_half(const typename T::V& y,
                                                                 const typename T::V& x) {

@@ -1,4 +1,4 @@
-/// Errors that end a program, and the exit code that each stands for.
+/// Errors that end a program, and their exit codes.
 #pragma once
 
 #include <stdexcept>
@@ -9,7 +9,7 @@ namespace pbmpi::core {
 /// Exit codes of the three programs (also in --help).
 enum class ExitCode : int { done = 0, failed = 1, bad_input = 2, stopped = 75 };
 
-/// The user can mend this: bad usage, a malformed file, an impossible value. Exit code 2.
+/// The user can correct this: bad usage, a malformed file, an impossible value. Exit code 2.
 /// Message grammar: *where: what is wrong (why it is one); what to do*.
 class InputError : public std::runtime_error {
  public:

@@ -10,7 +10,7 @@ namespace pbmpi::core {
 /// FNV-1a over bytes, 64 bit (Fowler, Noll, Vo), fed 8 bytes at a time.
 class Hash64 {
  public:
-  /// Adds `count` doubles by their bits: -0.0 and 0.0 differ, and so do NaNs of different payload.
+  /// Adds `count` doubles by their bits: -0.0 and 0.0 differ, and so do NaNs with different payloads.
   void add(const double* values, std::size_t count);
   void add(std::uint64_t word);
   std::uint64_t value() const { return value_; }

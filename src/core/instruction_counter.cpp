@@ -34,8 +34,8 @@ int open_perf_event() {
   return static_cast<int>(syscall(SYS_perf_event_open, &what, 0, -1, -1, 0));
 }
 
-/// The number after "totals: " in the only dump beside `prefix`, which is then removed, so that the next dump
-/// is again the only one.
+/// The number after "totals: " in the only dump that starts with `prefix`, which is then removed, so that the
+/// next dump is again the only one.
 std::int64_t take_dump(const std::string& prefix) {
   const std::filesystem::path path(prefix);
   const std::string start = path.filename().string() + ".";

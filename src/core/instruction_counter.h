@@ -1,4 +1,4 @@
-/// Counts the instructions of a piece of the program, where something can count them.
+/// Counts the instructions of a piece of the program, where a counter is available.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace pbmpi::core {
 
-/// What counts. perf_event: the processor, by Linux's perf_event_open; absent in most virtual machines, or
-/// forbidden by kernel.perf_event_paranoid. callgrind: Valgrind's tool that the program runs under, with the
+/// The counter. perf_event: the processor's, by Linux's perf_event_open; absent in most virtual machines, or
+/// forbidden by kernel.perf_event_paranoid. callgrind: Valgrind's tool under which the program runs, with the
 /// environment variable PBMPI_CALLGRIND_OUT naming its --callgrind-out-file.
 enum class InstructionSource { none, perf_event, callgrind };
 constexpr std::string_view name_of(InstructionSource source) {
@@ -19,7 +19,7 @@ constexpr std::string_view name_of(InstructionSource source) {
 /// Instructions of this thread in user space (callgrind: of all threads). One piece at a time.
 class InstructionCounter {
  public:
-  /// Takes callgrind if the program runs under it, else the processor's counter, else none.
+  /// Takes callgrind if the program runs under it, otherwise the processor's counter, otherwise none.
   InstructionCounter();
   ~InstructionCounter();
   InstructionCounter(const InstructionCounter&) = delete;
@@ -28,10 +28,9 @@ class InstructionCounter {
   InstructionSource source() const { return source_; }
   bool available() const { return source_ != InstructionSource::none; }
 
-  /// Nothing happens where nothing counts.
+  /// Does nothing without a counter.
   void start();
-  /// Instructions since start(); -1 where nothing counts. Throws core::RunError if what counted cannot be
-  /// read.
+  /// Instructions since start(); -1 without a counter. Throws core::RunError if the counter cannot be read.
   std::int64_t stop();
 
  private:

@@ -7,7 +7,7 @@
 namespace pbmpi::core {
 namespace {
 
-/// Without Valgrind's header nobody can listen.
+/// Without Valgrind's header nothing can listen.
 void tell([[maybe_unused]] int request, [[maybe_unused]] int what) {
 #if PBMPI_HAS_CALLGRIND
   VALGRIND_DO_CLIENT_REQUEST_STMT(request, what, 0, 0, 0, 0);

@@ -6,7 +6,7 @@
 
 namespace pbmpi::core {
 
-/// From here to the end of the block the program takes the step of a frame, or makes its estimate. Not
+/// Marks, until the end of the block, that the program takes the step of a frame, or makes its estimate. Not
 /// nested.
 class SectionMark {
  public:
@@ -17,8 +17,8 @@ class SectionMark {
   SectionMark& operator=(const SectionMark&) = delete;
 };
 
-/// From here to the end of the block it is in this part of a step. Not nested. The tool knows one thread:
-/// under it steppers have no others.
+/// Marks, until the end of the block, a part of a step. Not nested. The tool knows one thread only: under it
+/// steppers have no others.
 class PhaseMark {
  public:
   enum class MarkedPhase { collision = pbvalue_collision, forward_step = pbvalue_forward };

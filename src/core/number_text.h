@@ -7,7 +7,7 @@
 
 namespace pbmpi::core {
 
-/// A number with as many digits as it takes to read it back.
+/// A number with as many digits as are needed to read it back.
 template <class Number>
 std::string number_text(Number value) {
   std::array<char, 32> text{};

@@ -9,7 +9,7 @@ namespace pbmpi::core {
 
 struct Unit {
   std::string_view name;
-  double factor = 1;  ///< the unit in units of SI
+  double factor = 1;  ///< the unit in SI units
 };
 
 /// us, ms, s
@@ -17,7 +17,7 @@ std::span<const Unit> times();
 /// mm, cm, m
 std::span<const Unit> lengths();
 
-/// The number in one of these units, in SI; nothing for anything else, and for a number that is not finite
+/// The number in one of these units, in SI; empty for anything else, including a number that is not finite
 /// and above 0.
 std::optional<double> quantity(std::string_view text, std::span<const Unit> units);
 

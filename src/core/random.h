@@ -1,4 +1,4 @@
-/// Random numbers that depend on nothing but their key: the same on every rank and in every order of calls.
+/// Random numbers that depend on their key alone: the same on every rank and in every order of calls.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// One key out of three, e.g. (run seed, world, step).
+/// One key from three, e.g. (run seed, world, step).
 constexpr std::uint64_t mix_key(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
   return mix64(mix64(mix64(a) ^ b) ^ c);
 }

@@ -30,10 +30,10 @@ Interval median_interval(std::vector<double> values, double confidence) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
-  double probability = 1;  // of exactly k heads, over 2^exponent: by itself it may be below every double
+  double probability = 1;  // of exactly k heads, over 2^exponent: undivided it may be below every double
   int exponent = -static_cast<int>(n);
   Interval found;
-  double outside = 0;  // the median is below the k-th from the bottom, or above that from the top
+  double outside = 0;  // the median is below the k-th value from the bottom, or above the k-th from the top
   for (std::size_t k = 0; 2 * k < n; ++k) {
     outside += 2 * std::ldexp(probability, exponent);
     if (k > 0 && 1 - outside < confidence) break;

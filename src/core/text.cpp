@@ -15,7 +15,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Edit distance of a word from the name that it may be meant for, or nothing if it is too far. Both in lower
+/// Edit distance of a word from the name that it may be meant for; empty if it is too far. Both in lower
 /// case.
 std::optional<int> slip(const std::string& word, const std::string& name) {
   const std::size_t shorter = std::min(word.size(), name.size()), longer = std::max(word.size(), name.size());

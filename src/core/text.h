@@ -12,8 +12,8 @@ namespace pbmpi::core {
 /// distance).
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The names that a typing error may have turned into `word`, nearest first, at most three; upper and lower
-/// case are equal. A third of the letters may differ, but at least two, or one begins with the other.
+/// The names that a typing error may have turned into `word`, nearest first, at most three; ignores case. A
+/// third of the letters may differ, or two if that is more, or one name begins with the other.
 std::vector<std::string> nearest_names(std::string_view word, const std::vector<std::string>& names);
 
 /// The first of nearest_names(); empty if none is near.
@@ -22,10 +22,10 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 /// 'text', in single quotes.
 std::string in_quotes(std::string_view text);
 
-/// "; did you mean 'a' or 'b'?", or if nothing is near "; known: 'a', 'b', 'c'".
+/// "; did you mean 'a' or 'b'?", or if no name is near "; known: 'a', 'b', 'c'".
 std::string suggestion(std::string_view word, const std::vector<std::string>& names);
 
-/// The value of that name; empty if there is none.
+/// The value with this name; empty if there is none.
 std::string value_in(const std::map<std::string, std::string>& values, const std::string& name);
 
 }  // namespace pbmpi::core

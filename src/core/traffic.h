@@ -1,4 +1,4 @@
-/// How much a rank sends.
+/// Counts what a rank sends.
 #pragma once
 
 #include <cstdint>

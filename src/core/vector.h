@@ -10,7 +10,7 @@ namespace pbmpi::core {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
-/// A rotation as unit quaternion, stored (w, x, y, z) as in ODE and in the files (Eigen stores x, y, z, w).
+/// A rotation as a unit quaternion, stored (w, x, y, z) as in ODE and in the files (Eigen stores x, y, z, w).
 struct Quat {
   double w = 1, x = 0, y = 0, z = 0;
 
@@ -25,9 +25,9 @@ struct Pose {
   Vec3 position = Vec3::Zero();
   Quat orientation;
 
-  /// A point given in this frame [m], in the outer frame.
+  /// Transforms a point from this frame to the outer frame [m].
   Vec3 point_to_outer(const Vec3& local) const { return position + orientation.to_eigen() * local; }
-  /// A direction given in this frame, in the outer frame.
+  /// Rotates a direction from this frame to the outer frame.
   Vec3 direction_to_outer(const Vec3& local) const { return orientation.to_eigen() * local; }
 };
 

@@ -10,13 +10,12 @@
 
 namespace pbmpi::effects {
 
-/// Cd A [m^2] of a geom, as if its body had no other and nothing stood near.
+/// Cd A [m^2] of a geom, as if it were its body's only geom and nothing stood near.
 ///
-/// A is the mean over all directions of what a convex body's shadow covers: a quarter of its surface
-/// (Cauchy), since a body that tumbles shows all its sides. Cd at Re of 1e4 to 2e5: sphere 0.47 and cube 1.05
-/// from S. F. Hoerner, Fluid-Dynamic Drag (1965), chapter III; cylinder 0.82 (ten diameters long, side on)
-/// from C. Matthews, Aeronautical Engineer's Data Book (2002), chapter 5. A capsule is taken as round as a
-/// sphere.
+/// A is the mean area of a convex body's shadow over all directions: a quarter of its surface (Cauchy), since
+/// a tumbling body shows all its sides. Cd at Re of 1e4 to 2e5: sphere 0.47 and cube 1.05 from S. F. Hoerner,
+/// Fluid-Dynamic Drag (1965), chapter III; cylinder 0.82 (ten diameters long, side on) from C. Matthews,
+/// Aeronautical Engineer's Data Book (2002), chapter 5. A capsule is taken as round as a sphere.
 inline double drag_area(const model::Geom& geom) {
   constexpr double cd_round = 0.47, cd_box = 1.05, cd_cylinder = 0.82, pi = std::numbers::pi;
   const auto& [a, b, c] = geom.size;
@@ -46,8 +45,8 @@ inline std::vector<double> drag_factors(const model::Model& model) {
   return factors;
 }
 
-/// The force on a centre of mass is -1/2 rho Cd A |v| v, in air that stands still; turning is not dragged on.
-/// In a step v' = v / (1 + k |v| dt), which is implicit in the direction and so never reverses a velocity.
+/// The force on a centre of mass is -1/2 rho Cd A |v| v, in still air; there is no drag on rotation. In a
+/// step v' = v / (1 + k |v| dt), which is implicit in the direction and so never reverses a velocity.
 inline VelocityRule make_drag(const model::Model& model) {
   return [factors = drag_factors(model)](double dt_s, std::span<const int> bodies, model::State& state) {
     for (const int body : bodies) {

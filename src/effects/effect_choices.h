@@ -10,15 +10,16 @@ namespace pbmpi::effects {
 /// Throws core::InputError, with the nearest names, if no effect is called that.
 void require_effect(const std::string& name);
 
-/// From "+friction,-gravity". Throws core::InputError for anything else, an unknown name, or a name twice.
+/// Parses "+friction,-gravity". Throws core::InputError for anything else, an unknown name, or a name given
+/// twice.
 model::EffectChoices parse_effect_choices(const std::string& text);
 
 /// The text that parses to these choices.
 std::string to_text(const model::EffectChoices& choices);
 
-/// Takes out of the model what calls for the effects that model.effects leaves out, so that every stepper and
+/// Removes from the model what calls for the effects that model.effects leaves out, so that every stepper and
 /// every measurement sees the world without them. Throws core::InputError for an effect that cannot be left
-/// out, or a demanded one that needs one left out.
+/// out, or for a demanded effect that needs one that is left out.
 void leave_out_effects(model::Model& model);
 
 }  // namespace pbmpi::effects

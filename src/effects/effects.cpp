@@ -57,7 +57,7 @@ std::optional<Reason> restitution(const model::Model& model) {
   return counted_if(model.pair_materials, bounces, "pairs of actors with restitution > 0");
 }
 
-/// Spaces in which a body moves.
+/// Counts the spaces in which a body moves.
 std::optional<Reason> cross_space(const model::Model& model) {
   if (!collision(model)) return std::nullopt;
   std::vector<bool> in_use(model.spaces.size(), false);
@@ -147,7 +147,7 @@ std::optional<Reason> damping(const model::Model& model) {
   return counted(model.num_bodies(), what.str());
 }
 
-/// An approximation, so that a model has it only on explicit request.
+/// Sleeping is an approximation, so a model has it only on explicit request.
 std::optional<Reason> sleeping(const model::Model& model) {
   if (choice_of(model, EffectId::sleeping) != std::optional<bool>(true)) return std::nullopt;
   char text[96];

@@ -18,11 +18,11 @@ namespace pbmpi::effects {
 /// Why a model calls for an effect.
 struct Reason {
   std::int64_t count = 0;  ///< how many things call for it; 0 where nothing is counted
-  std::string what;        ///< what is counted ("geoms with mu > 0"), or all there is to say
+  std::string what;        ///< what is counted ("geoms with mu > 0"), or the whole reason
   std::string text() const { return count == 0 ? what : std::to_string(count) + " " + what; }
 };
 
-/// Names an effect in code; texts for people (scene files, --effects, reports) have Effect::name.
+/// Names an effect in code; texts for people (scene files, --effects, reports) use Effect::name.
 enum class EffectId {
   events,
   steering,
@@ -45,9 +45,9 @@ enum class EffectId {
 };
 
 /// Changes the velocities of some bodies at the start of a step of `dt_s`, after the step's events and before
-/// collision detection: the rows of `state` that belong to `bodies`. What a body gets must depend on nothing
-/// but its own row, and must not make it faster, since ranks that share a world learn of its fast bodies at
-/// the end of the step before. A velocity of zero stays zero.
+/// collision detection: the rows of `state` that belong to `bodies`. A body's new velocity must depend on
+/// nothing but its own row, and must not be faster, since ranks that share a world learn of its fast bodies
+/// at the end of the previous step. A velocity of zero stays zero.
 using VelocityRule = std::function<void(double dt_s, std::span<const int> bodies, model::State& state)>;
 
 /// One effect of the registry.
@@ -58,14 +58,14 @@ struct Effect {
   core::Phase phase;         ///< the phase of the step that its pass joins
   /// Why the model calls for it ("212 geoms with mu > 0"), or nothing if it does not.
   std::optional<Reason> (*reason)(const model::Model& model);
-  /// Takes out of the model what calls for it; does nothing where only its pass is left out. Throws
-  /// core::InputError if the model falls apart without.
+  /// Removes from the model what calls for it; does nothing where only its pass is left out. Throws
+  /// core::InputError if the model falls apart without it.
   void (*leave_out)(model::Model& model);
-  /// For an effect that changes velocities: the rule of this model, for StepRules.
+  /// For an effect that changes velocities: this model's rule, for StepRules.
   VelocityRule (*make_velocity_rule)(const model::Model& model) = nullptr;
 };
 
-/// All effects, in the order of the step: that of EffectId, which is the index.
+/// All effects, in the order of the step, which is the order of EffectId; indexed by EffectId.
 const std::vector<Effect>& effect_registry();
 
 /// True: the model demands the effect; false: it leaves it out; nothing: the rest of the model decides.
@@ -81,12 +81,12 @@ struct Pass {
   bool idle = false;  ///< demanded, though nothing calls for it
 };
 
-/// False for a body whose inertia is the same about every axis, like a sphere's or a cube's: its torque is
-/// exactly zero.
+/// False for a body whose inertia is the same about every axis, like a sphere's or a cube's: its gyroscopic
+/// torque is exactly zero.
 bool has_gyroscopic_torque(const model::Body& body);
 
-/// The passes of a world's step, in order. An effect that nothing calls for has none, unless it is demanded;
-/// one that is left out has none. A pass that nothing calls for changes no bit of a state.
+/// The passes of a world's step, in order. An effect that nothing calls for has no pass unless it is
+/// demanded; an effect that is left out has none. A pass that nothing calls for changes no bit of a state.
 class StepPlan {
  public:
   explicit StepPlan(const model::Model& model);

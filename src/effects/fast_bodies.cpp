@@ -16,13 +16,13 @@ model::BodyPose pose_of(const model::State& state, const model::Geom& geom) {
                 : geometry::body_pose({state.position[geom.body], state.orientation[geom.body]}));
 }
 
-/// `body`, `pose`: the body's; `geom_at`: the geom's.
+/// `geom_at`: the geom's pose; the other arguments are the body's.
 core::Vec3 velocity_of_centre(const model::BodyPose& geom_at, const core::Vec3& body_position,
                               const core::Vec3& velocity, const core::Vec3& angular_velocity) {
   return velocity + angular_velocity.cross(core::Vec3(geom_at.position) - body_position);
 }
 
-/// A way of the geom's centre, longer by what the geom reaches ahead of it.
+/// A path of the geom's centre, extended by how far the geom reaches ahead of it.
 core::Vec3 with_front(const model::Geom& geom, const model::BodyPose& geom_at, const core::Vec3& way) {
   const double length = way.norm();
   if (length == 0) return way;
@@ -31,8 +31,8 @@ core::Vec3 with_front(const model::Geom& geom, const model::BodyPose& geom_at, c
 
 constexpr int no_family = -1;
 
-/// The geoms of an actor that does not collide with itself, or else of a body. Most of what is near a limb is
-/// of its own family.
+/// A family is the geoms of an actor that does not collide with itself, or else of a body. Most geoms near a
+/// limb are of its own family.
 int family_of(const model::Model& model, const model::Geom& geom) {
   const auto actor = static_cast<std::size_t>(geom.actor);
   return model.actors[actor].self_collision ? static_cast<int>(model.actors.size()) + geom.body : geom.actor;
@@ -43,8 +43,8 @@ bool by_geoms(const model::Contact& a, const model::Contact& b) { return a.geoms
 }  // namespace
 
 std::vector<SlowBound> slow_bounds(const model::Model& model) {
-  // Of what a geom's centre may move, half by the body's way and half by its turn; what is rounded stays
-  // below.
+  // A geom's centre may move half by the body's displacement and half by its rotation; 0.49 instead of 0.5
+  // leaves room for rounding.
   constexpr double share = 0.49;
   std::vector<SlowBound> bounds(model.bodies.size(), {model::infinity, model::infinity});
   for (const model::Geom& geom : model.geoms) {
@@ -75,8 +75,8 @@ FastBodies::FastBodies(const model::Model& model, std::span<const char> of_bodie
   for (const model::Body& body : model.bodies) ease_of_turning_.push_back(3 / body.inertia.trace());
 }
 
-/// Without a square root, of which there would be two a geom: the part of either is below half of what makes
-/// a geom fast. What is not finite is slow.
+/// The first test saves the two square roots a geom: the displacement and the rotation each account for less
+/// than half of what makes a geom fast. A non-finite speed counts as slow.
 bool FastBodies::is_slow(const Watched& watched, const core::Vec3& velocity, const core::Vec3& spin,
                          double dt_s) {
   const double half_s = 0.499 * watched.least_half / dt_s;
@@ -128,15 +128,15 @@ const model::BodyPose& FastBodies::met_pose(const model::State& state, int geom)
   return *pose;
 }
 
-/// The state may be another than that of the last call.
+/// Call it first, since the state may differ from the last call's.
 void FastBodies::forget_met() {
   for (const int geom : met_) met_poses_[static_cast<std::size_t>(geom)].reset();
   met_.clear();
 }
 
-/// The contact acts where the way meets the surface, or below the fast geom's centre: a lever that comes from
-/// meeting at a slant would turn a body instead of stopping it, so that it is dealt out by how easily the two
-/// turn, the less to the one that turns easily.
+/// The contact acts somewhere between the point where the path meets the surface and the point below the fast
+/// geom's centre: the lever arm of an oblique hit would turn a body instead of stopping it, so the arm is
+/// divided by how easily the two bodies turn, with less for the one that turns more easily.
 void FastBodies::meet(const model::State& state, const Fast& fast, const core::Vec3& way, int other) {
   const core::Vec3 centre(fast.pose.position);
   const model::Geom& geom = model_->geoms[fast.geom];
@@ -160,7 +160,7 @@ void FastBodies::meet(const model::State& state, const Fast& fast, const core::V
   found_.push_back(contact);
 }
 
-/// `accepts`: the other geom.
+/// Meets the geoms near the path for which accepts(geom) is true.
 template <class Accepts>
 void FastBodies::look_from(const model::State& state, const Fast& fast, const BallSet& set,
                            const Accepts& accepts) {
@@ -179,11 +179,11 @@ void FastBodies::look_from(const model::State& state, const Fast& fast, const Ba
       meet(state, fast, fast.reach, other);
     }
   };
-  // The front is within the geom's ball; the way of what is fast, too, is in its swept ball.
+  // The front is within the geom's ball; the path of another fast geom is in its swept ball.
   set.swept.for_each_near(geometry::swept_box(centre, fast.radius, fast.way), fast.family, meet_if_near);
 }
 
-/// Keeps their memory.
+/// Empties the sets but keeps their memory.
 void FastBodies::clear_sets(std::size_t count) {
   forget_met();
   sets_.resize(count);
@@ -232,7 +232,7 @@ void FastBodies::add_across(const model::State& state, std::span<const int> grou
   join_found(contacts);
 }
 
-/// In canonical order, after those of the same geoms that touch.
+/// Keeps canonical order, with the speculative contacts of a pair after its touching ones.
 void FastBodies::join_found(std::vector<model::Contact>& contacts) {
   std::stable_sort(found_.begin(), found_.end(), by_geoms);
   const auto end =

@@ -1,4 +1,4 @@
-/// The effect fast_bodies: contacts ahead of geoms that could pass through others between two steps.
+/// The effect fast_bodies: speculative contacts for geoms that could pass through others between two steps.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@
 
 namespace pbmpi::effects {
 
-/// No geom of a body is fast in a step in which its centre of mass moves by no more than this, and it turns
-/// by no more. A body without geoms has no bounds.
+/// No geom of a body is fast in a step in which the body's centre of mass moves by at most way_m and the body
+/// turns by at most turn_rad. A body without geoms has no bounds.
 struct SlowBound {
   double way_m = 0, turn_rad = 0;
   bool holds(const core::Vec3& velocity, const core::Vec3& angular_velocity, double dt_s) const {
@@ -26,50 +26,54 @@ struct SlowBound {
 /// [num_bodies]
 std::vector<SlowBound> slow_bounds(const model::Model& model);
 
-/// Looks ahead of fast geoms. A geom is fast in a step if its centre moves further than half its extent along
-/// its way: from then on colliding at steps alone can find it behind the middle of what it hits, or miss it.
+/// Finds speculative contacts of fast geoms. A geom is fast in a step if its centre moves further than half
+/// its extent along its path: beyond that, collision detection at steps alone can find it behind the middle
+/// of what it hits, or miss it.
 ///
-/// From its centre its way in the step, longer by that half extent, is cast against each geom that it may
-/// touch, as seen from that geom if it is fast itself. Where the way comes in, a contact with a gap (negative
-/// depth) keeps the two from coming closer than to touch. It has neither friction nor bounce, which are of
-/// surfaces that touch: the next step's contact has them. A pair that touches already has it too, since a
-/// touch at the end of a rod turns the rod and lets its middle through. What a pair gets depends on nothing
-/// but the two, so that a world cut into spaces finds the same.
+/// The path of its centre in the step, extended by that half extent, is cast against each geom that it may
+/// touch, relative to that geom if it is fast itself. Where the path enters the geom, a contact with a gap
+/// (negative depth) keeps the two from coming closer than touching. This contact has neither friction nor
+/// restitution, which belong to touching surfaces: the next step's contact has them. A pair that already
+/// touches gets one too, since a contact at the end of a rod turns the rod and lets its middle through. A
+/// pair's contact depends on nothing but the two geoms, so that a world cut into spaces finds the same
+/// contacts.
 ///
-/// Whoever steps the world arms it by SlowBound, which costs next to nothing: a step in which no geom can be
-/// fast is the same without the pass.
+/// The engine that steps the world arms the pass by SlowBound, which costs next to nothing: a step in which
+/// no geom can be fast is the same without the pass.
 class FastBodies {
  public:
-  /// False for a pair that another caller looks at.
+  /// False for a pair that another caller checks.
   using Filter = std::function<bool(int fast_geom, int other_geom)>;
 
-  /// `model` is borrowed. `of_bodies` [num_bodies]: looks only at these, and at static geoms; empty: at all.
+  /// `model` is borrowed. `of_bodies` [num_bodies]: considers only these bodies, and static geoms; empty:
+  /// all.
   explicit FastBodies(const model::Model& model, std::span<const char> of_bodies = {});
 
-  /// Joints are broken from now on: State::broken_in.
+  /// Takes in which joints are broken from now on (State::broken_in).
   void set_broken(std::span<const std::int32_t> broken_in) { rule_ = model::TouchRule(*model_, broken_in); }
 
   /// Finds the fast geoms at the start of a step of `dt_s`; true if there are any.
   bool look(const model::State& state, double dt_s);
   /// Bodies that had a fast geom in the last look(), ascending.
   const std::vector<int>& bodies() const { return bodies_; }
-  /// Adds to `contacts`, in canonical order (sorted by Contact::geoms), those of the fast geoms of the last
-  /// look() with the geoms that `filter` lets through: at most one a pair, after those of its touch.
+  /// Adds to `contacts`, in canonical order (sorted by Contact::geoms), the speculative contacts of the last
+  /// look()'s fast geoms with the geoms that `filter` accepts: at most one a pair, after the pair's touching
+  /// contacts.
   void add(const model::State& state, const Filter& filter, std::vector<model::Contact>& contacts);
-  /// As add(), with the geoms of bodies of other groups only; `group_of_body` [num_bodies], from 0 on.
+  /// Like add(), but only with geoms of bodies of other groups; `group_of_body` [num_bodies], from 0 on.
   void add_across(const model::State& state, std::span<const int> group_of_body,
                   std::vector<model::Contact>& contacts);
 
  private:
-  /// A ball that holds a geom: about its body's centre of mass, so that it need not be turned.
+  /// A ball that holds a geom, centred at its body's centre of mass so that it need not be turned.
   struct Ball {
     int geom = 0;
     int body = model::no_body;
-    core::Vec3 centre = core::Vec3::Zero();  ///< of a static geom
+    core::Vec3 centre = core::Vec3::Zero();  ///< used for static geoms only
     double radius = 0;                       ///< [m]
     int family = 0;                          ///< geoms of one family never touch
   };
-  /// Balls of now, on the ways of those that are fast.
+  /// Current balls; those of fast geoms are swept along their paths.
   struct BallSet {
     geometry::SweptBalls swept;
     std::vector<int> balls;  ///< index of each into balls_
@@ -77,9 +81,9 @@ class FastBodies {
   /// A geom that moves.
   struct Watched {
     int geom = 0, body = 0;
-    int family = 0;         ///< as of its ball
+    int family = 0;         ///< Ball::family
     double least_half = 0;  ///< half the least extent [m]
-    double arm = 0;         ///< from its body's centre of mass [m]
+    double arm = 0;         ///< distance from its body's centre of mass [m]
     double radius = 0;      ///< of its ball [m]
   };
   /// A geom that is fast in this step.
@@ -87,8 +91,8 @@ class FastBodies {
     int geom = 0, family = 0;
     double radius = 0;     ///< of its ball [m]
     model::BodyPose pose;  ///< of the geom
-    core::Vec3 way;        ///< of its centre in this step [m], world frame
-    core::Vec3 reach;      ///< from its centre to where its front comes, past what does not move
+    core::Vec3 way;        ///< displacement of its centre in this step [m], world frame
+    core::Vec3 reach;      ///< from its centre to where its front ends up, relative to the world [m]
   };
 
   void clear_sets(std::size_t count);
@@ -100,7 +104,7 @@ class FastBodies {
   template <class Accepts>
   void look_from(const model::State& state, const Fast& fast, const BallSet& set, const Accepts& accepts);
   void meet(const model::State& state, const Fast& fast, const core::Vec3& way, int other);
-  /// The pose of a geom that a way may meet, computed once a call of add() or add_across().
+  /// The pose of a geom that a path may meet, computed once in each call of add() or add_across().
   const model::BodyPose& met_pose(const model::State& state, int geom);
   void forget_met();
 
@@ -112,9 +116,9 @@ class FastBodies {
   std::vector<Fast> fast_;               ///< ascending
   std::vector<int> fast_of_geom_;        ///< [geoms] index into fast_, or -1
   std::vector<int> bodies_;
-  std::vector<std::optional<model::BodyPose>> met_poses_;  ///< [geoms] none: not asked for yet
-  std::vector<int> met_;                                   ///< those that move of which there is one
-  std::vector<BallSet> sets_;                              ///< of add(), add_across(): one for each group
+  std::vector<std::optional<model::BodyPose>> met_poses_;  ///< [geoms] none: not computed yet
+  std::vector<int> met_;                                   ///< moving geoms whose pose is in met_poses_
+  std::vector<BallSet> sets_;  ///< scratch of add(), add_across(): one for each group
   std::vector<model::Contact> found_;
 };
 

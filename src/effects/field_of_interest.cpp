@@ -19,7 +19,7 @@ void FieldOfInterest::set_broken(const model::Model& model, std::span<const std:
 }
 
 double FieldOfInterest::outside_share() const {
-  constexpr double rest = 5;  // iterations that take as long as rows and integration: Environ, sor double
+  constexpr double rest = 5;  // iterations that cost as much as rows and integration: Environ, sor double
   return (outside_iterations() + rest) / (iterations() + rest);
 }
 

@@ -15,28 +15,29 @@ namespace pbmpi::effects {
 
 /// An application can focus on the area around its user (Yeh, Faloutsos, Reinman 2006, section 2.2): an
 /// island of which any body's centre lies within the radius is inside, and is solved with all iterations of
-/// the run; others get a few. The choice is made anew at the start of each step, from its poses and contacts
-/// alone. It is one of whole islands, so that no row couples bodies of both sorts.
+/// the run; other islands get a few. The choice is made anew at the start of each step, from its poses and
+/// contacts alone. It concerns whole islands, so that no row couples bodies inside and outside.
 class FieldOfInterest {
  public:
-  /// `iterations`: of the run. A model without an Interest has all its islands inside.
+  /// `iterations`: the run's. A model without an Interest has all its islands inside.
   FieldOfInterest(const model::Model& model, int iterations);
 
-  /// Joints are broken from now on, and connect no islands: State::broken_in. `model` is that of before.
+  /// Takes in which joints are broken from now on and connect no islands (State::broken_in). `model`: the
+  /// same as in the constructor.
   void set_broken(const model::Model& model, std::span<const std::int32_t> broken_in);
 
   /// The body that it follows, whose position set_center() needs each step; or no_body.
   int follows() const { return interest_.follows; }
   void set_center(const core::Vec3& center) { interest_.center = center; }
-  /// Sets the center, given the positions of all bodies, to that of the body that it follows.
+  /// Sets the center to the position of the followed body, given the positions of all bodies.
   void look(std::span<const core::Vec3> position) {
     if (follows() != model::no_body) set_center(position[static_cast<std::size_t>(follows())]);
   }
   int iterations() const { return iterations_; }
   int outside_iterations() const { return std::min(iterations_, interest_.outside_iterations); }
-  /// About what an island costs outside, as a share of its cost inside.
+  /// Approximate cost of an island outside, as a share of its cost inside.
   double outside_share() const;
-  /// Is the centre of a body there inside?
+  /// Is a body whose centre is there inside?
   bool is_near(const core::Vec3& position) const {
     return !((position - interest_.center).squaredNorm() > interest_.radius_m * interest_.radius_m);
   }
@@ -61,8 +62,8 @@ class FieldOfInterest {
   model::Interest interest_;
   int iterations_;
   model::DisjointSets jointed_;   ///< bodies that whole joints connect
-  model::DisjointSets islands_;   ///< of the last sort(), if it had to look
-  std::vector<char> near_;        ///< [num_bodies] scratch: at the lowest body of an island
+  model::DisjointSets islands_;   ///< islands of the last sort(), if it needed them
+  std::vector<char> near_;        ///< [num_bodies] scratch, set at the lowest body of an island
   std::vector<char> inside_set_;  ///< [num_bodies]
   std::vector<int> inside_, outside_;
 };

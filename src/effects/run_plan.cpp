@@ -5,7 +5,7 @@ namespace {
 
 std::string reason_of(const PassTally& tally, int num_worlds) {
   const int called_for = tally.worlds - tally.idle_worlds;
-  if (called_for == 0) return "demanded; nothing calls for it";  // a demand is made of all worlds
+  if (called_for == 0) return "demanded; nothing calls for it";  // a demand holds for all worlds
   std::string text;
   for (const auto& [what, count] : tally.counts)
     text += (text.empty() ? "" : ", ") + Reason{count, what}.text();

@@ -12,8 +12,8 @@ namespace pbmpi::effects {
 
 /// What the worlds of a run say of one effect.
 struct PassTally {
-  int worlds = 0;       ///< that have its pass
-  int idle_worlds = 0;  ///< of these: it is demanded, though nothing in them calls for it
+  int worlds = 0;       ///< worlds that have its pass
+  int idle_worlds = 0;  ///< of these, worlds that demand it though nothing in them calls for it
   /// Reason::what -> the sum of Reason::count over the worlds that call for it.
   std::map<std::string, std::int64_t> counts;
 };
@@ -21,7 +21,7 @@ struct PassTally {
 /// A pass that some world of a run has.
 struct RunPass {
   const Effect* effect = nullptr;
-  std::string reason;  ///< "3900 geoms with mu > 0, in 100 worlds"; of one world: that of its StepPlan
+  std::string reason;  ///< "3900 geoms with mu > 0, in 100 worlds"; for a single world as in its StepPlan
   bool idle = false;   ///< demanded, though nothing in any world calls for it
 };
 

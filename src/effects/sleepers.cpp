@@ -60,7 +60,7 @@ std::vector<int> Sleepers::islands_called(std::int64_t step, const model::State&
   const auto first = std::lower_bound(model_->events.begin(), model_->events.end(), step, by_step);
   const auto last = std::upper_bound(first, model_->events.end(), step + 1, by_step);
   for (auto event = first; event != last; ++event) {
-    // A joint that is released in a step breaks at the end of the one before.
+    // A joint that is released in a step breaks at the end of the previous step.
     const bool is_release = event->kind == model::EventKind::release;
     if (event->step != (is_release ? step + 1 : step)) continue;
     if (event->kind == model::EventKind::launch) {

@@ -10,16 +10,16 @@
 
 namespace pbmpi::effects {
 
-/// Sleepers with the state that they are about. Where ranks share a world, every rank knows of every body
-/// whether it sleeps, and with whom: what falls asleep or wakes is agreed on each step. How long an awake
-/// body has rested only its owner knows.
+/// Sleepers together with the state that they act on. Where ranks share a world, every rank knows which
+/// bodies sleep and with which island: the ranks agree each step on what falls asleep or wakes. How long an
+/// awake body has rested is known to its owner alone.
 class SpaceSleepers {
  public:
   /// Borrows both; `state` is the rank's copy; in a shared world only its own rows are current.
   SpaceSleepers(const model::Model& model, double dt_s, model::State& state)
       : sleepers_(model, dt_s), state_(&state) {}
 
-  /// The state is another from now on.
+  /// Takes in a new state.
   void start();
   /// Takes in rest_rows().
   void put(std::span<const int> bodies, std::span<const double> rows);
@@ -27,22 +27,23 @@ class SpaceSleepers {
   std::vector<double> rest_rows(std::span<const int> bodies) const;
 
   bool asleep(int body) const { return state_->rest[body].asleep(); }
-  int island(int body) const { return state_->rest[body].island(); }  ///< of one that sleeps
+  int island(int body) const { return state_->rest[body].island(); }  ///< of a sleeping body
   bool all_asleep() const { return sleepers_.awake().empty(); }
   std::span<const int> awake() const { return sleepers_.awake(); }
   /// Rises whenever a body wakes or falls asleep.
   long revision() const { return revision_; }
 
-  /// Wakes what the events of this step concern: the same on every rank.
+  /// Wakes the islands that the events of this step concern: the same on every rank.
   void wake_called(std::int64_t step) { wake(sleepers_.islands_called(step, *state_)); }
   std::vector<int> islands_touched(std::span<const model::Contact> contacts) const;
-  /// Islands that sleep, ascending. True if there were any.
+  /// Wakes these sleeping islands, given in ascending order. True if there were any.
   bool wake(std::span<const int> islands);
-  /// The islands of those of these bodies that sleep; any of them may be no_body. True if there were any.
+  /// Wakes the islands of the sleeping bodies among these, of which any may be no_body. True if there were
+  /// any.
   bool wake_islands_of(std::span<const int> bodies);
 
-  /// At the end of a step: counts for those of these bodies that are awake, which make up whole islands but
-  /// for contacts across spaces; returns those that may fall asleep.
+  /// At the end of a step: counts the rest of the awake bodies among these, which make up whole islands
+  /// except for contacts across spaces; returns those that may fall asleep.
   std::vector<Resting> find_resting(std::span<const int> bodies, std::span<const BodyPair> touching);
   void put_to_sleep(std::span<const Resting> resting);
 

@@ -1,4 +1,4 @@
-/// The rules that act round the step of a world, and their order.
+/// The rules that act around a world's step, and their order.
 #pragma once
 
 #include <cstdint>
@@ -19,25 +19,25 @@ namespace pbmpi::effects {
 /// What the rules ask of the engine that steps a whole world. Bodies and joints are those of the model.
 class RuledWorld {
  public:
-  /// Launches bodies, and sets motors and limits; releases of joints are a rule, and not its matter.
+  /// Launches bodies, and sets motors and limits; the release of joints is left to a rule.
   virtual void fire_events(std::int64_t step) = 0;
   /// Copies poses and velocities of these bodies, or of more, into `state`.
   virtual void store(std::span<const int> bodies, model::State& state) const = 0;
-  /// The bodies have the velocities of `state` from now on.
+  /// Gives these bodies the velocities in `state`.
   virtual void set_velocities(std::span<const int> bodies, const model::State& state) = 0;
-  /// False if no geom can be fast in the step at hand (SlowBound), events done.
+  /// False if no geom can be fast in the current step (SlowBound), after its events.
   virtual bool may_be_fast() const = 0;
-  /// Adds the contacts that `fast` finds ahead of fast bodies in `before`, the state at the step's start.
+  /// Adds the speculative contacts that `fast` finds in `before`, the state at the step's start.
   virtual void add_contacts_ahead(FastBodies& fast, const model::State& before) = 0;
-  /// The contacts of the step at hand, those ahead included; valid until the next call.
+  /// The contacts of the current step, speculative ones included; valid until the next call.
   virtual std::span<const BodyPair> touching() = 0;
-  /// What a joint exerted in the step that was just solved.
+  /// What a joint exerted in the step just solved.
   virtual Reaction reaction(int joint) const = 0;
-  /// Other bodies are awake than before (StepRules::awake()).
+  /// The set of awake bodies has changed (StepRules::awake()).
   virtual void show_awake() = 0;
-  /// These bodies fell asleep; the world's state has their velocities, which are zero.
+  /// These bodies fell asleep; in the world's state their velocities are zero.
   virtual void show_asleep(std::span<const int> bodies) = 0;
-  /// Other joints are broken than before (State::broken_in of the world's state).
+  /// The set of broken joints has changed (State::broken_in of the world's state).
   virtual void show_broken() = 0;
 
  protected:
@@ -46,43 +46,43 @@ class RuledWorld {
 
 /// Holds the rules that a model's StepPlan calls for, and applies them at four points of a step: an engine
 /// that steps a whole world calls begin_step(), collides until after_collision() is false, calls
-/// before_solve(), solves, and calls after_solve(). A rule, or its place in the order, is a matter of this
-/// class alone.
+/// before_solve(), solves, and calls after_solve(). The rules and their order are the business of this class
+/// alone.
 ///
-/// The ranks that share a cut world have to agree between the rules, so that its engine applies the parts
-/// itself, at the same points: change_velocities(), sort_by_interest(), break_overloaded_joints(), and
-/// sleepers(), which the ranks move in common. Contacts ahead are looked for by each rank's SpaceFastBodies.
+/// The ranks that share a cut world have to agree between the rules, so its engine applies the parts itself,
+/// at the same points: change_velocities(), sort_by_interest(), break_overloaded_joints(), and sleepers(),
+/// which the ranks update together. Each rank's SpaceFastBodies finds the speculative contacts.
 class StepRules {
  public:
   enum class World { whole, cut };
 
-  /// All are borrowed; `state` is the world's, whose `rest` and `broken_in` the rules keep. `iterations`: of
-  /// the run; none for an engine that has no iterations, and so no field of interest.
+  /// All are borrowed; `state` is the world's, whose `rest` and `broken_in` the rules maintain. `iterations`:
+  /// the run's; none for an engine without iterations, which has no field of interest either.
   StepRules(const model::Model& model, double dt_s, std::optional<int> iterations, World world,
             model::State& state);
   StepRules(const StepRules&) = delete;
   StepRules& operator=(const StepRules&) = delete;
 
-  /// The state is another from now on; completes its `rest` and `broken_in`. True if other joints are broken
-  /// than before.
+  /// Takes in a new state; completes its `rest` and `broken_in`. True if the set of broken joints has
+  /// changed.
   bool start();
 
   void begin_step(RuledWorld& world, std::int64_t step);
-  /// True if bodies woke, whose own contacts are still to be found: collide again.
+  /// True if bodies woke whose own contacts are still to be found: collide again.
   [[nodiscard]] bool after_collision(RuledWorld& world);
   void before_solve(RuledWorld& world);
   void after_solve(RuledWorld& world, std::int64_t step);
   /// Ends a step in which all bodies slept after begin_step().
   void sleep_on();
 
-  /// The parts for a cut world. `bodies` are awake; `state` has their velocities, and gets others.
+  /// The parts for a cut world. `bodies` are awake; their velocities in `state` are changed.
   bool changes_velocities() const { return !velocity_rules_.empty(); }
   void change_velocities(std::span<const int> bodies, model::State& state) const;
   void sort_by_interest(std::span<const int> bodies, std::span<const BodyPair> touching);
   /// True if any of these joints, which took part in the step, broke.
   bool break_overloaded_joints(std::int64_t step, std::span<const int> joints,
                                const Breakage::GetReaction& reaction);
-  /// State::broken_in was changed from elsewhere.
+  /// Call it after State::broken_in was changed from elsewhere.
   void take_in_broken();
 
   std::span<const int> all_bodies() const { return all_bodies_; }
@@ -91,7 +91,7 @@ class StepRules {
   std::span<const int> breakable_joints() const {
     return breakage_ ? breakage_->joints() : std::span<const int>();
   }
-  /// Bodies that were fast in the step at hand, from after_collision() on; 0 for a cut world.
+  /// Bodies that are fast in the current step, from after_collision() on; 0 for a cut world.
   int num_fast() const { return num_fast_; }
   int num_inside() const { return field_ ? static_cast<int>(field_->inside().size()) : 0; }
   bool joints_can_break() const { return breakage_.has_value(); }
@@ -121,11 +121,11 @@ class StepRules {
   std::optional<FastBodies> fast_bodies_;  ///< none before a body may be fast
   int num_fast_ = 0;
   std::optional<FieldOfInterest> field_;   ///< none without the pass
-  std::optional<SpaceSleepers> sleepers_;  ///< likewise
-  std::optional<Breakage> breakage_;       ///< likewise
-  model::State before_;          ///< at the start of the step, events done, for rules that look at it
-  bool has_before_ = false;      ///< is it that of the step at hand?
-  std::vector<char> is_broken_;  ///< [joints] as the rules know; empty: none
+  std::optional<SpaceSleepers> sleepers_;  ///< none without the pass
+  std::optional<Breakage> breakage_;       ///< none without the pass
+  model::State before_;          ///< state at the start of the step, after its events, for rules that need it
+  bool has_before_ = false;      ///< is before_ the current step's?
+  std::vector<char> is_broken_;  ///< [joints] as the rules know them; empty: none broken
 };
 
 }  // namespace pbmpi::effects

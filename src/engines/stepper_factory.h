@@ -9,13 +9,13 @@
 
 namespace pbmpi::engines {
 
-/// quick and direct are ODE's; sor is pbmpi's own, with ODE's dCollide; bullet and mujoco are those of
-/// optional_engines.h. Throws core::InputError for settings that the stepper refuses, and for a stepper that
-/// this build lacks. Warnings go to stderr behind `warning_prefix`.
+/// quick and direct are ODE's; sor is pbmpi's own, with ODE's dCollide; bullet and mujoco belong to the
+/// engines of optional_engines.h. Throws core::InputError for settings that the stepper refuses, and for a
+/// stepper that this build lacks. Warnings go to stderr after `warning_prefix`.
 std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings,
                                                      const std::string& warning_prefix = "");
 
-/// A stepper that can be looked at in mid-solve: sor.
+/// A stepper whose state can be read in mid-solve: sor.
 std::unique_ptr<stepping::AnytimeStepper> make_anytime_stepper(const stepping::StepperSettings& settings);
 
 /// A stepper of one world that is cut into spaces: sor.

@@ -1,4 +1,4 @@
-/// The estimate that begins with steps of the precise frame itself.
+/// The estimate that begins with steps of the precise frame.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,11 @@
 namespace pbmpi::estimate {
 
 /// Begins the precise frame, and has another estimator do the rest from there: later than an estimate of the
-/// whole frame, and nearer to the precise result. Whoever advances the stepper goes on after what was begun,
-/// so that nothing is computed twice.
+/// whole frame, and nearer to the precise result. The precise frame then continues from the begun steps, so
+/// that nothing is computed twice.
 class PartlyPrecise final : public stepping::Estimator {
  public:
-  /// `precise` is borrowed: the one that computes the precise frames. `num_steps`: precise ones, of each
-  /// frame.
+  /// `precise`, borrowed, computes the precise frames. `num_steps`: number of precise steps of each frame.
   PartlyPrecise(stepping::FrameStepper& precise, std::unique_ptr<stepping::Estimator> rest, int num_steps)
       : precise_(&precise), rest_(std::move(rest)), num_precise_(num_steps) {}
 
@@ -32,7 +31,7 @@ class PartlyPrecise final : public stepping::Estimator {
   int num_precise_;
 };
 
-/// `worlds` as they are after the steps that `precise` has begun of the frame.
+/// `worlds` after the steps of the frame that `precise` has begun.
 std::vector<stepping::LocalWorld> begun_worlds(const stepping::FrameStepper& precise,
                                                std::span<const stepping::LocalWorld> worlds);
 

@@ -1,4 +1,4 @@
-/// The estimate from the precise solve itself, looked at before it has ended.
+/// The estimate taken from the precise solve before it has ended.
 #pragma once
 
 #include <map>
@@ -8,12 +8,12 @@
 
 namespace pbmpi::estimate {
 
-/// Begins the precise stepper's next step, and shows its worlds as they would be if the solve ended after so
-/// many iterations: nothing is assembled twice. Whoever advances the stepper goes on from there. For one
-/// step: the last of a frame (PartlyPrecise does those before).
+/// Begins the precise stepper's next step, and shows its worlds as if the solve ended after `iterations`:
+/// nothing is assembled twice. The precise step continues from there. Estimates one step: the last of a frame
+/// (PartlyPrecise does those before).
 class SameSolve final : public stepping::Estimator {
  public:
-  /// `stepper` is borrowed: the one that computes the precise frames. iterations: at most those of a step.
+  /// `stepper`, borrowed, computes the precise frames. iterations: at most those of a step.
   SameSolve(stepping::AnytimeStepper& stepper, int iterations)
       : stepper_(&stepper), iterations_(iterations) {}
 
@@ -25,7 +25,7 @@ class SameSolve final : public stepping::Estimator {
  private:
   stepping::AnytimeStepper* stepper_;
   int iterations_;
-  std::map<int, model::State> looks_;  ///< copies: the stepper's own do not outlive a world that is mended
+  std::map<int, model::State> looks_;  ///< copies: the stepper's own state is gone once a world is mended
 };
 
 }  // namespace pbmpi::estimate

@@ -1,4 +1,4 @@
-/// The estimate as a short run of its own: another stepper, cheaper than the precise one.
+/// The estimate as a separate short run: another stepper, cheaper than the precise one.
 #pragma once
 
 #include <map>
@@ -30,9 +30,9 @@ class ShortRun final : public stepping::Estimator {
   void follow(std::span<const stepping::LocalWorld> worlds, std::int64_t step);
 
   std::unique_ptr<stepping::WorldStepper> stepper_;
-  std::set<int> worlds_;                  ///< that stepper_ has
+  std::set<int> worlds_;                  ///< ids of the worlds in stepper_
   int num_steps_ = 0;                     ///< of the last estimate
-  std::map<int, model::State> standing_;  ///< worlds that stand still (model::GuardMemory), as they are
+  std::map<int, model::State> standing_;  ///< states of worlds that stand still (model::GuardMemory)
 };
 
 }  // namespace pbmpi::estimate

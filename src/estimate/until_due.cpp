@@ -42,7 +42,7 @@ void UntilDue::finish(std::span<const stepping::LocalWorld> worlds, double start
     steps_.coarse = num_steps;
     return;
   }
-  // Copies: a guard may still take a world out of the precise stepper, and the estimate stays as it is.
+  // Copies: a guard may still take a world out of the precise stepper, and the estimate must not change.
   for (const stepping::LocalWorld& world : worlds) held_.emplace(world.id, *world.state);
   if (num_steps == 0) return;
   plan_.skip_coarse();

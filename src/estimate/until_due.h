@@ -1,4 +1,4 @@
-/// The estimate that is due at some time of each frame.
+/// The estimate that is due at a given time of each frame.
 #pragma once
 
 #include <map>
@@ -10,13 +10,14 @@
 
 namespace pbmpi::estimate {
 
-/// Begins the precise frame, step by step as long as a coarse rest fits behind, and has another estimator do
-/// that rest; where not even that fits, the bodies glide. On a fast machine this is the precise result
-/// itself. What goes out follows the clock and differs from run to run; the precise frames do not.
+/// Begins the precise frame, step by step as long as there is time for coarse steps after it, and has another
+/// estimator do these; where even these do not fit, the bodies glide. On a fast machine the estimate is the
+/// precise result itself. The estimate depends on the clock and differs from run to run; the precise frames
+/// do not.
 class UntilDue final : public stepping::Estimator {
  public:
-  /// `precise` is borrowed: the one that computes the precise frames. `deadline_s`: from the start of a frame
-  /// until its estimate is due. `dt_s`: of a step.
+  /// `precise`, borrowed, computes the precise frames. `deadline_s`: from the start of a frame until its
+  /// estimate is due. `dt_s`: length of a step.
   UntilDue(stepping::FrameStepper& precise, std::unique_ptr<stepping::Estimator> rest, double deadline_s,
            double dt_s)
       : precise_(&precise), rest_(std::move(rest)), plan_(deadline_s), dt_s_(dt_s) {}
@@ -41,7 +42,7 @@ class UntilDue final : public stepping::Estimator {
   double dt_s_;
   std::int64_t next_step_ = -1;       ///< after the last frame
   stepping::EstimatedSteps steps_;    ///< of the last estimate
-  std::map<int, model::State> held_;  ///< the last estimate, if it does not end with coarse steps
+  std::map<int, model::State> held_;  ///< the last estimate, unless it ends with coarse steps
 };
 
 }  // namespace pbmpi::estimate

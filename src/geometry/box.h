@@ -9,7 +9,7 @@
 
 namespace pbmpi::geometry {
 
-/// Corners [m], world frame. Empty at first: no box overlaps it.
+/// Corners [m], world frame. A new box is empty: no box overlaps it.
 struct Box {
   std::array<double, 3> min{model::infinity, model::infinity, model::infinity};
   std::array<double, 3> max{-model::infinity, -model::infinity, -model::infinity};
@@ -20,7 +20,7 @@ struct Box {
       max[k] = std::max(max[k], other.max[k]);
     }
   }
-  /// Larger by this length on every side.
+  /// The box enlarged by this length on every side.
   Box grown(double length) const {
     Box larger = *this;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -36,9 +36,9 @@ struct Box {
   }
 };
 
-/// A box about the geom's centre that holds it, from its body's pose. Not for planes. It is larger than need
-/// be by some 1e-6 of the coordinates: what a collider in single precision finds touching, boxes must not
-/// part.
+/// A box about the geom's centre that holds it, from its body's pose. Not for planes. It is larger than
+/// needed by some 1e-6 of the coordinates: boxes must not separate geoms that a collider in single precision
+/// finds touching.
 Box geom_box(const model::Geom& geom, const model::BodyPose& body);
 
 }  // namespace pbmpi::geometry

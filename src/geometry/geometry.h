@@ -8,16 +8,16 @@
 
 namespace pbmpi::geometry {
 
-/// Rotation matrix, by rows, of the quaternion (w, x, y, z) as it stands (not normalised; ODE's dQtoR).
+/// Rotation matrix, by rows, of the quaternion (w, x, y, z) as given (not normalised; ODE's dQtoR).
 void to_rotation(double w, double x, double y, double z, double rotation[9]);
 
-/// A pose with the rotation matrix of its quaternion, as it stands.
+/// A pose with the rotation matrix of its quaternion as given.
 model::BodyPose body_pose(const core::Pose& pose);
 
 /// The pose of the world frame, for static geoms.
 model::BodyPose static_pose();
 
-/// The geom's pose in the world, from its body's.
+/// The geom's pose in the world, from its body's pose.
 model::BodyPose geom_pose(const model::Geom& geom, const model::BodyPose& body);
 
 /// What a solid geom consists of: the points within a radius of a box about its centre, in its own frame [m].
@@ -40,8 +40,8 @@ double half_extent(const model::Geom& geom, const double rotation[9], const core
 /// The least of a geom's half extents [m] over all directions; infinite for a plane.
 double least_half_extent(const model::Geom& geom);
 
-/// Is it a sphere round its body's centre of mass? It needs no orientation, and a normal force does not turn
-/// it.
+/// Is the geom a sphere about its body's centre of mass? It needs no orientation, and a normal force does not
+/// turn it.
 bool is_ball(const model::Geom& geom);
 
 /// Radius [m] of the smallest ball about the geom's centre that holds it; infinite for a plane.

@@ -6,7 +6,7 @@
 namespace pbmpi::geometry {
 namespace {
 
-/// The part of an endless line that lies in a convex shape, in shares of the way; empty if enter > leave.
+/// The part of an infinite line that lies in a convex shape, in shares of the path; empty if enter > leave.
 struct Inside {
   double enter = -model::infinity;
   double leave = model::infinity;
@@ -19,7 +19,7 @@ Inside both(const Inside& a, const Inside& b) {
   return {std::max(a.enter, b.enter), std::min(a.leave, b.leave), a.enter >= b.enter ? a.normal : b.normal};
 }
 
-/// Between -half and half along `axis`.
+/// The part between -half and half along `axis`.
 Inside slab(const core::Vec3& from, const core::Vec3& way, int axis, double half) {
   const double start = from[axis], rate = way[axis];
   if (rate == 0) return std::abs(start) <= half ? Inside{} : nowhere();
@@ -27,7 +27,7 @@ Inside slab(const core::Vec3& from, const core::Vec3& way, int axis, double half
   return {std::min(low, high), std::max(low, high), core::Vec3::Unit(axis) * (rate > 0 ? -1.0 : 1.0)};
 }
 
-/// Within `radius` of a point or a line; of `offset` and `way` the components along the line are taken out.
+/// The part within `radius` of a point or a line; `offset` and `way` have no components along that line.
 Inside round(const core::Vec3& offset, const core::Vec3& way, double radius) {
   const double a = way.squaredNorm(), b = offset.dot(way), c = offset.squaredNorm() - radius * radius;
   if (a == 0) return c <= 0 ? Inside{} : nowhere();
@@ -57,7 +57,7 @@ Inside capsule(const core::Vec3& from, const core::Vec3& way, double radius, dou
   return all;
 }
 
-/// In the geom's own frame.
+/// The part inside the geom, in the geom's own frame.
 Inside inside(const model::Geom& geom, const core::Vec3& from, const core::Vec3& way) {
   switch (geom.shape) {
     case model::Shape::plane:

@@ -1,4 +1,4 @@
-/// Finds, of many balls that move, those that a way may meet.
+/// Finds which of many moving balls a path may meet.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace pbmpi::geometry {
 
-/// A ball about a point and all that it sweeps on its own way, as boxes; up to sixteen of a family that
-/// follow each other have one box about them all, so that a way passes most of them at one test.
+/// Balls and the volumes that they sweep along their paths, as boxes; up to sixteen successive balls of a
+/// family share one box around them all, so that one test rules most of them out.
 class SweptBalls {
  public:
   void clear();
-  /// The next ball [m, world frame], and the way that it goes in the step. A centre that is not finite is met
-  /// by nothing.
+  /// Adds a ball [m, world frame] with its displacement in the step. Nothing meets a ball whose centre is not
+  /// finite.
   void add(const core::Vec3& centre, double radius, const core::Vec3& way, int family);
 
   /// Calls `found` with the index of each ball of other families that `box` may reach, in the order of add().
@@ -30,7 +30,7 @@ class SweptBalls {
  private:
   struct Group {
     int family = 0;
-    std::size_t begin = 0, end = 0;  ///< of its boxes
+    std::size_t begin = 0, end = 0;  ///< range of its boxes in boxes_
     Box box;
   };
   static constexpr std::size_t group_size = 16;
@@ -38,8 +38,8 @@ class SweptBalls {
   std::vector<Group> groups_;
 };
 
-/// The box about a ball and its way. Larger than need be by 1e-6 of its coordinates, so that no rounding of
-/// what is then computed within it matters.
+/// The box around a ball swept along its path. It is larger than needed by 1e-6 of its coordinates, so that
+/// rounding in later computations within it does not matter.
 Box swept_box(const core::Vec3& centre, double radius, const core::Vec3& way);
 
 }  // namespace pbmpi::geometry

@@ -35,15 +35,15 @@ struct Contact {
   double depth = 0;      ///< [m]; below 0: a gap that may close in this step (effects/fast_bodies.h)
   double mu = 0;
   double restitution = 0;
-  GeomPair geoms;  ///< that touch: contacts are in canonical order if sorted by them
+  GeomPair geoms;  ///< the two that touch; canonical order of contacts is sorted by them
 };
 
-/// As Material says.
+/// The material of a touching pair without a PairMaterial, by the rule stated at Material.
 inline Material combined(const Material& a, const Material& b) {
   return {std::sqrt(a.mu * b.mu), std::max(a.restitution, b.restitution)};
 }
 
-/// What Model::pair_materials has for the actors of two geoms; null if nothing.
+/// The entry of Model::pair_materials for the actors of two geoms; null if there is none.
 const Material* find_pair_material(const Model& model, const GeomPair& pair);
 
 /// The material of a touching pair whose geoms have the materials `first` and `second`.
@@ -55,7 +55,7 @@ inline Material pair_material(const Model& model, const GeomPair& pair, const Ma
   return combined(first, second);
 }
 
-/// Rows of a contact with this friction coefficient: a normal row, and two of friction if there is any.
+/// Number of rows of a contact with this friction coefficient: a normal row, and two friction rows if mu > 0.
 constexpr int contact_rows(double mu) { return mu > 0 ? 3 : 1; }
 
 /// Contact points of pairs of geoms.
@@ -67,7 +67,7 @@ class NarrowPhase {
                        std::vector<Contact>& contacts) = 0;
 };
 
-/// Makes the narrow phase of one world; the model outlives it.
+/// Makes the narrow phase of one world; the model must outlive it.
 using MakeNarrowPhase = std::function<std::unique_ptr<NarrowPhase>(const Model& model)>;
 
 }  // namespace pbmpi::model

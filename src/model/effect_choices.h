@@ -6,7 +6,8 @@
 
 namespace pbmpi::model {
 
-/// Name of an effect -> true: its pass is there even if nothing calls for it; false: it is left out.
+/// Name of an effect -> true: it is demanded, with a pass even if nothing calls for it; false: it is left
+/// out.
 using EffectChoices = std::map<std::string, bool, std::less<>>;
 
 }  // namespace pbmpi::model

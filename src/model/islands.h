@@ -23,10 +23,10 @@ class DisjointSets {
   std::vector<int> parent_;
 };
 
-/// Bodies of each set hang together by joints that hold. `broken_in`: as State has it.
+/// Sets of bodies connected by unbroken joints. `broken_in`: State::broken_in.
 DisjointSets jointed_bodies(const Model& model, std::span<const std::int32_t> broken_in);
 
-/// Islands in order of their lowest body.
+/// Islands, numbered in order of their lowest body.
 struct Islands {
   std::vector<int> of_body;  ///< [num_bodies] index of the island
   int count = 0;

@@ -57,7 +57,7 @@ JointGaps::JointGaps(const Model& model) {
   for (const Joint& joint : model.joints) held_.push_back(held_point(model, joint));
 }
 
-/// The root of the largest square is the largest length, to the bit.
+/// One root suffices: the root of the largest square is the largest length, to the bit.
 double JointGaps::largest(const State& state) const {
   double square = 0;
   for (std::size_t i = 0; i < held_.size(); ++i) {

@@ -9,27 +9,27 @@
 
 namespace pbmpi::model {
 
-/// What a joint holds of where its bodies are.
+/// What a joint holds of its bodies' positions.
 enum class HeldPlace {
-  anchor,            ///< the anchors of the two bodies on each other: 3 rows
-  suspended_anchor,  ///< likewise, but along axis 1 softly, if the joint has a suspension: 3 rows
+  anchor,            ///< the anchors of the two bodies coincide: 3 rows
+  suspended_anchor,  ///< the anchors coincide, softly along axis 1 if the joint has a suspension: 3 rows
   line,              ///< the first body's centre of mass on a line along axis 1: 2 rows
   offset,            ///< the second body's centre of mass as seen from the first: 3 rows
 };
 
-/// What a joint holds of how its bodies are turned.
+/// What a joint holds of its bodies' orientations.
 enum class HeldTurn {
   nothing,      ///< no row
   axis,         ///< axis 1 of both bodies parallel: 2 rows
   right_angle,  ///< axis 2 at right angles to axis 1: 1 row
-  start_angle,  ///< the angle between axes 1 and 2 of the start: 1 row
-  orientation,  ///< the relative orientation of the start: 3 rows
+  start_angle,  ///< the initial angle between axes 1 and 2: 1 row
+  orientation,  ///< the initial relative orientation: 3 rows
 };
 
 /// What can act on an axis of a joint.
 struct AxisTraits {
   bool has_motor = false;
-  /// Its coordinate is known too, so that a motor can hold a pose.
+  /// The axis then has a known coordinate too, so that its motor can hold a pose.
   bool has_limit = false;
 };
 
@@ -52,7 +52,7 @@ struct JointTraits {
     constexpr std::array<int, 5> rows = {0, 2, 1, 1, 3};  // in the order of HeldTurn
     return rows[static_cast<std::size_t>(turn)];
   }
-  /// Degrees of freedom that it removes: rows without limits and motors.
+  /// Degrees of freedom that the joint removes: its rows without limits and motors.
   constexpr int held_rows() const { return place_rows() + turn_rows(); }
 };
 

@@ -8,15 +8,15 @@
 
 namespace pbmpi::model {
 
-/// Energy and momentum of all bodies, which are summed in order.
+/// Energy and momentum of all bodies, summed in body order.
 struct Mechanics {
   double energy_j = 0;                   ///< kinetic and potential, see body_energy()
   Vec3 linear_momentum = Vec3::Zero();   ///< mass times velocity [kg m/s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin of the world frame [kg m^2/s]
 };
 
-/// Measures the states of one model, each in one pass over the bodies. Their masses are kept beside each
-/// other: fetched from among the names and poses of a model they would cost more than the sums do.
+/// Measures the states of one model, each in one pass over the bodies. The masses are stored contiguously:
+/// fetching them from among the names and poses of a model would cost more than the sums themselves.
 class MechanicsMeter {
  public:
   explicit MechanicsMeter(const Model& model);
@@ -31,11 +31,11 @@ class MechanicsMeter {
   Vec3 gravity_;              ///< [m/s^2]
 };
 
-/// Kinetic and potential energy of one body [J]; the potential is that of its height above the world's
-/// origin, against gravity.
+/// Kinetic and potential energy of one body [J]; the potential is measured from the world's origin, against
+/// gravity.
 double body_energy(const Model& model, const State& state, int index);
 
-/// For single states, the numbers of Mechanics.
+/// The numbers of Mechanics, for single states.
 double mechanical_energy(const Model& model, const State& state);
 Vec3 linear_momentum(const Model& model, const State& state);
 Vec3 angular_momentum(const Model& model, const State& state);

@@ -1,4 +1,4 @@
-/// The forces of a StepMemory as rows of numbers: as they are hashed, sent and written.
+/// The forces of a StepMemory as rows of numbers, the form in which they are hashed, sent and written.
 #pragma once
 
 #include <array>
@@ -11,15 +11,15 @@
 
 namespace pbmpi::model {
 
-/// Numbers that lie side by side in a row; in a table they are a column.
+/// Adjacent numbers in a row that form one column of a table.
 struct RowPart {
   const char* name;
   const char* unit;
   std::size_t width;
-  bool is_index = false;  ///< whole numbers, of which a double holds each
+  bool is_index = false;  ///< whole numbers, which a double holds exactly
 };
 
-/// Parts of a row, in this order.
+/// The parts of a row, in order.
 inline constexpr std::array<RowPart, 5> contact_force_parts = {{{"geoms", "", 2, true},
                                                                 {"bodies", "", 2, true},
                                                                 {"arm", "m", 3},
@@ -51,12 +51,12 @@ void append_rows(std::vector<double>& rows, const std::vector<Force>& forces, st
 const double* take_row(const double* from, ContactForce& force);
 const double* take_row(const double* from, JointForce& force);
 
-/// Adds all bits of a memory to a hash. A joint without force is as good as none, so that no entry for any
-/// joint, and one of zeros for each, have the same hash.
+/// Adds all bits of a memory to a hash. A joint without force counts as none, so that having no joint entries
+/// and having an entry of zeros for each joint give the same hash.
 void add_bits(const StepMemory& memory, core::Hash64& hash);
 
-/// Drops all that acts on a body, e.g. since it has been put elsewhere: its contacts, and the forces of its
-/// joints.
+/// Drops all remembered forces on a body, e.g. because it has been put elsewhere: its contacts, and the
+/// forces of its joints.
 void forget(const Model& model, int body, StepMemory& memory);
 
 }  // namespace pbmpi::model

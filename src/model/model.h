@@ -1,6 +1,5 @@
-/// The immutable description of one world. Plain data; knows no engine.
-/// SI units; world frame with z up unless a field says otherwise; the pose of a body is that of its centre of
-/// mass.
+/// The immutable description of one world. Plain data, independent of the engine. SI units; world frame with
+/// z up unless a field says otherwise; the pose of a body is that of its centre of mass.
 #pragma once
 
 #include <array>
@@ -22,7 +21,7 @@ using core::Vec3;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Stands for the world where a body index is expected: a joint's second body, a static geom's body.
+/// Stands for the world where a body index is expected: as a joint's second body or a static geom's body.
 inline constexpr int no_body = -1;
 
 /// What a body belongs to; decides its colour in the replay.
@@ -49,14 +48,14 @@ struct Body {
 enum class Shape { sphere, box, capsule, cylinder, plane };
 inline constexpr int num_shapes = 5;
 
-/// What two geoms need to know of each other's surface. A pair has mu = sqrt(mu_a mu_b), restitution = max,
-/// unless Model::pair_materials says otherwise.
+/// The surface of a geom. A pair of geoms has mu = sqrt(mu_a mu_b) and the larger restitution, unless
+/// Model::pair_materials says otherwise.
 struct Material {
   double mu = 0.5;         ///< Coulomb friction coefficient; 0 = frictionless
   double restitution = 0;  ///< 0 = inelastic, 1 = elastic
 };
 
-/// Replaces what the geoms of two actors would have as a pair.
+/// Replaces the material that geoms of two actors would have as a pair.
 struct PairMaterial {
   int actor_a = 0, actor_b = 0;  ///< indices into Model::actors, a <= b
   Material material;
@@ -67,11 +66,11 @@ struct Geom {
   int actor = 0;       ///< index into Model::actors
   int space = 0;       ///< index into Model::spaces
   Shape shape = Shape::box;
-  /// sphere: radius; box: three full sides; capsule and cylinder: radius, length along z (a capsule's without
-  /// its caps); plane: unused. [m]
+  /// [m] sphere: radius; box: three full sides; capsule and cylinder: radius, length along z (a capsule's
+  /// without its caps); plane: unused.
   std::array<double, 3> size{};
-  /// In the body's frame; in the world frame for a static geom. A plane passes through the position, and its
-  /// normal is the local z axis.
+  /// The pose in the body's frame, or in the world frame for a static geom. A plane passes through the
+  /// position, and its normal is the local z axis.
   Pose local;
   Material material;
 };
@@ -86,14 +85,14 @@ struct AxisLimit {
   bool active() const { return low > -infinity || high < infinity; }
 };
 
-/// Drives the axis to `velocity` [rad/s or m/s] with at most `max_force` [N m or N]. velocity 0 is dry
-/// friction, which creeps under a load that the solver's few iterations do not carry whole; with a
-/// `hold_rate` the motor turns back to the initial pose.
+/// Drives the axis to `velocity` [rad/s or m/s] with at most `max_force` [N m or N]. A velocity of 0 is dry
+/// friction, which creeps under a load that the solver's few iterations do not fully carry; with a
+/// `hold_rate` the motor returns to the initial pose.
 struct AxisMotor {
   double velocity = 0;
   double max_force = 0;  ///< 0 = no motor
   /// [1/s] Each step aims at velocity - hold_rate x (coordinate of the axis at the step's start), so that a
-  /// displacement dies away as exp(-hold_rate t). Above 1 / dt it overshoots: a step then takes 1 / dt.
+  /// displacement dies away as exp(-hold_rate t). Above 1 / dt it would overshoot: a step then uses 1 / dt.
   double hold_rate = 0;
   bool active() const { return max_force > 0; }
 };
@@ -105,22 +104,22 @@ struct Spring {
   double damping = 0;    ///< d [N s/m]
 };
 
-/// A constraint between two bodies, in ODE's sense of each kind (joint_traits.h). Anchors and axes are
-/// body-fixed; those "of b" are in the world frame if body_b is no_body.
+/// A constraint between two bodies; each kind means what it means in ODE (joint_traits.h). Anchors and axes
+/// are body-fixed; b's are in the world frame if body_b is no_body.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::ball;
   int body_a = 0;
   int body_b = no_body;
-  Vec3 anchor_a = Vec3::Zero();     ///< [m], frame of a (unused by slider; of fixed for break_torque alone)
-  Vec3 anchor_b = Vec3::Zero();     ///< [m], frame of b
-  Vec3 axis1_a = Vec3::UnitZ();     ///< unit, frame of a: hinge, slider, universal, hinge2
-  Vec3 axis2_b = Vec3::UnitX();     ///< unit, frame of b: universal, hinge2
-  std::array<AxisLimit, 2> limits;  ///< of axis 1 and 2 (hinge2: axis 1 only)
+  Vec3 anchor_a = Vec3::Zero();  ///< [m], frame of a (unused by slider; fixed uses it for break_torque alone)
+  Vec3 anchor_b = Vec3::Zero();  ///< [m], frame of b
+  Vec3 axis1_a = Vec3::UnitZ();  ///< unit, frame of a: hinge, slider, universal, hinge2
+  Vec3 axis2_b = Vec3::UnitX();  ///< unit, frame of b: universal, hinge2
+  std::array<AxisLimit, 2> limits;  ///< of axes 1 and 2 (hinge2: axis 1 only)
   std::array<AxisMotor, 2> motors;  ///< of axis 1 and 2
   Spring suspension;                ///< hinge2 only
   double break_force = 0;           ///< [N] above which it breaks (effects/breakage.h); 0 = never
-  double break_torque = 0;  ///< [N m] likewise, about the anchor; of a slider the middle of its bodies
+  double break_torque = 0;          ///< [N m] likewise, about the anchor; slider: about its bodies' midpoint
 
   bool breakable() const { return break_force > 0 || break_torque > 0; }
 };
@@ -129,11 +128,11 @@ enum class EventKind {
   launch,  ///< sets a body's velocity and angular velocity, and its pose if it has one
   motor,   ///< replaces the motor of a joint's axis
   steer,   ///< pins a joint's axis 1 to an angle (both limits)
-  release  ///< breaks a joint, so that it acts no more from this step on (effects/breakage.h)
+  release  ///< breaks a joint, which no longer acts from this step on (effects/breakage.h)
 };
 
-/// Something that happens at the start of a step. A motor or steer event holds until the next of the same
-/// axis, so that the joints' settings are a pure function of the step (restart needs no history).
+/// Something that happens at the start of a step. A motor or steer event holds until the next event of the
+/// same axis, so that the joints' settings are a pure function of the step (a restart needs no history).
 struct Event {
   std::int64_t step = 0;
   EventKind kind = EventKind::launch;
@@ -152,21 +151,22 @@ struct ContactLaw {
   double soft_erp = 0.2;         ///< share of the penetration removed in a step
   double soft_cfm = 0;           ///< [s/kg]
   double bounce_velocity = 0.1;  ///< slowest approach that bounces [m/s]
-  int max_per_pair = 4;          ///< contacts kept of a pair of geoms
+  int max_per_pair = 4;          ///< contacts kept for a pair of geoms
 };
 
-/// When a resting island falls asleep (effects/sleepers.h). Box2D's speed, and its and Jolt's time.
+/// When a resting island falls asleep (effects/sleepers.h). The speed is Box2D's, the time Box2D's and
+/// Jolt's.
 struct SleepRule {
-  double speed = 0.05;         ///< [m/s] that counts as rest, as a mean over after_s
-  double angular_speed = 0.1;  ///< [rad/s] likewise
-  double after_s = 0.5;        ///< of rest [s]
+  double speed = 0.05;         ///< [m/s] highest mean speed over after_s that counts as rest
+  double angular_speed = 0.1;  ///< [rad/s] highest mean angular speed that counts as rest
+  double after_s = 0.5;        ///< [s] of rest before an island sleeps
 };
 
 /// Where a world gets all iterations, and how few are enough elsewhere (effects/field_of_interest.h).
 struct Interest {
   Vec3 center = Vec3::Zero();  ///< [m], unless it follows a body
   int follows = no_body;       ///< the body in whose centre of mass it lies
-  double radius_m = infinity;  ///< an island of which a body is so near is inside
+  double radius_m = infinity;  ///< an island with a body within this distance is inside
   int outside_iterations = 4;  ///< of all other islands, unless the run has fewer
 };
 
@@ -182,14 +182,14 @@ struct Model {
   Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
   double erp = 0.2;           ///< of joints
   double cfm = 1e-10;         ///< of joints [s/kg]
-  /// Shares of the velocities that are lost in a second, for small ones [1/s]: both die away as exp(-d t).
+  /// Damping rates d [1/s]: velocities die away as exp(-d t).
   double linear_damping = 0;
   double angular_damping = 0;
   double air_density = 0;  ///< [kg/m^3] of the air that drags on bodies; 0 = none
   ContactLaw contact_law;
   SleepRule sleep;
-  std::optional<Interest> interest;  ///< none: all of the world matters
-  EffectChoices effects;             ///< what is demanded or left out, whatever the rest calls for
+  std::optional<Interest> interest;  ///< none: the whole world is inside
+  EffectChoices effects;             ///< effects demanded or left out, whatever the rest calls for
 
   int num_bodies() const { return static_cast<int>(bodies.size()); }
   int num_joints() const { return static_cast<int>(joints.size()); }

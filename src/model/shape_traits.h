@@ -9,16 +9,16 @@
 
 namespace pbmpi::model {
 
-/// Which size of a geom is not there.
+/// Stands for a size that a shape does not have.
 inline constexpr int no_size = -1;
 
-/// A shape is a box, of which any side may be 0, and all points within a radius of it: of a ball round each
-/// of its points (`is_round`), or of a disc across z. A plane is none of these.
+/// A shape is a box, of which any side may be 0, widened by a radius: by a ball about each of its points
+/// (`is_round`), or by a disc across z. A plane has no such description.
 struct ShapeTraits {
   Shape shape;
   std::string_view name;
-  int num_sizes;  ///< that Geom::size has for it
-  /// Which size is the full length along x, y and z.
+  int num_sizes;  ///< how many of Geom::size it uses
+  /// Which of its sizes is the full length along x, y and z.
   std::array<int, 3> length = {no_size, no_size, no_size};
   int radius = no_size;   ///< which size is the radius
   bool is_round = false;  ///< does the radius reach in all directions?

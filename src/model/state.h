@@ -13,23 +13,23 @@ namespace pbmpi::model {
 struct Rest {
   Vec3 position = Vec3::Zero();  ///< the pose near which it has stayed [m], world frame
   Quat orientation;
-  /// Steps since then, up to what the rule asks for. Of a body that sleeps: -1 - the lowest body of its
-  /// island.
+  /// Steps for which it has rested, up to what the rule asks for. For a sleeping body: -1 - the lowest body
+  /// of its island.
   std::int32_t idle_steps = 0;
 
   bool asleep() const { return idle_steps < 0; }
-  int island() const { return -1 - idle_steps; }  ///< of one that sleeps: its lowest body
+  int island() const { return -1 - idle_steps; }  ///< of a sleeping body: the island's lowest body
   void sleep_in(int island) { idle_steps = -1 - island; }
 };
 
-/// Stands for the step in which a joint broke where it has not.
+/// Stands for the step in which a joint broke, for a joint that has not.
 inline constexpr std::int32_t unbroken = -1;
 
-/// What the guards of a run remember of a world (stability/guards.h). It travels with the state, so that they
-/// see the same on any number of ranks.
+/// What the guards of a run remember of a world (stability/guards.h). It travels with the state, so that the
+/// guards see the same on any number of ranks.
 struct GuardMemory {
-  double energy_gain_j = 0;      ///< since the lowest energy, beyond what has a cause [J]
-  double largest_kinetic_j = 0;  ///< kinetic energy of any frame so far [J]
+  double energy_gain_j = 0;      ///< gain since the lowest energy, beyond what has a cause [J]
+  double largest_kinetic_j = 0;  ///< largest kinetic energy of any frame so far [J]
   std::int32_t frozen_in = -1;   ///< the step from which on the world stands still; -1: it moves
 };
 
@@ -39,39 +39,40 @@ struct State {
   std::vector<Quat> orientation;       ///< [num_bodies][4] (w, x, y, z)
   std::vector<Vec3> velocity;          ///< [num_bodies][3] m/s
   std::vector<Vec3> angular_velocity;  ///< [num_bodies][3] rad/s
-  std::vector<Rest> rest;              ///< [num_bodies] with the effect "sleeping", else none
-  /// [num_joints] the step in which each broke, or unbroken; with the effect "breakable_joints", else none.
-  /// What is broken stays so, also where the effect is left out.
+  std::vector<Rest> rest;              ///< [num_bodies]; empty without the effect "sleeping"
+  /// [num_joints] the step in which each joint broke, or unbroken; empty without the effect
+  /// "breakable_joints". A broken joint stays broken, even where the effect is left out.
   std::vector<std::int32_t> broken_in;
-  StepMemory memory;  ///< of `sor` with a warm start
+  StepMemory memory;  ///< kept by `sor` with a warm start
   GuardMemory guard;
 
   int num_bodies() const { return static_cast<int>(position.size()); }
   void resize(int num_bodies);
-  /// The frame of a body; the world's of no_body.
+  /// The frame of a body; for no_body the world's.
   Pose pose(int body) const { return body == no_body ? Pose{} : Pose{position[body], orientation[body]}; }
   bool is_broken(std::size_t joint) const { return !broken_in.empty() && broken_in[joint] != unbroken; }
-  /// Did the joint act in this step, given that the state is that after it?
+  /// Did the joint act in step `step`, given that this is the state after that step?
   bool acted_in(std::int64_t step, std::size_t joint) const {
     return !is_broken(joint) || broken_in[joint] >= step;
   }
 };
 
-/// Numbers of a body as they travel: position and orientation (w, x, y, z); these, velocity and angular
-/// velocity; position, orientation and idle_steps of Rest.
+/// How many numbers are sent for a body: position and orientation (w, x, y, z); these plus velocity and
+/// angular velocity; position, orientation and idle_steps of Rest.
 inline constexpr int numbers_of_pose = 7, numbers_of_state = 13, numbers_of_rest = 8;
 
-/// Poses and velocities of one body, between two states of one model.
+/// Copies the pose and velocities of one body between two states of one model.
 void copy_body(int body, const State& from, State& to);
 
 /// The state in which `model` starts.
 State initial_state(const Model& model);
 
-/// Hash of all bits of poses and velocities, body by body, of the joints that are broken, with their steps,
-/// of the memory, and of the step from which on a world stands. Equal states: equal hashes on every machine.
+/// Hash of all bits of poses and velocities, body by body, of the broken joints with their steps, of the
+/// memory, and of the step from which on a world stands still. Equal states have equal hashes on every
+/// machine.
 std::uint64_t hash(const State& state);
 
-/// Bodies of which any number is NaN or infinite.
+/// How many bodies have a number that is NaN or infinite.
 int count_nonfinite(const State& state);
 
 }  // namespace pbmpi::model

@@ -1,4 +1,4 @@
-/// What a step hands on to the next beside poses and velocities.
+/// What a step hands on to the next in addition to poses and velocities.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace pbmpi::model {
 
-/// The force with which a contact point ended a step, and how the next step finds it: by its pair of geoms,
-/// and among the points of a pair by its place.
+/// The force with which a contact point ended a step, and how the next step finds the point again: by its
+/// pair of geoms, and among the points of a pair by its position.
 struct ContactForce {
   GeomPair geoms;
   int body_a = 0, body_b = no_body;  ///< as in Contact
@@ -20,13 +20,13 @@ struct ContactForce {
 
 /// The forces with which a joint ended a step, on its first body, world frame.
 struct JointForce {
-  Vec3 force = Vec3::Zero();   ///< [N] of the rows along lines
-  Vec3 torque = Vec3::Zero();  ///< [N m] of the rows about axes
+  Vec3 force = Vec3::Zero();   ///< [N] exerted by the rows along lines
+  Vec3 torque = Vec3::Zero();  ///< [N m] exerted by the rows about axes
   double control[2] = {};      ///< [N] or [N m] of the limits and motors of the joint's axes
 };
 
-/// Forces from which the next step's solver starts. They are forces, not impulses, so that a step of another
-/// length finds them right. Empty where the stepper remembers nothing.
+/// Forces from which the next step's solver starts. They are forces, not impulses, so that they stay valid
+/// for a step of another length. Empty where the stepper remembers nothing.
 struct StepMemory {
   std::vector<ContactForce> contacts;  ///< in canonical order
   std::vector<JointForce> joints;      ///< [num_joints] or none

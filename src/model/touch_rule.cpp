@@ -20,7 +20,7 @@ TouchRule::TouchRule(const Model& model, std::span<const std::int32_t> broken_in
 bool TouchRule::may_touch(int first, int second) const {
   const Geom& a = model_->geoms[static_cast<std::size_t>(first)];
   const Geom& b = model_->geoms[static_cast<std::size_t>(second)];
-  if (a.body == b.body) return false;  // of one body, or both static
+  if (a.body == b.body) return false;  // geoms of one body, or both static
   if (a.shape == Shape::plane && b.shape == Shape::plane) return false;
   if (a.actor == b.actor && !model_->actors[static_cast<std::size_t>(a.actor)].self_collision) return false;
   if (a.body == no_body || b.body == no_body) return true;

@@ -19,7 +19,7 @@ namespace {
 
 using core::require_input;
 
-constexpr double unit_tolerance = 1e-9;  // of a length that should be 1; rounding of a normalisation is 1e-16
+constexpr double unit_tolerance = 1e-9;  // for lengths that should be 1; normalising rounds by 1e-16
 
 bool is_finite(const Quat& q) {
   return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
@@ -127,8 +127,8 @@ void validate_joint(const Model& model, const Joint& joint, const std::string& w
                     std::to_string(joint.break_torque) + " N m; give at least 0, which is never");
 }
 
-/// What is wrong with an event, or nothing. Makes no text where nothing is wrong: a programme of an hour has
-/// a million events.
+/// What is wrong with an event, or nothing. Builds no text where nothing is wrong: a one-hour programme has a
+/// million events.
 std::optional<std::string> fault_of(const Model& model, const Event& event) {
   if (event.step < 0)
     return "it is scheduled at step " + std::to_string(event.step) + "; the first step is 0";

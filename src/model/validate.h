@@ -1,4 +1,4 @@
-/// Refuses a model that no stepper can step.
+/// Rejects a model that no stepper can step.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace pbmpi::model {
 /// finite and positive; an inertia that is not symmetric positive definite; a non-finite pose or velocity; a
 /// quaternion that is not of unit length (1e-9); an index out of range; a size that is not positive; a joint
 /// between a body and itself; an axis that is not a unit vector; low > high; an event before step 0; two
-/// bodies of one name; a field of interest without extent, or with no iteration outside.
+/// bodies of one name; a field of interest without extent, or without iterations outside.
 void validate(const Model& model, const std::string& where);
 
 }  // namespace pbmpi::model

@@ -1,4 +1,4 @@
-/// A world's model as MuJoCo has it, for one set of joints that hold.
+/// A world's model in MuJoCo's form, for one set of joints that hold.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace pbmpi::mujoco {
 
 struct Compiled {
-  /// `model` is borrowed. `broken`: as State::broken_in; other joints that break make another tree.
+  /// `model` is borrowed. `broken`: as State::broken_in; when other joints break, another tree is needed.
   Compiled(const model::Model& model, const std::vector<std::int32_t>& broken,
            const stepping::StepperSettings& settings, bool has_friction)
       : broken_in(broken),
@@ -36,7 +36,7 @@ struct Compiled {
   Compiled(const Compiled&) = delete;
   Compiled& operator=(const Compiled&) = delete;
 
-  /// Most rows that constraints other than contacts can have.
+  /// Largest number of rows of constraints other than contacts.
   int rows_without_contacts() const {
     const mjModel& compiled = engine.model();
     constexpr int rows_of_weld = 6, rows_of_connect = 3, rows_of_axis = 2;  // a motor, and one of its limits

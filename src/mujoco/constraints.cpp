@@ -10,8 +10,8 @@ namespace {
 using model::JointKind;
 using model::Vec3;
 
-/// MuJoCo has no constraint that keeps two axes parallel: two points of a hinge's axis, so far from its
-/// anchor [m], hold it.
+/// MuJoCo has no constraint that keeps two axes parallel: two points of a hinge's axis hold it, at this
+/// distance from its anchor [m].
 constexpr double half_axis_m = 0.1;
 
 bool may_be_pinned(const model::Model& model, int joint, int axis) {
@@ -75,8 +75,8 @@ Constraints make_constraints(const model::Model& model, const JointTree& tree,
   return constraints;
 }
 
-/// eq_data holds both points of a "connect"; of a "weld" the point, and then position and orientation of one
-/// body in the other (MuJoCo, XML reference, "equality").
+/// eq_data holds both points of a "connect"; for a "weld" it holds the point, and then position and
+/// orientation of one body in the other (MuJoCo, XML reference, "equality").
 void place_closures(const Constraints& constraints, mjModel& compiled) {
   for (std::size_t i = 0; i < constraints.closures.size(); ++i) {
     const Closure& closure = constraints.closures[i];

@@ -1,4 +1,4 @@
-/// Constraints between bodies that the kinematic tree does not hold by itself.
+/// Constraints between bodies in addition to the kinematic tree.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace pbmpi::mujoco {
 
-/// Pins a coordinate to a value while it acts: a limit without play, or a joint that is steered.
+/// Pins a coordinate to a value while it is active: a limit without play, or a steered joint.
 struct Pin {
   int joint = 0, axis = 0;  ///< of the model
-  int body = 0;             ///< whose link has the axis
-  std::size_t k = 0;        ///< of Link::axes
+  int body = 0;             ///< body whose link has the axis
+  std::size_t k = 0;        ///< index into Link::axes
 };
 
-/// A point of a joint that closes a loop, or with `welds` all of how its bodies lie to each other.
+/// A point of a joint that closes a loop, or, with `welds`, the whole relative pose of its bodies.
 struct Closure {
   int body_a = 0, body_b = model::no_body;
   model::Vec3 point_a = model::Vec3::Zero(), point_b = model::Vec3::Zero();  ///< [m] in the bodies' frames
@@ -26,21 +26,21 @@ struct Closure {
   bool welds = false;
 };
 
-/// In the order in which the compiled model has them: pins, then closures.
+/// Pins, then closures, in the order of the compiled model.
 struct Constraints {
   std::vector<Pin> pins;
   std::vector<Closure> closures;
 };
 
-/// Throws core::InputError, naming the joint, for one that closes a loop and is no ball joint, hinge or fixed
-/// joint, or has a limit, a motor or a strength.
+/// Throws core::InputError, naming the joint, for a joint that closes a loop and is not a ball joint, hinge
+/// or fixed joint, or that has a limit, a motor or a strength.
 Constraints make_constraints(const model::Model& model, const JointTree& tree,
                              const std::vector<Link>& links);
 
 /// Why the joint cannot close a loop; empty if it can.
 std::string closing_problem(const model::Joint& joint, bool has_controls);
 
-/// Lets closures hold the points of both bodies: MJCF can only say where they are at the start.
+/// Makes closures hold the points of both bodies: MJCF can only express them at the start.
 void place_closures(const Constraints& constraints, mjModel& compiled);
 
 }  // namespace pbmpi::mujoco

@@ -14,7 +14,7 @@ using model::Pose;
 using model::Quat;
 using model::Vec3;
 
-/// A frame and how it moves.
+/// A frame and its motion.
 struct Moving {
   Pose pose;
   Vec3 velocity = Vec3::Zero();          ///< of its origin [m/s]
@@ -31,7 +31,8 @@ Moving moving(const model::State& state, int body) {
       {state.position[body], state.orientation[body]}, state.velocity[body], state.angular_velocity[body]};
 }
 
-/// Angle [rad] about the unit vector `axis` that takes `from` to `to`, by their parts at right angles to it.
+/// Angle [rad] about the unit vector `axis` that takes `from` to `to`, from their components perpendicular to
+/// it.
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
   const Vec3 a = from - axis * axis.dot(from), b = to - axis * axis.dot(to);
   return std::atan2(axis.dot(a.cross(b)), a.dot(b));
@@ -51,15 +52,15 @@ std::vector<const LinkAxis*> hinges_of(const Link& link) {
   return hinges;
 }
 
-/// Angles [rad] of one or two hinges, of which the first is the nearer to the parent. `turn`: of the child,
-/// in its frame at zero, R(first) R(second): it takes axis 2 to where the first angle alone has it.
+/// Angles [rad] of one or two hinges; the first is the one nearer to the parent. `turn`: that of the child,
+/// in its frame at zero, R(first) R(second), which takes axis 2 to where the first angle alone puts it.
 std::array<double, 2> hinge_angles(const std::vector<const LinkAxis*>& hinges, const Quaterniond& turn) {
   if (hinges.size() == 1) return {twist(turn, hinges[0]->direction), 0};
   const Vec3 &first = hinges[0]->direction, &second = hinges[1]->direction;
   return {angle_about(first, second, turn * second), -angle_about(second, first, turn.conjugate() * first)};
 }
 
-/// Speeds [rad/s] about one or two unit axes that come nearest to the angular velocity.
+/// Speeds [rad/s] about one or two unit axes that best fit the angular velocity.
 std::array<double, 2> hinge_speeds(const std::array<Vec3, 2>& axes, std::size_t count, const Vec3& velocity) {
   const double along0 = axes[0].dot(velocity);
   if (count == 1) return {along0, 0};
@@ -68,8 +69,8 @@ std::array<double, 2> hinge_speeds(const std::array<Vec3, 2>& axes, std::size_t 
   return {scale * (along0 - cosine * along1), scale * (along1 - cosine * along0)};
 }
 
-/// How far a child has slid, and how fast: between the anchors, or where there are none from where the parent
-/// has it at zero.
+/// How far and how fast a child has slid: between the anchors, or, without anchors, from its pose in the
+/// parent at zero.
 struct Slide {
   double way = 0, speed = 0;
 };
@@ -119,7 +120,7 @@ void put_link(const Link& link, const Moving& parent, const Moving& child, mjtNu
     if (axis.freedom == Freedom::hinge) {
       qpos[k] = angles[hinge];
       qvel[k] = speeds[hinge++];
-    } else {  // the first axis, fixed in the parent, or the last, fixed in the child
+    } else {  // the first axis is fixed in the parent, the last in the child
       const Slide slide = slide_of(link, (k == 0 ? zero : now) * axis.direction, parent, child);
       qpos[k] = slide.way;
       qvel[k] = slide.speed;
@@ -160,7 +161,7 @@ void Coordinates::to_state(const mjModel& compiled, mjData& data, model::State& 
   for (int body = 0; body < static_cast<int>(links_->size()); ++body) {
     const int id = ids_[body];
     const mjtNum* q = data.xquat + 4 * id;
-    std::array<mjtNum, 6> velocity;  // about axes, then along them; world frame
+    std::array<mjtNum, 6> velocity;  // angular, then linear; world frame
     mj_objectVelocity(&compiled, &data, mjOBJ_XBODY, id, velocity.data(), 0);
     state.position[body] = Vec3(data.xpos + 3 * id);
     state.orientation[body] = {q[0], q[1], q[2], q[3]};

@@ -10,10 +10,10 @@ namespace {
 
 using model::EventKind;
 
-/// The stand-in [rad or m] for a limit on the side on which there is none.
+/// Stand-in [rad or m] for a limit on a side without one.
 constexpr double far_away = 1e6;
 
-/// The stand-in [N or N m] for the force of a motor without bound.
+/// Stand-in [N or N m] for the force of an unbounded motor.
 constexpr double most_force = 1e9;
 
 bool is_setting(const model::Event& event) {
@@ -31,7 +31,7 @@ void require_drivable(const model::Model& model) {
   }
 }
 
-/// Calls `found` with the body, the number and the axis of all axes of joints that can be limited or driven.
+/// Calls `found` with the body, the number and the axis for each joint axis that can be limited or driven.
 template <class Found>
 void for_each_axis(const std::vector<Link>& links, const Coordinates& at, Found&& found) {
   for (int body = 0; body < static_cast<int>(links.size()); ++body) {
@@ -90,7 +90,7 @@ double Drives::target(const LinkAxis& axis, int joint, double coordinate, double
   return motor.velocity - std::min(motor.hold_rate, 1 / dt_s) * coordinate;
 }
 
-/// The reference acceleration of such a row is -B v, with B the second of efc_KBIP.
+/// The reference acceleration of a motor's row is -B v, with B the second element of efc_KBIP.
 void Drives::aim(const std::vector<Link>& links, const Coordinates& at, const mjModel& compiled,
                  mjData& data) const {
   if (data.nf == 0) return;

@@ -14,7 +14,7 @@
 namespace pbmpi::mujoco {
 namespace {
 
-/// MuJoCo 2.2 counts the bytes of mjData's buffer and the numbers of its stack in an int.
+/// MuJoCo 2.2 stores the size of mjData's buffer in bytes, and that of its stack in numbers, as an int.
 constexpr std::size_t most_of_int = std::numeric_limits<int>::max();
 
 constexpr const char* remedy = "step it with sor or quick, or make the world smaller";
@@ -44,7 +44,7 @@ std::string gigabytes(std::size_t bytes) {
   return text.data();
 }
 
-/// A world whose solver asks for `stack` numbers.
+/// Refuses a world whose solver asks for `stack` numbers if that is too many.
 void require_stack(int bodies, int degrees_of_freedom, std::size_t stack) {
   if (stack <= most_of_int) return;
   throw TooLarge("mujoco: a world of " + std::to_string(bodies) + " bodies with " +
@@ -53,7 +53,7 @@ void require_stack(int bodies, int degrees_of_freedom, std::size_t stack) {
                  gigabytes(8 * most_of_int) + " of them; " + remedy);
 }
 
-/// mjData with room for so many rows.
+/// Refuses mjData with room for so many rows if that is too large.
 void require_buffer(const mjModel& model, int rows, std::size_t bytes) {
   if (bytes <= most_of_int) return;
   throw TooLarge("mujoco: a world of " + std::to_string(model.nbody - 1) + " bodies with " +
@@ -62,8 +62,8 @@ void require_buffer(const mjModel& model, int rows, std::size_t bytes) {
                  " addresses no more than " + gigabytes(most_of_int) + "; " + remedy);
 }
 
-/// Ten matrices of all degrees of freedom are what Newton's solver was seen to take, and the broad phase
-/// lists pairs of bodies. Memory that is not used is not touched.
+/// Newton's solver was seen to take ten matrices of all degrees of freedom, and the broad phase lists pairs
+/// of bodies. Memory that is not used is not touched.
 std::size_t stack_for(std::size_t bodies, std::size_t degrees_of_freedom, std::size_t rows) {
   return 12 * degrees_of_freedom * degrees_of_freedom + bodies * bodies +
          rows * (2 * degrees_of_freedom + 50) + 100 * degrees_of_freedom + 10000;
@@ -132,7 +132,7 @@ void Engine::make_stack() {
 void Engine::make_data() {
   std::vector<mjtNum> qvel;
   if (data_) qvel.assign(data_->qvel, data_->qvel + model_->nv);
-  data_.reset();  // first, so that there is never twice the memory
+  data_.reset();  // first, so that memory never has to hold both
   data_.reset(mj_makeData(model_.get()));
   if (!data_) throw EngineError("mujoco: no memory for mjData");
   std::ranges::copy(qvel, data_->qvel);

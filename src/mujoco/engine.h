@@ -1,4 +1,4 @@
-/// MuJoCo's model and data of one world, and what MuJoCo says of them.
+/// MuJoCo's model and data of one world, and MuJoCo's messages.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@
 
 namespace pbmpi::mujoco {
 
-/// MuJoCo would end the process: mju_error() was called.
+/// MuJoCo called mju_error(), which would end the process.
 class EngineError : public core::RunError {
  public:
   using core::RunError::RunError;
 };
 
-/// What a world asks for is more than MuJoCo can address.
+/// A world needs more than MuJoCo can address.
 class TooLarge : public core::InputError {
  public:
   using core::InputError::InputError;
@@ -28,11 +28,11 @@ class TooLarge : public core::InputError {
 bool is_stack_overflow(const std::exception& error);
 
 /// While it lives, MuJoCo's errors are thrown as EngineError, and its warnings, which otherwise go to a file
-/// in the working directory, are dropped: mjData counts them. The handlers found are put back. They are
-/// variables of the whole process, so that two threads must not step at the same time.
+/// in the working directory, are dropped: mjData counts them. The previous handlers are restored. Handlers
+/// are variables of the whole process, so two threads must not step at the same time.
 ///
-/// The exception passes through MuJoCo's C functions, which hold nothing that wants to be freed; the ABIs of
-/// x86-64 and AArch64 give them the tables for it. The mjData in use must not be stepped again.
+/// The exception passes through MuJoCo's C functions, which hold nothing that has to be freed; the ABIs of
+/// x86-64 and AArch64 give them unwind tables. The mjData in use must not be stepped again.
 class MessageScope {
  public:
   MessageScope();
@@ -45,12 +45,13 @@ class MessageScope {
   void (*warning_)(const char*);
 };
 
-/// A model with data of such a size. Call its functions in a MessageScope.
+/// A model with data of a given size. Call its functions in a MessageScope.
 class Engine {
  public:
-  /// Compiles a model from MJCF, which `text` gives for a stack of so many numbers: of `stack`, or of more
-  /// where MuJoCo finds that too small. The text has no room and no constraints, which would cost a step for
-  /// the trial that MuJoCo makes of each model. Throws TooLarge, or core::InputError with MuJoCo's message.
+  /// Compiles a model from MJCF. `text` returns the MJCF for a stack of so many numbers; it is called with
+  /// `stack`, or with more where MuJoCo finds that too small. The text has no room and no constraints, which
+  /// would slow down the trial step that MuJoCo makes with each model. Throws TooLarge, or core::InputError
+  /// with MuJoCo's message.
   Engine(const std::function<std::string(int stack)>& text, int stack);
 
   mjModel& model() { return *model_; }
@@ -58,12 +59,12 @@ class Engine {
   mjData& data() { return *data_; }
   const mjData& data() const { return *data_; }
 
-  /// Makes room for so many contacts and constraint rows, if there is less. The data then is new, but for
-  /// qpos and qvel. Throws TooLarge before it asks for memory. Room moves no bit of a step.
+  /// Makes room for so many contacts and constraint rows, if there is less. The data are then new, except
+  /// qpos and qvel. Throws TooLarge before it allocates memory. The amount of room changes no bit of a step.
   void make_room(int contacts, int rows);
-  /// Would make_room() not throw?
+  /// Would make_room() succeed?
   bool fits(int contacts, int rows) const;
-  /// Doubles MuJoCo's stack, whose need is known only once it is too small. Throws TooLarge.
+  /// Doubles MuJoCo's stack, whose required size is known only once it is too small. Throws TooLarge.
   void make_stack();
 
  private:
@@ -73,7 +74,7 @@ class Engine {
   std::unique_ptr<mjData, void (*)(mjData*)> data_;
 };
 
-/// Numbers on the stack with which MuJoCo should be able to compile a model, and to try a step of it. Throws
+/// Stack size in numbers with which MuJoCo should be able to compile a model and make its trial step. Throws
 /// TooLarge.
 int stack_to_compile(int bodies, int degrees_of_freedom);
 

@@ -23,7 +23,7 @@ Vec3 place_of(const model::Joint& joint, const Coordinates& at, const mjData& da
 JointLoads::JointLoads(const model::Model& model, const std::vector<Link>& links, const Coordinates& at)
     : model_(&model), links_(&links), at_(&at), forces_(model.joints.size()) {}
 
-/// cfrc_int is what the parent exerts on the child: torque about the centre of mass of the whole tree, and
+/// cfrc_int is the load of the parent on the child: torque about the centre of mass of the whole tree, then
 /// force.
 void JointLoads::measure(const mjModel& compiled, mjData& data) {
   mj_rnePostConstraint(&compiled, &data);

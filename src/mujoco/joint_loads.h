@@ -1,4 +1,4 @@
-/// What the joints of the tree exert on their bodies.
+/// The loads that the joints of the tree exert on their bodies.
 #pragma once
 
 #include <vector>
@@ -17,10 +17,10 @@ class JointLoads {
   /// All are borrowed.
   JointLoads(const model::Model& model, const std::vector<Link>& links, const Coordinates& at);
 
-  /// Measures the step that was just solved, while MuJoCo's poses are those before it.
+  /// Measures the step that was just solved, while MuJoCo's poses are still those before it.
   void measure(const mjModel& compiled, mjData& data);
-  /// Force [N] on the joint's first body, and torque [N m] about where effects::Reaction has it, world frame.
-  /// Limits and motors are part of both; zero for a joint that closes a loop, or is broken.
+  /// Force [N] on the joint's first body, and torque [N m] about the point of effects::Reaction, world frame.
+  /// Both include limits and motors; zero for a joint that closes a loop or is broken.
   model::JointForce force(int joint) const { return forces_[joint]; }
   effects::Reaction reaction(int joint) const {
     return {forces_[joint].force.norm(), forces_[joint].torque.norm()};

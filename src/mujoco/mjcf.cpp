@@ -13,11 +13,11 @@
 namespace pbmpi::mujoco {
 namespace {
 
-/// Of motors, limits and loops: which share of what is asked for a row's acceleration gets, 0 to 0.9999. What
-/// is left yields to the load.
+/// Impedance of motors, limits and loops: the share of the desired acceleration that a row gets, 0 to 0.9999.
+/// The remainder yields to the load.
 constexpr double stiff_impedance = 0.999;
-/// Of contacts: MuJoCo's default, from where they touch to 1 mm of depth. With 0.98 the walls of CrashWa took
-/// Newton's solver four times as many iterations, each as dear, and lay no better.
+/// Impedance of contacts: MuJoCo's default, from touching to 1 mm of depth. With 0.98 Newton's solver took
+/// four times as many iterations, each as expensive, for the walls of CrashWa, which rested no better.
 constexpr const char* contact_impedance = "0.9 0.95 0.001";
 
 std::string numbers(std::initializer_list<double> values) {
@@ -37,8 +37,8 @@ std::string place(const model::Pose& pose) {
   return attribute("pos", numbers(pose.position)) + attribute("quat", numbers({q.w, q.x, q.y, q.z}));
 }
 
-/// MuJoCo's spring of a row, a = -B v - K r with K = 1 / (T z)^2 and B = 2 / T but for the impedance, takes
-/// away the share `erp` of an error r in a step of length h, as ODE's rows do, with T = 2 h and z = 1 / (2
+/// The spring of MuJoCo's rows, a = -B v - K r with K = 1 / (T z)^2 and B = 2 / T up to the impedance,
+/// removes the share `erp` of an error r in a step of length h, as ODE's rows do, with T = 2 h and z = 1 / (2
 /// sqrt(erp)).
 std::string spring(double dt_s, double erp) {
   constexpr double least_erp = 1e-6;
@@ -63,7 +63,7 @@ const char* type_of(model::Shape shape) {
   throw std::logic_error("mujoco: a shape without a geom");
 }
 
-/// MuJoCo has half of each length; the size of a plane only says how it is drawn.
+/// MuJoCo takes half of each length; the size of a plane only affects how it is drawn.
 std::string size_of(const model::Geom& geom) {
   const auto& [a, b, c] = geom.size;
   switch (geom.shape) {
@@ -131,7 +131,7 @@ class Writer {
              attribute("iterations", std::to_string(parts_.settings.iterations)) +
              "><flag constraint='disable' warmstart='disable' filterparent='disable'" +
              attribute("contact", collides ? "enable" : "disable") + "/></option>";
-    // Next to no room, and no constraints, for the step that MuJoCo takes to try the model: see Engine.
+    // Almost no room, and no constraints, for the trial step that MuJoCo makes with the model: see Engine.
     text_ += "<size njmax='1' nconmax='1'" + attribute("nstack", std::to_string(stack_)) + "/>";
     const std::string joints = spring(dt_s, model.erp), stiff = impedance(stiff_impedance);
     text_ += "<default><joint" + attribute("solreflimit", joints) + attribute("solimplimit", stiff) +
@@ -167,8 +167,9 @@ class Writer {
     text_ += "/>";
   }
 
-  /// MuJoCo's integrator takes damping implicitly, but no stiffness. The spring's force at the end of the
-  /// step, -k (x + h v'), is that at its start with h k as damping: ODE's spring, which is implicit in both.
+  /// MuJoCo's integrator is implicit in damping, but not in stiffness. The spring's force at the end of the
+  /// step, -k (x + h v'), is that at its start with h k as damping: this gives ODE's spring, which is
+  /// implicit in both.
   std::string suspension(const model::Spring& spring) const {
     return attribute("stiffness", numbers({spring.stiffness})) +
            attribute("damping", numbers({spring.damping + parts_.settings.dt_s * spring.stiffness}));
@@ -186,8 +187,7 @@ class Writer {
              attribute("size", size_of(geom)) + place(geom.local) + "/>";
   }
 
-  /// Pairs of bodies of which no geoms may touch, so that the broad phase drops them; TouchRule has the last
-  /// word.
+  /// Pairs of bodies whose geoms never touch, which the broad phase then drops; TouchRule has the last word.
   void write_excludes() {
     const model::Model& model = parts_.model;
     std::set<std::pair<int, int>> pairs;
@@ -233,8 +233,8 @@ class Writer {
 
   MjcfParts parts_;
   int stack_;
-  std::vector<std::vector<int>> children_;  ///< [1 + bodies] of the world and of each body
-  std::vector<std::vector<int>> geoms_;     ///< likewise
+  std::vector<std::vector<int>> children_;  ///< [1 + bodies] children of the world and of each body
+  std::vector<std::vector<int>> geoms_;     ///< [1 + bodies] geoms of the world and of each body
   std::string text_;
 };
 

@@ -1,4 +1,4 @@
-/// A world as MJCF text, MuJoCo's own format.
+/// Writes a world as MJCF text, MuJoCo's own format.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace pbmpi::mujoco {
 
-/// Names by which the parts are found in the compiled model: bodies and geoms are those of the model.
+/// Names that identify the parts in the compiled model: bodies and geoms are those of the model.
 std::string body_name(int body);
 std::string geom_name(int geom);
-/// The k-th axis of the link of a body.
+/// Name of the k-th axis of the link of a body.
 std::string axis_name(int body, std::size_t k);
 
-/// What the text is made from; all borrowed.
+/// The data that the text is made from; all borrowed.
 struct MjcfParts {
   const model::Model& model;
   const std::vector<Link>& links;
@@ -29,8 +29,8 @@ struct MjcfParts {
 };
 
 /// Each body's frame is the model's: its origin is the centre of mass. Numbers read back to the same bits.
-/// Limits, and which constraints act, are set in the compiled model (drives.h, constraints.h). `stack`: the
-/// numbers that it has room for.
+/// Limits, and which constraints are active, are set in the compiled model (drives.h, constraints.h).
+/// `stack`: the stack size of the model, in numbers.
 std::string mjcf_text(const MjcfParts& parts, int stack);
 
 }  // namespace pbmpi::mujoco

@@ -10,28 +10,29 @@
 
 namespace pbmpi::mujoco {
 
-/// Each articulation is a kinematic tree in MuJoCo's joint coordinates; `constraint_solver` takes at most
+/// Each articulation is a kinematic tree in MuJoCo's joint coordinates. `constraint_solver` makes at most
 /// `iterations` iterations, with elliptic friction cones, and the integrator is the implicit one
-/// (docs/steppers.md, "mujoco"). Warnings go to stderr behind `warning_prefix`.
+/// (docs/steppers.md, "mujoco"). Warnings go to stderr after `warning_prefix`.
 ///
-/// A world that MuJoCo cannot carry on (NaN, or numbers beyond 1e10) is no longer stepped: its velocities
-/// become NaN, it shows in its observables, and the other worlds go on. Any other error of MuJoCo, at which
-/// it would end the process, is thrown as core::RunError; the stepper must not be stepped again after that.
+/// A world that MuJoCo cannot continue (NaN, or numbers beyond 1e10) is no longer stepped: its velocities
+/// become NaN, its observables show it, and the other worlds go on. Any other error of MuJoCo, for which
+/// MuJoCo would end the process, is thrown as core::RunError; the stepper must not be stepped again after
+/// that.
 ///
 /// Throws core::InputError for dt <= 0 or iterations < 1, and from add() and set_state() for a world that
 /// MuJoCo cannot step (refusals()), or that is too large for it. Steppers of one process must not step at the
-/// same time in two threads: MuJoCo has one set of message handlers a process.
+/// same time in two threads: MuJoCo has one set of message handlers per process.
 std::unique_ptr<stepping::WorldStepper> make_mujoco_stepper(const stepping::StepperSettings& settings,
                                                             const std::string& warning_prefix = "");
 
 /// Why MuJoCo cannot step worlds of this model, one sentence each, without a full stop; nothing if it can.
 std::vector<std::string> refusals(const model::Model& model);
 
-/// What MuJoCo cannot express of this model, one sentence each, without a full stop: refusals(), and what it
-/// leaves out or does otherwise.
+/// The features of this model that MuJoCo cannot express, one sentence each, without a full stop: refusals(),
+/// and the features that it drops or treats differently.
 std::vector<std::string> inexpressible(const model::Model& model);
 
-/// Of the library that is used, e.g. "2.2.2".
+/// Version of the library in use, e.g. "2.2.2".
 std::string mujoco_version();
 
 }  // namespace pbmpi::mujoco

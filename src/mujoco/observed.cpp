@@ -8,7 +8,7 @@
 namespace pbmpi::mujoco {
 namespace {
 
-/// A body that a row acts on; no_body if it is the world alone.
+/// A body that a row acts on; no_body if the row acts on the world alone.
 int body_of_row(const Coordinates& at, const Touches& touches, const mjModel& compiled, const mjData& data,
                 int row) {
   const int id = data.efc_id[row];

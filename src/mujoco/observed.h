@@ -1,4 +1,4 @@
-/// What is counted in a step of MuJoCo.
+/// Counts what a step of MuJoCo solved.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -10,8 +10,8 @@
 
 namespace pbmpi::mujoco {
 
-/// Contacts, rows, islands and penetration of the step whose rows `data` has. Joints of the kinematic tree
-/// have no rows; they connect islands all the same. A pair of bodies that joints hold is one island.
+/// Counts contacts, rows, islands and penetration of the step whose rows `data` has. Joints of the kinematic
+/// tree have no rows, but still connect islands. A pair of bodies connected by joints is one island.
 void count(const model::Model& model, const model::State& state, const Coordinates& at,
            const Touches& touches, const mjModel& compiled, const mjData& data, stepping::Observables& seen);
 

@@ -1,4 +1,4 @@
-/// How long MuJoCo's steps are, of which a step is made.
+/// The length of MuJoCo's steps, several of which make up one step.
 #pragma once
 
 #include <algorithm>
@@ -10,19 +10,20 @@
 
 namespace pbmpi::mujoco {
 
-/// MuJoCo's own default is 2 ms. In joint coordinates the forces of turning are taken from the start of a
-/// step: with 10 ms, and with 5, ragdolls that a car hits at 25 m/s spin up until nothing is finite.
+/// MuJoCo's own default is 2 ms. In joint coordinates the inertial forces of rotation are taken from the
+/// start of a step: with 10 ms, and with 5, ragdolls that a car hits at 25 m/s spin up until nothing is
+/// finite.
 inline constexpr double longest_part_s = 0.0025;
 
-/// And so does a hand that turns by 0.3 to 0.5 rad within such a part, in some of the worlds of 100CrSk:
+/// The same happens to a hand that turns by 0.3 to 0.5 rad within such a part, in some worlds of 100CrSk:
 /// parts are halved until nothing turns farther than this [rad].
 inline constexpr double farthest_turn = 0.25;
 
-/// Up to so many parts of each of the longest.
+/// Most parts into which one of the longest parts is split.
 inline constexpr int most_halves = 16;
 
-/// How fast a body turns [rad/s], but for what moves none of its mass: about an axle through its centre of
-/// mass, as a wheel, or as a free ball.
+/// Speed of a body's rotation [rad/s], except rotation that moves none of its mass: about an axle through its
+/// centre of mass, as of a wheel, or of a free ball.
 inline double turning_speed(const model::Model& model, const Link& link, const model::State& state,
                             int body) {
   const model::Vec3& velocity = state.angular_velocity[body];
@@ -35,7 +36,7 @@ inline double turning_speed(const model::Model& model, const Link& link, const m
   return (velocity - axle * axle.dot(velocity)).norm();
 }
 
-/// False for what is not finite, too.
+/// False for non-finite values as well.
 inline bool turns_little(const model::Model& model, const std::vector<Link>& links, const model::State& state,
                          double part_s) {
   for (int body = 0; body < model.num_bodies(); ++body) {
@@ -44,13 +45,12 @@ inline bool turns_little(const model::Model& model, const std::vector<Link>& lin
   return true;
 }
 
-/// A little less than a whole part is rounding.
+/// A value slightly below a whole number of parts is rounding.
 inline int fewest_parts(double dt_s) {
   return std::max(1, static_cast<int>(std::ceil(dt_s / longest_part_s - 1e-6)));
 }
 
-/// The springs of all rows, the suspensions and the integrator get a step of this length, as mjcf_text() set
-/// them.
+/// Sets the step length of the springs of all rows, the suspensions and the integrator, as mjcf_text() does.
 inline void set_part(Compiled& compiled, const model::Model& model, double part_s) {
   mjModel& to = compiled.engine.model();
   if (to.opt.timestep == part_s) return;

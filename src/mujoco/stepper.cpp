@@ -16,7 +16,7 @@ MujocoStepper::MujocoStepper(const stepping::StepperSettings& settings, std::str
                                                     " iterations solve nothing; give at least 1");
 }
 
-/// A world whose state is not finite has no world of MuJoCo.
+/// A world whose state is not finite has no MuJoCo world.
 void MujocoStepper::start(Slot& slot, std::int64_t step) {
   slot.world.reset();
   const MessageScope scope;
@@ -59,7 +59,7 @@ void MujocoStepper::set_motor_velocity(int world, int joint, int axis, double ve
   const auto found = slots_.find(world);
   core::require_invariant(found != slots_.end(), "a motor was aimed of a world that is not there");
   Slot& slot = found->second;
-  const std::int64_t step = slot.world ? slot.world->step() : 0;  // a lost world goes on at another one
+  const std::int64_t step = slot.world ? slot.world->step() : 0;  // a lost world continues in another one
   const auto* target = slot.targets->set(*slot.model, step, joint, axis, velocity);
   if (target != nullptr && slot.world) slot.world->aim(*target);
 }
@@ -75,7 +75,7 @@ void MujocoStepper::advance(int num_steps, core::PhaseTimes& times) {
   }
 }
 
-/// What would have been refused at the start of a world is an error of the run in its midst.
+/// A world that MuJoCo would refuse at its start is an error of the run once it is under way.
 void MujocoStepper::advance_slot(int id, Slot& slot, int num_steps, core::LapTimer& timer) {
   if (!slot.world) return;
   const auto place = [&] {

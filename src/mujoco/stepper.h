@@ -19,7 +19,7 @@ class MujocoStepper final : public stepping::WorldStepper {
   void remove(int world) override;
   void set_state(int world, const model::State& state, std::int64_t step) override;
   void set_motor_velocity(int world, int joint, int axis, double velocity) override;
-  /// Takes the worlds one after the other, each through all its steps: its data stays in the cache.
+  /// Steps the worlds one after the other, each through all its steps, so that its data stay in the cache.
   void advance(int num_steps, core::PhaseTimes& times) override;
 
   const model::State& state(int world) const override { return get(world).state; }
@@ -37,7 +37,8 @@ class MujocoStepper final : public stepping::WorldStepper {
     double cost_s = 0;
     std::unique_ptr<World> world;  ///< none once the state is not finite
 
-    /// A state from elsewhere may lack what the effect "breakable_joints" adds, and have what others need.
+    /// Completes a state from elsewhere, which may lack what the effect "breakable_joints" adds, and drops
+    /// data that are not used here.
     void complete_state() {
       state.memory.clear();
       state.rest.clear();

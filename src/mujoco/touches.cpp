@@ -12,10 +12,10 @@ namespace {
 
 using model::Vec3;
 
-/// Stands for a friction coefficient without bound: the cone's equations are scaled by it.
+/// Represents an unbounded friction coefficient: the cone's equations are scaled by it.
 constexpr double most_friction = 100;
 
-/// MuJoCo divides by a pair's coefficient: what is less slides as if there were none.
+/// MuJoCo divides by a pair's coefficient: with a smaller one surfaces slide as if there were no friction.
 constexpr double least_friction = 1e-5;
 
 Vec3 vec3(const mjtNum* v) { return Vec3(v); }
@@ -76,8 +76,8 @@ model::Contact Touches::contact(const mjContact& found) const {
   return contact;
 }
 
-/// mj_contactForce() has the force on the second geom, by the axes of the contact's frame, whose first is the
-/// normal.
+/// mj_contactForce() returns the force on the second geom along the axes of the contact's frame, the first of
+/// which is the normal.
 void Touches::show(const mjModel& compiled, const mjData& data, std::span<const Vec3> before,
                    stepping::StepContacts& shown) const {
   std::vector<int> order(data.ncon);

@@ -1,4 +1,4 @@
-/// Contacts by the model's rules, and what they are shown as.
+/// Applies the model's rules to contacts, and shows them.
 #pragma once
 
 #include <span>
@@ -13,23 +13,23 @@
 
 namespace pbmpi::mujoco {
 
-/// MuJoCo gives a pair the larger friction of its two geoms, and knows only whole bodies that do not collide;
-/// so its contacts are looked over before rows are made of them.
+/// MuJoCo gives a pair the larger friction of its two geoms, and can exclude only whole bodies from
+/// collision. Its contacts are therefore adjusted before rows are made of them.
 class Touches {
  public:
-  /// `model` is borrowed. `has_friction`: is the effect there?
+  /// `model` is borrowed. `has_friction`: is the effect on?
   Touches(const model::Model& model, std::span<const std::int32_t> broken_in, bool has_friction,
           const mjModel& compiled);
 
   /// Drops the contacts of pairs that may not touch, and sets the friction of the others.
   void apply(mjData& data) const;
-  /// Rows of all contacts.
+  /// Number of rows of all contacts.
   static int count_rows(const mjData& data);
 
-  /// The contact as the model has it: the normal points into body a, which is real.
+  /// The contact in the model's form: the normal points into body a, which is real.
   model::Contact contact(const mjContact& found) const;
   /// Appends all contacts of the step that was solved, and their forces, in canonical order. `before`: the
-  /// centres of the bodies before it [m].
+  /// centres of the bodies before that step [m].
   void show(const mjModel& compiled, const mjData& data, std::span<const model::Vec3> before,
             stepping::StepContacts& shown) const;
 
@@ -39,7 +39,7 @@ class Touches {
   const model::Model* model_;
   model::TouchRule rule_;
   bool has_friction_;
-  std::vector<int> geoms_;  ///< [MuJoCo's geoms] the model's
+  std::vector<int> geoms_;  ///< [MuJoCo's geoms] index of the model's geom
 };
 
 }  // namespace pbmpi::mujoco

@@ -14,7 +14,7 @@
 namespace pbmpi::mujoco {
 namespace {
 
-/// Contacts that there is room for at first; more room is made when it is short.
+/// Contacts for which there is room at first; more room is made when needed.
 int first_contacts(const model::Model& model) { return 64 + 4 * static_cast<int>(model.geoms.size()); }
 
 stepping::StepperSettings part_of(stepping::StepperSettings settings, int num_parts) {
@@ -53,7 +53,7 @@ World::World(const model::Model& model, stepping::MotorTargets& targets, const m
   set_state(state);
 }
 
-/// Collides once, so that a world which is too large is refused before its first step.
+/// Collides once, so that a world that is too large is refused before its first step.
 void World::set_state(const model::State& state) {
   state_ = state;
   state_.rest.clear();
@@ -113,8 +113,8 @@ void World::advance(int num_steps, core::LapTimer& timer) {
   for (int i = 0; i < num_steps && !is_lost_; ++i) take_step(i + 1 == num_steps, timer);
 }
 
-/// In more and shorter parts until nothing turns far within one: what a step takes follows from the state at
-/// its start alone.
+/// Takes more and shorter parts until nothing turns far within one: the number of parts depends only on the
+/// state at the step's start.
 void World::take_step(bool is_last, core::LapTimer& timer) {
   rules_.begin_step(*this, step_);
   if (!compiled_) compile();
@@ -137,8 +137,8 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
   ++step_;
 }
 
-/// All of the step but what it leaves in the state. A stack that was too small is made larger, and the step
-/// begun anew; false as from solve_part().
+/// Does all of the step except storing its results in the state. If the stack was too small, it is enlarged
+/// and the step begun anew; false as from solve_part().
 bool World::solve_step(int parts, bool is_last, core::LapTimer& timer) {
   set_part(*compiled_, *model_, settings_.dt_s / parts);
   for (;;) {
@@ -165,8 +165,8 @@ bool World::solve_parts(int parts, bool is_last, core::LapTimer& timer) {
   return true;
 }
 
-/// False if MuJoCo gave the world up: it starts its data anew where an acceleration is not finite or above
-/// 1e10, and counts that.
+/// False if MuJoCo gave the world up: it resets its data where an acceleration is not finite or above 1e10,
+/// and counts that.
 bool World::solve_part(bool is_last, core::LapTimer& timer) {
   collide();
   timer.lap(core::Phase::collide);
@@ -180,8 +180,9 @@ bool World::solve_part(bool is_last, core::LapTimer& timer) {
   return true;
 }
 
-/// Until there is room for all contacts, and for all rows that they can have. mj_kinematics() makes
-/// quaternions in qpos unit ones; twice is not the same as once, so that each try starts from the same qpos.
+/// Repeats until there is room for all contacts, and for all rows that they can have. mj_kinematics()
+/// normalises quaternions in qpos; doing it twice is not the same as once, so each try starts from the same
+/// qpos.
 void World::collide() {
   const core::PhaseMark mark(core::PhaseMark::MarkedPhase::collision);
   Engine& engine = compiled_->engine;
@@ -207,7 +208,7 @@ void World::collide() {
   }
 }
 
-/// The rest of mj_step1(), and mj_step2(), which integrates.
+/// Does the rest of mj_step1(), and mj_step2(), which integrates.
 void World::solve() {
   const core::PhaseMark mark(core::PhaseMark::MarkedPhase::forward_step);
   const mjModel& compiled = compiled_->engine.model();
@@ -219,7 +220,7 @@ void World::solve() {
   mj_step2(&compiled, &data);
 }
 
-/// Of the last part: MuJoCo's poses are still those at its start.
+/// Shows the contacts of the last part: MuJoCo's poses are still those at its start.
 void World::show_contacts() {
   const mjData& data = compiled_->engine.data();
   std::vector<model::Vec3> centres;
@@ -240,7 +241,7 @@ void World::take_in_solution() {
   }
 }
 
-/// The poses stay where they last were, so that they can be drawn.
+/// The poses stay at their last values, so that they can be drawn.
 void World::lose() {
   is_lost_ = true;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();

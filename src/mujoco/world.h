@@ -18,8 +18,8 @@
 
 namespace pbmpi::mujoco {
 
-/// Its state is the model's: MuJoCo's coordinates are made from it anew in each step, and its solver starts
-/// from nothing, so that a world that runs on and one that is restored have the same bits.
+/// Its state is the model's: MuJoCo's coordinates are computed from it anew in each step, and its solver
+/// starts cold, so that a world that continues and one that is restored have the same bits.
 class World final : effects::RuledWorld {
  public:
   /// `model` and `targets` are borrowed. Throws core::InputError for a world that MuJoCo refuses. Needs a
@@ -28,13 +28,13 @@ class World final : effects::RuledWorld {
         std::int64_t step, const stepping::StepperSettings& settings);
 
   void set_state(const model::State& state);
-  /// A motor of the world is aimed elsewhere.
+  /// Gives a motor of the world a new target.
   void aim(const stepping::MotorTargets::Target& target);
   /// Stops early if the world is lost.
   void advance(int num_steps, core::LapTimer& timer);
   void read(model::State& state, stepping::Observables& observables) const;
 
-  /// Is it not finite any more?
+  /// Has it become non-finite?
   bool is_lost() const { return is_lost_; }
   const std::vector<std::int32_t>& broken_in() const { return state_.broken_in; }
   const stepping::StepContacts& contacts() const { return shown_; }
@@ -51,7 +51,7 @@ class World final : effects::RuledWorld {
   effects::Reaction reaction(int joint) const override { return compiled_->loads.reaction(joint); }
   void show_awake() override {}
   void show_asleep(std::span<const int>) override {}
-  /// The next step has another tree.
+  /// Makes the next step use another tree.
   void show_broken() override { compiled_.reset(); }
 
   void compile();
@@ -69,19 +69,19 @@ class World final : effects::RuledWorld {
   stepping::StateObserver observer_;
   stepping::MotorTargets* targets_;
   effects::StepPlan plan_;
-  int num_parts_;  ///< MuJoCo's steps in a step, the fewest
+  int num_parts_;  ///< fewest MuJoCo steps in a step
   stepping::StepperSettings settings_;
-  stepping::StepperSettings part_settings_;  ///< of one of them
+  stepping::StepperSettings part_settings_;  ///< settings of one of these steps
   Drives drives_;
   model::State state_;
   model::State after_;  ///< scratch of take_step()
   effects::StepRules rules_;
   bool measures_loads_;                 ///< do joints break under load, or are forces shown?
-  double kept_linear_, kept_angular_;   ///< shares of the velocities that damping leaves in a step
-  std::unique_ptr<Compiled> compiled_;  ///< none once other joints hold
+  double kept_linear_, kept_angular_;   ///< factors that a step's damping applies to the velocities
+  std::unique_ptr<Compiled> compiled_;  ///< none once different joints hold
   std::vector<mjtNum> qpos_;            ///< scratch of collide()
-  stepping::Observables counts_;        ///< of the last step
-  stepping::StepContacts shown_;        ///< with `contacts`: of the last step
+  stepping::Observables counts_;        ///< those of the last step
+  stepping::StepContacts shown_;        ///< with `contacts`: those of the last step
   std::int64_t step_;
   bool is_lost_ = false;
 };

@@ -13,18 +13,20 @@
 
 namespace pbmpi::ode {
 
-/// ODE shows neither its rows nor its islands; this counts both from the joints and contacts. Between
-/// Contacts::make() and the solver, since limits become active by the poses before the step.
+/// ODE exposes neither its rows nor its islands; this counts both from the joints and contacts. To be used
+/// between Contacts::make() and the solver, since limits become active according to the poses before the
+/// step.
 class RowCounter {
  public:
   /// `model` is borrowed.
   RowCounter(const model::Model& model, const std::vector<dJointID>& joints);
 
-  /// Sets rows, islands and max_island_rows. `rest`, `broken_in`: as in model::State; what sleeps has no
+  /// Sets rows, islands and max_island_rows. `rest`, `broken_in`: as in model::State; sleeping bodies have no
   /// rows.
   void count(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
              std::span<const std::int32_t> broken_in, stepping::Observables& observables);
-  /// Rows of the last count() times the sweeps of their islands; sweeps(body) is asked of its lowest body.
+  /// Sum over the islands of the last count() of their rows times their sweeps; sweeps(body) is called with
+  /// an island's lowest body.
   template <class Sweeps>
   double row_visits(Sweeps sweeps) const {
     double visits = 0;
@@ -36,7 +38,7 @@ class RowCounter {
   }
   /// The islands of the last count(), in order of their lowest body, without times.
   std::vector<stepping::IslandCost> islands(const std::vector<Touch>& touches);
-  /// The lowest body of the island that `body` was in.
+  /// The lowest body of the island that contained `body`.
   int island_of(int body) { return sets_.find(body); }
 
  private:

@@ -45,7 +45,7 @@ void OdeStepper::set_state(int world, const model::State& state, std::int64_t st
   slot.state = state;
   if (slot.world && slot.world->step() == step) {
     slot.world->set_state(state);
-  } else {  // another step has other joint settings; a world that was lost has no ODE world any more
+  } else {  // another step has other joint settings; a world that was lost no longer has an ODE world
     slot.targets->move_to(*slot.model, step);
     slot.world =
         std::make_unique<World>(world, *slot.model, *slot.targets, state, step, settings_, *resources_);
@@ -57,7 +57,7 @@ void OdeStepper::set_motor_velocity(int world, int joint, int axis, double veloc
   const auto found = slots_.find(world);
   core::require_invariant(found != slots_.end(), "a motor was aimed of a world that is not there");
   Slot& slot = found->second;
-  const std::int64_t step = slot.world ? slot.world->step() : 0;  // a lost world goes on at another one
+  const std::int64_t step = slot.world ? slot.world->step() : 0;  // a lost world continues in another one
   const auto* target = slot.targets->set(*slot.model, step, joint, axis, velocity);
   if (target == nullptr || !slot.world) return;
   slot.world->aim(*target);
@@ -107,8 +107,8 @@ void OdeStepper::advance_slot(Slot& slot, int num_steps, core::LapTimer& timer) 
   timer.lap(core::Phase::integrate);
 }
 
-/// Called while an EngineError is handled. One world that runs into NaN must not end the others: it is shown
-/// as it is, and the rest go on. Any other error ends the stepper.
+/// Called while an EngineError is handled. One world that becomes NaN must not end the others: it is shown as
+/// it is, and the others go on. Any other error ends the stepper.
 void OdeStepper::survive(Slot& failed) {
   failed.world->read(failed.state, failed.observables);
   if (failed.observables.nonfinite == 0) {
@@ -119,7 +119,7 @@ void OdeStepper::survive(Slot& failed) {
   move_to_fresh_resources();
 }
 
-/// A world that starts from its state goes on bit for bit, so that the worlds can be made anew.
+/// A world that starts from its state continues bit for bit, so the worlds can be made anew.
 void OdeStepper::move_to_fresh_resources() {
   auto fresh = std::make_unique<SolverResources>();
   for (auto& [id, slot] : slots_) {

@@ -22,7 +22,7 @@ class OdeStepper final : public stepping::WorldStepper {
   void remove(int world) override;
   void set_state(int world, const model::State& state, std::int64_t step) override;
   void set_motor_velocity(int world, int joint, int axis, double velocity) override;
-  /// Takes the worlds one after the other, each through all its steps: its data stays in the cache.
+  /// Steps the worlds one after the other, each through all its steps, so that its data stay in the cache.
   void advance(int num_steps, core::PhaseTimes& times) override;
 
   const model::State& state(int world) const override { return get(world).state; }
@@ -34,7 +34,7 @@ class OdeStepper final : public stepping::WorldStepper {
   const stepping::StepContacts* contacts(int world) const override;
 
  private:
-  /// What is known of a world after the last advance().
+  /// The data of a world after the last advance().
   struct Slot {
     std::shared_ptr<const model::Model> model;
     std::unique_ptr<stepping::MotorTargets> targets;
@@ -42,10 +42,10 @@ class OdeStepper final : public stepping::WorldStepper {
     stepping::Observables observables;
     double cost_s = 0;
     std::optional<stepping::StepProfile> profile;
-    std::unique_ptr<World> world;  ///< none once the state is not finite: ODE would stop at an assertion
+    std::unique_ptr<World> world;  ///< none once the state is not finite: ODE would fail an assertion
 
-    /// A state from elsewhere may lack what the effects "sleeping" and "breakable_joints" add, and have
-    /// forces of a stepper that remembers them.
+    /// Completes a state from elsewhere, which may lack what the effects "sleeping" and "breakable_joints"
+    /// add, and drops forces that a stepper with memory left in it.
     void complete_state() {
       state.memory.clear();
       state.rest.assign(world->rest().begin(), world->rest().end());

@@ -17,7 +17,8 @@
 namespace pbmpi::ode {
 namespace {
 
-/// ODE scales velocities by 1 - scale after each step; the threshold is one below which it does not.
+/// ODE scales velocities by 1 - scale after each step; it would not below the threshold, which is therefore
+/// 0.
 void set_damping(dWorldID world, const model::Model& model, double dt_s) {
   dWorldSetLinearDamping(world, -std::expm1(-model.linear_damping * dt_s));
   dWorldSetAngularDamping(world, -std::expm1(-model.angular_damping * dt_s));
@@ -25,7 +26,7 @@ void set_damping(dWorldID world, const model::Model& model, double dt_s) {
   dWorldSetAngularDampingThreshold(world, 0);
 }
 
-/// Before the bodies and joints: ODE's copy ERP, CFM and damping when they are made.
+/// To be called before bodies and joints are made: ODE's copy ERP, CFM and damping then.
 WorldHandle make_world(const model::Model& model, const stepping::StepperSettings& settings,
                        const SolverResources& resources) {
   WorldHandle world = resources.make_world();
@@ -186,7 +187,7 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
   ++step_;
 }
 
-/// A step of a world in which all bodies sleep, and that no event wakes, changes nothing.
+/// A step of a world in which all bodies sleep and that no event wakes changes nothing.
 void World::sleep_on(bool is_last) {
   contacts_.forget();
   shown_.contacts.clear();
@@ -213,7 +214,7 @@ void World::collide() {
   } while (rules_.after_collision(*this));
 }
 
-/// The pairs of which a geom is awake.
+/// The pairs with at least one awake geom.
 const std::vector<GeomPair>& World::awake_pairs(const std::vector<GeomPair>& pairs) {
   if (rules_.sleepers() == nullptr) return pairs;
   awake_pairs_.clear();
@@ -242,7 +243,7 @@ void World::add_contacts_ahead(effects::FastBodies& fast, const model::State& be
   contacts_.make_ahead(world_.get(), ahead_, settings_.dt_s);
 }
 
-/// Islands outside of a field of interest by themselves: ODE takes what is enabled.
+/// Steps the islands outside of a field of interest on their own: ODE steps what is enabled.
 void World::solve() {
   const core::PhaseMark mark(core::PhaseMark::MarkedPhase::forward_step);
   if (!focus_ || !focus_->is_cut())
@@ -254,7 +255,7 @@ void World::solve() {
   focus_->enable_both();
 }
 
-/// QuickStep shuffles its rows by one random seed of the whole process, so that it is set anew each time.
+/// QuickStep shuffles its rows with one random seed for the whole process, so the seed is set anew each time.
 void World::solve_enabled(int iterations) {
   if (settings_.kind == stepping::StepperKind::quick) {
     dWorldSetQuickStepNumIterations(world_.get(), iterations);

@@ -24,13 +24,13 @@
 
 namespace pbmpi::ode {
 
-/// A world that follows from its model, its state and the step number alone. Only the passes of the model's
-/// StepPlan are there; effects::StepRules has those that act round the step.
+/// A world that depends only on its model, its state and the step number. It has only the passes of the
+/// model's StepPlan; effects::StepRules has those that act around the step.
 ///
-/// ODE's own auto-disable is off: bodies are disabled by State::rest. As ODE enables what is connected to an
-/// enabled body by a joint, contacts included, whole islands wake before their contacts take part in a step.
-/// A broken joint is disabled, and keeps its place: attached anew, it would take the pose of that moment for
-/// its zero.
+/// ODE's own auto-disable is off: bodies are disabled by State::rest. ODE enables every body that a joint,
+/// contacts included, connects to an enabled one, so whole islands wake before their contacts take part in a
+/// step. A broken joint is disabled and keeps its place: attached anew, it would take the pose of that moment
+/// as its zero.
 ///
 /// The collision spaces of the model cut one world over ranks; here the world is whole, and all its geoms
 /// are in one ODE space.
@@ -44,17 +44,17 @@ class World final : private effects::RuledWorld {
 
   /// Takes `num_steps` >= 1 steps.
   void advance(int num_steps, core::LapTimer& timer, MessageLog& log);
-  /// Puts the bodies into the state at the start of step(), where the world stands.
+  /// Puts the bodies into the state at the start of step(), the world's present step.
   void set_state(const model::State& state);
-  /// A motor aims elsewhere: wakes what it drives. `target` is one of the targets.
+  /// Gives a motor a new target, and wakes the bodies that it drives. `target` is one of the targets.
   void aim(const stepping::MotorTargets::Target& target);
-  /// Reads out the state after the last step, and what was observed in it: both as they were after the last
-  /// call if all bodies have slept since then.
+  /// Reads the state after the last step, and its observables: both are as after the last call if all bodies
+  /// have slept since then.
   void read(model::State& state, stepping::Observables& observables);
-  /// Measures the last step again (stepping::StepProfile); the world is then as it was, bit for bit. Needs
-  /// the setting `profile` and a step taken before.
+  /// Measures the last step again (stepping::StepProfile); afterwards the world is as before, bit for bit.
+  /// Needs the setting `profile` and a step taken before.
   stepping::StepProfile profile_last_step();
-  /// Of the last step, with the setting `contacts`.
+  /// Contacts of the last step, with the setting `contacts`.
   const stepping::StepContacts& contacts() const { return shown_; }
   /// As in model::State.
   std::span<const model::Rest> rest() const;
@@ -76,7 +76,7 @@ class World final : private effects::RuledWorld {
 
   void take_step(bool is_last, core::LapTimer& timer);
   void sleep_on(bool is_last);
-  /// Of the rows of an island, one of whose bodies this is, in the step at hand.
+  /// Sweeps over the rows of the island that contains this body, in the present step.
   int sweeps_of(int body) const;
   void collide();
   const std::vector<GeomPair>& awake_pairs(const std::vector<GeomPair>& pairs);
@@ -101,12 +101,12 @@ class World final : private effects::RuledWorld {
   std::vector<dJointID> joints_;
   HeldPoses held_poses_;
   Events events_;
-  model::State state_;  ///< its `rest` and `broken_in` are of now, its poses where the rules have stored them
+  model::State state_;  ///< `rest` and `broken_in` of now; poses where the rules have stored them
   effects::StepRules rules_;
   JointLoads loads_;
   Contacts contacts_;
   std::optional<BroadPhase> broad_phase_;    ///< none without the effect "collision"
-  std::optional<Focus> focus_;               ///< none without the pass
+  std::optional<Focus> focus_;               ///< none without this pass
   std::vector<model::Contact> ahead_;        ///< scratch of add_contacts_ahead()
   std::vector<GeomPair> awake_pairs_;        ///< scratch
   std::vector<effects::BodyPair> touching_;  ///< scratch
@@ -114,7 +114,7 @@ class World final : private effects::RuledWorld {
   stepping::Observables counts_;  ///< rows and islands of the last step
   model::State before_last_;      ///< with `profile`: before the last step's collision detection, events done
   std::vector<model::Vec3> centres_;  ///< [bodies] with `contacts`: before the last step
-  stepping::StepContacts shown_;      ///< with `contacts`: of the last step
+  stepping::StepContacts shown_;      ///< with `contacts`: those of the last step
   std::int64_t step_;
   bool moved_ = true;  ///< since the last read()
 };

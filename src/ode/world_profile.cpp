@@ -1,5 +1,5 @@
-// A step of one world taken apart. ODE has no times of islands, so that the step is repeated from its own
-// start with all bodies disabled but those of one island.
+// Takes a step of one world apart. ODE does not time islands, so the step is repeated from its own start with
+// all bodies disabled except those of one island.
 #include <algorithm>
 #include <functional>
 
@@ -10,7 +10,7 @@
 namespace pbmpi::ode {
 namespace {
 
-/// The least of a few repeats: what the work costs without the machine's disturbances.
+/// The least time of a few repeats: the cost of the work without disturbances of the machine.
 constexpr int num_repeats = 3;
 
 double least_time(const std::function<void()>& prepare, const std::function<void()>& work) {
@@ -24,7 +24,8 @@ double least_time(const std::function<void()>& prepare, const std::function<void
   return least_s;
 }
 
-/// Pairs of each collision space, and those between two at the end. A static geom is known to all spaces.
+/// The pairs of each collision space, and at the end those between two spaces. A static geom belongs to all
+/// spaces.
 std::vector<std::vector<GeomPair>> cut_by_space(const model::Model& model,
                                                 const std::vector<GeomPair>& pairs) {
   std::vector<std::vector<GeomPair>> cut(model.spaces.size() + 1);
@@ -65,7 +66,7 @@ stepping::StepProfile World::profile_last_step() {
   return profile;
 }
 
-/// Leaves the contacts of the whole step behind.
+/// Leaves the contacts of the whole step in place.
 void World::profile_collision(stepping::StepProfile& profile) {
   const double broad_s = least_time([&] { restore(bodies_, before_last_); },
                                     [&] { static_cast<void>(broad_phase_->find_pairs()); });
@@ -94,7 +95,7 @@ void World::profile_collision(stepping::StepProfile& profile) {
   }
 }
 
-/// A step without bodies is what every island's step costs besides the island.
+/// A step without bodies gives the overhead that every island's step includes.
 void World::profile_islands(stepping::StepProfile& profile) {
   profile.islands = row_counter_.islands(contacts_.touches());
   for (const dBodyID body : bodies_) dBodyDisable(body);
@@ -119,8 +120,8 @@ void World::profile_islands(stepping::StepProfile& profile) {
   for (const dBodyID body : bodies_) dBodyEnable(body);
 }
 
-/// Seconds of a step in which only `enabled` take part. `before`: their state, which they have again after
-/// it.
+/// Seconds of a step in which only the `enabled` bodies take part. `before`: their state, which is restored
+/// after the step.
 double World::time_solve(const std::vector<dBodyID>& enabled, int iterations, const model::State& before) {
   for (const dBodyID body : enabled) dBodyEnable(body);
   const double least_s = least_time(

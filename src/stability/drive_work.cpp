@@ -20,7 +20,7 @@ using model::Vec3;
 
 using EventsOfJoint = std::array<std::vector<Event>, 2>;
 
-/// [num_joints] The motor and steer events of each axis; what steers a joint turns its first.
+/// [num_joints] the motor and steer events of each axis; a steer event turns a joint's first axis.
 std::vector<EventsOfJoint> drive_events(const Model& model) {
   std::vector<EventsOfJoint> events(model.joints.size());
   for (const Event& event : model.events) {
@@ -42,21 +42,21 @@ double lighter_inertia(const Model& model, const Joint& joint) {
   return std::min(inertia, largest_inertia(model.bodies[joint.body_b]));
 }
 
-/// A steered axis is turned by whatever torque it takes; what it gains in each step is at most the kinetic
-/// energy of its lighter body at the axis' speed.
+/// A steered axis is turned with whatever torque that takes; in each step it gains at most the kinetic energy
+/// of its lighter body at the axis' speed.
 double steering_work(double inertia, double speed, int num_steps) {
   return 0.5 * inertia * speed * speed * num_steps;
 }
 
 }  // namespace
 
-/// What drives an axis at any time between two states.
+/// The drive of an axis at any time between two states.
 struct DriveWork::Drive {
-  double max_force = 0;  ///< largest
-  double target = 0;     ///< largest speed aimed at [rad/s or m/s]
+  double max_force = 0;  ///< largest force
+  double target = 0;     ///< largest target speed [rad/s or m/s]
   bool steered = false;
   double turned = 0;  ///< largest change of a steered angle from one event to the next [rad]
-  double angle = 0;   ///< of the last steer event [rad]
+  double angle = 0;   ///< that of the last steer event [rad]
 
   void include(const model::AxisMotor& motor) {
     max_force = std::max(max_force, motor.max_force);
@@ -90,7 +90,7 @@ DriveWork::Drive DriveWork::drive_of(const Axis& axis, std::int64_t first_step, 
   for (const Event& event : axis.events) {
     if (event.step >= first_step + num_steps) break;
     if (event.kind == EventKind::motor) {
-      if (event.step <= first_step) drive.max_force = drive.target = 0;  // it replaces the motor before
+      if (event.step <= first_step) drive.max_force = drive.target = 0;  // replaces the motor before
       drive.include(event.motor);
     } else {
       drive.steered = true;
@@ -102,7 +102,7 @@ DriveWork::Drive DriveWork::drive_of(const Axis& axis, std::int64_t first_step, 
   return drive;
 }
 
-/// [rad/s, or m/s where the joint slides]
+/// Speed of the axis [rad/s, or m/s where the joint slides].
 double DriveWork::speed_of(const Axis& axis, const State& state) {
   const Vec3 direction = axis.holder == model::no_body
                              ? axis.direction

@@ -1,4 +1,4 @@
-/// Work that motors and steered axes can have done.
+/// The work that motors and steered axes can have done.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace pbmpi::stability {
 
-/// Upper bound of what the drives of a model deliver between two states. Only axes that a motor or a steer
-/// event drives at any time are kept, and of each what the bound asks for.
+/// Upper bound of the work that a model's drives deliver between two states. Keeps only axes that a motor or
+/// a steer event drives at any time, with the data that the bound needs.
 class DriveWork {
  public:
   DriveWork(const model::Model& model, double dt_s);
 
-  /// [J] delivered by the `num_steps` steps from `first_step` on, which end in `after`; joints that are
-  /// broken in `before` deliver none. See allowed_work().
+  /// Upper bound of the work [J] delivered by the `num_steps` steps from `first_step` on, which end in
+  /// `after`; joints that are broken in `before` deliver none. See allowed_work().
   double most(const model::State& before, const model::State& after, std::int64_t first_step,
               int num_steps) const;
 
@@ -25,10 +25,10 @@ class DriveWork {
   struct Axis {
     std::size_t joint = 0;
     int body_a = 0, body_b = model::no_body;
-    int holder = model::no_body;  ///< of the direction
-    model::Vec3 direction;        ///< unit, frame of the holder
+    int holder = model::no_body;  ///< body in whose frame the direction is fixed
+    model::Vec3 direction;        ///< unit, in the holder's frame
     bool slides = false;
-    double inertia = 0;                ///< [kg m^2] the lighter body's largest; of a steered axis
+    double inertia = 0;                ///< [kg m^2] of a steered axis: the lighter body's largest
     model::AxisMotor motor;            ///< at the start
     std::vector<model::Event> events;  ///< motor and steer events of the axis, by step
   };

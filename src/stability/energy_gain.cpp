@@ -13,7 +13,7 @@ using model::EventKind;
 using model::Model;
 using model::State;
 
-/// Energy of launched bodies after their launches, less the least that they can have had before.
+/// Energy of launched bodies after their launches, minus the least energy that they can have had before.
 double launch_work(const Model& model, const State& before, std::int64_t first_step, int num_steps) {
   double work = 0;
   State launched;
@@ -31,7 +31,7 @@ double launch_work(const Model& model, const State& before, std::int64_t first_s
     }
     launched.velocity[body] = event.velocity;
     launched.angular_velocity[body] = event.angular_velocity;
-    // In the steps before a later launch the body may have lost its speed.
+    // The body may have lost its speed in the steps before a later launch.
     const double least = event.step == first_step ? had : std::min(had, had_at_rest);
     work += body_energy(model, launched, body) - least;
   }

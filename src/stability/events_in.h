@@ -1,4 +1,4 @@
-/// The events of some steps.
+/// Selects the events of some steps.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace pbmpi::stability {
 
-/// The model's events at the starts of `num_steps` steps from `first_step` on.
+/// The model's events at the start of each of the `num_steps` steps from `first_step` on.
 inline std::span<const model::Event> events_in(const model::Model& model, std::int64_t first_step,
                                                std::int64_t num_steps) {
   const auto begin = std::ranges::lower_bound(model.events, first_step, {}, &model::Event::step);

@@ -15,7 +15,7 @@ model::State to_finer_steps(model::State state, int finer) {
     if (!rest.asleep()) rest.idle_steps *= finer;
   }
   for (std::int32_t& step : state.broken_in) {
-    if (step != model::unbroken) step = 0;  // long enough ago for whatever asks
+    if (step != model::unbroken) step = 0;  // long enough ago for every reader
   }
   return state;
 }
@@ -46,7 +46,7 @@ FinerResult step_finer(const GuardSettings& settings, int world, const model::Mo
   return {from_finer_steps(stepper->state(world), finer, before), stepper->observables(world)};
 }
 
-/// A motor that is aimed wakes what it drives, which may be asleep in the state.
+/// A motor with a new target wakes the bodies that it drives, which may be asleep in the state.
 void add_aimed(stepping::WorldStepper& stepper, int world, std::shared_ptr<const model::Model> model,
                const stepping::MotorTargets& targets, const model::State& state, std::int64_t step) {
   stepper.add(world, std::move(model), state, step);

@@ -1,4 +1,4 @@
-/// A step of a world done as several shorter ones.
+/// Does a step of a world as several shorter ones.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,23 @@
 
 namespace pbmpi::stability {
 
-/// The model with the step numbers of its events in steps that are `finer` times as short.
+/// The model with the step numbers of its events converted to steps that are `finer` times as short.
 model::Model in_finer_steps(const model::Model& model, int finer);
 
-/// A state as a run with steps `finer` times as short has it, and back: broken joints and idle steps count
-/// steps. Joints that were broken before keep their step, which comes from `before`. What is remembered are
-/// forces, and needs no change.
+/// Converts a state to a run with steps `finer` times as short, and back: broken joints and idle counters are
+/// in steps. Joints that were broken before keep their step, which comes from `before`. Remembered quantities
+/// are forces, and need no change.
 model::State to_finer_steps(model::State state, int finer);
 model::State from_finer_steps(model::State state, int finer, const model::State& before);
 
-/// What a step has become.
+/// The result of a step that was done in finer ones.
 struct FinerResult {
   model::State state;
   stepping::Observables seen;
 };
 
-/// Does step `step` of a world from `before` on as `finer` steps of dt / finer, each with collision detection
-/// of its own. `targets`: what its motors aim at.
+/// Does step `step` of a world from `before` as `finer` steps of dt / finer, each with its own collision
+/// detection. `targets`: those of its motors.
 FinerResult step_finer(const GuardSettings& settings, int world, const model::Model& model,
                        const stepping::MotorTargets& targets, const model::State& before, std::int64_t step,
                        int finer);

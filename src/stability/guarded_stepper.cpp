@@ -22,7 +22,7 @@ void GuardedStepper::add(int world, std::shared_ptr<const model::Model> model, c
   slot.now = slot.guard->begin(state);
   if (!slot.now.is_frozen()) {
     inner_->add(world, std::move(model), state, step);
-    // The stepper completes the state, e.g. by the poses near which bodies rest.
+    // The stepper completes the state, e.g. with the poses near which bodies rest.
     const model::GuardMemory memory = slot.now.state.guard;
     slot.now.state = inner_->state(world);
     slot.now.state.guard = memory;
@@ -63,13 +63,13 @@ void GuardedStepper::set_motor_velocity(int world, int joint, int axis, double v
   const bool changes = slot.targets.set(*slot.model, slot.step, joint, axis, velocity) != nullptr;
   if (slot.now.is_frozen()) return;
   inner_->set_motor_velocity(world, joint, axis, velocity);
-  if (changes) slot.now.state.rest = inner_->state(world).rest;  // what is driven may have woken
+  if (changes) slot.now.state.rest = inner_->state(world).rest;  // driven bodies may have woken
 }
 
 void GuardedStepper::advance(int num_steps, core::PhaseTimes& times) {
   core::require_invariant(num_steps >= begun_steps_, "advance: no fewer steps than have begun");
   const int begun_steps = std::exchange(begun_steps_, 0);
-  if (num_steps == 0 || num_steps > begun_steps) {  // what the guards step again is no part of the frame
+  if (num_steps == 0 || num_steps > begun_steps) {  // steps that the guards repeat are not part of the frame
     const core::SectionMark mark(core::SectionMark::Section::precise);
     step(num_steps - begun_steps, times);
   }
@@ -112,7 +112,7 @@ void GuardedStepper::end_frame(int world, Slot& slot, int num_steps) {
 }
 
 double GuardedStepper::cost_s(int world) const {
-  // Loads are divided by their sum, which must not be 0 where all worlds stand.
+  // Loads are divided by their sum, which must not be 0 where all worlds are frozen.
   constexpr double next_to_nothing_s = 1e-9;
   const Slot& slot = worlds_.at(world);
   return slot.now.is_frozen() ? next_to_nothing_s : slot.cost_s;

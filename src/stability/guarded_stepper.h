@@ -1,4 +1,4 @@
-/// A stepper whose worlds are watched.
+/// A stepper that guards its worlds.
 #pragma once
 
 #include <map>
@@ -14,22 +14,22 @@
 
 namespace pbmpi::stability {
 
-/// Steps worlds with another stepper, and looks at each of them after every advance(), which is a frame.
-/// States carry what the guards remember (State::guard), so that all goes on alike where a world moves to
-/// another rank or comes from a checkpoint. With freeze and refine a world that blows up gets another state,
-/// and one that stands is kept out of the other stepper, whose other worlds keep their bits.
+/// Steps worlds with another stepper, and checks each of them after every advance(), which is a frame. States
+/// hold the guards' memory (State::guard), so that the run continues unchanged where a world moves to another
+/// rank or is restored from a checkpoint. With freeze and refine a world that blows up gets another state. A
+/// frozen world is kept out of the other stepper, whose remaining worlds keep their bits.
 class GuardedStepper final : public stepping::FrameStepper, public stepping::RunEventSource {
  public:
-  /// begin_step() and look() are for an `inner` that is an AnytimeStepper.
+  /// begin_step() and look() require `inner` to be an AnytimeStepper.
   GuardedStepper(std::unique_ptr<stepping::WorldStepper> inner, GuardSettings settings);
-  GuardedStepper(const GuardedStepper&) = delete;  // the worlds' guards point at its settings
+  GuardedStepper(const GuardedStepper&) = delete;  // the worlds' guards point to its settings
   GuardedStepper& operator=(const GuardedStepper&) = delete;
 
   void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
            std::int64_t step) override;
   void remove(int world) override;
   void set_state(int world, const model::State& state, std::int64_t step) override;
-  /// Between frames only. A world that stands moves no motor, but keeps the target.
+  /// Between frames only. In a frozen world no motor moves, but the target is kept.
   void set_motor_velocity(int world, int joint, int axis, double velocity) override;
   void advance(int num_steps, core::PhaseTimes& times) override;
   const model::State& state(int world) const override { return worlds_.at(world).now.state; }
@@ -53,7 +53,7 @@ class GuardedStepper final : public stepping::FrameStepper, public stepping::Run
     std::unique_ptr<WorldGuard> guard;
     std::int64_t step = 0;
     stepping::MotorTargets targets;
-    double begun_cost_s = 0, cost_s = 0;  ///< of what is begun of a frame; of the last frame
+    double begun_cost_s = 0, cost_s = 0;  ///< of the part of a frame that has begun; of the last frame
     Watched now;
   };
 
@@ -64,7 +64,7 @@ class GuardedStepper final : public stepping::FrameStepper, public stepping::Run
   std::unique_ptr<stepping::WorldStepper> inner_;
   stepping::AnytimeStepper* anytime_ = nullptr;  ///< inner_, if it is one
   std::map<int, Slot> worlds_;
-  int begun_steps_ = 0;  ///< of the frame, by begin_frame()
+  int begun_steps_ = 0;  ///< steps of the frame, set by begin_frame()
   std::vector<stepping::RunEvent> events_;
 };
 

@@ -71,7 +71,7 @@ Guards::Guards(const model::Model& model, double dt_s, const GuardLimits& limits
       const double other = sizes[joint.body_b];
       size = size > 0 && other > 0 ? std::min(size, other) : std::max(size, other);
     }
-    // Bodies without geoms have no size that a gap could be compared with.
+    // Bodies without geoms have no size to compare a gap with.
     gap_limit_.push_back(size > 0 ? limits.gap_share * size : model::infinity);
     least_gap_limit_ = std::min(least_gap_limit_, gap_limit_.back());
   }
@@ -84,7 +84,7 @@ Guards::Guards(const model::Model& model, double dt_s, const GuardLimits& limits
 std::optional<Trip> Guards::check(const Span& span, std::span<const Vec3> from, PassageFinder::Pace pace,
                                   model::GuardMemory& memory) const {
   const std::int64_t last_step = span.first_step + span.num_steps - 1;
-  if (span.before.nonfinite > 0) return std::nullopt;  // it was told of
+  if (span.before.nonfinite > 0) return std::nullopt;  // it was reported before
   if (span.after.nonfinite > 0) {
     return Trip{.guard = Guard::nonfinite,
                 .step = last_step,

@@ -1,4 +1,4 @@
-/// What a run itself watches for in one world, and how far each may go.
+/// The guards of one world of a run, and the limits at which they trip.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@
 
 namespace pbmpi::stability {
 
-/// Chosen so that none of the scenes that pbmpi brings trips over its own frames at its default setting.
+/// Chosen so that no scene that comes with pbmpi trips them in its own frames at its default setting.
 struct GuardLimits {
-  /// A joint may open by this share of the size of its smaller body, which then fits in between. Hands and
+  /// A joint may open by this share of the size of its smaller body, which then fits into the gap. Hands and
   /// feet that a car hits open by half of their size for some steps.
   double gap_share = 1;
-  /// Energy may be gained without a cause up to this share of the largest kinetic energy so far: pushing out
-  /// what overlaps and closing what gapes gains a little in each impact.
+  /// Energy gained without a cause may reach this share of the largest kinetic energy so far: pushing out
+  /// overlaps and closing gaps gains a little in each impact.
   double energy_share = 0.05;
-  /// And besides by the work of lifting all bodies by so much [m] on Earth, which is what a world at rest
-  /// with overlaps of this size may make of them.
+  /// In addition, the work of lifting all bodies by this height [m] on Earth is allowed, which is what a
+  /// world at rest with overlaps of this size may turn them into.
   double energy_lift_m = 0.01;
 };
 
@@ -35,7 +35,7 @@ enum class Guard { nonfinite, joint_gap, energy_gain, passage };
 /// A guard that has tripped.
 struct Trip {
   Guard guard = Guard::nonfinite;
-  std::int64_t step = 0;      ///< counted from 0: the last before the guard saw it
+  std::int64_t step = 0;      ///< counted from 0: the last step before the guard saw it
   int body = model::no_body;  ///< nonfinite, passage
   int joint = -1;             ///< joint_gap
   int through = -1;           ///< passage: geom
@@ -43,7 +43,7 @@ struct Trip {
   double limit = 0;
 };
 
-/// A state, and what is measured of it anyway.
+/// A state, and the quantities that are measured of it anyway.
 struct Seen {
   const model::State& state;
   double energy_j = 0;
@@ -57,32 +57,32 @@ struct Seen {
         nonfinite(observables.nonfinite) {}
 };
 
-/// Checks one world between two states, one step or some steps apart. What costs more than a pass over the
-/// bodies is done only where something is suspected.
+/// Checks one world between two states, one or several steps apart. Work that costs more than a pass over the
+/// bodies is done only where a defect is suspected.
 class Guards {
  public:
   /// `model` is borrowed.
   Guards(const model::Model& model, double dt_s, const GuardLimits& limits = {});
 
-  /// The states before and after `num_steps` steps from `first_step` on.
+  /// The states before and after the `num_steps` steps from `first_step` on.
   struct Span {
     Seen before, after;
     std::int64_t first_step = 0;
     int num_steps = 1;
   };
-  /// The first guard that trips, of: non-finite numbers, a joint that opens beyond its limit (and was not yet
-  /// there), energy gained without a cause, a passage. Gains of energy are summed in `memory`. `from`: as of
-  /// PassageFinder::find(), as is `pace`.
+  /// The first guard that trips among: non-finite numbers, a joint that opens beyond its limit (and was
+  /// within it before), energy gained without a cause, a passage. Gains of energy are summed in `memory`.
+  /// `from` and `pace` are those of PassageFinder::find().
   std::optional<Trip> check(const Span& span, std::span<const model::Vec3> from, PassageFinder::Pace pace,
                             model::GuardMemory& memory) const;
 
-  /// Where the bodies are after the launches of these steps, if they are at `positions` before.
+  /// The positions of the bodies after the launches of these steps, if they are at `positions` before.
   std::span<const model::Vec3> launched(std::span<const model::Vec3> positions, std::int64_t first_step,
                                         int num_steps, std::vector<model::Vec3>& scratch) const;
 
-  /// Takes the kinetic energy of a state into memory.largest_kinetic_j.
+  /// Updates memory.largest_kinetic_j with the kinetic energy of a state.
   void note_kinetic(const model::State& state, double energy_j, model::GuardMemory& memory) const;
-  /// Above which memory.energy_gain_j trips [J].
+  /// Limit [J] above which memory.energy_gain_j trips.
   double energy_limit(const model::GuardMemory& memory) const;
   const PassageFinder& passages() const { return passages_; }
 
@@ -96,10 +96,10 @@ class Guards {
   std::vector<double> gap_limit_;  ///< [num_joints] m
   double least_gap_limit_ = model::infinity;
   double lift_work_j_ = 0;
-  std::vector<double> mass_kg_;  ///< [num_bodies] beside each other
+  std::vector<double> mass_kg_;  ///< [num_bodies] contiguous
 };
 
-/// The event of a guard that tripped in a world, for file and summary.
+/// The event for a guard that tripped in a world, for the run's file and summary.
 stepping::RunEvent event_of(const Trip& trip, int world, const model::Model& model);
 
 }  // namespace pbmpi::stability

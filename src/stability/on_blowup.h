@@ -1,4 +1,4 @@
-/// What a run does about a world whose guards trip.
+/// What a run does with a world whose guards trip.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@ namespace pbmpi::stability {
 enum class OnBlowup {
   report,  ///< the run goes on
   stop,    ///< the run ends after the frame
-  freeze,  ///< the world stands still from the start of the step on
-  refine   ///< the step is done again with finer ones, and if 16 do not help the world stands still
+  freeze,  ///< the world stands still from the start of that step on
+  refine   ///< the step is done again with finer ones; if 16 do not help, the world stands still
 };
 inline constexpr std::array<std::string_view, 4> on_blowup_names = {"report", "stop", "freeze", "refine"};
 
-/// Does it replace states?
+/// Does this setting replace states?
 constexpr bool mends(OnBlowup on_blowup) {
   return on_blowup == OnBlowup::freeze || on_blowup == OnBlowup::refine;
 }
@@ -30,7 +30,7 @@ using MakeStepper =
 struct GuardSettings {
   OnBlowup on_blowup = OnBlowup::report;
   stepping::StepperSettings stepper;  ///< of the run
-  MakeStepper make_stepper;           ///< for a world that is stepped again by itself
+  MakeStepper make_stepper;           ///< makes the stepper of a world that is stepped again by itself
   GuardLimits limits;
 };
 

@@ -16,7 +16,7 @@ using model::Shape;
 using model::State;
 using model::Vec3;
 
-/// Radius [m] of the largest ball about the body's centre of mass that the geom holds; 0 or less if the
+/// Radius [m] of the largest ball about the body's centre of mass that fits into the geom; 0 or less if the
 /// centre lies outside.
 double inner_radius(const Geom& geom) {
   const Vec3 centre = geom.local.orientation.to_eigen().conjugate() * -geom.local.position;
@@ -46,13 +46,13 @@ BodyPose pose_of(const State& state, int body) {
   return geometry::body_pose({state.position[body], state.orientation[body]});
 }
 
-/// Does a way come into the geom of a body from outside?
+/// Does a path enter the geom of a body from outside?
 bool enters(const Geom& geom, const BodyPose& body, const Vec3& from, const Vec3& way) {
   return geometry::enter(geom, geometry::geom_pose(geom, body), from, way).has_value();
 }
 
-/// How far the way goes on after it has crossed the geom from side to side, as a share of its length; nothing
-/// if it does not cross the whole of it.
+/// How far the path continues after it has crossed the geom from side to side, as a share of its length;
+/// nothing if it does not cross the whole geom.
 std::optional<double> share_beyond(const Geom& geom, const BodyPose& body, const Vec3& from,
                                    const Vec3& way) {
   if (!enters(geom, body, from, way)) return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<double> share_beyond(const Geom& geom, const BodyPose& body, const
   return back ? std::optional<double>(back->share) : std::nullopt;
 }
 
-/// Square of the distance between a point and the line of points from + s way, s from 0 to 1.
+/// Squared distance between a point and the segment from + s way, s from 0 to 1.
 double squared_distance(const Vec3& point, const Vec3& from, const Vec3& way) {
   const Vec3 to_point = point - from;
   const double share = std::clamp(to_point.dot(way) / way.squaredNorm(), 0.0, 1.0);
@@ -130,7 +130,8 @@ std::optional<Passage> PassageFinder::find(const State& before, std::span<const 
   return std::nullopt;
 }
 
-/// What holds of every mover is tried without looking at any, which would be most of the cost.
+/// Tests bounds that hold for all movers, without looking at any single mover, which would be most of the
+/// cost.
 bool PassageFinder::may_pass_static(const State& after, Pace pace) const {
   const auto may_be_behind = [&](const Plane& plane) {
     return std::ranges::any_of(after.position, [&](const Vec3& centre) {
@@ -144,9 +145,9 @@ bool PassageFinder::may_pass_static(const State& after, Pace pace) const {
   });
 }
 
-/// Bodies have gone through each other only if the ways of the two differ by twice the size of the smaller.
-/// So one of the ways differs by that size from whatever third way, for which the mean is taken: what flies
-/// together is no pair.
+/// Bodies have passed through each other only if their paths differ by twice the size of the smaller one. At
+/// least one of the paths then differs by that size from any third path, for which the mean is taken: bodies
+/// that fly together are not a pair.
 void PassageFinder::find_close_pairs(std::span<const Vec3> from, const State& after) const {
   const std::size_t num_bodies = extents_.size();
   ways_.resize(num_bodies);
@@ -199,7 +200,7 @@ void PassageFinder::Reaches::set(std::span<const Vec3> position, std::span<const
 }
 
 std::span<const std::int32_t> PassageFinder::Reaches::meeting(std::size_t body) {
-  constexpr float rounding = 1.0001F;  // of single precision, many times over
+  constexpr float rounding = 1.0001F;  // that of single precision, with a large margin
   const float x = x_[body], y = y_[body], z = z_[body], radius = radius_[body];
   for (std::size_t i = 0; i < hits_.size(); ++i) {
     const float dx = x_[i] - x, dy = y_[i] - y, dz = z_[i] - z, sum = rounding * (radius_[i] + radius);
@@ -269,7 +270,7 @@ bool PassageFinder::is_inside(const State& state, int body) const {
     if (!rule_.may_touch(mover->geom, solid.geom)) return false;
     const Geom& geom = model_->geoms[solid.geom];
     const BodyPose pose = pose_of(state, solid.body);
-    // From outside a way to the point comes in, and a way back from it does not.
+    // If the point is inside, a path to it from outside enters the geom, and the path back out does not.
     const Vec3 way = Vec3::UnitX() * (3 * solid.radius);
     return enters(geom, pose, point - way, way) && !enters(geom, pose, point, -way);
   };

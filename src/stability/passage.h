@@ -1,4 +1,4 @@
-/// Bodies that went through something.
+/// Detects bodies that passed through something.
 #pragma once
 
 #include <cstdint>
@@ -13,38 +13,37 @@
 
 namespace pbmpi::stability {
 
-/// A body whose centre of mass is, or was, behind something that it may touch.
+/// A body whose centre of mass is, or was, behind a geom that it may touch.
 struct Passage {
   int body = 0;
   int through = 0;    ///< geom
-  double beyond = 0;  ///< how far its centre is behind the plane, or went beyond the geom [m]; 0: it is in it
+  double beyond = 0;  ///< how far its centre is behind the plane, or went beyond the geom [m]; 0: inside it
 };
 
-/// Finds passages between two states of a world. A body counts by its inner ball, the largest about its
-/// centre of mass that one of its geoms holds; bodies whose centre lies in none of their geoms, such as
-/// rings, are not looked at, because others may go through them.
+/// Finds passages between two states of a world. A body is represented by its inner ball, the largest ball
+/// about its centre of mass that fits into one of its geoms. Bodies whose centre lies in none of their geoms,
+/// such as rings, are ignored, because others may pass through them.
 ///
 /// A body has passed
-/// - a static plane, if its centre has come behind it by more than the body's size, from whatever above that:
+/// - a static plane, if its centre has moved behind it by more than the body's size, from any point above:
 ///   hands and feet on which a car stands are pressed into the ground by half of their size;
-/// - another static geom, if the straight way of its centre comes in and leaves again, or ends in one that is
+/// - another static geom, if the straight path of its centre enters and leaves it, or ends in one that is
 ///   thinner than the inner ball, which then sticks out on both sides;
-/// - a geom of another body, if that way as seen from it comes in, leaves again, and goes on by twice the
-/// size
-///   of the body, which is then wholly behind it: light bodies that meet in a crash clip each other's
-///   corners, and are pushed apart. A geom that turns meanwhile must be crossed as it was turned before and
-///   as it is after.
+/// - a geom of another body, if that path, as seen from the other body, enters it, leaves it, and goes on for
+///   twice the size of the body, which is then wholly behind it: light bodies that meet in a crash clip each
+///   other's corners, and are pushed apart. A geom that turns meanwhile must be crossed both as it was turned
+///   before and as it is turned after.
 class PassageFinder {
  public:
   /// `model` is borrowed.
   explicit PassageFinder(const model::Model& model);
 
-  /// Which bodies are tested for solid geoms: those that moved farther than their inner radius, so that slow
-  /// worlds cost next to nothing, or all.
+  /// Which bodies are tested against solid geoms: those that moved farther than their inner radius, so that
+  /// slow worlds cost next to nothing, or all.
   enum class Pace { fast, any };
 
-  /// The first passage, by body, between two states. `from` [num_bodies]: where the centres started [m, world
-  /// frame], which is before.position unless a launch has put them elsewhere.
+  /// The first passage, by body, between two states. `from` [num_bodies]: the start points of the centres [m,
+  /// world frame], equal to before.position unless a launch has moved them.
   std::optional<Passage> find(const model::State& before, std::span<const model::Vec3> from,
                               const model::State& after, Pace pace = Pace::fast) const;
 
@@ -54,41 +53,41 @@ class PassageFinder {
  private:
   struct Mover {
     int body = 0;
-    int geom = 0;       ///< that holds its centre
+    int geom = 0;       ///< geom that contains its centre
     double radius = 0;  ///< of the inner ball [m]
     double size = 0;    ///< of the body [m], see geometry::sizes_of()
   };
   struct Solid {
     int geom = 0;
     int body = model::no_body;
-    model::Vec3 centre = model::Vec3::Zero();  ///< of a static geom [m]
-    double radius = 0;  ///< of the ball that holds it, about the body's centre of mass [m]
+    model::Vec3 centre = model::Vec3::Zero();  ///< that of a static geom [m]
+    double radius = 0;  ///< radius of the bounding ball about the body's centre of mass [m]
   };
   struct Plane {
     int geom = 0;
     model::Vec3 normal = model::Vec3::UnitZ();
-    double height = 0;  ///< of its points along the normal [m]
+    double height = 0;  ///< height of its points along the normal [m]
   };
 
-  /// What decides which bodies can have gone through each other.
+  /// The data that decide which bodies can have passed through each other.
   struct Extent {
-    double size = model::infinity;  ///< as Mover::size; infinite: it is no mover
-    double radius = 0;              ///< of the ball about the centre of mass that holds its geoms [m]
+    double size = model::infinity;  ///< as Mover::size; infinite: not a mover
+    double radius = 0;              ///< radius of the bounding ball of its geoms about the centre of mass [m]
     int actor = -1;  ///< whose geoms never touch each other; below 0: none, another for each body
-    int first_solid = 0, last_solid = 0;  ///< in moving_: [first, last)
-    int mover = -1;                       ///< in movers_; -1: none
+    int first_solid = 0, last_solid = 0;  ///< range in moving_: [first, last)
+    int mover = -1;                       ///< index into movers_; -1: none
   };
   struct Pair {
     int first = 0, second = 0;  ///< bodies
   };
 
-  /// The balls that hold each body on its way, in single precision, so that all are compared with one at
-  /// little cost.
+  /// Balls that bound each body along its path, in single precision, so that one is compared with all others
+  /// at little cost.
   class Reaches {
    public:
     void set(std::span<const model::Vec3> position, std::span<const double> squared_lengths,
              std::span<const Extent> extents);
-    /// [num_bodies] 1 where the ball meets that of `body`; until the next call.
+    /// [num_bodies] 1 where a body's ball overlaps that of `body`; valid until the next call.
     std::span<const std::int32_t> meeting(std::size_t body);
 
    private:
@@ -96,7 +95,7 @@ class PassageFinder {
     std::vector<std::int32_t> hits_;
   };
 
-  /// False if no body can have passed a static geom, by its place and after find_close_pairs().
+  /// False if no body can have passed a static geom, judged by its position and after find_close_pairs().
   bool may_pass_static(const model::State& after, Pace pace) const;
   void find_close_pairs(std::span<const model::Vec3> from, const model::State& after) const;
   std::optional<Passage> through_planes(const Mover& mover, const model::Vec3& from,
@@ -109,17 +108,17 @@ class PassageFinder {
   const model::Model* model_;
   model::TouchRule rule_;
   std::vector<Mover> movers_;
-  std::vector<Solid> static_, moving_;                                    ///< moving_: by body
+  std::vector<Solid> static_, moving_;                                    ///< moving_: sorted by body
   std::vector<Extent> extents_;                                           ///< [num_bodies]
-  double least_size_ = model::infinity, least_radius_ = model::infinity;  ///< of movers_ [m]
+  double least_size_ = model::infinity, least_radius_ = model::infinity;  ///< smallest of movers_ [m]
   std::vector<Plane> planes_;
-  // Results of the last call, members so that they keep their memory.
-  mutable std::vector<model::Vec3> ways_;        ///< [num_bodies] of the centres
+  // Results of the last call, kept as members to reuse their memory.
+  mutable std::vector<model::Vec3> ways_;        ///< [num_bodies] paths of the centres
   mutable std::vector<double> squared_lengths_;  ///< [num_bodies] of ways_
   mutable std::vector<int>
-      far_;  ///< bodies whose way differs from the mean by the size of the smallest mover
+      far_;  ///< bodies whose path differs from the mean by the size of the smallest mover
   mutable Reaches reaches_;
-  mutable std::vector<Pair> close_;  ///< that may have gone through each other
+  mutable std::vector<Pair> close_;  ///< pairs that may have passed through each other
 };
 
 }  // namespace pbmpi::stability

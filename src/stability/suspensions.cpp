@@ -8,7 +8,7 @@ namespace {
 using model::State;
 using model::Vec3;
 
-/// How far a suspension is from its rest [m].
+/// Displacement of a suspension from its rest position [m].
 double travel_of(const Suspension& suspension, const State& state) {
   const model::Pose a = state.pose(suspension.body_a), b = state.pose(suspension.body_b);
   const Vec3 axis = a.direction_to_outer(suspension.axis);

@@ -9,7 +9,7 @@
 
 namespace pbmpi::stability {
 
-/// A suspension that is not rigid: what its energy follows from, beside each other.
+/// A suspension that is not rigid, with the contiguous data from which its energy follows.
 struct Suspension {
   std::size_t joint = 0;
   int body_a = 0, body_b = model::no_body;
@@ -18,7 +18,7 @@ struct Suspension {
   double stiffness = 0;            ///< [N/m]
 };
 
-/// By joint.
+/// The suspensions, by joint.
 std::vector<Suspension> suspensions_of(const model::Model& model);
 
 /// Potential energy [J]; 0 once its joint is broken.

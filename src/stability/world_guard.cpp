@@ -19,10 +19,10 @@ Seen seen_of(const Watched& watched) { return {watched.state, watched.seen}; }
 
 }  // namespace
 
-/// A frame of one world done again, step by step.
+/// A frame of one world that is stepped again, step by step.
 class WorldGuard::Replay {
  public:
-  /// `is_lost`: at the end of the frame something is not finite.
+  /// `is_lost`: something is not finite at the end of the frame.
   Replay(const WorldGuard& guard, const Watched& start, std::int64_t first_step,
          const stepping::MotorTargets& targets, bool is_lost, std::vector<RunEvent>& events)
       : guard_(&guard),
@@ -39,8 +39,8 @@ class WorldGuard::Replay {
     add_aimed(*stepper_, guard.world_, guard.model_, targets, start.state, first_step);
   }
 
-  /// False if nothing is left to do: a guard has tripped and its report is all that is wanted, or the world
-  /// stands.
+  /// False if nothing is left to do: a guard has tripped and only a report is asked for, or the world is
+  /// frozen.
   bool step();
 
   bool has_tripped() const { return has_tripped_; }
@@ -57,12 +57,12 @@ class WorldGuard::Replay {
   void tell(const char* kind, double value, const std::string& detail);
 
   const WorldGuard* guard_;
-  stepping::MotorTargets targets_;  ///< for the step at hand
+  stepping::MotorTargets targets_;  ///< for the present step
   Watched now_;
   std::int64_t step_;
   bool is_lost_;
-  /// Where the way of each centre begins: at now_, or further back for a centre that is in something, so that
-  /// a way through it is seen as a whole.
+  /// The point where the path of each centre begins: at now_, or further back for a centre inside a geom, so
+  /// that a path through it is seen as a whole.
   std::vector<Vec3> from_;
   std::vector<Vec3> scratch_;
   std::vector<RunEvent>* events_;
@@ -80,7 +80,7 @@ bool WorldGuard::Replay::step() {
       tell(*trip);
       if (!mend(next)) return false;
     } else {
-      // The first guard that trips is told of, and a number that is not finite in any case: it ends the run.
+      // The first guard that trips is reported, and a non-finite number always is: it ends the run.
       if (!has_tripped_ || trip->guard == Guard::nonfinite) tell(*trip);
       if (trip->guard == Guard::nonfinite || !is_lost_) return false;
     }
@@ -105,7 +105,7 @@ bool WorldGuard::Replay::mend(Watched& next) {
   return false;
 }
 
-/// Replaces the step by finer ones that no guard objects to, if there are any.
+/// Replaces the step with finer ones at which no guard trips, if there are any.
 bool WorldGuard::Replay::refine(Watched& next) {
   for (const int finer : finer_choices) {
     FinerResult result =
@@ -158,7 +158,7 @@ WorldGuard::WorldGuard(int world, std::shared_ptr<const model::Model> model, con
       settings_(&settings),
       guards_(*model_, settings.stepper.dt_s, settings.limits) {}
 
-/// In a world that stands only what follows from its state is measured.
+/// In a frozen world only quantities that follow from its state are measured.
 Watched WorldGuard::begin(const State& state) const {
   Watched watched{state, {}};
   observe_state(*model_, watched.state, watched.seen);
@@ -185,7 +185,7 @@ bool WorldGuard::end_frame(Watched& watched, const Reached& next, std::int64_t f
       }
       memory = watched.state.guard;
     } else if (replay.has_tripped()) {
-      // The next report is of what is gained from now on.
+      // The next report covers energy gained from now on.
       if (memory.energy_gain_j > guards_.energy_limit(memory)) memory.energy_gain_j = 0;
     } else {
       memory = replay.now().state.guard;

@@ -1,4 +1,4 @@
-/// Watches one world frame by frame, and deals with it when a guard trips.
+/// Guards one world frame by frame, and acts when a guard trips.
 #pragma once
 
 #include <cstdint>
@@ -23,28 +23,28 @@ struct Watched {
   bool is_frozen() const { return state.guard.frozen_in >= 0; }
 };
 
-/// What a stepper has come to.
+/// The state that a stepper has reached.
 struct Reached {
   const model::State& state;
   const stepping::Observables& seen;
 };
 
-/// Guards look at the ends of frames, at numbers that are measured there anyway. What one of them suspects is
-/// traced to its step: the world is stepped again from the frame's start, by itself and step by step, with
-/// the same bits. A suspicion that no single step confirms is dropped, as when the straight way of a body
-/// through a frame cuts a corner that its real way went round.
+/// Guards check the ends of frames, using numbers that are measured there anyway. A suspicion is traced to
+/// its step: the world is stepped again from the frame's start, by itself and step by step, with the same
+/// bits. A suspicion that no single step confirms is dropped, for example where the straight path of a body
+/// over a frame cuts a corner that its real path went around.
 class WorldGuard {
  public:
   /// `settings` is borrowed.
   WorldGuard(int world, std::shared_ptr<const model::Model> model, const GuardSettings& settings);
 
-  /// A state that comes from elsewhere, from the start of a run or from another rank, with what a guard wants
-  /// to know of it.
+  /// Takes in a state from the start of a run or from another rank, with the data that a guard needs of it.
   Watched begin(const model::State& state) const;
 
-  /// Takes a world that moves from the end of one frame to that of the next, `num_steps` steps from
-  /// `first_step` on, at which its stepper has `next`. With freeze and refine it may come to another state:
-  /// true then. `events`: what happened is added. `targets`: what the motors aimed at when the frame began.
+  /// Takes a world from the end of one frame to that of the next, `num_steps` steps from `first_step` on,
+  /// where its stepper has reached `next`. With freeze and refine the world may get another state, in which
+  /// case this returns true. `events`: what happened is appended. `targets`: those of the motors when the
+  /// frame began.
   bool end_frame(Watched& watched, const Reached& next, std::int64_t first_step, int num_steps,
                  std::vector<stepping::RunEvent>& events, const stepping::MotorTargets& targets = {}) const;
 

@@ -1,4 +1,4 @@
-/// What an estimate that is due at some time can afford, judged by what the last frames took.
+/// What an estimate with a deadline can afford, judged by the times of the last frames.
 #pragma once
 
 #include <cstddef>
@@ -7,23 +7,23 @@
 namespace pbmpi::stepping {
 
 /// Plans on one rank. A step is expected to take as long as the slowest of its kind in the last frames, and
-/// what is not known yet as no time at all: the first frames may come late. A tenth of the time is left for
-/// the messages.
+/// no time at all while none is known: the first frames may come late. A tenth of the time is left for the
+/// messages.
 class DeadlinePlan {
  public:
   /// `deadline_s`: from the start of the frame until the estimate is due.
   explicit DeadlinePlan(double deadline_s) : due_s_(share_for_steps * deadline_s) {}
 
-  /// `spent_s` into the frame: is there time for so many steps yet?
+  /// Is there still time for so many steps, `spent_s` after the start of the frame?
   bool fits(double spent_s, int precise_steps, int coarse_steps) const {
     return spent_s + precise_steps * longest(precise_s_) + coarse_steps * longest(coarse_s_) <= due_s_;
   }
 
-  /// What a step took in this frame.
+  /// Note how long a step took in this frame.
   void note_precise(double step_s) { note(step_s, precise_s_); }
   void note_coarse(double step_s) { note(step_s, coarse_s_); }
-  /// There was no coarse step: what the last ones took counts a tenth less from now on, so that a slow frame
-  /// does not end them for good.
+  /// There was no coarse step: the times of the last ones are reduced by a tenth, so that a slow frame does
+  /// not end coarse steps for good.
   void skip_coarse() {
     for (double& step_s : coarse_s_) step_s *= 0.9;
   }

@@ -1,4 +1,4 @@
-/// What a rank knows of a finished frame, and who wants to know it.
+/// What a rank knows of a finished frame, and the interfaces of those who receive it.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace pbmpi::stepping {
 
-/// Where the bodies of each world stand in the global (world, body) order. Known to every rank.
+/// Where the bodies of each world lie in the global (world, body) order. Known to every rank.
 struct WorldTable {
   std::vector<std::int64_t> body_offset{0};  ///< [num_worlds + 1]; the last entry is the number of bodies
 
@@ -32,21 +32,21 @@ struct LocalWorld {
   const model::State* state = nullptr;
   const Observables* observables = nullptr;
   const StepProfile* profile = nullptr;  ///< null unless the run profiles its frames
-  /// Of the frame's last step; null unless the run records them, and where a world has stopped.
+  /// The frame's last step; null if the run does not record contacts or the world has stopped.
   const StepContacts* contacts = nullptr;
 };
 
-/// How an estimate goes through the steps of its frame: precise ones first, then coarse ones; what is left
+/// How an estimate goes through the steps of its frame: precise steps first, then coarse ones; for the rest
 /// bodies glide.
 struct EstimatedSteps {
   int precise = 0, coarse = 0;
 };
 
-/// The estimate of a frame, which was there before the precise result (FEEC).
+/// The estimate of a frame, available before the precise result (FEEC).
 struct EstimateRecord {
   std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id: estimated states, no observables
   double delivered_s = 0;  ///< start of the frame until root had all poses: the same on every rank
-  double compute_s = 0;    ///< time that this rank took for it, what it began of the precise frame included
+  double compute_s = 0;    ///< this rank's time for it, including its start on the precise frame
   EstimatedSteps steps;    ///< of this rank
 };
 
@@ -58,7 +58,7 @@ struct FrameRecord {
   bool measured = false;               ///< false in a warm-up frame
   std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id
   core::PhaseTimes phases;    ///< of this rank; `output` is the time that observers took in the frame before
-  core::Traffic traffic;      ///< of this rank; not what MPI's collectives send
+  core::Traffic traffic;      ///< of this rank; without what MPI's collectives send
   double wall_s = 0;          ///< start of the frame to the end of its gather: the same on every rank
   bool deadline_met = false;  ///< wall_s within the frame budget: the same on every rank
   const EstimateRecord* estimate = nullptr;  ///< none without FEEC
@@ -69,20 +69,20 @@ class FrameObserver {
  public:
   virtual ~FrameObserver() = default;
   virtual void frame_done(const FrameRecord& frame) = 0;
-  /// Before the run is saved after this frame: what an observer holds back of the frames so far must outlive
-  /// a kill, because the run would go on behind them.
+  /// Called before the run is saved after this frame: what an observer still buffers of the frames so far
+  /// must survive a kill, because the run would resume after them.
   virtual void secure() {}
   /// Every rank is told of the same event.
   virtual void event(const RunEvent& event) { static_cast<void>(event); }
 };
 
-/// FEEC's two results of a frame. The precise one follows from precise ones alone; an estimate is never
-/// stepped on from.
+/// FEEC's two results of a frame. The precise result follows from precise results alone; no step starts from
+/// an estimate.
 enum class PoseKind { estimate, precise };
 
-/// Called on root only, with all bodies' poses gathered in (world, body) order: with FEEC twice a frame, for
-/// the estimate as soon as it is there, while the other ranks work on the precise result. Root's own precise
-/// work waits for it to return.
+/// Called on root only, with all bodies' poses gathered in (world, body) order. With FEEC it is called twice
+/// a frame, first for the estimate as soon as it is there, while the other ranks work on the precise result;
+/// root's own precise work waits until the call returns.
 class PoseConsumer {
  public:
   virtual ~PoseConsumer() = default;

@@ -5,8 +5,8 @@
 
 namespace pbmpi::stepping {
 
-/// Moves all bodies for so long at their velocities of now, as ODE's integrator does in one step: position by
-/// h v, orientation by h/2 w q, normalised. Velocities stay.
+/// Moves all bodies for this time at their current velocities, as ODE's integrator does in one step: position
+/// by h v, orientation by h/2 w q, normalised. Velocities do not change.
 void glide(double seconds, model::State& state);
 
 }  // namespace pbmpi::stepping

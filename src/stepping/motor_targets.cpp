@@ -16,7 +16,7 @@ bool drives(const model::Event& event, int joint, int axis) {
   return event.kind == model::EventKind::motor && event.joint == joint && event.axis == axis;
 }
 
-/// The motor of an axis after the events of all steps before this one.
+/// The motor of an axis after the events of all steps before `step`.
 model::AxisMotor motor_before(const model::Model& model, std::int64_t step, int joint, int axis) {
   model::AxisMotor motor =
       model.joints[static_cast<std::size_t>(joint)].motors[static_cast<std::size_t>(axis)];

@@ -1,4 +1,4 @@
-/// What the motors of a world aim at where somebody has said so.
+/// The velocities that callers have set for the motors of a world.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,21 @@ class MotorTargets {
  public:
   struct Target {
     int joint = 0, axis = 0;
-    model::AxisMotor motor;  ///< what drives the axis: the velocity aimed at, all else as the model has it
+    model::AxisMotor motor;  ///< what drives the axis: the target velocity, all else as in the model
   };
 
-  /// The motor of an axis aims at `velocity` from step `step` on, whose events are still to come. Returns
-  /// what drives the axis now, valid until the next call, or null if it aims there already. Throws
-  /// core::InputError for an axis that has no motor, neither at the start nor by an event, and for a velocity
-  /// that is not finite.
+  /// Makes the motor of an axis aim at `velocity` from step `step` on, whose events are still to come.
+  /// Returns what drives the axis now, valid until the next call, or null if the motor already aims at it.
+  /// Throws core::InputError for an axis that has no motor, neither at the start nor by an event, and for a
+  /// velocity that is not finite.
   const Target* set(const model::Model& model, std::int64_t step, int joint, int axis, double velocity);
 
-  /// The events of `num_steps` steps from `first_step` on happen: a motor that one of them sets aims at what
-  /// the event says.
+  /// Passes the events of `num_steps` steps from `first_step` on: a motor that one of them sets loses its
+  /// target and follows the event.
   void pass(const model::Model& model, std::int64_t first_step, std::int64_t num_steps = 1);
 
-  /// The next step is `step`: the targets stay, force and hold rate are those of the motors before it.
+  /// Moves to before step `step`: the targets stay, force and hold rate become those of the motors before
+  /// that step.
   void move_to(const model::Model& model, std::int64_t step);
 
   std::span<const Target> all() const { return targets_; }

@@ -1,6 +1,6 @@
 /// The one list of observables: from it follow the columns of a run's file, how they are read back, and how
-/// worlds and ranks are joined. A new observable is a member of Observables, a line here, and what measures
-/// it.
+/// worlds and ranks are joined. A new observable takes a member of Observables, a line here, and the code
+/// that measures it.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@
 namespace pbmpi::stepping {
 
 /// How the numbers of several ranks (of one world) or of several worlds become one. A vector is joined
-/// component by component. Of nothing the join is 0.
+/// component by component. The join of no numbers is 0.
 enum class Join { sum, max };
 
 /// What an observable shows in a world in which all bodies sleep.
 enum class Asleep { as_before, zero };
 
-/// Column of a group of the file, a number (or a vector) for each world and frame.
+/// A column in a group of the file: a number (or a vector) for each world and frame.
 template <class Owner>
 struct ObservableColumn {
   using Member = std::variant<int Owner::*, double Owner::*, std::array<double, 3> Owner::*>;
@@ -34,7 +34,7 @@ struct ObservableColumn {
 using WorldColumn = ObservableColumn<Observables>;
 using ResidualColumn = ObservableColumn<Residuals>;
 
-/// Group /observables/world of the file. What each means stands at the members, and in io/SCHEMA.md.
+/// Group /observables/world of the file. The members, and io/SCHEMA.md, say what each means.
 inline constexpr auto world_observables = std::to_array<WorldColumn>({
     {"contacts", "", &Observables::contacts, Join::sum, Asleep::zero},
     {"rows", "", &Observables::rows, Join::sum, Asleep::zero},
@@ -64,7 +64,7 @@ inline constexpr auto residual_observables = std::to_array<ResidualColumn>({
     {"natural_turn", "rad s-1", &Residuals::natural_turn, Join::max, Asleep::as_before},
 });
 
-/// Place of a member in world_observables, for those who want one observable of all: fails to compile for a
+/// Index of a member in world_observables, for callers that want a single observable; does not compile for a
 /// member that is no column.
 consteval std::size_t column_of(WorldColumn::Member member) {
   std::size_t column = 0;
@@ -72,7 +72,7 @@ consteval std::size_t column_of(WorldColumn::Member member) {
   return column;
 }
 
-/// Calls visit(member pointer) with the type that the member has.
+/// Calls visit(member pointer) with the member's own type.
 template <class Column, class Visit>
 void with_member(const Column& column, Visit&& visit) {
   std::visit(visit, column.member);
@@ -84,10 +84,10 @@ double number_of(const Observables& seen, const WorldColumn& column);
 /// Joins numbers of worlds or ranks.
 double join(Join rule, std::span<const double> numbers);
 
-/// Joins what another rank has seen of the world into `all`. Residuals stay as they are.
+/// Joins another rank's observables of the world into `all`. Residuals stay as they are.
 void join(Observables& all, const Observables& part);
 
-/// What a world shows in which all bodies slept since it was last looked at.
+/// Sets the observables of a world in which all bodies have slept since the last measurement.
 void observe_sleep(Observables& seen);
 
 }  // namespace pbmpi::stepping

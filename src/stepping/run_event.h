@@ -1,4 +1,4 @@
-/// What happens to a run beside its frames: for the file's /events, and for those who count.
+/// What happens to a run apart from its frames: for the file's /events, and for the counts of events.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace pbmpi::stepping {
 
-/// RunEvent::kind, which says what RunEvent::value is. The file counts each kind.
+/// Values of RunEvent::kind, each with the meaning of RunEvent::value. The file counts each kind.
 namespace event_kind {
 
 inline constexpr const char* rebalance = "rebalance";        ///< value: worlds (or spaces) moved
@@ -21,10 +21,10 @@ inline constexpr const char* joint_broken = "joint_broken";  ///< step, world, j
 inline constexpr const char* nonfinite = "nonfinite";      ///< value: bodies; name: the first
 inline constexpr const char* joint_gap = "joint_gap";      ///< value: the widest gap [m]
 inline constexpr const char* energy_gain = "energy_gain";  ///< value: gained without a cause [J]
-inline constexpr const char* passage = "passage";          ///< value: way beyond what was passed [m]
+inline constexpr const char* passage = "passage";          ///< value: path beyond what was passed [m]
 
 // What was done about it, with --on-blowup.
-inline constexpr const char* frozen = "frozen";    ///< the world stands from the start of `step` on
+inline constexpr const char* frozen = "frozen";    ///< the world stands still from the start of `step` on
 inline constexpr const char* refined = "refined";  ///< value: the finer steps that replaced `step`
 
 inline constexpr std::array guards = {nonfinite, joint_gap, energy_gain, passage};
@@ -38,7 +38,7 @@ struct RunEvent {
   std::int64_t frame = 0;
   std::string kind;         ///< one of event_kind
   std::string detail;       ///< one line for people
-  std::int64_t step = -1;   ///< in which it happened, counted from 0; -1: at the end of the frame
+  std::int64_t step = -1;   ///< step in which it happened, counted from 0; -1: at the end of the frame
   std::int32_t world = -1;  ///< -1: of no world
   std::int32_t joint = -1;  ///< index in the world's model; -1: of no joint
   std::string name = {};    ///< of the joint or body

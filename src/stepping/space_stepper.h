@@ -1,5 +1,5 @@
-/// The interface through which one world is stepped by several ranks, each of which owns some of its spaces,
-/// whatever the engine.
+/// The interface through which several ranks, each of which owns some of its spaces, step one world, whatever
+/// the engine.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@
 namespace pbmpi::stepping {
 
 /// One rank's view of the world. It knows all bodies; the rows of state() that belong to its own spaces are
-/// current, others are as the rank last heard of them. The result of a step depends neither on who owns what
-/// nor on where an island is solved.
+/// current, the others are as the rank last heard of them. The result of a step depends neither on who owns
+/// what nor on where an island is solved.
 ///
 /// A step is fire_events(), collide(), perhaps collide_across(), solve(). Units, spaces: model/space_map.h.
 class SpaceStepper {
@@ -33,28 +33,29 @@ class SpaceStepper {
   virtual const model::Model& model() const = 0;
   virtual const model::SpaceMap& map() const = 0;
   virtual const model::State& state() const = 0;
-  /// Null without the effect "sleeping". With it collide() and collide_across() find the contacts of which a
-  /// body is awake, and solve() moves the units that are.
+  /// Null without the effect "sleeping". With it collide() and collide_across() find the contacts that have
+  /// an awake body, and solve() moves the units that are awake.
   virtual effects::SpaceSleepers* sleepers() { return nullptr; }
   /// Null without the effect "field_of_interest". With it solve() sorts the islands that it is given, once
-  /// the field has been told where the body is that it follows.
+  /// the field has been told where the followed body is.
   virtual effects::FieldOfInterest* field() { return nullptr; }
-  /// Units of one shape that are solved at the cost of one.
+  /// How many units of one shape are solved at the cost of one.
   virtual int num_lanes() const = 0;
 
-  /// From now on these spaces (ascending) are this rank's own. `state`: of all bodies at the start of step
-  /// `step`.
+  /// From now on these spaces (ascending) are this rank's own. `state`: that of all bodies at the start of
+  /// step `step`.
   virtual void own(std::span<const int> spaces, const model::State& state, std::int64_t step) = 0;
 
-  /// Takes in rows of state() that were computed elsewhere: of each body position, orientation, velocity and
+  /// Takes in rows of state() that were computed elsewhere: for each body position, orientation, velocity and
   /// angular velocity, 13 numbers.
   virtual void put_states(std::span<const int> bodies, std::span<const double> rows) = 0;
   /// put_states() for position and orientation only, 7 numbers: enough to collide, not to solve. The velocity
   /// becomes 0 where collide_across() would look at it.
   virtual void put_poses(std::span<const int> bodies, std::span<const double> rows) = 0;
 
-  /// State::broken_in of the joints of these units, unit by unit, and what takes it in from elsewhere; none
-  /// without the effect "breakable_joints". The joints of units that this rank owns or solves are current.
+  /// State::broken_in of the joints of these units, unit by unit, and the call that takes it in from
+  /// elsewhere; empty without the effect "breakable_joints". The joints of units that this rank owns or
+  /// solves are current.
   virtual std::vector<std::int32_t> broken_rows(std::span<const int> units) const {
     static_cast<void>(units);
     return {};
@@ -66,9 +67,9 @@ class SpaceStepper {
 
   /// Does a step hand on forces to the next (State::memory)?
   virtual bool remembers() const { return false; }
-  /// What is remembered of these units: the contacts whose body a is in one of them, and their joints; and
-  /// what takes it in from elsewhere, in place of what was known of these units. Numbers as the engine has
-  /// them. The forces of units that this rank owns or solves are current.
+  /// The memory of these units: the contacts whose body a is in one of them, and their joints; and the call
+  /// that takes it in from elsewhere, replacing what was known of these units. The numbers are in the
+  /// engine's own form. The forces of units that this rank owns or solves are current.
   virtual std::vector<double> memory_rows(std::span<const int> units) const {
     static_cast<void>(units);
     return {};
@@ -78,37 +79,39 @@ class SpaceStepper {
     static_cast<void>(rows);
   }
 
-  /// Own bodies that are fast at the state of now (effects/fast_bodies.h), ascending: collide_across() must
-  /// have their whole states, and takes all others for slow. None without the pass.
+  /// Own bodies that are fast in the current state (effects/fast_bodies.h), ascending: collide_across() must
+  /// have their whole states, and treats all other bodies as slow. None without the pass.
   virtual std::vector<int> fast_bodies() = 0;
 
-  /// The events of this step: all settings of joints, and the launches of own bodies.
+  /// Fires the events of this step: all settings of joints, and the launches of own bodies.
   virtual void fire_events(std::int64_t step) = 0;
-  /// The launches of the other bodies, for a rank that has their poses; adds their boxes to those of their
-  /// spaces, `boxes` [num_spaces].
+  /// Fires the launches of the other bodies, for a rank that has their poses; adds their boxes to those of
+  /// their spaces, `boxes` [num_spaces].
   virtual void launch_others(std::int64_t step, std::span<geometry::Box> boxes) = 0;
 
-  /// Contacts between bodies of own spaces, and of these with static geoms, in canonical order (sorted by
-  /// Contact::geoms). None if a pose is not finite: the world is lost, and colliders must not see it.
+  /// Finds the contacts between bodies of own spaces, and of these with static geoms, in canonical order
+  /// (sorted by Contact::geoms). None if a pose is not finite: the world is lost, and colliders must not see
+  /// it.
   virtual void collide(std::vector<model::Contact>& contacts) = 0;
   /// A box that holds the geoms of an own space at the poses of state(); it need not be tight.
   virtual geometry::Box space_box(int space) const = 0;
-  /// Contacts between bodies of spaces that different ranks own, in canonical order. `owner`, `boxes`:
-  /// [num_spaces]. Only geoms in the box of a space of another owner are looked at, and what is ahead of
-  /// fast bodies.
+  /// Finds the contacts between bodies of spaces that different ranks own, in canonical order. `owner`,
+  /// `boxes`: [num_spaces]. Only geoms in the box of another owner's space, and those on the paths of fast
+  /// bodies, are considered.
   virtual void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
                               std::vector<model::Contact>& contacts) = 0;
 
-  /// Moves the bodies of these units (ascending) by a step. `contacts`: all that touch them, in canonical
-  /// order; both bodies of a contact belong to these units. Adds the seconds spent to rows, solve, integrate.
+  /// Moves the bodies of these units (ascending) by a step. `contacts`: all contacts of these bodies, in
+  /// canonical order; both bodies of a contact belong to these units. Adds the seconds spent to rows, solve,
+  /// integrate.
   virtual void solve(std::span<const int> units, std::span<const model::Contact> contacts, std::int64_t step,
                      core::PhaseTimes& times) = 0;
-  /// What the last solve(), whose arguments are given again, shows of contacts, rows and islands. The rest is
-  /// zero; join() of stepping/observable_table.h makes those of the world.
+  /// The contacts, rows and islands of the last solve(), whose arguments are given again. The other
+  /// observables are zero; join() of stepping/observable_table.h makes the world's from those of its ranks.
   virtual Observables count(std::span<const int> units, std::span<const model::Contact> contacts) const = 0;
   virtual bool shows_contacts() const { return false; }  ///< StepperSettings::contacts
-  /// If so, contacts and forces of the last solve(), whose contacts are given again; forces of joints of
-  /// these units only, others are zero.
+  /// With shows_contacts(): the contacts and forces of the last solve(), whose contacts are given again. The
+  /// forces of joints outside these units are zero.
   virtual StepContacts contacts_of(std::span<const int> units,
                                    std::span<const model::Contact> contacts) const {
     static_cast<void>(units);

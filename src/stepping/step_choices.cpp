@@ -19,7 +19,7 @@ void require_known(const std::map<std::string, std::string>& texts, const std::s
   }
 }
 
-/// "--substeps, --simd and --colliders"
+/// Makes a list such as "--substeps, --simd and --colliders".
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)

@@ -1,4 +1,4 @@
-/// What touched and what held in a step.
+/// The contacts and joints of a step.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 namespace pbmpi::stepping {
 
 /// Contacts and joints of a step, with the forces with which they ended its last substep. With the effect
-/// "sleeping" those of what is awake.
+/// "sleeping", those of awake bodies only.
 struct StepContacts {
-  std::vector<model::Contact> contacts;     ///< in canonical order, those ahead of fast bodies included
+  std::vector<model::Contact> contacts;     ///< in canonical order, speculative contacts included
   std::vector<model::ContactForce> forces;  ///< [contacts]
-  std::vector<model::JointForce> joints;    ///< [num_joints]; of one that is broken no matter what
+  std::vector<model::JointForce> joints;    ///< [num_joints]; arbitrary for a broken joint
 
   void clear() {
     contacts.clear();

@@ -1,5 +1,5 @@
 /// The options of a step, one row each. Command lines, files, checkpoints, presets and studies follow from
-/// the rows: a new option is a member of StepperSettings, its row, and what the solver makes of it.
+/// the rows: a new option takes a member of StepperSettings, its row, and the solver's use of it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ using StepMember =
                  Finish StepperSettings::*, Precision StepperSettings::*, Simd StepperSettings::*,
                  Colliders StepperSettings::*>;
 
-/// A value as HDF5 files keep it.
+/// A value as HDF5 files store it.
 using StepValue = std::variant<std::int64_t, double, std::string>;
 
 struct StepOption {
@@ -32,14 +32,14 @@ struct StepOption {
   std::string_view shown_default =
       {};  ///< applied and shown by --help; empty: the scene's or StepperSettings'
 
-  bool StepperTraits::*needs = nullptr;  ///< for steppers that have it; null: for all
-  bool (*allows)(double) = nullptr;      ///< which numbers; null: all
-  std::string_view limit = {};           ///< what allows() wants, for messages
+  bool StepperTraits::*needs = nullptr;  ///< the option is for steppers with this trait; null: for all
+  bool (*allows)(double) = nullptr;      ///< which numbers are valid; null: all
+  std::string_view limit = {};           ///< what allows() requires, for messages
 
-  bool is_physics = true;  ///< decides the bits of a result: a run that goes on must keep it
-  bool in_studies = true;  ///< pbstudy's settings have it: a column of the file, a line of a preset
+  bool is_physics = true;  ///< affects the bits of a result: a resumed run must keep it
+  bool in_studies = true;  ///< part of pbstudy's settings: a column of the file, a line of a preset
   /// How a setting's short text names a value that is not the default: '*' stands for the value. Empty: the
-  /// text has a place of its own for it, or leaves it out.
+  /// text treats this option specially, or leaves it out.
   std::string_view in_short = {};
   const char* unit = "";  ///< of the value in files
 };
@@ -48,20 +48,21 @@ std::span<const StepOption> step_options();
 /// The row with this name, which must be there.
 const StepOption& step_option(std::string_view name);
 
-/// The option's name in files: with '_' for '-'.
+/// The option's name in files, with '_' in place of '-'.
 std::string file_name(const StepOption& option);
 
-/// Is the option of use to this kind of stepper?
+/// Does this kind of stepper use the option?
 bool fits(const StepOption& option, StepperKind kind);
 
 /// The value as text that set() reads back bit for bit.
 std::string text_of(const StepOption& option, const StepperSettings& settings);
 StepValue value_of(const StepOption& option, const StepperSettings& settings);
-/// The settings with which a kind of stepper is meant to be used: for `sor` those that hold most of
-/// scenes/hard at least cost (docs/stability.md), for the others what StepperSettings starts with.
+/// The settings with which a kind of stepper is meant to be used: for `sor` those that keep most of
+/// scenes/hard stable at least cost (docs/stability.md), for the others the initial values of
+/// StepperSettings.
 StepperSettings default_settings(StepperKind kind);
-/// The iterations of a stepper in a scene that asks for so many: they are QuickStep's count, and other
-/// steppers have their own.
+/// The iterations of a stepper in a scene that asks for `scene_iterations`: the scene counts QuickStep's
+/// iterations, and other steppers have their own number.
 int default_iterations(StepperKind kind, int scene_iterations);
 /// Does the option have the value of default_settings()?
 bool is_default(const StepOption& option, const StepperSettings& settings);
@@ -70,7 +71,7 @@ bool is_default(const StepOption& option, const StepperSettings& settings);
 /// there is no such value.
 void set(const StepOption& option, std::string_view text, const std::string& what, StepperSettings& settings);
 
-/// Takes in what value_of() gave. Throws core::InputError for a name that no enumerator has.
+/// Inverse of value_of(). Throws core::InputError for a name that no enumerator has.
 void restore(const StepOption& option, const StepValue& value, StepperSettings& settings);
 
 /// The stepper's name, and its precision where it has a choice: "quick", "sor single".

@@ -14,39 +14,39 @@
 
 namespace pbmpi::stepping {
 
-/// quick and direct are ODE's, sor is pbmpi's own, bullet and mujoco are those of engines that a build may
-/// lack (engines/optional_engines.h).
+/// quick and direct are ODE's, sor is pbmpi's own; bullet and mujoco belong to engines that a build may lack
+/// (engines/optional_engines.h).
 enum class StepperKind { quick, direct, sor, bullet, mujoco };
 
 /// Number type of the sor stepper; the others are double.
 enum class Precision { double_, single };
 
-/// Vector instructions of the sor stepper; all give the same bits. automatic = the widest that the machine
+/// Vector instructions of the sor stepper; all give the same bits. automatic: the widest that the machine
 /// has.
 enum class Simd { automatic, sse2, avx2, avx512, off };
 
-/// What collides pairs of geoms in the sor stepper: kernels over vector lanes (ODE's dCollide for the shapes
-/// that they lack), or dCollide for all.
+/// What collides pairs of geoms in the sor stepper: kernels over vector lanes (and ODE's dCollide for shapes
+/// that they do not handle), or dCollide for all.
 enum class Colliders { lanes, ode };
 
-/// The order of rows in the sweeps of the sor stepper: by the step's key, joints anew every 8 iterations (as
-/// ODE's quickstep) and contacts in each, or that of the model in all.
+/// The order of rows in the sweeps of the sor stepper: shuffled by the step's key, joints every 8 iterations
+/// (as in ODE's quickstep) and contacts in each iteration, or the model's order in all.
 enum class RowOrder { shuffled, fixed };
 
-/// How friction is bounded: at each contact along each of two axes for itself (the pyramid of ODE's
-/// dContactApprox1, which along its diagonal holds 1.41 times as much); at each contact alike in all
-/// directions (the cone of Coulomb's law); or for all contacts of two bodies that lie in a plane together,
+/// How friction is bounded: at each contact along each of two axes separately (the pyramid of ODE's
+/// dContactApprox1, which holds 1.41 times as much along its diagonal); at each contact equally in all
+/// directions (the cone of Coulomb's law); or jointly for all contacts of two bodies that lie in one plane,
 /// with their twist about the normal.
 enum class Friction { pyramid, cone, patch };
 
-/// Which articulations the sor stepper solves exactly in a sweep, but for limits, motors and what closes
-/// loops; the joints of the others one after the other. `hanging`: those that joints hold to what does not
-/// move, and that have neither limits nor motors. What stands on contacts gains nothing from exact joints
-/// alone: its contacts see the foot and not the body.
+/// Which articulations the sor stepper solves exactly in a sweep, except for limits, motors and the joints
+/// that close loops; it solves the joints of the others one after the other. `hanging`: articulations that
+/// joints hold to something static, and that have neither limits nor motors. An articulation that stands on
+/// contacts gains nothing from exact joints alone: its contacts see the foot and not the body.
 enum class JointSolver { sweeps, hanging, tree };
 
-/// MuJoCo's solver of its convex problem of constraints: Newton's method, projected Gauss-Seidel on the dual,
-/// or conjugate gradients.
+/// MuJoCo's solver for its convex constraint problem: Newton's method, projected Gauss-Seidel on the dual, or
+/// conjugate gradients.
 enum class ConstraintSolver { newton, pgs, cg };
 
 /// What ends the sweeps of the sor stepper over rigid rows: nothing, or Newton's method on each island.
@@ -59,17 +59,18 @@ struct StepperSettings {
   int iterations = 20;      ///< sweeps of an iterative solver, in each substep
   int substeps = 1;         ///< sor: parts of a step without new collision detection
   double tolerance_m = 0;   ///< sor: islands that move less get fewer substeps; 0: all get all of them
-  double sag_m = 0;         ///< sor: islands whose springs give more get more substeps; 0: none do
-  int most_substeps = 32;   ///< sor: of these, and of tall islands at most, if that is more
+  double sag_m = 0;         ///< sor: islands whose springs give by more get more substeps; 0: none do
+  int most_substeps = 32;   ///< sor: substeps of these, and the most for tall islands, if above `substeps`
   double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
-  double warm_start = 0;    ///< sor: share of the forces that a step and a substep take over from the last
+  double warm_start = 0;    ///< sor: share of the last step's or substep's forces that is taken over
   int relax = 0;            ///< sor: sweeps at the end of a substep that push nothing out
-  /// [Hz] sor: of contacts as springs, infinite: as stiff as a substep bears; 0: the scene's ERP and CFM.
+  /// [Hz] sor: frequency of contacts as springs; infinite: as stiff as a substep bears; 0: the scene's ERP
+  /// and CFM.
   double contact_frequency = 0;
-  double contact_damping = 20;                                    ///< sor: their damping ratio
-  double joint_frequency = 0;                                     ///< [Hz] sor: likewise of joints
-  double joint_damping = 3;                                       ///< sor: their damping ratio
-  JointSolver joint_solver = JointSolver::sweeps;                 ///< sor
+  double contact_damping = 20;                     ///< sor: damping ratio of contacts as springs
+  double joint_frequency = 0;                      ///< [Hz] sor: frequency of joints as springs, likewise
+  double joint_damping = 3;                        ///< sor: damping ratio of joints as springs
+  JointSolver joint_solver = JointSolver::sweeps;  ///< sor
   ConstraintSolver constraint_solver = ConstraintSolver::newton;  ///< mujoco
   double contact_margin = 0;              ///< sor: contacts are found up to so many g dt^2 apart
   Friction friction = Friction::pyramid;  ///< sor
@@ -105,7 +106,7 @@ class WorldStepper {
                    std::int64_t step) = 0;
   virtual void remove(int world) = 0;
   /// Puts a world into another state, that at the start of step `step`: what follows is the same, bit for
-  /// bit, as after remove() and add(), and cheap if the world stands at that step.
+  /// bit, as after remove() and add(), and cheap if the world is at that step.
   virtual void set_state(int world, const model::State& state, std::int64_t step) = 0;
 
   /// From the next step on the motor of an axis aims at `velocity` [rad/s or m/s], until the next such call

@@ -1,4 +1,4 @@
-/// Worlds without physics, of which a step takes a known time: what is left of a frame is the harness.
+/// Worlds without physics, whose steps take a known time: the rest of a frame's time is the harness.
 #pragma once
 
 #include <map>
@@ -8,18 +8,18 @@
 
 namespace pbmpi::synthetic {
 
-/// A world of so many bodies, at rest and in a row.
+/// A world of `num_bodies` bodies, at rest and in a row.
 std::shared_ptr<const model::Model> make_model(int num_bodies);
 
-/// The state of a world at the start of a step: a function of its arguments alone, so that a world that was
-/// lost, stepped twice or mixed up shows in the hash. Orientations stay; positions and velocities are exact
-/// numbers.
+/// The state of a world at the start of a step: a function of its arguments alone, so that a lost,
+/// twice-stepped or confused world shows in the hash. Orientations stay; positions and velocities are exactly
+/// representable.
 void put_state(int world, std::int64_t step, model::State& state);
 
-/// The state after a call of advance() is put_state()'s.
+/// The state after a call of advance() is that of put_state().
 class FixedCostStepper final : public stepping::WorldStepper {
  public:
-  /// A step of a world takes `step_s` of this thread's time, waited for on the clock; 0: none at all.
+  /// A step of a world takes `step_s` of this thread's time, spent waiting on the clock; 0: none at all.
   explicit FixedCostStepper(double step_s) : step_s_(step_s) {}
 
   void add(int world, std::shared_ptr<const model::Model> model, const model::State& state,

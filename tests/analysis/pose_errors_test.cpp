@@ -112,7 +112,7 @@ TEST(PoseErrors, a_joint_pulled_2_cm_apart_is_2_cm_off_wherever_it_is_carried) {
   State pulled = reference;
   pulled.position[1] += Vec3(0, 0.02, 0);
   EXPECT_NEAR(compare(model, view(pulled), view(reference)).joint_position_m[0], 0.02, rounding);
-  // The pair as a whole turned and carried away: the bodies are far off, the joint no more than before.
+  // The pair is rotated and translated as a whole: the bodies are far off, the joint no more than before.
   const Quat turn = support::rotation(Vec3(1, 2, -2) / 3, 1.0);
   for (int i = 0; i < 2; ++i) {
     pulled.position[i] = turn.to_eigen() * pulled.position[i] + Vec3(3, 2, 1);

@@ -18,7 +18,7 @@ TEST(Schedule, one_core_takes_the_sum_and_enough_cores_the_longest) {
 }
 
 TEST(Schedule, packs_the_longest_first) {
-  // Graham's example for which the rule is not the best (6 would be): 3,3 | 2,2,2 against 3,2,2 | 3,2.
+  // Graham's example for which the rule is not optimal (6 would be): 3,3 | 2,2,2 against 3,2,2 | 3,2.
   EXPECT_DOUBLE_EQ(longest_first_makespan(std::vector<double>{2, 3, 2, 3, 2}, 2), 7);
 }
 

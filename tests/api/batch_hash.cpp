@@ -1,5 +1,5 @@
-/// batch_hash SCENE WORLDS STEPS [NAME=VALUE ...]: the hash of a batch after so many steps, for a script that
-/// compares it with that of pbmpi.
+/// batch_hash SCENE WORLDS STEPS [NAME=VALUE ...]: prints the hash of a batch after so many steps, for a
+/// script that compares it with pbmpi's.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

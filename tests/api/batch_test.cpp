@@ -1,4 +1,4 @@
-/// What a batch promises of its worlds' bits, without MPI.
+/// What a batch guarantees of its worlds' bits, without MPI.
 
 #include <gtest/gtest.h>
 
@@ -62,8 +62,8 @@ TEST(Batch, a_world_does_not_depend_on_its_neighbours_nor_on_how_steps_are_asked
   EXPECT_EQ(batch.hash(1), of_five[1]);
 }
 
-/// Few worlds of the small scene, and of one in which the order of the rows, which is drawn for each step, is
-/// felt.
+/// A few worlds of the small scene, and of one that is sensitive to the order of the rows, which is drawn for
+/// each step.
 std::vector<BatchOptions> some_batches(std::uint64_t seed) {
   BatchOptions crash;
   crash.scene = "100CrSk";
@@ -71,7 +71,7 @@ std::vector<BatchOptions> some_batches(std::uint64_t seed) {
   crash.seed = seed;
   std::vector<BatchOptions> all = {small_options(5, seed), small_options(5, seed), crash, crash};
   all[0].settings = {{"stepper", "quick"}};
-  all[3].settings = {{"row-order", "fixed"}};  // worlds of all steps and seeds then share lanes
+  all[3].settings = {{"row-order", "fixed"}};  // worlds at any step and of any seed then share lanes
   return all;
 }
 
@@ -183,7 +183,7 @@ TEST(Batch, a_state_is_set_where_the_mask_says_so) {
   EXPECT_EQ(live.velocity[of_world + 3 * bob + 1], 2);
   EXPECT_NE(live.velocity[3 * bob + 1], 2);
   batch.step();
-  // A hundredth of a second at about 2 m/s, less what the pivot takes of it.
+  // A hundredth of a second at about 2 m/s, minus what the pivot takes away.
   EXPECT_GT(batch.state().position[of_world + 3 * bob + 1], 0.01);
 }
 
@@ -200,7 +200,7 @@ TEST(Batch, what_sleeps_wakes_where_it_is_pushed_and_sleeps_on_elsewhere) {
     EXPECT_EQ(batch.hash(0), undisturbed.hash(0)) << stepper;
     for (Batch* each : {&batch, &undisturbed}) each->step(10);
     EXPECT_EQ(batch.hash(0), undisturbed.hash(0)) << stepper;
-    // A tenth of a second at 3 m/s, less what gravity takes of it.
+    // A tenth of a second at 3 m/s, minus what gravity takes away.
     EXPECT_NEAR(batch.state().position[of_world + 2] - undisturbed.state().position[of_world + 2], 0.25, 0.02)
         << stepper;
   }
@@ -230,7 +230,7 @@ TEST(Batch, shows_the_state_of_each_body_of_each_world) {
 TEST(Batch, measures_its_worlds) {
   Batch batch(small_options(2));
   const double energy = batch.observable("energy")[0];
-  // Potential energy above z = 0 of the door and the bob alone is more than this.
+  // The energy exceeds the potential energy above z = 0 of the door and the bob alone.
   EXPECT_GT(energy, 9.81 * (30 * 1.1 + 2 * 1));
   batch.step(60);
   EXPECT_LT(batch.observable("energy")[0], energy) << "balls have landed";

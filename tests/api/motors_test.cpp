@@ -1,4 +1,4 @@
-/// Motors that a batch aims.
+/// Motors whose targets a batch sets.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ TEST(Motors, turn_as_fast_as_they_are_told_until_they_are_told_otherwise) {
     Batch batch(options);
     batch.set_motor_velocities(std::array{1.5, as_it_is, -0.5});
     batch.step(50);
-    // 1000 N m turn 30 kg within a step; what a solver leaves of the error is far below a hundredth.
+    // 1000 N m turn 30 kg within a step; the solver's remaining error is far below 1 %.
     EXPECT_NEAR(turn(batch, 0), 1.5, 0.015) << stepper;
     EXPECT_NEAR(turn(batch, 1), 0, 0.015) << stepper;
     EXPECT_NEAR(turn(batch, 2), -0.5, 0.015) << stepper;
@@ -63,7 +63,7 @@ TEST(Motors, go_on_after_a_load_as_if_nothing_had_been) {
     batch.set_motor_velocities(std::array{1.0, as_it_is});
     batch.step(10);
     const auto saved = batch.save();
-    other.set_motor_velocities(std::array{as_it_is, 3.0});  // a load replaces this, too
+    other.set_motor_velocities(std::array{as_it_is, 3.0});  // a load replaces this as well
     other.load(saved);
     for (Batch* each : {&batch, &other}) each->step(25);
     EXPECT_EQ(other.hash(), batch.hash()) << stepper;

@@ -1,4 +1,4 @@
-/// A batch whose worlds are dealt out to ranks: 1 to 4 of them.
+/// A batch whose worlds are distributed over 1 to 4 ranks.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ BatchOptions over_ranks(int num_worlds) {
 
 TEST(Ranks, have_the_worlds_of_one_rank_in_blocks) {
   const mpi::Communicator world = mpi::Communicator::world();
-  for (const int num_worlds : {1, 3, 7}) {  // of 4 ranks some have no world at all
+  for (const int num_worlds : {1, 3, 7}) {  // with 4 ranks some have no world at all
     Batch all(small_options(num_worlds));
     Batch own(over_ranks(num_worlds));
     all.step(15);
@@ -56,7 +56,7 @@ TEST(Ranks, throw_the_same_error_where_one_was_given_other_options) {
     EXPECT_NE(std::string(error.what()).find("rank 1: iterations none"), std::string::npos) << error.what();
   }
   options = over_ranks(3);
-  if (world.rank() == 1) {  // the others have the text of a scene, it the name of one
+  if (world.rank() == 1) {  // the others have the text of a scene, this rank the name of one
     options.scene = "CrashSk";
     options.scene_text.clear();
   }

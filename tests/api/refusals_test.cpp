@@ -1,4 +1,4 @@
-/// What a batch refuses, and that its message helps.
+/// Settings that a batch refuses, with messages that help.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// A small scene for tests of the library: things that fall, a door that a motor drives, a pendulum.
+/// A small scene for tests of the library: falling balls, a door driven by a motor, a pendulum.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace pbmpi::test {
 
-/// Balls begin elsewhere in each world and for each seed. Bodies: ball.1, ball.2, door, bob; motor: hinge.
+/// Balls start at different places in each world and for each seed. Bodies: ball.1, ball.2, door, bob; motor:
+/// hinge.
 inline constexpr const char* small_scene = R"(
 title = "balls, a door and a pendulum"
 [run]

@@ -214,7 +214,7 @@ TEST(Options, help_names_every_group_and_exit_code) {
   }
 }
 
-/// Of worlds whose spaces cost the same.
+/// The cut of worlds whose spaces cost the same.
 Cut cut(const std::vector<std::string>& args, int num_spaces, int num_ranks) {
   const std::vector<double> costs(static_cast<std::size_t>(num_spaces), 1);
   return decompose(resolve(parse_options(args), FakeScene({})), costs, num_ranks);

@@ -37,7 +37,7 @@ RunSummary computed() {
   return summary;
 }
 
-// The expected values are worked out by hand from the 8 ms above; 1e-12 is rounding of a few sums.
+// The expected values follow by hand from the 8 ms above; 1e-12 is rounding of a few sums.
 TEST(Summary, rates_come_from_the_elapsed_time) {
   const RunSummary summary = computed();
   EXPECT_NEAR(summary.harmonic_mean_hz, 2 / 0.008, 1e-9);
@@ -116,7 +116,7 @@ RunSummary cut_into_spaces() {
   return summary;
 }
 
-// By hand from the milliseconds above; 1e-12 is rounding.
+// Values follow by hand from the milliseconds above; 1e-12 is rounding.
 TEST(Summary, bounds_a_world_cut_into_spaces_by_roots_section_and_the_largest_island) {
   const SpacesSummary spaces = cut_into_spaces().spaces;
   EXPECT_NEAR(spaces.serial_share, 1.0 / 8, 1e-12);
@@ -140,7 +140,7 @@ TEST(Summary, shows_the_phases_of_each_rank_of_a_world_cut_into_spaces) {
   EXPECT_FALSE(nlohmann::json::parse(to_json(computed())).contains("spaces"));
 }
 
-/// As two worlds, each cut over one of the ranks or over both.
+/// The run as two worlds, each cut over one of the ranks or over both.
 RunSummary cut_in_groups(const mpi::RankGroups& groups) {
   RunSummary summary = cut_into_spaces();
   summary.worlds = 2;
@@ -178,7 +178,7 @@ TEST(Summary, bounds_groups_by_sections_that_are_done_side_by_side) {
   summary.steps_per_frame = 3;
   summary.groups = {{1, 1}, {1, 1}};
   compute_performance(frames, summary);
-  // By hand from the milliseconds above; 1e-12 is rounding.
+  // Values follow by hand from the milliseconds above; 1e-12 is rounding.
   EXPECT_NEAR(summary.spaces.serial_share, 2.0 / 14, 1e-12);
   EXPECT_NEAR(summary.spaces.amdahl_bound, 12.0 / (1 + 6), 1e-12);
   EXPECT_NEAR(summary.spaces.island_bound, 12.0 / (1 + 4.0 / 2 + 8 * 0.75), 1e-12);

@@ -1,4 +1,4 @@
-/// The baseline: what a user of ODE would write to step these worlds, and nothing else.
+/// The baseline: the code that a user of ODE would write to step these worlds, and nothing else.
 #pragma once
 
 #include <memory>
@@ -12,10 +12,10 @@ namespace pbmpi::bench {
 
 using Models = std::vector<std::shared_ptr<const model::Model>>;
 
-/// The same bodies, geoms, joints and materials in ODE as the stepper under test has, each world in the ODE
-/// space that measures best, stepped by dSpaceCollide, contact joints made in its callback, dWorldQuickStep
-/// and dJointGroupEmpty. No seeds, no order of contacts, no state read out, no counts, no clocks, and no
-/// events.
+/// The same bodies, geoms, joints and materials in ODE as in the stepper under test, each world in the ODE
+/// space that is measured as fastest, stepped by dSpaceCollide, contact joints made in its callback,
+/// dWorldQuickStep and dJointGroupEmpty. It has no seeds, no order of contacts, no state readout, no counts,
+/// no clocks, and no events.
 class BareOde {
  public:
   BareOde(const Models& models, double dt_s, int iterations);
@@ -23,11 +23,11 @@ class BareOde {
   BareOde(const BareOde&) = delete;
   BareOde& operator=(const BareOde&) = delete;
 
-  /// One world after the other, each through all its steps.
+  /// Steps one world after the other, each through all its steps.
   void advance(int num_steps);
 
   model::State state(int world) const;
-  /// Of the last step, over all worlds.
+  /// Contacts of the last step, over all worlds.
   int num_contacts() const;
 
  private:

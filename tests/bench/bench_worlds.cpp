@@ -1,8 +1,8 @@
 /// bench_worlds [SUBJECT] [WORLDS] [FRAMES] [ROUNDS]: pbmpi's steppers against the bare ODE loop over the
-/// same worlds. bench_worlds --spaces: ODE's spaces against each other. bench_worlds --effects: what
-/// effects cost. bench_worlds --guards: what guards cost. bench_worlds --sleeping: what sleeping saves.
-/// bench_worlds --substeps [SUBJECT] [WORLDS] [FRAMES]: substeps and memory against iterations.
-/// bench_worlds --quiet [SUBJECT] [SECONDS] [MICROMETRES]: what a tolerance saves from then on.
+/// same worlds. bench_worlds --spaces: ODE's spaces against each other. bench_worlds --effects: what effects
+/// cost. bench_worlds --guards: what guards cost. bench_worlds --sleeping: what sleeping saves. bench_worlds
+/// --substeps [SUBJECT] [WORLDS] [FRAMES]: substeps and memory against iterations. bench_worlds --quiet
+/// [SUBJECT] [SECONDS] [MICROMETRES]: what a tolerance saves from that time on.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

@@ -20,19 +20,19 @@
 namespace pbmpi::bench {
 namespace {
 
-/// Seconds that this thread has run: where other programs share the machine, wall time says little.
+/// CPU seconds of this thread: where other programs share the machine, wall time says little.
 double cpu_s() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Seconds of each measured frame, and what was in it.
+/// Seconds of each measured frame, and the contents of the frames.
 struct Result {
   std::string name;
   std::vector<double> frame_s;
   std::vector<double> frame_cpu_s;
-  double num_contacts = 0;  ///< mean of a step over the measured frames
+  double num_contacts = 0;  ///< mean per step over the measured frames
   std::uint64_t hash = 0;
 
   double world_steps_per_s(const Subject& subject) const {
@@ -55,8 +55,8 @@ class Side {
   std::string name_;
 };
 
-/// pbmpi's side, as its frame loop drives it: seeds, canonical contacts, state and observables read out, and
-/// recorded if `file` says where.
+/// pbmpi's side, driven as by its frame loop: seeds, canonical contacts, state and observables read out, and
+/// recorded if `file` names a file.
 class Ours final : public Side {
  public:
   Ours(const Subject& subject, std::string name, std::unique_ptr<stepping::WorldStepper> stepper,
@@ -171,7 +171,7 @@ std::unique_ptr<Side> sor_side(const Subject& subject, const std::string& name,
                                 "");
 }
 
-/// As sor is by default, in this precision and with these instructions.
+/// sor's default settings with this precision and these instructions.
 stepping::StepperSettings sor_settings(stepping::Precision precision, stepping::Simd simd) {
   stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
   settings.precision = precision;
@@ -188,7 +188,7 @@ stepping::StepperSettings cold_settings(const Subject& subject) {
   return settings;
 }
 
-/// The bare loop first: the others are compared with it.
+/// The bare loop comes first: the others are compared with it.
 std::vector<std::unique_ptr<Side>> make_sides(const Subject& subject) {
   using stepping::Precision;
   using stepping::Simd;
@@ -215,7 +215,7 @@ std::vector<std::unique_ptr<Side>> make_sides(const Subject& subject) {
   return sides;
 }
 
-/// Frame by frame the sides take turns, and take turns at who goes first.
+/// The sides alternate frame by frame, and take turns at going first.
 void run_round(const Subject& subject, int frames, std::vector<Result>& results) {
   const auto sides = make_sides(subject);
   results.resize(sides.size());

@@ -5,8 +5,8 @@
 
 namespace pbmpi::bench {
 
-/// Simulates the subject `rounds` times from its start through its warm-up and `frames` frames, the steppers
-/// taking turns frame by frame, and prints for each its rate, its median time ratio to the bare loop and its
+/// Simulates the subject `rounds` times from its start through its warm-up and `frames` frames, with the
+/// steppers alternating frame by frame. Prints each stepper's rate, median time ratio to the bare loop, and
 /// state hash. Needs an mpi::Session.
 void compare(const Subject& subject, int frames, int rounds);
 

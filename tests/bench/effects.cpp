@@ -60,10 +60,10 @@ class Side {
         1e3 * deepest_m_, core::to_hex(hash.value()).c_str());
   }
 
-  std::vector<double> frame_s;  ///< [num_frames] of CPU time
+  std::vector<double> frame_s;  ///< [num_frames] CPU time
 
  private:
-  /// Seconds that this thread has run: where other programs share the machine, wall time says little.
+  /// CPU seconds of this thread: where other programs share the machine, wall time says little.
   static double cpu_s() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

@@ -1,11 +1,11 @@
-/// What effects cost.
+/// Measures what effects cost.
 #pragma once
 
 namespace pbmpi::bench {
 
-/// Falling spheres without friction against the same with friction, in sor: prints the ratio of their frames'
-/// CPU times, each with its error, and the frictionless one with friction demanded, which ends in the same
-/// state.
+/// Steps falling spheres without friction against the same spheres with friction, in sor. Prints the ratio of
+/// their frames' CPU times, each with its error, and the frictionless spheres with friction demanded, which
+/// end in the same state.
 void compare_effects();
 
 }  // namespace pbmpi::bench

@@ -34,7 +34,7 @@ void add_worlds(const Subject& subject, stepping::WorldStepper& stepper) {
     stepper.add(static_cast<int>(world), subject.models[world], initial_state(*subject.models[world]), 0);
 }
 
-/// Forwards all to another stepper, and adds up the processor time of its steps.
+/// Forwards all calls to another stepper, and adds up the CPU time of its steps.
 class Timed final : public stepping::WorldStepper {
  public:
   Timed(std::unique_ptr<stepping::WorldStepper> inner, double& seconds)
@@ -62,7 +62,7 @@ class Timed final : public stepping::WorldStepper {
   double* seconds_;
 };
 
-/// A ratio a frame: what the guards add to the time of the steps that they watch.
+/// One ratio per frame: what the guards add to the time of the steps that they guard.
 void compare(const Subject& subject, const stepping::StepperSettings& settings) {
   std::vector<double> ratios, frames_s;
   std::size_t num_events = 0;

@@ -12,7 +12,7 @@
 namespace pbmpi::bench {
 namespace {
 
-/// Boxes on the ground in a square, so near that neighbours touch.
+/// Boxes in a square on the ground, close enough for neighbours to touch.
 model::Model field(int num_boxes) {
   model::Model model = support::pile(num_boxes);
   int side = 1;
@@ -23,7 +23,7 @@ model::Model field(int num_boxes) {
   return model;
 }
 
-/// Median seconds of find_pairs() when all bodies have moved.
+/// Median time of find_pairs() in seconds when all bodies have moved.
 double time_find_pairs(const model::Model& model, ode::SpaceKind kind, std::size_t& num_pairs) {
   const ode::WorldHandle world(dWorldCreate());
   const auto bodies = ode::make_bodies(world.get(), model);

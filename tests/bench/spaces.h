@@ -1,4 +1,4 @@
-/// Which ODE space is best for how many geoms: where ode::best_space() has its number from.
+/// Measures which ODE space is fastest for how many geoms: the source of ode::best_space()'s number.
 #pragma once
 
 namespace pbmpi::bench {

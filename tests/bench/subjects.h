@@ -1,4 +1,4 @@
-/// What is measured.
+/// The worlds that are measured.
 #pragma once
 
 #include <memory>
@@ -19,9 +19,9 @@ struct Subject {
   int num_bodies() const;
 };
 
-/// "crash" or "pile": the small models of tests/support, `num_worlds` times (100 unless told). Anything else:
-/// a scene of pbmpi or a path to one, with its own number of replicas unless `num_worlds` > 0. Throws
-/// core::InputError.
+/// "crash" or "pile": the small models of tests/support, `num_worlds` times, or 100 times if it is 0.
+/// Anything else is a scene of pbmpi or a path to one, with its own number of replicas unless `num_worlds` >
+/// 0. Throws core::InputError.
 Subject load_subject(const std::string& name, int num_worlds);
 
 }  // namespace pbmpi::bench

@@ -18,7 +18,7 @@ namespace {
 
 struct Setting {
   const char* name;
-  bool cold;  ///< as StepperSettings starts, not as sor is by default
+  bool cold;  ///< starts with the settings of StepperSettings, not with sor's defaults
   int substeps, iterations;
   double warm_start;
 };
@@ -52,7 +52,7 @@ class Side {
     }
   }
 
-  /// Seconds of CPU time.
+  /// Returns seconds of CPU time.
   double advance_frame() {
     core::PhaseTimes times;
     const double start_s = core::thread_cpu_s();
@@ -65,7 +65,7 @@ class Side {
 
   double gap_rms_m() const { return std::sqrt(square_sum_ / num_gaps_); }
 
-  /// Ratios: to the first setting.
+  /// Ratios are to the first setting.
   void print(double frame_s, double first_frame_s, double first_gap_m) const {
     core::Hash64 hash;
     for (int world = 0; world < num_worlds(); ++world) hash.add(model::hash(stepper_->state(world)));

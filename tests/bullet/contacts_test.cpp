@@ -13,7 +13,7 @@ using model::Model;
 using model::Shape;
 using model::Vec3;
 
-/// One body of that shape at rest on the ground, or on a static box that is as large as a table.
+/// One body of this shape at rest on the ground, or on a static box that is as large as a table.
 Model resting(Shape shape, const std::array<double, 3>& size, double height, const model::Quat& turn,
               bool on_box) {
   Model model;

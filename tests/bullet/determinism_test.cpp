@@ -61,7 +61,8 @@ TEST(Determinism, holds_for_what_is_left_after_a_removal) {
   EXPECT_EQ(model::hash(stepper->state(1)), alone(1, support::crash(1)));
 }
 
-/// Takes world 0 through num_steps, and at each of `stops` through a new stepper that knows but its state.
+/// Steps world 0 through num_steps, and at each of `stops` moves it to a new stepper that knows only its
+/// state.
 std::uint64_t with_restarts(const Model& model, const std::vector<int>& stops) {
   auto stepper = make_bullet_stepper(settings, "");
   add(*stepper, 0, model);
@@ -71,7 +72,7 @@ std::uint64_t with_restarts(const Model& model, const std::vector<int>& stops) {
     step = stop;
     const State state = stepper->state(0);
     stepper = make_bullet_stepper(settings, "");
-    add(*stepper, 1000 + stop, support::pile(5));  // company, so that it is not just the same again
+    add(*stepper, 1000 + stop, support::pile(5));  // other company, so that this is not a mere repetition
     stepper->add(0, std::make_shared<Model>(model), state, stop);
   }
   advance(*stepper, num_steps - step);
@@ -91,7 +92,7 @@ TEST(Determinism, holds_across_a_restart_of_piles_of_boxes_and_balls) {
     EXPECT_EQ(with_restarts(model, {20, 60, 61}), alone(0, model));
 }
 
-/// All shapes, in one heap, one with an inertia that is not along its axes.
+/// All shapes in one heap, one with an inertia that is not along its axes.
 Model heap() {
   Model model;
   support::add_ground(model);

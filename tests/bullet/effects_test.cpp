@@ -1,4 +1,4 @@
-// The effects that act round the step, in Bullet's worlds.
+// The effects that act around the step, in Bullet's worlds.
 #include <algorithm>
 
 #include <gtest/gtest.h>

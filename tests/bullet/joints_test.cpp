@@ -1,4 +1,5 @@
-// Every kind of joint by itself, and against ODE's: which way an axis turns is ODE's convention.
+// Every kind of joint on its own, and against ODE's: which direction of an axis is positive is ODE's
+// convention.
 #include <cmath>
 #include <numbers>
 
@@ -40,7 +41,7 @@ Model at_rest(Model model) {
   return model;
 }
 
-/// The rotation of b as seen from a.
+/// The rotation of b relative to a.
 Eigen::Quaterniond relative_turn(const model::State& state) {
   return state.orientation[0].to_eigen().conjugate() * state.orientation[1].to_eigen();
 }
@@ -56,8 +57,8 @@ model::State after_ode(const Model& model, int num_steps) {
   return stepper->state(0);
 }
 
-/// Tolerances of the constraints: rad and m. The linearised step errs by some (omega h)^2 = 1e-5 a step, of
-/// which ERP takes 20 % away in each.
+/// Tolerances of the constraints: rad and m. The error of the linearised step is some (omega h)^2 = 1e-5 per
+/// step, of which ERP removes 20 % in each step.
 constexpr double drift = 1e-3;
 
 class EveryKind : public testing::TestWithParam<JointKind> {};
@@ -85,14 +86,14 @@ TEST_P(EveryKind, moves_as_odes_does) {
   Simulation simulation(model, fine);
   simulation.advance(100);
   const model::State ode = after_ode(model, 100);
-  // 0.2 s at up to 1.5 rad/s and 0.5 m/s; both are of first order with h = 2 ms.
+  // 0.2 s at up to 1.5 rad/s and 0.5 m/s; both steppers are of first order with h = 2 ms.
   for (int body = 0; body < 2; ++body) {
     EXPECT_LT((simulation.state().position[body] - ode.position[body]).norm(), 1e-3);
     EXPECT_LT((simulation.state().angular_velocity[body] - ode.angular_velocity[body]).norm(), 0.01);
   }
 }
 
-/// A turned pair whose bodies have frames of their own.
+/// A rotated pair whose bodies have frames of their own.
 TEST_P(EveryKind, moves_as_odes_does_where_nothing_lies_along_axes) {
   Model model = joined(GetParam(), Vec3::UnitZ(), Vec3::UnitX());
   const Vec3 axis1 = Vec3(1, 2, 3).normalized(), axis2 = Vec3(2, -1.2, 0.1).normalized();
@@ -139,7 +140,8 @@ TEST(Joints, stop_at_their_limits) {
     simulation.advance(2500);
     EXPECT_EQ(simulation.observables().rows, 7);  // 5 of the hinge, 1 of each stop
     const model::State ode = after_ode(model, 2500);
-    // A stop gives by g h^2 / (ERP L) = 0.2 mrad; which of the two it is is ODE's matter.
+    // A stop yields by g h^2 / (ERP L) = 0.2 mrad; which of the two stops it is follows from ODE's
+    // convention.
     EXPECT_LT((simulation.state().position[0] - ode.position[0]).norm(), 0.01);
     EXPECT_LT(simulation.state().velocity[0].norm(), 0.01);
   }

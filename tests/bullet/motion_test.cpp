@@ -46,12 +46,12 @@ TEST(Motion, of_a_free_spinning_body_keeps_its_angular_momentum) {
     Simulation simulation(one, settings_of(0.001, 10));
     simulation.advance(1000);
     const Vec3 after = momentum(one, simulation.state());
-    // First-order integration: the error goes with dt |omega| = 0.002. Without gyroscopic torque omega would
-    // stay, and L would turn with the body: an error near 1.
+    // First-order integration: the error is proportional to dt |omega| = 0.002. Without gyroscopic torque
+    // omega would stay constant and L would turn with the body: an error near 1.
     EXPECT_LT((after - before).norm() / before.norm(), 0.01);
     EXPECT_GT((simulation.state().angular_velocity[0] - one.bodies[0].angular_velocity).norm(), 0.1);
     if (&one != &model && spin.norm() > 0) {
-      // The two are one body; their numbers differ by rounding, over 1000 steps.
+      // The two represent one body; their numbers differ by rounding, over 1000 steps.
       EXPECT_LT((simulation.state().angular_velocity[0] - spin).norm(), 1e-9);
     }
     spin = simulation.state().angular_velocity[0];
@@ -87,10 +87,11 @@ TEST(Motion, of_a_smooth_box_never_stops) {
   Simulation simulation(model, settings_of(0.01, 10));
   simulation.advance(100);
   EXPECT_NEAR(simulation.state().velocity[0].x(), 4, 1e-9);  // friction rows are bounded by zero
-  EXPECT_EQ(simulation.observables().rows, 4);               // one a contact
+  EXPECT_EQ(simulation.observables().rows, 4);               // one per contact
 }
 
-/// A cube of 1 m on a ground that is turned by `slope` [rad] under it: gravity turns instead.
+/// Distance [m] that a cube of 1 m slides on ground with this `slope` [rad]; gravity is turned instead of the
+/// ground.
 double slid_m(double slope, double mu) {
   Model model = support::box_over_ground(0);
   for (model::Geom& geom : model.geoms) geom.material.mu = mu;
@@ -102,7 +103,7 @@ double slid_m(double slope, double mu) {
 
 TEST(Motion, of_a_box_on_a_slope_is_sliding_or_rest_as_its_friction_says) {
   const double slope = std::atan(0.5);
-  EXPECT_LT(slid_m(slope, 0.55), 0.02);  // ten per cent above what holds it
+  EXPECT_LT(slid_m(slope, 0.55), 0.02);  // 10 % above the friction that holds it
   // 2 s at g (sin - mu cos): 0.05 g cos(slope).
   EXPECT_NEAR(slid_m(slope, 0.45), 0.5 * 0.05 * g * std::cos(slope) * 4, 0.1);
 }
@@ -121,7 +122,7 @@ TEST(Motion, of_an_elastic_ball_comes_back_with_the_restitution) {
     bounced = bounced || simulation.state().velocity[0].z() > 0;
     if (bounced) highest = std::max(highest, simulation.state().position[0].z());
   }
-  // It falls 1 m and rises 0.64 m; the impact is found up to v dt = 4.4 mm late, on either way.
+  // It falls 1 m and rises 0.64 m; the impact is detected up to v dt = 4.4 mm late, in either direction.
   EXPECT_NEAR(highest - 0.1, 0.64, 0.015);
 }
 
@@ -165,8 +166,8 @@ TEST(Motion, of_a_hanging_chain_keeps_it_together) {
   Simulation simulation(support::chain(8), settings_of(0.002, 50));
   for (int frame = 0; frame < 50; ++frame) {
     simulation.advance(10);
-    // The free end falls at up to 9 m/s: the linearised joint errs by some (v h)^2 / length = 0.6 mm, and 50
-    // iterations leave more.
+    // The free end falls at up to 9 m/s: the error of the linearised joint is some (v h)^2 / length = 0.6 mm,
+    // and 50 iterations leave more.
     EXPECT_LT(simulation.observables().joint_gap_m, 0.02);
   }
 }

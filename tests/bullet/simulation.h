@@ -1,4 +1,4 @@
-/// One world in Bullet, for tests that look at how it moves.
+/// One world in Bullet, for tests of its motion.
 #pragma once
 
 #include <memory>
@@ -7,13 +7,13 @@
 
 namespace pbmpi::bullet {
 
-/// A step of `dt_s` by so many iterations.
+/// Settings for steps of `dt_s` with this many iterations.
 stepping::StepperSettings settings_of(double dt_s, int iterations);
 
 class Simulation {
  public:
   Simulation(const model::Model& model, const stepping::StepperSettings& settings);
-  /// From this state, at the start of step `step`.
+  /// Starts from this state, at the start of step `step`.
   Simulation(const model::Model& model, const model::State& state, std::int64_t step,
              const stepping::StepperSettings& settings);
 
@@ -22,7 +22,7 @@ class Simulation {
   const model::State& state() const { return stepper_->state(0); }
   const stepping::Observables& observables() const { return stepper_->observables(0); }
   const model::Model& model() const { return stepper_->model(0); }
-  /// A direction fixed in a body, in the world frame.
+  /// Converts a direction fixed in a body to the world frame.
   model::Vec3 direction(int body, const model::Vec3& local) const;
 
  private:

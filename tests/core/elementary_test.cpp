@@ -21,7 +21,7 @@ double sample(int index, int which, double most) {
          (2 * to_unit(mix_key(1, static_cast<std::uint64_t>(index), static_cast<std::uint64_t>(which))) - 1);
 }
 
-/// By how many units in the last place of the exact value `value` is off.
+/// The error of `value` in units in the last place of the exact value.
 double units_off(double value, long double exact) {
   const double rounded = std::abs(static_cast<double>(exact));
   const double unit = std::nextafter(rounded, std::numeric_limits<double>::infinity()) - rounded;

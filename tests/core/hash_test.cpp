@@ -9,7 +9,7 @@
 namespace pbmpi::core {
 namespace {
 
-/// FNV-1a byte by byte, as its authors state it.
+/// FNV-1a byte by byte, as its authors specify it.
 std::uint64_t fnv1a(std::string_view bytes) {
   std::uint64_t hash = 14695981039346656037ull;
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ull;

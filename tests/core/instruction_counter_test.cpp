@@ -5,7 +5,7 @@
 namespace pbmpi::core {
 namespace {
 
-/// At least two instructions a round; the compiler must not know what the sum is for.
+/// At least two instructions per round; the compiler must not know what the sum is used for.
 std::uint64_t spin(int rounds) {
   volatile std::uint64_t seed = 1;
   std::uint64_t sum = seed;
@@ -31,7 +31,7 @@ TEST(InstructionCounter, counts_in_proportion_or_says_that_it_cannot) {
     return;
   }
   EXPECT_GE(few, 20'000);
-  // Start and stop are in both; reading a processor's counter may add some thousand to either.
+  // Start and stop are in both; reading a processor's counter may add some thousand instructions to either.
   EXPECT_NEAR(static_cast<double>(many - few), 100.0 * static_cast<double>(few),
               0.5 * static_cast<double>(many));
 }

@@ -8,7 +8,7 @@ namespace pbmpi::core {
 namespace {
 
 TEST(Mix64, gives_splitmix64s_published_sequence) {
-  // Seed 1234567, as in the test vectors that go with the generator.
+  // Seed 1234567, as in the generator's published test vectors.
   constexpr std::uint64_t gamma = 0x9e3779b97f4a7c15ull;
   EXPECT_EQ(mix64(1234567), 6457827717110365317ull);
   EXPECT_EQ(mix64(1234567 + gamma), 3203168211198807973ull);
@@ -22,7 +22,7 @@ TEST(MixKey, tells_neighbouring_keys_apart_also_in_the_low_word) {
       for (std::uint64_t step = 0; step < 10; ++step) {
         const std::uint64_t key = mix_key(seed, world, step);
         keys.insert(key);
-        low_words.insert(key & 0xffffffff);  // all that ODE's generator takes
+        low_words.insert(key & 0xffffffff);  // the part that ODE's generator uses
       }
     }
   }

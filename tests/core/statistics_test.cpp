@@ -35,7 +35,7 @@ TEST(Quantile, interpolates_between_order_statistics) {
 }
 
 TEST(MedianInterval, is_the_narrowest_that_is_sure_enough) {
-  // Of n tosses at most k heads, n = 5: 1, 6; n = 6: 1, 7; n = 9: 1, 10, 46 of 2^n.
+  // Probability of at most k heads in n tosses, n = 5: 1, 6; n = 6: 1, 7; n = 9: 1, 10, 46 of 2^n.
   const auto expect = [](const Interval& found, double low, double high, double confidence) {
     EXPECT_EQ(found.low, low);
     EXPECT_EQ(found.high, high);
@@ -50,7 +50,7 @@ TEST(MedianInterval, is_the_narrowest_that_is_sure_enough) {
   expect(median_interval({}, 0.95), 0, 0, 0);
 }
 
-/// By fractions of whole numbers; 2^-2000 is below every double.
+/// Computed with fractions of whole numbers; 2^-2000 is below every double.
 TEST(MedianInterval, is_that_of_long_samples_too) {
   std::vector<double> values(2000);
   std::iota(values.begin(), values.end(), 0);

@@ -12,7 +12,7 @@
 namespace pbmpi::effects {
 namespace {
 
-/// A chain of three links on the world; the second and the third joint can break.
+/// A chain of three links that hangs on the world; the second and the third joint can break.
 model::Model weak_chain() {
   model::Model model = support::chain(3);
   model.actors[0].self_collision = true;

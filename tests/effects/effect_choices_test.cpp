@@ -35,7 +35,7 @@ TEST(EffectChoices, refuse_what_is_no_choice) {
   EXPECT_NE(error_of("+"), "");
 }
 
-/// Every effect but joints can be left out of a model that calls for nearly all.
+/// Every effect except joints can be left out of a model that calls for nearly all of them.
 TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
   for (const Effect& effect : effect_registry()) {
     if (effect.id == EffectId::joints) continue;
@@ -59,7 +59,8 @@ TEST(LeaveOutEffects, takes_from_the_model_what_calls_for_them) {
     model.effects[std::string(effect.name)] = false;
     leave_out_effects(model);
     EXPECT_FALSE(StepPlan(model).has(effect.id)) << effect.name;
-    // Collision, fast bodies and gyroscopic torque are left out of the plan, the others of the model itself.
+    // Collision, fast bodies and gyroscopic torque are removed from the plan, the other effects from the
+    // model itself.
     model.effects.clear();
     EXPECT_EQ(StepPlan(model).has(effect.id), effect.id == EffectId::collision ||
                                                   effect.id == EffectId::fast_bodies ||

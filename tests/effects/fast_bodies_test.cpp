@@ -54,7 +54,7 @@ TEST(FastBodies, are_those_that_move_further_than_half_their_extent_along_their_
   model.bodies[0].velocity.x() = 10.1;
   EXPECT_TRUE(any_is_fast(model));
   model.bodies[0].velocity.x() = 0;
-  // A plate of 2 m by 5 cm that flies along itself passes nothing by; one that flies flat does.
+  // A plate of 2 m by 5 cm that flies edge first cannot skip anything in a step; one that flies flat can.
   const int plate = support::add_solid(model, support::add_actor(model, "plate"), "plate", model::Shape::box,
                                        {2, 2, 0.05}, 1, {0, 5, 1});
   model.bodies[plate].velocity = {50, 0, 0};
@@ -74,7 +74,7 @@ TEST(SlowBounds, are_left_before_a_geom_is_fast_and_not_long_before) {
   EXPECT_TRUE(bounds_hold(model)) << "a turn does not move the ball's middle";
   model.geoms[0].local.position = {0, 0.5, 0};
   EXPECT_FALSE(bounds_hold(model));
-  model.bodies[0].angular_velocity = {9, 0, 0};  // the middle moves by 4.5 cm a step
+  model.bodies[0].angular_velocity = {9, 0, 0};  // the middle moves by 4.5 cm per step
   EXPECT_TRUE(bounds_hold(model));
 }
 
@@ -97,7 +97,7 @@ core::Vec3 random_vector(int sample, int which, double most) {
                            random_number(sample, which + 2));
 }
 
-// Where the bounds hold the pass would find nothing: it need not look.
+// Where the bounds hold the pass would find nothing, so it need not look.
 TEST(SlowBounds, hold_in_no_random_state_in_which_a_geom_is_fast) {
   int num_fast = 0, num_held = 0;
   for (int sample = 0; sample < 20000; ++sample) {
@@ -121,7 +121,7 @@ TEST(SlowBounds, hold_in_no_random_state_in_which_a_geom_is_fast) {
   EXPECT_GT(num_held, 1000);
 }
 
-// The ball's centre is 0.5 m before the wall's face, its surface 0.4 m.
+// The ball's centre is 0.5 m in front of the wall's face, its surface 0.4 m.
 TEST(FastBodies, leave_a_gap_that_the_surfaces_may_close) {
   model::Model model;
   add_ball(model, "ball", {-0.55, 0.2, 1}, {89.4, 0, 0});
@@ -137,7 +137,7 @@ TEST(FastBodies, leave_a_gap_that_the_surfaces_may_close) {
   EXPECT_EQ(contacts[0].restitution, 0);
 }
 
-// The face is 0.99 m or 1 m away: the centre moves 0.894 m, the front 0.1 m ahead of it.
+// The face is 0.99 m or 1 m away: the centre moves 0.894 m, and the front is 0.1 m ahead of it.
 TEST(FastBodies, find_what_their_front_reaches_in_a_step) {
   model::Model model;
   add_ball(model, "ball", {-1.04, 0, 1}, {89.4, 0, 0});
@@ -169,7 +169,8 @@ TEST(FastBodies, on_static_ground_act_below_their_centre) {
   EXPECT_LT(contacts[0].position.norm(), rounding) << "not where the way ends, 0.4 m ahead";
 }
 
-// Towards each other at 80 m/s each they meet halfway, 0.3 m apart; neither way alone reaches the other.
+// They approach each other at 80 m/s each and meet halfway, 0.3 m apart; neither displacement alone reaches
+// the other ball.
 TEST(FastBodies, see_each_other_once_by_their_relative_way) {
   model::Model model;
   add_ball(model, "left", {-0.7, 0, 1}, {80, 0, 0});
@@ -213,7 +214,7 @@ TEST(FastBodies, pass_what_they_may_not_touch) {
   EXPECT_TRUE(contacts_of(model).empty()) << "one actor's geoms do not touch each other";
 }
 
-/// Twelve fast balls on their way to each other over static ground, a wall in the middle.
+/// Twelve fast balls that approach each other over static ground, with a wall in the middle.
 model::Model converging_balls() {
   model::Model model;
   support::add_ground(model);
@@ -236,7 +237,8 @@ void expect_same(const std::vector<model::Contact>& a, const std::vector<model::
   }
 }
 
-// What each pair gets depends on the two alone: any cut by a filter gives the same contacts as no cut.
+// The contacts of each pair depend on that pair alone: any split by a filter gives the same contacts as no
+// split.
 TEST(FastBodies, find_the_same_in_any_parts) {
   const model::Model model = converging_balls();
   const auto whole = contacts_of(model);
@@ -268,7 +270,7 @@ TEST(FastBodies, find_across_groups_what_a_filter_would_let_through) {
     expect_same(found, contacts_of(model, across));
     EXPECT_EQ(found.empty(), num_groups == 1);
   }
-  // All that is fast is of one group: only the wall is of another.
+  // All fast bodies are in one group; only the wall is in another.
   std::vector<int> group(model.bodies.size(), 0);
   group.back() = 1;
   FastBodies fast(model);

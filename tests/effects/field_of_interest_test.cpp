@@ -13,7 +13,7 @@ namespace {
 constexpr int num_bodies = 40;
 using Indices = std::vector<int>;
 
-/// Bodies in a cube of 10 m, a quarter of them joined in pairs.
+/// Bodies in a cube of 10 m, a quarter of which are joined in pairs.
 model::Model cloud(std::uint64_t seed) {
   model::Model model;
   for (int body = 0; body < num_bodies; ++body) {

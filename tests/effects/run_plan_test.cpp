@@ -7,7 +7,7 @@
 namespace pbmpi::effects {
 namespace {
 
-/// "effect: reason", a line a pass.
+/// "effect: reason", one line per pass.
 std::string text_of(const RunPlan& plan) {
   std::string text;
   for (const RunPass& pass : plan.passes())
@@ -80,7 +80,7 @@ TEST(RunPlan, tells_what_is_demanded_from_what_is_called_for) {
 TEST(RunPlan, added_up_in_parts_is_that_of_all_worlds) {
   const std::vector<model::Model> worlds = {support::crash(), support::pile(3), support::pendulum(1, 0)};
   RunPlan parts = plan_of({worlds[1]});
-  parts.add(RunPlan());  // of a rank without worlds
+  parts.add(RunPlan());  // plan of a rank without worlds
   parts.add(plan_of({worlds[2], worlds[0]}));
   EXPECT_EQ(text_of(parts), text_of(plan_of(worlds)));
 }

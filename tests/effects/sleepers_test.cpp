@@ -10,7 +10,7 @@ namespace {
 using Pairs = std::vector<BodyPair>;
 
 constexpr double dt_s = 0.01;
-constexpr int steps_of_rest = 50;  // of the rule's half second
+constexpr int steps_of_rest = 50;  // the rule's half second
 
 /// Balls in a row, none of which touches another.
 model::Model row_of_balls(int count) {
@@ -22,14 +22,14 @@ model::Model row_of_balls(int count) {
   return model;
 }
 
-/// A world without a solver: bodies are where a test puts them.
+/// A world without a solver: bodies are where a test places them.
 class World {
  public:
   explicit World(const model::Model& model)
       : model_(model), sleepers_(model_, dt_s), state_(model::initial_state(model)) {
     sleepers_.start(state_);
   }
-  /// The end of steps with these contacts.
+  /// Ends `count` steps with these contacts.
   void steps(int count, const Pairs& touching = {}) {
     for (int i = 0; i < count; ++i) {
       sleepers_.count(sleepers_.awake(), state_);
@@ -59,7 +59,7 @@ using Bodies = std::vector<int>;
 
 TEST(Sleepers, let_a_body_sleep_once_it_has_rested_for_the_rules_time) {
   World world(row_of_balls(1));
-  world.state().velocity[0] = {0.01, 0, 0};  // what a solver leaves; the pose stays
+  world.state().velocity[0] = {0.01, 0, 0};  // residual of a solver; the pose does not change
   world.steps(steps_of_rest - 1);
   EXPECT_EQ(world.asleep(), Bodies{});
   EXPECT_EQ(world.sleepers().awake().size(), 1u);
@@ -72,8 +72,8 @@ TEST(Sleepers, let_a_body_sleep_once_it_has_rested_for_the_rules_time) {
 TEST(Sleepers, take_trembling_about_a_place_for_rest_and_a_slow_drift_for_motion) {
   World world(row_of_balls(3));
   for (int step = 0; step < 3 * steps_of_rest; ++step) {
-    world.state().position[0].x() = step % 2 == 0 ? 0.004 : -0.004;  // 0.8 m/s to and fro
-    world.state().position[1].x() += 1.1 * 0.05 * dt_s;              // a tenth above the rule's speed
+    world.state().position[0].x() = step % 2 == 0 ? 0.004 : -0.004;  // 0.8 m/s back and forth
+    world.state().position[1].x() += 1.1 * 0.05 * dt_s;              // 10 % above the rule's speed
     world.state().orientation[2] = support::rotation(core::Vec3::UnitZ(), 1.1 * 0.1 * dt_s * step);
     world.steps(1);
   }
@@ -153,7 +153,7 @@ TEST(Sleepers, go_on_from_a_state_that_others_have_left) {
   EXPECT_EQ(next.find_resting(next.awake(), {}, state).size(), 2u);
 }
 
-// Parts of an island that two ranks own.
+// Parts of one island that two ranks own.
 TEST(Sleepers, join_parts_of_islands_of_which_all_must_rest) {
   const std::vector<Resting> found = {{0, 0}, {1, 0}, {4, 4}, {6, 6}};
   const auto joined = [&](const Pairs& touching) {

@@ -7,7 +7,7 @@
 namespace pbmpi::effects {
 namespace {
 
-/// Two cubes, each in a rank's charge, as one rank knows them.
+/// Two cubes, each owned by a rank, as seen by one rank.
 struct Rank {
   model::Model model = support::pile(2);
   model::State state = model::initial_state(model);

@@ -12,12 +12,12 @@ namespace {
 using Calls = std::vector<std::string>;
 
 constexpr double dt_s = 0.01;
-constexpr int steps_of_rest = 50;  // of the sleeping rule's half second
+constexpr int steps_of_rest = 50;  // the sleeping rule's half second
 
-/// An engine that notes what the rules ask of it. Its bodies stand still.
+/// An engine that records the calls of the rules. Its bodies do not move.
 class NotingWorld final : public RuledWorld {
  public:
-  explicit NotingWorld(model::Model&&) = delete;  // the model outlives its rules
+  explicit NotingWorld(model::Model&&) = delete;  // the model must outlive its rules
   explicit NotingWorld(const model::Model& model)
       : state_(model::initial_state(model)), rules_(model, dt_s, 20, StepRules::World::whole, state_) {
     rules_.start();
@@ -47,7 +47,7 @@ class NotingWorld final : public RuledWorld {
   }
   void show_broken() override { calls.emplace_back("broken"); }
 
-  /// Takes a step; how often it collided.
+  /// Takes a step; returns how often it collided.
   int step(std::int64_t number) {
     calls.clear();
     rules_.begin_step(*this, number);

@@ -1,4 +1,4 @@
-/// FEEC in the frame loop: what consumers get and when, and what it must not change. Runs on 1 to 4 ranks.
+/// FEEC in the frame loop: what consumers get and when, and what FEEC must not change. Runs on 1 to 4 ranks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,8 @@ namespace {
 
 using stepping::PoseKind;
 
-/// An example consumer: draws each frame from its estimate, and learns afterwards how far that was off.
+/// An example consumer: draws each frame from its estimate, and learns afterwards how large the estimate's
+/// error was.
 class ExampleConsumer final : public stepping::PoseConsumer {
  public:
   void poses(std::int64_t frame, PoseKind kind, std::span<const model::Vec3> position,
@@ -57,7 +58,7 @@ Outcome run_with_estimates(const WorldRunSettings& settings, SyntheticStepper::B
   return outcome;
 }
 
-/// Worlds 0 to 3 of 16 cost ten times as much, so that they must move.
+/// Worlds 0 to 3 of 16 cost ten times as much as the others, so that they must move.
 SyntheticStepper::Behaviour dear_first_quarter() {
   SyntheticStepper::Behaviour behaviour;
   behaviour.cost_s = [](int world) { return world < 4 ? 1e-2 : 1e-3; };

@@ -65,7 +65,7 @@ TEST_P(SetState, goes_on_bit_for_bit_at_the_same_step_and_back_in_time) {
   follower->advance(3, times);
   ASSERT_NE(model::hash(follower->state(1)), model::hash(at_6));
 
-  follower->set_state(1, at_6, 6);  // back over the event at step 7
+  follower->set_state(1, at_6, 6);  // back to before the event at step 7
   follower->set_state(0, keeper->state(0), 6);
   follower->set_state(2, keeper->state(2), 6);
   EXPECT_EQ(model::hash(follower->state(1)), model::hash(at_6));

@@ -21,7 +21,7 @@ model::Geom geom_of(model::Shape shape, const std::array<double, 3>& size) {
 
 TEST(BodyPose, has_the_place_and_the_rotation_by_rows) {
   const model::BodyPose pose =
-      body_pose({{1, 2, 3}, support::rotation(core::Vec3::UnitY(), std::numbers::pi / 2)});  // z comes to x
+      body_pose({{1, 2, 3}, support::rotation(core::Vec3::UnitY(), std::numbers::pi / 2)});  // turns z to x
   const double place[3] = {1, 2, 3}, rotation[9] = {0, 0, 1, 0, 1, 0, -1, 0, 0};
   for (int k = 0; k < 3; ++k) EXPECT_EQ(pose.position[k], place[k]);
   for (int k = 0; k < 9; ++k) EXPECT_NEAR(pose.rotation[k], rotation[k], rounding);

@@ -40,7 +40,7 @@ TEST(Enter, finds_the_face_of_each_shape_at_its_known_distance) {
                back);
   expect_entry(solid(model::Shape::cylinder, {0.5, 2, 0}), placed(core::Vec3::Zero()), from, way, 2.5 / 4,
                back);
-  const core::Quat lying = support::rotation(core::Vec3::UnitY(), std::acos(-1.0) / 2);  // z becomes x
+  const core::Quat lying = support::rotation(core::Vec3::UnitY(), std::acos(-1.0) / 2);  // turns z to x
   expect_entry(solid(model::Shape::capsule, {0.5, 2, 0}), placed(core::Vec3::Zero(), lying), from, way,
                1.5 / 4, back);
   expect_entry(solid(model::Shape::cylinder, {0.5, 2, 0}), placed(core::Vec3::Zero(), lying), from, way,
@@ -51,10 +51,10 @@ TEST(Enter, finds_the_face_of_each_shape_at_its_known_distance) {
 }
 
 TEST(Enter, finds_the_normal_at_a_slant) {
-  // A chord at height 0.3 of a ball of 0.5: it enters 0.4 before the middle.
+  // A chord at height 0.3 of a ball of radius 0.5: it enters 0.4 before the middle.
   expect_entry(solid(model::Shape::sphere, {0.5, 0, 0}), placed({1, 1, 1}), {0, 1, 1.3}, {2, 0, 0}, 0.6 / 2,
                {-0.8, 0, 0.6});
-  // The same on the cap of a capsule, whose middle is 1 m below it.
+  // The same chord on the cap of a capsule whose middle is 1 m below.
   expect_entry(solid(model::Shape::capsule, {0.5, 2, 0}), placed({1, 1, 0}), {0, 1, 1.3}, {2, 0, 0}, 0.6 / 2,
                {-0.8, 0, 0.6});
   // Down through the end of a cylinder, and through the top of a plate at an angle of 45 degrees.
@@ -81,7 +81,7 @@ TEST(Enter, finds_nothing_that_is_missed_left_or_beyond_the_way) {
   EXPECT_FALSE(enter(plane, placed(core::Vec3::Zero()), {0, 0, -1}, {0, 0, -1})) << "below the plane";
 }
 
-/// Is the point inside, in the geom's own frame?
+/// Does the geom contain the point, which is given in the geom's own frame?
 bool holds(const model::Geom& geom, const core::Vec3& p) {
   const double across = std::hypot(p.x(), p.y());
   switch (geom.shape) {
@@ -100,7 +100,7 @@ bool holds(const model::Geom& geom, const core::Vec3& p) {
   return false;
 }
 
-// Oracle: the way walked in 2,000 short steps.
+// Oracle: the path walked in 2,000 short steps.
 TEST(Enter, agrees_with_walking_the_way_in_short_steps) {
   constexpr int num_steps = 2000;
   int num_hits = 0;
@@ -130,7 +130,7 @@ TEST(Enter, agrees_with_walking_the_way_in_short_steps) {
       EXPECT_GE(entry->share, first - 1.0 / num_steps - 1e-12) << i;
       EXPECT_LT(entry->normal.dot(way), 0) << i;
       ++num_hits;
-    }  // else the walk may have stepped over a corner
+    }  // otherwise the walk may have stepped over a corner
   }
   EXPECT_GT(num_hits, 100);
 }

@@ -26,7 +26,7 @@ std::vector<int> near(const SweptBalls& balls, const Box& box, int but_family = 
   return found;
 }
 
-// Of a ball in 100 places of its way, wherever it then overlaps the box.
+// The ball is tested at 100 points of its path: wherever it overlaps the box, it must be found.
 TEST(SweptBalls, are_found_where_they_come_near_on_their_way) {
   SweptBalls balls;
   const int count = 50;

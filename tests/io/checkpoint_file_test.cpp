@@ -15,7 +15,7 @@
 namespace pbmpi::io::test {
 namespace {
 
-/// Worlds of different sizes: with rest, with joints and forces, with contact forces alone.
+/// Worlds of different sizes: with rest, with joints and forces, with contact forces only.
 Checkpoint sample() {
   Checkpoint checkpoint;
   checkpoint.pbmpi_version = "0.1.0";
@@ -86,7 +86,7 @@ TEST(CheckpointFile, comes_back_as_it_was_written) {
   EXPECT_EQ(scratch.num_files(), 1u) << "nothing else is left";
 }
 
-/// As table_image() takes them: without the attributes that it adds.
+/// The sample's tables as input of table_image(): without the attributes that it adds.
 TableFile tables_of_sample(const std::string& path) {
   write_checkpoint(OutputLock(path), sample());
   TableFile file = read_table_file(path, "pbmpi-checkpoint", 1);
@@ -114,7 +114,7 @@ TEST(CheckpointFile, of_layout_1_1_is_read_without_forces) {
   }
 }
 
-/// A sample whose column /TABLE/NAME of whole numbers was changed.
+/// Writes a sample whose integer column /TABLE/NAME was changed.
 template <class Change>
 void write_damaged(const std::string& path, const std::string& table, const std::string& name,
                    const Change& change) {

@@ -54,7 +54,7 @@ TEST(OutputTarget, refuses_what_it_cannot_create) {
   expect_refusal(scratch.file("missing/run.h5"), "there is no directory");
   expect_refusal(scratch.folder().string(), "it is a directory");
   expect_refusal("/dev/null", "not a regular file");
-  expect_refusal("/proc/run.h5", "cannot create");  // no one may create files there, not even root
+  expect_refusal("/proc/run.h5", "cannot create");  // nobody may create files there, not even root
   EXPECT_NE(refusal("").find("its name is empty"), std::string::npos);
   EXPECT_EQ(scratch.num_files(), 0u);
 }
@@ -144,7 +144,7 @@ TEST(OutputTarget, asks_the_disk_for_no_room_that_will_hardly_be_needed) {
 
 TEST(OutputTarget, refuses_more_than_the_disk_holds_and_leaves_nothing_behind) {
   const Scratch scratch;
-  // 4 EiB, more than any file system here; some say "too large" before they look at what is free.
+  // 4 EiB, more than any file system here; some report "too large" before they check the free space.
   const std::string message = refusal(scratch.file("run.h5"), std::int64_t{1} << 62);
   EXPECT_NE(message.find("do not fit"), std::string::npos) << message;
   EXPECT_EQ(scratch.num_files(), 0u);

@@ -1,4 +1,4 @@
-// Long because a file is written and read back once a case, and each case looks at another part of it.
+// This file is long because each case writes and reads a file, and checks another part of it.
 #include "io/run/run_file.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ void expect_profiles(const RunData& run, const Sample& sample, std::int64_t num_
   }
 }
 
-/// Every number of the sample's first `num_frames` frames, bit for bit: nothing on the way computes.
+/// Expects every number of the sample's first `num_frames` frames, bit for bit: nothing in between computes.
 void expect_sample(const RunData& run, const Sample& sample, std::int64_t num_frames) {
   ASSERT_EQ(run.frames_committed, num_frames);
   ASSERT_EQ(run.num_worlds, sample.num_worlds);
@@ -90,7 +90,7 @@ TEST(RunFile, reads_back_every_number_of_a_complete_run) {
   file->event({.frame = 4, .kind = "rebalance", .detail = "moved 2 worlds", .value = 2});
   file->event({5, "joint_broken", "a hinge", 17, 1, 3, "door.hinge"});
   file->close(true, "0123456789abcdef");
-  file.reset();  // the lock goes with it
+  file.reset();  // releases the lock
   if (!world().is_root()) return;
 
   const RunData run = read_run(path);
@@ -252,8 +252,8 @@ TEST(RunFile, cuts_the_datasets_of_a_run_that_ended_early) {
   const SharedFolder folder(world());
   Sample sample = sample_on(world());
   sample.num_frames = 4000;
-  sample.bodies_per_world = 40;  // several chunks a dataset, so that whole chunks go
-  sample.profile = false;        // its small columns stand last and would keep the length: a hole instead
+  sample.bodies_per_world = 40;  // several chunks per dataset, so that whole chunks are freed
+  sample.profile = false;        // its small columns come last and would keep the length, with a hole instead
   const std::string path = folder.file("run.h5");
   const auto file = begin_run(world(), sample, path, 7);
   world().barrier();
@@ -314,12 +314,12 @@ TEST(RunFile, is_as_large_as_estimated) {
   sample.num_worlds = 100;
   sample.bodies_per_world = 36;
   sample.num_frames = 8;
-  sample.contacts = false;  // how many there will be is not known
+  sample.contacts = false;  // their number is not known
   const std::string path = folder.file("run.h5");
   begin_run(world(), sample, path, sample.num_frames)->close(true, "");
   if (!world().is_root()) return;
   const auto bytes = static_cast<double>(std::filesystem::file_size(path));
-  // 10 %: what the estimate promises; names and parameters are guessed.
+  // The estimate promises 10 %; names and parameters are guessed.
   EXPECT_NEAR(static_cast<double>(estimate_file_bytes({.num_bodies = 3650,
                                                        .num_worlds = 100,
                                                        .num_ranks = sample.num_ranks,

@@ -20,7 +20,7 @@ std::shared_ptr<const model::Model> sample_model(const Sample& sample, int world
   made->geoms.push_back({model::no_body, 0, 0, model::Shape::plane, {}, {}, {}});
   for (int b = 0; b < sample.bodies_per_world + world % 2; ++b) {
     model::Body body;
-    // World 0 has the longest name, so that a rank without it must learn the length from another.
+    // World 0 has the longest name, so a rank without it must learn the length from another rank.
     body.name = (world == 0 ? "human1.left_upper_arm_é" : "human1.b") + std::to_string(b);
     body.actor = 1;
     body.mass_kg = 2.0 + b;
@@ -166,9 +166,9 @@ RunSetup sample_setup(const Sample& sample, const RankWorlds& at_start, const st
   return setup;
 }
 
-/// The estimate of the sample: every body 0.5 m beyond its precise place.
+/// The estimate of the sample: every body is 0.5 m away from its precise position.
 RankWorlds sample_estimate(const Sample& sample, std::int64_t frame) {
-  RankWorlds worlds(sample, frame);  // returned without a copy, so that its pointers hold
+  RankWorlds worlds(sample, frame);  // returned without a copy, so its pointers stay valid
   for (model::State& state : worlds.states) {
     for (Vec3& position : state.position) position.x() += 0.5;
   }

@@ -1,5 +1,5 @@
-/// A small run whose every number is a function of (world, body, frame), so that each rank can make its part
-/// and any reader can check what it finds.
+/// A small run in which every number is a function of (world, body, frame), so that each rank can make its
+/// part and any reader can check the numbers it finds.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Sample {
   int num_worlds = 5;
   std::int64_t num_frames = 6;
   int record_every = 1;
-  int bodies_per_world = 3;  ///< world w has w % 2 more
+  int bodies_per_world = 3;  ///< world w has w % 2 more bodies
   int num_ranks = 1;
   int rank = 0;
   bool profile = true;   ///< with step profiles
@@ -35,9 +35,9 @@ struct Sample {
 std::shared_ptr<const model::Model> sample_model(const Sample& sample, int world);
 model::State sample_state(const Sample& sample, int world, std::int64_t frame);
 stepping::Observables sample_observables(int world, std::int64_t frame);
-/// The first body and the others are one island each.
+/// The first body is one island, and the others are another.
 stepping::StepProfile sample_profile(const Sample& sample, int world, std::int64_t frame);
-/// (world + frame) % 4 contacts; contact i has 1/16 of (world, frame, i) as its numbers, see the source.
+/// (world + frame) % 4 contacts; the numbers of contact i are 1/16 of (world, frame, i), see the source.
 stepping::StepContacts sample_contacts(const Sample& sample, int world, std::int64_t frame);
 double sample_wall_s(std::int64_t frame);
 /// Seconds of a phase of a rank.
@@ -56,7 +56,7 @@ struct RankWorlds {
   std::vector<stepping::LocalWorld> worlds;
 };
 
-/// What a RunFile needs; flushes only when it is closed unless flush_interval_s is changed.
+/// The setup of a RunFile, which flushes only when it is closed unless flush_interval_s is changed.
 RunSetup sample_setup(const Sample& sample, const RankWorlds& at_start, const std::string& path);
 
 /// Hands frame `frame` to the file.

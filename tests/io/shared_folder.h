@@ -1,4 +1,4 @@
-/// What the tests on ranks share: root's scratch folder, and how to begin a file there.
+/// Shared by the tests on ranks: root's scratch folder, and a function that begins a file there.
 #pragma once
 
 #include <algorithm>

@@ -10,7 +10,7 @@ namespace {
 
 using Links = std::vector<std::pair<int, int>>;
 
-/// Paints labels over the links until nothing changes.
+/// Propagates the lowest labels along the links until nothing changes.
 std::vector<int> lowest_reachable(int num_bodies, const Links& links) {
   std::vector<int> label(static_cast<std::size_t>(num_bodies));
   for (int i = 0; i < num_bodies; ++i) label[i] = i;

@@ -10,7 +10,7 @@
 namespace pbmpi::model {
 namespace {
 
-/// Numbers of size 10 to 1000 out of some dozen roundings.
+/// Tolerance for numbers of size 10 to 1000 after some dozen roundings.
 constexpr double rounding = 1e-12;
 
 Model two_boxes() {
@@ -56,7 +56,7 @@ TEST(JointGap, turns_with_the_first_body) {
   support::add_joint(model, JointKind::ball, 0, 1, {1, 0, 3});
   State state = initial_state(model);
   state.orientation[0] =
-      support::rotation(Vec3::UnitZ(), std::acos(-1.0));  // the anchor goes from x = 1 to -1
+      support::rotation(Vec3::UnitZ(), std::acos(-1.0));  // turns the anchor from x = 1 to -1
   EXPECT_NEAR(joint_gap(model, state, model.joints[0]), 2, rounding);
 }
 

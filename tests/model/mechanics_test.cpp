@@ -8,7 +8,7 @@
 namespace pbmpi::model {
 namespace {
 
-/// Numbers of size 10 to 1000 out of some dozen roundings.
+/// Tolerance for numbers of size 10 to 1000 after some dozen roundings.
 constexpr double rounding = 1e-12;
 
 Model two_boxes() {
@@ -31,7 +31,7 @@ TEST(MechanicalEnergy, takes_the_inertia_in_the_bodys_frame) {
   Model model;
   model.gravity.setZero();
   const int actor = support::add_actor(model, "rod");
-  const Quat quarter = support::rotation(Vec3::UnitX(), std::acos(-1.0) / 2);  // its z becomes the world's -y
+  const Quat quarter = support::rotation(Vec3::UnitX(), std::acos(-1.0) / 2);  // turns z to the world's -y
   support::add_solid(model, actor, "rod", Shape::box, {0.2, 0.2, 2}, 12, {0, 0, 0}, quarter);
   const double along = 12 * (0.04 + 0.04) / 12;
   model.bodies[0].angular_velocity = {0, 10, 0};
@@ -51,7 +51,7 @@ TEST(Momentum, a_free_box_has_that_of_its_mass_and_spin) {
   EXPECT_NEAR((angular_momentum(model, state) - expected).norm(), 0, 1e-13);  // numbers of size 10
 }
 
-/// The bits of every number count: recorded runs are compared by them.
+/// Every bit of every number counts: recorded runs are compared by them.
 TEST(MechanicsMeter, gives_the_plain_sums_over_the_bodies_to_the_bit) {
   const Model model = support::crash();
   const MechanicsMeter meter(model);

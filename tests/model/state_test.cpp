@@ -21,7 +21,7 @@ TEST(State, starts_as_the_model_says) {
   EXPECT_EQ(state.angular_velocity[0], model.bodies[0].angular_velocity);
 }
 
-/// One for each of the 13 numbers of a body.
+/// One function for each of the 13 numbers of a body.
 std::vector<std::function<double&(State&, int)>> all_fields() {
   std::vector<std::function<double&(State&, int)>> fields;
   for (int axis = 0; axis < 3; ++axis) {

@@ -11,7 +11,7 @@
 namespace pbmpi::model {
 namespace {
 
-/// What validate() says of the crash model after `spoil`; empty if it says nothing.
+/// The message of validate() for the crash model after `spoil`; empty if it is valid.
 std::string complaint(const std::function<void(Model&)>& spoil) {
   Model model = support::crash();
   model.events.emplace_back();

@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Prints what fails on a rank other than root, whose own printer tells the rest.
+/// Prints failures on ranks other than root, whose own printer reports the rest.
 class FailurePrinter : public testing::EmptyTestEventListener {
  public:
   explicit FailurePrinter(int rank) : rank_(rank) {}

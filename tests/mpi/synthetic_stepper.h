@@ -1,5 +1,4 @@
-/// A stepper without physics: bodies move by a formula of (world, body, step), and costs are what a test
-/// says.
+/// A stepper without physics: bodies move by a formula of (world, body, step), and costs are set by the test.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@
 
 namespace pbmpi::testing_support {
 
-/// World `world` has 1 + world % 3 bodies, each at a place of its own.
+/// World `world` has 1 + world % 3 bodies, each at a different position.
 inline std::shared_ptr<const model::Model> synthetic_model(int world) {
   auto model = std::make_shared<model::Model>();
   model->actors.push_back({"prop", model::ActorKind::prop, false});
@@ -32,13 +31,13 @@ inline std::shared_ptr<const model::Model> synthetic_model(int world) {
 
 class SyntheticStepper final : public stepping::WorldStepper {
  public:
-  /// Behaviour that a test asks for. Each function is called with (world, step about to be done).
+  /// Behaviour that a test asks for. Each function is called with (world, the step to be done next).
   struct Behaviour {
     std::function<double(int world)> cost_s = [](int) { return 1e-3; };
     std::function<void(int world, std::int64_t step)> before_step = [](int, std::int64_t) {};  ///< may throw
-    bool rests = false;      ///< does the state say how long bodies have rested?
-    int num_joints = 0;      ///< of which the state says in which step they broke
-    bool remembers = false;  ///< does a step hand on forces, sometimes more and sometimes fewer?
+    bool rests = false;      ///< does the state hold how long bodies have rested?
+    int num_joints = 0;      ///< joints whose breaking step the state holds
+    bool remembers = false;  ///< does a step hand on forces, in varying numbers?
     std::function<bool(int world, std::int64_t step)> turns_nan = [](int, std::int64_t) { return false; };
   };
 
@@ -84,7 +83,7 @@ class SyntheticStepper final : public stepping::WorldStepper {
     std::int64_t step = 0;
   };
 
-  /// The next state depends on every number of the state and on the step's number, so that a lost bit shows.
+  /// The next state depends on every number of the state and on the step's number, so a lost bit shows.
   void step(int id, World& world) {
     behaviour_.before_step(id, world.step);
     for (int i = 0; i < world.state.num_bodies(); ++i) {
@@ -113,7 +112,7 @@ class SyntheticStepper final : public stepping::WorldStepper {
     ++world.step;
   }
 
-  /// Depends on what was remembered before, and has another length in each step.
+  /// Depends on the previous memory, and has a different length in each step.
   void remember(int id, World& world) const {
     model::StepMemory& memory = world.state.memory;
     const double before = memory.contacts.empty() ? 0.1 * id : memory.contacts.front().normal;

@@ -34,7 +34,7 @@ inline WorldRunResult run(const Communicator& comm, const WorldRunSettings& sett
   return driver.run();
 }
 
-/// Hash of a run with the settings on one rank without MPI.
+/// Hash of a run with these settings on one rank without MPI.
 inline std::uint64_t reference_hash(const WorldRunSettings& settings) {
   WorldRunSettings alone = settings;
   alone.placement.clear();

@@ -14,7 +14,7 @@ using model::Vec3;
 
 constexpr double g = 9.81;
 
-/// A box of 2 kg fixed to the world, with another fixed below it.
+/// A box of 2 kg fixed to the world, with another one fixed below it.
 Model hanging_boxes(double break_force) {
   Model model;
   const int actor = support::add_actor(model, "boxes");
@@ -72,7 +72,8 @@ TEST(MujocoBreakage, by_an_event_lets_go_at_its_step) {
   EXPECT_TRUE(simulation.state().is_broken(2)) << "from step 20 on";
   const model::State before = simulation.state();
   simulation.advance(50);
-  // The centre of what fell off moves by gravity alone; 200 roundings of numbers near 10 stay below 1e-10.
+  // The centre of the detached bodies moves by gravity alone; 200 roundings of numbers near 10 stay below
+  // 1e-10.
   const Vec3 fall = 0.5 * (simulation.state().velocity[2] + simulation.state().velocity[3]) -
                     0.5 * (before.velocity[2] + before.velocity[3]);
   EXPECT_NEAR(fall.z(), -g * 0.5, 0.05 * g * 0.5) << "joints inside keep exchanging momentum within a part";

@@ -16,7 +16,7 @@ using model::Vec3;
 
 constexpr double g = 9.81, slope = 0.3;
 
-/// A box on a plane that falls towards x, both with friction `mu`.
+/// A box on a plane that slopes down towards x, both with friction `mu`.
 Model box_on_slope(double mu) {
   Model model;
   support::add_ground(model);
@@ -33,7 +33,7 @@ TEST(MujocoContacts, hold_a_box_on_a_slope_below_the_angle_of_friction) {
   Simulation simulation(box_on_slope(std::tan(slope) + 0.1));
   const Vec3 before = simulation.state().position[0];
   simulation.advance(100);
-  // Its friction is soft, so that it creeps: a share of the pull of a step.
+  // Its friction is soft, so the box creeps: by a share of the pull per step.
   EXPECT_LT((simulation.state().position[0] - before).norm(), 2e-3);
 }
 
@@ -46,7 +46,7 @@ TEST(MujocoContacts, let_a_box_slide_with_coulomb_friction) {
 }
 
 TEST(MujocoContacts, take_the_friction_of_a_pair_by_the_models_rule) {
-  // MuJoCo would take the larger of the two, 0.8, and hold it; the root of the product is 0.179.
+  // MuJoCo would take the larger of the two, 0.8, and hold the box; the root of the product is 0.179.
   Model model = box_on_slope(0.8);
   model.geoms[1].material.mu = 0.04;
   Simulation simulation(model);

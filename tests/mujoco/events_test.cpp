@@ -53,7 +53,7 @@ Model steered_wheel() {
   return model;
 }
 
-/// Where the wheel's axle points, as an angle [rad] from y towards x.
+/// Direction of the wheel's axle, as an angle [rad] from y towards x.
 double steering(const model::State& state) {
   const Vec3 axle = state.orientation[1].to_eigen() * Vec3::UnitY();
   return std::atan2(axle.x(), axle.y());

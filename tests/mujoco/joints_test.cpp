@@ -73,7 +73,7 @@ TEST(MujocoJoints, hold_a_pose_with_a_hold_rate) {
   EXPECT_NEAR(angle_of(simulation.state()), 0, 1e-3);
 }
 
-/// The largest distance [m] of a body from where ODE has it after 0.3 s of small steps.
+/// The largest distance [m] of a body from its position in ODE after 0.3 s of small steps.
 double distance_from_ode(const Model& model) {
   const double dt_s = 5e-4;
   Simulation simulation(model, settings_with(dt_s));
@@ -91,7 +91,8 @@ double distance_from_ode(const Model& model) {
   return distance;
 }
 
-/// Two bars, of which either may be the joint's first; without gravity, so that joint and motors do all.
+/// Two bars, either of which may be the joint's first body; without gravity, so that joint and motors do all
+/// the work.
 Model two_bars(JointKind kind, bool swapped) {
   Model model;
   model.gravity.setZero();
@@ -113,15 +114,15 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryJoint,
                                                           JointKind::fixed, JointKind::hinge2),
                                           testing::Bool()));
 
-// Both integrate to the first order of the step; ODE takes the start's velocities, which the joint does not
-// allow, a step later than MuJoCo's coordinates do. Of motions of 0.3 m and 1 rad that leaves a few
+// Both integrate to first order in the step; ODE applies the initial velocities, which the joint does not
+// allow, a step later than MuJoCo's coordinates do. For motions of 0.3 m and 1 rad this leaves a few
 // thousandths.
 constexpr double near = 0.01;
 
 TEST_P(EveryJoint, moves_as_in_ode) {
   const auto [kind, swapped] = GetParam();
   Model model = two_bars(kind, swapped);
-  for (model::Body& body : model.bodies) {  // one that every joint allows
+  for (model::Body& body : model.bodies) {  // a motion that every joint allows
     body.angular_velocity = {0.3, 0.4, 0.5};
     body.velocity = body.angular_velocity.cross(body.pose.position);
   }
@@ -152,7 +153,7 @@ TEST_P(EveryJoint, is_limited_as_in_ode) {
   EXPECT_LT(distance_from_ode(model), near);
 }
 
-/// A chassis held by nothing over a wheel on a suspension.
+/// A free chassis above a wheel on a suspension.
 TEST(MujocoJoints, spring_with_the_suspension_of_ode) {
   for (const bool wheel_first : {false, true}) {
     Model model;

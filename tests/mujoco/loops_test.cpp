@@ -13,7 +13,7 @@ using model::JointKind;
 using model::Model;
 using model::Vec3;
 
-/// A chain between two walls: its last link is held as its first is.
+/// A chain between two walls, with its last link held like its first.
 Model bridge(JointKind last) {
   Model model = support::chain(4);
   support::add_joint(model, last, 3, model::no_body, {2, 0, 5}, Vec3::UnitY());
@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Bridge, testing::Values(JointKind::ball, JointKi
 TEST_P(Bridge, holds_with_a_small_gap) {
   Simulation simulation(bridge(GetParam()));
   simulation.advance(200);
-  // Constraints that close loops are soft: what carries 4 kg gives by some micrometres.
+  // Constraints that close loops are soft: one that carries 4 kg yields by some micrometres.
   EXPECT_LT(simulation.observables().joint_gap_m, 1e-3);
   EXPECT_EQ(simulation.observables().nonfinite, 0);
 }

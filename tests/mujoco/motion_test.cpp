@@ -35,12 +35,12 @@ TEST(MujocoMotion, of_a_spinning_body_gains_no_energy) {
   simulation.advance(1);
   const double before = simulation.energy();
   simulation.advance(500);
-  // The implicit integrator takes energy away; the explicit one was seen to double such a spin.
+  // The implicit integrator removes energy; the explicit one was seen to double such a spin.
   EXPECT_LT(simulation.energy(), before * (1 + 1e-9));
   EXPECT_GT(simulation.energy(), 0.3 * before);
 }
 
-/// Period [s] of a pendulum by the times at which it swings through the vertical.
+/// Period [s] of a pendulum from the times at which it swings through the vertical.
 double measured_period(const Model& model, double dt_s) {
   Simulation simulation(model, settings_with(dt_s));
   double first = -1, last = -1, x = simulation.state().position[0].x();
@@ -63,7 +63,7 @@ TEST(MujocoMotion, of_a_pendulum_has_the_period_of_its_closed_form) {
   const double length = 1, angle = 0.1;
   const double radius = 0.3, inertia = 0.4 * radius * radius + length * length;
   const double period = 2 * std::numbers::pi * std::sqrt(inertia / (g * length)) * (1 + angle * angle / 16);
-  // The angle's next term is below 1e-7, and that of the step below (w h)^2.
+  // The angle's next term is below 1e-7, and that of the step is below (w h)^2.
   EXPECT_NEAR(measured_period(support::pendulum(length, angle), 0.002), period, 1e-4 * period);
 }
 
@@ -82,7 +82,8 @@ TEST(MujocoMotion, of_a_chain_is_that_of_ode_in_fine_steps) {
   simulation.advance(1000);
   reference.advance(1000);
   for (int body = 0; body < 3; ++body) {
-    // Both are of first order: their difference goes with the step, and is a few mm after 0.5 s at 0.5 ms.
+    // Both are of first order: their difference is proportional to the step, and a few mm after 0.5 s at 0.5
+    // ms.
     EXPECT_LT((simulation.state().position[body] - reference.state().position[body]).norm(), 0.01) << body;
   }
 }

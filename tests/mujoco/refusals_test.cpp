@@ -28,7 +28,7 @@ bool mentions(const std::vector<std::string>& sentences, const std::string& word
       sentences, [&](const std::string& sentence) { return sentence.find(word) != std::string::npos; });
 }
 
-/// Balls in a square grid over the ground, that touch if they are nearer than 1 m.
+/// Balls in a square grid above the ground; they touch if they are closer than 1 m.
 Model balls(int num_balls, double distance) {
   Model model;
   support::add_ground(model);

@@ -1,4 +1,4 @@
-/// A world that runs on and one that is made from its state have the same bits.
+/// A world that runs on and one that is restored from its state have the same bits.
 #include <gtest/gtest.h>
 
 #include "mujoco/mujoco_stepper.h"

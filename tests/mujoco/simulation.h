@@ -1,4 +1,4 @@
-/// One world in a stepper, for tests that look at how it moves.
+/// One world in a stepper, for tests of its motion.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace pbmpi::mujoco {
 
-/// MuJoCo's steps are a quarter of these.
+/// MuJoCo's own steps are a quarter of these.
 stepping::StepperSettings settings_with(double dt_s = 0.01);
 
 class Simulation {

@@ -1,4 +1,4 @@
-/// MuJoCo's solvers of constraints, and its integrator.
+/// MuJoCo's constraint solvers, and its integrator.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -30,7 +30,7 @@ model::State state_after(const Model& model, const stepping::StepperSettings& se
   return simulation.state();
 }
 
-/// [m] of the body that is farthest away.
+/// [m] Distance of the body that is farthest off.
 double distance(const model::State& a, const model::State& b) {
   double most = 0;
   for (std::size_t body = 0; body < a.position.size(); ++body)
@@ -51,9 +51,9 @@ TEST(MujocoSolvers, are_those_that_the_settings_name_and_the_integrator_is_the_i
 }
 
 TEST(MujocoSolvers, find_the_solution_of_one_problem) {
-  // All minimise one convex cost. What MuJoCo's tolerance of 1e-8 leaves unsolved adds up to some micrometres
-  // in these steps. Where boxes tumble or slide for longer, Gauss-Seidel stops millimetres away: its sweeps
-  // improve too little.
+  // All of them minimise one convex cost. The residuals within MuJoCo's tolerance of 1e-8 add up to some
+  // micrometres in these steps. Where boxes tumble or slide for longer, Gauss-Seidel stops millimetres away:
+  // its sweeps improve too little.
   struct Case {
     Model model;
     int num_steps;

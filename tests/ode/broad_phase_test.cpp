@@ -47,7 +47,7 @@ bool joined(const Model& model, int body_a, int body_b) {
   return false;
 }
 
-/// All pairs, each asked the four questions of the rule.
+/// All pairs, each tested by the four conditions of the rule.
 std::vector<GeomPair> brute_force(const Model& model, const std::vector<dGeomID>& geoms) {
   std::vector<GeomPair> pairs;
   for (int a = 0; a < static_cast<int>(geoms.size()); ++a) {
@@ -90,7 +90,7 @@ TEST_P(BothSpaces, find_what_brute_force_finds_in_the_crash) {
 TEST_P(BothSpaces, keep_joined_bodies_apart_in_an_actor_that_collides_with_itself) {
   Model model = support::chain(6);
   model.actors[0].self_collision = true;
-  for (model::Body& body : model.bodies) body.pose.position.x() *= 0.1;  // all in a heap
+  for (model::Body& body : model.bodies) body.pose.position.x() *= 0.1;  // all in one heap
   Scenery scenery(model, GetParam());
   const auto pairs = scenery.broad.find_pairs();
   EXPECT_EQ(pairs.size(), 15u - 5u);  // every pair but the neighbours
@@ -131,7 +131,7 @@ TEST_P(BothSpaces, follow_bodies_that_move) {
 TEST_P(BothSpaces, offer_a_plane_only_what_reaches_into_its_bounding_box) {
   Model model = support::box_over_ground(1);
   EXPECT_EQ(Scenery(model, GetParam()).broad.find_pairs().size(), 0u);
-  model.geoms[0].local.orientation = support::rotation(model::Vec3::UnitX(), 0.5);  // its box is all space
+  model.geoms[0].local.orientation = support::rotation(model::Vec3::UnitX(), 0.5);  // its box is infinite
   EXPECT_EQ(Scenery(model, GetParam()).broad.find_pairs().size(), 1u);
 }
 

@@ -12,7 +12,7 @@ namespace {
 using model::Model;
 using model::Shape;
 
-/// The touches of a model at its initial poses.
+/// The touching pairs of a model at its initial poses.
 class Collided {
  public:
   explicit Collided(const Model& model)

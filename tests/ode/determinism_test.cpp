@@ -1,4 +1,4 @@
-/// A world's bits depend on its model, state, step number and settings, and on nothing else.
+/// A world's bits depend only on its model, state, step number and settings.
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -89,7 +89,8 @@ TEST_P(Determinism, holds_for_any_chunks_of_steps) {
   EXPECT_EQ(model::hash(stepper->state(0)), alone(0, support::crash()));
 }
 
-/// Takes world 0 through num_steps, and at each of `stops` through a new stepper that knows but its state.
+/// Steps world 0 through num_steps, and at each of `stops` moves it to a new stepper that knows only its
+/// state.
 std::uint64_t with_restarts(const StepperSettings& settings, const Model& model,
                             const std::vector<int>& stops, int num_steps) {
   auto stepper = make_stepper(settings);
@@ -100,7 +101,7 @@ std::uint64_t with_restarts(const StepperSettings& settings, const Model& model,
     step = stop;
     const State state = stepper->state(0);
     stepper = make_stepper(settings);
-    add(*stepper, 1000 + stop, support::pile(5));  // company, so that it is not just the same again
+    add(*stepper, 1000 + stop, support::pile(5));  // other company, so that this is not a mere repetition
     stepper->add(0, std::make_shared<Model>(model), state, stop);
   }
   advance(*stepper, num_steps - step);

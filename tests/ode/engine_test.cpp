@@ -19,7 +19,7 @@ TEST(Engine, may_be_started_more_than_once) {
   const Engine first;
   { const Engine second; }
   const WorldHandle world(dWorldCreate());
-  EXPECT_EQ(dWorldStep(world.get(), 0.01), 1);  // ODE is still there
+  EXPECT_EQ(dWorldStep(world.get(), 0.01), 1);  // ODE is still initialised
 }
 
 TEST(MessageScope, hands_on_the_first_of_each_message_and_counts_the_rest) {
@@ -43,7 +43,7 @@ TEST(MessageScope, turns_errors_into_a_failed_run) {
   Recorder recorder;
   recorder.log.set_place(4, 9);
   const MessageScope scope(recorder.log);
-  // Without the handlers the first would exit and the second abort.
+  // Without the handlers the first call would exit and the second abort.
   EXPECT_THROW(dError(7, "bad matrix"), core::RunError);
   try {
     dDebug(8, "assertion %d", 12);

@@ -77,7 +77,7 @@ TEST(Events, of_kind_steer_turn_the_wheel_and_hold_it) {
   EXPECT_NEAR(steering_angle(simulation), 0, 1e-9);
   simulation.advance(495);
   const double first = steering_angle(simulation);
-  // ERP takes 20 % of the error off in each step: after 495 steps nothing is left but the iterations' rest.
+  // ERP removes 20 % of the error in each step: after 495 steps only the iterations' residual is left.
   EXPECT_NEAR(std::abs(first), 0.4, 1e-3);
   simulation.advance(500);
   EXPECT_NEAR(steering_angle(simulation), -first / 2, 1e-3);

@@ -1,5 +1,5 @@
-// Long because every kind of joint is held against its analytic motion, one after the other, with shared
-// models.
+// This file is long because it compares every kind of joint with its analytic motion, one after the other,
+// with shared models.
 #include "ode/objects/joints.h"
 
 #include <cmath>
@@ -38,14 +38,14 @@ Model joined(JointKind kind, const Vec3& axis1, const Vec3& axis2) {
   return model;
 }
 
-/// The rotation of b as seen from a.
+/// The rotation of b relative to a.
 Eigen::Quaterniond relative_turn(const Simulation& simulation) {
   const auto& turn = simulation.state().orientation;
   return turn[0].to_eigen().conjugate() * turn[1].to_eigen();
 }
 
-/// Tolerances of the constraints: rad and m. The linearised step errs by some (omega h)^2 = 1e-5 a step, of
-/// which ERP takes 20 % away in each.
+/// Tolerances of the constraints: rad and m. The error of the linearised step is some (omega h)^2 = 1e-5 per
+/// step, of which ERP removes 20 % in each step.
 constexpr double drift = 1e-3;
 
 class EveryKind : public testing::TestWithParam<JointKind> {};
@@ -136,7 +136,7 @@ TEST(Joints, keep_each_bodys_own_anchor_over_a_gap_of_the_start) {
   EXPECT_GT((simulation.state().position[1] - Vec3(1.2, 0, 0)).norm(), 0.05);
 }
 
-/// A body that lies against a stop crosses it back and forth by a rounding, and so the row comes and goes.
+/// A body that rests against a stop crosses it back and forth by rounding, so the row comes and goes.
 int most_rows(Simulation& simulation, int num_steps) {
   int most = 0;
   for (int step = 0; step < num_steps; ++step) {
@@ -149,10 +149,10 @@ int most_rows(Simulation& simulation, int num_steps) {
 TEST(Joints, stop_at_their_limits) {
   for (const double side : {-1.0, 1.0}) {
     Model model = support::pendulum(1, side * 1.2);
-    model.joints[0].limits[0] = {-0.7, 0.7};  // of the start: the hinge may swing 0.7 rad from there
+    model.joints[0].limits[0] = {-0.7, 0.7};  // relative to the start: the hinge may swing 0.7 rad from there
     Simulation simulation(model, fine);
     simulation.advance(2500);
-    EXPECT_EQ(most_rows(simulation, 50), 6);  // 5 of the hinge, 1 of the stop
+    EXPECT_EQ(most_rows(simulation, 50), 6);  // 5 for the hinge, 1 for the stop
     const auto& position = simulation.state().position[0];
     const double angle = std::atan2(position.x(), -position.z());
     EXPECT_NEAR(angle, side * (1.2 - 0.7), 0.01);  // a stop gives by g h^2 / (ERP L) = 0.2 mrad
@@ -185,7 +185,7 @@ TEST(Joints, of_kind_universal_stop_at_the_limits_of_both_axes) {
                                           : std::abs(std::atan2(axis1.y(), axis1.z())));
     }
     EXPECT_GT(widest, 0.19);
-    EXPECT_LT(widest, 0.22);  // the bodies meet the stop with up to 2 rad/s: some 5 mrad go by in a step
+    EXPECT_LT(widest, 0.22);  // the bodies reach the stop with up to 2 rad/s: some 5 mrad per step
   }
 }
 
@@ -205,8 +205,8 @@ TEST(Joints, drive_their_motors_to_speed) {
     const Vec3 axis =
         c.axis == 0 ? simulation.direction(0, Vec3::UnitZ()) : simulation.direction(1, Vec3::UnitX());
     const double speed = (state.angular_velocity[1] - state.angular_velocity[0]).dot(axis);
-    // The sign is ODE's: which body counts as turning differs from kind to kind. 1 % for the other axis'
-    // motion.
+    // The sign is ODE's convention: which body counts as turning differs from kind to kind. 1 % for the other
+    // axis' motion.
     EXPECT_NEAR(std::abs(speed), 2, 0.02) << static_cast<int>(c.kind) << " axis " << c.axis;
   }
 }
@@ -293,7 +293,7 @@ TEST(Joints, of_kind_hinge2_spring_by_the_weight_over_the_stiffness) {
   simulation.advance(2000);
   const double sag = 1 - simulation.state().position[0].z();
   EXPECT_NEAR(sag, 100 * 9.81 / 20000,
-              1e-4);  // at rest ERP and CFM are the spring exactly; the sweeps are not
+              1e-4);  // at rest ERP and CFM represent the spring exactly; the sweeps do not converge exactly
 }
 
 TEST(Joints, of_kind_hinge2_damp_their_spring) {
@@ -316,7 +316,7 @@ TEST(Joints, of_kind_hinge2_without_stiffness_are_rigid) {
   EXPECT_NEAR(simulation.state().position[0].z(), 1, drift);
 }
 
-/// The message with which a stepper refuses the model; empty if it takes it.
+/// The message with which a stepper refuses the model; empty if it accepts it.
 std::string refusal(const Model& model) {
   const auto stepper = make_ode_stepper(fine, fail_on_warning);
   try {

@@ -54,8 +54,8 @@ TEST_P(Motion, of_a_free_spinning_body_keeps_its_angular_momentum) {
   const Vec3 before = momentum(model.bodies[0].pose.orientation, model.bodies[0].angular_velocity);
   simulation.advance(1000);
   const Vec3 after = momentum(simulation.state().orientation[0], simulation.state().angular_velocity[0]);
-  // First-order integration: the error goes with dt |omega| = 0.002. Without gyroscopic torque omega would
-  // stay, and L would turn with the body: an error near 1.
+  // First-order integration: the error is proportional to dt |omega| = 0.002. Without gyroscopic torque omega
+  // would stay constant and L would turn with the body: an error near 1.
   EXPECT_LT((after - before).norm() / before.norm(), 0.01);
   EXPECT_GT((simulation.state().angular_velocity[0] - model.bodies[0].angular_velocity).norm(), 0.1);
 }
@@ -64,7 +64,7 @@ TEST_P(Motion, of_a_box_on_the_ground_is_rest) {
   Simulation simulation(support::box_over_ground(0), settings(0.01));
   simulation.advance(300);
   // The contact sinks until ERP 0.2 per step balances g h: below g h^2 / ERP = 5 mm; here four points share
-  // it.
+  // this.
   EXPECT_NEAR(simulation.state().position[0].z(), 0.5, 0.005);
   EXPECT_LT(simulation.state().velocity[0].norm(), 1e-3);
   EXPECT_EQ(simulation.observables().contacts, 4);
@@ -78,8 +78,8 @@ TEST_P(Motion, of_a_sliding_box_stops_where_coulomb_says) {
   model.bodies[0].velocity = {4, 0, 0};
   Simulation simulation(model, settings(0.002, 100));
   simulation.advance(1500);
-  // v^2 / (2 mu g) = 2.04 m. The normal force, which bounds friction, is exact only in the mean (iterations);
-  // direct leaves some of the redundant rows unsolved and says so ("LCP internal error").
+  // v^2 / (2 mu g) = 2.04 m. The normal force, which bounds friction, is exact only on average (iterations);
+  // direct leaves some of the redundant rows unsolved and reports it ("LCP internal error").
   const double share = GetParam() == StepperKind::quick ? 0.05 : 0.15;
   EXPECT_NEAR(simulation.state().position[0].x(), 16 / (2 * 0.4 * g), share * 2.04);
   EXPECT_LT(simulation.state().velocity[0].norm(), 1e-3);
@@ -92,7 +92,7 @@ TEST_P(Motion, of_a_smooth_box_never_stops) {
   Simulation simulation(model, settings(0.01));
   simulation.advance(100);
   EXPECT_NEAR(simulation.state().velocity[0].x(), 4, 1e-9);  // no row acts along x
-  EXPECT_EQ(simulation.observables().rows, 4);               // one a contact
+  EXPECT_EQ(simulation.observables().rows, 4);               // one per contact
 }
 
 TEST_P(Motion, of_an_elastic_ball_comes_back_with_the_restitution) {
@@ -109,7 +109,7 @@ TEST_P(Motion, of_an_elastic_ball_comes_back_with_the_restitution) {
     bounced = bounced || simulation.state().velocity[0].z() > 0;
     if (bounced) highest = std::max(highest, simulation.state().position[0].z());
   }
-  // It falls 1 m and rises 0.64 m; the impact is found up to v dt = 4.4 mm late, on either way.
+  // It falls 1 m and rises 0.64 m; the impact is detected up to v dt = 4.4 mm late, in either direction.
   EXPECT_NEAR(highest - 0.1, 0.64, 0.01);
 }
 
@@ -143,8 +143,8 @@ TEST_P(Motion, of_a_hanging_chain_keeps_it_together) {
   Simulation simulation(support::chain(8), settings(0.002, 50));
   for (int frame = 0; frame < 50; ++frame) {
     simulation.advance(10);
-    // The free end falls at up to 9 m/s: the linearised joint errs by some (v h)^2 / length = 0.6 mm, and 50
-    // iterations leave more.
+    // The free end falls at up to 9 m/s: the error of the linearised joint is some (v h)^2 / length = 0.6 mm,
+    // and 50 iterations leave more.
     EXPECT_LT(simulation.observables().joint_gap_m, 0.02);
   }
 }
@@ -155,7 +155,7 @@ TEST(Steppers, agree_on_a_smooth_world) {
   Simulation direct(model, {StepperKind::direct, 0.005, 1, 1});
   quick.advance(400);
   direct.advance(400);
-  // 200 sweeps solve the five rows of one hinge to rounding; 400 steps carry that on.
+  // 200 sweeps solve the five rows of one hinge to rounding; 400 steps accumulate it.
   EXPECT_LT((quick.state().position[0] - direct.state().position[0]).norm(), 1e-6);
 }
 
@@ -169,8 +169,8 @@ TEST(Steppers, agree_on_a_ball_that_comes_to_rest) {
   Simulation direct(model, {StepperKind::direct, 0.005, 1, 1});
   quick.advance(400);
   direct.advance(400);
-  // One contact at most, thus one solution. The friction of the landing is bounded by a normal force that
-  // quick has only after its sweeps: 1 mm of a way of 2 m.
+  // One contact at most, thus one solution. Friction at the landing is bounded by a normal force that quick
+  // knows only after its sweeps: 1 mm over a path of 2 m.
   EXPECT_LT((quick.state().position[0] - direct.state().position[0]).norm(), 1e-3);
   EXPECT_GT(direct.state().position[0].x(), 1);
 }

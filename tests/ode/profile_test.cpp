@@ -110,7 +110,7 @@ TEST(StepProfile, a_large_island_costs_more_than_a_single_body) {
   ASSERT_EQ(islands.size(), 2u);
   EXPECT_EQ(islands[0].bodies, 40);
   EXPECT_EQ(islands[1].first_body, ball);
-  // 120 rows and 20 sweeps against none: a factor above 20, of which 2 is asked.
+  // 120 rows and 20 sweeps against none: a factor above 20, of which 2 is required.
   EXPECT_GT(islands[0].solve_s, 2 * islands[1].solve_s);
 }
 

@@ -9,7 +9,7 @@ namespace pbmpi::ode {
 
 namespace {
 
-/// ODE's big-matrix solver says this already of one box on a plane, whose 12 rows are redundant.
+/// ODE's big-matrix solver already reports this for one box on a plane, whose 12 rows are redundant.
 bool is_lcp_complaint(const std::string& line) {
   return line.find("LCP internal error") != std::string::npos;
 }

@@ -1,4 +1,4 @@
-/// One world in a stepper, for tests that look at how it moves.
+/// One world in a stepper, for tests of its motion.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace pbmpi::ode {
 /// The sink of tests that expect no message: the test fails with the line.
 void fail_on_warning(const std::string& line);
 
-/// With `quick`, any message of ODE fails the test; with `direct`, any but that of its LCP solver.
+/// With `quick`, any message of ODE fails the test; with `direct`, any except that of its LCP solver.
 class Simulation {
  public:
   Simulation(const model::Model& model, const stepping::StepperSettings& settings);
@@ -22,7 +22,7 @@ class Simulation {
   const stepping::Observables& observables() const { return stepper_->observables(0); }
   const model::Model& model() const { return stepper_->model(0); }
   double energy() const { return observables().energy_j; }
-  /// A direction fixed in a body, in the world frame.
+  /// Converts a direction fixed in a body to the world frame.
   model::Vec3 direction(int body, const model::Vec3& local) const;
 
  private:

@@ -11,7 +11,7 @@
 #include "simulation.h"
 #include "support/models.h"
 
-// What SolverResources::abandon() gives up is no leak that a change here could mend.
+// The memory that SolverResources::abandon() leaks is not a leak that a change here could fix.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:dThreadingAllocateSelfThreadedImplementation\nleak:PreallocateJobInfos\n";
@@ -128,7 +128,7 @@ TEST(OdeStepper, reports_how_often_the_direct_solver_complained) {
   const auto sink = [&](const std::string& line) { lines.push_back(line); };
   testing::internal::CaptureStderr();
   {
-    // A tall stack of like boxes: many redundant contacts, on which ODE's LCP solver is known to stumble.
+    // A tall stack of equal boxes: many redundant contacts, on which ODE's LCP solver is known to fail.
     Model model;
     support::add_ground(model);
     const int actor = support::add_actor(model, "stack", model::ActorKind::wall, true);

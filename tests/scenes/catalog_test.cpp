@@ -28,7 +28,7 @@ std::vector<std::string> names_in(SceneGroup group) {
   return names;
 }
 
-/// The nine, and those of effects.
+/// The nine scenes, and those of effects.
 std::vector<SceneInfo> no_hard_cases() {
   std::vector<SceneInfo> scenes = list_scenes(SceneGroup::paper);
   for (const SceneInfo& scene : list_scenes(SceneGroup::effects)) scenes.push_back(scene);
@@ -102,7 +102,7 @@ TEST(Catalog, takes_any_text_of_a_model_file_into_its_scene) {
   std::ofstream(path) << "title = 't'\n[[actor]]\nname = 'm'\ntype = 'model'\nfile = 'any \"robot\".xml'\n";
   for (const std::string comment :
        {"'''", "\"\"\"", "\\", "\r\n", "\xe9", "\xc3\xa9", "\t\x7f", "]\n[case]\n"}) {
-    // The first line break counts, too: the mistake stands in the fourth line.
+    // The first line break counts as well: the error is in the fourth line.
     const std::string text =
         "\n<mujoco><!-- " + comment +
         " -->\n<worldbody><body name='b'><freejoint/><geom size='1'/></body></worldbody>\n";

@@ -1,4 +1,4 @@
-// The hard cases that pbmpi brings: scenes/hard.
+// The hard cases that come with pbmpi: scenes/hard.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST(HardCases, cover_every_row_of_the_list) {
   for (const std::string& name : names_of_cases())
     rows.insert(parse_scene(find_scene(name))->hard_case()->row);
   for (int row = 1; row <= 30; ++row) {
-    const bool is_an_axis = row == 29;  // the length of a step: the study varies it
+    const bool is_an_axis = row == 29;  // the step length, which the study varies
     EXPECT_EQ(rows.contains(row), !is_an_axis) << "row " << row;
   }
   EXPECT_GE(names_of_cases().size(), 65u);

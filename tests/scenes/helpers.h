@@ -1,4 +1,4 @@
-/// What the tests of the scenes share.
+/// Helpers of the tests of scenes.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ std::shared_ptr<const model::Model> build(const std::string& text);
 /// The message of the core::InputError with which parsing `text` fails, or "" if it does not fail.
 std::string error_of(const std::string& text);
 
-/// `error_of` a scene that consists of a title, a ground and these lines, which begin at line 5.
+/// `error_of` a scene that consists of a title, a ground and these lines, which start at line 5.
 std::string error_after_ground(const std::string& lines);
 
 /// The body of that name; fails the test if there is none.

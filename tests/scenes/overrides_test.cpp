@@ -9,7 +9,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-/// fingerprint(), and what else these tests override.
+/// fingerprint(), and the other things that these tests override.
 std::uint64_t bits(const model::Model& model) {
   core::Hash64 hash;
   hash.add(fingerprint(model));
@@ -22,7 +22,7 @@ std::uint64_t bits(const model::Model& model) {
   return hash.value();
 }
 
-/// The message with which CrashSk refuses to build world 3 with this, or "".
+/// The message with which CrashSk refuses to build world 3 with this override, or "".
 std::string refusal(const Override& one, const char* scene = "CrashSk") {
   try {
     parse_scene(find_scene(scene))->build(3, 1, {one});
@@ -35,13 +35,13 @@ std::string refusal(const Override& one, const char* scene = "CrashSk") {
 struct Equivalent {
   const char* name;
   Overrides overrides;
-  std::string file;  ///< what a scene file over 100CrSk says instead
+  std::string file;  ///< text of the scene file over 100CrSk with the same change
 };
 void PrintTo(const Equivalent& equivalent, std::ostream* out) { *out << equivalent.name; }
 
 class OverridesAsAFile : public testing::TestWithParam<Equivalent> {};
 
-// The oracle is a scene file that has the scene as its base: what is tested of bases holds for overrides.
+// The oracle is a scene file based on the scene: what is tested for bases holds for overrides.
 TEST_P(OverridesAsAFile, make_the_world_that_a_file_over_the_scene_makes) {
   const auto scene = parse_scene(find_scene("100CrSk"));
   const auto file = parse("title = \"t\"\nbase = \"100CrSk\"\n" + GetParam().file);
@@ -109,7 +109,7 @@ TEST(Overrides, may_choose_effects_of_a_world) {
 struct Wrong {
   const char* name;
   Override one;
-  std::string message;  ///< begins it
+  std::string message;  ///< beginning of the message
 };
 void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.name; }
 

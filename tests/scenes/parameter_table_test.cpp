@@ -33,7 +33,8 @@ const std::string toml =
     "[[world]]\n"
     "[[world]]\ncar = { speed = 3, note = \"slow, or not\" }\nworld.at_rest = false\n";
 
-/// A cell of CSV stands as it is; toml++ writes arrays and texts in a form of its own.
+/// Brings a value into one form: a CSV cell is kept as it is, while toml++ writes arrays and texts in a form
+/// of its own.
 std::string in_one_form(std::string value) {
   for (const auto& [from, to] : {std::pair{"[ ", "["}, {" ]", "]"}, {"'", "\""}}) {
     for (std::size_t at; (at = value.find(from)) != std::string::npos;)

@@ -55,7 +55,7 @@ TEST(Scene, a_time_step_given_by_the_caller_replaces_the_files_own) {
   EXPECT_THROW(parse_scene(source, -1.0), core::InputError);
 }
 
-// Each message begins with the place of the mistake, and says what is wrong there.
+// Each message begins with the place of the error, and says what is wrong there.
 struct Mistake {
   const char* name;
   std::string text;

@@ -58,7 +58,7 @@ class Simulation {
   std::unique_ptr<stepping::WorldStepper> stepper_;
 };
 
-/// The measured part of `islands` of warm-up and measured frames.
+/// The islands of the measured frames, after warm-up.
 inline std::vector<int> measured_islands(const std::string& name, int num_worlds, std::uint64_t seed = 1) {
   const auto scene = parse_scene(find_scene(name));
   const RunDefaults& defaults = scene->defaults();

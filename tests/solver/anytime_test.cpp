@@ -1,4 +1,4 @@
-/// A step that is looked at before it has ended.
+/// A step whose state is read before it has ended.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace pbmpi::solver {
 namespace {
 
-constexpr int num_worlds = 5;  // so that some lanes idle, whatever the width
+constexpr int num_worlds = 5;  // some lanes idle, whatever the width
 
 stepping::StepperSettings settings_of(stepping::Simd simd, stepping::Precision precision) {
   stepping::StepperSettings settings;
@@ -22,7 +22,7 @@ stepping::StepperSettings settings_of(stepping::Simd simd, stepping::Precision p
   return settings;
 }
 
-/// With damping, which follows a step.
+/// Has damping, which is applied after a step.
 std::shared_ptr<const model::Model> crash(int variant) {
   model::Model model = support::crash(variant);
   model.linear_damping = 0.3;
@@ -56,7 +56,7 @@ std::vector<std::uint64_t> hashes(const stepping::WorldStepper& stepper) {
   return all;
 }
 
-/// As looks have them: what a step hands on to the next is known when it has ended.
+/// Hashes as looks see the states: the memory that a step hands on is known only when the step has ended.
 std::vector<std::uint64_t> hashes_without_memory(const stepping::WorldStepper& stepper) {
   std::vector<std::uint64_t> all;
   for (int world = 0; world < num_worlds; ++world) {

@@ -16,7 +16,7 @@ namespace {
 using model::Contact;
 using model::Model;
 
-/// Boxes and balls in a heap over the ground, with a static ramp among them.
+/// Boxes and balls in a heap above the ground, with a static ramp among them.
 Model heap(int count) {
   Model model;
   const int ramp = support::add_actor(model, "ramp", model::ActorKind::ramp);

@@ -1,4 +1,4 @@
-/// Balls without friction, of whose contacts the rows have no angular part.
+/// Balls without friction, whose contact rows have no angular part.
 #include <gtest/gtest.h>
 
 #include "core/hash.h"
@@ -101,7 +101,7 @@ TEST(BallsAndOthers, a_sphere_off_its_bodys_centre_is_turned_by_the_ground) {
   model::Model model = support::falling_balls(1, 0);
   model.geoms.front().local.position = {0.1, 0, 0};
   const auto stepper = make_stepper(sor_settings(), {model});
-  advance(*stepper, 20);  // it touches the ground after 10
+  advance(*stepper, 20);  // it touches the ground after 10 steps
   EXPECT_GT(stepper->state(0).angular_velocity.front().norm(), 0.1) << "it rolls over its lowest point";
 }
 

@@ -1,5 +1,5 @@
 // The effect "breakable_joints" in all steppers: quick, direct and sor. (Long because every kind of joint
-// breaks, and is released, in each of them by the same helpers.)
+// breaks, and is released, in each of them with the same helpers.)
 #include "effects/breakage.h"
 
 #include <gtest/gtest.h>
@@ -32,8 +32,8 @@ struct Stepped {
 };
 std::ostream& operator<<(std::ostream& out, const Stepped& by) { return out << by.name; }
 
-/// Iterations enough that a load of two joints in a row is right to a tenth of the percent by which the tests
-/// go past it.
+/// Enough iterations to give the load of two joints in a row to a tenth of the percent by which the tests
+/// exceed it.
 std::vector<Stepped> all_steppers() {
   StepperSettings quick;
   quick.iterations = 400;
@@ -61,8 +61,8 @@ State state_after(const StepperSettings& settings, const Model& model, int num_s
   return stepper->state(0);
 }
 
-/// A base that is fixed to the world, and a box beside it at the end of an arm, held by a joint of this kind
-/// midway: index 1. Its axes are such that the joint, by itself, carries the box's weight and turning moment.
+/// A base that is fixed to the world, and a box next to it at the end of an arm, held by a joint of this kind
+/// midway: index 1. The axes are chosen so that the joint alone carries the box's weight and moment.
 Model cantilever(JointKind kind) {
   Model model;
   const int actor = support::add_actor(model, "boxes", model::ActorKind::prop, true);
@@ -76,7 +76,7 @@ Model cantilever(JointKind kind) {
   return model;
 }
 
-/// The box hangs right below its joint.
+/// The box hangs directly below its joint.
 Model hanging(JointKind kind) {
   Model model = cantilever(kind);
   model.bodies[1].pose.position = {0, 0, 2 - 2 * arm_m};
@@ -85,7 +85,7 @@ Model hanging(JointKind kind) {
   return model;
 }
 
-/// Half a second: the box is at rest, so that no later step loads the joint otherwise.
+/// Half a second: the box is at rest, so no later step loads the joint differently.
 constexpr int num_steps = 50;
 
 class EveryStepperAndKind : public testing::TestWithParam<std::tuple<Stepped, JointKind>> {
@@ -102,8 +102,8 @@ TEST_P(EveryStepperAndKind, breaks_a_hung_joint_below_the_weight_and_not_above_i
   EXPECT_EQ(state_after(settings(), model, num_steps).broken_in[1], 0);
 }
 
-/// With a memory a joint is a spring, whose load first passes the weight that it comes to bear by up to a
-/// tenth, and that of an arm's moment by up to a half: what stands has the load of its weight.
+/// With a memory a joint is a spring, whose load first overshoots the final weight by up to a tenth, and the
+/// moment of an arm by up to a half; at rest the load is that of the weight.
 TEST(RememberingStep, breaks_a_joint_that_has_come_to_rest_below_the_weight_and_not_above_it) {
   const StepperSettings settings = default_settings(StepperKind::sor);
   for (const JointKind kind : {JointKind::ball, JointKind::hinge, JointKind::slider, JointKind::universal,
@@ -130,7 +130,7 @@ TEST_P(EveryStepperAndKind, breaks_an_arm_below_its_moment_and_not_above_it) {
   EXPECT_EQ(state_after(settings(), model, num_steps).broken_in[1], 0);
 }
 
-// To the world the base's joint bears both weights, of which the base's own acts below it.
+// The base's joint to the world carries both weights; the base's own weight acts below it.
 TEST_P(EveryStepperAndKind, breaks_a_joint_to_the_world_alike) {
   if (kind() == JointKind::hinge2) GTEST_SKIP() << "needs two bodies";
   Model model;
@@ -160,7 +160,7 @@ TEST_P(EveryStepperAndKind, lets_a_broken_joint_act_no_more) {
   advance(*stepper, 10);
   const State& state = stepper->state(0);
   const Vec3 expected = held.velocity[1] + Vec3(0, 0, -10 * 0.01 * gravity);
-  // Ten sums, in single precision of numbers of size 1: 1e-6.
+  // Ten sums in single precision of numbers of size 1: 1e-6.
   EXPECT_LT((state.velocity[1] - expected).norm(), 1e-5);
   EXPECT_LT((state.angular_velocity[1] - held.angular_velocity[1]).norm(), 1e-5) << "a cube: no precession";
   EXPECT_EQ(stepper->observables(0).islands, 2);
@@ -182,8 +182,8 @@ class EveryStepper : public testing::TestWithParam<Stepped> {
   const StepperSettings& settings() const { return GetParam().settings; }
 };
 
-/// A pendulum of two boxes whose upper joint (0) gives way as they swing through, over the ground; the lower
-/// box rests on a motor. `weaker` moves the step in which it breaks.
+/// A pendulum of two boxes whose upper joint (0) breaks as they swing through, above the ground; the lower
+/// box's joint has a motor. `weaker` changes the step in which it breaks.
 Model swing(double strength_n) {
   Model model;
   support::add_ground(model);
@@ -199,7 +199,7 @@ Model swing(double strength_n) {
   return model;
 }
 constexpr double swing_strength_n = 170;
-constexpr int swing_steps = 120;  // it breaks after about half, and hits the ground
+constexpr int swing_steps = 120;  // it breaks after about half of them, and hits the ground
 
 TEST_P(EveryStepper, goes_on_with_the_same_bits_wherever_the_state_is_taken_in) {
   const Model model = swing(swing_strength_n);
@@ -304,7 +304,7 @@ TEST_P(EveryStepper, lets_the_bodies_of_a_broken_joint_touch_again) {
   advance(*stepper, num_steps);
   EXPECT_TRUE(stepper->state(0).is_broken(1));
   EXPECT_GT(stepper->observables(0).contacts, 0);
-  // It lies on the base, whose top is 0.35 m below its centre; a contact carries it within 1 mm.
+  // It lies on the base, whose top is 0.35 m below its centre; a contact supports it to within 1 mm.
   EXPECT_NEAR(stepper->state(0).position[1].z(), 2.35, 1e-3);
   EXPECT_NEAR(held.position[1].z(), 2.36, 1e-3);
 }
@@ -325,7 +325,7 @@ TEST_P(EveryStepper, lets_broken_parts_sleep_apart) {
 INSTANTIATE_TEST_SUITE_P(All, EveryStepper, testing::ValuesIn(all_steppers()),
                          [](const auto& test) { return test.param.name; });
 
-// Worlds in one pack: they break at different steps, one not at all.
+// Worlds in one pack that break at different steps, one not at all.
 TEST(Breakage, in_a_lane_leaves_its_neighbours_as_they_are) {
   for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
     StepperSettings settings;
@@ -349,7 +349,7 @@ TEST(Breakage, in_a_lane_leaves_its_neighbours_as_they_are) {
   }
 }
 
-// A joint that is broken has no rows, so that it has no residual either.
+// A broken joint has no rows, and therefore no residual.
 TEST(Breakage, leaves_no_residual) {
   StepperSettings settings;
   settings.kind = StepperKind::sor;
@@ -359,7 +359,8 @@ TEST(Breakage, leaves_no_residual) {
   const auto stepper = start(settings, model, model::initial_state(model));
   advance(*stepper, 20);
   const stepping::Residuals& seen = stepper->observables(0).residuals;
-  // [m/s] the base's joint alone, which 20 iterations solve; the broken one's rows would be off by 2 m/s.
+  // [m/s] residual of the base's joint alone, which 20 iterations solve; the broken joint's rows would be off
+  // by 2 m/s
   EXPECT_LT(seen.joint_speed, 1e-3);
   EXPECT_LT(seen.natural_speed, 1e-3);
 }

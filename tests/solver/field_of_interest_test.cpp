@@ -55,7 +55,7 @@ Model yards(bool near, bool far, const Interest& interest = {{0, 0, 0}, model::n
   return model;
 }
 
-/// Both, and a ball that is followed and thrown from one to the other, at this step.
+/// Both yards, and a ball that the field follows and that is thrown from one to the other at this step.
 Model yards_with_ball(int launched_at, bool sleeping = false) {
   Model model = yards(true, true);
   const int actor = support::add_actor(model, "ball", model::ActorKind::projectile);
@@ -130,8 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"sor_single", StepperKind::sor, stepping::Precision::single, 1}),
     [](const auto& instance) { return instance.param.name; });
 
-// QuickStep shuffles the rows of one call with one sequence of random numbers: those of the other islands in
-// the call, so that only the same islands have the same bits.
+// QuickStep shuffles the rows of one call with one sequence of random numbers, which the call's other islands
+// share: only the same set of islands gives the same bits.
 TEST_P(FieldOfInterest, gives_each_island_the_bits_of_a_run_of_its_own_with_its_iterations) {
   const auto both = start(settings(), yards(true, true));
   const auto near = start(settings(20), yards(true, false));
@@ -189,7 +189,7 @@ TEST_P(FieldOfInterest, that_holds_nothing_is_a_run_with_few_iterations) {
   EXPECT_EQ(hash_after(60, empty, 3), hash_after(60, plain, 3)) << "never more than the run has";
 }
 
-/// What the tests that follow stand on: both yards come into the field, and leave it.
+/// The premise of the tests that follow: both yards enter the field, and leave it.
 TEST_P(FieldOfInterest, moves_with_the_body_that_it_follows) {
   const auto stepper = start(settings(), yards_with_ball(20));
   std::vector<int> inside;
@@ -219,7 +219,7 @@ TEST_P(FieldOfInterest, has_the_same_bits_across_a_restart_at_any_step) {
   }
 }
 
-// Batches of lanes hold bodies of both sorts, and those of other worlds.
+// Batches of lanes hold bodies from inside and outside, and of other worlds.
 TEST(FieldOfInterestInPacks, worlds_have_the_bits_that_each_has_alone_for_every_instruction_set) {
   for (const bool sleeping : {false, true}) {
     std::vector<Model> worlds;

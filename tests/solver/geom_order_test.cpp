@@ -43,7 +43,7 @@ TEST(GeomOrder, names_each_chunk_once) {
   EXPECT_EQ(order.swept_chunks(2), (std::vector<int>{0, 1}));
   EXPECT_EQ(order.swept_chunks(4), (std::vector<int>{0}));
   std::vector<int> chunks;
-  // Behind the swept ones stand 0, 1, 4, 5, 6, 7 in columns 3 to 8.
+  // After the swept geoms, 0, 1, 4, 5, 6, 7 are in columns 3 to 8.
   order.find_chunks(0, std::vector<model::GeomPair>{{0, 2}, {2, 7}}, 4, chunks);
   EXPECT_EQ(chunks, (std::vector<int>{0, 2}));
 }

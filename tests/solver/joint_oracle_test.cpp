@@ -17,13 +17,14 @@ using model::JointKind;
 using model::Vec3;
 using support::rotation;
 
-/// Enough for a few joints: the change of the last thousand is below rounding.
+/// Enough for a few joints: the change over the last thousand iterations is below rounding.
 constexpr int converged = 4000;
-/// [m/s, rad/s] between two solutions of one system of condition 1e4 or so; a wrong sign or factor gives 1e-2
-/// and more.
+/// [m/s, rad/s] Difference between two solutions of one system with condition number 1e4 or so; a wrong sign
+/// or factor gives 1e-2 and more.
 constexpr double tolerance = 1e-8;
 
-/// Two unequal boxes with a joint of this kind, moving against each other, the first also hung on the world.
+/// Two unequal boxes with a joint of this kind, moving against each other, the first one also attached to the
+/// world.
 model::Model linked_boxes(JointKind kind) {
   model::Model model;
   const int actor = support::add_actor(model, "boxes");
@@ -57,7 +58,7 @@ stepping::StepperSettings sweeps() {
   return settings;
 }
 
-/// Joints by their trees: one iteration has to do.
+/// Joints solved by their trees: one iteration suffices.
 stepping::StepperSettings trees() {
   stepping::StepperSettings settings = sweeps();
   settings.iterations = 1;
@@ -121,11 +122,11 @@ TEST_P(JointOracle, a_motor_drives_alike) {
 TEST_P(JointOracle, limits_hold_alike) {
   model::Model model = linked_boxes(GetParam());
   if (GetParam() == JointKind::ball || GetParam() == JointKind::fixed) GTEST_SKIP() << "has no axis";
-  model.joints[0].limits[0] = {-0.01, 0.01};  // either way is blocked within a step
+  model.joints[0].limits[0] = {-0.01, 0.01};  // either direction is blocked within a step
   EXPECT_LT(velocity_difference(model, 6), tolerance);
   model.joints[0].limits[0] = {0.05, 0.3};  // starts beyond its low limit
   EXPECT_LT(velocity_difference(model, 4), tolerance);
-  model.joints[0].limits[0] = {0.02, 0.02};  // pinned, as a steered wheel
+  model.joints[0].limits[0] = {0.02, 0.02};  // pinned, like a steered wheel
   EXPECT_LT(velocity_difference(model, 4), tolerance);
 }
 
@@ -152,7 +153,7 @@ TEST_P(JointOracle, a_motor_at_its_limit_pushes_alike) {
   }
 }
 
-/// The first box of linked_boxes() alone, held to the world by this kind of joint.
+/// The first box of linked_boxes() alone, held to the world by a joint of this kind.
 model::Model box_on_the_world(JointKind kind) {
   model::Model model = linked_boxes(kind);
   model.joints.pop_back();
@@ -164,7 +165,7 @@ model::Model box_on_the_world(JointKind kind) {
   return model;
 }
 
-/// The same world elsewhere.
+/// The same world at another position.
 model::Model moved(model::Model model, const Vec3& by) {
   for (model::Body& body : model.bodies) body.pose.position += by;
   for (model::Joint& joint : model.joints) {
@@ -242,8 +243,8 @@ TEST(JointTrees, solve_what_closes_a_loop_by_sweeps) {
   EXPECT_LT(velocity_difference(model, 5, settings), tolerance);
 }
 
-// With another inertia than that of contacts and limits a limb that turns far in a step would gain energy,
-// the more the more substeps there are: what the one takes out of it the other puts back.
+// With an inertia other than that of contacts and limits a limb that turns far in a step would gain energy,
+// more so with more substeps: what one row takes out, another puts back.
 TEST(JointTrees, throw_nobody_in_a_crash_however_many_substeps_there_are) {
   stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
   settings.joint_solver = stepping::JointSolver::tree;

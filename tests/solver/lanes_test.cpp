@@ -1,4 +1,4 @@
-/// Same bits, whatever the lane: for every width, every packing and both number types.
+/// The same bits in every lane: for every width, every packing and both number types.
 #include "solver/lanes/lanes.h"
 
 #include <gtest/gtest.h>
@@ -18,9 +18,10 @@
 namespace pbmpi::solver {
 namespace {
 
-constexpr int num_steps = 60;  // well past the impact of the crash, where one wrong bit has grown to metres
+constexpr int num_steps = 60;  // well after the impact of the crash, when one wrong bit has grown to metres
 
-/// A step without a memory, that with which sor is meant to be used, and the same with patches of friction.
+/// A step without a memory, the step with which sor is meant to be used, and the latter with patches of
+/// friction.
 enum class Step { cold, remembering, patched };
 using Kind = std::tuple<Step, stepping::Precision>;
 
@@ -70,8 +71,8 @@ TEST_P(Lanes, a_world_does_not_notice_its_neighbours) {
     EXPECT_EQ(hashes({worlds[i]}, settings).front(), together[i]) << i;
 }
 
-/// The bits themselves, for every compiler, build and machine: nothing on the way is left to a library.
-/// Whoever changes them says in the commit why.
+/// The bits themselves, for every compiler, build and machine: no computation is left to a library. A commit
+/// that changes them says why.
 TEST_P(Lanes, a_crash_ends_in_the_same_bits_everywhere) {
   static const std::map<Kind, std::uint64_t> golden = {
       {{Step::cold, stepping::Precision::double_}, 0x38400fd6a1d3a516},

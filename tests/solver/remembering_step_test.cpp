@@ -1,4 +1,4 @@
-/// What bodies do in the step with which sor is meant to be used.
+/// The motion of bodies in the step with which sor is meant to be used.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ stepping::StepperSettings settings_of(Precision precision) {
   return settings;
 }
 
-/// How far [m] a box slides that starts with 3 m/s at mu = 0.3, in this direction [rad].
+/// Distance [m] that a box slides at mu = 0.3, starting with 3 m/s in this direction [rad].
 double way_of_sliding_box(double heading, Friction friction) {
   model::Model model = support::box_over_ground(0);
   for (model::Geom& geom : model.geoms) geom.material.mu = 0.3;

@@ -1,4 +1,4 @@
-/// Residuals against a dense recomputation that knows nothing of rows.
+/// Residuals against a dense recomputation that does not use rows.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -27,7 +27,7 @@ stepping::StepperSettings settings_of(int iterations) {
   return settings;
 }
 
-/// A ball that slides over the ground, 1 cm deep, and drags another by a joint that is 2 cm apart.
+/// A ball that slides over the ground, 1 cm deep, and drags another one by a joint with a gap of 2 cm.
 model::Model dragged_ball() {
   model::Model model;
   const int actor = support::add_actor(model, "balls");
@@ -43,7 +43,7 @@ model::Model dragged_ball() {
   return model;
 }
 
-/// J v = rhs - cfm p in 3 rows of the joint, the contact's normal, and its two directions of friction.
+/// J v = rhs - cfm p with 3 rows of the joint, the contact's normal, and its two directions of friction.
 struct Dense {
   Eigen::MatrixXd jacobian{Eigen::MatrixXd::Zero(6, 12)};
   Vector rhs{Vector::Zero(6)}, cfm{6}, inv_mass{12};
@@ -127,7 +127,7 @@ TEST(Residuals, are_those_of_a_dense_recomputation) {
     advance(*stepper, 1);
     const Residuals found = stepper->observables(0).residuals;
     const Residuals expected = recompute(model, stepper->state(0), settings.dt_s);
-    // Speeds of about 1 m/s and impulses of 1 N s through a well conditioned 6 x 6 system.
+    // Speeds of about 1 m/s and impulses of 1 N s through a well-conditioned 6 x 6 system.
     EXPECT_NEAR(found.joint_speed, expected.joint_speed, 1e-11) << iterations;
     EXPECT_NEAR(found.complementarity_j, expected.complementarity_j, 1e-11) << iterations;
     EXPECT_NEAR(found.natural_speed, expected.natural_speed, 1e-11) << iterations;
@@ -155,7 +155,7 @@ TEST(Residuals, vanish_with_many_iterations_for_every_kind_of_row) {
   const auto stepper = make_stepper(settings_of(4000), {support::crash()});
   advance(*stepper, 1);
   const Residuals& residuals = stepper->observables(0).residuals;
-  // Box friction converges slowly: what is left is a thousandth of the least that one sweep leaves, and less.
+  // Box friction converges slowly: the remainder is at most a thousandth of the least that one sweep leaves.
   for (const double residual : {residuals.joint_speed, residuals.joint_turn, residuals.natural_speed,
                                 residuals.natural_turn, residuals.complementarity_j}) {
     EXPECT_LT(residual, 1e-6);

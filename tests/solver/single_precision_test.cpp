@@ -1,4 +1,4 @@
-// In single precision bodies keep their places in two numbers.
+// In single precision each coordinate of a body is kept in two numbers.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -22,7 +22,7 @@ stepping::StepperSettings single_sor() {
 
 const std::vector<double> places_m = {0, 0.3, -10, 1000};
 
-/// Balls without weight, each with the same velocity in x and none of the others near.
+/// Weightless balls, all with the same velocity in x and none near another.
 Model slow_balls(double velocity) {
   Model model;
   model.gravity = {0, 0, 0};
@@ -63,13 +63,13 @@ TEST(SinglePrecision, a_state_holds_the_whole_place) {
   }
 }
 
-// The high number alone is the place in single precision, and both together are a double.
+// The high number alone is the position in single precision, and both together are a double.
 TEST(SinglePrecision, the_two_numbers_of_a_place_add_up_to_a_double_and_lose_nothing_that_counts) {
   std::mt19937_64 engine(7);
   std::uniform_real_distribution<double> share(-1, 1), power(-12, 3);
   for (int run = 0; run < 200; ++run) {
     float place = static_cast<float>(share(engine) * std::pow(10, power(engine))), low = 0;
-    double exact = place, lost = 0;  // at most: of the way its rounding, of the place far less
+    double exact = place, lost = 0;  // bound: the rounding of the displacement, far less of the place
     for (int i = 0; i < 500; ++i) {
       const float way = static_cast<float>(share(engine) * std::pow(10, power(engine)));
       Lane::V high_lane = Lane::broadcast(place), low_lane = Lane::broadcast(low);

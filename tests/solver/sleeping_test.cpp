@@ -21,7 +21,7 @@ using stepping::StepperSettings;
 constexpr int launch_step = 130;
 
 /// Two stacks of boxes, 20 m apart, and a ball between them that lies on the ground until it is thrown at the
-/// first.
+/// first one.
 Model stacks(int height = 4, int launched_at = launch_step) {
   Model model;
   support::add_ground(model);
@@ -117,7 +117,7 @@ TEST_P(Sleeping, world_keeps_its_bits_and_solves_nothing) {
   for (const model::Vec3& velocity : stepper->state(0).velocity) EXPECT_EQ(velocity, model::Vec3(0, 0, 0));
 }
 
-/// Of the velocities [m/s] of the bodies that are awake in `look`.
+/// Largest difference of the velocities [m/s] of the bodies that are awake in `look`.
 double largest_difference(const State& a, const State& b, const State& look) {
   double largest = 0;
   for (std::size_t body = 0; body < look.rest.size(); ++body) {
@@ -126,7 +126,7 @@ double largest_difference(const State& a, const State& b, const State& look) {
   return largest;
 }
 
-/// Steps one by one until fewer bodies sleep; the state before that step.
+/// Steps one by one until fewer bodies sleep; returns the state before that step.
 State until_touched(stepping::WorldStepper& stepper, int most_asleep, std::int64_t& step) {
   for (;; ++step) {
     const State before = stepper.state(0);
@@ -149,10 +149,10 @@ TEST_P(Sleeping, stack_wakes_in_the_step_in_which_a_projectile_touches_it) {
   for (int body = height(); body < 2 * height(); ++body)
     EXPECT_EQ(after.position[body], before.position[body]) << body;
 
-  // The same step in a world that knows no sleep. sor solves an island by itself, so that the bits are the
-  // same. QuickStep shuffles the rows of all islands with one sequence of random numbers: what another seed
-  // changes is what may differ (four seeds sample it; three times their largest leaves room for the tail).
-  // direct factors one matrix an island, which for a cube and a ball only rounds.
+  // The same step in a world without sleeping. sor solves an island on its own, so the bits are the same.
+  // QuickStep shuffles the rows of all islands with one sequence of random numbers: the change due to another
+  // seed is the allowed difference (four seeds sample it; three times their largest leaves room for the
+  // tail). direct factors one matrix per island, which for a cube and a ball only rounds.
   Model restless = model;
   restless.effects.clear();
   State same = before;

@@ -1,4 +1,4 @@
-/// Worlds in the sor stepper, for tests that look at how they move.
+/// Worlds in the sor stepper, for tests of their motion.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace pbmpi::solver {
 /// A sor stepper with ODE's dCollide.
 std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings);
 
-/// These worlds, ids 0, 1, ..., in a stepper of their own.
+/// A stepper with these worlds, ids 0, 1, ...
 std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings,
                                                      const std::vector<model::Model>& worlds);
 
 void advance(stepping::WorldStepper& stepper, int num_steps);
 
-/// The instruction sets of this machine, one lane included.
+/// The instruction sets of this machine, including one lane.
 std::vector<stepping::Simd> machine_simds();
 
 }  // namespace pbmpi::solver

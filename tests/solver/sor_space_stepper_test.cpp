@@ -21,7 +21,7 @@ using model::GeomPair;
 
 constexpr int num_spaces = 5;
 
-/// Loose solids of all shapes in a cube over the ground, some of one actor; spaces overlap.
+/// Loose solids of all shapes in a cube above the ground, some of them in one actor; spaces overlap.
 model::Model cloud(int count, double side) {
   model::Model model;
   model.spaces.assign(num_spaces, "");
@@ -80,7 +80,7 @@ TEST(CrossBroadPhase, looks_at_no_geom_of_spaces_whose_boxes_stay_apart) {
   }
   const std::vector<int> owner = {0, 1, 2, 3, 4};
   std::vector<GeomPair> found;
-  // No pose is asked for: these are none.
+  // The poses are not used, so there are none.
   const SpaceBodies bodies(model, map);
   CrossBroadPhase(model, bodies).find_pairs(owner, boxes, {}, found);
   EXPECT_TRUE(found.empty());
@@ -122,7 +122,7 @@ TEST(SorSpaceStepper, moves_a_subset_of_units_as_the_whole_world_does) {
     world->own(own, model::initial_state(*model), 0);
     std::vector<model::Contact> contacts, of_unit;
     core::PhaseTimes times;
-    // Each unit by itself in the same step, as if three ranks did it: the car is not there yet.
+    // Each unit alone in the same step, as if three ranks did it: the car is not there yet.
     for (std::int64_t step = 0; step < 4; ++step) {
       world->fire_events(step);
       world->collide(contacts);
@@ -155,7 +155,7 @@ TEST(SorSpaceStepper, takes_in_bodies_that_moved_elsewhere) {
   core::PhaseTimes times;
   std::vector<int> bodies;
   for (int body = 0; body < model->num_bodies(); ++body) bodies.push_back(body);
-  for (std::int64_t step = 0; step < 40; ++step) {  // in turn, here and there
+  for (std::int64_t step = 0; step < 40; ++step) {  // alternating between the two
     stepping::SpaceStepper& active = step % 2 == 0 ? *here : *there;
     stepping::SpaceStepper& other = step % 2 == 0 ? *there : *here;
     active.fire_events(step);

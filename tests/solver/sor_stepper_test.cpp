@@ -61,12 +61,12 @@ model::State one_step(std::unique_ptr<stepping::WorldStepper> stepper, const mod
   return stepper->state(0);
 }
 
-/// Both iterate on the same rows towards the same solution. How near they have come is seen from QuickStep
-/// itself: the order of its rows, which follows the seed, moves its result by about as much as the other
-/// solver does.
+/// Both iterate on the same rows towards the same solution. The size of the remaining error is seen from
+/// QuickStep itself: the order of its rows, which follows the seed, changes its result by about as much as
+/// the other solver does.
 TEST(SorStepper, from_a_common_state_it_differs_from_quickstep_no_more_than_another_seed) {
   model::Model model = support::crash();
-  model.effects["fast_bodies"] = false;  // the solvers are compared, by contacts that touch
+  model.effects["fast_bodies"] = false;  // the solvers are compared, with contacts that touch
   stepping::StepperSettings settings = sor_settings();
   const auto path = quick(settings, {model});
   settings.iterations = 3000;
@@ -84,7 +84,7 @@ TEST(SorStepper, from_a_common_state_it_differs_from_quickstep_no_more_than_anot
     }
     const model::State own = one_step(make_stepper(settings), model, start, step);
     // Four seeds sample the floor; three times their largest leaves room for the tail. An error in a row
-    // would show at 1e-3 m/s and more, so that 1e-5 m/s is let pass where the seeds happen to agree.
+    // would show at 1e-3 m/s and more, so 1e-5 m/s is accepted where the seeds happen to agree.
     EXPECT_LT(largest_speed_difference(reference, own), 3 * floor + 1e-5) << "at step " << step;
     advance(*path, 1);
     steps_with_impact += path->observables(0).islands < 3 ? 1 : 0;

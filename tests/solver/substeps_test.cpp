@@ -1,4 +1,4 @@
-/// What substeps are for, and what they must not do.
+/// The purpose of substeps, and the side effects that they must not have.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,15 +42,16 @@ TEST(Substeps, close_the_gaps_of_a_swinging_chain_at_the_same_number_of_sweeps) 
     double before_m = std::numeric_limits<double>::infinity();
     for (const int substeps : {1, 2, 4, 8}) {
       const double gap_m = gap_of_swinging_chain(substeps, 40 / substeps, precision);
-      // A gap is of second order in the substep, so that half of it leaves a quarter; the fewer sweeps of
-      // each take some of that back.
+      // A gap is of second order in the substep, so half of it leaves a quarter; the fewer sweeps of each
+      // substep cancel some of that.
       EXPECT_LT(gap_m, 0.6 * before_m) << substeps << " substeps";
       before_m = gap_m;
     }
   }
 }
 
-/// The kinetic energy [J] that a cube `depth` [m] deep in the ground has after one step; without gravity.
+/// The kinetic energy [J] after one step of a cube that starts `depth` [m] deep in the ground; without
+/// gravity.
 double energy_from_depth(double depth, int substeps, int iterations) {
   model::Model cube = support::box_over_ground(-depth);
   cube.gravity = Vec3::Zero();
@@ -63,12 +64,12 @@ TEST(Substeps, push_a_deep_contact_out_no_faster_than_a_step_without_them) {
   const double once_j = energy_from_depth(0.1, 1, 20);
   EXPECT_GT(once_j, 1) << "ERP 0.2 of 0.1 m in 0.01 s is 2 m/s, and the cube has 10 kg";
   for (const int substeps : {2, 5, 16, 50}) {
-    // A push at ERP per substep would give the square of their number; what a sweep leaves is far less.
+    // A push at ERP per substep would give the square of their number; the residual of a sweep is far less.
     EXPECT_LT(energy_from_depth(0.1, substeps, 4), 1.2 * once_j) << substeps << " substeps";
   }
 }
 
-/// Two unequal boxes with a joint of this kind, the first hung on the world; they swing and spin.
+/// Two unequal boxes with a joint of this kind, the first one attached to the world; they swing and spin.
 model::Model swinging_boxes(JointKind kind) {
   model::Model model;
   const int actor = support::add_actor(model, "boxes");
@@ -104,8 +105,8 @@ TEST_P(EveryJoint, comes_nearer_to_the_motion_of_small_steps) {
     advance(*five, 1);
   }
   EXPECT_GT(farthest(model::initial_state(model), reference->state(0)), 0.1) << "it must move";
-  // Gaps and angles err by the square of the substep; what inertia and axes miss, which stay through a step,
-  // is of the step's own order and smaller.
+  // The error of gaps and angles is of the square of the substep; that of inertia and axes, which are fixed
+  // through a step, is of the step's own order and smaller.
   EXPECT_LT(2 * farthest(five->state(0), reference->state(0)), farthest(one->state(0), reference->state(0)));
 }
 
@@ -127,7 +128,7 @@ TEST(Substeps, stop_an_axis_at_the_limit_that_it_reaches_within_a_step) {
     const auto substeps = make_stepper(settings_of(5, 200), {model});
     advance(*reference, 5);
     advance(*substeps, 1);
-    // As in small steps but for the directions, which stay through the step: 8 /s x 0.01 s of 8 m/s.
+    // As in small steps except for the directions, which are fixed through the step: 8 /s x 0.01 s of 8 m/s.
     for (std::size_t body = 0; body < 2; ++body) {
       EXPECT_LT((substeps->state(0).velocity[body] - reference->state(0).velocity[body]).norm(), 0.64)
           << name_of(kind);
@@ -135,7 +136,7 @@ TEST(Substeps, stop_an_axis_at_the_limit_that_it_reaches_within_a_step) {
   }
 }
 
-/// Worlds of equal articulations of which each does something else: another kind of joint, a limit that only
+/// Worlds of equal articulations, each of which does something else: another kind of joint, a limit that only
 /// some reach, contacts that only some have.
 std::vector<model::Model> unlike_worlds() {
   std::vector<model::Model> worlds;

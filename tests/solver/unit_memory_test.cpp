@@ -18,8 +18,7 @@ using model::ContactForce;
 using model::no_body;
 using model::StepMemory;
 
-/// A chain of three balls, a chain of two, and a ball by itself, which makes three units; the ground is geom
-/// 0.
+/// A chain of three balls, a chain of two, and a single ball, which makes three units; the ground is geom 0.
 model::Model three_units() {
   model::Model model;
   support::add_ground(model);
@@ -33,7 +32,8 @@ model::Model three_units() {
   return model;
 }
 
-/// Within a unit, between units, with the ground; geom i + 1 is that of body i. All numbers begin with `key`.
+/// Contacts within a unit, between units, and with the ground; geom i + 1 is that of body i. All numbers
+/// begin with `key`.
 StepMemory memory_of(double key) {
   StepMemory memory;
   const auto add = [&](int first, int second, int a, int b) {

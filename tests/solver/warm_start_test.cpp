@@ -1,4 +1,4 @@
-/// Impulses that go on from substep to substep, and forces that go on from step to step.
+/// Impulses that carry over from substep to substep, and forces that carry over from step to step.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::vector<std::uint64_t> hashes_after(const stepping::StepperSettings& setting
   return hashes;
 }
 
-/// Worlds of which some fall into a pile, some crash, and no two have the same contacts.
+/// Worlds some of which fall into a pile and some crash, and no two of which have the same contacts.
 std::vector<model::Model> worlds() {
   std::vector<model::Model> models;
   for (int variant = 0; variant < 5; ++variant) models.push_back(support::crash(variant));
@@ -163,7 +163,7 @@ TEST(Substeps, go_by_a_held_angle_in_its_own_lane_only) {
 
 TEST(Substeps, hold_a_pose_as_small_steps_do) {
   model::Model swings = support::pendulum(1, 0.5);
-  swings.joints[0].motors[0] = {0, 15, 3};  // back towards its first angle
+  swings.joints[0].motors[0] = {0, 15, 3};  // back towards its initial angle
   swings.joints[0].limits[0] = {-0.4, 0.3};
   swings.bodies[0].velocity = {4, 0, 0};
   stepping::StepperSettings small = settings_of(1, 400, 0), substeps = settings_of(5, 400, 0);
@@ -193,7 +193,7 @@ TEST(RowOrder, fixed_and_shuffled_orders_agree_once_converged) {
     largest = std::max(largest, (shuffled->state(0).velocity[static_cast<std::size_t>(body)] -
                                  fixed->state(0).velocity[static_cast<std::size_t>(body)])
                                     .norm());
-  // One solution, reached to a thousand roundings of speeds of about 1 m/s.
+  // One solution, reached up to a thousand roundings of speeds of about 1 m/s.
   EXPECT_LT(largest, 1e-12);
   settings.iterations = 4;
   EXPECT_NE(hashes_after(settings, {support::chain(6)}, 1),

@@ -30,7 +30,7 @@ Model one_ball() {
 /// Called with the state after each step; may change it.
 using Change = std::function<void(std::int64_t step, State& state)>;
 
-/// What a world gains over some steps, looked at every `steps_a_frame` steps.
+/// The energy that a world gains over some steps, checked every `steps_a_frame` steps.
 double gain_of(const Model& model, int num_steps, int steps_a_frame = 1, const Change& change = {}) {
   const stepping::StepperSettings settings;
   const auto stepper = solver::make_sor_stepper(settings, ode::make_narrow_phase);
@@ -59,7 +59,7 @@ TEST(EnergyGain, of_an_elastic_bounce_is_little) {
   Model model = one_ball();
   support::add_ground(model);
   for (model::Geom& geom : model.geoms) geom.material.restitution = 1;
-  // A bounce is seen at the end of a step: g dt v of potential energy at most, half a joule of 18.
+  // A bounce is seen at the end of a step: at most g dt v of potential energy, half a joule out of 18.
   EXPECT_LT(gain_of(model, 400), 0.5);
 }
 
@@ -123,12 +123,12 @@ TEST(EnergyGain, counts_a_launch_as_caused) {
   launch.pose = model::Pose{{0, 0, 50}, {}};
   model.events = {launch};
   for (const int steps_a_frame : {1, 4, 5}) {
-    // Seen across a frame the ball may have lost its speed before the launch.
+    // Checked across a frame, the ball may have lost its speed before the launch.
     EXPECT_LT(gain_of(model, 20, steps_a_frame), 1e-9) << steps_a_frame;
   }
 }
 
-/// A box that moves towards a heavy wheel, sprung on it, in free space: it oscillates.
+/// A box that moves towards a heavy wheel on a spring in free space: it oscillates.
 Model sprung_box() {
   Model model;
   const int actor = support::add_actor(model, "car");
@@ -149,7 +149,7 @@ TEST(EnergyGain, counts_what_a_suspension_stores_and_releases) {
   state.position[0].z() -= 0.1;
   EXPECT_NEAR(spring_energy(model, state), 0.5 * 1000 * 0.1 * 0.1, 1e-12);
   EXPECT_LT(gain_of(model, 200), 0.05 * 20);
-  // Ten steps are less than a quarter of a period: the spring gives back in several frames.
+  // Ten steps are less than a quarter of a period: the spring returns its energy over several frames.
   EXPECT_LT(gain_of(model, 200, 5), 0.05 * 20);
 }
 

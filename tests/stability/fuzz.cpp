@@ -1,6 +1,7 @@
 /// stability_fuzz [--count N] [--seed S]: steps N random worlds, from the seeds S, S + 1 ..., with quick and
-/// with sor. Each must come to an end without a crash, be finite unless it was reported, and, frozen when it
-/// blows up, leave the bits of the world beside it alone. A seed that fails is printed and fails the program.
+/// with sor. Each must end without a crash, be finite unless a guard reported it, and, if frozen when it
+/// blows up, leave the bits of the world next to it alone. A seed that fails is printed and fails the
+/// program.
 #include <unistd.h>
 
 #include <csignal>
@@ -29,7 +30,7 @@ constexpr unsigned hang_s = 300;  ///< for one world
 volatile std::uint64_t seed_at_work = 0;
 
 void on_hang(int) {
-  // Only what a signal handler may call.
+  // Only functions that a signal handler may call.
   char text[64] = "stability_fuzz: hangs with seed ";
   char digits[24];
   int count = 0;
@@ -42,7 +43,7 @@ void on_hang(int) {
   _exit(1);
 }
 
-/// Every third world is a scene file's.
+/// Every third world comes from a scene file.
 std::shared_ptr<const model::Model> world_of(std::uint64_t seed) {
   if (seed % 3 == 0)
     return scenes::parse_scene({"random", "random.toml", random_scene(seed)})->build(0, seed);
@@ -51,7 +52,7 @@ std::shared_ptr<const model::Model> world_of(std::uint64_t seed) {
   return model;
 }
 
-/// The world beside the random one.
+/// The world next to the random one.
 std::shared_ptr<const model::Model> neighbour() {
   static const auto model = std::make_shared<const model::Model>(support::crash());
   return model;
@@ -74,7 +75,7 @@ class Trial {
       try {
         run(on_blowup, alone);
       } catch (const core::RunError& error) {
-        ++tally_->ended;  // an engine's own error ends a run, and says so
+        ++tally_->ended;  // an engine's own error ends a run, and is reported
         std::printf("seed %llu %s: ended: %s\n", static_cast<unsigned long long>(seed_), kind(),
                     error.what());
       }
@@ -106,7 +107,7 @@ class Trial {
         told |= event.world == 0 && event.kind == stepping::event_kind::nonfinite;
         neighbour_changed |= event.world == 1 && mends(on_blowup);
       }
-      if (neighbour_changed) return;  // in some settings it blows up, too
+      if (neighbour_changed) return;  // in some settings it blows up as well
       const bool finite = count_nonfinite(stepper.state(0)) == 0;
       expect(finite || (told && on_blowup == OnBlowup::report), "a state is not finite and was not reported");
       expect(finite == (stepper.observables(0).nonfinite == 0), "observables miss what is not finite");
@@ -134,7 +135,7 @@ void run_seed(std::uint64_t seed, Tally& tally) {
   try {
     for (const StepperKind kind : {StepperKind::quick, StepperKind::sor}) Trial(seed, kind, tally).run();
   } catch (const core::InputError& error) {
-    ++tally.refused;  // no world, and no fault of a stepper
+    ++tally.refused;  // not a world, and not a fault of a stepper
     std::printf("seed %llu: refused: %s\n", static_cast<unsigned long long>(seed), error.what());
   }
   tally.longest_s = std::max(tally.longest_s, core::now_s() - start_s);

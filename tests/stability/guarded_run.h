@@ -1,4 +1,4 @@
-/// Watched worlds in a stepper, for tests that look at what guards do.
+/// Guarded worlds in a stepper, for tests of what guards do.
 #pragma once
 
 #include <memory>
@@ -8,14 +8,14 @@
 
 namespace pbmpi::stability {
 
-/// quick or sor, as `settings.kind` says; its messages go nowhere.
+/// quick or sor, depending on `settings.kind`; its messages are discarded.
 std::unique_ptr<stepping::WorldStepper> make_any_stepper(const stepping::StepperSettings& settings);
 
-/// These worlds, ids 0, 1, ..., from their start.
+/// A stepper with these worlds, ids 0, 1, ..., from their start.
 std::unique_ptr<GuardedStepper> make_guarded(const std::vector<model::Model>& worlds,
                                              const stepping::StepperSettings& settings, OnBlowup on_blowup);
 
-/// Frames of three steps; returns their events.
+/// Runs frames of three steps; returns their events.
 std::vector<stepping::RunEvent> run_frames(GuardedStepper& stepper, int num_frames);
 
 }  // namespace pbmpi::stability

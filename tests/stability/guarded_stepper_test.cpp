@@ -65,7 +65,7 @@ TEST_P(BothSteppers, balls_that_fall_through_a_plate_are_noticed_in_their_step) 
   ASSERT_FALSE(events.empty());
   EXPECT_TRUE(events[0].name.starts_with("ball"));
   EXPECT_NE(events[0].detail.find("went through 'plate'"), std::string::npos) << events[0].detail;
-  // From 119 m a ball takes 4.93 s.
+  // A ball that falls 119 m takes 4.93 s.
   EXPECT_NEAR(static_cast<double>(events[0].step), 493, 4);
 }
 
@@ -146,7 +146,7 @@ class Breaking final : public stepping::WorldStepper {
 
 std::unique_ptr<GuardedStepper> make_breaking(OnBlowup on_blowup, int world, std::int64_t step) {
   const MakeStepper make = [=](const StepperSettings& settings) {
-    // Only steps of the run's own length are spoilt.
+    // Only steps of the run's own length are spoiled.
     return std::make_unique<Breaking>(settings, world, settings.dt_s == StepperSettings{}.dt_s ? step : -1);
   };
   const StepperSettings settings = of_kind(StepperKind::sor);
@@ -219,7 +219,7 @@ TEST(GuardedStepper, refines_a_bad_step_and_goes_on) {
   EXPECT_EQ(found[2], free[2]);
 }
 
-/// The first joint of a crash that has a motor, and the velocity at which it is to aim.
+/// The first joint of a crash that has a motor, and its target velocity.
 constexpr double aimed_velocity = 6;
 int driven_joint() {
   const Model model = support::crash();
@@ -228,7 +228,7 @@ int driven_joint() {
   return joint;
 }
 
-/// World 1 of the crashes `num_steps` after `state` at `step`, its motor aimed.
+/// World 1 of the crashes, `num_steps` after `state` at `step`, with the target of its motor set.
 model::State aimed_crash(const StepperSettings& settings, const model::State& state, std::int64_t step,
                          int num_steps) {
   const auto stepper = make_any_stepper(settings);
@@ -295,7 +295,7 @@ TEST(GuardedStepper, refines_the_chain_that_gapes_or_freezes_it) {
   EXPECT_LE(of_kind(events, event_kind::frozen).size(), 1u);
 }
 
-/// Moves each world to another stepper in mid-run, by its State alone.
+/// Moves each world to another stepper in mid-run, with only its State.
 TEST(GuardedStepper, goes_on_alike_in_another_stepper) {
   const std::vector<Model> worlds = {support::overlapping_cubes(), support::pile(4),
                                      support::loaded_chain(20, 100), support::crash()};

@@ -13,7 +13,7 @@ using model::Shape;
 using model::State;
 using model::Vec3;
 
-/// A static plate of 4 x 4 x 0.02 m at height 1 over the ground.
+/// A static plate of 4 x 4 x 0.02 m at height 1 above the ground.
 int add_plate(Model& model) {
   model::Geom plate;
   plate.actor = support::add_actor(model, "plate", model::ActorKind::wall);
@@ -24,7 +24,7 @@ int add_plate(Model& model) {
   return static_cast<int>(model.geoms.size()) - 1;
 }
 
-/// Body 0 is a ball of 0.2 m at height 2, over a plate over the ground; body 1 a cube of 0.4 m at x = 1.
+/// Body 0 is a ball of 0.2 m at height 2, above a plate above the ground; body 1 a cube of 0.4 m at x = 1.
 Model ball_and_cube() {
   Model model;
   support::add_ground(model);
@@ -94,14 +94,14 @@ TEST(Passage, of_one_body_through_another_counts_their_relative_way) {
   State before = initial_state(model), after = before;
   before.position[0] = Vec3(0.5, 0, 2);
   after.position[0] = Vec3(2.1, 0, 2);
-  after.position[1] += Vec3(1, 0, 0);  // it moves along
+  after.position[1] += Vec3(1, 0, 0);  // moves along with it
   EXPECT_FALSE(PassageFinder(model).find(before, before.position, after));
 }
 
 TEST(Passage, past_a_cube_that_turns_is_none) {
   const Model model = ball_and_cube();
   State before = initial_state(model), after = before;
-  // The way cuts off a corner of the cube as it is turned by 45 degrees, and passes it as it was.
+  // The path cuts a corner of the cube as turned by 45 degrees, but misses the cube as it was before.
   before.position[0] = Vec3(0.2, -0.25, 2);
   after.position[0] = Vec3(2.3, -0.25, 2);
   after.orientation[1] = support::rotation(Vec3::UnitZ(), std::acos(-1.0) / 4);
@@ -142,7 +142,7 @@ TEST(Passage, of_a_body_whose_centre_is_outside_its_geoms_is_not_looked_for) {
   EXPECT_FALSE(moved(model, 0, {0, 0, 1.5}, {0, 0, 0.5}));
 }
 
-/// What is tried of all bodies at once must hold of each: of a body much smaller and much larger as well.
+/// Tests on all bodies at once must hold for each: also for a body that is much smaller or much larger.
 TEST(Passage, of_a_body_is_found_whatever_others_are_there) {
   const Model model = ball_and_cube();
   Model with_others = model;

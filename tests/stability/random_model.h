@@ -32,8 +32,8 @@ class Draw {
   std::uint64_t seed_, next_ = 0;
 };
 
-/// 1 to 20 bodies of all shapes, 1e-2 to 1e2 kg each, up to 200 m/s fast and overlapping as it happens;
-/// joints of all kinds with limits, motors, suspensions and strengths; launches, motors and releases.
+/// 1 to 20 bodies of all shapes, 1e-2 to 1e2 kg each, up to 200 m/s fast, with random overlaps; joints of all
+/// kinds with limits, motors, suspensions and strengths; launches, motors and releases.
 model::Model random_model(std::uint64_t seed);
 
 /// A scene file with actors of all types at random places, headings and speeds.

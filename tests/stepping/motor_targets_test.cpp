@@ -8,7 +8,7 @@
 namespace pbmpi::stepping {
 namespace {
 
-/// Two hinges, the first of which has a motor from the start, and the second from step 20 on.
+/// Two hinges; the first one has a motor from the start, the second from step 20 on.
 model::Model two_hinges() {
   model::Model model = support::pendulum(1, 0);
   support::add_joint(model, model::JointKind::hinge, 0, model::no_body, {0, 0, 0});
@@ -27,7 +27,7 @@ model::Model two_hinges() {
 TEST(MotorTargets, have_force_and_hold_rate_of_the_motor_that_is_there_at_their_step) {
   const model::Model model = two_hinges();
   MotorTargets targets;
-  const MotorTargets::Target* target = targets.set(model, 5, 0, 0, 7);  // the events of step 5 are to come
+  const MotorTargets::Target* target = targets.set(model, 5, 0, 0, 7);  // before the events of step 5
   ASSERT_NE(target, nullptr);
   EXPECT_EQ(target->motor.velocity, 7);
   EXPECT_EQ(target->motor.max_force, 10);

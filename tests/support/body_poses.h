@@ -1,4 +1,4 @@
-/// Where the bodies of a model are at its start.
+/// The initial poses of a model's bodies.
 #pragma once
 
 #include <vector>

@@ -15,7 +15,7 @@ void limit(Model& model, int joint, int axis, double low, double high) {
   model.joints[joint].limits[axis] = {low, high};
 }
 
-/// Two segments that hang below each other at x = y = const.
+/// Two segments, one hanging below the other, at x = y = const.
 struct Limb {
   int upper, lower, end;
 };
@@ -89,7 +89,7 @@ void add_car(Model& model, double speed) {
     const Vec3 hub(i < 2 ? -0.6 : -3.4, i % 2 == 0 ? -0.85 : 0.85, radius);
     const int wheel =
         add_solid(model, actor, "car.wheel" + std::to_string(i), Shape::cylinder, {radius, 0.2, 0}, 20, hub);
-    model.geoms.back().local.orientation = across;  // the geom turns into the axle, the body does not
+    model.geoms.back().local.orientation = across;  // turns the geom to the axle, but not the body
     model.bodies[wheel].inertia = Vec3(0.68, 1.22, 0.68).asDiagonal();
     const int joint = add_joint(model, JointKind::hinge2, chassis, wheel, hub, Vec3::UnitZ(), Vec3::UnitY());
     model.joints[joint].suspension = {40000, 4000};

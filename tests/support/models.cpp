@@ -13,7 +13,7 @@ using model::Shape;
 
 Mat3 diagonal(double x, double y, double z) { return Vec3(x, y, z).asDiagonal(); }
 
-/// [kg m^2] about the centre. A capsule counts as the cylinder of the same total length.
+/// Inertia [kg m^2] about the centre. A capsule is treated as a cylinder of the same total length.
 Mat3 solid_inertia(Shape shape, const std::array<double, 3>& size, double mass) {
   const auto [a, b, c] = size;
   if (shape == Shape::sphere) return Mat3::Identity() * (0.4 * mass * a * a);

@@ -1,4 +1,4 @@
-/// Small models for tests and benchmarks: the parts to build one, and a few whole ones.
+/// Small models for tests and benchmarks: functions to build one, and a few complete ones.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ using model::Vec3;
 /// A rotation by `angle` [rad] about the unit vector `axis`.
 Quat rotation(const Vec3& axis, double angle);
 
-/// Each returns the index of what it has added.
+/// Each of these functions returns the index of what it has added.
 int add_actor(Model& model, const std::string& name, model::ActorKind kind = model::ActorKind::prop,
               bool self_collision = false);
 /// A homogeneous body of that shape (sizes as in model::Geom) with a geom centred on it.
@@ -38,14 +38,14 @@ Model box_over_ground(double height);
 Model pendulum(double length, double angle);
 /// `num_links` rods of 0.5 m and 1 kg, hung on the world by ball joints, stretched along x.
 Model chain(int num_links);
-/// `num_boxes` cubes of 0.5 m, a little turned and shifted, one above the other over the ground: they fall
+/// `num_boxes` cubes of 0.5 m, slightly turned and shifted, one above the other above the ground: they fall
 /// into a pile.
 Model pile(int num_boxes);
-/// `a_side`^3 balls of 0.3 m and 1 kg over the ground, a little apart and out of line: they fall and meet.
-/// `mu`: of all of them and the ground; `variant` moves them a little.
+/// `a_side`^3 balls of 0.3 m and 1 kg above the ground, slightly apart and out of line: they fall and meet.
+/// `mu`: that of all balls and the ground; `variant` moves them slightly.
 Model falling_balls(int a_side, double mu, int variant = 0);
-/// A car of 5 bodies that runs at 25 m/s into two 16-body ragdolls, 3 m ahead; 37 bodies, 34 joints of all
-/// kinds but slider, contacts from the first step. `variant` moves the ragdolls a little.
+/// A car of 5 bodies that drives at 25 m/s into two 16-body ragdolls, 3 m ahead; 37 bodies, 34 joints of all
+/// kinds except slider, contacts from the first step. `variant` moves the ragdolls slightly.
 Model crash(int variant = 0);
 
 }  // namespace pbmpi::support

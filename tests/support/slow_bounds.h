@@ -1,4 +1,4 @@
-/// Bounds of speed (effects/fast_bodies.h) of a model at its start.
+/// Speed bounds (effects/fast_bodies.h) of a model at its start.
 #pragma once
 
 #include <vector>

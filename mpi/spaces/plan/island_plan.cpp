@@ -9,7 +9,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// Islands of several ranks that links join to one.
+/// Islands of several ranks that links join into one.
 struct Joined {
   std::vector<IslandRef> parts;  ///< by (rank, island)
   std::vector<double> weight;    ///< [ranks]

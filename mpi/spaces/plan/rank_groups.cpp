@@ -15,7 +15,7 @@ int sum_of_first(const std::vector<int>& counts, int number) {
   return std::accumulate(counts.begin(), counts.begin() + number, 0);
 }
 
-/// What one world costs each of the groups.
+/// The cost of one world for each group.
 std::vector<double> costs_of_groups(std::span<const double> space_costs, const RankGroups& groups) {
   std::vector<double> costs;
   for (std::size_t group = 0; group < groups.ranks.size(); ++group) {
@@ -25,10 +25,10 @@ std::vector<double> costs_of_groups(std::span<const double> space_costs, const R
   return costs;
 }
 
-/// Gives a world to each group, and each of the others to the group that is done with it first, and of equal
-/// ones to that with fewer worlds.
+/// Gives one world to each group, and each remaining world to the group that would finish it first; on a tie,
+/// to the one with fewer worlds.
 void deal_worlds(std::span<const double> space_costs, int num_worlds, RankGroups& groups) {
-  using Next = std::tuple<double, int, int>;  // (done with one more world, worlds so far, group)
+  using Next = std::tuple<double, int, int>;  // (end time with one more world, worlds so far, group)
   std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
   const std::vector<double> costs = costs_of_groups(space_costs, groups);
   groups.worlds.assign(groups.ranks.size(), 1);

@@ -9,7 +9,7 @@ namespace {
 /// Seconds of a frame under an ownership, lower is better.
 double rating(const SpaceLoads& loads, std::span<const int> owner, int num_ranks) {
   const PredictedLoads load = predict_loads(loads, owner, num_ranks);
-  // Among equal makespans less total work is better: it ships less.
+  // At equal makespans, less total work is better: it ships less.
   double sum = 0;
   for (const RankLoad& rank : load.ranks) sum += rank.collide_s + rank.solve_s;
   return load.makespan_s() + 1e-3 * sum;
@@ -65,7 +65,7 @@ class Search {
       }
     }
   }
-  /// Swaps all spaces of two ranks: root may own the busiest ones, which leaves no time for its section.
+  /// Swaps all spaces of two ranks: root may own the busiest ones, which leaves no time for its own section.
   void try_mirrors() {
     for (int a = 0; a < num_ranks_; ++a) {
       for (int b = a + 1; b < num_ranks_; ++b) {
@@ -130,7 +130,8 @@ void SpaceLoads::scale(const SolverCosts& costs) {
 
 namespace {
 
-/// Adds an island of several spaces to the rank that has most of its bodies, to which the others ship theirs.
+/// Adds an island of several spaces to the rank that has most of its bodies, to which the other ranks ship
+/// theirs.
 void add_island(const SpaceLoads& loads, const std::vector<SpacePart>& island, std::span<const int> owner,
                 std::vector<SolverWork>& work, PredictedLoads& load) {
   std::vector<int> bodies(work.size(), 0);
@@ -178,8 +179,8 @@ SolverCosts fit_costs(std::span<const RankSample> ranks) {
   const double determinant = bb * cc - bc * bc;
   constexpr double least_independence = 0.02;  // of the squared sine between the two columns
   if (determinant <= least_independence * bb * cc) return {common, common};
-  // Lanes make the rows of joints cheaper than those of contacts, by their number at most; and
-  // neither is free, whatever a noisy frame suggests.
+  // Lanes make the rows of joints cheaper than those of contacts, by at most the number of lanes; and neither
+  // is free, whatever a noisy frame suggests.
   constexpr double most = 4;
   const double batch = std::clamp((bt * cc - ct * bc) / determinant, common / most, common * most);
   const double contact = std::clamp((ct * bb - bt * bc) / determinant, common / most, common * most);
@@ -188,7 +189,7 @@ SolverCosts fit_costs(std::span<const RankSample> ranks) {
 
 Reassignment reassign_spaces(const SpaceLoads& loads, std::span<const int> owner, int num_ranks,
                              double threshold) {
-  constexpr int most_changes = 1000;  // a bound that is never reached, since each change lowers the rating
+  constexpr int most_changes = 1000;  // never reached, since each change lowers the rating
   Search search(loads, owner, num_ranks);
   for (int change = 0; change < most_changes && search.improve(); ++change) {
   }

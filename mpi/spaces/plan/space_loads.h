@@ -8,10 +8,10 @@
 
 namespace pbmpi::mpi {
 
-/// Cost of solving islands. Units cost by the batch, so that they are counted; contacts cost one by one.
+/// Cost of solving islands. Units cost by the batch and are therefore counted; contacts cost one by one.
 struct SolverWork {
   std::vector<int> units;  ///< [num_shapes] units of each shape, which fill the solver's lanes together
-  double contacts_s = 0;   ///< seconds a frame of the contacts' rows
+  double contacts_s = 0;   ///< seconds a frame for the contacts' rows
   int bodies = 0;
 
   void add(const SolverWork& other);
@@ -23,13 +23,13 @@ struct SpacePart {
   SolverWork work;
 };
 
-/// What one rank's solver had to do, by weights, and how long it took.
+/// The work of one rank's solver, in weights, and the seconds it took.
 struct RankSample {
   double batches = 0, contacts = 0;
   double seconds = 0;
 };
 
-/// Seconds of a unit of weight.
+/// Seconds per unit of weight.
 struct SolverCosts {
   double batches = 0, contacts = 0;
 };
@@ -37,38 +37,38 @@ struct SolverCosts {
 /// The work of a frame, independent of which rank did it.
 struct SpaceLoads {
   int num_lanes = 1;
-  std::vector<double> batch_s;     ///< [num_shapes] seconds a frame of a batch of up to num_lanes units
+  std::vector<double> batch_s;     ///< [num_shapes] seconds a frame for a batch of up to num_lanes units
   std::vector<double> collide_s;   ///< [num_spaces]
   std::vector<SolverWork> inside;  ///< [num_spaces] work of islands that lie in one space
   std::vector<std::vector<SpacePart>> islands;  ///< parts of islands that lie in several spaces
   double root_extra_s = 0;                      ///< root's section: search and dispatch
-  double ship_s = 0;  ///< seconds a frame of shipping a body and back, on each of the two ranks
+  double ship_s = 0;  ///< seconds a frame for shipping a body there and back, on each of the two ranks
 
-  double seconds(const SolverWork& work) const;  ///< on one rank
+  double seconds(const SolverWork& work) const;  ///< the work's time on one rank
   void scale(const SolverCosts& costs);          ///< from weights to seconds
 };
 
 /// Predicted seconds of one rank in a frame.
 struct RankLoad {
-  double collide_s = 0;  ///< on root with its section
-  double solve_s = 0;    ///< with shipping
+  double collide_s = 0;  ///< on root its own section is included
+  double solve_s = 0;    ///< shipping included
 };
 
 struct PredictedLoads {
   std::vector<RankLoad> ranks;  ///< [num_ranks]
   bool ships = false;           ///< does an island cross ranks?
 
-  /// Seconds of the frame. Where nothing is shipped a rank goes on to collide when it has solved its islands;
-  /// where islands are shipped, the ranks wait for each other between collision and solver.
+  /// Seconds of the frame. Where nothing is shipped, a rank goes on to collide as soon as it has solved its
+  /// islands; where islands are shipped, the ranks wait for each other between collision and solver.
   double makespan_s() const;
 };
 
-/// Predicts the loads under an ownership, `owner` [num_spaces]: an island of several ranks is solved where
-/// its largest part lies, and its other parts are shipped there.
+/// Predicts the loads under an ownership, `owner` [num_spaces]: an island of several ranks is solved on the
+/// rank of its largest part, and its other parts are shipped there.
 PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner, int num_ranks);
 
 /// Least-squares fit of the two costs to the ranks' seconds. Where the ranks do not differ enough to tell the
-/// two apart, both get the same cost.
+/// two costs apart, both get the same value.
 SolverCosts fit_costs(std::span<const RankSample> ranks);
 
 struct Reassignment {
@@ -77,9 +77,9 @@ struct Reassignment {
   double makespan_after_s = 0;
 };
 
-/// Local search for an ownership that makes the frame shorter, from the present one: as long as one helps,
-/// the best change is made of moving a space, swapping two spaces, swapping all spaces of two ranks, and
-/// bringing the spaces of an island together. Nothing moves if the predicted gain is less than half of
+/// Local search for an ownership that makes the frame shorter, starting from the present one. It makes the
+/// best change as long as one helps: moving a space, swapping two spaces, swapping all spaces of two ranks,
+/// or bringing the spaces of an island together. Nothing moves if the predicted gain is less than half of
 /// `threshold` - 1. Deterministic: ties go to the lower space and rank.
 Reassignment reassign_spaces(const SpaceLoads& loads, std::span<const int> owner, int num_ranks,
                              double threshold);

@@ -8,10 +8,10 @@
 namespace pbmpi::mpi {
 
 struct SpaceOwnership {
-  std::vector<int> owner;                ///< [num_spaces]
-  std::vector<std::vector<int>> spaces;  ///< [num_ranks] ascending, as are the next two
-  std::vector<std::vector<int>> units;   ///< [num_ranks]
-  std::vector<std::vector<int>> bodies;  ///< [num_ranks]
+  std::vector<int> owner;                ///< [num_spaces] rank that owns each
+  std::vector<std::vector<int>> spaces;  ///< [num_ranks] each rank's spaces, ascending
+  std::vector<std::vector<int>> units;   ///< [num_ranks] each rank's units, ascending
+  std::vector<std::vector<int>> bodies;  ///< [num_ranks] each rank's bodies, ascending
 
   SpaceOwnership(const model::SpaceMap& map, std::vector<int> owner_of_space, int num_ranks);
 

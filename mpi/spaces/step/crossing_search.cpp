@@ -62,7 +62,7 @@ bool CrossingSearch::finds_any(std::int64_t step, core::LapTimer& timer) {
   MessageReader verdict(shared_->mail->take(Communicator::root, verdict_tag));
   timer.lap(Phase::wait);
   verdict_s_ = core::now_s();
-  shared_->mail->finish();  // returns at once: root has received all of the step before
+  shared_->mail->finish();  // returns at once: root has received all messages of the step before
   return verdict.get_value<std::int32_t>() != 0;
 }
 
@@ -70,7 +70,7 @@ void CrossingSearch::send_verdict(std::int64_t step, core::LapTimer& timer) {
   if (shared_->sleepers == nullptr) search(step, timer);  // with sleepers the search is done
   has_poses_ = false;
   has_verdict_ = true;
-  shared_->mail->finish();  // returns at once: the ranks have received all of the step before
+  shared_->mail->finish();  // returns at once: the ranks have received all messages of the step before
   verdict_s_ = core::now_s();
   schedule_.note_verdict(verdict_s_, verdict_s_ - began_s_);
   for (int rank = 1; rank < shared_->comm->size(); ++rank) {

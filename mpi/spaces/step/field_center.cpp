@@ -14,7 +14,8 @@ void FieldCenter::post() {
   if (owner() != comm.rank()) return;
   const model::Vec3& center = shared_->stepper->state().position[shared_->field->follows()];
   shared_->field->set_center(center);
-  // Where nothing crosses no verdict ends a step; what was posted in the step before has been taken by now.
+  // Where nothing crosses no verdict ends a step; the messages of the previous step have been received by
+  // now.
   if (!shared_->crosses && shared_->mail) shared_->mail->finish();
   for (int rank = 0; shared_->ownership->is_divided() && rank < comm.size(); ++rank) {
     if (rank == comm.rank()) continue;

@@ -1,4 +1,4 @@
-/// Where the field of interest is, told to all ranks.
+/// Tells all ranks where the field of interest is.
 #pragma once
 
 #include "core/clock.h"
@@ -6,12 +6,12 @@
 
 namespace pbmpi::mpi {
 
-/// With the effect "field_of_interest" that follows a body, the owner of that body sends its position to all
-/// other ranks: one message of three numbers each a step. Whether an island is inside is then found by the
-/// rank that solves it, which has all its bodies and contacts.
+/// When the effect "field_of_interest" follows a body, the owner of that body sends its position to all other
+/// ranks: one message of three numbers each a step. The rank that solves an island, which has all its bodies
+/// and contacts, then decides whether the island is inside.
 ///
 /// SpaceStep calls post() after the events of the step and take() after collision. Both do nothing without a
-/// field and for a field that stands still; where all bodies are on one rank no message is sent.
+/// field or for a field that stands still; where all bodies are on one rank no message is sent.
 class FieldCenter {
  public:
   /// `shared` is borrowed.

@@ -92,7 +92,7 @@ double FrameReport::own_joint_gap() const {
 }
 
 void FrameReport::post(const Account& own) {
-  if (!shared_->crosses) shared_->mail->finish();  // returns at once: root has the account of the last frame
+  if (!shared_->crosses) shared_->mail->finish();  // returns at once: root has the last frame's account
   MessageWriter message;
   message.put(state_rows(shared_->stepper->state(), shared_->own_bodies()));
   if (shared_->sleepers) message.put(shared_->sleepers->rest_rows(shared_->own_bodies()));
@@ -143,7 +143,7 @@ void FrameReport::receive(const Account& own, core::LapTimer& timer) {
     timer.lap(Phase::gather);
   }
   crossing_->note_whole_state();
-  // The scene's word that spaces never meet is taken for each step, and checked once a frame.
+  // The scene's promise that spaces never meet is relied on in each step, and checked once a frame.
   if (!shared_->crosses && shared_->ownership->is_divided())
     shared_->guard([&] { crossing_->require_apart(); });
   join_islands(islands);
@@ -165,7 +165,7 @@ void FrameReport::add(int rank, const Account& account, model::DisjointSets& isl
   for (std::size_t i = 0; i < bodies.size(); ++i) findings_.energy_j[bodies[i]] = account.energy_j[i];
   findings_.times[rank] = account.times;
   findings_.bodies_shipped += account.bodies_shipped;
-  std::vector<int> lowest_unit(units.size(), -1);  // [islands of the rank], of which there are no more
+  std::vector<int> lowest_unit(units.size(), -1);  // [islands of the rank], which are at most its units
   for (std::size_t i = 0; i < units.size(); ++i) {
     findings_.weight[units[i]] = account.unit_weight[i];
     if (shared_->field != nullptr) findings_.near[units[i]] = account.unit_near[i];
@@ -175,7 +175,7 @@ void FrameReport::add(int rank, const Account& account, model::DisjointSets& isl
   }
 }
 
-/// The contacts of a pair of geoms are solved by one rank, in their order, and so is a joint.
+/// One rank solves all contacts of a pair of geoms, in their order; one rank also solves each joint.
 void FrameReport::take_contacts(const stepping::StepContacts& part) {
   const stepping::StepContacts earlier = std::exchange(findings_.contacts, {});
   stepping::StepContacts& all = findings_.contacts;
@@ -197,7 +197,7 @@ void FrameReport::take_contacts(const stepping::StepContacts& part) {
   }
 }
 
-/// Joins the ranks' islands by the contacts across spaces. Where nothing can cross, contacts are what
+/// Joins the ranks' islands by the contacts across spaces. Where nothing can cross, these contacts are what
 /// require_apart() found, and end the run.
 void FrameReport::join_islands(model::DisjointSets& islands) {
   const model::SpaceMap& map = shared_->stepper->map();
@@ -209,7 +209,7 @@ void FrameReport::join_islands(model::DisjointSets& islands) {
     }
   }
   for (int unit = 0; unit < map.num_units(); ++unit) findings_.island.push_back(islands.find(unit));
-  std::vector<char> near(findings_.near.size(), 0);  // at the lowest unit of an island
+  std::vector<char> near(findings_.near.size(), 0);  // one flag per island, at its lowest unit
   for (std::size_t unit = 0; unit < near.size(); ++unit) near[findings_.island[unit]] |= findings_.near[unit];
   for (std::size_t unit = 0; unit < near.size(); ++unit) findings_.near[unit] = near[findings_.island[unit]];
 }

@@ -1,4 +1,4 @@
-/// The end of a frame: all states, counts and times to root.
+/// Brings all states, counts and times to root at the end of a frame.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,21 @@ namespace pbmpi::mpi {
 
 /// Root's measurements of the last step of a frame, over all ranks.
 struct FrameFindings {
-  stepping::Observables seen;  ///< joined over all ranks; not what root measures of all bodies
-  std::vector<int> island;     ///< [num_units] lowest unit of its island
-  std::vector<double> weight;  ///< [num_units] rows of joints and contacts, and bodies
-  std::vector<char> near;      ///< [num_units] has its island a body inside the field? empty without a field
-  std::vector<double> energy_j;         ///< [num_bodies]
+  stepping::Observables seen;    ///< joined over all ranks; excludes what root measures over all bodies
+  std::vector<int> island;       ///< [num_units] lowest unit of its island
+  std::vector<double> weight;    ///< [num_units] rows of joints and contacts, and bodies
+  std::vector<char> near;        ///< [num_units] is a body of its island in the field? empty without a field
+  std::vector<double> energy_j;  ///< [num_bodies]
   stepping::StepContacts contacts;      ///< of all ranks, if they are recorded
   std::vector<core::PhaseTimes> times;  ///< [num_ranks] of this frame so far
-  std::int64_t bodies_shipped = 0;      ///< in this frame, from any rank to another, step by step
+  std::int64_t bodies_shipped = 0;      ///< in this frame, from any rank to another, summed over its steps
 };
 
-/// Each rank measures its own bodies and sends root one message: the rows of its bodies, what is remembered
-/// of its units, its boxes, counts, energies, times and islands. Root then has the whole state and the
-/// findings of the frame.
+/// Each rank measures its own bodies and sends root one message: the rows of its bodies, the memory of its
+/// units, its boxes, counts, energies, times and islands. Root then has the whole state and the findings of
+/// the frame.
 ///
-/// SpaceStep calls send() on every rank at the end of the last step of a frame, also where all bodies sleep
+/// SpaceStep calls send() on every rank at the end of the last step of a frame, even where all bodies sleep
 /// or are on one rank.
 class FrameReport {
  public:
@@ -38,10 +38,11 @@ class FrameReport {
   FrameReport(StepContext& shared, RankIslands& islands, CrossingSearch& crossing)
       : shared_(&shared), islands_(&islands), crossing_(&crossing) {}
 
-  /// Collective. `work`: what this rank solved in the last step; `bodies_shipped`: by it in this frame.
+  /// Collective. `work`: what this rank solved in the last step; `bodies_shipped`: by this rank in this
+  /// frame.
   void send(const StepWork& work, std::int64_t bodies_shipped, core::PhaseTimes& times);
 
-  const FrameFindings& findings() const { return findings_; }  ///< on root, of the last frame
+  const FrameFindings& findings() const { return findings_; }  ///< findings of the last frame, on root
 
  private:
   /// One rank's part of the findings.

@@ -16,11 +16,11 @@ namespace pbmpi::mpi {
 struct Orders {
   std::vector<std::int32_t> outgoing;  ///< pairs: own island (LocalIslands), rank that solves it
   std::vector<std::int32_t> arrivals;  ///< ranks that send islands
-  std::vector<WireContact> contacts;   ///< across spaces, of islands that the rank solves
+  std::vector<WireContact> contacts;   ///< contacts across spaces, in the islands that the rank solves
 };
 
 /// Root joins the ranks' islands by the contacts across spaces, chooses a solver for each joined island
-/// (plan_islands()), and orders the ranks to ship. Messages: a report from each rank to root, orders from
+/// (plan_islands()), and orders the ranks to ship. Messages: a report from each rank to root, and orders from
 /// root to each rank.
 ///
 /// SpaceStep calls dispatch() on every rank in a step in which something crosses, and not at all otherwise.

@@ -1,4 +1,4 @@
-/// Islands on their way to the rank that solves them, and back.
+/// Ships islands to the rank that solves them, and back.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace pbmpi::mpi {
 
-/// Carries out a rank's Orders. Messages: for each other rank that solves an own island, one with its units,
-/// the states of their bodies, what is broken of their joints, the forces that the step before has handed on,
-/// and its contacts; and one back with the states, what is broken, and the forces after the step.
+/// Carries out a rank's Orders. Each other rank that solves an own island gets one message with the units,
+/// the states of their bodies, their broken joints, the forces handed on from the previous step, and their
+/// contacts. It sends one message back with the states, the broken joints and the forces after the step.
 ///
 /// Called by SpaceStep: start_step() in each step in which something can cross, ship() once the orders are
-/// known, ship_back() when all islands here are solved. Both do nothing for a rank that neither gives nor
-/// gets an island.
+/// known, ship_back() when all islands here are solved. ship() and ship_back() do nothing on a rank that
+/// neither sends nor receives an island.
 class IslandShipping {
  public:
   /// `shared` is borrowed.
   explicit IslandShipping(StepContext& shared) : shared_(&shared) {}
 
   void start_step();
-  /// `work`: in, own units and own contacts; out, those of the islands that are solved here. `own`: this
-  /// rank's islands, to which the orders refer.
+  /// `work`: holds own units and own contacts on entry, and those of the islands that are solved here on
+  /// return. `own`: this rank's islands, to which the orders refer.
   void ship(const Orders& orders, const LocalIslands& own, StepWork& work, core::LapTimer& timer);
   void ship_back(core::LapTimer& timer);
 
@@ -35,14 +35,14 @@ class IslandShipping {
  private:
   /// Units that another rank owns and this one solves, or the other way round.
   struct Shipment {
-    int rank = 0;  ///< the other
+    int rank = 0;  ///< the other rank
     std::vector<int> units;
   };
   void send(const Orders& orders, const LocalIslands& own, StepWork& work);
   void receive(const Orders& orders, StepWork& work, core::LapTimer& timer);
 
   StepContext* shared_;
-  std::vector<Shipment> guests_;  ///< solved here in this step
+  std::vector<Shipment> guests_;  ///< units of other ranks that are solved here in this step
   std::vector<Shipment> away_;    ///< own units that are solved elsewhere
   std::int64_t bodies_shipped_ = 0;
 };

@@ -38,7 +38,8 @@ void RankIslands::form(std::span<const model::Contact> contacts) {
 }
 
 /// An island without a body inside the field of interest is solved with few iterations, and weighs less. A
-/// contact across spaces may still join it to a body inside, which only the rank that solves it can know.
+/// contact across spaces may still join it to a body inside, which only the rank that solves the island can
+/// know.
 void RankIslands::discount_outside() {
   const effects::FieldOfInterest& field = *shared_->field;
   const model::SpaceMap& map = shared_->stepper->map();

@@ -10,18 +10,18 @@
 
 namespace pbmpi::mpi {
 
-/// Forms the islands of a rank's own units from joints and own contacts, and weighs them. Sends nothing.
+/// Forms and weighs the islands of a rank's own units from their joints and own contacts. Sends nothing.
 ///
-/// SpaceStep has them formed where something crosses spaces, before islands are shipped; otherwise at the
-/// end of a frame only, for the account of the frame.
+/// SpaceStep forms them before islands are shipped where something crosses spaces; otherwise only at the end
+/// of a frame, for its account.
 class RankIslands {
  public:
   /// `shared` is borrowed.
   explicit RankIslands(const StepContext& shared) : shared_(&shared) {}
 
-  /// A new step: the islands of the last one are outdated.
+  /// Begins a new step: the islands of the previous step are outdated.
   void start_step() { formed_ = false; }
-  /// `contacts`: all own ones of the step. Does nothing where the step's islands are formed already.
+  /// `contacts`: all own ones of the step. Does nothing if the step's islands are formed already.
   void form(std::span<const model::Contact> contacts);
 
   const LocalIslands& islands() const { return islands_; }

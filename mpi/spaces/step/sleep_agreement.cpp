@@ -54,7 +54,7 @@ void SleepAgreement::put_resting_to_sleep(core::LapTimer& timer) {
 
 /// Joins the ranks' parts of islands by the contacts across spaces, which only root knows.
 std::vector<Resting> SleepAgreement::join(std::span<const Resting> resting) {
-  std::vector<int> across;  // two bodies a contact
+  std::vector<int> across;  // two bodies per contact
   if (shared_->is_root()) {
     for (const model::Contact& contact : crossing_->contacts()) {
       across.push_back(contact.body_a);

@@ -1,4 +1,4 @@
-/// Which islands wake and fall asleep, agreed on by the ranks.
+/// Makes the ranks agree on which islands wake and fall asleep.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@
 
 namespace pbmpi::mpi {
 
-/// With the effect "sleeping" every rank knows of every body whether it sleeps. The ranks agree after
+/// With the effect "sleeping" every rank knows for every body whether it sleeps. The ranks agree after
 /// collision on the islands that wake, and at the end of a step on those that fall asleep: one allgatherv for
 /// each round of waking, one for the resting parts of islands, and one more where there are any. Where
-/// nothing can cross each rank decides alone; a step in which all sleep sends nothing.
+/// nothing can cross each rank decides alone; a step in which all bodies sleep sends nothing.
 ///
-/// Called by SpaceStep. Without the effect nothing is done.
+/// Called by SpaceStep. Does nothing without the effect.
 class SleepAgreement {
  public:
   /// Both are borrowed.
   SleepAgreement(StepContext& shared, CrossingSearch& crossing) : shared_(&shared), crossing_(&crossing) {}
 
-  /// After the events of the step, which may wake islands: do all bodies sleep through the step? Every rank
-  /// gives the same answer, also one that holds an error: what the ranks exchange depends on it.
+  /// To be called after the events of the step, which may wake islands: do all bodies sleep through the step?
+  /// Every rank gives the same answer, even one that holds an error: the exchange of messages depends on it.
   bool sleeps_through(std::int64_t step);
-  /// After collision: wakes islands, and collides again, until no awake body touches a sleeping one, here or
-  /// across spaces. `contacts`: this rank's own.
+  /// After collision: wakes islands, and collides again, until no awake body touches a sleeping one, on this
+  /// rank or across spaces. `contacts`: this rank's own.
   void wake_touched(std::int64_t step, std::vector<model::Contact>& contacts, core::LapTimer& timer);
-  /// At the end of a step: puts islands to sleep of which all parts, on whatever ranks, have rested.
+  /// At the end of a step: puts an island to sleep once all its parts, on whatever ranks, have rested.
   void put_resting_to_sleep(core::LapTimer& timer);
 
  private:
@@ -37,7 +37,7 @@ class SleepAgreement {
 
   StepContext* shared_;
   CrossingSearch* crossing_;
-  std::vector<effects::BodyPair> touching_;  ///< of the step's own contacts, before islands are shipped
+  std::vector<effects::BodyPair> touching_;  ///< in the step's own contacts, before islands are shipped
 };
 
 }  // namespace pbmpi::mpi

@@ -58,7 +58,7 @@ void SpaceStep::run(std::int64_t step, bool last, core::PhaseTimes& times) {
   }
 }
 
-/// From own contacts and own units to those of the islands that this rank solves.
+/// Turns own contacts and own units into those of the islands that this rank solves.
 void SpaceStep::exchange(std::int64_t step, core::LapTimer& timer) {
   shipping_.start_step();
   work_.units = shared_.own_units();
@@ -69,7 +69,7 @@ void SpaceStep::exchange(std::int64_t step, core::LapTimer& timer) {
   shipping_.ship(orders, islands_.islands(), work_, timer);
 }
 
-/// A step in which all bodies sleep: nothing moves, and nothing is sent but the account of a frame.
+/// A step in which all bodies sleep: nothing moves, and only the account of a frame is sent.
 void SpaceStep::sleep_through(bool last, core::PhaseTimes& times) {
   core::LapTimer timer(times);
   work_.contacts.clear();

@@ -20,24 +20,24 @@
 
 namespace pbmpi::mpi {
 
-/// The phases of a step, of which each has a class of its own. Collective calls, one step a call. On a rank
-/// of its own, and where nothing can cross (all bodies on one rank, or spaces that the scene says never
+/// The phases of a step, each of which has a class of its own. All calls are collective; each runs one step.
+/// On a single rank, and where nothing can cross (all bodies on one rank, or spaces that the scene says never
 /// meet), a step sends no message and builds no island.
 ///
-/// Otherwise a step is, on every rank: events; collision in own spaces. Root, which has the poses and boxes
-/// that the ranks sent at the end of the step before, finds the contacts across spaces, before its own
-/// collision if all has arrived by then, and tells the ranks whether there are any (CrossingSearch). If so,
-/// each rank forms its islands from joints and own contacts (RankIslands) and reports them; root joins them
-/// and orders the ranks which to ship, which to expect, and which contacts across spaces to solve
-/// (IslandDispatch); islands are shipped, and shipped back when they are solved (IslandShipping). Where
-/// nothing crosses, a rank thus waits for nothing but root's verdict.
+/// Otherwise every rank first handles events and collides in its own spaces. Root, which has the poses and
+/// boxes that the ranks sent at the end of the previous step, finds the contacts across spaces (before its
+/// own collision if all poses have arrived by then) and tells the ranks whether there are any
+/// (CrossingSearch). If so, each rank forms its islands from joints and own contacts (RankIslands) and
+/// reports them; root joins them and orders the ranks which to ship, which to expect, and which contacts
+/// across spaces to solve (IslandDispatch); islands are shipped, and shipped back when they are solved
+/// (IslandShipping). Where nothing crosses, a rank waits only for root's verdict.
 ///
 /// The effects "sleeping" (SleepAgreement) and "field_of_interest" (FieldCenter) add messages of their own.
-/// With the effect "breakable_joints" what is broken travels with the states of the bodies that it held, and
-/// the forces that a step hands on to the next travel with the states of the bodies on which they act.
-/// The last step of a frame ends with an account to root (FrameReport).
+/// With the effect "breakable_joints" the broken joints are sent with the states of their bodies, and the
+/// forces that a step hands on to the next are sent with the states of the bodies on which they act. The last
+/// step of a frame ends with an account to root (FrameReport).
 ///
-/// Errors of the stepper are held in `errors`; the messages of the step are exchanged all the same.
+/// Errors of the stepper are held in `errors`; the messages of the step are exchanged regardless.
 class SpaceStep {
  public:
   /// All borrowed.
@@ -45,10 +45,10 @@ class SpaceStep {
   SpaceStep(const SpaceStep&) = delete;
   SpaceStep& operator=(const SpaceStep&) = delete;
 
-  /// The spaces have these owners from now on. `state`: of all bodies, on every rank.
+  /// Gives the spaces new owners from now on. `state`: of all bodies, on every rank.
   void own(const SpaceOwnership& ownership, const model::State& state, std::int64_t step);
 
-  /// `last` of a frame: root then has all rows of the state, and findings().
+  /// `last`: the last step of a frame, after which root has all rows of the state, and findings().
   void run(std::int64_t step, bool last, core::PhaseTimes& times);
 
   const FrameFindings& findings() const { return report_.findings(); }  ///< on root

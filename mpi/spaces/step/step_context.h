@@ -1,4 +1,4 @@
-/// What all parts of a step of a divided world share.
+/// What all parts of a divided world's step share.
 #pragma once
 
 #include <memory>
@@ -35,7 +35,7 @@ enum StepTag : int {
 struct StepContext {
   const Communicator* comm = nullptr;          ///< borrowed, as are the next four
   stepping::SpaceStepper* stepper = nullptr;   ///< the engine, which holds this rank's copy of the world
-  ErrorHold* errors = nullptr;                 ///< what the engine throws, until the ranks agree on it
+  ErrorHold* errors = nullptr;                 ///< holds what the engine throws until the ranks agree on it
   effects::SpaceSleepers* sleepers = nullptr;  ///< null without the effect "sleeping"
   effects::FieldOfInterest* field = nullptr;   ///< null without the effect "field_of_interest"
   std::unique_ptr<Mail> mail;                  ///< none for a single rank, which sends nothing
@@ -51,27 +51,27 @@ struct StepContext {
   const std::vector<int>& own_units() const { return ownership->units[comm->rank()]; }
   const std::vector<int>& own_bodies() const { return ownership->bodies[comm->rank()]; }
 
-  /// What travels of units beside the states of their bodies: what is broken of their joints, and the forces
-  /// that a step hands on.
+  /// Writes what is sent of units in addition to the states of their bodies: their broken joints, and the
+  /// forces that a step hands on.
   void put_units(std::span<const int> units, MessageWriter& message) const {
     if (joints_break) message.put(stepper->broken_rows(units));
     if (remembers) message.put(stepper->memory_rows(units));
   }
-  /// Takes in what put_units() wrote.
+  /// Reads what put_units() wrote.
   void take_units(std::span<const int> units, MessageReader& message) const {
     if (joints_break) stepper->put_broken(units, message.get<std::int32_t>());
     if (remembers) stepper->put_memory(units, message.get<double>());
   }
 
   /// Calls `function` unless an error is held already; holds what it throws. The messages of the step are
-  /// exchanged all the same, so that no rank waits for another in vain.
+  /// exchanged regardless, so that no rank waits for another in vain.
   template <class Function>
   void guard(Function&& function) {
     if (!errors->failed()) errors->guard(std::forward<Function>(function));
   }
 };
 
-/// Contacts and units that this rank solves in a step: its own ones, until islands are shipped.
+/// Contacts and units that this rank solves in a step: its own, until islands are shipped.
 struct StepWork {
   std::vector<model::Contact> contacts;  ///< in canonical order
   std::vector<int> units;                ///< ascending

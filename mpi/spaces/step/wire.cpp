@@ -35,7 +35,7 @@ model::Contact from_wire(const WireContact& wire) {
 void merge_contacts(std::span<const WireContact> from, std::vector<model::Contact>& to) {
   const auto old = std::ssize(to);
   for (const WireContact& contact : from) to.push_back(from_wire(contact));
-  // All contacts of a pair of geoms come from one list, so that their order stays.
+  // All contacts of a pair of geoms come from one list, which keeps their order.
   std::inplace_merge(to.begin(), to.begin() + old, to.end(),
                      [](const model::Contact& a, const model::Contact& b) { return a.geoms < b.geoms; });
 }

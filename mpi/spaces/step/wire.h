@@ -1,4 +1,4 @@
-/// Contacts and rows of a state as messages hold them.
+/// Contacts and rows of a state in the form that messages hold.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace pbmpi::mpi {
 
-/// A model::Contact as messages hold it, every bit kept.
+/// A model::Contact in the form that messages hold, with every bit kept.
 struct WireContact {
   std::int32_t first = 0, second = 0;  ///< geoms
   std::int32_t body_a = 0, body_b = 0;

@@ -9,7 +9,7 @@ namespace {
 
 using Terms = std::vector<double>;
 
-/// A measured time, and what each cost counts in it.
+/// A measured time, and how often each cost counts in it.
 struct Equation {
   Terms terms;
   double seconds;
@@ -41,7 +41,7 @@ Terms fit(const std::vector<Equation>& equations, std::size_t num_costs) {
   return costs;
 }
 
-/// What the costs of a part count in the time of a case.
+/// How often each cost of a part counts in the time of a case.
 Terms terms_of(const TimedCase& one) {
   const auto worlds = static_cast<double>(one.worlds), bodies = static_cast<double>(one.bodies);
   const auto ranks = static_cast<double>(one.ranks);

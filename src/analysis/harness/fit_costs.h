@@ -1,4 +1,4 @@
-/// What the parts of the harness cost, from cases that were timed.
+/// Costs of the parts of the harness, from timed cases.
 #pragma once
 
 #include <array>
@@ -10,35 +10,36 @@
 
 namespace pbmpi::analysis {
 
-/// What was timed.
+/// The part that was timed.
 enum class TimedPart {
-  frame,    ///< of worlds without physics, on one rank
-  unpack,   ///< root: the worlds of all other ranks, out of one array
+  frame,    ///< worlds without physics, on one rank
+  unpack,   ///< root: reads the worlds of all other ranks from one array
   balance,  ///< root: decides that no world moves
-  table,    ///< where the bodies of all worlds begin
+  table,    ///< the table of where the bodies of all worlds begin
   hash,     ///< the hash of a run from those of its worlds
   bodies,   ///< hashes of worlds from their bodies
   message,  ///< half a message there and back
   send,     ///< a message of a burst, at its sender
   receive,  ///< a message of a burst, at its receiver
-  move,     ///< root: decides which worlds move; costs are uneven. Not part of any fit
+  move,     ///< root: decides which worlds move; costs are uneven. Not used in any fit
 };
 inline constexpr std::array<std::string_view, 10> timed_part_names = {
     "frame", "unpack", "balance", "table", "hash", "bodies", "message", "send", "receive", "move"};
 
-/// One case; what does not concern its part is 0.
+/// One case; members that do not concern its part are 0.
 struct TimedCase {
   TimedPart part = TimedPart::frame;
   std::int64_t ranks = 1;
   std::int64_t worlds = 0;
-  std::int64_t bodies = 0;  ///< of a world
-  std::int64_t steps = 0;   ///< of a frame
-  std::int64_t bytes = 0;   ///< of a message
+  std::int64_t bodies = 0;  ///< per world
+  std::int64_t steps = 0;   ///< per frame
+  std::int64_t bytes = 0;   ///< per message
   double seconds = 0;
 };
 
 /// The costs with which the parts' formulas (frame_forecast.h) come nearest to the times: least squares of
-/// relative errors, no cost below 0. Parts that were not timed cost nothing. The memory is left as it is.
+/// relative errors, no cost below 0. Parts that were not timed cost nothing. The memory figures are left as
+/// they are.
 HarnessCosts fit_costs(std::span<const TimedCase> cases);
 
 }  // namespace pbmpi::analysis

@@ -10,7 +10,7 @@
 namespace pbmpi::analysis {
 namespace {
 
-/// When a rank begins to hand on, and when it is done, since the ranks have packed.
+/// When a rank begins to hand on, and when it is done, counted from the moment when the ranks have packed.
 struct Stream {
   double first_s = 0, last_s = 0;
   std::int64_t bytes = 0;
@@ -18,7 +18,7 @@ struct Stream {
 
 double message_s(const LinkCosts& link) { return std::max(link.overhead_s, link.gap_s); }
 
-/// A rank that takes in streams and hands on what it has, piece by piece.
+/// A rank that receives streams and forwards the data piece by piece.
 class RelayedStream {
  public:
   RelayedStream(const LinkCosts& link, std::int64_t piece_bytes, std::int64_t own_bytes)
@@ -30,7 +30,7 @@ class RelayedStream {
     const double begin_s = std::max(now_s_, child.first_s + link_.latency_s);
     const double busy_s = pieces * message_s(link_) + static_cast<double>(child.bytes) * link_.byte_s;
     const auto last_bytes = static_cast<double>(std::min(child.bytes, piece_bytes_));
-    // Not before the child's last piece has come.
+    // Not before the child's last piece has arrived.
     const double end_s = std::max(
         begin_s + busy_s, child.last_s + link_.latency_s + message_s(link_) + last_bytes * link_.byte_s);
     if (!is_full_ && bytes_ + child.bytes >= piece_bytes_) {
@@ -55,7 +55,7 @@ class RelayedStream {
   std::int64_t bytes_;
   double now_s_ = 0;
   bool is_full_;
-  double full_s_ = 0;  ///< when the first piece was
+  double full_s_ = 0;  ///< when the first piece became full
 };
 
 double ranks_of(const HarnessLoad& load) { return static_cast<double>(load.num_ranks); }

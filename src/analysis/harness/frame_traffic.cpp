@@ -33,7 +33,7 @@ FrameTraffic frame_traffic(const HarnessLoad& load, const GatherShape& shape) {
   const mpi::RankTree tree(load.num_ranks, shape.radix);
   const std::int64_t bytes_each = bytes_of_world(load.bodies_each);
   FrameTraffic traffic;
-  // Worlds of a range of ranks without root, whose own go nowhere.
+  // Worlds of a range of ranks, excluding root, which does not send its own.
   const auto worlds_before = [&](std::int64_t rank) {
     const std::int64_t more = load.num_worlds % load.num_ranks;
     return load.num_worlds / load.num_ranks * rank + std::min(rank, more);
@@ -50,7 +50,7 @@ FrameTraffic frame_traffic(const HarnessLoad& load, const GatherShape& shape) {
   }
   traffic.agreement.messages = messages_of_allreduce(load.num_ranks);
   traffic.agreement.bytes = bytes_of_agreement * traffic.agreement.messages;
-  traffic.verdict.messages = load.num_ranks - 1;  // by any tree
+  traffic.verdict.messages = load.num_ranks - 1;  // with any tree
   traffic.verdict.bytes = bytes_of_verdict * traffic.verdict.messages;
   return traffic;
 }

@@ -1,4 +1,4 @@
-/// A run of whole worlds, as far as what the harness sends, holds and waits for depends on it.
+/// The properties of a run of whole worlds that decide what the harness sends, holds and waits for.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,22 @@ struct HarnessLoad {
   std::int64_t num_worlds = 1;
   std::int64_t bodies_each = 1;
   int steps_per_frame = 3;
-  double step_s = 0;     ///< of a world, in its engine
-  double variation = 0;  ///< standard deviation over the mean of what worlds cost in a frame
+  double step_s = 0;     ///< per world, in its engine
+  double variation = 0;  ///< standard deviation / mean of the costs of worlds in a frame
 
-  /// Of a rank.
+  /// Number of worlds that a rank owns.
   std::int64_t worlds_of(int rank) const {
     return num_worlds / num_ranks + (rank < num_worlds % num_ranks ? 1 : 0);
   }
 };
 
-/// How poses and costs come to root.
+/// How poses and costs reach root.
 struct GatherShape {
   int radix = mpi::RankTree::usual_radix;
   std::int64_t piece_bytes = mpi::TreeGather::usual_piece_bytes;
 
-  /// Each rank sends all that it has to root in one message, as with MPI_Gatherv, whose algorithm in Open MPI
-  /// is this one for any number of ranks.
+  /// Each rank sends all its data to root in one message, as with MPI_Gatherv, for which Open MPI uses this
+  /// algorithm on any number of ranks.
   static GatherShape linear(int num_ranks) { return {num_ranks < 2 ? 2 : num_ranks, std::int64_t{1} << 62}; }
 };
 

@@ -8,16 +8,17 @@
 namespace pbmpi::analysis {
 namespace {
 
-// Bytes of a world on every rank: its owner, and where its bodies begin, in the driver, in the file's setup
-// and in its columns, and where its joints begin.
+// Bytes per world on every rank: its owner; where its bodies begin, in the driver, in the file's setup and in
+// its columns; and where its joints begin.
 constexpr double table_bytes = 4 + 3 * 8 + 8;
-// On root: its owner and cost, three frames' costs and their median, and the rebalancer's lists.
+// Bytes per world on root: its owner and cost, three frames' costs and their median, and the rebalancer's
+// lists.
 constexpr double balance_bytes = 4 + 8 + 3 * 8 + 8 + 12;
-// What a run says of a world at its end: as it is collected, joined, and written.
+// Bytes of a world's results at the end of a run: as collected, joined, and written.
 constexpr double result_bytes = 104 + 104 + 160;
-// Position, orientation and both velocities.
+// Bytes of a body's position, orientation and both velocities.
 constexpr double motion_bytes = 13 * 8;
-// A rank's phases in a frame.
+// Bytes of a rank's phases in a frame.
 constexpr double phase_bytes = core::num_phases * 8;
 
 }  // namespace

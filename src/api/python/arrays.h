@@ -1,4 +1,4 @@
-/// What numpy arrays a batch takes and gives.
+/// The numpy arrays that a batch takes and returns.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -9,7 +9,7 @@
 
 namespace pbmpi::python {
 
-/// Lengths of an array's dimensions, and what they are called, e.g. {4096, 20, 3} "[worlds][bodies][3]".
+/// Lengths of an array's dimensions, and their names, e.g. {4096, 20, 3} "[worlds][bodies][3]".
 struct Shape {
   std::vector<pybind11::ssize_t> lengths;
   std::string meaning;
@@ -18,8 +18,8 @@ struct Shape {
   std::string text() const;
 };
 
-/// A copy of an array of numbers as doubles, row by row. `name` is that of the argument. Throws
-/// pybind11::value_error for another shape, pybind11::type_error for what holds no real numbers.
+/// Copies an array of numbers to doubles, in row-major order. `name`: the argument's. Throws
+/// pybind11::value_error for another shape, pybind11::type_error for anything but real numbers.
 std::vector<double> to_numbers(const pybind11::object& given, const std::string& name, const Shape& shape);
 
 /// An array of bools, one a world, contiguous; of length 0 for None. Throws as to_numbers() does.
@@ -27,7 +27,7 @@ using Mask = pybind11::array_t<bool, pybind11::array::c_style>;
 Mask to_mask(const pybind11::object& given, pybind11::ssize_t num_worlds);
 std::span<const bool> span_of(const Mask& mask);
 
-/// An array that shows `values` without a copy, that nobody can write to, and that keeps `owner` alive.
+/// An array that shows `values` without a copy, is read-only, and keeps `owner` alive.
 pybind11::array_t<double> read_only_view(const std::vector<double>& values, const Shape& shape,
                                          const pybind11::object& owner);
 

@@ -12,9 +12,10 @@ namespace pbmpi::python {
 namespace py = pybind11;
 namespace {
 
-/// Python's signal handlers get their turn, so that Ctrl-C ends a long call, after so long, but not before so
-/// many steps: steppers take the worlds of a pack through all steps of a call before the next pack, while
-/// they are in the cache. 4,096 worlds of CrashSk need twice as long for steps one by one as for 24 at once.
+/// A long call lets Python's signal handlers run, so that Ctrl-C ends it, after this time, but not before
+/// this many steps: steppers take the worlds of a pack through all steps of a call before the next pack,
+/// while they are in the cache. 4,096 worlds of CrashSk take twice as long with steps one by one as with 24
+/// at once.
 constexpr double seconds_at_once = 0.1;
 constexpr int least_steps_at_once = 30;
 
@@ -44,7 +45,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 PythonBatch::PythonBatch(const BatchOptions& options)
     : batch_(options), steps_at_once_(least_steps_at_once) {}
 
-// The interpreter's lock is taken again only after the batch's is given back: nobody waits for one while
+// The interpreter's lock is taken again only after the batch's is released: no thread waits for one while
 // holding the other.
 template <class Self, class Work>
 auto PythonBatch::alone(Self& self, Work&& work) {

@@ -14,15 +14,14 @@
 
 namespace pbmpi::python {
 
-/// A batch that several threads of an interpreter may use: what takes long runs without the interpreter's
-/// lock, and calls wait for each other. Shapes and errors are those of Batch; a wrong array throws as
-/// arrays.h says.
+/// A batch that several threads of an interpreter may use: long calls run without the interpreter's lock, and
+/// calls wait for each other. Shapes and errors are those of Batch; a wrong array throws as arrays.h says.
 class PythonBatch {
  public:
   /// Called without the interpreter's lock.
   explicit PythonBatch(const BatchOptions& options);
 
-  /// Does not lock: what it tells does not change.
+  /// Does not lock, since what this reference is used to read never changes.
   const Batch& batch() const { return batch_; }
 
   /// Lets Python's signal handlers run about ten times a second, and ends early with their exception; other
@@ -32,7 +31,7 @@ class PythonBatch {
   /// The member of BatchState as an array that shows it without a copy and keeps `self` alive.
   static pybind11::array_t<double> view(const pybind11::object& self,
                                         std::vector<double> BatchState::*member);
-  /// A member that is None stays as it is.
+  /// An argument that is None leaves its member as it is.
   void set_state(const pybind11::object& position, const pybind11::object& orientation,
                  const pybind11::object& velocity, const pybind11::object& angular_velocity,
                  const pybind11::object& mask);
@@ -42,12 +41,12 @@ class PythonBatch {
   pybind11::array_t<std::int64_t> steps() const;
   /// [worlds][motors], or [motors] for all worlds alike.
   void set_motor_velocities(const pybind11::object& velocities);
-  /// [worlds], or [worlds][3] of a vector.
+  /// [worlds], or [worlds][3] for a vector.
   pybind11::array_t<double> observable(const std::string& name) const;
 
   pybind11::bytes save() const;
   void load(const pybind11::buffer& saved);
-  /// 16 hexadecimal digits, of one world of this rank or of all of all ranks.
+  /// 16 hexadecimal digits: the hash of one world of this rank, or of all worlds of all ranks.
   std::string hash(std::optional<int> world) const;
 
  private:
@@ -59,7 +58,7 @@ class PythonBatch {
 
   mutable std::mutex mutex_;
   Batch batch_;
-  int steps_at_once_;  ///< between two turns of signal handlers
+  int steps_at_once_;  ///< between two calls of the signal handlers
 };
 
 }  // namespace pbmpi::python

@@ -1,4 +1,4 @@
-/// What a run's file and summary say of the engine that steps it.
+/// What a run's file and summary say about the engine that steps it.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace pbmpi::app {
 
-/// The vector instructions that the stepper uses and its lanes, e.g. "avx512, 16 lanes"; empty where it
-/// has no choice of them.
+/// The stepper's vector instructions and lanes, e.g. "avx512, 16 lanes"; empty for a stepper without a choice
+/// of instructions.
 std::string simd_text(const stepping::StepperSettings& settings);
 
 /// ODE's version, with its precision if that is single.

@@ -15,7 +15,7 @@ using stepping::StepperSettings;
 
 StepperSettings default_estimate(const StepperSettings& precise) {
   // Forces that a crash's last substep ended with act for a whole substep of the estimate: six times as long,
-  // not as a whole step.
+  // not for a whole step.
   constexpr int substeps_in_one = 6;
   StepperSettings estimate = precise;
   estimate.iterations = 1;

@@ -13,17 +13,17 @@ namespace pbmpi::app {
 
 /// Where an estimate comes from.
 enum class EstimateSource {
-  short_run,   ///< a run of its own: of the whole frame, or of what follows its first precise steps
+  short_run,   ///< a run of its own: the whole frame, or what follows its first precise steps
   same_solve,  ///< a look at the precise solve of the frame's last step
-  until_due,   ///< what can be had by the time at which it is due
+  until_due,   ///< what can be had by the time the estimate is due
 };
 inline constexpr std::array<std::string_view, 3> estimate_source_names = {"short_run", "same_solve",
                                                                           "until_due"};
 
 struct EstimateSpec {
-  stepping::StepperSettings stepper;  ///< of what is not precise
+  stepping::StepperSettings stepper;  ///< of the part that is not precise
   EstimateSource source = EstimateSource::short_run;
-  int after = 0;                ///< precise steps with which it begins
+  int after = 0;                ///< number of precise steps at the start of a frame
   std::optional<double> due_s;  ///< from the start of a frame until its estimate is due
 };
 
@@ -31,12 +31,11 @@ struct EstimateSpec {
 /// its substeps.
 stepping::StepperSettings default_estimate(const stepping::StepperSettings& precise);
 
-/// The precise solve can be looked at where it is the only one left of the frame, and passes the wanted
-/// iteration.
+/// `same_solve` where the precise solve is the only one left of the frame, and passes the wanted iteration.
 EstimateSource source_of(const EstimateSpec& estimate, const stepping::StepperSettings& precise,
                          int steps_per_frame);
 
-/// `precise` is borrowed: the one that computes the precise frames.
+/// `precise`, borrowed, computes the precise frames.
 std::unique_ptr<stepping::Estimator> make_estimator(const EstimateSpec& estimate,
                                                     stepping::FrameStepper& precise);
 

@@ -1,4 +1,4 @@
-/// JSON documents as text, whatever bytes their texts have and whatever their numbers are.
+/// JSON documents as text, valid whatever bytes their texts and whatever numbers they have.
 #pragma once
 
 #include <cmath>
@@ -7,14 +7,14 @@
 
 namespace pbmpi::app {
 
-/// Names of files and scenes may be no UTF-8, which JSON must be: U+FFFD stands for what is none. `indent`:
-/// -1 = all on one line.
+/// JSON must be UTF-8, and names of files and scenes may not be: U+FFFD replaces invalid bytes. `indent`: -1
+/// = all on one line.
 template <class Json>
 std::string json_text(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-/// JSON has no word for what is not finite.
+/// JSON has no word for numbers that are not finite.
 inline nlohmann::ordered_json finite_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }

@@ -49,7 +49,7 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
                                      const po::positional_options_description& positional,
                                      const std::string& last) {
   po::variables_map values;
-  std::string where;  // what is being read, where it is no command line
+  std::string where;  // the file being read, with ": "; empty for the command line
   try {
     po::store(po::command_line_parser(args)
                   .options(description)
@@ -57,7 +57,7 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
                   .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
                   .run(),
               values);
-    for (const std::string option : {"config", "preset"}) {  // boost keeps the value that is stored first
+    for (const std::string option : {"config", "preset"}) {  // boost keeps the first value stored
       if (values.count(option) == 0) continue;
       where = values[option].as<std::string>() + ": ";
       std::istringstream lines(core::read_input_file(

@@ -23,20 +23,20 @@ struct CommonOptions {
 /// --help, --version, --config, --quiet, --progress.
 boost::program_options::options_description common_options_description();
 
-/// Parses `args` (without the program's name) and, if given, the files named by --config and --preset; the
+/// Parses `args` (without the program's name) and, if given, the files named by --config and --preset. The
 /// command line wins over both, --config over --preset, and all over `last`, lines as in such a file.
 /// `positional` names the option that takes the words without a dash; empty = such words are refused. Throws
-/// core::InputError for anything that is not in `description`, with the nearest option, and if a file would
-/// be written that is written or read by another option, too.
+/// core::InputError for anything that is not in `description`, with the nearest option, and for a file to be
+/// written that another option also writes or reads.
 boost::program_options::variables_map parse_command_line(
     const std::vector<std::string>& args, const boost::program_options::options_description& description,
     const boost::program_options::positional_options_description& positional = {},
     const std::string& last = "");
 
-/// parse_command_line() for a command that is given files to read, the words without a dash: given_files().
+/// parse_command_line() for a command whose words without a dash are files to read: given_files().
 boost::program_options::variables_map parse_with_files(
     const std::vector<std::string>& args, boost::program_options::options_description description);
-/// The files of parse_with_files(), none if none is named.
+/// The files given to parse_with_files(); empty if none is named.
 std::vector<std::string> given_files(const boost::program_options::variables_map& values);
 
 /// Adds --help and --config.
@@ -47,12 +47,12 @@ void add_seed_option(const std::string& meaning, boost::program_options::options
 /// Throws core::InputError unless it is a whole number from 0 to 2^64 - 1.
 std::uint64_t given_seed(const boost::program_options::variables_map& values);
 
-/// The file to write that an option names, if it is given. Throws core::InputError for an empty name.
+/// The file to write that an option names, if given. Throws core::InputError for an empty name.
 std::optional<std::string> output_path(const boost::program_options::variables_map& values,
                                        const char* option);
 
-/// The files that a command line names: those to be read, as far as they are there, and those to be written.
-/// Not the checkpoint to go on from, which the next one may replace.
+/// The files that a command line names: existing ones to be read, and those to be written. Excludes the
+/// checkpoint to go on from, which the next one may replace.
 std::vector<core::NamedPath> named_paths(const boost::program_options::variables_map& values);
 
 /// Reads the common options out of a parsed command line. Throws core::InputError.

@@ -1,4 +1,4 @@
-/// Progress on one line that is written over.
+/// Progress on one line that is redrawn in place.
 #pragma once
 
 #include <cstddef>
@@ -22,13 +22,13 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Draws what `text` gives if a tenth of a second has passed, or this `is_last`.
+  /// Draws the result of `text` if a tenth of a second has passed, or this `is_last`.
   void show(bool is_last, const std::function<std::string()>& text);
 
  private:
   std::ostream& out_;
   double last_s_ = 0;
-  std::size_t width_ = 0;  ///< of the text that is on the line
+  std::size_t width_ = 0;  ///< of the text now on the line
 };
 
 }  // namespace pbmpi::app

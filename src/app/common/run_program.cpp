@@ -20,7 +20,7 @@ int run_program(const std::string& name,
   };
   try {
     const core::ExitCode code = program(world);
-    // Of a run that was stopped the checkpoint counts, not what it printed.
+    // What counts of a stopped run is its checkpoint, not what it printed.
     if (world.is_root() && code == core::ExitCode::done) require_printed(std::cout, "the output");
     return static_cast<int>(code);
   } catch (const core::InputError& error) {

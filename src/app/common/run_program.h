@@ -1,4 +1,4 @@
-/// What stands between main() and a parallel program: errors become one message and an exit code.
+/// Stands between main() and a parallel program: errors become one message and an exit code.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace pbmpi::app {
 
-/// Runs `program` on all ranks; lives inside an mpi::Session. core::InputError and core::RunError are the
+/// Runs `program` on all ranks, while an mpi::Session is alive. core::InputError and core::RunError are the
 /// same on every rank (whoever throws one on a rank of its own has agreed on it before): root prints the
 /// message, all return its exit code. Any other exception is a mistake in the program, on some rank: it is
 /// printed and the whole run is aborted, so that nobody waits.

@@ -11,7 +11,7 @@ namespace pbmpi::app {
 void add_step_option(const stepping::StepOption& option,
                      boost::program_options::options_description& description);
 
-/// What a command line (with its files) says of the step. Throws core::InputError for a value that cannot be.
+/// Step options given on a command line (with its files). Throws core::InputError for an impossible value.
 stepping::StepChoices step_arguments(const boost::program_options::variables_map& values);
 
 }  // namespace pbmpi::app

@@ -6,7 +6,7 @@
 
 namespace pbmpi::app {
 
-/// Throws core::RunError if what was printed to `out` has not all arrived. `what`: e.g. "the report".
+/// Throws core::RunError if not everything printed to `out` has arrived. `what`: e.g. "the report".
 void require_printed(std::ostream& out, const std::string& what);
 
 }  // namespace pbmpi::app

@@ -30,7 +30,7 @@ std::string CheckpointKeeper::keep(mpi::Snapshot snapshot) {
     last_ = path_ + " (after " + std::to_string(snapshot.frames) + " frames)";
     return std::filesystem::path(path_).filename().string() + " holds the run after step " +
            std::to_string(snapshot.steps) + " (" + std::to_string((bytes + 1023) / 1024) + " KiB)";
-  } catch (const std::runtime_error& error) {  // an InputError, too: whose mistake it was no longer matters
+  } catch (const std::runtime_error& error) {  // also an InputError: whose mistake it was no longer matters
     about_.worlds.clear();
     if (!snapshot.ends_run) {
       *warnings_ << "pbmpi: warning: no checkpoint in frame " << snapshot.frames - 1 << ": " << error.what()

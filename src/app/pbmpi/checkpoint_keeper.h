@@ -12,14 +12,14 @@ namespace pbmpi::app {
 /// Each snapshot replaces the file of the one before. Used on root.
 class CheckpointKeeper final : public mpi::SnapshotKeeper {
  public:
-  /// `about`: the file's content but for what a snapshot says. `warnings`, borrowed, is told of a file that
-  /// could not be written while the run goes on.
+  /// `about`: the file's content except a snapshot's part. `warnings`, borrowed, is told of a file that could
+  /// not be written while the run goes on.
   CheckpointKeeper(std::string path, io::Checkpoint about, std::ostream& warnings)
       : path_(std::move(path)), about_(std::move(about)), warnings_(&warnings) {}
 
-  /// Takes the place of the checkpoints, of about so many bytes, for as long as this lives. Throws
-  /// core::InputError if that cannot be, but only if checkpoints were `asked` for: else the first keep()
-  /// tries again.
+  /// Claims the path of the checkpoints, of about so many bytes, for the lifetime of this object. Throws
+  /// core::InputError if that is impossible, but only if checkpoints were `asked` for: otherwise the first
+  /// keep() tries again.
   void reserve(std::int64_t bytes, bool asked);
 
   std::string keep(mpi::Snapshot snapshot) override;

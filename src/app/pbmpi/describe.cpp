@@ -25,7 +25,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// What is counted over all worlds.
+/// Counts over all worlds.
 struct Census {
   stepping::WorldTable table;
   std::size_t geoms = 0, joints = 0, events = 0, spaces = 0;
@@ -33,7 +33,7 @@ struct Census {
   effects::RunPlan plan;
 };
 
-/// Says that the stepper skips the pass, where it does.
+/// Says so where the stepper skips the pass.
 std::string idle_note(const effects::RunPass& pass, stepping::StepperKind stepper) {
   if (pass.effect->name != "field_of_interest" || traits_of(stepper).has_field) return "";
   return "; idle, since " + std::string(name_of(stepper)) +
@@ -67,7 +67,7 @@ std::string in_units(double bytes) {
   return text.str();
 }
 
-/// Heap bytes of the first world in its stepper, model included, which is built anew for that.
+/// Heap bytes of the first world in its stepper, including the model, which is built anew for this.
 std::size_t measure_world_bytes(const Work& work) {
   const auto stepper = engines::make_stepper(work.spec.stepper);
   const std::size_t before = mallinfo2().uordblks;
@@ -103,7 +103,7 @@ void print_distribution(std::ostream& out, const Census& census, int first_world
   }
 }
 
-/// Of a world over so many ranks from `first_rank` on.
+/// A world's spaces over `num_ranks` ranks from `first_rank` on.
 void print_spaces(std::ostream& out, const model::Model& model, int first_rank, int num_ranks) {
   const model::SpaceMap map = model::make_space_map(model);
   const mpi::SpaceOwnership ownership(map, mpi::initial_owners(map, num_ranks), num_ranks);
@@ -121,7 +121,7 @@ void print_spaces(std::ostream& out, const model::Model& model, int first_rank, 
   }
 }
 
-/// Which group has which worlds, and the spaces of its ranks; spaces as in the first world.
+/// The worlds of each group, and the spaces of its ranks; spaces as in the first world.
 void print_groups(std::ostream& out, const Work& work, int num_ranks) {
   const mpi::RankGroups& groups = work.spec.groups;
   const int first_world = work.spec.first_world();
@@ -141,7 +141,7 @@ void print_groups(std::ostream& out, const Work& work, int num_ranks) {
     out << "  rank " << rank << ": idle (more ranks than groups have use for)\n";
 }
 
-/// When and from what a frame is estimated.
+/// When and from what each frame is estimated.
 std::string time_text(const EstimateSpec& estimate, int steps_per_frame) {
   std::ostringstream text;
   if (estimate.due_s) {
@@ -153,7 +153,7 @@ std::string time_text(const EstimateSpec& estimate, int steps_per_frame) {
   return text.str();
 }
 
-/// What the run has of an ensemble, and what its worlds have otherwise than the scene.
+/// Which worlds of an ensemble the run has, and what they change in the scene.
 std::string ensemble_lines(const Work& work) {
   std::string text;
   if (work.spec.range)

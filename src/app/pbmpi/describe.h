@@ -7,8 +7,8 @@
 
 namespace pbmpi::app {
 
-/// The resolved scene, the step plan with the reason of each pass, who owns what over `num_ranks` ranks, and
-/// estimates of memory (measured on the first) and file size. Builds every world once, one at a time.
+/// The resolved scene, the step plan with the reason for each pass, who owns what over `num_ranks` ranks, and
+/// estimates of memory (measured on the first world) and file size. Builds every world once, one at a time.
 std::string describe(const Work& work, int num_ranks);
 
 }  // namespace pbmpi::app

@@ -1,4 +1,4 @@
-/// The plan of a run, from what each rank knows of its own worlds.
+/// Combines what each rank knows of its own worlds into the plan of a run.
 #pragma once
 
 #include <span>

@@ -34,7 +34,7 @@ namespace {
 
 using core::ExitCode;
 
-/// The hard cases group by group, on lines of this many characters.
+/// The hard cases group by group, wrapped at this many characters.
 std::string hard_case_list() {
   constexpr std::size_t width = 100;
   std::string text = "Hard cases (docs/stability.md):";
@@ -55,7 +55,7 @@ std::string hard_case_list() {
   return text + "\n";
 }
 
-/// A line each: name and title.
+/// One line per scene: name and title.
 std::string titled_list(scenes::SceneGroup group, const std::string& indent) {
   std::string text;
   for (const scenes::SceneInfo& scene : scenes::list_scenes(group)) {
@@ -143,7 +143,7 @@ std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const 
                                        std::move(setup));
 }
 
-/// A sidecar that cannot be written costs the run nothing else.
+/// Only warns about a sidecar that cannot be written.
 void write_sidecar(const mpi::Communicator& comm, const RunSpec& spec) {
   if (!comm.is_root() || !spec.sidecar) return;
   try {
@@ -162,7 +162,7 @@ void print(const mpi::Communicator& comm, const Options& options, const RunSumma
   }
 }
 
-/// Launchers bind a rank to a core unless they are told not to; threads then take turns on it. Collective.
+/// Launchers bind a rank to a core unless told otherwise; threads then take turns on it. Collective.
 void warn_of_bound_threads(const mpi::Communicator& comm, int num_threads) {
   const std::vector<int> processors = comm.allgather(core::num_usable_processors());
   const auto fewest = std::ranges::min_element(processors);
@@ -187,8 +187,8 @@ mpi::WorldRunResult run_to_end(mpi::FrameDriver& driver, io::RunFile* file) {
   }
 }
 
-/// A place for checkpoints that was asked for is tried before the run, not after hours of it. One that nobody
-/// asked for is kept free of others where that can be.
+/// A path for checkpoints that was asked for is tried before the run, not after hours of it. The default path
+/// is reserved where possible.
 void reserve(const mpi::Communicator& comm, const CheckpointSpec& spec, std::int64_t num_bodies,
              CheckpointKeeper& keeper) {
   constexpr std::int64_t about_bytes_each = 1024, about_bytes = std::int64_t{1} << 17;

@@ -16,7 +16,7 @@ io::OptionalColumns optional_columns(const Work& work, const effects::RunPlan& p
 /// Attributes of the file's root.
 std::vector<io::Parameter> run_attributes(const Work& work, const Provenance& provenance);
 
-/// What the worlds of the run have otherwise than the scene.
+/// What the run's worlds change in the scene.
 std::vector<io::WorldParameter> world_parameters(const Work& work);
 
 /// /parameters: every resolved option, the scene's text, build and library versions, hosts, job environment.

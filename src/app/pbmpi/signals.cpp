@@ -18,7 +18,7 @@ using Phase = SignalRequests::Phase;
 
 constexpr unsigned least_grace_s = 10;
 
-// A signal handler can reach nothing but globals; these are the only ones.
+// A signal handler can reach only globals; these are the only ones.
 std::atomic<int> stop_signal{0};
 std::atomic<int> save_signals{0};
 std::atomic<int> first_end_signal{0};  ///< INT or TERM
@@ -36,7 +36,7 @@ long now_ms() {
   return 1000 * now.tv_sec + now.tv_nsec / 1000000;
 }
 
-/// The frame in which the run was to stop must end in time.
+/// Sets the deadline for the frame at whose end the run is to stop.
 void begin_grace() {
   core::begin_deadline("its frame to end, after a signal to stop (what was committed is readable),", grace_s,
                        first_end_signal);

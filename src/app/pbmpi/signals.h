@@ -10,14 +10,14 @@
 
 namespace pbmpi::app {
 
-/// While one of these lives, signals are heard like this. One at a time.
+/// While an object of this class lives, signals act as follows. At most one object at a time.
 /// - USR1 and USR2 are noted.
 /// - INT and TERM end the process at once while the run is being set up: there is nothing to save. Later the
-///   first one is noted, and the second one ends the process at once. What comes within 0.1 s of the first
-///   counts as one with it: mpirun may pass on what the whole process group got.
+///   first one is noted, and the second one ends the process at once. A signal within 0.1 s of the first
+///   counts as the same one: mpirun may pass on a signal that the whole process group got.
 /// - If the frame in which INT or TERM came does not end within ten seconds, or three times the longest frame
 ///   so far, the process ends all the same.
-/// In a process that ends at once, core::Leftover's files go; the run's file holds the frames committed
+/// When a process ends at once, core::Leftover's files are removed; the run's file holds the frames committed
 /// before.
 class SignalRequests {
  public:
@@ -26,14 +26,14 @@ class SignalRequests {
   SignalRequests(const SignalRequests&) = delete;
   SignalRequests& operator=(const SignalRequests&) = delete;
 
-  /// What the run is about.
+  /// What the run is doing.
   enum class Phase { set_up, begin_or_end, frames };
-  /// `speaks`: this rank says on stderr that it has heard.
+  /// `speaks`: this rank confirms on stderr the signals that it gets.
   void enter(Phase phase, bool speaks) const;
 
   /// 0, or the number of the signal that wants the run to stop.
   const std::atomic<int>& stop() const;
-  /// How often the run was to be saved.
+  /// How many times a save of the run was requested.
   const std::atomic<int>& saves() const;
 };
 
@@ -42,7 +42,7 @@ class FrameWatch final : public stepping::FrameObserver {
  public:
   FrameWatch();
   void frame_done(const stepping::FrameRecord& frame) override;
-  void secure() override;  ///< saving the run takes the time that it takes
+  void secure() override;  ///< saving may take as long as it needs
 
  private:
   double last_s_;

@@ -37,7 +37,7 @@ stability::GuardSettings guard_settings(const RunSpec& spec) {
 
 using SpaceSteppers = std::vector<std::unique_ptr<stepping::SpaceStepper>>;
 
-/// Of the worlds of this rank's group.
+/// Space steppers for the worlds of this rank's group.
 SpaceSteppers make_space_steppers(const mpi::Communicator& comm, const Work& work,
                                   const stepping::StepperSettings& settings) {
   return mpi::agree_on_errors(comm, [&] {

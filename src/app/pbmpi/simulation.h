@@ -1,4 +1,4 @@
-/// What steps a run: driver, steppers, estimator.
+/// The objects that step a run: driver, steppers, estimator.
 #pragma once
 
 #include <memory>
@@ -18,14 +18,14 @@ namespace pbmpi::app {
 struct Simulation {
   std::unique_ptr<stability::GuardSettings> guards;
   std::unique_ptr<stepping::WorldStepper> worlds;
-  std::vector<std::unique_ptr<stepping::SpaceStepper>> spaces;  ///< of the worlds of this rank's group
-  std::unique_ptr<stepping::Estimator> estimator;               ///< with FEEC, of whole worlds
-  std::vector<std::unique_ptr<stepping::SpaceStepper>> estimate_spaces;  ///< with FEEC, as `spaces`
+  std::vector<std::unique_ptr<stepping::SpaceStepper>> spaces;  ///< for the worlds of this rank's group
+  std::unique_ptr<stepping::Estimator> estimator;               ///< with FEEC, for whole worlds
+  std::vector<std::unique_ptr<stepping::SpaceStepper>> estimate_spaces;  ///< with FEEC, like `spaces`
   std::unique_ptr<mpi::FrameDriver> driver;
 };
 
-/// Collective. `work` is borrowed for as long as the driver lives, but for its states, of which the driver
-/// has copies. Throws core::InputError for settings that a stepper refuses.
+/// Collective. `work`, except its states, which the driver copies, is borrowed for as long as the driver
+/// lives. Throws core::InputError for settings that a stepper refuses.
 Simulation make_simulation(const mpi::Communicator& comm, const Work& work);
 
 }  // namespace pbmpi::app

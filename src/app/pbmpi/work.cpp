@@ -30,7 +30,7 @@ void require_undamaged(const io::Checkpoint& checkpoint, const std::string& path
                                                           "; the file is damaged");
 }
 
-/// Equal bits are promised for one build only.
+/// Refuses another version and warns of another build: equal bits are promised for one build only.
 void check_build(const io::Checkpoint& checkpoint, const std::string& path, std::ostream& warnings) {
   core::require_input(checkpoint.pbmpi_version == program_version,
                       path + ": written by pbmpi " + checkpoint.pbmpi_version + ", and this is " +
@@ -44,8 +44,9 @@ void check_build(const io::Checkpoint& checkpoint, const std::string& path, std:
   }
 }
 
-/// Collective. The checkpoint in `path`; the states of its worlds on root only. Throws core::InputError: not
-/// a checkpoint, damaged, of another version of pbmpi. Of another build of this version `warnings` is told.
+/// Collective. The checkpoint in `path`, with the states of its worlds on root only. Throws core::InputError
+/// for a file that is not a checkpoint, is damaged, or comes from another version of pbmpi. Another build of
+/// this version only gives a line on `warnings`.
 io::Checkpoint load_checkpoint(const mpi::Communicator& comm, const std::string& path,
                                std::ostream& warnings) {
   io::Checkpoint checkpoint;
@@ -65,7 +66,7 @@ io::Checkpoint load_checkpoint(const mpi::Communicator& comm, const std::string&
   return checkpoint;
 }
 
-/// Collective. The text of the checkpoint's scene. `asked`: the scene that was named beside it, or nothing;
+/// Collective. The text of the checkpoint's scene. `asked`: the scene named on the command line, or nothing;
 /// throws core::InputError if it is another one.
 scenes::SceneSource scene_of(const mpi::Communicator& comm, const io::Checkpoint& checkpoint,
                              const std::string& path, const std::string& asked) {
@@ -80,7 +81,7 @@ scenes::SceneSource scene_of(const mpi::Communicator& comm, const io::Checkpoint
   return {checkpoint.scene, checkpoint.scene_file, checkpoint.scene_text};
 }
 
-/// Collective. The checkpoint's table of parameters. `asked`: the one that was named beside it; throws
+/// Collective. The checkpoint's table of parameters. `asked`: the table named on the command line; throws
 /// core::InputError if it is another one.
 std::optional<scenes::ParameterTable> parameters_of(const mpi::Communicator& comm,
                                                     const io::Checkpoint& checkpoint, const std::string& path,
@@ -100,8 +101,8 @@ std::optional<int> num_rows(const Work& work) {
   return work.parameters ? std::optional(work.parameters->num_worlds()) : std::nullopt;
 }
 
-/// Throws core::InputError where the worlds of a rank cannot fit into the memory of its machine: they would
-/// be built for minutes before the memory ends. What a world takes beside its model is not counted.
+/// Throws core::InputError where the worlds of a rank cannot fit into the memory of its machine: building
+/// them would take minutes before memory ran out. Only the models are counted.
 void require_memory(const mpi::Communicator& comm, const Work& work) {
   const model::Model& model = *work.first_world;
   const double bytes_each = static_cast<double>(
@@ -119,7 +120,8 @@ void require_memory(const mpi::Communicator& comm, const Work& work) {
              work.spec.num_worlds, of_a_rank / gib, memory / gib));
 }
 
-/// --dt alone changes the time that a frame stands for, and with it all that is said of frames.
+/// --dt without --steps-per-frame changes the time that a frame stands for, and with it every result per
+/// frame.
 void note_length_of_frame(const mpi::Communicator& comm, const Options& options, const Work& work) {
   if (!options.dt_s() || options.steps_per_frame || options.common.quiet) return;
   const scenes::RunDefaults own = scenes::parse_scene(work.source)->defaults();
@@ -132,7 +134,7 @@ void note_length_of_frame(const mpi::Communicator& comm, const Options& options,
       std::max(1.0, std::round(before_s / *options.dt_s())));
 }
 
-/// What a model from elsewhere says that is taken otherwise; a resumed run has told it before.
+/// Prints what was read differently from an imported model; a resumed run has printed it before.
 void tell_notes(const mpi::Communicator& comm, const Options& options, const scenes::Scene& scene) {
   if (!comm.is_root() || options.common.quiet || options.action == Action::describe) return;
   for (const std::string& note : scene.notes()) std::cerr << "pbmpi: note: " << note << '\n';

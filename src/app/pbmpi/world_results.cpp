@@ -10,7 +10,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// A NaN, which is larger than nothing, is passed over.
+/// Ignores NaN and infinity.
 void raise(double& largest, double value) {
   if (std::isfinite(value) && value > largest) largest = value;
 }
@@ -36,7 +36,7 @@ void WorldResults::add(const stepping::LocalWorld& world, const stepping::FrameR
   seen.seen_until = num_frames_ + 1;
 }
 
-/// Of first and last values all ranks but one have 0; -0 + 0 is 0.
+/// First and last values are 0 on all ranks except one; -0 + 0 is 0.
 void WorldResults::join(const Seen& part, Seen& whole) {
   whole.contacts += part.contacts;
   whole.arrivals += part.arrivals;

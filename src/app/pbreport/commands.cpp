@@ -31,7 +31,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// "pbreport [report] FILE", whose help is that of the program.
+/// Runs "pbreport [report] FILE", whose help is the program's.
 core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostream& out) {
   const ReportOptions options = parse_report_options(args);
   if (options.action != ReportAction::help) return run_report(options, out);
@@ -41,7 +41,7 @@ core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostr
 
 using Run = core::ExitCode (*)(const std::vector<std::string>& args, std::ostream& out);
 
-/// The command for the kind of file that the arguments name.
+/// The command for the kind of the files named in the arguments.
 Run command_for_the_files_of(const std::vector<std::string>& args) {
   const std::string study = study_named_in(args);
   if (study == "calibrate") return run_calibrate_report;

@@ -19,13 +19,13 @@ struct ReportCommand {
   Manual (*manual)();
 };
 
-/// The first is what runs when the first argument names no command.
+/// The first one runs when the first argument names no command.
 const std::vector<ReportCommand>& report_commands();
 
-/// Of pbreport itself, and of the first command.
+/// Manual of pbreport itself and of the first command.
 Manual pbreport_manual();
 
-/// Runs the command that args[0] names, with the arguments after it, else the first command with all of them.
+/// Runs the command named by args[0] with the arguments after it, or else the first command with all of them.
 /// Prints to `out`. Throws core::InputError and core::RunError.
 core::ExitCode run_pbreport(const std::vector<std::string>& args, std::ostream& out);
 

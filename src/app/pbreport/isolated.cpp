@@ -17,7 +17,7 @@ namespace pbmpi::app {
 namespace {
 
 [[noreturn]] void run_child(const std::function<int()>& work, pid_t parent) {
-  // Who ends the parent means the report.
+  // A signal that ends the parent is meant for the report.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(1);
   const rlimit no_core = {0, 0};

@@ -21,7 +21,7 @@ struct StudyCommand {
 
 const std::vector<StudyCommand>& study_commands();
 
-/// Of pbstudy itself.
+/// The manual of pbstudy itself.
 Manual pbstudy_manual();
 
 /// Collective. Runs the study that args[0] names. Throws core::InputError and core::RunError, the same on

@@ -1,4 +1,4 @@
-/// pbstudy: runs a matrix of cases over the ranks, and writes what each of them costs and how good it is.
+/// pbstudy: runs a matrix of cases over the ranks, and writes the cost and quality of each.
 #include "app/common/options.h"
 #include "app/common/run_program.h"
 #include "app/pbstudy/commands.h"

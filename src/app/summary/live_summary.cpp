@@ -33,7 +33,7 @@ ObservedFrames join_ranks(const mpi::Communicator& comm, ObservedFrames observed
   return observed;
 }
 
-/// On root; elsewhere without the phases, of which root alone has room for those of all ranks.
+/// Times on root; elsewhere without the phases, since only root has room for those of all ranks.
 MeasuredFrames gather_times(const mpi::Communicator& comm, const mpi::WorldRunResult& result) {
   MeasuredFrames frames;
   std::vector<double> own;

@@ -20,8 +20,8 @@ class LiveSummary final : public stepping::FrameObserver {
     guards_.add(event);
   }
 
-  /// Collective. Fills what is measured into `summary`, whose settings (worlds, bodies, ranks,
-  /// steps_per_frame, budget_s) are set; the energy and what is of phases, on root only.
+  /// Collective. Fills the measured values into `summary`, whose settings (worlds, bodies, ranks,
+  /// steps_per_frame, budget_s) are set; energy and phases on root only.
   void finish(const mpi::Communicator& comm, const mpi::WorldRunResult& result, RunSummary& summary) const;
 
  private:
@@ -29,8 +29,8 @@ class LiveSummary final : public stepping::FrameObserver {
     std::int64_t world;
     double energy_j;
   };
-  /// Collective. Of all worlds, added in their order: counts add up to the same number in any order, whereas
-  /// this sum would depend on which rank has which world. 0 but on root.
+  /// Collective. Energy of all worlds, added in their order: counts add up to the same number in any order,
+  /// whereas this sum would depend on which rank has which world. 0 except on root.
   double total_energy(const mpi::Communicator& comm) const;
 
   ObservedFrames observed_;            ///< of this rank's worlds

@@ -15,7 +15,7 @@ std::string join(const Items& items, ToText to_text) {
   return text;
 }
 
-/// Many worlds that are cut?
+/// Are many worlds cut?
 bool are_groups(const RunSummary& s) { return s.groups.num_groups() > 0 && s.worlds > 1; }
 
 std::string run_lines(const RunSummary& s) {

@@ -9,7 +9,7 @@ namespace pbmpi::app {
 
 /// "2:34,2:33,1:33": ranks and worlds of each group, as files have them.
 std::string to_text(const mpi::RankGroups& groups);
-/// No groups where the text is of another form, as in files that have none.
+/// No groups where the text has another form, as in files without groups.
 mpi::RankGroups rank_groups_from_text(const std::string& text);
 
 /// "3 groups of 1 to 2 ranks"

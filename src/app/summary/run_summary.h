@@ -33,33 +33,33 @@ struct EffectSummary {
 
 std::vector<EffectSummary> effect_summaries(const effects::RunPlan& plan);
 
-/// FEEC, over the measured frames. Defects are of all bodies: estimate against precise pose of the same
-/// frame.
+/// FEEC, over the measured frames. Defects, over all bodies, compare the estimate with the precise pose of
+/// the same frame.
 struct EstimateSummary {
   std::string stepper, precision = "double", source = "short_run";
   int iterations = 1;
-  int after = 0;                ///< precise steps with which every estimate begins
-  std::optional<double> due_s;  ///< start of the frame until the estimate is due; then `after` says nothing
-  double in_time_fraction = 0;  ///< of the estimates, if they are due
+  int after = 0;                ///< number of precise steps at the start of every frame
+  std::optional<double> due_s;  ///< start of the frame until the estimate is due; `after` then means nothing
+  double in_time_fraction = 0;  ///< of the estimates, if they have a due time
   double delivered_p50_s = 0, delivered_p99_s = 0, delivered_max_s = 0;  ///< start of the frame to delivery
-  double harmonic_mean_hz = 0, satisfied_fraction = 0;                   ///< of the deliveries
+  double harmonic_mean_hz = 0, satisfied_fraction = 0;                   ///< over the deliveries
   double precise_over_delivered = 0;       ///< sum of the frames' precise times over that of their deliveries
   analysis::ErrorSummary position_defect;  ///< [m]
   analysis::ErrorSummary orientation_defect;  ///< [rad]
 };
 
 /// What limits worlds that are cut into spaces. Work = the useful seconds of all ranks; speed-ups are against
-/// one rank that does all of it but root's section, which one rank alone need not do. Groups of ranks do
-/// their roots' sections side by side.
+/// one rank that does all of it except root's section, which one rank alone need not do. Groups of ranks do
+/// their roots' sections in parallel.
 struct SpacesSummary {
   double serial_share = 0;  ///< root's section (cross_space) over the elapsed time that one rank would take
   double amdahl_bound = 1;  ///< speed-up if all but root's section were spread evenly
-  double island_bound = 1;  ///< speed-up if, besides, each frame's largest island were solved by one rank
+  double island_bound = 1;  ///< speed-up if, in addition, one rank solved each frame's largest island
   double speed_up = 1;      ///< measured: work over elapsed time
-  double messages_per_step = 0, bytes_per_step = 0;  ///< of all ranks
+  double messages_per_step = 0, bytes_per_step = 0;  ///< over all ranks
 };
 
-/// The most memory that a rank needed at once; 0 where it is not known.
+/// The most memory that a rank needed at once; 0 if unknown.
 struct MemorySummary {
   std::int64_t min_bytes = 0, max_bytes = 0;
   int min_rank = 0, max_rank = 0;
@@ -68,7 +68,7 @@ struct MemorySummary {
 /// What guards found in the whole run, and what was done about it (--on-blowup).
 struct GuardSummary {
   std::map<std::string, std::int64_t> counts;  ///< by stepping::event_kind
-  std::string first;                           ///< in words; empty if there was nothing
+  std::string first;                           ///< in words; empty if nothing was found
 
   void add(const stepping::RunEvent& event);
   std::int64_t count(const std::string& kind) const;
@@ -84,31 +84,31 @@ struct RunSummary {
   std::uint64_t seed = 0;
   double dt_s = 0, budget_s = 0;
   std::int64_t warmup_frames = 0, measured_frames = 0;
-  std::int64_t first_frame = 0;  ///< frames done before, by the run that this one goes on from
-  std::string checkpoint;        ///< the last one written, and after how many frames; or empty
+  std::int64_t first_frame = 0;  ///< frames done earlier, by the run that this one resumes
+  std::string checkpoint;        ///< the last one written, and after how many frames; empty if none
   bool complete = true;
   double harmonic_mean_hz = 0, satisfied_fraction = 0;
   double world_steps_per_s = 0, body_steps_per_s = 0;
   double frame_p50_s = 0, frame_p95_s = 0, frame_p99_s = 0, frame_max_s = 0;
   std::vector<PhaseSummary> phases;
   double parallel_efficiency = 0, load_balance = 0, communication_efficiency = 0;
-  /// What all ranks send each other in a frame: of worlds that are cut in their steps, of whole ones to
-  /// gather their poses and costs. What MPI's collectives send is not counted.
+  /// What all ranks send each other in a frame: in the steps of worlds that are cut, and to gather poses and
+  /// costs of whole worlds. Messages of MPI's collectives are not counted.
   double messages_per_frame = 0, bytes_per_frame = 0;
   MemorySummary memory;
   core::Summary islands;
   double contacts_mean = 0, contacts_max = 0, rows_mean = 0, rows_max = 0;
   std::int64_t nonfinite_bodies = 0;
-  double max_joint_gap_m = 0, max_penetration_m = 0;  ///< largest of the measured frames
+  double max_joint_gap_m = 0, max_penetration_m = 0;  ///< largest over the measured frames
   double energy_j = 0;                                ///< of all worlds, at the end
   std::vector<EffectSummary> effects;
-  std::string effects_chosen;  ///< "+friction,-gravity": demanded and left out; empty: as the scene calls for
-  std::int64_t worlds_survived = 0;  ///< that kept their numbers and were not frozen
+  std::string effects_chosen;        ///< "+friction,-gravity": demanded and left out; empty: the scene's own
+  std::int64_t worlds_survived = 0;  ///< whose numbers stayed finite and that were not frozen
   std::int64_t joints_broken = 0;    ///< in the whole run
   GuardSummary guards;
   std::int64_t rebalances = 0, worlds_moved = 0;  ///< moved: worlds, or spaces
   std::string decomposition = "worlds";
-  mpi::RankGroups groups;                   ///< with "spaces"; of files of one world none
+  mpi::RankGroups groups;                   ///< with "spaces"; none for files of one world
   SpacesSummary spaces;                     ///< only if decomposition is "spaces"
   std::optional<EstimateSummary> estimate;  ///< with FEEC
 };

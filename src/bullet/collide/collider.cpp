@@ -10,13 +10,13 @@ namespace pbmpi::bullet {
 
 btDefaultCollisionConstructionInfo Collider::small_pools() {
   btDefaultCollisionConstructionInfo info;
-  info.m_defaultMaxPersistentManifoldPoolSize = 512;  // where more are needed they come from the heap
+  info.m_defaultMaxPersistentManifoldPoolSize = 512;  // further manifolds come from the heap
   info.m_defaultMaxCollisionAlgorithmPoolSize = 16;
   return info;
 }
 
-/// Bullet's table of algorithms (btDefaultCollisionConfiguration), for the shapes that a model has. What it
-/// makes itself has a manifold of its own, which is gone with it.
+/// Uses Bullet's table of algorithms (btDefaultCollisionConfiguration) for the shapes that a model has. An
+/// algorithm created here has its own manifold, which is destroyed with it.
 void Collider::collide(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
                        const btDispatcherInfo& info, btManifoldResult& found) {
   const int shape_a = a.getCollisionShape()->getShapeType(), shape_b = b.getCollisionShape()->getShapeType();

@@ -1,4 +1,4 @@
-/// What the worlds of a stepper collide and solve with.
+/// Bullet's colliders and solver, shared by the worlds of a stepper.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
@@ -9,17 +9,17 @@
 namespace pbmpi::bullet {
 
 /// Bullet's colliders and its solver, shared by the worlds of a stepper, which are stepped one after the
-/// other: between two steps there is no contact in it.
+/// other: it holds no contact between two steps.
 class Collider {
  public:
   Collider() : configuration_(small_pools()), dispatcher_(&configuration_) {
     dispatcher_.setDispatcherFlags(0);  // Contacts sets the distances at which points count
   }
 
-  /// Has the contacts of the step at hand.
+  /// Holds the contacts of the present step.
   btCollisionDispatcher& dispatcher() { return dispatcher_; }
-  /// Adds to `found` the points of a pair. They are those of this call alone, and not of earlier ones, so
-  /// that a pair that may lie on each other gets several at once, by turning one of the two a little.
+  /// Adds the points of a pair to `found`. They come from this call alone, not from earlier ones; a pair that
+  /// may rest on each other gets several points at once, by turning one of the two slightly.
   void collide(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
                const btDispatcherInfo& info, btManifoldResult& found);
   btSequentialImpulseConstraintSolver& solver() { return solver_; }

@@ -5,13 +5,13 @@
 namespace pbmpi::bullet {
 namespace {
 
-/// Stands for an infinite friction coefficient: the limit is a product with the normal impulse, which may be
-/// zero.
+/// Represents an infinite friction coefficient: the friction limit is a product with the normal impulse,
+/// which may be zero.
 constexpr double no_slip = 1e6;
 
 double depth(const btManifoldPoint& point) { return -point.getDistance(); }
 
-/// Leaves the deepest points of a pair.
+/// Keeps only the deepest points of a pair.
 void keep_deepest(btPersistentManifold& manifold, int most) {
   while (manifold.getNumContacts() > most) {
     int shallowest = 0;
@@ -22,15 +22,15 @@ void keep_deepest(btPersistentManifold& manifold, int most) {
   }
 }
 
-/// Leaves the points that touch, of surfaces that bounce: Bullet would take a gap off the speed with which
-/// they part.
+/// Keeps only touching points of surfaces that bounce: Bullet would subtract a gap from the speed at which
+/// they separate.
 void drop_gaps(btPersistentManifold& manifold) {
   for (int i = manifold.getNumContacts() - 1; i >= 0; --i) {
     if (depth(manifold.getContactPoint(i)) < 0) manifold.removeContactPoint(i);
   }
 }
 
-/// [m/s] at which the bodies of a manifold approach each other in a point.
+/// [m/s] speed at which the bodies of a manifold approach each other at a point.
 double approach_speed(const btPersistentManifold& manifold, const btManifoldPoint& point) {
   const auto velocity = [](const btCollisionObject* object, const btVector3& at) {
     return btRigidBody::upcast(object)->getVelocityInLocalPoint(at - object->getWorldTransform().getOrigin());
@@ -81,7 +81,7 @@ void Contacts::forget() {
   deepest_m_ = 0;
 }
 
-/// The normal of a manifold points into its first body, which is the real one.
+/// A manifold's normal points into its first body, which is the real one.
 void Contacts::collide(const model::GeomPair& pair) {
   const auto body_of = [&](int geom) { return model_->geoms[static_cast<std::size_t>(geom)].body; };
   const bool swap = body_of(pair.first) == model::no_body;
@@ -123,7 +123,7 @@ void Contacts::keep(btPersistentManifold& manifold, const Touch& touch, const mo
   }
 }
 
-/// Bullet adds the speed of a bounce and that which pushes bodies apart; ODE takes the larger of the two.
+/// Bullet adds the bounce speed and the speed that pushes bodies apart; ODE takes the larger of the two.
 void Contacts::set_bounce(const btPersistentManifold& manifold, double restitution,
                           btManifoldPoint& point) const {
   point.m_combinedRestitution = 0;
@@ -137,7 +137,7 @@ void Contacts::set_bounce(const btPersistentManifold& manifold, double restituti
   point.m_contactERP = 0;
 }
 
-/// Bullet would multiply the two bodies' coefficients.
+/// Computed here, because Bullet would multiply the two bodies' coefficients.
 model::Material Contacts::surface_of(const model::GeomPair& pair) const {
   model::Material material =
       model::pair_material(*model_, pair, model_->geoms[static_cast<std::size_t>(pair.first)].material,
@@ -147,7 +147,7 @@ model::Material Contacts::surface_of(const model::GeomPair& pair) const {
   return material;
 }
 
-/// A point with a distance lets its bodies close that in a step, and no more.
+/// A point with a positive distance lets its bodies close that distance in a step, and no more.
 void Contacts::make_ahead(const std::vector<model::Contact>& contacts) {
   for (const model::Contact& contact : contacts) {
     btRigidBody &a = bodies_->get(contact.body_a), &b = bodies_->get(contact.body_b);

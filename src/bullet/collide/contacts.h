@@ -12,17 +12,17 @@
 
 namespace pbmpi::bullet {
 
-/// Geoms that touch, in one or more points.
+/// Two geoms that touch at one or more points.
 struct Touch {
-  int body_a = model::no_body;  ///< a real one
+  int body_a = model::no_body;  ///< a real body
   int body_b = model::no_body;
   int num_contacts = 0;
   int rows_per_contact = 1;  ///< 3 with friction
 };
 
-/// Makes the contacts of a step by Bullet's algorithms, one manifold a pair, all anew: the points of earlier
-/// steps, with which Bullet completes its manifolds and starts its solver, are no part of a state. Friction
-/// and restitution are there only if the plan has them.
+/// Makes the contacts of a step with Bullet's algorithms, one manifold per pair, all of them anew: the points
+/// of earlier steps, with which Bullet completes its manifolds and warm-starts its solver, are not part of a
+/// state. Handles friction and restitution only if the plan has them.
 class Contacts {
  public:
   /// All are borrowed.
@@ -34,15 +34,15 @@ class Contacts {
 
   /// Collides each pair, in the order of `pairs`.
   void make(const std::vector<model::GeomPair>& pairs);
-  /// Adds what is ahead of fast bodies (effects::FastBodies): gaps that may close in a step.
+  /// Adds the speculative contacts of fast bodies (effects::FastBodies): gaps that may close in a step.
   void make_ahead(const std::vector<model::Contact>& contacts);
-  /// Takes the contacts from the dispatcher. touches() and deepest_m() stay until the next make().
+  /// Removes the contacts from the dispatcher. touches() and deepest_m() stay until the next make().
   void clear();
-  /// Forgets touches(), too: the step has no contacts.
+  /// Forgets touches() as well: the step has no contacts.
   void forget();
 
   /// Appends the contacts and their forces in the step that was solved since make(). `before`: the centres of
-  /// the bodies before it [m].
+  /// the bodies before that step [m].
   void show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
             std::vector<model::ContactForce>& forces) const;
 
@@ -71,7 +71,7 @@ class Contacts {
   double dt_s_;
   bool friction_;
   bool restitution_;
-  int most_points_;  ///< of a pair
+  int most_points_;  ///< per pair
   std::vector<Made> made_;
   std::vector<Touch> touches_;
   double deepest_m_ = 0;

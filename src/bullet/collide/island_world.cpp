@@ -19,8 +19,9 @@ IslandWorld::IslandWorld(const model::Model& model, Bodies& bodies, AxisJoints& 
   info.m_erp = model.erp;
   info.m_erp2 = model.contact_law.soft_erp;
   info.m_restitutionVelocityThreshold = model.contact_law.bounce_velocity;
-  // Two directions of friction, as ODE has them: with one a body at rest is held along that alone. Contacts
-  // are new in each step, so that a "warm start" begins at zero; without it no impulses are written back.
+  // Two friction directions, as in ODE: with one, friction holds a body at rest only along that direction.
+  // Contacts are new in each step, so the "warm start" begins at zero; without it no impulses are written
+  // back.
   info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS;
 }
 

@@ -34,7 +34,8 @@ const std::vector<model::GeomPair>& Pairs::find() {
   return pairs_;
 }
 
-/// Wider by the distance at which Bullet finds contacts, as in btCollisionWorld::updateSingleAabb.
+/// Boxes are enlarged by the distance at which Bullet finds contacts, as in
+/// btCollisionWorld::updateSingleAabb.
 void Pairs::measure() {
   const btVector3 reach(gContactBreakingThreshold, gContactBreakingThreshold, gContactBreakingThreshold);
   for (Box& box : boxes_) {
@@ -43,13 +44,13 @@ void Pairs::measure() {
     box.high += reach;
     for (int axis = 0; axis < 3; ++axis) {
       if (box.low[axis] <= box.high[axis]) continue;
-      box.low[axis] = -model::infinity;  // it is no number, which has no place in an order
+      box.low[axis] = -model::infinity;  // replaces NaN, which has no place in an order
       box.high[axis] = model::infinity;
     }
   }
 }
 
-/// Along which the boxes are spread most.
+/// The axis along which the boxes are spread most.
 int Pairs::longest_axis() const {
   if (boxes_.empty()) return 0;
   btVector3 low = boxes_.front().low, high = boxes_.front().low;

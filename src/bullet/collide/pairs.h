@@ -1,4 +1,4 @@
-/// Finds the pairs of geoms that may touch, in an order that depends on nothing but the pairs.
+/// Finds the pairs of geoms that may touch, in an order that depends only on the pairs.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace pbmpi::bullet {
 
-/// The boxes round the shapes, as Bullet's own broad phase has them, sorted along one axis and swept.
-/// Bullet's broad phases hand out their pairs in an order of their history, which no state holds.
+/// The bounding boxes of the shapes, as in Bullet's own broad phase, sorted and swept along one axis.
+/// Bullet's broad phases return their pairs in an order that depends on history, which no state holds.
 class Pairs {
  public:
   /// `model` and `shapes` are borrowed.
@@ -21,7 +21,7 @@ class Pairs {
 
   /// The pairs whose boxes overlap and which may touch, sorted. Valid until the next call.
   const std::vector<model::GeomPair>& find();
-  /// Joints are broken from now on: State::broken_in.
+  /// Takes in the joints that are broken from now on: State::broken_in.
   void set_broken(std::span<const std::int32_t> broken_in) { rule_ = model::TouchRule(*model_, broken_in); }
 
  private:
@@ -36,7 +36,7 @@ class Pairs {
   const model::Model* model_;
   const Shapes* shapes_;
   model::TouchRule rule_;
-  std::vector<int> planes_;  ///< geoms, which have no box
+  std::vector<int> planes_;  ///< plane geoms, which have no box
   std::vector<Box> boxes_;   ///< of the other geoms
   std::vector<model::GeomPair> pairs_;
 };

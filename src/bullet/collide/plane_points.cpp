@@ -5,14 +5,14 @@
 namespace pbmpi::bullet {
 namespace {
 
-/// Takes points of a shape [m], world frame, as contacts with a face: a plane, or a rectangle of it.
+/// Turns points of a shape [m], world frame, into contacts with a face: a plane, or a rectangle of it.
 class Face {
  public:
   /// `z` is the normal, outward.
   Face(const btVector3& origin, const btVector3& z, btManifoldResult& found)
       : normal_(z), origin_(origin), found_(&found) {}
 
-  /// Only over the rectangle of these half sides.
+  /// Restricts the face to the rectangle with these half sides.
   void bound(const btVector3& x, btScalar half_x, const btVector3& y, btScalar half_y) {
     is_bounded_ = true;
     x_ = x;
@@ -20,7 +20,7 @@ class Face {
     half_x_ = half_x;
     half_y_ = half_y;
   }
-  /// The face is that of the first body, and not of the second.
+  /// Makes the face that of the first body instead of the second.
   void flip() { is_first_ = true; }
 
   const btVector3& normal() const { return normal_; }
@@ -41,7 +41,8 @@ class Face {
   btManifoldResult* found_;
 };
 
-/// Of a disc the point nearest to the face, that opposite, and the two between.
+/// Adds four points of a disc's rim: the point nearest to the face, the opposite one, and the two between
+/// them.
 void add_rim(const btVector3& centre, const btTransform& place, btScalar radius, Face& face) {
   const btVector3 axis = place.getBasis().getColumn(2);
   btVector3 down = -face.normal() + axis * axis.dot(face.normal());
@@ -84,7 +85,7 @@ bool is_box(const btCollisionObjectWrapper& one) {
   return one.getCollisionShape()->getShapeType() == BOX_SHAPE_PROXYTYPE;
 }
 
-/// Cosine of the angle to a face's normal up to which a round shape lies on the face: 3 degrees.
+/// Cosine of the largest angle to a face's normal at which a round shape lies on the face: 3 degrees.
 constexpr btScalar least_cosine = 0.9986;
 
 }  // namespace

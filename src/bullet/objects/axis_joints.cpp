@@ -31,7 +31,7 @@ void require_expressible(const model::Joint& joint) {
 
 void free_axis(Constraint& constraint, int axis) { constraint.setLimit(axis, 1, -1); }
 
-/// Bullet's axis of a model axis: 1 about or along z, 2 about x.
+/// Bullet's axis for a model axis: axis 1 is about or along z, axis 2 about x.
 int bullet_axis(const JointTraits& traits, int axis) {
   if (axis == 1) return turn_x;
   return traits.slides ? line_z : turn_z;
@@ -49,8 +49,8 @@ void hold(const model::Joint& joint, double erp, Constraint& constraint) {
   for (int axis = 0; axis < traits.num_axes; ++axis) free_axis(constraint, bullet_axis(traits, axis));
 }
 
-/// Bullet's own spring, on the line along axis 1. Bullet keeps stiffness and damping below what the explicit
-/// spring of a step bears ("limitIfNeeded" of btGeneric6DofSpring2Constraint).
+/// Uses Bullet's own spring along axis 1. Bullet keeps stiffness and damping below the limit at which the
+/// explicit spring of a step is stable ("limitIfNeeded" of btGeneric6DofSpring2Constraint).
 void suspend(const model::Joint& joint, Constraint& constraint) {
   if (!model::traits_of(joint.kind).has_suspension() || !(joint.suspension.stiffness > 0)) return;
   free_axis(constraint, line_z);
@@ -71,7 +71,7 @@ AxisJoints::AxisJoints(const model::Model& model, Bodies& bodies) : model_(&mode
     Constraint& constraint = *joints_.back();
     hold(joint, model.erp, constraint);
     if (model::traits_of(joint.kind).turn == model::HeldTurn::start_angle) {
-      constraint.calculateTransforms();  // the bodies stand at their initial poses
+      constraint.calculateTransforms();  // the bodies are at their initial poses
       constraint.setLimit(turn_y, constraint.getAngle(1), constraint.getAngle(1));
     }
     suspend(joint, constraint);
@@ -116,12 +116,12 @@ void AxisJoints::set_motor(int joint, int axis, const model::AxisMotor& motor) {
   const JointTraits& traits = model::traits_of(model_->joints[static_cast<std::size_t>(joint)].kind);
   const int at = bullet_axis(traits, axis);
   constraint.enableMotor(at, motor.active());
-  // Along a line Bullet's motor drives a as seen from b, and its coordinate is that of b as seen from a.
+  // Along a line Bullet's motor drives a relative to b, while its coordinate is that of b relative to a.
   constraint.setTargetVelocity(at, traits.slides ? -motor.velocity : motor.velocity);
   constraint.setMaxMotorForce(at, motor.max_force);
 }
 
-/// A stop of an angle beyond half a turn is none, as in ODE.
+/// A stop of an angle beyond half a turn has no effect, as in ODE.
 void AxisJoints::set_limit(int joint, int axis, const model::AxisLimit& limit) {
   Constraint& constraint = (*this)[joint];
   const JointTraits& traits = model::traits_of(model_->joints[static_cast<std::size_t>(joint)].kind);

@@ -13,7 +13,7 @@ bool is_diagonal(const model::Mat3& inertia) {
   return inertia(0, 1) == 0 && inertia(0, 2) == 0 && inertia(1, 2) == 0;
 }
 
-/// Moments of inertia [kg m^2] and the axes that they are about, as a right-handed rotation.
+/// Moments of inertia [kg m^2] and their axes as a right-handed rotation.
 struct Principal {
   model::Vec3 moments;
   Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();
@@ -87,7 +87,7 @@ void Bodies::restore(const model::State& state) {
   }
 }
 
-/// Of the two quaternions of a rotation the nearer to the last one.
+/// Of the two quaternions of a rotation, takes the one nearer to the last one.
 void Bodies::settle(int body) {
   const auto at = static_cast<std::size_t>(body);
   const btTransform& frame = (*this)[body].getCenterOfMassTransform();

@@ -1,4 +1,4 @@
-/// Bodies between the model and Bullet.
+/// Converts bodies between the model and Bullet.
 #pragma once
 
 #include <memory>
@@ -9,16 +9,16 @@
 
 namespace pbmpi::bullet {
 
-/// One rigid body a model body, in the model's order, and the ground, which static geoms and joints to the
-/// world belong to.
+/// One rigid body per model body, in the model's order, and the ground, to which static geoms and joints to
+/// the world belong.
 ///
-/// Bullet knows inertia along the axes of a body's frame only, so that its frame is the model's turned into
-/// the principal axes. It keeps a rotation as matrix and the state as quaternion: settle() makes the matrix
-/// of a body that has moved from the quaternion anew, so that a world that goes on has the bits of one that
-/// starts from its state.
+/// Bullet supports inertia only along the axes of a body's frame, so its frame is the model's turned into the
+/// principal axes. Bullet keeps a rotation as a matrix, the state keeps a quaternion: settle() recomputes the
+/// matrix of a body that has moved from the quaternion, so that a world that continues has the same bits as
+/// one that starts from its state.
 class Bodies {
  public:
-  /// At the initial poses. `model` is borrowed.
+  /// Makes the bodies at their initial poses. `model` is borrowed.
   explicit Bodies(const model::Model& model);
 
   int size() const { return static_cast<int>(bodies_.size()); }
@@ -28,32 +28,32 @@ class Bodies {
   /// The body, or the ground for no_body.
   btRigidBody& get(int body) { return body == model::no_body ? *ground_ : (*this)[body]; }
 
-  /// A frame given in that of a model body [m], in the frame of Bullet's body.
+  /// Converts a frame given in that of a model body [m] to the frame of Bullet's body.
   btTransform local(int body, const btTransform& in_model) const;
-  /// A direction or vector given in the frame of a model body, in the world frame.
+  /// Converts a direction or vector given in the frame of a model body to the world frame.
   model::Vec3 to_world(int body, const model::Vec3& local) const;
 
   /// Puts the bodies into `state` bit for bit.
   void restore(const model::State& state);
   void place(int body, const model::Vec3& position, const model::Quat& orientation);
   void set_velocity(int body, const model::Vec3& velocity, const model::Vec3& angular_velocity);
-  /// After a step that moved these bodies.
+  /// To be called after a step that moved these bodies.
   void settle(int body);
-  /// Reads the bodies out. `state` has their number of rows.
+  /// Reads the bodies into `state`, which has as many rows.
   void copy_out(model::State& state) const;
   bool is_finite(int body) const;
-  /// Awake bodies take part in a step; asleep they keep place.
+  /// Awake bodies take part in a step; sleeping ones stay in place.
   void show_awake(int body, bool awake);
 
  private:
   btTransform frame(int body, const model::Vec3& position, const model::Quat& orientation) const;
 
-  std::unique_ptr<btCollisionShape> no_shape_;  ///< geoms are collided by themselves (Contacts)
+  std::unique_ptr<btCollisionShape> no_shape_;  ///< of all bodies: Contacts collides their geoms
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
   std::unique_ptr<btRigidBody> ground_;
   std::vector<btQuaternion> principal_;   ///< [bodies] the principal axes in the model's frame
-  std::vector<char> is_turned_;           ///< [bodies] are they other than that frame's own?
-  std::vector<model::Quat> orientation_;  ///< [bodies] as the state has them
+  std::vector<char> is_turned_;           ///< [bodies] do the principal axes differ from that frame's own?
+  std::vector<model::Quat> orientation_;  ///< [bodies] as in the state
 };
 
 }  // namespace pbmpi::bullet

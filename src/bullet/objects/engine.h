@@ -1,4 +1,4 @@
-/// Bullet's headers, and numbers between them and pbmpi's.
+/// Bullet's headers, and conversions between its numbers and pbmpi's.
 #pragma once
 
 #include <type_traits>

@@ -6,7 +6,7 @@
 namespace pbmpi::bullet {
 namespace {
 
-/// Is it a setting of a joint's axis? Releases are a matter of effects::Breakage.
+/// Is it a setting of a joint's axis? Releases are handled by effects::Breakage.
 bool is_setting(const model::Event& event) {
   return event.kind == model::EventKind::motor || event.kind == model::EventKind::steer;
 }

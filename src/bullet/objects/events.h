@@ -1,4 +1,4 @@
-/// The events of a world, fired step by step.
+/// Fires the events of a world step by step.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ class Events {
   /// All are borrowed. Throws core::InputError for a motor or steer event on an axis that its joint lacks.
   Events(const model::Model& model, Bodies& bodies, AxisJoints& joints, HeldPoses& poses);
 
-  /// Brings the joints, as the model has them, to where they stand at the start of step `step`, before that
-  /// step's own events. Launches of earlier steps are part of the state already.
+  /// Brings the joints from the model's settings to those at the start of step `step`, before that step's own
+  /// events. Launches of earlier steps are already part of the state.
   void skip_to(std::int64_t step);
-  /// This motor drives an axis from now on.
+  /// Makes this motor drive an axis from now on.
   void set_motor(int joint, int axis, const model::AxisMotor& motor);
-  /// Fires the events of step `step`. Steps come in order, without a gap, from skip_to()'s.
+  /// Fires the events of step `step`. Steps come in order, without a gap, from the step of skip_to().
   void fire(std::int64_t step);
 
  private:

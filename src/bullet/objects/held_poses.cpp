@@ -16,7 +16,7 @@ void HeldPoses::replace(int joint, int axis, const model::AxisMotor& motor) {
   if (motor.active() && motor.hold_rate > 0) held_.push_back({joint, axis, motor});
 }
 
-/// Above 1 / dt a rate would overshoot.
+/// A rate above 1 / dt would overshoot.
 void HeldPoses::aim(double dt_s) const {
   for (const Held& held : held_) {
     model::AxisMotor motor = held.motor;

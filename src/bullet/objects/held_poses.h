@@ -1,4 +1,4 @@
-/// Motors that hold the initial pose: aimed anew in each step.
+/// Motors that hold the initial pose: their targets are set anew in each step.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace pbmpi::bullet {
 
-/// The motors of a world that have a hold rate: the velocity at which Bullet's motor aims follows from the
+/// The motors of a world that have a hold rate: the target velocity of Bullet's motor is computed from the
 /// coordinate of the axis.
 class HeldPoses {
  public:
-  /// Holds what the model's motors hold. `joints` are borrowed.
+  /// Takes over the motors of the model that hold a pose. `joints` are borrowed.
   HeldPoses(const model::Model& model, AxisJoints& joints);
 
-  /// From now on this motor drives the axis; without a hold rate it is no longer aimed.
+  /// Makes this motor drive the axis from now on; without a hold rate its target is no longer updated.
   void replace(int joint, int axis, const model::AxisMotor& motor);
-  /// Aims all of them for a step of `dt_s` from the present poses.
+  /// Sets the targets of all of them for a step of `dt_s` from the present poses.
   void aim(double dt_s) const;
 
  private:

@@ -23,14 +23,14 @@ btTransform to_transform(const Mat3& m, const Vec3& origin) {
       to_bullet(origin));
 }
 
-/// The frame of an anchor and two directions, as seen from a body at `pose`.
+/// The frame of an anchor and two directions, relative to a body at `pose`.
 btTransform seen_from(const model::Pose& pose, const Mat3& turn, const Vec3& anchor) {
   const Mat3 rotation = pose.orientation.to_eigen().toRotationMatrix();
   return to_transform(rotation.transpose() * turn, anchor);
 }
 
-/// The anchors in the frames of the two bodies [m]: the joint's own, or for those that have none the first
-/// body's centre of mass (slider) and the second's (fixed).
+/// The anchors in the frames of the two bodies [m]: the joint's own, or, for kinds that have none, the centre
+/// of mass of the first body (slider) or of the second (fixed).
 struct Anchors {
   Vec3 a, b;
 };

@@ -1,4 +1,4 @@
-/// What the joints of one world exert on their bodies.
+/// The loads that the joints of one world exert on their bodies.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace pbmpi::bullet {
 
-/// Bullet measures what a joint does to its bodies only if it has somewhere to write it.
+/// Bullet measures a joint's force on its bodies only if it is given memory for it.
 class JointLoads {
  public:
   /// `model` and `bodies` are borrowed. `measured`: the joints that can break, or all, ascending.
@@ -19,12 +19,13 @@ class JointLoads {
   JointLoads(const JointLoads&) = delete;
   JointLoads& operator=(const JointLoads&) = delete;
 
-  /// Before the solver moves the bodies: where the torques are taken (effects::Reaction).
+  /// Called before the solver moves the bodies: stores the points about which torques are taken
+  /// (effects::Reaction).
   void note_places();
-  /// Force [N] on the first body of a measured joint, and torque [N m] about where note_places() was, world
-  /// frame, in the step that was solved last. Limits and motors are part of both.
+  /// Force [N] on the first body of a measured joint, and torque [N m] about the point of note_places(),
+  /// world frame, in the step that was solved last. Both include limits and motors.
   model::JointForce force(int joint) const;
-  /// In the step that was just solved, of a measured joint.
+  /// The reaction of a measured joint in the step that was just solved.
   effects::Reaction reaction(int joint) const;
 
  private:
@@ -39,7 +40,7 @@ class JointLoads {
 
   const model::Model* model_;
   const Bodies* bodies_;
-  std::vector<Measured> measured_;  ///< Bullet keeps pointers to them
+  std::vector<Measured> measured_;  ///< Bullet keeps pointers to these
 };
 
 }  // namespace pbmpi::bullet

@@ -28,7 +28,7 @@ Shapes::Shapes(const model::Model& model, Bodies& bodies) : model_(&model), bodi
   for (const model::Geom& geom : model.geoms) {
     shapes_.push_back(make_shape(geom));
     local_.push_back(bodies.local(geom.body, to_bullet(geom.local)));
-    // As btCollisionDispatcher with CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD, its default.
+    // As in btCollisionDispatcher with CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD, its default.
     reach_.push_back(shapes_.back()->getContactBreakingThreshold(gContactBreakingThreshold));
   }
   placed_ = local_;

@@ -8,20 +8,20 @@
 
 namespace pbmpi::bullet {
 
-/// One shape a geom, in the model's order, each with the place that it has in a step.
+/// One shape per geom, in the model's order, each with its pose in a step.
 class Shapes {
  public:
   /// `model` and `bodies` are borrowed.
   Shapes(const model::Model& model, Bodies& bodies);
 
-  /// Puts the shapes where their bodies are.
+  /// Moves the shapes to the poses of their bodies.
   void move();
 
   int size() const { return static_cast<int>(shapes_.size()); }
   const btCollisionShape& shape(int geom) const { return *shapes_[static_cast<std::size_t>(geom)]; }
   const btTransform& place(int geom) const { return placed_[static_cast<std::size_t>(geom)]; }  ///< world
   btRigidBody& body(int geom) const;
-  /// [m] How far apart two shapes may be to have a contact: the least of theirs.
+  /// [m] Largest distance at which this shape has contacts; a pair takes the smaller of its two values.
   double reach(int geom) const { return reach_[static_cast<std::size_t>(geom)]; }
 
  private:

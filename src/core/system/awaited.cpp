@@ -14,8 +14,7 @@
 namespace pbmpi::core {
 namespace {
 
-// SIGALRM's handler can reach nothing but these globals. Whoever changes them has switched the alarm off
-// before.
+// SIGALRM's handler can reach only these globals. Code that changes them switches the alarm off first.
 std::array<char, 80> waiter = {"this process"};
 std::array<char, 400> awaited{};
 unsigned limit_s = 1800;
@@ -37,7 +36,7 @@ void copy_text(std::string_view text, std::array<char, size>& to) noexcept {
   to[length] = '\0';
 }
 
-/// A line of stderr, put together without anything that a signal handler may not call.
+/// A line of stderr, composed only with functions that a signal handler may call.
 class Line {
  public:
   Line& operator<<(const char* text) noexcept {

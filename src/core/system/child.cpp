@@ -39,7 +39,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return all;
 }
 
-/// Between fork and exec, where nothing may be allocated.
+/// Runs between fork and exec, where nothing may be allocated.
 [[noreturn]] void become(char* const* command, char* const* environment, const char* output,
                          const char* errors) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -1,4 +1,4 @@
-/// Other programs, run to their end.
+/// Runs other programs to their end.
 #pragma once
 
 #include <string>
@@ -8,20 +8,20 @@
 namespace pbmpi::core {
 
 struct Child {
-  std::vector<std::string> command;  ///< the program is looked for in PATH unless it has a slash
+  std::vector<std::string> command;  ///< the program is searched in PATH unless its name has a slash
   std::vector<std::pair<std::string, std::string>> environment;  ///< added to this program's own
-  std::string output_file, error_file;                           ///< of its standard output and errors
+  std::string output_file, error_file;                           ///< for its standard output and errors
   double time_limit_s = 0;
 };
 
-/// exit_code: as a shell gives it, 128 + the signal for one that a signal ended.
+/// exit_code: as a shell gives it, 128 + the signal for a program that a signal ended.
 struct ChildEnd {
   int exit_code = 0;
   bool timed_out = false;
 };
 
-/// Runs it and waits. What mpirun has set for this program (OMPI_*, PMIX_*) it does not get, so that a
-/// program with MPI starts as one of its own. It ends with this program. Throws core::RunError if it cannot
+/// Runs the program and waits. It does not inherit what mpirun has set for this program (OMPI_*, PMIX_*), so
+/// that a program with MPI starts on its own. It ends with this program. Throws core::RunError if it cannot
 /// be started.
 ChildEnd run_child(const Child& child);
 

@@ -15,7 +15,7 @@ namespace {
 /// An open regular file.
 class InputFile {
  public:
-  // Without O_NONBLOCK a pipe waits for a writer before anything can be asked of it.
+  // Without O_NONBLOCK opening a pipe waits for a writer before anything can be asked of it.
   InputFile(const std::string& path, const std::string& advice)
       : path_(path), advice_(advice), file_(path, O_RDONLY | O_NONBLOCK) {
     if (!file_.is_open()) refuse(errno == ENOENT ? "there is no such file" : reason_of(errno));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_bytes = 4096;
 
-// A signal handler can reach nothing but globals.
+// A signal handler can reach only globals.
 struct Slot {
   std::atomic<bool> taken{false}, ready{false};
   std::array<char, most_bytes> path{};

@@ -1,12 +1,13 @@
-/// Files that a process makes for itself alone, and that go when a signal ends it.
+/// Temporary files of a process, which are removed when a signal ends it.
 #pragma once
 
 #include <string>
 
 namespace pbmpi::core {
 
-/// While one lives, `path` is removed if a signal ends the process by way of end_by_signal(). Beyond 32 of
-/// them, and for names of 4 KiB, nothing is noted. The destructor forgets the file and leaves it where it is.
+/// While an object of this class lives, `path` is removed if a signal ends the process through
+/// end_by_signal(). More than 32 files, and names of 4 KiB, are not noted. The destructor forgets the file
+/// and leaves it where it is.
 class Leftover {
  public:
   Leftover() = default;
@@ -19,13 +20,13 @@ class Leftover {
   int slot_ = -1;
 };
 
-/// Removes all that are noted. Async-signal-safe.
+/// Removes all noted files. Async-signal-safe.
 void remove_leftovers() noexcept;
 
-/// Removes what is left over, and ends the process by `signal` as if nobody had caught it. Async-signal-safe.
+/// Removes the leftovers, and ends the process by `signal` as if nothing had caught it. Async-signal-safe.
 [[noreturn]] void end_by_signal(int signal) noexcept;
 
-/// From now on INT, TERM and HUP end this process by way of end_by_signal(); HUP not where it is ignored
+/// From now on INT, TERM and HUP end this process through end_by_signal(), except HUP where it is ignored
 /// (nohup).
 void remove_leftovers_on_signals();
 

@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 bool is_stream(const struct stat& status) { return !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode); }
 
-/// Where a file would be made; a name that the file system refuses, e.g. since it is too long, as it is
-/// written.
+/// Where a file would be created; if the file system refuses the name, e.g. because it is too long, the name
+/// as written.
 fs::path place_of(const std::string& path) {
   const fs::path absolute = fs::absolute(followed(path));
   std::error_code error;

@@ -5,7 +5,7 @@
 
 namespace pbmpi::core {
 
-// getrusage() would also count what the process was before it became this program.
+// getrusage() would also count the process before it became this program.
 std::int64_t peak_memory_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {

@@ -22,7 +22,7 @@ struct Trailer {
 }  // namespace
 
 void Checksum::add_word(std::uint64_t word) {
-  // Both steps can be undone: two values that differ stay different.
+  // Both operations are invertible: different values stay different.
   value_ = (value_ ^ word) * 0x100000001b3ull;
   value_ ^= value_ >> 32;
 }

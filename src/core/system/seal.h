@@ -1,5 +1,5 @@
-/// A checksum behind the bytes of a file that is written whole: what has changed since then is noticed before
-/// HDF5 looks at any of it.
+/// A checksum after the bytes of a file that is written whole: later changes are noticed before HDF5 reads
+/// any of it.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace pbmpi::core {
 
-/// A checksum of bytes that come piece by piece. A change of 8 neighbouring bytes at most, a bit or a word,
+/// A checksum of bytes that arrive in pieces. A change within 8 neighbouring bytes, of a bit or a word,
 /// always changes it.
 class Checksum {
  public:
@@ -26,15 +26,14 @@ class Checksum {
   std::size_t num_bytes_ = 0;
 };
 
-/// Appends the seal: "PBMPISUM", the number of bytes before it, their checksum. HDF5 passes over what stands
-/// behind the end of a file that it knows, and drops it when it writes into the file.
+/// Appends the seal: "PBMPISUM", the number of bytes before it, their checksum. HDF5 ignores data after the
+/// end of a file that it knows, and drops the data when it writes to the file.
 void add_seal(std::vector<std::byte>& image);
-/// The bytes before the seal at the end of `image`; none where there is no seal, or they have changed.
+/// The bytes before the seal at the end of `image`; empty if there is no seal, or they have changed.
 std::optional<std::span<const std::byte>> sealed_part(std::span<const std::byte> image);
 
 enum class Seal { none, intact, broken };
-/// What the end of the file says of the rest of it. Throws InputError as require_readable_file()
-/// does.
+/// Checks a file against its seal. Throws InputError like require_readable_file().
 Seal seal_of(const std::string& path);
 
 }  // namespace pbmpi::core

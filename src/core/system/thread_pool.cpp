@@ -16,7 +16,7 @@
 namespace pbmpi::core {
 namespace {
 
-/// Threads that are started meanwhile block all signals.
+/// Blocks all signals in threads that are started while it lives.
 class SignalsBlocked {
  public:
   SignalsBlocked() {
@@ -37,7 +37,7 @@ class SignalsBlocked {
 ThreadPool::ThreadPool(int num_threads) {
   require_invariant(num_threads >= 1, "a pool has the caller's thread at least");
   const SignalsBlocked blocked;
-  // Before any runs: those would wait for ever if this failed.
+  // Before any thread runs: the threads would wait for ever if this failed.
   others_.reserve(static_cast<std::size_t>(num_threads) - 1);
   try {
     for (int thread = 1; thread < num_threads; ++thread)

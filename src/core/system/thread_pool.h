@@ -1,4 +1,4 @@
-/// Threads that share out tasks.
+/// Threads that share tasks.
 #pragma once
 
 #include <atomic>
@@ -16,10 +16,10 @@ namespace pbmpi::core {
 /// handles them. One caller at a time.
 class ThreadPool {
  public:
-  /// task(index, thread): `thread` is from 0, the caller's, to num_threads() - 1.
+  /// task(index, thread): `thread` counts from 0, the caller's, to num_threads() - 1.
   using Task = std::function<void(int index, int thread)>;
 
-  /// `num_threads` >= 1 counts the caller's: with 1 there is no other. Throws core::RunError if the system
+  /// `num_threads` >= 1 includes the caller's: with 1 there is no other. Throws core::RunError if the system
   /// gives no more threads.
   explicit ThreadPool(int num_threads);
   ~ThreadPool();
@@ -28,8 +28,8 @@ class ThreadPool {
 
   int num_threads() const { return static_cast<int>(others_.size()) + 1; }
 
-  /// Does the tasks 0 to count - 1, each by whichever thread is free first, and returns when all are done. If
-  /// tasks throw, the exception of the one with the lowest index is thrown then.
+  /// Runs the tasks 0 to count - 1, each on whichever thread is free first, and returns when all are done. If
+  /// tasks threw, rethrows the exception of the task with the lowest index.
   void run(int count, const Task& task);
 
  private:
@@ -39,11 +39,11 @@ class ThreadPool {
 
   std::mutex mutex_;
   std::condition_variable begins_, ends_;
-  const Task* task_ = nullptr;  ///< of the round at hand
-  int count_ = 0;               ///< its tasks
-  std::atomic<int> next_ = 0;   ///< to be taken
+  const Task* task_ = nullptr;  ///< of the current round
+  int count_ = 0;               ///< number of its tasks
+  std::atomic<int> next_ = 0;   ///< next task to take
   std::int64_t round_ = 0;
-  int num_busy_ = 0;  ///< of the other threads
+  int num_busy_ = 0;  ///< how many of the other threads are busy
   bool stops_ = false;
   std::exception_ptr error_;
   int error_index_ = 0;

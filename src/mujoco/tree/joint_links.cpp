@@ -11,13 +11,13 @@ using model::JointKind;
 using model::Pose;
 using model::Vec3;
 
-/// A direction of one frame in another.
+/// Converts a direction from one frame to another.
 Vec3 turn_into(const Pose& to, const Pose& from, const Vec3& direction) {
   return to.orientation.to_eigen().conjugate() * from.direction_to_outer(direction);
 }
 
-/// From the joint's second body to its first: axis 2 is fixed in the second, axis 1 and what slides along it
-/// in the first.
+/// From the joint's second body to its first: axis 2 is fixed in the second, axis 1 and anything that slides
+/// along it in the first.
 std::vector<LinkAxis> axes_from_b(const model::Joint& joint, const Vec3& axis1, const Vec3& axis2) {
   switch (joint.kind) {
     case JointKind::ball:

@@ -9,7 +9,7 @@ namespace {
 
 using model::JointKind;
 
-/// Joints of the lowest class are the first to enter the tree.
+/// Joints of the lowest class enter the tree first.
 int class_of(const model::Joint& joint, bool has_controls) {
   if (has_controls) return 0;
   switch (joint.kind) {
@@ -27,7 +27,7 @@ int class_of(const model::Joint& joint, bool has_controls) {
   return 0;
 }
 
-/// The joints that hold, those first that the tree should have.
+/// The joints that hold, ordered by preference for the tree.
 std::vector<int> joints_in_turn(const model::Model& model, std::span<const std::int32_t> broken_in) {
   const std::vector<bool> controls = joints_with_controls(model);
   std::vector<int> joints;
@@ -39,7 +39,7 @@ std::vector<int> joints_in_turn(const model::Model& model, std::span<const std::
   return joints;
 }
 
-/// Hangs all bodies that joints of the tree lead to from `start` on what they come from.
+/// Attaches all bodies that joints of the tree reach from `start` to their predecessors.
 class Walk {
  public:
   explicit Walk(const model::Model& model)
@@ -85,8 +85,8 @@ class Walk {
   }
 
   const model::Model* model_;
-  int world_;                             ///< the node of the world
-  std::vector<std::vector<int>> joints_;  ///< [nodes] of the tree
+  int world_;                             ///< node of the world
+  std::vector<std::vector<int>> joints_;  ///< [nodes] joints of the tree
   std::vector<bool> seen_;                ///< [nodes]
   JointTree tree_;
 };

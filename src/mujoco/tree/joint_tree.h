@@ -1,4 +1,4 @@
-/// The kinematic trees that the joints of a world form.
+/// The kinematic trees formed by the joints of a world.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace pbmpi::mujoco {
 
-/// What a body hangs on.
+/// The attachment of a body.
 struct Hold {
-  int joint = -1;               ///< to its parent; -1: it is free, the root of a tree
+  int joint = -1;               ///< joint to its parent; -1: it is free, the root of a tree
   int parent = model::no_body;  ///< no_body: the world, if there is a joint
 };
 
@@ -23,13 +23,12 @@ struct JointTree {
   std::vector<int> closing;  ///< joints that close loops, ascending
 };
 
-/// Does the joint have anything but rows that it holds: a limit, a motor, an event that sets one, or a
-/// strength?
+/// Does the joint have more than its own rows: a limit, a motor, an event that sets one, or a strength?
 std::vector<bool> joints_with_controls(const model::Model& model);
 
-/// The tree is chosen so that what closes loops is, where possible, a ball joint, a hinge, or a fixed joint,
-/// without limit, motor or strength; a free tree has its lowest body as root. `broken_in`: as in State; what
-/// is broken is not there.
+/// Builds the tree such that the joints that close loops are, where possible, ball joints, hinges or fixed
+/// joints without limit, motor or strength; a free tree has its lowest body as root. `broken_in`: as in
+/// State; broken joints are left out.
 JointTree make_joint_tree(const model::Model& model, std::span<const std::int32_t> broken_in);
 
 }  // namespace pbmpi::mujoco

@@ -45,7 +45,7 @@ void BroadPhase::offer(void* self, dGeomID a, dGeomID b) {
   const GeomTag& tag_a = tag_of(a);
   const GeomTag& tag_b = tag_of(b);
   if (!broad.geoms_.may_touch(tag_a, tag_b)) return;
-  // The sweep-and-prune space offers a plane with everything, because its box is infinite along some axes.
+  // The sweep-and-prune space reports a plane with every geom, because its box is infinite along some axes.
   if ((tag_a.is_plane || tag_b.is_plane) && !boxes_overlap(a, b)) return;
   const auto [first, second] = std::minmax(tag_a.index, tag_b.index);
   broad.pairs_.push_back({first, second});

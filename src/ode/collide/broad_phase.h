@@ -1,4 +1,4 @@
-/// Finds the pairs of geoms that may touch, in an order that depends on nothing but the pairs.
+/// Finds the pairs of geoms that may touch, in an order that depends only on the pairs.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace pbmpi::ode {
 
 enum class SpaceKind { simple, sweep_and_prune };
 
-/// The ODE space that measures best for so many geoms (bench_worlds --spaces; ODE's hash space never does).
+/// The ODE space that is measured as fastest for this number of geoms (bench_worlds --spaces; ODE's hash
+/// space never is).
 SpaceKind best_space(std::size_t num_geoms);
 
 using model::GeomPair;
@@ -22,10 +23,10 @@ class BroadPhase {
   BroadPhase(const BroadPhase&) = delete;
   BroadPhase& operator=(const BroadPhase&) = delete;
 
-  /// The pairs whose bounding boxes overlap and which may touch, sorted: the space's own order, which depends
-  /// on its history, is gone. Valid until the next call.
+  /// The pairs whose bounding boxes overlap and which may touch. They are sorted, which removes the space's
+  /// own order with its dependence on history. Valid until the next call.
   const std::vector<GeomPair>& find_pairs();
-  /// Joints are broken from now on: State::broken_in.
+  /// Takes in the joints that are broken from now on: State::broken_in.
   void set_broken(const model::Model& model, std::span<const std::int32_t> broken_in) {
     geoms_.set_broken(model, broken_in);
   }

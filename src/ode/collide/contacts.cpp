@@ -45,7 +45,7 @@ void Contacts::watch(dJointID joint, const model::Contact& contact) {
   dJointSetFeedback(joint, &kept_.back().feedback);
 }
 
-/// The feedback is what acts on the joint's first body that is real: body a.
+/// The feedback is the force on the joint's first real body: body a.
 void Contacts::show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
                     std::vector<model::ContactForce>& forces) const {
   for (const Kept& kept : kept_) {
@@ -74,7 +74,8 @@ void Contacts::make(dWorldID world, const std::vector<GeomPair>& pairs, const st
   }
 }
 
-/// ODE takes no negative depth; its motion along the normal is the slowest at which the bodies part.
+/// ODE takes no negative depth; instead the motion along the normal sets the lowest speed at which the bodies
+/// separate.
 void Contacts::make_ahead(dWorldID world, const std::vector<model::Contact>& contacts, double dt_s) {
   contact_.surface.mode = dContactSoftERP | dContactSoftCFM | dContactMotionN;
   contact_.surface.mu = 0;
@@ -116,9 +117,9 @@ void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
   }
 }
 
-/// Returns the rows of a contact with this surface. dContactApprox1 makes mu Coulomb's coefficient; without
-/// it ODE takes mu as a force [N]. An infinite mu (no slip) must go without: ODE would multiply it by a
-/// normal force of 0.
+/// Returns the number of rows of a contact with this surface. With dContactApprox1 mu is Coulomb's
+/// coefficient; without it ODE takes mu as a force [N]. An infinite mu (no slip) must not set the flag: ODE
+/// would multiply it by a normal force of 0.
 int Contacts::set_surface(const GeomPair& pair) {
   const model::Material material = model::pair_material(*model_, pair, model_->geoms[pair.first].material,
                                                         model_->geoms[pair.second].material);

@@ -20,31 +20,34 @@ struct Touch {
   bool cross_space = false;  ///< two real bodies whose geoms lie in different collision spaces
 };
 
-/// What dCollide found of a pair, as a contact: body a is a real one, the normal points into it.
+/// Converts what dCollide found for a pair into a contact: body a is a real one, and the normal points into
+/// it.
 model::Contact to_contact(const model::Model& model, const GeomPair& pair, const dContactGeom& found);
 
-/// Makes the contact joints of a step. Friction, restitution and the counting of contacts across spaces are
-/// there only if the plan has them.
+/// Makes the contact joints of a step. Handles friction, restitution and the counting of contacts across
+/// spaces only if the plan has them.
 class Contacts {
  public:
   /// `model` is borrowed.
   Contacts(const model::Model& model, const effects::StepPlan& plan, const std::vector<dBodyID>& bodies);
 
-  /// Collides each pair (dCollide with the lower geom first) and joins what touches, in the order of `pairs`.
+  /// Collides each pair (dCollide with the lower geom first) and joins touching geoms, in the order of
+  /// `pairs`.
   void make(dWorldID world, const std::vector<GeomPair>& pairs, const std::vector<dGeomID>& geoms);
-  /// Joins what is ahead of fast bodies (effects::FastBodies): gaps that may close in a step of `dt_s`.
+  /// Adds joints for the speculative contacts of fast bodies (effects::FastBodies): gaps that may close in a
+  /// step of `dt_s`.
   void make_ahead(dWorldID world, const std::vector<model::Contact>& contacts, double dt_s);
   /// Removes the contact joints. touches() and deepest_m() stay until the next make().
   void clear() { dJointGroupEmpty(joints_.get()); }
 
-  /// From the next make() on: are contacts and their forces to be shown?
+  /// Sets whether contacts and their forces are kept for show(), from the next make() on.
   void keep(bool keep) { keeps_ = keep; }
-  /// Appends what is kept of the contacts, with their forces in the step that was solved since then.
-  /// `before`: the centres of the bodies before it [m].
+  /// Appends the kept contacts, with their forces in the step that was solved since then. `before`: the
+  /// centres of the bodies before that step [m].
   void show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
             std::vector<model::ContactForce>& forces) const;
 
-  /// Forgets touches(), too: the step has no contacts.
+  /// Forgets touches() as well: the step has no contacts.
   void forget() {
     kept_.clear();
     touches_.clear();
@@ -68,14 +71,14 @@ class Contacts {
   bool restitution_;
   bool cross_space_;
   JointGroupHandle joints_;
-  dContact contact_{};               ///< the one that is being filled
+  dContact contact_{};               ///< the contact that is being filled
   std::vector<dContactGeom> found_;  ///< [max_per_pair]
   struct Kept {
     model::Contact contact;
     dJointFeedback feedback;
   };
   bool keeps_ = false;
-  std::deque<Kept> kept_;  ///< ODE writes into them while it solves
+  std::deque<Kept> kept_;  ///< ODE writes into these while it solves
   std::vector<Touch> touches_;
   double deepest_m_ = 0;
 };

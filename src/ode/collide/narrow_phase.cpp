@@ -11,7 +11,7 @@
 namespace pbmpi::ode {
 namespace {
 
-/// Geoms in no space and on no body, put where they are looked at.
+/// Collides geoms that are in no space and on no body, and are placed where needed.
 class NarrowPhase final : public model::NarrowPhase {
  public:
   explicit NarrowPhase(const model::Model& model)
@@ -33,7 +33,7 @@ class NarrowPhase final : public model::NarrowPhase {
   void collide(std::span<const model::BodyPose> poses, std::span<const model::GeomPair> pairs,
                std::vector<model::Contact>& contacts) override {
     if (pairs.empty()) return;
-    prepare_thread();  // any thread of a pool may come
+    prepare_thread();  // may run on any thread of a pool
     ++time_;
     for (const model::GeomPair& pair : pairs) {
       bring(pair.first, poses);
@@ -54,7 +54,7 @@ class NarrowPhase final : public model::NarrowPhase {
     dGeomSetRotation(id, rotation);
   }
 
-  /// Places a geom of a body, once a call of collide().
+  /// Places a geom of a body, once per call of collide().
   void bring(int index, std::span<const model::BodyPose> poses) {
     const model::Geom& geom = model_->geoms[index];
     if (geom.body == model::no_body || placed_[index] == time_) return;
@@ -65,7 +65,7 @@ class NarrowPhase final : public model::NarrowPhase {
   Engine engine_;
   const model::Model* model_;
   std::vector<dGeomID> geoms_;
-  std::vector<long> placed_;  ///< [geoms] the call that placed it
+  std::vector<long> placed_;  ///< [geoms] number of the call that placed it
   long time_ = 0;
   std::vector<dContactGeom> found_;  ///< [max_per_pair]
 };

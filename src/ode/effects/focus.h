@@ -9,19 +9,19 @@
 
 namespace pbmpi::ode {
 
-/// ODE takes one number of iterations a call, and a call steps what is enabled. Islands are disabled as a
-/// whole, so that ODE wakes none of them.
+/// ODE takes one number of iterations per call, and a call steps all enabled bodies. Islands are disabled as
+/// a whole, so ODE wakes none of them.
 class Focus {
  public:
-  /// `field`, which is borrowed, has sorted the bodies that are enabled before a step is taken.
+  /// `field` is borrowed; it has sorted the enabled bodies before a step is taken.
   Focus(const effects::FieldOfInterest& field, const std::vector<dBodyID>& bodies)
       : field_(&field), bodies_(bodies) {}
 
-  /// Are there islands of both sorts, to be stepped one after the other?
+  /// Are there islands both inside and outside, which are stepped one after the other?
   bool is_cut() const;
   int outside_iterations() const { return field_->outside_iterations(); }
   int inside_iterations() const { return field_->iterations(); }
-  /// For all islands, if the step is not cut.
+  /// Iterations for all islands, if the step is not cut.
   int iterations() const { return field_->inside().empty() ? outside_iterations() : inside_iterations(); }
   int iterations_of(int body) const { return field_->iterations_of(body); }
 

@@ -52,7 +52,7 @@ model::JointForce JointLoads::force(int joint) const {
   return force;
 }
 
-/// The torque of a fixed joint is taken where its first body stands after the step.
+/// The torque of a fixed joint is taken at the pose of its first body after the step.
 effects::Reaction JointLoads::reaction(int joint) const {
   const Measured& found = find(joint);
   const Joint& measured = model_->joints[joint];

@@ -16,12 +16,12 @@ dMass mass_of(const model::Body& body) {
   return mass;
 }
 
-/// The setters mark the body's geoms as moved; what they rounded is then written over.
+/// The setters mark the body's geoms as moved; the rounded values that they store are then overwritten.
 void set_orientation_bits(dBodyID body, const model::Quat& orientation) {
   const dQuaternion q = {real(orientation.w), real(orientation.x), real(orientation.y), real(orientation.z)};
   dBodySetQuaternion(body, q);
   std::copy_n(q, 4, const_cast<dReal*>(dBodyGetQuaternion(body)));
-  // As dxStepBody does after it has integrated q.
+  // As in dxStepBody after it has integrated q.
   dQtoR(q, const_cast<dReal*>(dBodyGetRotation(body)));
 }
 

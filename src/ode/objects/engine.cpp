@@ -20,7 +20,7 @@ void on_message(int number, const char* message, std::va_list arguments) {
   active_log->record(number, format(message, arguments));
 }
 
-/// ODE ends the process once this returns, so that it must throw.
+/// ODE ends the process if this returns, so it must throw.
 [[noreturn]] void on_error(int number, const char* message, std::va_list arguments) {
   throw EngineError("ode: " + active_log->place() + ": error " + std::to_string(number) + ": " +
                     format(message, arguments));

@@ -1,4 +1,4 @@
-/// The start and the end of ODE in this process, and what it says in between.
+/// Starts and ends ODE in this process, and handles its messages in between.
 #pragma once
 
 #include <cstdarg>
@@ -11,24 +11,24 @@
 
 namespace pbmpi::ode {
 
-/// ODE found what it takes for a mistake in itself, e.g. a quaternion that is not a number.
+/// ODE found what it considers an internal error, e.g. a quaternion that is not a number.
 class EngineError : public core::RunError {
  public:
   using core::RunError::RunError;
 };
 
-/// Collects ODE's messages ("LCP internal error ..."), which it would print on standard error.
+/// Collects ODE's messages ("LCP internal error ..."), which ODE would print on standard error.
 class MessageLog {
  public:
   explicit MessageLog(WarningSink warn) : warn_(std::move(warn)) {}
 
-  /// What the messages that follow belong to.
+  /// Sets the world and step of the messages that follow.
   void set_place(int world, std::int64_t step);
-  /// Counts a message, and hands the first of its number to the sink.
+  /// Counts a message, and passes the first one of its number to the sink.
   void record(int number, const std::string& text);
-  /// Hands the sink a line, after the place.
+  /// Passes a line to the sink, preceded by the place.
   void warn(const std::string& text) const { warn_("ode: " + place() + ": " + text); }
-  /// Hands the sink how often each message came, if more than once.
+  /// Passes to the sink how often each message came, if more than once.
   void report_counts() const;
   /// "world 3, step 17".
   std::string place() const;
@@ -36,7 +36,7 @@ class MessageLog {
 
  private:
   struct Seen {
-    std::string text;  ///< of the first
+    std::string text;  ///< of the first message
     std::int64_t count = 0;
   };
   WarningSink warn_;
@@ -45,8 +45,8 @@ class MessageLog {
   std::map<int, Seen> seen_;
 };
 
-/// Keeps ODE initialised while it lives. ODE counts its initialisations itself (dInitODE2 and dCloseODE
-/// come in pairs), so that each stepper owns one.
+/// Keeps ODE initialised while it lives. ODE counts its initialisations itself (dInitODE2 and dCloseODE come
+/// in pairs), so each stepper owns one Engine.
 class Engine {
  public:
   Engine();
@@ -55,15 +55,15 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
 };
 
-/// Gives this thread what ODE needs for collision detection in it, while an Engine lives; costs next to
-/// nothing where it has that. Throws core::RunError if there is no memory for it.
+/// Gives this thread the data that ODE needs to detect collisions in it, while an Engine lives; costs next to
+/// nothing where the thread already has them. Throws core::RunError if there is no memory for them.
 void prepare_thread();
 
 /// Sends ODE's messages to `log` while it lives, and turns its errors into EngineError. Scopes nest; the
-/// handlers found are put back.
+/// previous handlers are restored.
 ///
-/// ODE's handlers are bare functions without user data, so that the log of the innermost scope has to be
-/// reachable from a variable of the thread: the one such variable of this library.
+/// ODE's handlers are bare functions without user data, so the log of the innermost scope has to be reachable
+/// from a thread-local variable: the only such variable of this library.
 class MessageScope {
  public:
   explicit MessageScope(MessageLog& log);

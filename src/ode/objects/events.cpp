@@ -8,7 +8,7 @@
 namespace pbmpi::ode {
 namespace {
 
-/// ODE normalises the quaternion: the same each time, so that a restart before or after the launch changes
+/// ODE normalises the quaternion in the same way each time, so a restart before or after the launch changes
 /// nothing.
 void place(dBodyID body, const model::Pose& pose) {
   dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
@@ -17,7 +17,7 @@ void place(dBodyID body, const model::Pose& pose) {
   dBodySetQuaternion(body, q);
 }
 
-/// Is it a setting of a joint's axis? Releases are a matter of effects::Breakage.
+/// Is it a setting of a joint's axis? Releases are handled by effects::Breakage.
 bool is_setting(const model::Event& event) {
   return event.kind == model::EventKind::motor || event.kind == model::EventKind::steer;
 }

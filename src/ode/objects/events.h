@@ -1,4 +1,4 @@
-/// The events of a world, fired step by step.
+/// Fires the events of a world step by step.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,12 @@ class Events {
   Events(const model::Model& model, const std::vector<dBodyID>& bodies, const std::vector<dJointID>& joints,
          HeldPoses& poses);
 
-  /// Brings the joints, fresh from make_joints(), to where they stand at the start of step `step`, before
-  /// that step's own events. Launches of earlier steps are part of the state already.
+  /// Brings the joints, fresh from make_joints(), to their settings at the start of step `step`, before that
+  /// step's own events. Launches of earlier steps are already part of the state.
   void skip_to(std::int64_t step);
-  /// This motor drives an axis from now on.
+  /// Makes this motor drive an axis from now on.
   void set_motor(int joint, int axis, const model::AxisMotor& motor);
-  /// Fires the events of step `step`. Steps come in order, without a gap, from skip_to()'s.
+  /// Fires the events of step `step`. Steps come in order, without a gap, from the step of skip_to().
   void fire(std::int64_t step) {
     while (next_ < model_->events.size() && model_->events[next_].step <= step) {
       apply(model_->events[next_++]);

@@ -10,7 +10,7 @@ namespace pbmpi::ode {
 namespace {
 
 /// Category bits: one for all static geoms, one for all actors whose own geoms may touch, and one for each of
-/// the first 30 others; the actors after these are kept apart by may_touch() alone.
+/// the first 30 other actors; the actors after these are separated by may_touch() alone.
 constexpr unsigned long static_bit = 1ul << 0;
 constexpr unsigned long open_bit = 1ul << 1;
 constexpr unsigned long all_bits = 0xfffffffful;
@@ -41,7 +41,7 @@ dGeomID make_plane(const model::Geom& geom, dSpaceID space) {
   return dCreatePlane(space, normal.x(), normal.y(), normal.z(), normal.dot(geom.local.position));
 }
 
-/// An offset costs ODE a matrix product a step, so that a geom centred on its body gets none.
+/// An offset costs ODE a matrix product per step, so a geom centred on its body gets none.
 void place(const model::Geom& geom, const std::vector<dBodyID>& bodies, dGeomID id) {
   const model::Vec3& position = geom.local.position;
   const model::Quat& orientation = geom.local.orientation;
@@ -96,7 +96,7 @@ bool JoinedBodies::contains(int body_a, int body_b) const {
 
 Geoms::Geoms(const model::Model& model, const std::vector<dBodyID>& bodies, dSpaceID space) : joined_(model) {
   const CategoryBits bits(model);
-  tags_.reserve(model.geoms.size());  // ODE keeps pointers to them
+  tags_.reserve(model.geoms.size());  // ODE keeps pointers to the tags
   ids_.reserve(model.geoms.size());
   for (const model::Geom& geom : model.geoms) {
     const dGeomID id = make_shape(geom, space);

@@ -1,4 +1,4 @@
-/// Geoms from the model, and which pairs of them may touch.
+/// Makes geoms from the model, and decides which pairs of them may touch.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace pbmpi::ode {
 
-/// What the broad phase must know of a geom; ODE's geom points to it (dGeomGetData).
+/// The data of a geom for the broad phase; ODE's geom points to it (dGeomGetData).
 struct GeomTag {
   int index = 0;  ///< into Model::geoms
   int body = model::no_body;
   int actor = 0;
   bool self_collision = false;  ///< of its actor
   bool is_plane = false;
-  bool check_joined = false;  ///< its body has a joint to a body that it might touch otherwise
+  bool check_joined = false;  ///< its body has a joint to a body that it might otherwise touch
 };
 
 /// Bodies connected by a joint that holds: their geoms do not touch (model::TouchRule).
@@ -33,7 +33,8 @@ class JoinedBodies {
                                               ///< geoms do not touch each other anyway
 };
 
-/// The ODE geom of a shape; null: in no space. A plane stands where it belongs, the others at the origin.
+/// The ODE geom of a shape; `space` null: in no space. A plane is placed in the world, the others at the
+/// origin.
 dGeomID make_shape(const model::Geom& geom, dSpaceID space);
 
 /// The geoms of a model in one ODE space, and the rule which of them may touch:
@@ -47,7 +48,7 @@ class Geoms {
   Geoms(const Geoms&) = delete;
   Geoms& operator=(const Geoms&) = delete;
 
-  /// Joints are broken from now on: State::broken_in.
+  /// Takes in the joints that are broken from now on: State::broken_in.
   void set_broken(const model::Model& model, std::span<const std::int32_t> broken_in) {
     joined_ = JoinedBodies(model, broken_in);
   }

@@ -1,4 +1,4 @@
-/// Motors that hold the initial pose: aimed anew in each step.
+/// Motors that hold the initial pose: their targets are set anew in each step.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace pbmpi::ode {
 
-/// The motors of a world that have a hold rate. ODE's motors know only a velocity, which here follows from
-/// the coordinate of the axis.
+/// The motors of a world that have a hold rate. ODE's motors know only a velocity, which is computed here
+/// from the coordinate of the axis.
 class HeldPoses {
  public:
-  /// Holds what the model's motors hold. `model` is borrowed.
+  /// Takes over the motors of the model that hold a pose. `model` is borrowed.
   HeldPoses(const model::Model& model, const std::vector<dJointID>& joints);
 
-  /// From now on this motor drives the axis; without a hold rate it is no longer aimed.
+  /// Makes this motor drive the axis from now on; without a hold rate its target is no longer updated.
   void replace(int joint, int axis, const model::AxisMotor& motor);
-  /// Aims all of them for a step of `dt_s` from the present poses.
+  /// Sets the targets of all of them for a step of `dt_s` from the present poses.
   void aim(double dt_s) const;
 
  private:

@@ -16,7 +16,7 @@ using model::Vec3;
 
 constexpr double least_sine_between_axes = 0.1;  // 6 degrees; the cross product is the constrained direction
 
-/// ODE's functions of one kind of joint. A null entry: the kind has no such thing.
+/// ODE's functions for one kind of joint. A null entry: the kind does not have this feature.
 struct KindApi {
   dJointID (*create)(dWorldID, dJointGroupID);
   void (*set_anchor)(dJointID, dReal, dReal, dReal);
@@ -31,8 +31,8 @@ void set_axis1(dJointID joint, const Vec3& axis1, const Vec3&) {
   set(joint, axis1.x(), axis1.y(), axis1.z());
 }
 
-/// ODE takes the axes one by one and wants them not parallel at any time, so that axis 1 first gets out of
-/// the way of where axis 2 is and of where it goes.
+/// ODE takes the axes one by one and requires that they are never parallel, so axis 1 first moves away from
+/// both the old and the new direction of axis 2.
 void set_universal_axes(dJointID joint, const Vec3& axis1, const Vec3& axis2) {
   dVector3 now;
   dJointGetUniversalAxis2(joint, now);
@@ -52,7 +52,7 @@ void set_hinge2_axes(dJointID joint, const Vec3& axis1, const Vec3& axis2) {
 
 void set_fixed(dJointID joint, const Vec3&, const Vec3&) { dJointSetFixed(joint); }
 
-/// In the order of JointKind.
+/// Indexed by JointKind.
 constexpr std::array<KindApi, model::num_joint_kinds> kind_apis = {{
     {dJointCreateBall, dJointSetBallAnchor, nullptr, nullptr, nullptr, {}},
     {dJointCreateHinge,
@@ -84,7 +84,7 @@ constexpr std::array<KindApi, model::num_joint_kinds> kind_apis = {{
 
 const KindApi& api_of(JointKind kind) { return kind_apis[static_cast<int>(kind)]; }
 
-/// ODE's number of a parameter of the second axis is that of the first plus dParamGroup2.
+/// ODE's parameter number for the second axis is that of the first plus dParamGroup2.
 int param_of(int axis, int param) { return axis == 0 ? param : param + dParamGroup2; }
 
 void require_expressible(const model::Joint& joint) {
@@ -107,8 +107,8 @@ void set_position(dBodyID body, const Vec3& position) {
   dBodySetPosition(body, position.x(), position.y(), position.z());
 }
 
-/// ODE takes one point for both anchors. So that each body keeps its own anchor even where the scene left a
-/// gap between the two, body a is moved for a moment to where the anchors coincide.
+/// ODE takes one point for both anchors. Body a is moved temporarily to where the anchors coincide, so that
+/// each body keeps its own anchor even where the scene left a gap between the two.
 void set_anchors(dJointID id, const model::Model& model, const model::Joint& joint, dBodyID body_a) {
   const auto set_anchor = api_of(joint.kind).set_anchor;
   if (set_anchor == nullptr) return;
@@ -159,7 +159,7 @@ dJointID make_joint(dWorldID world, const std::vector<dBodyID>& bodies, const mo
   return id;
 }
 
-/// ODE looks at the stops of an angle only if one of them lies within half a turn.
+/// ODE checks the stops of an angle only if one of them lies within half a turn.
 bool at_limit(dJointID joint, const KindApi& api, bool is_angle, int axis) {
   if (api.coordinate[axis] == nullptr) return false;
   const double low = api.get_param(joint, param_of(axis, dParamLoStop));
@@ -196,7 +196,7 @@ void aim_motor(dJointID joint, JointKind kind, int axis, const model::AxisMotor&
   api.set_param(joint, param_of(axis, dParamVel), motor.velocity - rate * api.coordinate[axis](joint));
 }
 
-/// The low stop is set twice: ODE ignores a stop that lies beyond the other one as it then stands (ODE
+/// The low stop is set twice: ODE ignores a stop that lies beyond the present value of the other one (ODE
 /// manual, "Stops and motor parameters").
 void set_limit(dJointID joint, JointKind kind, int axis, const model::AxisLimit& limit) {
   const auto set = api_of(kind).set_param;

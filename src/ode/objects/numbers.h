@@ -1,4 +1,5 @@
-/// Between ODE's numbers, of single precision in a build for it (PBMPI_ODE_SINGLE), and pbmpi's.
+/// Converts between ODE's numbers, which a build may have in single precision (PBMPI_ODE_SINGLE), and
+/// pbmpi's.
 #pragma once
 
 #include "model/model.h"

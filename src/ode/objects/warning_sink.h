@@ -1,4 +1,4 @@
-/// Where warnings go.
+/// The destination of warnings.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,7 @@
 
 namespace pbmpi::ode {
 
-/// Gets one line for people, without a newline, e.g. "ode: world 3, step 17: LCP internal error ...".
+/// Takes one human-readable line without a newline, e.g. "ode: world 3, step 17: LCP internal error ...".
 using WarningSink = std::function<void(const std::string& line)>;
 
 /// Writes the line to standard error.

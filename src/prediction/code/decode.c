@@ -1,5 +1,5 @@
 // Opcode maps: Intel 64 and IA-32 Architectures Software Developer's Manual, volume 2, appendix A. The rule
-// of the classes is that of jobs/figure3.py, which reads objdump's text instead.
+// for the classes is that of jobs/figure3.py, which reads objdump's text instead.
 #include "prediction/code/decode.h"
 
 const HChar* const mix_names[num_mix_classes] = {"floating_point", "integer", "branch", "store", "load"};
@@ -18,8 +18,8 @@ typedef struct {
   UChar prefix;  ///< the mandatory one: 0, 0x66, 0xF3 or 0xF2
   Bool wide;     ///< REX.W or VEX.W
   Bool is_vex;
-  Bool in_memory;  ///< the ModRM operand; only where the opcode has one
-  UChar reg;       ///< its middle field
+  Bool in_memory;  ///< is the ModRM operand in memory? only where the opcode has one
+  UChar reg;       ///< the middle field of ModRM
 } Parts;
 
 static UChar vex_prefix(UChar pp) {
@@ -68,7 +68,8 @@ static UChar move(const Parts* p, UInt in_memory, UInt in_register) {
   return (UChar)(p->in_memory ? in_memory : in_register);
 }
 
-/// D8 to DF. In memory an odd opcode loads, stores or controls by its middle field; an even one computes.
+/// D8 to DF. With a memory operand, an odd opcode loads, stores or controls by its middle field; an even one
+/// computes.
 static UChar x87_mix(const Parts* p) {
   if (!p->in_memory) return fp;
   if ((p->opcode & 1) == 0) return fp | load;
@@ -77,7 +78,7 @@ static UChar x87_mix(const Parts* p) {
   return p->reg == 0 || p->reg == 5 || (p->opcode == 0xDF && p->reg == 4) ? load : store;
 }
 
-/// F6, F7, FE, FF: groups whose operation is the middle field.
+/// F6, F7, FE, FF: groups whose operation is in the middle field.
 static UChar group_mix(const Parts* p) {
   if (p->opcode >= 0xFE) {
     if (p->opcode == 0xFF && p->reg == 6) return store;                                 // push
@@ -105,7 +106,7 @@ static UChar one_byte_mix(const Parts* p) {
   switch (op) {
     case 0x8D:
     case 0x86:
-    case 0x87:  // lea; exchanges are counted as what they compute
+    case 0x87:  // lea; exchanges count as what they compute
       return integer;
     case 0x63:
     case 0x8A:
@@ -233,7 +234,7 @@ static UChar vector_0f_mix(const Parts* p) {
   }
 }
 
-/// 0F 38 and 0F 3A: vectors, but for the bit manipulations of BMI, movbe and crc32.
+/// 0F 38 and 0F 3A: vectors, except the bit manipulations of BMI, movbe and crc32.
 static Bool is_vector_0f38(const Parts* p) {
   if (p->map == 3) return !(p->is_vex && p->opcode == 0xF0);
   return p->opcode < 0xF0;
@@ -250,7 +251,8 @@ static UChar upper_mix(const Parts* p) {
 
 static UChar lane_of_prefix(UChar prefix) { return prefix == 0x66 || prefix == 0xF2 ? 8 : 4; }
 
-/// Compilers copy any 16 bytes by movups and movaps, and 8 bytes by movlps: these say nothing of the lanes.
+/// Compilers copy any 16 bytes with movups and movaps, and 8 bytes with movlps, which say nothing of the
+/// lanes.
 static UChar lane_bytes_of(const Parts* p) {
   const UChar op = p->opcode;
   if (p->map == 1) {

@@ -140,7 +140,7 @@ static Bool is_vector_type(IRType type) {
   return type == Ity_V128 || type == Ity_V256 || type == Ity_F64 || type == Ity_F32;
 }
 
-/// Two operands into a wider register, or one lane of it.
+/// Combines two operands into a wider register, or replaces one lane.
 static Bool only_moves_pair(IROp op) {
   switch (op) {
     case Iop_64HLtoV128:

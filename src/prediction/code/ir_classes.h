@@ -1,11 +1,11 @@
-/// What operations of Valgrind's intermediate representation compute.
+/// Classifies the operations of Valgrind's intermediate representation.
 #pragma once
 
 #include <pub_tool_basics.h>
 #include <pub_tool_tooliface.h>
 #include "prediction/code/values.h"
 
-/// Kinds of micro-operations, by the unit that executes them and for how long.
+/// Kinds of micro-operations, by the unit that executes them and by latency.
 typedef enum {
   op_int,
   op_int_mul,
@@ -18,14 +18,14 @@ typedef enum {
   op_load,
   op_store,
   op_branch,
-  op_join,  ///< no operation: its result is there when all its sources are
+  op_join,  ///< no operation: its result is ready when all its sources are
   num_op_kinds
 } OpKind;
 
 typedef struct {
   OpKind kind;     ///< op_join: only moves or renames bits
-  Bool is_float;   ///< the result is one of floating-point arithmetic, of this type
-  Bool is_scalar;  ///< it is in the lowest lane of a vector register; the other lanes pass through
+  Bool is_float;   ///< the result comes from floating-point arithmetic, of this type
+  Bool is_scalar;  ///< the result is in the lowest lane of a vector register; the other lanes pass through
   ValueType type;
 } OpFacts;
 

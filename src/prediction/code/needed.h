@@ -1,4 +1,4 @@
-/// Which values of a block are used for more than the address of an access.
+/// Finds the values of a block that are used for more than the address of an access.
 #pragma once
 
 #include <pub_tool_basics.h>

@@ -6,7 +6,7 @@ static Double lane_of(ValueType type, const Value* value, Int lane) {
 
 static Double magnitude(Double x) { return x < 0 ? -x : x; }
 
-/// Not so for NaN: a comparison with it is false.
+/// False for NaN: a comparison with it is false.
 static Bool is_finite(Double x) { return magnitude(x) <= 1.7976931348623157e308; }
 
 Likeness compare_values(ValueType type, const Value* predicted, const Value* computed,

@@ -1,4 +1,4 @@
-/// What a predicted value is made of, and when two values count as equal.
+/// The layout of a predicted value, and when two values count as equal.
 #pragma once
 
 #include <pub_tool_basics.h>
@@ -7,7 +7,7 @@
 enum { max_value_bytes = 32 };
 
 /// A value is `num_lanes` numbers of `lane_bytes` (4: float, 8: double), or bits without a meaning
-/// (lane_bytes 0), of `bytes` bytes in all. Bits are only ever compared for equality.
+/// (lane_bytes 0), with `bytes` bytes in all. Bits are only compared for equality.
 typedef struct {
   UChar bytes, lane_bytes, num_lanes;
 } ValueType;
@@ -18,7 +18,7 @@ typedef union {
   Float f32[max_value_bytes / 4];
 } Value;
 
-/// What came of a prediction.
+/// The outcome of a prediction.
 typedef enum { not_predicted, predicted_right, predicted_wrong } Outcome;
 
 typedef enum { values_differ, values_near, values_equal } Likeness;
@@ -28,11 +28,11 @@ typedef enum { values_differ, values_near, values_equal } Likeness;
 typedef struct {
   Bool exact;
   Double threshold;
-  Bool relative;  ///< times the magnitude of the computed value
+  Bool relative;  ///< threshold is relative to the magnitude of the computed value
 } Verification;
 
-/// How the predicted value compares with the computed one: equal bit for bit; near, if it is not verified
-/// exactly and all lanes are finite and at most the threshold apart; else different. `error`: the largest
+/// Compares the predicted value with the computed one: equal bit for bit; near, if it is not verified exactly
+/// and all lanes are finite and at most the threshold apart; otherwise different. `error`: the largest
 /// distance of a lane if they are near [unit of the value, or 1].
 Likeness compare_values(ValueType type, const Value* predicted, const Value* computed,
                         const Verification* verification, Double* error);

@@ -62,7 +62,7 @@ static const Config table_3 = {.width = 8,
                                .front_end = 6,
                                .redo = 1};
 
-/// A Bool is one byte, all other members are an Int.
+/// A Bool is one byte, all other members are Ints.
 static void set_key(Config* config, const Key* key, Long value) {
   UChar* place = (UChar*)config + key->offset;
   if (key->offset >= __builtin_offsetof(Config, predict)) {
@@ -72,7 +72,7 @@ static void set_key(Config* config, const Key* key, Long value) {
   }
 }
 
-/// Takes "key=value" from `text`, and returns what follows it.
+/// Takes "key=value" from `text`, and returns the remaining text.
 static const HChar* take_key(Config* config, const HChar* text, const HChar* all) {
   for (Int i = 0; i < num_keys; ++i) {
     const SizeT length = VG_(strlen)(keys[i].name);

@@ -9,7 +9,7 @@
 enum { calendar_cycles = 4096, store_granules = 1 << 14 };
 typedef enum { unit_int, unit_memory, unit_fp, num_units } Unit;
 
-/// How many operations issue in a cycle.
+/// Operations issued in a cycle.
 typedef struct {
   ULong cycle;
   UChar total, unit[num_clusters][num_units];
@@ -20,12 +20,12 @@ typedef struct {
   Config config;
   ULong ready[max_slots];
   ULong fetch_cycle, last_leave;
-  Int fetched, left;                                  ///< in the cycle of fetch_cycle, of last_leave
-  ULong leave[max_window], memory_leave[max_window];  ///< of the last operations, as rings
+  Int fetched, left;                                  ///< in the cycle fetch_cycle, and last_leave
+  ULong leave[max_window], memory_leave[max_window];  ///< when the last operations left, as rings
   UInt at, memory_at, cluster;
-  ULong queue[num_clusters][queue_entries];  ///< when each place of a cluster's window is free again
+  ULong queue[num_clusters][queue_entries];  ///< when each place of a cluster's window becomes free
   UInt next_place[num_clusters];
-  ULong divider[num_clusters];  ///< when it is free again: it takes one operation at a time
+  ULong divider[num_clusters];  ///< when the divider becomes free: it takes one operation at a time
   Bookings calendar[calendar_cycles];
   struct {
     Addr granule;
@@ -71,7 +71,8 @@ static Int units(const Config* config, Unit unit) {
   return unit == unit_int ? config->int_units : unit == unit_memory ? config->memory_units : config->fp_units;
 }
 
-/// The first cycle from `earliest` on in which the machine and this unit of the cluster can take one more.
+/// The first cycle from `earliest` on in which the machine and this unit of the cluster can take another
+/// operation.
 static ULong book(Model* model, ULong earliest, UInt cluster, Unit unit) {
   const Int limit =
       model->config.clusters == 0 ? units(&model->config, unit) * num_clusters : units(&model->config, unit);
@@ -85,7 +86,8 @@ static ULong book(Model* model, ULong earliest, UInt cluster, Unit unit) {
   }
 }
 
-/// One of `width` places of a cycle, in order: advances `cycle` where it is full or `earliest` is later.
+/// Takes one of `width` places of a cycle, in order: advances `cycle` where it is full or `earliest` is
+/// later.
 static ULong take_place(ULong* cycle, Int* used, ULong earliest, Int width) {
   if (earliest > *cycle) {
     *cycle = earliest;
@@ -98,8 +100,8 @@ static ULong take_place(ULong* cycle, Int* used, ULong earliest, Int width) {
   return *cycle;
 }
 
-/// A place of a cluster's window that is free, or will be first. Most are free: the search begins behind the
-/// last one that was given.
+/// A free place of a cluster's window, or the first to become free. Most are free: the search begins after
+/// the last one taken.
 static ULong* free_place(Model* model, UInt cluster) {
   ULong* queue = model->queue[cluster];
   UInt first = model->next_place[cluster];
@@ -112,7 +114,8 @@ static ULong* free_place(Model* model, UInt cluster) {
   return &queue[first];
 }
 
-/// When it enters the window: after fetch, when there is room in window, load/store queue and cluster.
+/// When the operation enters the window: after fetch, when there is room in window, load/store queue and
+/// cluster.
 static ULong enter(Model* model, const MicroOp* op, const Event* event, UInt cluster, ULong** place) {
   const Config* config = &model->config;
   ULong earliest = model->leave[model->at];
@@ -133,8 +136,8 @@ static ULong operands_ready(const Model* model, const MicroOp* op, ULong entered
   return ready;
 }
 
-/// When an access of memory is done. A load of what a store has in the queue waits for its data, and takes it
-/// from there with the latency of the first level.
+/// When a memory access is done. A load from the address of a store in the queue waits for the store's data,
+/// and takes it from there with the latency of the first level.
 static ULong access_memory(Model* model, const MicroOp* op, const Event* event, ULong issued) {
   const Addr granule = event->address >> 3;
   const UInt at = (UInt)(granule & (store_granules - 1));

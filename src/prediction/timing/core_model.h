@@ -1,6 +1,6 @@
-/// How many cycles the processor of the paper's Table 3 takes: a dataflow model with limited resources. A
+/// Counts the cycles of the processor of the paper's Table 3: a dataflow model with limited resources. A
 /// micro-operation enters the window in program order, at most `width` a cycle; issues when its operands are
-/// there and a unit of its cluster is free; leaves in order. A confident right prediction makes its value
+/// ready and a unit of its cluster is free; leaves in order. A confident right prediction makes its value
 /// available when it enters, a wrong one makes its dependents execute again.
 #pragma once
 
@@ -11,23 +11,23 @@
 
 enum { max_sources = 6, max_slots = 4096, max_models = 32 };
 
-/// A place that holds the time at which a value is there: registers of the guest first, then results of the
+/// A place that holds the time at which a value is ready: registers of the guest first, then results of the
 /// block.
 typedef UShort Slot;
 
-/// Static part of a micro-operation. `site`: its prediction's place among the outcomes of the block, or -1;
-/// `word`: its address or condition's place among the words that the block leaves, or -1.
+/// Static part of a micro-operation. `site`: index of its prediction among the outcomes of the block, or -1;
+/// `word`: index of its address or condition among the words that the block leaves, or -1.
 typedef struct {
   UChar kind;  ///< OpKind
   UChar num_sources;
-  UChar branch;   ///< BranchKind, of op_branch
-  Bool taken_if;  ///< of a conditional branch: the condition with which it is taken
+  UChar branch;   ///< BranchKind, for op_branch
+  Bool taken_if;  ///< for a conditional branch: the condition with which it is taken
   Slot dest;      ///< no_slot: no result
   Slot source[max_sources];
   Short site, word;
-  Addr fetch;   ///< the instruction's address where it is the first in its line; else 0
-  Addr pc;      ///< of op_branch
-  Addr target;  ///< of a direct branch
+  Addr fetch;   ///< the instruction's address where it is the first in its line; otherwise 0
+  Addr pc;      ///< for op_branch
+  Addr target;  ///< for a direct branch
 } MicroOp;
 enum { no_slot = 0xFFFF };
 
@@ -40,13 +40,13 @@ typedef struct {
   Addr address;       ///< of its data access
 } Event;
 
-/// "NAME:key=value,key=value": a model, as in the usage. Ends the program with a message if it is none.
+/// Adds a model given as "NAME:key=value,key=value". Ends the program with a message for invalid text.
 void add_model(const HChar* text);
 void print_model_usage(void);
 Int num_models(void);
 const HChar* model_name(Int model);
-const HChar* model_text(Int model);  ///< what follows the name
-/// Cycles until all that has been shown to the model is done.
+const HChar* model_text(Int model);  ///< the text after the name
+/// Cycles until everything shown to the model is done.
 ULong model_cycles(Int model);
 
 void model_step(const MicroOp* op, const Event* event);

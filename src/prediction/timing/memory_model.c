@@ -8,7 +8,7 @@ enum {
   btb_ways = 4
 };
 
-/// `lines` of a set stand in the order of their last use, the latest first; 0 is an empty one.
+/// `lines` of a set are ordered by their last use, the latest first; 0 is an empty line.
 typedef struct {
   UInt num_sets, num_ways;
   ULong lines[max_lines];
@@ -17,7 +17,8 @@ typedef struct {
 const HChar* const level_names[num_levels] = {"l1", "l2", "l3", "memory"};
 MemoryCounts memory_counts;
 
-// Table 3: 32 KB 4-way and 16 KB 4-way first levels, 256 KB 8-way, 2 MB 16-way; lines of 64 bytes are ours.
+// Table 3: 32 KB 4-way and 16 KB 4-way first levels, 256 KB 8-way, 2 MB 16-way; lines of 64 bytes are our
+// choice.
 static Cache l1_fetch = {.num_sets = (32 << 10 >> line_shift) / 4, .num_ways = 4};
 static Cache l1_data = {.num_sets = (16 << 10 >> line_shift) / 4, .num_ways = 4};
 static Cache l2 = {.num_sets = (256 << 10 >> line_shift) / 8, .num_ways = 8};
@@ -27,7 +28,7 @@ static UChar counters[1 << history_bits];
 static UInt history;
 static struct { Addr address, target; } btb[btb_sets][btb_ways];
 
-/// True on a hit. The line then stands first in its set.
+/// True on a hit. Moves the line to the front of its set.
 static Bool touch(Cache* cache, ULong line) {
   ULong* set = &cache->lines[(line & (cache->num_sets - 1)) * cache->num_ways];
   UInt way = 0;

@@ -9,14 +9,14 @@
 static struct {
   const IRSB* block;
   const Bool* needed;
-  // of the instruction
+  // State of the instruction.
   Addr pc;
   UInt length;
   Decoded decoded;
   Bool has_branch;
-  Int int_op;  ///< that of its integer arithmetic, or -1
+  Int int_op;  ///< index of its integer arithmetic, or -1
   Addr last_line;
-  // of the segment
+  // State of the segment.
   UInt num_instructions, mix[num_mix_classes];
 } b;
 
@@ -29,7 +29,7 @@ static Slot add_op(OpKind kind, const Times* sources, Short word, Short site) {
   return op->dest;
 }
 
-/// All integer arithmetic of an instruction between two loads is one operation.
+/// All integer arithmetic of an instruction between two loads forms one operation.
 static Slot add_int_op(OpKind kind, const Times* sources, Short site) {
   if (b.int_op < 0) {
     b.int_op = (Int)op_list.num_ops;
@@ -44,7 +44,7 @@ static Slot add_int_op(OpKind kind, const Times* sources, Short site) {
     Bool is_known = sources->slots[i] == op->dest;
     for (Int k = 0; k < times.count; ++k) is_known = is_known || times.slots[k] == sources->slots[i];
     if (is_known) continue;
-    if (times.count == max_sources) break;  // no instruction of integers has as many operands
+    if (times.count == max_sources) break;  // no integer instruction has as many operands
     times.slots[times.count++] = sources->slots[i];
   }
   set_sources(op, &times);
@@ -126,8 +126,8 @@ void add_statement(const IRStmt* s, Short word, Short site) {
   }
 }
 
-/// A register-to-register move, a comparison (whose flags are computed where they are used), or nothing at
-/// all.
+/// Adds an operation for an instruction that has none so far: a register-to-register move, a comparison
+/// (whose flags are computed where they are used), or a no-op.
 static void end_instruction(void) {
   if (b.length == 0 || op_list.has_op) return;
   const Times times = written_times();
@@ -211,7 +211,7 @@ Segment* end_segment(void) {
   op_list.num_ops = 0;
   b.num_instructions = 0;
   b.int_op = -1;
-  op_list.has_op = True;  // of an instruction that goes on after an exit
+  op_list.has_op = True;  // for an instruction that goes on after an exit
   begin_writes();
   VG_(memset)(b.mix, 0, sizeof b.mix);
   return segment;

@@ -5,7 +5,7 @@
 enum { ymm_bytes = 32, stack_register = 60, first_vector_offset = 224 };
 
 static struct {
-  Times times[num_registers];  ///< where `is_set`; else the register's own slot
+  Times times[num_registers];  ///< where `is_set`; otherwise the register's own slot
   Bool is_set[num_registers];
   UChar set_here[num_registers];  ///< by the instruction
 } r;
@@ -18,8 +18,8 @@ UInt register_at(Int offset) {
 
 UInt x87_register(void) { return stack_register; }
 
-/// The flags are computed from operands later on in Valgrind's representation, in a processor with the
-/// result.
+/// The flags, which are computed from operands later on in Valgrind's representation, but with the result in
+/// a processor.
 Bool is_flags(Int offset) { return offset >= 144 && offset < 176; }
 
 Bool is_upper_part(Int offset) {
@@ -55,8 +55,8 @@ void put_written(Slot slot) {
   }
 }
 
-/// The join of one register would overwrite what that of another still waits for, where a block exchanges
-/// registers: those come first into slots of their own.
+/// Where a block exchanges registers, the join of one would overwrite a time that another still waits for:
+/// those times first move into slots of their own.
 static void free_from_registers(void) {
   for (UInt reg = 0; reg < num_registers; ++reg) {
     if (!r.is_set[reg]) continue;

@@ -11,14 +11,14 @@
 
 enum { max_statements_of_instruction = 16 };  // the statement's number is 4 bits of the key, as in the paper
 
-/// One block.
+/// State of one block.
 typedef struct {
   IRSB* out;
   IRExpr *counting, *predicting;  ///< I1
   Bool* needed;
   Decoded decoded;
   Addr pc;
-  UInt num_results;  ///< of the instruction that could be predicted, so far
+  UInt num_results;  ///< predictable results of the instruction so far
   Short num_words, num_sites;
 } Work;
 
@@ -81,7 +81,7 @@ static IRExpr* predicted_long(Work* work, Site* site, IRExpr* value, IRType type
   return IRExpr_Load(Iend_LE, type, word_of(&shuttle));
 }
 
-/// To I64 and back, of values of at most 8 bytes that are a whole result.
+/// Predicts values of at most 8 bytes that are a whole result, converted to I64 and back.
 static IRExpr* through_word(Work* work, Site* site, IRExpr* value, IRType type, IROp to, IROp from) {
   IRExpr* word = to == Iop_INVALID ? value : assign(work, Ity_I64, IRExpr_Unop(to, value));
   IRExpr* predicted = predicted_word(work, site, word);
@@ -95,7 +95,7 @@ static IRExpr* predicted_f32(Work* work, Site* site, IRExpr* value) {
   return IRExpr_Unop(Iop_ReinterpI32asF32, result);
 }
 
-/// The lowest lane of a vector register; the others stay.
+/// Predicts the lowest lane of a vector register; the others stay.
 static IRExpr* predicted_lane(Work* work, Site* site, IRExpr* value) {
   if (site->type.bytes == 8) {
     IRExpr* lane = assign(work, Ity_I64, IRExpr_Unop(Iop_V128to64, value));
@@ -186,7 +186,7 @@ static Bool is_wanted(ValueClass value_class) {
   return (options.predict & (value_class <= class_fp_operation ? predict_fp : predict_int)) != 0;
 }
 
-/// Adds a WrTmp; its outcome's place among those of the block, or -1 if it is not predicted.
+/// Adds a WrTmp; returns the index of its outcome among those of the block, or -1 if it is not predicted.
 static Short add_result(Work* work, IRStmt* s) {
   const Candidate found = candidate(work, s);
   const UInt id = found.can_be ? work->num_results++ : max_statements_of_instruction;

@@ -1,4 +1,4 @@
-/// Puts the calls of run_time.h into the code of the program.
+/// Inserts the calls of run_time.h into the code of the program.
 #pragma once
 
 #include <pub_tool_basics.h>

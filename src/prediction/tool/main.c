@@ -1,5 +1,5 @@
-// A Valgrind tool: what last-value prediction would do for a program, exact and fuzzy, and how many cycles
-// the processor of the paper's Table 3 would take with it and without it.
+// A Valgrind tool: measures last-value prediction, exact and fuzzy, on a program, and the cycles that the
+// processor of the paper's Table 3 would take with and without it.
 #include <pub_tool_basics.h>
 #include <pub_tool_libcassert.h>
 #include <pub_tool_libcbase.h>
@@ -27,10 +27,10 @@ static Bool take_request(ThreadId tid, UWord* request, UWord* answer) {
   }
 }
 
-/// The kernel gives each process 16 random bytes (AT_RANDOM, getauxval(3)), of which the C library makes the
-/// stack protector's canary. Canaries stay behind on the stack, and code that reads what it has not set there
-/// takes them for numbers: in half of all processes one so small that it is near zero. With the same bytes in
-/// each process predictions are the same in each. As a number 0x50... is far from all that is computed.
+/// The kernel gives each process 16 random bytes (AT_RANDOM, getauxval(3)), from which the C library makes
+/// the stack protector's canary. Canaries stay behind on the stack, and code that reads unset stack memory
+/// takes them for numbers: in half of all processes for one so small that it is near zero. With fixed bytes,
+/// predictions are the same in each process. As a number 0x50... is far from all computed values.
 static void fix_random_bytes(void) {
   enum { type_end = 0, type_random = 25, num_bytes = 16 };
   HChar** variable = VG_(client_envp);
@@ -54,8 +54,8 @@ static void finish(Int exit_code) {
 
 static void print_debug_usage(void) {}
 
-/// Micro-operations are to be those of the machine code: no loop is unrolled, no jump followed, and no
-/// expression of one instruction taken from another.
+/// Keeps micro-operations those of the machine code: unrolls no loop, follows no jump, and takes no
+/// expression of one instruction from another.
 static void keep_close_to_machine_code(void) {
   VG_(clo_vex_control).iropt_level = 1;
   VG_(clo_vex_control).iropt_unroll_thresh = 0;

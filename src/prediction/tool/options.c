@@ -85,7 +85,7 @@ Bool process_option(const HChar* argument) {
   return True;
 }
 
-/// Once the program is about to start, Valgrind's own message no longer ends it.
+/// Valgrind's own message no longer ends the program once it is about to start.
 static void refuse(const HChar* option, const HChar* why) {
   VG_(fmsg_bad_option)(option, "%s\n", why);
   VG_(exit)(1);

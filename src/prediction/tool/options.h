@@ -10,13 +10,13 @@ typedef enum { replace_lru, replace_fifo, replace_random } Replacement;
 enum { predict_fp = 1, predict_int = 2 };
 
 typedef struct {
-  const HChar* out_file;      ///< null: nothing is written
-  Verification verification;  ///< of floating-point values; integers are always verified exactly
+  const HChar* out_file;      ///< null: no file is written
+  Verification verification;  ///< for floating-point values; integers are always verified exactly
   UInt predict;               ///< predict_fp | predict_int
   Scope scope;
   Int table_entries;  ///< a power of two; 0: one for each micro-operation of the program
   Int table_ways;
-  Int tag_bits;  ///< 64: the whole key; 0: none, whoever comes to an entry takes it for its own
+  Int tag_bits;  ///< 64: the whole key; 0: none, an operation takes any entry that it finds for its own
   Replacement replacement;
   Int confidence_max, confidence_use, confidence_up, confidence_down;
   Int first_modelled;  ///< sections before this one (per kind, from 0) are not given to the cycle models
@@ -25,7 +25,7 @@ typedef struct {
 
 extern Options options;
 
-/// True if it was one of ours. Ends the program with a message if its value cannot be.
+/// True if `argument` is an option of this tool. Ends the program with a message for an invalid value.
 Bool process_option(const HChar* argument);
 void print_usage(void);
 /// Ends the program with a message if two options do not go together.

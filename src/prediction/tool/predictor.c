@@ -9,7 +9,7 @@
 typedef struct {
   Value value;
   ULong tag;
-  ULong stamp;  ///< of the last use (lru), or of when it came (fifo)
+  ULong stamp;  ///< of the last use (lru), or of the insertion (fifo)
   UChar confidence;
   Bool valid;
 } Entry;
@@ -48,10 +48,10 @@ void make_table(void) {
   grow_table(options.table_entries == 0 ? 1u << 16 : (UInt)options.table_entries);
 }
 
-/// Addresses are dense in their low bits and statements use few of theirs: Fibonacci hashing spreads both.
+/// Addresses are dense in their low bits, and statements use few of theirs: Fibonacci hashing spreads both.
 static ULong spread(ULong key) { return key * 0x9E3779B97F4A7C15ull; }
 
-/// The set is taken from the upper bits of the hash, a partial tag from those below.
+/// The set comes from the upper half of a hash of the key, a partial tag from the top bits of a second hash.
 static void place_in_table(Site* site) {
   if (options.table_entries == 0) {
     if (num_sites == num_entries) grow_table(2 * num_entries);
@@ -78,7 +78,7 @@ Site* find_site(Addr address, UInt id, ValueClass value_class, ValueType type) {
     ++num_sites;
     VG_(HT_add_node)(sites, node);
   }
-  node->site.value_class = (UChar)value_class;  // code that was unloaded may have made way for other code
+  node->site.value_class = (UChar)value_class;  // code that was unloaded may have been replaced by other code
   node->site.type = type;
   return &node->site;
 }

@@ -7,8 +7,8 @@
 
 static VgFile* out;
 
-/// Valgrind prints no numbers with a point: 15 digits and a power of ten, from repeated multiplication, right
-/// to about 14 of them.
+/// Valgrind prints no numbers with a point: 15 digits and a power of ten, computed by repeated
+/// multiplication, of which about 14 digits are right.
 static void write_real(Double x) {
   Int exponent = 0;
   if (x == 0) {

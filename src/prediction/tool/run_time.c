@@ -31,8 +31,9 @@ void predict_long(Site* site, ULong index) {
   for (Int word = 0; word < site->type.bytes / 8; ++word) shuttle.words[word] = whole.words[word];
 }
 
-/// Guessed wrong: a conditional branch by gshare, an indirect one by the target buffer. A direct one whose
-/// target the buffer does not hold is found when it is decoded; returns come from a stack without limits.
+/// Was the branch guessed wrong? gshare guesses a conditional branch, the target buffer an indirect one. A
+/// direct one whose target the buffer does not hold is found when it is decoded; returns come from a stack
+/// without limits.
 static Bool guess(const MicroOp* op) {
   if (op->branch == branch_conditional) {
     const Bool taken = (block_words[op->word] != 0) == (op->taken_if != 0);

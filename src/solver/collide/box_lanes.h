@@ -7,26 +7,26 @@
 
 namespace pbmpi::solver {
 
-/// How the boxes of each lane lie to each other.
+/// How the two boxes of each lane's pair lie relative to each other.
 template <class V>
 struct alignas(sizeof(V)) BoxAxis {
   V touching;  ///< flag
-  V depth;     ///< of two edges; of a face's points the most
+  V depth;     ///< depth of two edges, or the upper bound of a face's points
   V code;      ///< 0 to 2: face of a, 3 to 5: face of b, 6 + 3 i + j: edges i of a and j of b
 };
 
-/// By how much of the margin in which contacts are found a face may overlap more than two edges do, and still
-/// be where the boxes touch.
+/// The share of the contact margin by which a face may overlap more than two edges do and still be where the
+/// boxes touch.
 template <class Scalar>
 inline constexpr Scalar face_share_of_margin = static_cast<Scalar>(0.25);
 
 /// The axis of least overlap, or of the widest gap (Gottschalk's 15). As in ODE's dBoxBox a face wins unless
-/// the edges overlap less by more than 5 %; edges' gaps count 5 % less, so that a face wins of what stands
-/// over it.
+/// the edges overlap less by more than 5 %; edges' gaps count 5 % less, so that a face also wins when the
+/// other box is above it.
 ///
-/// Nor do edges win if they overlap less by a share of the margin: a plank that lies across another one, and
-/// sways, overlaps it least between two edges. In that one point it would tip until a later step finds the
-/// other three. The points of the face are then no deeper than the edges, but for the 5 %.
+/// Nor do edges win unless they overlap less by more than a share of the margin: a plank that lies across
+/// another one and sways overlaps it least between two edges. On that one point it would tip until a later
+/// step finds the other three. The points of the face are then no deeper than the edges, except for the 5 %.
 template <class T>
 BoxAxis<typename T::V> separate_boxes(const GeomSide<T>& a, const GeomSide<T>& b) {
   using V = typename T::V;
@@ -106,7 +106,7 @@ class BoxManifold {
   using Box = BoxPose<Scalar>;
 
   /// `code` and `depth` as in BoxAxis. Writes at most Touch::most_points points; returns their number.
-  /// `least_depth`: of a point that counts.
+  /// `least_depth`: the least depth of a point that counts.
   static int find(const Box& a, const Box& b, int code, Scalar depth, Scalar least_depth,
                   TouchPoint* points) {
     if (code >= 6) return cross_edges(a, b, (code - 6) / 3, (code - 6) % 3, depth, points);
@@ -117,7 +117,7 @@ class BoxManifold {
   }
 
  private:
-  /// A corner of the clipped face: place along the reference face's two edges, and how deep it lies.
+  /// A corner of the clipped face: its position along the reference face's two edges, and its depth.
   struct Corner {
     Scalar u, v, depth;
   };
@@ -133,7 +133,7 @@ class BoxManifold {
   static int choose(const Corner* corners, int count, int* chosen);
 };
 
-/// Half way between the two edges where they come nearest.
+/// Writes the point half way between the two edges where they are nearest.
 template <class T>
 int BoxManifold<T>::cross_edges(const Box& a, const Box& b, int i, int j, Scalar depth, TouchPoint* points) {
   const Scalar *ua = a.axis[i], *ub = b.axis[j];
@@ -168,7 +168,7 @@ int BoxManifold<T>::cross_edges(const Box& a, const Box& b, int i, int j, Scalar
   return 1;
 }
 
-/// The face of `incident` that looks most against the reference face, in the reference face's frame.
+/// Finds the face of `incident` that faces the reference face most directly, in the reference face's frame.
 template <class T>
 int BoxManifold<T>::incident_corners(const Box& reference, const Box& incident, int face, Scalar side,
                                      Corner* corners) {
@@ -200,7 +200,7 @@ int BoxManifold<T>::incident_corners(const Box& reference, const Box& incident, 
   return 4;
 }
 
-/// Keeps what lies on the inner side of sign x place <= limit (Sutherland and Hodgman).
+/// Keeps the part of the polygon where sign x place <= limit (Sutherland and Hodgman).
 template <class T>
 int BoxManifold<T>::clip(const Corner* in, int count, Scalar Corner::*place, Scalar sign, Scalar limit,
                          Corner* out) {
@@ -218,8 +218,8 @@ int BoxManifold<T>::clip(const Corner* in, int count, Scalar Corner::*place, Sca
   return kept;
 }
 
-/// The deepest, the one farthest from it, and the farthest on either side of the line between them: the four
-/// span nearly the area of all.
+/// Chooses the deepest corner, the one farthest from it, and the farthest on either side of the line between
+/// them: these four span nearly the area of all.
 template <class T>
 int BoxManifold<T>::choose(const Corner* corners, int count, int* chosen) {
   if (count <= Touch::most_points) {

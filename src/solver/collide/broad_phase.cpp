@@ -14,7 +14,7 @@ using model::Geom;
 using model::GeomPair;
 using model::Shape;
 
-/// From here on sorting beats testing the list of all pairs (bench_sor --broad-phase).
+/// Above this number sorting beats testing the list of all pairs (bench_sor --broad-phase).
 constexpr std::size_t most_listed_solids = 96;
 
 }  // namespace
@@ -89,7 +89,7 @@ void BroadPhase::test_listed(std::vector<GeomPair>& pairs) const {
   }
 }
 
-/// Insertion sort, since the order of the step before is nearly right.
+/// Insertion sort, since the previous step's order is nearly right.
 void BroadPhase::sort_along_x() {
   const auto low = [&](int geom) { return boxes_[static_cast<std::size_t>(geom)].min[0]; };
   for (std::size_t i = 1; i < order_.size(); ++i) {
@@ -102,7 +102,7 @@ void BroadPhase::sort_along_x() {
   std::ranges::copy_if(order_, std::back_inserter(awake_order_), [this](int geom) { return is_awake(geom); });
 }
 
-/// Sweep and prune along x. A sleeper is tested against those that are awake.
+/// Sweep and prune along x. A sleeping geom is tested against awake ones only.
 void BroadPhase::sweep(std::vector<GeomPair>& pairs) const {
   const std::span<const int> all = order_, awake = awake_order_;
   std::size_t num_awake = 0;  // so far
@@ -116,7 +116,7 @@ void BroadPhase::sweep(std::vector<GeomPair>& pairs) const {
   }
 }
 
-/// `others` begin no further left than `geom`.
+/// `others` begin no farther left than `geom`.
 void BroadPhase::sweep_from(int geom, std::span<const int> others, std::vector<GeomPair>& pairs) const {
   const geometry::Box& box = boxes_[static_cast<std::size_t>(geom)];
   for (const int other : others) {

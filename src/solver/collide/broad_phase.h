@@ -13,15 +13,15 @@
 
 namespace pbmpi::solver {
 
-/// Bounding boxes of some geoms against each other, planes against bounding boxes.
+/// Tests the bounding boxes of some geoms against each other, and planes against bounding boxes.
 class BroadPhase {
  public:
-  /// `model` is borrowed; `geoms` ascending; boxes are larger by `margin_m`; `broken_in`: as in model::State.
+  /// `model` is borrowed; `geoms` ascending; boxes are enlarged by `margin_m`; `broken_in`: State::broken_in.
   BroadPhase(const model::Model& model, std::span<const int> geoms, double margin_m = 0,
              std::span<const std::int32_t> broken_in = {});
 
-  /// The pairs (first < second, by geom index) whose boxes overlap, sorted; if `awake` is given, those with
-  /// an awake geom only. `poses`: [num_bodies].
+  /// The pairs (first < second, by geom index) whose boxes overlap, sorted; if `awake` is given, only those
+  /// with an awake geom. `poses`: [num_bodies].
   void find_pairs(std::span<const model::BodyPose> poses, const AwakeGeoms* awake,
                   std::vector<model::GeomPair>& pairs);
 
@@ -43,9 +43,9 @@ class BroadPhase {
   std::vector<int> planes_;
   std::vector<model::GeomPair> listed_;  ///< pairs that may touch, in a world of few geoms
   bool listed_only_ = false;
-  std::vector<char> awake_;       ///< [geoms] all of them, unless some may sleep
-  std::vector<int> order_;        ///< of the solids along the sweep's axis
-  std::vector<int> awake_order_;  ///< those that are awake
+  std::vector<char> awake_;       ///< [geoms] is the geom awake? All are, unless some may sleep
+  std::vector<int> order_;        ///< the solids along the sweep's axis
+  std::vector<int> awake_order_;  ///< the awake ones of order_
 };
 
 }  // namespace pbmpi::solver

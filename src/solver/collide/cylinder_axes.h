@@ -1,10 +1,11 @@
 /// The axis along which a cylinder and another solid overlap least, in lanes.
 ///
-/// A cylinder is the sum of a segment and a disc, and the other solids are such sums, too. That a point is
-/// outside of the sum of two solids shows along a normal of one of its smooth pieces (R. T. Rockafellar,
-/// "Convex Analysis", theorem 18.8), and inside the nearest point of the surface is on such a piece. These
-/// pieces are flat faces; surfaces that a straight edge sweeps along a disc's rim, whose normals are those
-/// across the edge (EllipseArc); and with two discs one that rim sweeps along rim (rim_on_rim).
+/// A cylinder is the sum of a segment and a disc, and the other solids are similar sums. If a point is
+/// outside the sum of two solids, a normal of one of the sum's smooth pieces shows it (R. T. Rockafellar,
+/// "Convex Analysis", theorem 18.8); if it is inside, the nearest point of the surface is on such a piece.
+/// These pieces are flat faces; surfaces that a straight edge sweeps along a disc's rim, whose normals are
+/// across the edge (EllipseArc); and with two discs the surface that one rim sweeps along the other
+/// (rim_on_rim).
 #pragma once
 
 #include "solver/collide/geom_lanes.h"
@@ -13,7 +14,7 @@
 
 namespace pbmpi::solver {
 
-/// a is the cylinder. Of equal axes a face wins.
+/// a is the cylinder. Among equal axes a face wins.
 template <class T>
 class CylinderAxes {
  public:
@@ -23,7 +24,7 @@ class CylinderAxes {
   using L3 = Vec3L<V>;
   using Side = GeomSide<T>;
 
-  /// What comes out of a pair: an overlap that is negative if they are apart.
+  /// The least axis of a pair; its overlap is negative if the two are apart.
   static void with_box(const Side& a, const Side& b, LeastAxis<T>& least);
   static void with_capsule(const Side& a, const Side& b, LeastAxis<T>& least);
   static void with_cylinder(const Side& a, const Side& b, LeastAxis<T>& least);
@@ -36,7 +37,8 @@ class CylinderAxes {
 
     PBMPI_LANES explicit Cylinder(const Side& side)
         : axis(side.axis(2)), half(side.half(2)), radius(side.radius()) {}
-    /// Half its width along n. Rim by the cross product, since 1 - cosine^2 has no digits left near the axis.
+    /// Half its width along n. The rim's share comes from the cross product, since 1 - cosine^2 has no digits
+    /// left near the axis.
     PBMPI_LANES V width(const L3& n) const {
       const L3 rim = cross(axis, n);
       return half * T::abs(dot(axis, n)) + radius * T::sqrt(dot(rim, rim));
@@ -46,17 +48,17 @@ class CylinderAxes {
   PBMPI_LANES static V zero() { return T::broadcast(0); }
   PBMPI_LANES static V one() { return T::broadcast(1); }
   PBMPI_LANES static V huge() { return T::broadcast(static_cast<Scalar>(huge_bound)); }
-  /// Sines below this are rounding's.
+  /// Sines below this are rounding noise.
   PBMPI_LANES static V tiny() { return T::broadcast(static_cast<Scalar>(sizeof(Scalar) == 4 ? 1e-3 : 1e-7)); }
   PBMPI_LANES static V sign_of(const V& x) { return x < zero() ? -one() : one(); }
-  /// x, or -x, so that it looks along d.
+  /// x or -x, whichever points along d.
   PBMPI_LANES static L3 towards(const L3& x, const L3& d) { return x * sign_of(dot(x, d)); }
-  /// Unit vector along x, and into `length` how long x is.
+  /// The unit vector along x; writes the length of x to `length`.
   PBMPI_LANES static L3 unit(const L3& x, V& length) {
     length = T::sqrt(dot(x, x));
     return x * (one() / (length > zero() ? length : one()));
   }
-  /// Puts both together. A face wins unless another axis has less overlap by more than rounding.
+  /// The lesser of both. A face wins unless another axis has less overlap by more than rounding.
   PBMPI_LANES static void join(const LeastAxis<T>& faces, const LeastAxis<T>& others, LeastAxis<T>& least) {
     least = faces;
     const V rounding = T::broadcast(static_cast<Scalar>(1e-4)) * T::abs(others.overlap);
@@ -108,7 +110,7 @@ void CylinderAxes<T>::with_box(const Side& side_a, const Side& b, LeastAxis<T>& 
   join(faces, others, least);
 }
 
-/// The cylinder's side and the box's corner nearest to its axis.
+/// Considers the normal between the cylinder's side and the box's corner nearest to its axis.
 template <class T>
 void CylinderAxes<T>::side_on_corners(const Cylinder& a, const Side& b, const L3& d, LeastAxis<T>& others) {
   L3 edge[3];
@@ -131,9 +133,10 @@ void CylinderAxes<T>::side_on_corners(const Cylinder& a, const Side& b, const L3
   others.consider(length > zero() ? overlap : huge(), n);
 }
 
-/// Normals across edge k of the box: seen along it the box is a rectangle with the sides p and q, the disc an
-/// ellipse, and the cylinder's segment lies along the ellipse's short axis. Between the directions of the
-/// rectangle's sides, of the ellipse's axes, and these turned round, all stays the same corner.
+/// Considers normals across edge k of the box: seen along it the box is a rectangle with the sides p and q,
+/// the disc an ellipse, and the cylinder's segment lies along the ellipse's short axis. The supporting corner
+/// stays the same between successive directions of the rectangle's sides, the ellipse's axes, and their
+/// opposites.
 template <class T>
 void CylinderAxes<T>::edge_on_rim(const Cylinder& a, const Side& b, const L3& d, int k,
                                   LeastAxis<T>& others) {
@@ -163,8 +166,9 @@ void CylinderAxes<T>::edge_on_rim(const Cylinder& a, const Side& b, const L3& d,
   }
 }
 
-/// Normals across an edge that has nothing but `added` round it [m], such as a cylinder's side: the ellipse
-/// and the segment of the other are symmetric, so that the quarter in which d lies has the least overlap.
+/// Considers normals across an edge with nothing but a radius `added` [m] around it, such as a cylinder's
+/// side: the ellipse and the segment of the other solid are symmetric, so that the quadrant in which d lies
+/// has the least overlap.
 template <class T>
 void CylinderAxes<T>::side_on_rim(const L3& edge, const V& added, const Cylinder& disc, const L3& d,
                                   LeastAxis<T>& others) {
@@ -207,8 +211,8 @@ void CylinderAxes<T>::with_capsule(const Side& side_a, const Side& b, LeastAxis<
   capsule_outside(a, direction, half, radius, d, least);
 }
 
-/// From the cylinder's nearest point to the segment, if they are apart. Along the segment half the derivative
-/// of the squared distance rises; its root by regula falsi (Illinois method).
+/// Considers the normal from the cylinder's nearest point to the segment, if they are apart. Half the
+/// derivative of the squared distance rises along the segment; regula falsi (Illinois method) finds its root.
 template <class T>
 void CylinderAxes<T>::capsule_outside(const Cylinder& a, const L3& direction, const V& half, const V& radius,
                                       const L3& d, LeastAxis<T>& others) {
@@ -271,12 +275,12 @@ void CylinderAxes<T>::with_cylinder(const Side& side_a, const Side& side_b, Leas
   join(faces, others, least);
 }
 
-/// Normals near the cap's own, tilted towards where the other solid comes nearest to it.
+/// Considers normals near the cap's own, tilted towards where the other solid comes nearest to it.
 template <class T>
 void CylinderAxes<T>::near_cap(const Cylinder& cap, const Cylinder& other, const L3& d, LeastAxis<T>& best) {
   const L3 n = towards(cap.axis, d), side = other.axis - n * dot(n, other.axis);
   V sine, length;
-  const L3 rim = -unit(side, sine) * dot(n, other.axis);  // across n, what the other's rim point has of it
+  const L3 rim = -unit(side, sine) * dot(n, other.axis);  // component across n of the other's rim point
   const L3 point = side * (other.half * sign_of(dot(n, other.axis))) + rim * other.radius;
   const L3 out = unit(point - (d - n * dot(n, d)), length);
   for (const double tilt : {0.02, 0.1, 0.3}) {
@@ -286,7 +290,8 @@ void CylinderAxes<T>::near_cap(const Cylinder& cap, const Cylinder& other, const
 }
 
 /// Rim against rim: Newton's method on the sphere of normals, from the best of some normals off the planes
-/// where other features meet. The Hessian's part of each rim is what it moves along its tangent.
+/// where other features meet. Each rim's part of the Hessian is how far its support point moves along its
+/// tangent.
 template <class T>
 void CylinderAxes<T>::rim_on_rim(const Cylinder& a, const Cylinder& b, const L3& d, LeastAxis<T>& others) {
   constexpr int num_iterations = sizeof(Scalar) == 4 ? 6 : 10;
@@ -325,7 +330,7 @@ void CylinderAxes<T>::rim_on_rim(const Cylinder& a, const Cylinder& b, const L3&
     const V t_e = dot(t, e), t_f = dot(t, f), slope_e = dot(support, e), slope_f = dot(support, f);
     const V ee = curve_a + curve_b * t_e * t_e, ef = curve_b * t_e * t_f, ff = curve_b * t_f * t_f;
     const V trace = ee + ff, flattest = T::max(ee * ff - ef * ef, zero()) / trace;
-    // Deep inside the overlap would make it indefinite.
+    // Deep inside, the overlap would make the Hessian indefinite.
     const V shift = T::max(-best.overlap, -half * flattest) + trace * T::broadcast(static_cast<Scalar>(1e-6));
     const V m_ee = ee + shift, m_ff = ff + shift, inverse = one() / (m_ee * m_ff - ef * ef);
     const V step_e = (slope_f * ef - slope_e * m_ff) * inverse,

@@ -10,9 +10,9 @@
 
 namespace pbmpi::solver {
 
-/// What lies of the one's feature under the other's: two points of a line, up to four of a face, at least
-/// one. Points are half way between the two surfaces. A class template of T, so that each instruction set has
-/// its own code.
+/// The part of one solid's feature that lies under the other's: two points of a line, up to four of a face,
+/// at least one. Points are half way between the two surfaces. A class template of T, so that each
+/// instruction set has its own code.
 template <class T>
 class CylinderManifold {
  public:
@@ -23,9 +23,9 @@ class CylinderManifold {
   using Frame = typename Feature::Frame;
   using Beyond = typename Feature::Beyond;
 
-  /// `normal` is the unit axis of least overlap, into a; `overlap` [m] that along it, negative for a gap of
-  /// at most `margin`: the points are those of the solids brought together by that, and parted again. Writes
-  /// at most Touch::most_points points, the deepest first; returns their number.
+  /// `normal` is the unit axis of least overlap, into a; `overlap` [m] is measured along it, negative for a
+  /// gap of at most `margin`: the points are found with the solids brought together by the margin, and then
+  /// parted again. Writes at most Touch::most_points points, the deepest first; returns their number.
   static int find(SolidPose<Scalar> a, const SolidPose<Scalar>& b, const Scalar* normal, Scalar overlap,
                   Scalar margin, TouchPoint* points) {
     for (int k = 0; k < 3; ++k) a.frame.centre[k] -= margin * normal[k];
@@ -38,7 +38,7 @@ class CylinderManifold {
   }
 
  private:
-  /// A place of both features: z half way between them, and how deep they overlap.
+  /// A place on both features: z half way between them, and the depth of their overlap.
   struct Spot {
     Scalar x, y, z, depth;
   };
@@ -75,10 +75,10 @@ class CylinderManifold {
   int beyond_triangle(const int* corners, Scalar turn, Scalar least) const;
 
   const Feature &low_, &high_;
-  Scalar overlap_;    ///< [m] of the solids brought together
-  Scalar margin_;     ///< [m] by this
-  Scalar slack_;      ///< [m] rounding must not part what touches
-  Scalar least_way_;  ///< [m] between two points
+  Scalar overlap_;    ///< [m] overlap of the solids brought together
+  Scalar margin_;     ///< [m] by which they are brought together
+  Scalar slack_;      ///< [m] tolerance: rounding must not part touching features
+  Scalar least_way_;  ///< [m] least distance between two points
   Spot spots_[most_spots];
   int num_spots_ = 0;
 };
@@ -124,13 +124,14 @@ void CylinderManifold<T>::look() {
   } else {
     line_on_line();
   }
-  // What touches keeps a spot where it does, however many there are at which a gap is within the margin.
+  // Touching solids keep a spot where they touch, however many spots there are with a gap within the margin.
   const bool all_are_gaps =
       std::all_of(spots_, spots_ + num_spots_, [&](const Spot& spot) { return spot.depth < margin_; });
   if (num_spots_ == 0 || (all_are_gaps && overlap_ > margin_ && num_spots_ < most_spots)) single();
 }
 
-/// Where a corner or a rim is, or else (rounding has left nothing of two faces) half way between both.
+/// Adds one spot, where a corner or a rim is, or else (when rounding has left nothing of two faces) half way
+/// between both.
 template <class T>
 void CylinderManifold<T>::single() {
   const Point &low = low_.farthest(), &high = high_.farthest();
@@ -145,8 +146,8 @@ void CylinderManifold<T>::single() {
   }
 }
 
-/// Lines that cross touch at a point; of nearly parallel ones all that lies beside each other touches, as far
-/// as they are no further apart than deep.
+/// Crossing lines touch at a point; nearly parallel lines touch along the stretch where they lie side by
+/// side, as long as they are no farther apart than their overlap.
 template <class T>
 void CylinderManifold<T>::line_on_line() {
   const Point &p = low_.point(0), &q = high_.point(0);
@@ -163,7 +164,7 @@ void CylinderManifold<T>::line_on_line() {
     return Spot{Scalar(0.5) * (p.x + u.x * s + q.x + v.x * t), Scalar(0.5) * (p.y + u.y * s + q.y + v.y * t),
                 Scalar(0.5) * (low_z + high_z), high_z - low_z};
   };
-  // Of what touches, the ends are where it touches: a gap within the margin must not draw them apart.
+  // The ends of touching lines are where they touch: a gap within the margin must not draw the ends apart.
   const Scalar reach = overlap_ > margin_ ? overlap_ - margin_ : overlap_;
   const Scalar crossed = u.x * v.y - u.y * v.x, length = std::sqrt(uu);
   const Scalar offset = std::abs(crossed) / std::sqrt(vv);  // from one end of low to the other
@@ -204,7 +205,7 @@ void CylinderManifold<T>::line_on_face(const Feature& line, const Feature& face,
   add_at(last);
 }
 
-/// The polygon's corners in the disc, and where its edges cross the rim.
+/// Adds the polygon's corners inside the disc, and the points where its edges cross the rim.
 template <class T>
 void CylinderManifold<T>::corners_in(const Feature& polygon, const Feature& disc) {
   for (int i = 0; i < polygon.num_points(); ++i) {
@@ -214,12 +215,12 @@ void CylinderManifold<T>::corners_in(const Feature& polygon, const Feature& disc
     disc.clip(p, way, slack_, first, last);
     if (last < first) continue;
     add_on_faces(p.x + way.x * first, p.y + way.y * first);
-    // The next edge begins with this one's end.
+    // The next edge begins at this one's end.
     if (last < 1 && last > first) add_on_faces(p.x + way.x * last, p.y + way.y * last);
   }
 }
 
-/// Eight places of the rim, the first where the overlap is deepest, that the face holds.
+/// Adds those of eight places on the rim, the first where the overlap is deepest, that lie within the face.
 template <class T>
 void CylinderManifold<T>::rim_in(const Feature& disc, const Feature& face) {
   const Scalar half_root = Scalar(0.70710678118654752440);
@@ -228,7 +229,7 @@ void CylinderManifold<T>::rim_in(const Feature& disc, const Feature& face) {
   x = tilt < Scalar(1e-4) ? Scalar(1) : x / tilt;
   y = tilt < Scalar(1e-4) ? Scalar(0) : y / tilt;
   for (int i = 0; i < num_rim_spots; ++i) {
-    // A disc that is tilted is an ellipse; the rim in this direction.
+    // A tilted disc is an ellipse; this is its rim in this direction.
     const Scalar rise = disc.slope_x() * x + disc.slope_y() * y;
     const Scalar reach = disc.radius() / std::sqrt(1 + rise * rise);
     const Scalar at_x = disc.point(0).x + x * reach, at_y = disc.point(0).y + y * reach;
@@ -239,7 +240,7 @@ void CylinderManifold<T>::rim_in(const Feature& disc, const Feature& face) {
   }
 }
 
-/// Where two rims cross: first as if neither disc were tilted, then by Newton's method.
+/// Adds the points where two rims cross, found first as if neither disc were tilted, then by Newton's method.
 template <class T>
 void CylinderManifold<T>::rim_on_rim() {
   const Point &p = low_.point(0), &q = high_.point(0);
@@ -247,7 +248,7 @@ void CylinderManifold<T>::rim_on_rim() {
   const Scalar r = low_.radius(), s = high_.radius();
   if (square <= least_way_ * least_way_) return;
   const Scalar share = Scalar(0.5) * (1 + (r * r - s * s) / square);
-  // Rims that touch at one place have it on the line of centres.
+  // Rims that touch at one place touch on the line of centres.
   const Scalar across = std::sqrt(std::max(r * r / square - share * share, Scalar(0)));
   for (const Scalar side : {across, -across}) {
     Scalar x = p.x + dx * share - dy * side, y = p.y + dy * share + dx * side;
@@ -262,8 +263,8 @@ void CylinderManifold<T>::rim_on_rim() {
   }
 }
 
-/// The deepest, the one farthest from it, and the farthest on either side of the line between them; if all
-/// lie on one side, the one farthest beyond the triangle of these.
+/// Chooses the deepest spot, the one farthest from it, and the farthest on either side of the line between
+/// them; if all lie on one side, also the one farthest beyond the triangle of these three.
 template <class T>
 int CylinderManifold<T>::choose(int* chosen) const {
   int deepest = 0;
@@ -273,7 +274,7 @@ int CylinderManifold<T>::choose(int* chosen) const {
   const Spread<T> spread = Spread<T>::from(deepest, num_spots_, [&](int i) {
     return typename Spread<T>::Place{spots_[i].x, spots_[i].y};
   });
-  const Scalar near = spread.square * Scalar(1e-3);  // nearer to the line than this a point adds nothing
+  const Scalar near = spread.square * Scalar(1e-3);  // a point nearer to the line than this adds nothing
   int kept = 0;
   chosen[kept++] = deepest;
   if (spread.square > least_way_ * least_way_) chosen[kept++] = spread.farthest;
@@ -286,7 +287,7 @@ int CylinderManifold<T>::choose(int* chosen) const {
   return kept;
 }
 
-/// The spot that is farthest beyond the edges of a triangle that meet in its third corner, -1 if none is.
+/// The spot farthest beyond the two edges of a triangle that meet in its third corner, -1 if there is none.
 /// `turn`: 1 if its corners go round counterclockwise.
 template <class T>
 int CylinderManifold<T>::beyond_triangle(const int* corners, Scalar turn, Scalar least) const {

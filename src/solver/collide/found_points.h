@@ -18,7 +18,7 @@ struct alignas(sizeof(V)) FoundPoint {
 template <class V>
 struct alignas(sizeof(V)) Found {
   FoundPoint<V> points[Touch::most_points];
-  int num_points = 0;  ///< that this kind of pair can have
+  int num_points = 0;  ///< the most that this kind of pair can have
 };
 
 /// 1 in the lanes in which a comparison holds, else 0.

@@ -11,8 +11,8 @@
 
 namespace pbmpi::solver {
 
-/// A column of numbers, one for each geom. Kept as vectors, since a std::vector of plain numbers is a type
-/// that code for every instruction set shares.
+/// A column of numbers, one for each geom. It is stored as vectors, since std::vector of plain numbers is a
+/// type that the code of all instruction sets shares.
 template <class T>
 class GeomColumn {
  public:
@@ -25,7 +25,7 @@ class GeomColumn {
   Scalar* data() { return reinterpret_cast<Scalar*>(chunks_.data()); }
   const Scalar* data() const { return reinterpret_cast<const Scalar*>(chunks_.data()); }
   PBMPI_LANES V gather(const std::int32_t* index) const { return T::gather(data(), index); }
-  /// num_lanes consecutive geoms from any one on.
+  /// num_lanes consecutive geoms, starting at any geom.
   PBMPI_LANES V from(int geom) const { return T::load(data() + geom); }
 
  private:
@@ -42,17 +42,17 @@ class GeomLanes {
   using Scalar = typename T::Scalar;
   using Column = GeomColumn<T>;
 
-  /// `num_geoms` in all worlds; the columns are longer by a chunk, so that from() may read on.
+  /// `num_geoms`: in all worlds; the columns are longer by a chunk, so that from() may read past the end.
   explicit GeomLanes(int num_geoms);
-  /// `margin_m`: of its world, PackedWorld::contact_margin_m.
+  /// `margin_m`: its world's PackedWorld::contact_margin_m.
   void set(int index, const model::Geom& geom, LanePlace body, double margin_m);
 
-  /// Poses and boxes of the geoms in these chunks of num_lanes columns, from the poses of the bodies.
+  /// Updates poses and boxes of the geoms in these chunks of num_lanes columns, from the poses of the bodies.
   void update(std::span<const int> chunks, const BodyLanes<T>& bodies);
 
   Column position[3];             ///< world frame
-  Column rotation[9];             ///< by rows; not of a sphere round its body's centre
-  Column box_min[3], box_max[3];  ///< with the margin, a little larger than need be; a plane's is empty
+  Column rotation[9];             ///< by rows; unset for a sphere at its body's centre
+  Column box_min[3], box_max[3];  ///< with the margin, a little larger than needed; a plane's is empty
   /// Half sides of a box, half length (z) of a capsule or cylinder; 0 for the other shapes.
   Column half[3];
   Column radius;  ///< of a sphere, capsule or cylinder
@@ -66,7 +66,7 @@ class GeomLanes {
     V ball;      ///< radius of a sphere or capsule
     V disc;      ///< radius of a cylinder
     V infinite;  ///< 1 for a plane
-    bool turns;  ///< is any geom other than a sphere round its body's centre?
+    bool turns;  ///< is any geom other than a sphere at its body's centre?
   };
 
   void update_chunk(int i, const BodyLanes<T>& bodies);
@@ -94,7 +94,7 @@ struct GeomSide {
   }
   PBMPI_LANES V half(int k) const { return geoms->half[k].gather(index); }
   PBMPI_LANES V radius() const { return geoms->radius.gather(index); }
-  /// The depth from which on geoms have a contact; negative is a gap.
+  /// The least depth at which geoms have a contact; negative for a gap.
   PBMPI_LANES V least_depth() const { return -geoms->margin.gather(index); }
 };
 
@@ -171,7 +171,7 @@ void GeomLanes<T>::update_chunk(int i, const BodyLanes<T>& bodies) {
               chunk.ball + rim;
     }
     position[k].chunk(i) = centre;
-    // Rounding must not part what the narrow phase finds touching.
+    // Rounding must not separate boxes of geoms that the narrow phase finds touching.
     const V slack =
         (T::abs(centre) + reach) * T::broadcast(static_cast<Scalar>(sizeof(Scalar) == 4 ? 1e-6 : 1e-14));
     const V far = T::broadcast(static_cast<Scalar>(huge_bound));

@@ -1,4 +1,4 @@
-/// Boxes around groups of geoms, so that a sweep of many geoms looks only at groups that are near.
+/// Boxes around groups of geoms, so that a sweep of many geoms tests only groups that are near.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class BoxLanes {
       high_[k] = T::broadcast(max[k].data()[index]);
     }
   }
-  /// Bit b: it overlaps box first + b of these columns.
+  /// Bit b: does it overlap box first + b of these columns?
   PBMPI_LANES unsigned overlapping(const Column* min, const Column* max, int first) const {
     const V zero = T::broadcast(0);
     V overlap = T::broadcast(1);
@@ -36,14 +36,14 @@ class BoxLanes {
   V low_[3], high_[3];
 };
 
-/// The geoms of one world, sixteen by sixteen: neighbours in a model are neighbours in space, mostly.
+/// The geoms of one world in groups of sixteen: neighbours in a model are mostly neighbours in space.
 template <class T>
 class GroupBoxes {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  static constexpr int group_size = 16;  ///< for every number of lanes, of which it is a multiple
+  static constexpr int group_size = 16;  ///< the same for, and a multiple of, every number of lanes
   static constexpr int most_groups = 64;
 
   GroupBoxes() {
@@ -51,10 +51,11 @@ class GroupBoxes {
     for (Column& column : max_) column.resize(most_groups / T::num_lanes);
   }
 
-  /// From the boxes of a world's geoms, which stand in a row. A box with a NaN counts as empty.
+  /// Computes the groups' boxes from those of a world's geoms, which are consecutive. A box with a NaN counts
+  /// as empty.
   void update(const GeomLanes<T>& geoms, int first_column, int num_geoms);
 
-  /// Bit g: `box` overlaps that of group g, g >= first_group.
+  /// Bit g: does `box` overlap that of group g, g >= first_group?
   std::uint64_t overlapping(const BoxLanes<T>& box, int first_group) const;
 
  private:

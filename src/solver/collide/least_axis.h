@@ -1,9 +1,9 @@
 /// The axis along which two convex solids overlap least, in lanes.
 ///
-/// Central to it is the overlap F(n) = H(n) - n . d along a unit vector n, where d is the way from the centre
-/// of b to that of a, and H the half width of both solids together, n . x at its largest over the sum of
-/// their points. The solids are apart if F is negative for some n; else the least F is how far a must go
-/// along n to be free. Whichever n is looked at, the least F so far is an upper bound.
+/// The overlap along a unit vector n is F(n) = H(n) - n . d, where d is the vector from the centre of b to
+/// that of a, and H the half width of both solids together, the largest n . x over the sum of their points.
+/// The solids are apart if F is negative for some n; else the least F is how far a must move along n to be
+/// free. Whichever n have been tried, the least F so far is an upper bound.
 #pragma once
 
 #include "solver/lanes/lanes.h"
@@ -39,9 +39,9 @@ struct alignas(sizeof(V)) Vec2L {
   V x, y;
 };
 
-/// Seen along a straight edge a disc is an ellipse, here with its short axis x: half axes short_share *
-/// radius and radius. Finds how little the ellipse, moved by a corner, overlaps a point at the origin among
-/// the normals of a part of one quarter.
+/// Seen along a straight edge a disc is an ellipse, here with its short axis along x: half axes short_share *
+/// radius and radius. Finds the least overlap of the ellipse, moved by a corner, with a point at the origin,
+/// among the normals of a part of one quadrant.
 template <class T>
 class EllipseArc {
  public:
@@ -55,13 +55,13 @@ class EllipseArc {
         share_(short_share),
         curve_(radius * (T::broadcast(1) - short_share * short_share)) {}
 
-  /// The normal (unit) of least overlap between two directions of one quarter, and the overlap there; a huge
-  /// one if it is least at no place between them. (Deep inside there may be a maximum, too; only a minimum
-  /// that is farther from it than the middle of the arc is found then.)
+  /// The (unit) normal of least overlap between two directions of one quadrant, and the overlap there; a huge
+  /// overlap if there is no minimum between them. (Deep inside there may also be a maximum; a minimum is then
+  /// found only if it is farther from the maximum than the middle of the arc.)
   ///
-  /// A normal is found by its place on the rim, y: there the overlap changes smoothly even if the ellipse is
-  /// thin. What is solved is the quartic of a point and an ellipse (D. Eberly, "Distance from a Point to an
-  /// Ellipse"), by regula falsi with the weights of the Illinois method.
+  /// The unknown is the normal's place on the rim, y: in it the overlap changes smoothly even if the ellipse
+  /// is thin. The equation is the quartic of a point and an ellipse (D. Eberly, "Distance from a Point to an
+  /// Ellipse"), solved by regula falsi with the weights of the Illinois method.
   PBMPI_LANES V least(const L2& corner, const L2& from, const L2& to, L2& normal) const {
     const V zero = T::broadcast(0), one = T::broadcast(1), half = T::broadcast(Scalar(0.5));
     L2 a = place_of(from), b = place_of(to);
@@ -107,7 +107,7 @@ class EllipseArc {
     const V inverse = T::broadcast(1) / (length > zero ? length : T::broadcast(1));
     return {length > zero ? x * inverse : normal.x, normal.y * inverse};
   }
-  /// The overlap's derivative to the angle of the normal, times a positive factor.
+  /// The overlap's derivative with respect to the angle of the normal, times a positive factor.
   PBMPI_LANES V slope(const L2& y, const L2& corner) const {
     return T::sqrt(y.x * y.x + y.y * y.y) * (y.x * corner.y - share_ * y.y * corner.x) + curve_ * y.x * y.y;
   }

@@ -1,4 +1,4 @@
-/// Bits that say which of some geoms of a world may touch, in rows that fit chunks of lanes.
+/// Bits that say which of a world's geoms may touch, in rows that fit chunks of lanes.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace pbmpi::solver {
 
 class MayTouchTable {
  public:
-  /// Rows and bits count along `geoms`; `broken_in`: as in model::State.
+  /// Rows and bits count along `geoms`; `broken_in`: State::broken_in.
   MayTouchTable(const model::Model& model, std::span<const int> geoms,
                 std::span<const std::int32_t> broken_in = {});
 
-  /// Bit b: may geom `row` touch geom first + b? For a solid row only geoms after it and no planes, so that
-  /// each pair stands once; for a plane all solids. `first` is a multiple of 16, or of a power of two below.
+  /// Bit b: may geom `row` touch geom first + b? For a solid row only solids after it, so that each pair
+  /// appears once; for a plane all solids. `first` is a multiple of 16, or of a power of two below.
   std::uint32_t bits(int row, int first) const {
     const auto at = static_cast<unsigned>(first);
     return words_[static_cast<std::size_t>(row) * words_a_row_ + at / 32] >> (at % 32);

@@ -1,6 +1,6 @@
 /// Collides pairs of geoms in lanes: one kernel for each kind of pair. What counts as touching, and which
-/// points a pair gets, is as in ODE 0.16 (ode/src/{sphere,capsule,box,plane}.cpp), but for capsules deep in a
-/// box (segment_box_lanes.h) and for cylinders (cylinder_axes.h); the normal points into a.
+/// points a pair gets, is as in ODE 0.16 (ode/src/{sphere,capsule,box,plane}.cpp), except for capsules deep
+/// in a box (segment_box_lanes.h) and for cylinders (cylinder_axes.h); the normal points into a.
 #pragma once
 
 #include "solver/collide/box_lanes.h"
@@ -134,7 +134,7 @@ void NarrowLanes<T>::run_cylinders(const GeomLanes<T>& geoms, const PairColumn& 
   for (int i = 0; i < column.count; i += T::num_lanes) {
     LeastAxis<T> least = LeastAxis<T>::none();
     axis({&geoms, column.a.data() + i}, {&geoms, column.b.data() + i}, least);
-    // What is not finite has found no axis.
+    // A pair that is not finite has found no axis.
     const V found = least.overlap < T::broadcast(static_cast<Scalar>(huge_bound)) ? one : zero;
     const V least_depth = GeomSide<T>{&geoms, column.a.data() + i}.least_depth();
     unsigned touching = T::bits(least.overlap >= least_depth ? found : zero) & lanes_used(column, i);

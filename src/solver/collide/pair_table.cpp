@@ -51,7 +51,7 @@ const Pairing& pairing_of(Shape first, Shape second) {
   return all[static_cast<std::size_t>(first)][static_cast<std::size_t>(second)];
 }
 
-/// Canonical order, in one comparison. (An object, so that std::sort inlines it.)
+/// Canonical order, in one comparison. (A function object, so that std::sort inlines it.)
 constexpr auto comes_before = [](const model::GeomPair& p, const model::GeomPair& q) {
   const auto key = [](const model::GeomPair& pair) {
     return static_cast<std::uint64_t>(pair.first) << 32 | static_cast<std::uint32_t>(pair.second);
@@ -59,7 +59,7 @@ constexpr auto comes_before = [](const model::GeomPair& p, const model::GeomPair
   return key(p) < key(q);
 };
 
-/// Geoms that are swept in turn give sorted pairs, and a ground that comes after them another sorted row.
+/// Geoms that are swept in turn give sorted pairs, and a ground after them another sorted run.
 void sort(std::vector<model::GeomPair>::iterator begin, std::vector<model::GeomPair>::iterator end) {
   const auto first_row = std::is_sorted_until(begin, end, comes_before);
   if (first_row == end) return;

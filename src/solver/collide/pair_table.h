@@ -1,4 +1,4 @@
-/// The pairs of geoms that a step looks at, all worlds of a pack together, and what touches.
+/// The pairs of geoms that a step tests, all worlds of a pack together, and the points at which they touch.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@
 
 namespace pbmpi::solver {
 
-/// What a kernel collides. The first shape named is the pair's a. `other`: shapes without a kernel.
+/// The pairs of shapes that kernels collide. The first shape named is the pair's a. `other`: shapes without a
+/// kernel.
 enum class PairKind {
   sphere_plane,
   capsule_plane,
@@ -42,7 +43,7 @@ struct TouchPoint {
   double depth;        ///< [m]
 };
 
-/// What came out of a pair: points of the table, in a row.
+/// The result for a pair: consecutive points of the table.
 struct Touch {
   static constexpr int most_points = 4;
   int first_point = 0;
@@ -50,15 +51,15 @@ struct Touch {
   bool to_fallback = false;  ///< no kernel collides this kind of pair
 };
 
-/// Pairs of one kind, in columns: indices over the columns of the pack's geoms. Padded to whole lanes by
-/// repeating the last.
+/// Pairs of one kind, in columns of indices into the columns of the pack's geoms. Padded to whole lanes by
+/// repeating the last pair.
 struct PairColumn {
   std::vector<std::int32_t> a, b, touch;  ///< [at least count, padded]
   int count = 0;                          ///< without the padding
-  void make_room(std::ptrdiff_t pairs);   ///< for so many more
+  void make_room(std::ptrdiff_t pairs);   ///< for this many more
 };
 
-/// Room for the poses of a world's bodies, kept from step to step.
+/// Memory for the poses of a world's bodies, kept from step to step.
 class PoseCache {
  public:
   std::span<model::BodyPose> all(int num_bodies) {
@@ -80,22 +81,22 @@ class PairTable {
   PairTable(std::span<const PackedWorld> worlds, const GeomOrder& order);
 
   void clear();
-  /// The pairs to come are of this world, in any order.
+  /// The pairs added from now on belong to this world; their order does not matter.
   void start_world(int world);
-  /// Geoms of the world at hand, by their index in its model.
+  /// Adds two geoms of the current world, by their indices in its model.
   void add(int first, int second);
-  /// `geom` with each geom of `others` whose bit is set.
+  /// Adds `geom` with each geom of `others` whose bit is set.
   void add(int geom, const int* others, std::uint32_t bits);
-  /// All pairs that this broad phase finds in the world at hand; of these only those with an awake geom, if
+  /// Adds all pairs that this broad phase finds in the current world; only those with an awake geom, if
   /// `awake` is given.
   void add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses, const AwakeGeoms* awake);
-  /// After the last pair of a world: puts them in canonical order.
+  /// After the last pair of a world: puts its pairs in canonical order.
   void finish_world();
   /// After the last world: fills the columns up to multiples of num_lanes.
   void pad(int num_lanes);
 
   const PairColumn& column(PairKind kind) const { return columns_[static_cast<std::size_t>(kind)]; }
-  /// Where the kernels put what they found: touches by PairColumn::touch, points one after the other.
+  /// Where the kernels put their results: touches at PairColumn::touch, points one after the other.
   Touch* touches() { return touches_.data(); }
   TouchPoint* points() { return points_.data(); }
 
@@ -116,7 +117,7 @@ class PairTable {
   }
 
  private:
-  /// What a pair needs to know of a geom, apart from the rest of it so that more of them are in the cache.
+  /// What a pair needs of a geom, kept apart from the rest so that more geoms fit in the cache.
   struct GeomFacts {
     model::Shape shape;
     int body;

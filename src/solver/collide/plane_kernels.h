@@ -38,7 +38,7 @@ void PlaneKernels<T>::sphere_plane(const Side& a, const Side& b, Found<V>& found
   found.num_points = 1;
 }
 
-/// The lower end first.
+/// Finds the lower end first.
 template <class T>
 void PlaneKernels<T>::capsule_plane(const Side& a, const Side& b, Found<V>& found) {
   const L3 centre = a.centre(), axis = a.axis(2), origin = b.centre(), normal = b.axis(2);
@@ -50,7 +50,7 @@ void PlaneKernels<T>::capsule_plane(const Side& a, const Side& b, Found<V>& foun
   found.num_points = 2;
 }
 
-/// The deepest corner, its neighbours along the two edges that rise least, and the corner across.
+/// Finds the deepest corner, its neighbours along the two edges that rise least, and the corner opposite.
 template <class T>
 void PlaneKernels<T>::box_plane(const Side& a, const Side& b, Found<V>& found) {
   const V zero = T::broadcast(0), least_depth = a.least_depth();
@@ -91,8 +91,8 @@ void PlaneKernels<T>::box_plane(const Side& a, const Side& b, Found<V>& found) {
   found.num_points = 4;
 }
 
-/// The lowest points of both rims, and of the lower disc the points beside and opposite to its lowest: a
-/// wheel stands on two points, a cylinder on its end on four. (ODE finds the same lowest points; the others
+/// Finds the lowest points of both rims, and the points of the lower disc beside and opposite its lowest: a
+/// wheel stands on two points, an upright cylinder on four. (ODE finds the same lowest points; the others
 /// follow where it looks along its own axes.)
 template <class T>
 void PlaneKernels<T>::cylinder_plane(const Side& a, const Side& b, Found<V>& found) {
@@ -117,7 +117,7 @@ void PlaneKernels<T>::cylinder_plane(const Side& a, const Side& b, Found<V>& fou
     const V depth = -dot(points[i] - origin, normal);
     const V touching = flag<T>(depth >= least_depth);
     if (i ==
-        4) {  // in the place of the upper rim's, which is off the plane when the whole lower disc is on it
+        4) {  // replaces the upper rim's point, which is off the plane when the whole lower disc is on it
       const auto instead = touching * (one - rest) > zero;
       const auto pick = [&](const V& x, const V& otherwise) { return instead ? x : otherwise; };
       FoundPoint<V>& point = found.points[1];

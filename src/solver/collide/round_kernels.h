@@ -6,7 +6,7 @@
 
 namespace pbmpi::solver {
 
-/// a and b in the order of the kernel's name.
+/// a and b are in the order of the kernel's name.
 template <class T>
 class RoundKernels {
  public:
@@ -60,7 +60,7 @@ void RoundKernels<T>::sphere_box(const Side& a, const Side& b, Found<V>& found) 
   const V zero = T::broadcast(0), one = T::broadcast(1);
   const L3 pa = a.centre(), pb = b.centre(), apart = pa - pb;
   const V radius = a.radius();
-  L3 nearest = pb, outward{zero, zero, zero};  // outward: of the nearest face, for a centre inside
+  L3 nearest = pb, outward{zero, zero, zero};  // outward: normal of the nearest face, for a centre inside
   V inside = one, least = T::broadcast(static_cast<Scalar>(huge_bound));
   for (int k = 0; k < 3; ++k) {
     const L3 axis = b.axis(k);
@@ -88,7 +88,7 @@ void RoundKernels<T>::sphere_box(const Side& a, const Side& b, Found<V>& found) 
   found.num_points = 1;
 }
 
-/// Parallel capsules side by side touch at both ends of what they share.
+/// Parallel capsules side by side touch at both ends of the stretch that they share.
 template <class T>
 void RoundKernels<T>::capsule_capsule(const Side& a, const Side& b, Found<V>& found) {
   const V zero = T::broadcast(0), one = T::broadcast(1);
@@ -138,8 +138,8 @@ void RoundKernels<T>::capsule_box(const Side& a, const Side& b, Found<V>& found)
   found.num_points = 1;
 }
 
-/// From the cylinder's nearest point to a centre outside of it; a centre inside leaves through the end or the
-/// side, whichever is nearer.
+/// The normal is that from the cylinder's nearest point to a centre outside it; a centre inside leaves
+/// through the end or the side, whichever is nearer.
 template <class T>
 void RoundKernels<T>::cylinder_sphere(const Side& a, const Side& b, Found<V>& found) {
   const V zero = T::broadcast(0), one = T::broadcast(1), half = T::broadcast(Scalar(0.5));

@@ -5,7 +5,7 @@
 
 namespace pbmpi::solver {
 
-/// The place of a segment that is nearest to a box, or, of one that enters it, deepest in it.
+/// The place of a segment that is nearest to a box, or deepest in it if the segment enters it.
 template <class V>
 struct alignas(sizeof(V)) SegmentPlace {
   Vec3L<V> point;
@@ -36,7 +36,7 @@ class SegmentAtBox {
 
  private:
   PBMPI_LANES static V clamp(const V& x, const V& bound) { return T::min(T::max(x, -bound), bound); }
-  /// How far the segment at t lies outside along axis k; 0 beside or in the box.
+  /// How far the segment's point at t lies outside the box along axis k; 0 within the box's extent.
   PBMPI_LANES V beyond(const V& t, int k) const {
     const V y = at_[k] + t * along_[k];
     return y - clamp(y, half_[k]);
@@ -55,14 +55,14 @@ class SegmentAtBox {
   V at_[3], along_[3], half_[3];     // the segment's centre and direction, the box
 };
 
-/// Slope rises, and is linear between the points where the segment passes the box's planes, so that the
-/// values at these points bracket its root. Where the segment passes along a face there are many roots: the
-/// middle one.
+/// The slope rises, and is linear between the points where the segment passes the box's planes, so that the
+/// values at these points bracket its root. Where the segment runs along a face there are many roots, and the
+/// middle one is taken.
 template <class T>
 PBMPI_LANES typename T::V SegmentAtBox<T>::nearest_t() const {
   const V zero = T::broadcast(0), one = T::broadcast(1), half = T::broadcast(Scalar(0.5));
   V falls = -length_, falls_or_flat = -length_;  // the last place with a negative slope
-  V rises = length_, rises_or_flat = length_;    // the first with a positive one
+  V rises = length_, rises_or_flat = length_;    // the first place with a positive slope
   const auto look_at = [&](const V& t) {
     const V g = slope(t);
     falls = T::max(falls, g < zero ? t : -length_);
@@ -92,7 +92,7 @@ PBMPI_LANES SegmentPlace<typename T::V> SegmentAtBox<T>::nearest_place() const {
   L3 gap{zero, zero, zero};
   for (int k = 0; k < 3; ++k) gap = gap + axis_[k] * beyond(t, k);
   const V distance = T::sqrt(dot(gap, gap));
-  // The direction of so short a gap is rounding noise.
+  // The direction of such a short gap is rounding noise.
   const V scale = length_ + half_[0] + half_[1] + half_[2];
   const V nothing = scale * T::broadcast(sizeof(Scalar) == 4 ? Scalar(1e-6) : Scalar(1e-14));
   const auto enters = distance <= nothing;
@@ -111,7 +111,7 @@ PBMPI_LANES SegmentPlace<typename T::V> SegmentAtBox<T>::nearest_place() const {
   return place;
 }
 
-/// A segment that enters the box leaves it through the face which the part inside is least deep under. (ODE
+/// A segment that enters the box leaves it through the face under which the part inside is least deep. (ODE
 /// takes the x axis of the world as the normal, so that a limb that has entered a car stays there.) The part
 /// inside is represented by the centre of its depth: an end at the face has no weight, two equally deep ends
 /// have equal weights.

@@ -1,11 +1,11 @@
-/// Which of the points of a manifold are far from each other.
+/// Which points of a manifold are far from each other.
 #pragma once
 
 namespace pbmpi::solver {
 
-/// Of points in a plane: the one farthest from a first one, and the farthest on either side of the line
-/// between these two. With the first, the four span nearly the area of all. A class template of T, so that
-/// each instruction set has its own code.
+/// Among points in a plane, finds the one farthest from a first point, and the farthest on either side of the
+/// line between these two. Together with the first, these span nearly the area of all. A class template of T,
+/// so that each instruction set has its own code.
 template <class T>
 struct Spread {
   using Scalar = typename T::Scalar;
@@ -14,11 +14,12 @@ struct Spread {
   };
 
   int farthest = 0, left = 0, right = 0;
-  Scalar square = 0;  ///< [m^2] of the distance of the farthest
-  /// [m^2] Twice the triangle with the point on that side, negative on the right; 0: there is none.
+  Scalar square = 0;  ///< [m^2] squared distance of the farthest
+  /// [m^2] Twice the area of the triangle with the point on that side, negative on the right; 0: there is
+  /// none.
   Scalar area_left = 0, area_right = 0;
 
-  /// place(i): of the i-th of `count` points.
+  /// place(i): the place of the i-th of `count` points.
   template <class GetPlace>
   static Spread from(int first, int count, GetPlace place) {
     Spread spread;

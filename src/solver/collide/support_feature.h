@@ -1,4 +1,4 @@
-/// The part of a solid that looks along a direction: what touches when another solid comes from there.
+/// The part of a solid that faces a direction, and touches another solid that comes from there.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace pbmpi::solver {
 template <class Scalar>
 struct SolidPose {
   BoxPose<Scalar> frame;  ///< centre, own axes, and half sides or (z) half length
-  Scalar radius;          ///< 0 of a box
+  Scalar radius;          ///< 0 for a box
   model::Shape shape;
 };
 
-/// A corner or a place of a rim, a straight edge or line of a round side, a box's face, or a cylinder's end,
-/// in coordinates x and y across the direction, and z along it. The last two are nearly across the direction:
-/// within the angle whose sine is `most_tilt`, as a line is. A class template of T, so that each instruction
-/// set has its own code.
+/// A corner or a place on a rim, a straight edge or line of a round side, a box's face, or a cylinder's end,
+/// in coordinates x and y across the direction, and z along it. Faces, ends and lines are nearly across the
+/// direction: within the angle whose sine is `most_tilt`. A class template of T, so that each instruction set
+/// has its own code.
 template <class T>
 class SupportFeature {
  public:
@@ -53,10 +53,10 @@ class SupportFeature {
 
   Kind kind() const { return kind_; }
   int num_points() const { return num_points_; }
-  /// Ends of a line, corners of a polygon in their order round it, centre of a disc.
+  /// Ends of a line, corners of a polygon in order around it, centre of a disc.
   const Point& point(int i) const { return points_[i]; }
   Scalar radius() const { return radius_; }
-  /// The farthest point, one of them if there are many.
+  /// The farthest point, or one of them if there are many.
   const Point& farthest() const { return farthest_; }
   /// z of a polygon's or a disc's plane.
   Scalar height(Scalar x, Scalar y) const {
@@ -64,12 +64,12 @@ class SupportFeature {
   }
   Scalar slope_x() const { return slope_x_; }
   Scalar slope_y() const { return slope_y_; }
-  /// Does a place of its plane belong to a polygon or a disc, give or take a distance?
+  /// Does a place in the plane belong to the polygon or disc, give or take the distance `slack`?
   bool contains(Scalar x, Scalar y, Scalar slack) const {
     return kind_ == Kind::disc ? disc_contains(x, y, slack) : polygon_contains(x, y, slack);
   }
-  /// Half of how much the squared distance of a place from a disc's centre is above that of its rim, and its
-  /// derivatives.
+  /// Half the amount by which the squared distance of a place from a disc's centre exceeds that of its rim,
+  /// and its derivatives.
   struct Beyond {
     Scalar value, by_x, by_y;
   };
@@ -78,8 +78,8 @@ class SupportFeature {
     return {Scalar(0.5) * (dx * dx + dy * dy + dz * dz - radius_ * radius_), dx + slope_x_ * dz,
             dy + slope_y_ * dz};
   }
-  /// Narrows [first, last] to the part of from + s way that a polygon or a disc holds, give or take a
-  /// distance.
+  /// Narrows [first, last] to the part of from + s way inside the polygon or disc, give or take the distance
+  /// `slack`.
   void clip(const Point& from, const Point& way, Scalar slack, Scalar& first, Scalar& last) const {
     if (kind_ == Kind::disc) {
       clip_by_disc(from, way, slack, first, last);
@@ -105,7 +105,7 @@ class SupportFeature {
     const Scalar dx = x - points_[0].x, dy = y - points_[0].y;
     return square(dx) + square(dy) + square(slope_x_ * dx + slope_y_ * dy) <= square(radius_ + slack);
   }
-  /// How far a place lies inside of the polygon's edge i [m].
+  /// How far a place lies inside the polygon's edge i [m].
   Scalar inside_of(int i, Scalar x, Scalar y) const {
     const Point &p = points_[i], &q = points_[(i + 1) % num_points_];
     const Scalar ex = q.x - p.x, ey = q.y - p.y;

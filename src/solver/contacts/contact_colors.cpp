@@ -23,7 +23,7 @@ int ContactColors::paint(int body_a, int body_b) {
   if (color < num_mask_colors) {
     used_[a] |= 1ull << color;
     used_[b] |= 1ull << color;
-  } else {  // a body with more than 64 contacts: its further ones come one after the other
+  } else {  // a body with more than 64 contacts: each further one gets a new colour
     if (next_.empty()) next_.assign(used_.size(), num_mask_colors);
     color = std::max(next_[a], next_[b]);
     next_[a] = next_[b] = color + 1;

@@ -32,7 +32,7 @@ class ContactList {
     for (std::size_t i = 0; i < slots_.size(); ++i)
       builder.build(&manifolds[i * T::num_lanes], slots_[i], points_of(slots_[i]));
   }
-  /// Leads the rows on to the next substep.
+  /// Advances the rows to the next substep.
   void advance(const BodyLanes<T>& bodies, const Parameters& parameters) {
     const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
     for (const Slot& slot : slots_) builder.advance(slot, points_of(slot));
@@ -54,7 +54,7 @@ class ContactList {
     for (const Slot& slot : slots_)
       ContactSolver<T, two_bodies, kind>::push_carried(twists, slot, points_of(slot));
   }
-  /// visit(slot, its points, the manifold of each lane).
+  /// Calls visit(slot, its points, the manifold of each lane) for each slot.
   template <class Visit>
   void visit_slots(Visit visit) const {
     for (std::size_t i = 0; i < slots_.size(); ++i)
@@ -66,7 +66,7 @@ class ContactList {
     for (std::size_t i = 0; i < slots_.size(); ++i)
       visit(slots_[i], points_of(slots_[i]), order.dealt().data() + i * T::num_lanes);
   }
-  /// The contacts of one colour.
+  /// Solves the contacts of one colour.
   void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<Scalar>& law, int color,
              const SweepOrder::Points& points) {
     const ManifoldOrder::SlotRange range = order.slots_of(color);
@@ -91,7 +91,7 @@ class ContactList {
       slot.num_points = order.num_points(i);
       num_points += slot.num_points;
     }
-    if (static_cast<std::size_t>(num_points) > points_.size())  // to make points anew costs more than room
+    if (static_cast<std::size_t>(num_points) > points_.size())  // constructing points costs more than memory
       points_.resize(static_cast<std::size_t>(num_points));
   }
   Point* points_of(const Slot& slot) { return points_.data() + slot.first_point; }
@@ -105,19 +105,19 @@ class ContactLists {
  public:
   using Parameters = ContactParameters<typename T::Scalar>;
 
-  /// Says which kind of rows contacts without friction get; `rough`: the same as those with friction.
+  /// `frictionless`: the kind of rows that contacts without friction get; `rough`: the same as with friction.
   explicit ContactLists(ContactKind frictionless) : frictionless_(frictionless) {}
 
-  /// rubbing: the kind of rows that contacts with friction get, rough or patched.
+  /// `rubbing`: the kind of rows that contacts with friction get, rough or patched.
   void clear(ContactKind rubbing) {
     for_each([](auto& list) { list.order.clear(); });
     num_colors_ = 0;
     rubbing_ = rubbing;
   }
 
-  /// The contacts of one world, in canonical order, of the bodies of which `moves(body)`. `place_of(body)`:
-  /// where a body, or the environment, lies. `forces`: with which they start and end, [contacts] or none.
-  /// Spans hold during the step.
+  /// Adds the contacts of one world, in canonical order, that belong to bodies with `moves(body)`.
+  /// `place_of(body)`: the lane place of a body or the environment. `forces`: those with which the contacts
+  /// start and end, [contacts] or none. The spans must stay valid during the step.
   template <class Moves, class PlaceOf>
   void add_world(int num_bodies, std::span<const model::Contact> contacts,
                  std::span<model::ContactForce> forces, Moves moves, PlaceOf place_of) {
@@ -152,11 +152,11 @@ class ContactLists {
   void bounce(TwistRows<T>& twists, const Parameters& parameters) {
     for_each([&](auto& list) { list.bounce(twists, parameters); });
   }
-  /// Lets the impulses that the contacts start with act on the bodies.
+  /// Applies the impulses with which the contacts start to the bodies.
   void push_carried(TwistRows<T>& twists) {
     for_each([&](auto& list) { list.push_carried(twists); });
   }
-  /// visit(slot, points, manifolds) of each slot of each kind, as last solved.
+  /// Calls visit(slot, points, manifolds) for each slot of each kind, as last solved.
   template <class Visit>
   void visit_slots(Visit visit) const {
     for_each([&](const auto& list) { list.visit_slots(visit); });
@@ -166,7 +166,7 @@ class ContactLists {
   void change_slots(Visit visit) {
     for_each([&](auto& list) { list.change_slots(visit); });
   }
-  /// Colour by colour, in an order that the key gives; ascending without one.
+  /// Sweeps colour by colour, in an order that the key gives; in ascending order without a key.
   void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<typename T::Scalar>& law,
              std::optional<std::uint64_t> key) {
     if (key) {
@@ -177,7 +177,7 @@ class ContactLists {
     for (const int color : order_.colors())
       for_each([&](auto& list) { list.sweep(twists, parameters, law, color, order_.points()); });
   }
-  /// visit(slot of a body that is in contact), some of them more than once.
+  /// Calls visit(slot) for the slots of bodies in contact, for some of them more than once.
   template <class Visit>
   void for_each_body_slot(Visit visit) const {
     for_each([&](const auto& list) { list.order.for_each_place(visit); });
@@ -188,7 +188,7 @@ class ContactLists {
     if (a.body_a != b.body_a || a.body_b != b.body_b || (a.mu > 0) != (b.mu > 0)) return false;
     return rubbing_ != ContactKind::patched || a.mu == 0 || make_a_patch(a, b);
   }
-  /// Friction along one plane, to a hundredth of its force.
+  /// Do the contacts lie in one plane, to a hundredth of the friction force?
   static bool make_a_patch(const model::Contact& a, const model::Contact& b) {
     constexpr double least_cosine = 0.99995;
     return a.mu == b.mu && a.normal.dot(b.normal) > least_cosine;

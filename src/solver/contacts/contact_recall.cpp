@@ -10,7 +10,7 @@ using model::ContactForce;
 
 namespace {
 
-/// The rows of one pair of geoms, from `begin` on.
+/// The end of the rows of one pair of geoms that start at `begin`.
 std::size_t end_of_pair(std::span<const ContactForce> rows, std::size_t begin) {
   std::size_t end = begin;
   while (end < rows.size() && rows[end].geoms == rows[begin].geoms) ++end;

@@ -9,17 +9,17 @@
 
 namespace pbmpi::solver {
 
-/// Of one world. A contact point takes over from a point of the same pair of geoms: from the nearest, seen
-/// from the centre of its first body, that no point before it has taken.
+/// Serves one world. A contact point takes over the forces of a point of the same pair of geoms: of the
+/// nearest, seen from the centre of its first body, that no earlier point has taken.
 class ContactRecall {
  public:
-  /// Both in canonical order; centre(body): [m] world frame. keeps(old): is this one to be remembered though
-  /// no contact of this step can take over from it, since its bodies are not looked at?
+  /// Both in canonical order; centre(body): [m] world frame. keeps(old): is this force to be remembered
+  /// although no contact of this step can take it over, because its bodies are not considered?
   template <class Centre, class Keeps>
   void recall(std::span<const model::Contact> contacts, std::span<const model::ContactForce> before,
               Centre centre, Keeps keeps) {
     forces_.clear();
-    int body = model::no_body;  // whose centre is at hand: contacts of a body follow each other
+    int body = model::no_body;  // whose centre is in `at`: contacts of a body are consecutive
     model::Vec3 at = model::Vec3::Zero();
     for (const model::Contact& contact : contacts) {
       if (contact.body_a != body) at = centre(body = contact.body_a);
@@ -34,7 +34,7 @@ class ContactRecall {
     }
     match(before);
   }
-  /// [contacts], to be replaced by those with which the step ends.
+  /// [contacts], to be replaced by the forces with which the step ends.
   std::span<model::ContactForce> forces() { return forces_; }
   std::span<const model::ContactForce> forces() const { return forces_; }
   /// What is to be remembered after the step.
@@ -44,7 +44,7 @@ class ContactRecall {
   void match(std::span<const model::ContactForce> before);
 
   std::vector<model::ContactForce> forces_, kept_;
-  std::vector<char> taken_;  ///< of the points of the pair at hand
+  std::vector<char> taken_;  ///< which old points of the current pair are taken
 };
 
 }  // namespace pbmpi::solver

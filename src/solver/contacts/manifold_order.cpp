@@ -42,7 +42,7 @@ void ManifoldOrder::sort_by_color() {
   }
 }
 
-/// Into the last slot, or a new one if that is full or of another colour.
+/// Puts it into the last slot, or into a new one if the last is full or of another colour.
 void ManifoldOrder::put(const Manifold& manifold) {
   const auto color = static_cast<std::size_t>(manifold.color);
   const bool is_new_color = color >= first_slot_.size();
@@ -57,7 +57,7 @@ void ManifoldOrder::put(const Manifold& manifold) {
   dealt_[static_cast<std::size_t>((num_slots() - 1) * num_lanes_ + used_++)] = manifold;
 }
 
-/// Lets the lanes idle that have no manifold.
+/// Fills the lanes that have no manifold with idle ones.
 void ManifoldOrder::fill_last_slot() {
   for (int lane = used_; num_slots() > 0 && lane < num_lanes_; ++lane)
     dealt_[static_cast<std::size_t>((num_slots() - 1) * num_lanes_ + lane)] = {

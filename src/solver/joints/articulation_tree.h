@@ -7,15 +7,16 @@
 
 namespace pbmpi::solver {
 
-/// A body as it hangs from the tree.
+/// A body in the tree.
 struct TreeNode {
-  int body = 0;           ///< of the articulation
-  int joint = -1;         ///< that holds it, of the shape; -1: nothing does
-  int parent = -1;        ///< at the joint's other end; num_bodies = the static body; -1: none
+  int body = 0;           ///< index in the articulation
+  int joint = -1;         ///< the shape's joint that holds it; -1: none does
+  int parent = -1;        ///< body at the joint's other end; num_bodies = the static body; -1: none
   bool is_first = false;  ///< is it the joint's first body?
 };
 
-/// A spanning tree by breadth first search, from the static body if a joint is on it, else from body 0.
+/// A spanning tree by breadth-first search, from the static body if a joint is attached to it, else from body
+/// 0.
 struct ArticulationTree {
   explicit ArticulationTree(const ArticulationShape& shape);
 

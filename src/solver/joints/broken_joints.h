@@ -11,13 +11,14 @@ class BrokenJoints {
  public:
   void add_world();
   bool contains(int world, int joint) const;
-  /// The joints that are broken there and whole here, ascending; until the next call. `broken_in`: as in
-  /// model::State. Throws std::logic_error if one that is broken here is whole there: a pack cannot mend.
+  /// The joints that are broken in `broken_in` (State::broken_in) and unbroken here, ascending; valid until
+  /// the next call. Throws std::logic_error if a joint that is broken here is unbroken there: a pack cannot
+  /// mend joints.
   std::span<const int> find_fresh(int world, std::span<const std::int32_t> broken_in);
   void set(int world, std::span<const std::int32_t> broken_in);
 
  private:
-  std::vector<std::vector<std::int32_t>> worlds_;  ///< State::broken_in; none where nothing has broken
+  std::vector<std::vector<std::int32_t>> worlds_;  ///< State::broken_in; empty where nothing has broken
   std::vector<int> fresh_;
 };
 

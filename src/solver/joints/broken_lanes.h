@@ -1,5 +1,5 @@
-/// Broken joints as the rows see them: in which lanes of their batch they push nothing. (broken_joints.h
-/// knows them by world; it is plain code, which no instruction set may have for itself.)
+/// Broken joints as the rows see them: the lanes of their batch in which they exert nothing. (broken_joints.h
+/// knows them by world; it is plain code, which is compiled once for all instruction sets.)
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ class BrokenLanes {
  public:
   using V = typename T::V;
 
-  /// A joint of a shape's batches pushes nothing in this lane from now on.
+  /// Makes a joint of a shape's batches exert nothing in this lane from now on.
   void add(int shape, int joint, int lane) {
     for (BrokenJoint& broken : joints_) {
       if (broken.shape == shape && broken.joint == joint) return T::set(broken.holds, lane, 0);
@@ -25,7 +25,7 @@ class BrokenLanes {
     broken.joint = joint;
     T::set(broken.holds, lane, 0);
   }
-  /// visit(shape, joint, holds) with 1 in the lanes in which the joint holds, else 0.
+  /// Calls visit(shape, joint, holds), with 1 in the lanes in which the joint is unbroken, else 0.
   template <class Visit>
   void for_each(Visit visit) const {
     for (const BrokenJoint& broken : joints_) visit(broken.shape, broken.joint, broken.holds);
@@ -40,7 +40,7 @@ class BrokenLanes {
 };
 
 /// Stops rows that have just been built where `holds` is 0: they start without an impulse, and without a
-/// scale it stays so.
+/// scale they keep none.
 template <class T, model::JointKind kind>
 PBMPI_LANES void stop_broken(JointRows<T, kind>& rows, const typename T::V& holds) {
   for (auto& row : rows.points) {

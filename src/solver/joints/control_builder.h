@@ -7,13 +7,13 @@
 
 namespace pbmpi::solver {
 
-/// Sine and cosine of half an angle, both times any positive factor; c >= 0.
+/// Sine and cosine of half an angle, both times the same positive factor; c >= 0.
 template <class V>
 struct alignas(sizeof(V)) HalfAngle {
   V s, c;
 };
 
-/// As JointBuilder.
+/// The part of JointBuilder for limits and motors.
 template <class T>
 class ControlBuilder {
  public:
@@ -25,8 +25,8 @@ class ControlBuilder {
   ControlBuilder(const ControlRules<T>& rules, const RowBuilder<T>& rows, bool goes_on)
       : rules_(rules), rows_(rows), goes_on_(goes_on) {}
 
-  /// A limit or motor about `axis`; half_angle(): of the axis now, asked for only where it matters. Returns
-  /// whether any lane has a row.
+  /// Sets the row of a limit or motor about `axis`; half_angle(): the axis's current half angle, called only
+  /// where it matters. Returns whether any lane has a row.
   template <class GetHalfAngle>
   bool set_axis_control(AxisControl<V>& control, const L3& axis, const GetHalfAngle& half_angle,
                         const Pair& pair, Bounded<AxisRow<V>, V>& row) const;
@@ -36,7 +36,7 @@ class ControlBuilder {
                           JointRows<T, model::JointKind::slider>& rows) const;
 
  private:
-  /// 1 in the lanes whose axis is at a limit or past it; the angle where it matters.
+  /// 1 in the lanes whose axis is at or past a limit; the angle where it matters.
   struct AxisPlace {
     V at_low, at_high, angle;
   };
@@ -58,7 +58,7 @@ bool ControlBuilder<T>::set_axis_control(AxisControl<V>& control, const L3& axis
   return set_row(control, axis, locate(control, half_angle), pair, row);
 }
 
-/// The angle as ODE's getHingeAngle has it: from the quaternion of b relative to a relative to the start.
+/// The angle is that of ODE's getHingeAngle: from the quaternion of b relative to a, relative to the start.
 template <class T>
 void ControlBuilder<T>::set_hinge_control(JointLane<V>& joint, const Pair& pair,
                                           JointRows<T, model::JointKind::hinge>& rows) const {

@@ -1,4 +1,4 @@
-/// Leads the rows of a joint from one substep to the next.
+/// Advances the rows of a joint from one substep to the next.
 #pragma once
 
 #include "solver/joints/joint_controls.h"
@@ -6,18 +6,18 @@
 
 namespace pbmpi::solver {
 
-/// Uniform numbers of the substeps after a step's first. What moves a joint's gap is built anew: the arms of
-/// point rows, and all that follows from them. Axes and lines stay through the step, as contacts do, with
-/// their errors advanced by the velocities that the rows have left: what that misses, of second order in how
-/// far the bodies turn in a step, the next step sees in the poses.
+/// Holds what is uniform in the substeps after a step's first. The arms of point rows, which decide a joint's
+/// gap, and all that follows from them are built anew. Axes and lines stay fixed through the step, like
+/// contacts, with their errors advanced by the velocities that the rows have left: the next step sees in the
+/// poses what that misses, which is of second order in the bodies' rotation in a step.
 template <class T>
 class JointAdvancer {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// As JointBuilder; carry: the share of a row's impulse with which its next impulse starts; ahead_s: of
-  /// the substep to come.
+  /// As in JointBuilder; `carry`: the share of a row's impulse with which its next impulse starts; `ahead_s`:
+  /// for the next substep.
   JointAdvancer(Scalar h, const JointErp<Scalar>& erp, Scalar cfm, Scalar sor_factor, Scalar carry,
                 Scalar ahead_s)
       : controls_(h, erp.turns),
@@ -27,28 +27,28 @@ class JointAdvancer {
         carry_(carry),
         ahead_s_(ahead_s) {}
 
-  /// Before the bodies move on with the twists that they have.
+  /// Before the bodies move with their current twists.
   template <model::JointKind kind>
   PBMPI_LANES void advance(JointLane<V>& joint, const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
   /// After the bodies have moved.
   template <model::JointKind kind>
   PBMPI_LANES void rebuild(const JointLane<V>& joint, const BodyLanes<T>& bodies,
                            JointRows<T, kind>& rows) const;
-  /// Limits and motors of the next substep, and the share of the impulses that it takes over, which have not
-  /// acted on the twists yet.
+  /// Sets the limits and motors of the next substep, and the share of the impulses that it takes over, which
+  /// have not acted on the twists yet.
   template <model::JointKind kind>
   PBMPI_LANES void restart(const JointLane<V>& joint, JointRows<T, kind>& rows) const;
 
  private:
   V carried(const V& impulse) const { return carry_ > 0 ? impulse * T::broadcast(carry_) : T::broadcast(0); }
-  /// One Newton step from the last scale towards factor / diagonal. That is accurate enough: the scale
+  /// One Newton step from the last scale towards factor / diagonal. This is accurate enough: the scale
   /// decides how fast a row converges, not to what. The result is not too large for a diagonal of up to four
   /// times the last one.
   V scale_of(const V& diagonal, const V& before) const {
     const V least = T::broadcast(static_cast<Scalar>(0.25));
     return before * T::max(2 - (diagonal + cfm_) * before * inverse_factor_, least);
   }
-  /// Bounds and right-hand side of the row of an axis. Returns whether any lane has a row.
+  /// Sets bounds and right-hand side of an axis's row. Returns whether any lane has a row.
   template <class Row>
   PBMPI_LANES bool control(const AxisControl<V>& control, Bounded<Row, V>& row) const;
 

@@ -1,4 +1,4 @@
-/// The joints of a pack: copies of one articulation shape lie in the lanes of consecutive batches.
+/// The joints of a pack, with copies of one articulation shape in the lanes of consecutive batches.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class JointBatches {
     return shapes_[static_cast<std::size_t>(shape)].joints;
   }
 
-  /// Which batches a step works on, by the slots of their bodies; at the start all.
+  /// Choose which batches a step works on, by the slots of their bodies; at the start all are active.
   void deactivate_all() {
     for (Shape& shape : shapes_) std::fill(shape.active.begin(), shape.active.end(), 0);
   }
@@ -42,7 +42,7 @@ class JointBatches {
     std::size_t shape = 0, index = 0;
     int first_slot = 0, end_slot = 0;
   };
-  /// visit(batch), in the order of their slots.
+  /// Calls visit(batch) for each active batch, in the order of their slots.
   template <class Visit>
   void for_each_active_batch(Visit visit) const {
     for (std::size_t s = 0; s < shapes_.size(); ++s) {
@@ -56,33 +56,33 @@ class JointBatches {
 
   /// A joint has broken in this lane.
   void set_broken(int shape, int joint, int lane) { broken_.add(shape, joint, lane); }
-  /// The rows of a step's first substep.
+  /// Builds the rows of a step's first substep.
   void build(const Batch& batch, const JointBuilder<T>& builder, const BodyLanes<T>& bodies) {
     for_each_rows(batch, [&](auto& joint, auto& rows) { builder.build(joint, bodies, rows); });
   }
-  /// The impulses with which the rows start: what the joints remember, times `h`.
+  /// Sets the impulses with which the rows start: the forces that the joints remember, times `h`.
   void recall(const Batch& batch, const V& h) {
     for_each_rows(batch, [&](auto& joint, auto& rows) { recall_forces<T>(joint.memory, h, rows); });
   }
-  /// Remembers what the rows ended with, but where `keeps(slot)` of a joint's first body: null, or 1 in the
-  /// lanes whose memory stays as it is.
+  /// Remembers the forces with which the rows ended, except where keeps(slot of a joint's first body) says
+  /// so: null, or 1 in the lanes whose memory stays as it is.
   template <class Keeps>
   void remember(const Batch& batch, const V& per_h, const Keeps& keeps) {
     for_each_rows(batch, [&](auto& joint, auto& rows) {
       remember_forces<T>(rows, per_h, keeps(joint.slot_a), joint.memory);
     });
   }
-  /// At the start of a substep, what acts on the bodies before the sweeps: motors at their limits, and the
-  /// impulses that the rows start with, if `carries`.
+  /// At the start of a substep, applies what acts on the bodies before the sweeps: motors at their limits,
+  /// and, if `carries`, the impulses with which the rows start.
   void push(const Batch& batch, bool carries, BodyLanes<T>& bodies) {
     for_each_rows(batch, [&](auto&, auto& rows) {
       JointSolver<T>::push_motors(rows, bodies);
       if (carries) JointSolver<T>::push_carried(rows, bodies);
     });
   }
-  /// After build(), in all active batches: broken joints push nothing, in no substep of the step.
+  /// After build(), in all active batches: makes broken joints exert nothing throughout the step.
   void stop_broken_joints();
-  /// Before and after the bodies move on; and at the start of the next substep.
+  /// Before and after the bodies move, and at the start of the next substep.
   void advance(const Batch& batch, const JointAdvancer<T>& advancer, const BodyLanes<T>& bodies) {
     for_each_rows(batch, [&](auto& joint, auto& rows) { advancer.advance(joint, bodies, rows); });
   }
@@ -92,26 +92,27 @@ class JointBatches {
   void restart(const Batch& batch, const JointAdvancer<T>& advancer) {
     for_each_rows(batch, [&](auto& joint, auto& rows) { advancer.restart(joint, rows); });
   }
-  /// Fisher-Yates with keyed numbers: the same order in every batch of a shape, so in every world.
+  /// Fisher-Yates with keyed numbers: the order is the same in every batch of a shape, and hence in every
+  /// world.
   void shuffle(std::uint64_t key);
   /// Sweeps the joints in the order of the model.
   void order_as_given();
-  /// Of the shapes for which passes_over(shape) is false. places_last: see JointSolver::solve().
+  /// Sweeps the shapes for which passes_over(shape) is false. `places_last`: see JointSolver::solve().
   template <bool places_last, class PassesOver>
   void sweep(const JointSolver<T>& solver, const PassesOver& passes_over, BodyLanes<T>& bodies);
 
   /// The order of the joints of a shape in this sweep.
   std::span<const std::size_t> order(std::size_t shape) const { return shapes_[shape].order; }
-  /// visit(rows) of a joint: of a shape's joints, [num_batches][shape.joints].
+  /// Calls visit(rows) for a joint, given by its index into the shape's joints, [num_batches][shape.joints].
   template <class Visit>
   void change_rows(std::size_t shape, std::size_t joint, Visit visit) {
     const RowsAt at = shapes_[shape].rows[joint];
     with_kind(at.kind, [&](auto kind) { visit(rows_of<kind.value>()[static_cast<std::size_t>(at.index)]); });
   }
 
-  /// Rows of a lane of a joint as last built, limits and motors included.
+  /// Number of rows in a lane of a joint as last built, limits and motors included.
   int num_rows(int shape, int joint, int lane) const;
-  /// visit(rows) of a joint as last solved.
+  /// Calls visit(rows) for a joint as last solved.
   template <class Visit>
   void visit_rows(int shape, int joint, Visit visit) const {
     const RowsAt at = shapes_[static_cast<std::size_t>(shape)].rows[static_cast<std::size_t>(joint)];
@@ -120,7 +121,7 @@ class JointBatches {
 
  private:
   using Kind = model::JointKind;
-  /// Where the rows of a joint are; apart from its terms, which a sweep does not need.
+  /// Where the rows of a joint are, kept apart from its terms, which a sweep does not need.
   struct RowsAt {
     Kind kind = Kind::ball;
     int index = 0;
@@ -130,7 +131,7 @@ class JointBatches {
     int first_slot = 0, num_bodies = 0;
     std::vector<char> active;          ///< [num_batches]
     std::vector<JointLane<V>> joints;  ///< [num_batches][num_joints]
-    std::vector<RowsAt> rows;          ///< likewise
+    std::vector<RowsAt> rows;          ///< [num_batches][num_joints]
     std::vector<std::size_t> order;    ///< of the joints within a batch, in this sweep
   };
   template <Kind kind>
@@ -164,7 +165,7 @@ class JointBatches {
     return visit(std::integral_constant<Kind, Kind::hinge2>{});
   }
 
-  /// visit(joint, its rows) for each joint of a batch.
+  /// Calls visit(joint, its rows) for each joint of a batch.
   template <class Visit>
   void for_each_rows(const Batch& batch, Visit visit);
 
@@ -252,8 +253,8 @@ void JointBatches<T>::shuffle(std::uint64_t key) {
   }
 }
 
-/// Joint by joint, each in all batches in turn: batches share no body, so that the processor works on several
-/// at once.
+/// Goes joint by joint, each in all batches in turn: batches share no body, so that the processor works on
+/// several at once.
 template <class T>
 template <bool places_last, class PassesOver>
 void JointBatches<T>::sweep(const JointSolver<T>& solver, const PassesOver& passes_over,

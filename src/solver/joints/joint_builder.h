@@ -7,8 +7,8 @@
 
 namespace pbmpi::solver {
 
-/// Uniform numbers of a step's first substep, and what is built with them. JointAdvancer leads the rows
-/// through the substeps after it.
+/// Holds what is uniform in a step's first substep, and builds the rows with it. JointAdvancer advances the
+/// rows through the later substeps.
 template <class T>
 class JointBuilder {
  public:
@@ -16,8 +16,8 @@ class JointBuilder {
   using Scalar = typename T::Scalar;
   using L3 = Vec3L<V>;
 
-  /// ahead_s: see build_point(). goes_on: there are substeps after this one, so that what they start from is
-  /// built, too.
+  /// `ahead_s`: see build_point(). `goes_on`: substeps follow this one, so the values from which they start
+  /// are built too.
   JointBuilder(Scalar h, const JointErp<Scalar>& erp, Scalar cfm, Scalar sor_factor, Scalar ahead_s,
                bool goes_on)
       : ahead_s_(ahead_s),
@@ -25,7 +25,7 @@ class JointBuilder {
         rows_(erp.places / h, erp.turns / h, cfm / h, sor_factor),
         controls_(rules_, rows_, goes_on) {}
 
-  /// Rows from the poses, without impulses.
+  /// Builds the rows from the poses, without impulses.
   template <model::JointKind kind>
   void build(JointLane<V>& joint, const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
 
@@ -77,7 +77,7 @@ void JointBuilder<T>::build(JointLane<V>& joint, const BodyLanes<T>& bodies, Joi
   }
 }
 
-/// hinge2: the point held along axis 1 (softly, if sprung) and across it.
+/// hinge2: holds the point along axis 1 (softly, if sprung) and across it.
 template <class T>
 void JointBuilder<T>::set_suspended_point(const JointLane<V>& joint, const Pair& pair,
                                           LineRow<V>* rows) const {
@@ -115,7 +115,7 @@ void JointBuilder<T>::set_slider_lines(const JointTermsLane<V>& terms, const Pai
   }
 }
 
-/// hinge: the two axes 1 stay parallel.
+/// hinge: holds axis 1 of the two bodies parallel.
 template <class T>
 void JointBuilder<T>::set_parallel_axes(const JointTermsLane<V>& terms, const Pair& pair,
                                         AxisRow<V>* rows) const {
@@ -127,7 +127,7 @@ void JointBuilder<T>::set_parallel_axes(const JointTermsLane<V>& terms, const Pa
   rows_.set_axis(q, rows_.turn_k() * dot(error, q), pair, rows[1]);
 }
 
-/// fixed, slider: the whole relative orientation stays. The vector part of the relative rotation is half the
+/// fixed, slider: holds the whole relative orientation. The vector part of the relative rotation is half the
 /// error, in a's frame (ODE: setFixedOrientation).
 template <class T>
 void JointBuilder<T>::set_orientation(const JointTermsLane<V>& terms, const Pair& pair,
@@ -142,7 +142,7 @@ void JointBuilder<T>::set_orientation(const JointTermsLane<V>& terms, const Pair
   rows_.set_axis({zero, zero, one}, twice * error.z, pair, rows[2]);
 }
 
-/// universal, hinge2: an axis fixed in each body.
+/// universal, hinge2: holds the angle between two axes, of which one is fixed in each body.
 template <class T>
 template <model::JointKind kind>
 void JointBuilder<T>::set_crossed_axes(JointLane<V>& joint, const Pair& pair,
@@ -152,8 +152,7 @@ void JointBuilder<T>::set_crossed_axes(JointLane<V>& joint, const Pair& pair,
   const L3 crossed = cross(axis1, axis2);
   const V sine = T::sqrt(dot(crossed, crossed));
   const V cosine = dot(axis1, axis2);
-  // universal: the axes stay at right angles; hinge2: at the angle of the start. cos0 is 0 for ODE's
-  // universal.
+  // universal: the axes stay at right angles; hinge2: at the initial angle. cos0 is 0 for ODE's universal.
   const V rhs = kind == model::JointKind::universal
                     ? -rows_.turn_k() * cosine
                     : rows_.turn_k() * (terms.cos0 * sine - terms.sin0 * cosine);

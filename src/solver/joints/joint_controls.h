@@ -1,4 +1,4 @@
-/// Limits and motors of a joint's axes: what they want in a substep.
+/// Limits and motors of a joint's axes: their bounds and right-hand sides in a substep.
 #pragma once
 
 #include "solver/joints/joint_rows.h"
@@ -6,12 +6,12 @@
 
 namespace pbmpi::solver {
 
-/// What an axis does now: at a limit (with its error), driven, or nothing.
+/// What an axis does in a substep: it is at a limit (with its error), driven, or free.
 template <class V>
 struct alignas(sizeof(V)) ControlState {
   V rhs, low, high;  ///< of the row
-  V relaxed_rhs;     ///< of the row in sweeps that close no gap
-  V push;            ///< of a motor that is at its limit: see Bounded
+  V relaxed_rhs;     ///< of the row in sweeps that correct no position error
+  V push;            ///< of a motor at its limit: see Bounded
   V at_limit;        ///< 1: a limit holds; 0: a motor drives
 };
 
@@ -21,13 +21,13 @@ class ControlRules {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// h [s] of the substep; erp: the share of a limit's error that it takes away.
+  /// `h` [s]: length of the substep; `erp`: the share of a limit's error that it removes.
   ControlRules(Scalar h, Scalar erp) : h_(h), k_(erp / h) {}
 
   Scalar h() const { return h_; }
 
-  /// at_low, at_high: 1 where the coordinate is at or past the limit, else 0. place: the coordinate [rad] or
-  /// [m]; 0 will do where there is no limit and no pose to hold.
+  /// `at_low_flag`, `at_high_flag`: 1 where the coordinate is at or past the limit, else 0. `place`: the
+  /// coordinate [rad] or [m]; may be 0 where there is no limit and no pose to hold.
   PBMPI_LANES ControlState<V> decide(const AxisControl<V>& control, const V& at_low_flag,
                                      const V& at_high_flag, const V& place) const {
     const V zero = T::broadcast(0);
@@ -54,7 +54,7 @@ class ControlRules {
   }
 
  private:
-  /// The velocity at which a motor aims in this substep.
+  /// The velocity that a motor aims at in this substep.
   V aim(const AxisControl<V>& control, const V& place) const {
     const V fastest = T::broadcast(1 / h_);
     return control.velocity - (control.hold_rate > fastest ? fastest : control.hold_rate) * place;

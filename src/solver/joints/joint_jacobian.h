@@ -5,7 +5,7 @@
 
 namespace pbmpi::solver {
 
-/// Rows of a joint without its limits and motors.
+/// Number of rows of a joint without its limits and motors.
 constexpr int num_held_rows(model::JointKind kind) {
   const RowCounts counts = row_counts(kind);
   return 3 * counts.points + counts.lines + counts.axes;
@@ -42,7 +42,7 @@ PBMPI_LANES void set_row(const Vec3L<typename T::V>& linear, const Vec3L<typenam
 
 }  // namespace jacobian_detail
 
-/// cfm [s/kg] of the joints, divided by the step.
+/// `cfm` [s/kg]: the joints' CFM divided by the step.
 template <class T, model::JointKind kind>
 PBMPI_LANES void set_jacobian(const JointRows<T, kind>& rows, typename T::Scalar cfm,
                               JointJacobian<T>& jacobian) {
@@ -66,7 +66,8 @@ PBMPI_LANES void set_jacobian(const JointRows<T, kind>& rows, typename T::Scalar
     set_row<T>(none, axis.axis, -axis.axis, axis.scale, own_cfm, row++, jacobian);
 }
 
-/// visit(row, right-hand side under `law`, impulse) of each row.
+/// Calls visit(row, right-hand side times `bias`, impulse) for each row; a suspension keeps its whole
+/// right-hand side.
 template <class T, model::JointKind kind, class Visit>
 PBMPI_LANES void for_each_held_row(JointRows<T, kind>& rows, typename T::Scalar bias, Visit visit) {
   using V = typename T::V;

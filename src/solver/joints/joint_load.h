@@ -10,8 +10,8 @@
 namespace pbmpi::solver {
 
 /// Sums over the rows of a joint as last solved, on its first body, world frame. Rows along lines all act at
-/// one point: the anchor; of a fixed joint where the second body's centre of mass belongs, of a slider the
-/// middle between the two, or the centre of one that slides on the world.
+/// one point: the anchor; for a fixed joint where the second body's centre of mass belongs; for a slider the
+/// midpoint of the two centres, or the body's centre if it slides on the world.
 struct JointLoad {
   double impulse[3] = {};  ///< [N s] of rows along lines
   double turn[3] = {};     ///< [N m s] of rows about axes
@@ -38,7 +38,8 @@ JointLoad load_of(const JointRows<T, kind>& rows, int lane) {
   return load;
 }
 
-/// As effects::Reaction has it. `first`: pose of the first body after the step; h [s]: the substep.
+/// The effects::Reaction of a load. `first`: pose of the first body after the step; `h` [s]: length of the
+/// substep.
 effects::Reaction reaction_of(const JointLoad& load, const model::Model& model, const model::Joint& joint,
                               const model::BodyPose& first, double h);
 

@@ -1,4 +1,4 @@
-/// What a joint's rows take over from the step before, and leave to the next.
+/// What a joint's rows take over from the previous step, and leave to the next.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,9 @@
 
 namespace pbmpi::solver {
 
-/// The impulses of rows that have just been built: the parts of the remembered forces along their directions,
-/// times `h`, the length of a substep, or less of it. Limits and motors keep within their bounds.
+/// Sets the impulses of rows that have just been built: the components of the remembered forces along their
+/// directions, times `h`, the length of a substep or a share of it. Limits and motors stay within their
+/// bounds.
 template <class T, model::JointKind kind>
 PBMPI_LANES void recall_forces(const JointForceLane<typename T::V>& memory, const typename T::V& h,
                                JointRows<T, kind>& rows) {
@@ -27,8 +28,8 @@ PBMPI_LANES void recall_forces(const JointForceLane<typename T::V>& memory, cons
   recall_control(rows.line_controls);
 }
 
-/// The forces of rows as last solved; per_h: 1 / h. `keeps`: null, or 1 in the lanes whose memory stays as
-/// it is. A row that no lane has leaves +0, as in a lane that has none.
+/// Remembers the forces of rows as last solved; `per_h`: 1 / h. `keeps`: null, or 1 in the lanes whose memory
+/// stays as it is. A row that no lane has leaves +0, as in a lane without that row.
 template <class T, model::JointKind kind>
 PBMPI_LANES void remember_forces(const JointRows<T, kind>& rows, const typename T::V& per_h,
                                  const typename T::V* keeps, JointForceLane<typename T::V>& memory) {

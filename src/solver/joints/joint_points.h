@@ -1,4 +1,4 @@
-/// Builds the rows that hold a point of one body on a point of another.
+/// Builds the rows that hold a point of one body at a point of another.
 #pragma once
 
 #include "solver/joints/joint_rows.h"
@@ -6,8 +6,8 @@
 
 namespace pbmpi::solver {
 
-/// S (arm x e_k): the turn that a push along axis k at the end of the arm gives. The 0 in arm x e_k is left
-/// out.
+/// S (arm x e_k): the change of angular velocity by an impulse along axis k at the end of the arm. The 0 in
+/// arm x e_k is left out.
 template <class V>
 PBMPI_LANES Vec3L<V> turn_of(const Sym3L<V>& s, const Vec3L<V>& arm, int k) {
   const auto& [x, y, z] = arm;
@@ -23,8 +23,8 @@ PBMPI_LANES V turning(const Vec3L<V>& turn, const Vec3L<V>& arm, int k) {
   return k == 1 ? arm.x * turn.z - arm.z * turn.x : arm.y * turn.x - arm.x * turn.y;
 }
 
-/// The arm in the middle of a turn by 2 `half_turn` [rad]: the mean of what it is before and after, by
-/// Cayley's formula for the turn, which moves its end by 2 half_turn x middle. No longer than the arm.
+/// The arm in the middle of a rotation by 2 `half_turn` [rad]: the mean of the arm before and after, by
+/// Cayley's formula for the rotation, which moves its end by 2 half_turn x middle. No longer than the arm.
 template <class T>
 PBMPI_LANES Vec3L<typename T::V> middle_of_turn(const Vec3L<typename T::V>& arm,
                                                 const Vec3L<typename T::V>& half_turn) {
@@ -32,11 +32,11 @@ PBMPI_LANES Vec3L<typename T::V> middle_of_turn(const Vec3L<typename T::V>& arm,
   return (arm + cross(half_turn, arm) + half_turn * dot(half_turn, arm)) * share;
 }
 
-/// Sets all but the impulse. k [1/s]: the share of the gap that a second is to close. ahead_s [s]: the row
-/// pulls along the arms as the bodies' turns will have brought them after so long; its gap is that of now.
-/// With half a substep the row holds over all of it but for errors of third order in how far the bodies turn
-/// (the midpoint rule); with 0, as in ODE, the ends leave their circles by half the square of that.
-/// scale_of(diagonal, before): the scale of a row, from its J M^-1 J^T and its last scale.
+/// Sets all except the impulse. `k` [1/s]: the rate at which the gap is to close. `ahead_s` [s]: the row acts
+/// at the arms as the bodies' rotations will have turned them after this time; its gap is the current one.
+/// With half a substep the row holds over the whole substep up to errors of third order in the bodies'
+/// rotation (the midpoint rule); with 0, as in ODE, the ends leave their circles by half the square of that
+/// rotation. scale_of(diagonal, before): the scale of a row, from its J M^-1 J^T and its last scale.
 template <class T, class ScaleOf>
 PBMPI_LANES void build_point(const JointTermsLane<typename T::V>& terms, const BodyLanes<T>& bodies,
                              int slot_a, int slot_b, typename T::Scalar k, typename T::Scalar ahead_s,

@@ -1,5 +1,5 @@
-/// The rows of one joint of up to `num_lanes` articulations: one block a kind, so that the sweep knows at
-/// compile time what it solves.
+/// The rows of one joint of up to `num_lanes` articulations, with a type for each kind of joint, so that the
+/// sweep knows at compile time what it solves.
 ///
 /// Which rows each kind has (model/joint_traits.h), with signs and right-hand sides as in ODE 0.16's joints
 /// (ode/src/joints/*.cpp):
@@ -23,7 +23,7 @@ namespace pbmpi::solver {
 struct RowCounts {
   int points = 0;  ///< blocks of three rows
   int lines = 0, axes = 0;
-  int axis_controls = 0, line_controls = 0;  ///< limits and motors, in rows of their own
+  int axis_controls = 0, line_controls = 0;  ///< rows of limits and motors
 };
 
 constexpr RowCounts row_counts(model::JointKind kind) {
@@ -41,9 +41,9 @@ template <class Row, class V>
 struct alignas(sizeof(V)) Bounded {
   Row row;
   V low, high;    ///< bounds of its impulse [N s or N m s]
-  V relaxed_rhs;  ///< in sweeps that close no gap: what a motor aims at
-  V push;         ///< impulse of a motor that is at its limit, once a substep; acts on a against the axis
-  V at_limit;     ///< 1: a limit, which is a spring, holds; 0: a motor, which is none, drives
+  V relaxed_rhs;  ///< in sweeps that correct no position error: the motor's target velocity
+  V push;         ///< impulse of a motor at its limit, once a substep; acts on a against the axis
+  V at_limit;     ///< 1: a limit, which is a spring, holds; 0: a motor, which is rigid, drives
 };
 
 template <class T, model::JointKind kind>
@@ -52,7 +52,7 @@ struct alignas(sizeof(typename T::V)) JointRows {
   static constexpr RowCounts counts = row_counts(kind);
 
   int slot_a = 0, slot_b = 0;
-  bool control_on[2] = {false, false};  ///< does a row stand for this axis now, in any lane?
+  bool control_on[2] = {false, false};  ///< does this axis have a row now, in any lane?
   bool sprung = false;                  ///< is the first line a suspension spring?
   V inv_mass_a, inv_mass_b;
   std::array<PointRows<V>, counts.points> points;
@@ -62,7 +62,7 @@ struct alignas(sizeof(typename T::V)) JointRows {
   std::array<Bounded<LineRow<V>, V>, counts.line_controls> line_controls;
 };
 
-/// Calls visit(row) for each row that stands alone: lines, axes, and limits and motors that are on.
+/// Calls visit(row) for each single row: lines, axes, and limits and motors that are on.
 template <class Rows, class Visit>
 PBMPI_LANES void for_each_single_row(Rows& rows, Visit visit) {
   for (auto& row : rows.lines) visit(row);
@@ -75,36 +75,36 @@ PBMPI_LANES void for_each_single_row(Rows& rows, Visit visit) {
   }
 }
 
-/// The laws of a sweep over joints: of the rows that hold a place, and of those that hold a turn, or limit
-/// one or a way.
+/// The laws of a sweep over joints: one for rows that hold a place, one for rows that hold an orientation and
+/// for limits.
 template <class Scalar>
 struct JointLaws {
   RowLaw<Scalar> places, turns;
-  Scalar exact_bias = 1;  ///< RowLaw::bias of rows that are solved exactly, which have no relief
+  Scalar exact_bias = 1;  ///< RowLaw::bias of rows solved exactly, which have no relief
 
   static JointLaws relaxing() { return {RowLaw<Scalar>::relaxing(), RowLaw<Scalar>::relaxing(), 0}; }
 };
 
-/// ERP of the same, in a substep.
+/// ERP of the rows of JointLaws, in a substep.
 template <class Scalar>
 struct JointErp {
   Scalar places = 0, turns = 0;
 };
 
-/// Sweeps over the rows of a joint. `factor` is in the rows' scale already.
+/// Sweeps over the rows of a joint. The rows' scale already contains the SOR factor.
 template <class T>
 class JointSolver {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// cfm [s/kg] of the joints, divided by the step; laws: of this sweep.
+  /// `cfm` [s/kg]: the joints' CFM divided by the step; `laws`: those of this sweep.
   JointSolver(Scalar cfm, const JointLaws<Scalar>& laws) : cfm_(cfm), laws_(laws) {}
 
-  /// What an exact solve asks for of the speed with which the rows close gaps.
+  /// The share of the rows' right-hand sides that an exact solve uses.
   Scalar exact_bias() const { return laws_.exact_bias; }
 
-  /// Rows in ODE's order, place before angles before limits and motors; places_last: the other way round.
+  /// Solves rows in ODE's order, places before angles before limits and motors; `places_last`: in reverse.
   template <bool places_last, model::JointKind kind>
   PBMPI_LANES void solve(JointRows<T, kind>& rows, BodyLanes<T>& bodies) const {
     Twist<V> a = bodies.twists[rows.slot_a], b = bodies.twists[rows.slot_b];
@@ -123,13 +123,13 @@ class JointSolver {
     bodies.twists[rows.slot_b] = b;
   }
 
-  /// Limits and motors only.
+  /// Solves limits and motors only.
   template <model::JointKind kind>
   PBMPI_LANES void solve_controls(JointRows<T, kind>& rows, BodyLanes<T>& bodies) const {
     solve_controls(rows, bodies.twists[rows.slot_a], bodies.twists[rows.slot_b]);
   }
 
-  /// A motor that is at its limit pushes as an external torque (ODE: dxJointLimitMotor::addLimot).
+  /// A motor at its limit acts as an external torque (ODE: dxJointLimitMotor::addLimot).
   template <model::JointKind kind>
   PBMPI_LANES static void push_motors(const JointRows<T, kind>& rows, BodyLanes<T>& bodies) {
     Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
@@ -151,7 +151,7 @@ class JointSolver {
     }
   }
 
-  /// Lets the impulses that the rows start with act on the bodies.
+  /// Applies the impulses with which the rows start to the bodies.
   template <model::JointKind kind>
   PBMPI_LANES static void push_carried(const JointRows<T, kind>& rows, BodyLanes<T>& bodies) {
     Twist<V> a = bodies.twists[rows.slot_a], b = bodies.twists[rows.slot_b];
@@ -184,7 +184,7 @@ class JointSolver {
   PBMPI_LANES void solve_lines(JointRows<T, kind>& rows, Twist<V>& a, Twist<V>& b) const {
     for (std::size_t i = 0; i < rows.lines.size(); ++i) {
       LineRow<V>& row = rows.lines[i];
-      // A suspension is a spring of its own, in all sweeps.
+      // A suspension has its own spring in all sweeps.
       const RowLaw<Scalar>& law = rows.sprung && i == 0 ? RowLaw<Scalar>{} : laws_.places;
       push(row, step_of(row, row.rhs * law.bias, law, a, b), rows.inv_mass_a, rows.inv_mass_b, a, b);
     }
@@ -235,7 +235,7 @@ class JointSolver {
           row.rhs.z, row.scale.z, row.impulse.z, a.linear.z, b.linear.z, 2);
   }
 
-  /// A motor has a velocity to keep, and none to take back.
+  /// A motor keeps its target velocity in all sweeps.
   template <class Row>
   PBMPI_LANES V rhs_of(const Bounded<Row, V>& control) const {
     return laws_.turns.bias > 0 ? control.row.rhs : control.relaxed_rhs;
@@ -253,8 +253,8 @@ class JointSolver {
            ((rhs - relative_speed(row, a, b) - row.cfm * row.impulse) * (row.scale * law.mass_share) -
             law.relief * row.impulse);
   }
-  /// The impulse of a limit or motor after a Gauss-Seidel step on it. A limit gives way to what it carries
-  /// but for the push of its own motor: what both do to the bodies is nothing.
+  /// The impulse of a limit or motor after a Gauss-Seidel step on it. A limit gives under the load that it
+  /// carries, except the push of its own motor: together the two do nothing to the bodies.
   template <class Row>
   PBMPI_LANES V controlled(const Bounded<Row, V>& control, const Twist<V>& a, const Twist<V>& b) const {
     const V& impulse = control.row.impulse;

@@ -1,4 +1,4 @@
-/// What a joint's rows are built from, in lanes: the same joint of up to `num_lanes` articulations.
+/// The data from which a joint's rows are built, in lanes: the same joint of up to `num_lanes` articulations.
 #pragma once
 
 #include "solver/lanes/lanes.h"
@@ -10,9 +10,9 @@ namespace pbmpi::solver {
 template <class V>
 struct alignas(sizeof(V)) AxisControl {
   V low, high;                             ///< [rad] or [m]; +-huge = none
-  V sin_low, cos_low, sin_high, cos_high;  ///< of half the angles
+  V sin_low, cos_low, sin_high, cos_high;  ///< sines and cosines of half the limit angles
   V velocity, max_force, hold_rate;
-  V place{};  ///< [rad] or [m] where the joint is along this axis, from substep to substep
+  V place{};  ///< [rad] or [m] the joint's coordinate along this axis, updated each substep
   bool has_motor = false, has_limit = false, has_hold = false;  ///< in any lane
 
   bool any() const { return has_motor || has_limit; }
@@ -41,7 +41,7 @@ struct alignas(sizeof(V)) JointLane {
   bool sprung = false;  ///< hinge2 with a suspension spring
   JointTermsLane<V> terms;
   AxisControl<V> controls[2];
-  JointForceLane<V> memory;  ///< with what the last step ended
+  JointForceLane<V> memory;  ///< forces with which the last step ended
 };
 
 }  // namespace pbmpi::solver

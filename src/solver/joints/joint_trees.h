@@ -1,5 +1,5 @@
-/// Joints solved exactly, articulation by articulation: what a sweep over single joints carries through a
-/// chain only in many sweeps, the tree carries in one.
+/// Joints solved exactly, articulation by articulation: the tree propagates in one sweep what sweeps over
+/// single joints propagate through a chain only after many.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ class JointTrees {
   using Scalar = typename T::Scalar;
   using Batch = typename JointBatches<T>::Batch;
 
-  /// The batches of these shapes, in the order in which they were added to `joints`, which is borrowed.
-  /// `only_hanging`: solves those that hang, and no others.
+  /// Takes these shapes, in the order in which they were added to `joints`, which is borrowed.
+  /// `only_hanging`: solves only the shapes that hang.
   JointTrees(const std::vector<LanePlaces::ShapePlace>& shapes, bool only_hanging, JointBatches<T>& joints)
       : joints_(joints) {
     for (const LanePlaces::ShapePlace& at : shapes) {
@@ -33,9 +33,9 @@ class JointTrees {
     return std::ranges::any_of(shapes_, [](const Shape& shape) { return !shape.trees.empty(); });
   }
   bool solves(std::size_t shape) const { return !shapes_[shape].trees.empty(); }
-  /// Gets ready for the rows of now, in all active batches. cfm [s/kg] of the joints, divided by the step.
+  /// Prepares for the current rows, in all active batches. `cfm` [s/kg]: the joints' CFM divided by the step.
   void factor(Scalar cfm, const BodyLanes<T>& bodies);
-  /// Limits, motors and what closes loops by a sweep, then all other rows exactly.
+  /// Solves limits, motors and the joints that close loops by a sweep, then all other rows exactly.
   void solve(const JointSolver<T>& solver, BodyLanes<T>& bodies);
 
  private:
@@ -50,12 +50,12 @@ class JointTrees {
     std::size_t num_joints;
     std::vector<TreeNode> nodes;
     std::vector<char> in_loop;         ///< [num_joints]
-    std::vector<TreeSolver<T>> trees;  ///< [num_batches], none if it is not solved here
+    std::vector<TreeSolver<T>> trees;  ///< [num_batches], empty if the shape is not solved here
 
     int parent_of(const TreeNode& node) const { return node.parent == num_bodies ? -1 : node.parent; }
   };
 
-  /// visit(shape, tree, batch) of each active batch that is solved here.
+  /// Calls visit(shape, tree, batch) for each active batch that is solved here.
   template <class Visit>
   void for_each_tree(Visit visit) {
     joints_.for_each_active_batch([&](const Batch& batch) {

@@ -6,13 +6,13 @@
 
 namespace pbmpi::solver {
 
-/// The two bodies of the joint at hand.
+/// The two bodies of a joint.
 template <class V>
 struct JointBodies {
   const BodyLane<V>&a, &b;
 };
 
-/// (q_a^-1 q_b) relative^-1: how b has turned against a since the start.
+/// (q_a^-1 q_b) relative^-1: how b has turned relative to a since the start.
 template <class V>
 struct alignas(sizeof(V)) RelativeRotation {
   V w;
@@ -33,7 +33,7 @@ PBMPI_LANES RelativeRotation<V> relative_rotation(const JointTermsLane<V>& terms
            rz * sw - rw * sz - rx * sy + ry * sx}};
 }
 
-/// Uniform numbers of the rows of a substep.
+/// Holds what is uniform in a substep's rows, and sets single rows.
 template <class T>
 class RowBuilder {
  public:
@@ -42,7 +42,7 @@ class RowBuilder {
   using L3 = Vec3L<V>;
   using Pair = JointBodies<V>;
 
-  /// place_k, turn_k [1/s]: of an error, how much a second is to take away; cfm: divided by the step.
+  /// `place_k`, `turn_k` [1/s]: the rates at which errors are to be removed; `cfm`: divided by the step.
   RowBuilder(Scalar place_k, Scalar turn_k, Scalar cfm, Scalar sor_factor)
       : place_k_(place_k), turn_k_(turn_k), cfm_(cfm), factor_(sor_factor) {}
 
@@ -60,8 +60,9 @@ class RowBuilder {
   Scalar place_k_, turn_k_, cfm_, factor_;
 };
 
-/// From the centre of a to where a slider's lines act: the middle of its two bodies, which are `apart`; the
-/// centre itself if a slides on the world, whose origin says nothing of the joint (as in ODE).
+/// From the centre of a to where a slider's lines act: the midpoint of its two bodies, whose centres are
+/// `apart`; the centre itself if a slides on the world, whose origin has nothing to do with the joint (as in
+/// ODE).
 template <class T>
 PBMPI_LANES Vec3L<typename T::V> slider_arm(const JointBodies<typename T::V>& pair,
                                             const Vec3L<typename T::V>& apart) {

@@ -1,5 +1,5 @@
 /// Solves the joints of a tree of bodies exactly: elimination from the leaves to the root and back, which
-/// takes a time linear in the number of joints (D. Baraff, "Linear-Time Dynamics using Lagrange Multipliers",
+/// takes time linear in the number of joints (D. Baraff, "Linear-Time Dynamics using Lagrange Multipliers",
 /// SIGGRAPH 1996; the recursion is that of R. Featherstone's articulated-body inertia).
 #pragma once
 
@@ -12,9 +12,9 @@
 
 namespace pbmpi::solver {
 
-/// Of one batch. For the bodies' changes of twist u and the rows' impulses p:
+/// Solves one batch. The bodies' changes of twist u and the rows' impulses p satisfy
 ///   M u = J^T p,  J u + C p = r,  r = rhs - J v - C p_before.
-/// With its subtree eliminated a body c under a joint to its parent has the mass M_c' and the force f_c; the
+/// With its subtree eliminated a body c below a joint to its parent has the mass M_c' and the force f_c; the
 /// joint has S = J_c M_c'^-1 J_c^T + C, and adds J_p^T S^-1 J_p to the parent's mass.
 template <class T>
 class TreeSolver {
@@ -33,8 +33,8 @@ class TreeSolver {
     own.mass.factor(own.sum);
   }
 
-  // A solve: start_solve(); up() children before parents; root(); down() parents before children. bias: of
-  // the right-hand sides; 0 where what has opened is left open.
+  // A solve: start_solve(); up() children before parents; root(); down() parents before children. `bias`:
+  // scales the right-hand sides; 0 leaves position errors as they are.
   void start_solve() {
     for (Node& node : nodes_) {
       for (V& f : node.force) f = T::broadcast(0);
@@ -50,8 +50,8 @@ class TreeSolver {
  private:
   struct alignas(sizeof(V)) Node {
     SymmetricFactor<T, 6> mass;
-    V sum[6][6];                ///< mass with what children have added: lower triangle
-    V force[6];                 ///< likewise; then the change of the twist
+    V sum[6][6];                ///< mass plus what the children have added: lower triangle
+    V force[6];                 ///< force from the children; then the change of the twist
     JointJacobian<T> jacobian;  ///< of the joint to the parent
     SymmetricFactor<T, 6> schur;
     V error[6];
@@ -78,8 +78,8 @@ void TreeSolver<T>::start_body(int node, const BodyLane<V>& body) {
   }
   const V mass = 1 / body.inv_mass;
   own.sum[0][0] = own.sum[1][1] = own.sum[2][2] = mass;
-  // That of the step's start, as contacts, limits and carried impulses have it, and not of the pose by now:
-  // what solves with two inertias in turn gains energy.
+  // The inertia at the step's start, which contacts, limits and carried impulses also use, and not that of
+  // the current pose: solving with two inertias in turn gains energy.
   const Sym3L<V> inertia = inverse(body.inv_inertia);
   own.sum[3][3] = inertia.xx;
   own.sum[4][3] = inertia.xy;

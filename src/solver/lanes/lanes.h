@@ -2,8 +2,8 @@
 /// contacts).
 ///
 /// GCC and clang vector extensions: the four operators work on scalars and vectors alike, so that one source
-/// serves one lane and sixteen. What is done in a lane depends on nothing in the other lanes, and contraction
-/// is off: a lane's bits are those of the scalar code.
+/// serves one lane and sixteen. A lane's results do not depend on the other lanes, and contraction is off: a
+/// lane's bits are those of the scalar code.
 #pragma once
 
 #if defined(__x86_64__)
@@ -15,8 +15,8 @@
 #include <cstring>
 #include <type_traits>
 
-/// What works on lane vectors must melt into its caller: as a call it would pass registers of numbers through
-/// memory, and the caller's own vectors with them.
+/// Functions on lane vectors must be inlined: a call would pass vector registers through memory, and spill
+/// the caller's own.
 #define PBMPI_LANES [[gnu::always_inline]] inline
 
 namespace pbmpi::solver {
@@ -37,7 +37,7 @@ inline constexpr double huge_bound = 1e30;
 template <class Scalar, int num_lanes>
 using Lanes = typename LanesOf<Scalar, num_lanes>::Vector;
 
-/// What the code below needs to know of a lane type.
+/// A lane type and its basic operations.
 template <class Scalar_, int num_lanes_>
 struct LaneTraits {
   using Scalar = Scalar_;
@@ -65,7 +65,7 @@ struct LaneTraits {
       v[lane] = value;
     }
   }
-  /// The larger of two, lane by lane (b where either is NaN).
+  /// The larger of the two, lane by lane (b where either is NaN).
   PBMPI_LANES static V max(const V& a, const V& b) { return a > b ? a : b; }
   PBMPI_LANES static V min(const V& a, const V& b) { return a < b ? a : b; }
   PBMPI_LANES static V abs(const V& a) { return a < V{} ? -a : a; }
@@ -164,7 +164,7 @@ struct LaneTraits {
 /// Three components, each a lane vector.
 ///
 /// Every struct of lane vectors states its alignment: g++ gives a vector the alignment that the instruction
-/// set of the place can use, and the standard library's allocator is compiled for the plainest set.
+/// set in force can use, and the standard library's allocator is compiled for the baseline set.
 template <class V>
 struct alignas(sizeof(V)) Vec3L {
   V x, y, z;
@@ -195,7 +195,7 @@ struct alignas(sizeof(V)) Sym3L {
   }
 };
 
-/// By cofactors.
+/// The inverse, by cofactors.
 template <class V>
 PBMPI_LANES Sym3L<V> inverse(const Sym3L<V>& m) {
   const V xx = m.yy * m.zz - m.yz * m.yz, xy = m.xz * m.yz - m.xy * m.zz, xz = m.xy * m.yz - m.xz * m.yy;

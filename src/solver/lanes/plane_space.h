@@ -5,7 +5,7 @@
 
 namespace pbmpi::solver {
 
-/// Two unit vectors across the unit vector n and each other (ODE's dPlaneSpace).
+/// Two unit vectors perpendicular to the unit vector n and to each other (ODE's dPlaneSpace).
 template <class T>
 PBMPI_LANES void plane_space(const Vec3L<typename T::V>& n, Vec3L<typename T::V>& p,
                              Vec3L<typename T::V>& q) {

@@ -14,7 +14,7 @@ struct alignas(sizeof(V)) Twist {
   Vec3L<V> linear, angular;
 };
 
-/// Three rows that hold a point of a on a point of b, along the world's axes.
+/// Three rows that hold a point of a at a point of b, along the world's axes.
 template <class V>
 struct alignas(sizeof(V)) PointRows {
   Vec3L<V> arm_a, arm_b;          ///< from the centres to the points
@@ -29,10 +29,10 @@ struct alignas(sizeof(V)) AxisRow {
   V rhs, scale, impulse;
 };
 
-/// A row along a direction through a point: contacts, suspension, slider. Its CFM is its own.
+/// A row along a direction through a point: contacts, suspension, slider. It has its own CFM.
 template <class V>
 struct alignas(sizeof(V)) LineRow {
-  Vec3L<V> direction, moment_a, moment_b;  ///< moments: the angular parts of J; that of b has its sign
+  Vec3L<V> direction, moment_a, moment_b;  ///< moments: the angular parts of J; b's includes its sign
   Vec3L<V> turn_a, turn_b;                 ///< I^-1 moment
   V rhs, scale, cfm, impulse;
 };

@@ -5,7 +5,7 @@
 
 namespace pbmpi::solver {
 
-/// A = L D L^T of a matrix of up to `most` rows; n: its rows.
+/// Factors A = L D L^T of a matrix of up to `most` rows; n: its number of rows.
 template <class T, int most>
 struct alignas(sizeof(typename T::V)) SymmetricFactor {
   using V = typename T::V;

@@ -1,6 +1,7 @@
 /// Velocities body by body, for the contacts. A contact's lanes take theirs from bodies anywhere in the pack:
-/// as a row of its own each is one load and one store, and the rows are transposed in registers. Gathering
-/// them component by component took six times the memory operations, and half of a sweep's time.
+/// with a row for each body that is one load and one store a lane, and the rows are transposed in registers.
+/// Gathering them component by component took six times as many memory operations, and half of a sweep's
+/// time.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +11,11 @@
 
 namespace pbmpi::solver {
 
-/// Numbers of a row: three of the linear and three of the angular velocity, each with one that is not used.
+/// Numbers in a row: three of the linear and three of the angular velocity, each followed by an unused one.
 inline constexpr int twist_row_size = 8;
 inline constexpr int first_angular = 4;
 
-/// num_lanes rows of twists to and from lanes; `at[lane]`: where a row begins, in numbers.
+/// Moves num_lanes rows of twists to and from lanes; `at[lane]`: where a row begins, in numbers.
 template <class T>
 struct TwistTranspose {
   using V = typename T::V;
@@ -41,7 +42,7 @@ struct TwistTranspose {
     }
   }
 
-  /// The first half of each row: the linear velocities.
+  /// Loads the first half of each row: the linear velocities.
   PBMPI_LANES static Vec3L<V> load_half(const Scalar* rows, const std::int32_t* at) {
     if constexpr (sizeof(V) == 64 && sizeof(Scalar) == 4) {
       return load_half_512_single(rows, at);
@@ -73,7 +74,8 @@ struct TwistTranspose {
 
 #if defined(__x86_64__)
  private:
-  /// Four numbers of each row, four rows in a register, so that lane 4 b + i lies in block b of register i.
+  /// Loads four numbers of each row, four rows to a register, so that lane 4 b + i lies in block b of
+  /// register i.
   PBMPI_LANES static Vec3L<V> load_half_512_single(const Scalar* rows, const std::int32_t* at) {
     __m512 r[4];
     for (int i = 0; i < 4; ++i) {
@@ -105,7 +107,8 @@ struct TwistTranspose {
     }
   }
 
-  /// Two rows in a register, of lanes that come out in order: the halves of register i are these.
+  /// Two rows to a register, such that the lanes come out in order: register i has the rows of these two
+  /// lanes.
   static constexpr int pair_lanes[4][2] = {{0, 2}, {1, 3}, {4, 6}, {5, 7}};
 
   PBMPI_LANES static Vec3L<V> load_half_512_double(const Scalar* rows, const std::int32_t* at) {
@@ -135,7 +138,7 @@ struct TwistTranspose {
     }
   }
 
-  /// Two rows of eight floats in a register each, so that the blocks of four come out in the lanes' order.
+  /// Loads two rows of eight floats to a register, so that the blocks of four come out in the lanes' order.
   PBMPI_LANES static Twist<V> load_512_single(const Scalar* rows, const std::int32_t* at) {
     __m512 r[8];
     for (int i = 0; i < 8; ++i) {
@@ -236,7 +239,7 @@ class TwistRows {
   PBMPI_LANES void scatter_linear(const std::int32_t* at, const Vec3L<V>& linear) {
     TwistTranspose<T>::store_half(rows_.data()->numbers, at, linear);
   }
-  /// All lanes of a slot.
+  /// Writes all lanes of a slot.
   PBMPI_LANES void set_slot(int slot, const Twist<V>& twist) { scatter(slot_index(slot).at, twist); }
   PBMPI_LANES Twist<V> slot(int slot) const { return gather(slot_index(slot).at); }
 

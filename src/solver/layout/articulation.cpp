@@ -24,7 +24,7 @@ Vec3 to_local(const Pose& pose, const Vec3& direction) {
   return pose.orientation.to_eigen().conjugate() * direction;
 }
 
-/// The part of `direction` across the unit vector `axis`, of unit length.
+/// The component of `direction` perpendicular to the unit vector `axis`, normalised.
 Vec3 across(const Vec3& direction, const Vec3& axis) {
   return (direction - axis * axis.dot(direction)).normalized();
 }
@@ -36,10 +36,10 @@ JointTerms make_terms(const Model& model, const Joint& joint) {
   JointTerms terms;
   terms.anchor_a = joint.anchor_a;
   terms.anchor_b = joint.anchor_b;
-  if (traits.place == HeldPlace::offset) {  // of b's centre from a's
+  if (traits.place == HeldPlace::offset) {  // the offset of b's centre from a's
     terms.anchor_a = joint.body_b == model::no_body ? Vec3::Zero() : to_local(a, b.position - a.position);
     terms.anchor_b = joint.body_b == model::no_body ? a.position : Vec3::Zero();
-  } else if (traits.place == HeldPlace::line) {  // which goes through this point of b's frame
+  } else if (traits.place == HeldPlace::line) {  // the line goes through this point of b's frame
     terms.anchor_a = Vec3::Zero();
     terms.anchor_b = to_local(b, a.position - b.position);
   }

@@ -1,6 +1,6 @@
-/// Articulations: the sets of bodies that joints connect. Bodies of equal articulations lie side by side in
-/// lanes, whichever world they belong to; a brick or a projectile is an articulation of one body and no
-/// joint.
+/// Articulations: sets of bodies that joints connect. Bodies of equal articulations lie side by side in
+/// lanes, whichever world they belong to; a brick or a projectile is an articulation of one body without
+/// joints.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,19 @@
 
 namespace pbmpi::solver {
 
-/// What a joint's rows need besides poses. Frames: a = first body, b = second (the world's frame where there
-/// is none).
+/// What a joint's rows need in addition to poses. Frames: a = first body, b = second (the world's frame where
+/// there is none).
 struct JointTerms {
   model::Vec3 anchor_a, anchor_b;
   model::Vec3 axis1_a, axis1_b, axis2_b;  ///< axis 1 as seen from either body at the start, axis 2 from b
   model::Vec3 normal1_a;      ///< universal, hinge2: direction in a's frame from which angle 1 is measured
   model::Vec3 normal2_b;      ///< universal: direction in b's frame from which angle 2 is measured
   model::Quat relative;       ///< q_a^-1 q_b at the start: hinge, slider, fixed
-  double cos0 = 0, sin0 = 1;  ///< hinge2: of the angle between the axes at the start
-  double stiffness = 0, damping = 0;  ///< hinge2: of the suspension [N/m], [N s/m]
+  double cos0 = 0, sin0 = 1;  ///< hinge2: cosine, sine of the initial angle between the axes
+  double stiffness = 0, damping = 0;  ///< hinge2: the suspension's [N/m], [N s/m]
 };
 
-/// One joint of an articulation: its bodies by their index in the articulation.
+/// One joint of an articulation, with its bodies by their indices in the articulation.
 struct JointLink {
   model::JointKind kind = model::JointKind::ball;
   int body_a = 0;
@@ -38,7 +38,7 @@ struct JointLink {
 struct ArticulationShape {
   int num_bodies = 0;
   std::vector<JointLink> joints;
-  /// Does a joint hold it to what does not move?
+  /// Does a joint hold the articulation to the static body?
   bool hangs() const {
     return std::ranges::any_of(joints, [this](const JointLink& link) { return link.body_b == num_bodies; });
   }
@@ -54,7 +54,7 @@ struct Articulation {
   std::vector<JointTerms> terms;  ///< [joints]
 };
 
-/// Cuts a model at its contacts; in order of the lowest body.
+/// The articulations of a model, in order of their lowest bodies.
 std::vector<Articulation> find_articulations(const model::Model& model);
 
 }  // namespace pbmpi::solver

@@ -9,11 +9,11 @@
 
 namespace pbmpi::solver {
 
-/// What a body is besides its velocity. Lane vectors only, so that a lane of it can be gathered by a stride.
+/// All of a body except its velocity. Lane vectors only, so that a lane of it can be gathered by a stride.
 template <class V>
 struct alignas(sizeof(V)) BodyLane {
   Vec3L<V> position;      ///< rounded to the precision of the lanes
-  Vec3L<V> position_low;  ///< what single precision lacks there: see move_by()
+  Vec3L<V> position_low;  ///< what single precision lacks in `position`: see move_by()
   V qw, qx, qy, qz;
   Mat3L<V> rotation;
   Sym3L<V> inv_inertia;       ///< world frame
@@ -22,8 +22,8 @@ struct alignas(sizeof(V)) BodyLane {
   V inv_mass;
 };
 
-/// The bodies of a pack. Slot `static_slot` has no mass and never moves: the second body of whatever is
-/// attached to the world, and what idle lanes of a contact point to.
+/// The bodies of a pack. Slot `static_slot` has no inverse mass and never moves: it is the second body of
+/// whatever is attached to the world, and of idle contact lanes.
 template <class T>
 class BodyLanes {
  public:
@@ -41,7 +41,7 @@ class BodyLanes {
     for (Twist<V>& twist : twists) twist = {{zero, zero, zero}, {zero, zero, zero}};
   }
 
-  /// Where lane `lane` of a slot's twist begins, in scalars; component c is num_lanes further each.
+  /// Where lane `lane` of a slot's twist begins, in scalars; component c is c num_lanes farther on.
   PBMPI_LANES static std::int32_t twist_index(int slot, int lane) {
     return static_cast<std::int32_t>(slot * static_cast<int>(sizeof(Twist<V>) / sizeof(Scalar)) + lane);
   }
@@ -63,7 +63,7 @@ class BodyLanes {
   int static_slot;
   std::vector<Twist<V>> twists;
   std::vector<BodyLane<V>> bodies;
-  TwistRows<T> contact_twists;  ///< of the slots in contact, while contacts are swept
+  TwistRows<T> contact_twists;  ///< twists of the slots in contact, while contacts are swept
 };
 
 /// The rotation matrix of a unit quaternion (ODE's dQtoR).
@@ -92,14 +92,14 @@ PBMPI_LANES void refresh(BodyLane<V>& body) {
   refresh_inertia(body);
 }
 
-/// Where a body is, in lanes.
+/// A body's pose, in lanes.
 template <class V>
 struct alignas(sizeof(V)) PoseLane {
   Vec3L<V> position, position_low;
   V qw, qx, qy, qz;
 };
 
-/// 1 / sqrt(square): for numbers close to 1 from a few terms of the series, with an error below 4e-6.
+/// 1 / sqrt(square); numbers close to 1 take a few terms of the series, with an error below 4e-6.
 template <class T>
 PBMPI_LANES typename T::V near_inverse_root(const typename T::V& square) {
   using V = typename T::V;
@@ -113,10 +113,11 @@ PBMPI_LANES typename T::V near_inverse_root(const typename T::V& square) {
   return is_far ? 1 / T::sqrt(square) : series;
 }
 
-/// Adds to a place, which single precision keeps in two numbers: the way that slow bodies go in a substep is
-/// below the rounding of one, so that what settles would be held above where its contacts carry it, and creep
-/// by the speed that this leaves it. (D. E. Knuth's TwoSum, The Art of Computer Programming 2, 4.2.2.) The
-/// low number is rounded so that a double holds the sum of both, and rounds to the high one.
+/// Adds a displacement to a coordinate, which single precision keeps in two numbers: slow bodies move in a
+/// substep by less than one number's rounding, so that a settling body would be held above where its contacts
+/// carry it, and creep at the speed that this leaves it. (D. E. Knuth's TwoSum, The Art of Computer
+/// Programming 2, 4.2.2.) The low number is rounded so that a double holds the sum of both, and that sum
+/// rounds to the high number.
 template <class T>
 PBMPI_LANES void move_by(typename T::V& place, typename T::V& low, const typename T::V& way) {
   using V = typename T::V;
@@ -135,7 +136,8 @@ PBMPI_LANES void move_by(typename T::V& place, typename T::V& low, const typenam
 }
 
 /// ODE's dxStepBody without finite rotation: q += h/2 w q, normalised. `body` is a BodyLane or a PoseLane.
-/// last: the step ends here; before, the quaternion's length is brought back to 1 by near_inverse_root().
+/// `last`: the step ends here; earlier, near_inverse_root() suffices to bring the quaternion's length back to
+/// 1.
 template <class T, bool last, class Body>
 PBMPI_LANES void integrate(Body& body, const Twist<typename T::V>& twist, typename T::Scalar h) {
   using V = typename T::V;
@@ -161,9 +163,10 @@ PBMPI_LANES void integrate(Body& body, const Twist<typename T::V>& twist, typena
   body.qz *= inverse;
 }
 
-/// integrate() of a body that nothing turns but its own inertia: its angular momentum stays to rounding, its
-/// energy to third order in the angle of a substep (midpoint rule for the angular velocity that belongs to
-/// the momentum). Lanes where `has_torque` is 0 keep their velocity to the bit. Sets the rotation, too.
+/// integrate() for a body that turns under its own inertia alone: conserves its angular momentum up to
+/// rounding, and its energy to third order in the angle of a substep (midpoint rule for the angular velocity
+/// that belongs to the momentum). Lanes where `has_torque` is 0 keep their velocity to the bit. Also sets the
+/// rotation.
 template <class T, bool last>
 PBMPI_LANES void integrate_turning(BodyLane<typename T::V>& body, const typename T::V& has_torque,
                                    Twist<typename T::V>& twist, typename T::Scalar h) {
@@ -186,7 +189,7 @@ PBMPI_LANES void integrate_turning(BodyLane<typename T::V>& body, const typename
 /// The implicit gyroscopic torque of ODE 0.16 (Lacoursiere, "Stabilizing gyroscopic forces in rigid multibody
 /// simulations", 2006): angular velocity after a torque-free step of the body's Euler equation,
 ///   (I + h [L]x^T) w' = L with L = I w, all in the world frame.
-/// Lanes where `has_torque` is 0 keep their velocity to the bit: rounding would turn a sphere's a little.
+/// Lanes where `has_torque` is 0 keep their velocity to the bit: rounding would change a sphere's a little.
 template <class T>
 void apply_gyroscopic_torque(const BodyLane<typename T::V>& body, const typename T::V& has_torque,
                              Twist<typename T::V>& twist, typename T::Scalar h) {

@@ -6,7 +6,7 @@ namespace pbmpi::solver {
 namespace {
 
 constexpr int no_geom = -1;
-constexpr int columns_a_line = 16;  ///< numbers in a line of the cache, and the most lanes
+constexpr int columns_a_line = 16;  ///< numbers in a cache line, and the most lanes
 
 void keep_one_of_each(std::vector<int>& numbers) {
   std::sort(numbers.begin(), numbers.end());

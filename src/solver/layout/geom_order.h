@@ -1,4 +1,4 @@
-/// Where the geoms of a pack's worlds stand in its columns.
+/// Where the geoms of a pack's worlds lie in its columns.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace pbmpi::solver {
 
-/// World by world, each at the beginning of a line of the cache; in each the geoms that are swept stand in
-/// front, ascending, and the others after them.
+/// World by world, each at the beginning of a cache line; within a world the swept geoms come first,
+/// ascending, and the others after them.
 class GeomOrder {
  public:
   explicit GeomOrder(std::span<const PackedWorld> worlds);
@@ -20,7 +20,7 @@ class GeomOrder {
   }
   /// Column of a world's first geom.
   int first(int world) const { return first_[static_cast<std::size_t>(world)]; }
-  /// The swept geoms of a world, ascending, by their index in its model.
+  /// The swept geoms of a world, ascending, by their indices in its model.
   std::span<const int> swept(int world) const {
     return std::span(geom_of_column_)
         .subspan(static_cast<std::size_t>(first(world)),

@@ -1,5 +1,5 @@
-/// Bodies that a step does not move in a batch with others that it moves: their lanes move along, and are put
-/// back after it.
+/// Bodies that a step does not move but that share a batch with bodies that it moves: their lanes move along,
+/// and are put back after the step.
 #pragma once
 
 #include <vector>
@@ -14,11 +14,11 @@ class HeldLanes {
  public:
   using V = typename T::V;
 
-  /// Holds the bodies at these places from now on; `num_slots` of the pack.
+  /// Holds the bodies at these places from now on; `num_slots`: the pack's.
   template <class Places>
   void hold(int num_slots, const Places& places);
 
-  /// 1 in the lanes of a slot that are held, else 0; null if none is.
+  /// 1 in the held lanes of a slot, else 0; null if none is held.
   const V* lanes(int slot) const {
     const int index = index_.empty() ? -1 : index_[static_cast<std::size_t>(slot)];
     return index < 0 ? nullptr : &slots_[static_cast<std::size_t>(index)].held;
@@ -59,7 +59,7 @@ class HeldLanes {
   }
 
   std::vector<Slot> slots_;
-  std::vector<int> index_;  ///< [num_slots] in slots_, or -1
+  std::vector<int> index_;  ///< [num_slots] index into slots_, or -1
 };
 
 template <class T>

@@ -10,8 +10,8 @@ namespace pbmpi::solver {
 struct JointsOfBodies {
   explicit JointsOfBodies(const model::Model& model);
 
-  std::vector<int> first;   ///< [num_bodies + 1] in `joints`
-  std::vector<int> joints;  ///< by their first bodies, each body's ascending
+  std::vector<int> first;   ///< [num_bodies + 1] index into `joints`
+  std::vector<int> joints;  ///< sorted by their first bodies, each body's ascending
 };
 
 }  // namespace pbmpi::solver

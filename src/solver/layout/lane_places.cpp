@@ -22,7 +22,7 @@ LanePlaces::LanePlaces(std::span<const PackedWorld> worlds, int num_lanes) : num
   }
 }
 
-/// Into the shape that was added last.
+/// Places the copies in the shape that was added last.
 void LanePlaces::place(const Copies& copies) {
   const auto& [shape, first_slot, num_batches] = shapes_.back();
   for (std::size_t m = 0; m < copies.size(); ++m) {

@@ -1,4 +1,4 @@
-/// Which body and joint of a pack's worlds lies where: copies of one articulation shape side by side in
+/// Where each body and joint of a pack's worlds lies: copies of one articulation shape are side by side in
 /// lanes.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace pbmpi::solver {
 
-/// Where a joint lies: of a shape's joints, [num_batches][shape.joints].
+/// Where a joint lies; `joint` is its index into a shape's joints, [num_batches][shape.joints].
 struct JointPlace {
   int shape = 0, joint = 0, lane = 0;
 };
@@ -25,13 +25,13 @@ class LanePlaces {
     int first_slot = 0, num_batches = 0;
   };
 
-  /// Shape by shape, in each world by world.
+  /// Places bodies shape by shape, and within a shape world by world.
   LanePlaces(std::span<const PackedWorld> worlds, int num_lanes);
 
   const std::vector<ShapePlace>& shapes() const { return shapes_; }
-  /// The static slot, of the environment, comes after them.
+  /// The number of slots without the environment's static slot, which comes after them.
   int num_slots() const { return static_cast<int>(slots_.size()); }
-  /// Where a body lies; the environment (no_body) in lane 0 of the static slot.
+  /// Where a body lies; the environment (no_body) lies in lane 0 of the static slot.
   LanePlace body(int world, int body) const {
     return body == model::no_body ? LanePlace{num_slots(), 0} : bodies(world).data()[body];
   }
@@ -49,7 +49,7 @@ class LanePlaces {
   }
   /// Does the articulation that a slot belongs to have joints?
   bool has_joints(int slot) const { return slots_[static_cast<std::size_t>(slot)].has_joints; }
-  /// How many lanes of a slot have a body: the first ones.
+  /// How many lanes of a slot, from the first on, have a body.
   int num_used(int slot) const { return slots_[static_cast<std::size_t>(slot)].num_used; }
 
  private:

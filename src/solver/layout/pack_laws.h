@@ -7,7 +7,7 @@
 
 namespace pbmpi::solver {
 
-/// The numbers that a pack's step has once for all its lanes. Worlds share a pack only if these are equal.
+/// The numbers that all lanes of a pack's step share. Worlds share a pack only if these are equal.
 struct PackLaws {
   double erp = 0;
   double cfm = 0;
@@ -17,7 +17,7 @@ struct PackLaws {
   double linear_damping = 0;
   double angular_damping = 0;
   bool turning_contacts = false;          ///< Passes::turning_contacts
-  std::optional<int> outside_iterations;  ///< of the field of interest; none without
+  std::optional<int> outside_iterations;  ///< those of the field of interest; none without a field
 
   bool operator==(const PackLaws&) const = default;
 };

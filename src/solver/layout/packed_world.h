@@ -10,15 +10,15 @@
 
 namespace pbmpi::solver {
 
-/// A world in a pack: what the pack needs to know of its model.
+/// A world in a pack, with what the pack needs to know of its model.
 struct PackedWorld {
   const model::Model* model = nullptr;
   std::vector<Articulation> articulations;
-  model::NarrowPhase* fallback = nullptr;  ///< collides the pairs that the lanes do not
+  model::NarrowPhase* fallback = nullptr;  ///< collides the pairs that the lanes do not handle
   bool lanes_collide = true;               ///< false: the fallback collides all pairs
-  double contact_margin_m = 0;  ///< the lanes find contacts between geoms that are no farther apart
-  bool in_parts = false;        ///< do steps move some islands apart from others?
-  /// The geoms that collide() looks at, ascending; none: all of the model.
+  double contact_margin_m = 0;             ///< the lanes find contacts between geoms up to this far apart
+  bool in_parts = false;                   ///< do steps move some islands separately from others?
+  /// The geoms that collide() tests, ascending; none: all geoms of the model.
   std::optional<std::vector<int>> swept_geoms = std::nullopt;
 };
 

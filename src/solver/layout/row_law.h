@@ -1,4 +1,4 @@
-/// How hard rows hold: as springs with a frequency and a damping ratio, or as ODE's ERP and CFM have it.
+/// How stiff rows are: as springs with a frequency and a damping ratio, or by ODE's ERP and CFM.
 #pragma once
 
 #include <algorithm>
@@ -7,27 +7,27 @@
 
 namespace pbmpi::solver {
 
-/// How many periods in a substep springs may have at most. What is stiffer leans on forces that a substep's
-/// few sweeps have not found yet: walls and columns begin to tremble, chains and limits to swing up. The
-/// values are those that hold most of scenes/hard (docs/stability.md). Rows that hold how a joint turns its
-/// bodies bear more than those that hold a place.
+/// The most periods that springs may have in a substep. Stiffer springs rely on forces that a substep's few
+/// sweeps have not found yet: walls and columns begin to tremble, chains and limits to swing up. The values
+/// are those that keep most of scenes/hard stable (docs/stability.md). Rows that hold an orientation bear
+/// more than rows that hold a place.
 inline constexpr double most_contact_periods = 0.18, most_place_periods = 0.2, most_turn_periods = 0.25;
 
-/// The damping ratio of joints that are solved exactly, if that of the run is larger. They lean on no force
-/// that has not been found.
+/// The largest damping ratio of joints that are solved exactly. They rely on no force that has not been
+/// found.
 inline constexpr double most_exact_damping = 0.7;
 
 /// A constraint as a damped spring between bodies, whatever their masses.
 struct Spring {
-  /// 0: none, the scene's ERP and CFM hold; infinite: as stiff as most_periods says.
+  /// 0: no spring, the scene's ERP and CFM hold; infinite: as stiff as most_periods allows.
   double frequency_hz = 0;
   double damping_ratio = 1;
   double most_periods = most_turn_periods;  ///< in a substep
 
   bool is_on() const { return frequency_hz > 0; }
-  /// In substeps of h [s].
+  /// The frequency [Hz] in substeps of h [s].
   double frequency_in(double h) const { return std::min(frequency_hz, most_periods / h); }
-  /// [s^2] By how much it then gives under an acceleration; what is none does not give.
+  /// [s^2] By how much the spring then gives under an acceleration; 0 if there is no spring.
   double give_in(double h) const {
     if (!is_on()) return 0;
     const double w = 2 * std::numbers::pi * frequency_in(h);
@@ -35,23 +35,23 @@ struct Spring {
   }
 };
 
-/// What a sweep makes of a row with effective mass 1 / d, right-hand side and impulse p:
+/// How a sweep changes the impulse p of a row with effective mass 1 / d and right-hand side rhs:
 ///   change = (rhs - J v) mass_share / d - relief p.
-/// mass_share = 1 and relief = 0 are a rigid row.
+/// mass_share = 1 and relief = 0 make a rigid row.
 template <class Scalar>
 struct RowLaw {
   Scalar mass_share = 1, relief = 0;
-  Scalar bias = 1;                                        ///< 0: what has opened is left open
-  Scalar most_push = std::numeric_limits<Scalar>::max();  ///< [m/s] of contacts
+  Scalar bias = 1;                                        ///< 0: position errors are not corrected
+  Scalar most_push = std::numeric_limits<Scalar>::max();  ///< [m/s] fastest that contacts push out
 
-  /// A sweep that leaves errors of position as they are.
+  /// The law of a sweep that leaves position errors as they are.
   static RowLaw relaxing() { return {1, 0, 0, 0}; }
 };
 
-/// Both follow from an implicit Euler step h [s] of the spring (E. Catto, "Soft constraints", GDC 2011): its
-/// ERP is h w / (2 zeta + h w), its CFM relative to d is 1 / (h w (2 zeta + h w)). Where a step stands for
-/// several shorter ones, the spring is no stiffer than those would have it, so that what rests sags alike
-/// however few steps it gets.
+/// ERP and CFM follow from an implicit Euler step h [s] of the spring (E. Catto, "Soft constraints", GDC
+/// 2011): its ERP is h w / (2 zeta + h w), its CFM relative to d is 1 / (h w (2 zeta + h w)). Where a step
+/// stands for several shorter ones, the spring is no stiffer than it would be in those, so that resting
+/// bodies sag equally however few steps they get.
 class SpringStep {
  public:
   SpringStep(const Spring& spring, double h, double shorter_steps = 1) {

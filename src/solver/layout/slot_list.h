@@ -16,7 +16,7 @@ class SlotList {
   std::vector<int> slots_;
 };
 
-/// Tells of each slot whether it has been added before.
+/// A set of slots.
 class SlotSet {
  public:
   void start(int num_slots);

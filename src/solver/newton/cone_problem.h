@@ -1,4 +1,4 @@
-/// The contacts, limits and motors of an island with all else eliminated.
+/// The contacts, limits and motors of an island with all other rows eliminated.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@ namespace pbmpi::solver {
 
 using Numbers = std::vector<double>;  ///< [rows] of a ConeProblem
 
-/// Velocities u = W r + q [m/s or rad/s] for impulses r [N s or N m s]. Rows: of each contact its normal and
-/// two across, then those with bounds.
+/// Velocities u = W r + q [m/s or rad/s] for impulses r [N s or N m s]. Rows: for each contact its normal and
+/// two across, then the rows with bounds.
 ///   contacts: r_n >= 0, u_n >= 0, r_n u_n = 0, abs(r_t) <= mu r_n, r_t = -mu r_n u_t / abs(u_t) if u_t != 0
 ///   bounds:   low <= r <= high; u = 0 between them, u >= 0 at the lower, u <= 0 at the upper
 struct ConeProblem {
@@ -29,8 +29,8 @@ struct ConeProblem {
 ///   F_n = r_n - max(0, y_n), F_t = r_t - y_t min(1, mu max(0, y_n) / abs(y_t)) with y = r - rho u.
 class ConeMap {
  public:
-  /// `problem` is borrowed. rho: 1 / W_nn of normals and bounds; across them 1 / the largest eigenvalue of
-  /// the two rows' block.
+  /// `problem` is borrowed. rho is 1 / W_ii for normals and rows with bounds, and 1 / the largest eigenvalue
+  /// of the two rows' block for the rows across.
   explicit ConeMap(const ConeProblem& problem);
 
   /// F [rows] [N s].
@@ -40,7 +40,7 @@ class ConeMap {
   double rho(int row) const { return rho_[static_cast<std::size_t>(row)]; }
 
  private:
-  /// y of a contact.
+  /// y = r - rho u of a contact.
   struct Trial {
     double normal, across[2], length, bound;
   };

@@ -7,7 +7,7 @@
 namespace pbmpi::solver {
 namespace {
 
-constexpr int most_newton_steps = 600;  ///< in all, each an elimination
+constexpr int most_newton_steps = 600;  ///< in total, each an elimination
 constexpr int first_sweeps = 10, most_sweeps = 320, most_rounds = 12;
 
 Numbers scale_of(const ConeProblem& problem) {
@@ -64,7 +64,7 @@ ConeSolver::Point ConeSolver::at(Numbers r) const {
   return point;
 }
 
-/// Some hundred times what rounding leaves of u.
+/// Some hundred times the rounding error of u.
 double ConeSolver::tolerance(const Point& point) const {
   return 1e-14 * std::max(length_of(problem_.q), length_of(point.r));
 }
@@ -75,8 +75,8 @@ double ConeSolver::residual(const Numbers& impulses) const {
   return size > 0 ? point.residual / size : 0;
 }
 
-/// The first of 1, 1/2, ... 1/128 of the way that shrinks the residual, else the least bad one: a kink of F
-/// is left by going through.
+/// Takes the first of 1, 1/2, ... 1/128 of the step that reduces the residual, else the least bad one: the
+/// way out of a kink of F is through it.
 ConeSolver::Point ConeSolver::search_line(const Proximal& proximal, const Point& from,
                                           const Numbers& direction) const {
   Point best, trial;
@@ -109,7 +109,8 @@ void ConeSolver::step_by_newton(const Proximal& proximal, double enough, int mos
   }
 }
 
-/// Proximal points from the best on: a subproblem that is solved lets the term fade, another lets it grow.
+/// Takes proximal points from the best on: a subproblem that is solved lets the term fade, one that is not
+/// lets it grow.
 void ConeSolver::move_centre(Point& best) {
   constexpr int most_failures = 4, most_moves = 40, most_steps = 30;
   constexpr double first_shift = 1e-2, least_shift = 1e-14;
@@ -140,7 +141,7 @@ double ConeSolver::speed(int row, const Numbers& r) const {
   return sum;
 }
 
-/// The normal, then friction as ContactSolver has it, three times over.
+/// Solves the normal, then friction as in ContactSolver, three times over.
 void ConeSolver::sweep_contact(int contact, Numbers& r) const {
   constexpr int repeats = 3;
   const int row = 3 * contact;

@@ -1,31 +1,32 @@
-/// Solves a ConeProblem far below what sweeps over its rows reach.
+/// Solves a ConeProblem to residuals far below those that sweeps over its rows reach.
 #pragma once
 
 #include "solver/newton/cone_problem.h"
 
 namespace pbmpi::solver {
 
-/// In turn, until rounding is all that is left or the work allowed is done: Newton's method on the ConeMap
-/// with a line search; the same with a proximal term, shift (r - centre), that moves its centre and fades (as
-/// of contacts that share their load in any proportion only the CFM tells them apart, W is next to singular);
-/// Gauss-Seidel sweeps. What it returns has the least residual of all that it came by, the start included.
+/// Takes turns, until only rounding is left or the allowed work is done, between Newton's method on the
+/// ConeMap with a line search; the same with a proximal term, shift (r - centre), whose centre moves and
+/// whose shift fades (W is nearly singular, since only the CFM tells apart contacts that can share their load
+/// in any proportion); and Gauss-Seidel sweeps. It returns the point of least residual that it met, the start
+/// included.
 class ConeSolver {
  public:
   explicit ConeSolver(const ConeProblem& problem);
 
-  /// `impulses` [rows]: from where it starts, and where it ends.
+  /// `impulses` [rows]: the start, replaced by the result.
   void solve(Numbers& impulses);
-  /// abs(F) of impulses over the largest of abs(q), abs(r), in units in which each row has W_ii = 1, and a
-  /// contact its normal.
+  /// abs(F) of impulses over the larger of abs(q) and abs(r), in units in which W_ii = 1 for each row with
+  /// bounds, and for each contact's normal.
   double residual(const Numbers& impulses) const;
 
  private:
-  /// A place, with its speeds and the residual there.
+  /// Impulses, with their speeds and residual.
   struct Point {
     Numbers r, u, f;
     double residual = 0;
   };
-  /// shift (r - centre) is added to the speeds.
+  /// The proximal term: shift (r - centre) is added to the speeds.
   struct Proximal {
     double shift = 0;
     const Numbers* centre = nullptr;
@@ -36,7 +37,7 @@ class ConeSolver {
   void look(const Proximal& proximal, Point& point) const;
   Point at(Numbers r) const;
   double tolerance(const Point& point) const;
-  /// From `point` to the least residual found; ends at `enough`.
+  /// Goes from `point` to the least residual found; stops at `enough`.
   void step_by_newton(const Proximal& proximal, double enough, int most_steps, Point& point);
   Point search_line(const Proximal& proximal, const Point& from, const Numbers& direction) const;
   void move_centre(Point& best);
@@ -45,7 +46,7 @@ class ConeSolver {
   double speed(int row, const Numbers& r) const;
   bool is_done(const Point& best) const { return steps_left_ <= 0 || best.residual <= tolerance(best); }
 
-  Numbers scale_;  ///< [rows] impulses are these times scaled ones
+  Numbers scale_;  ///< [rows] impulses are these factors times the scaled ones
   ConeProblem problem_;
   ConeMap map_;
   int steps_left_ = 0;

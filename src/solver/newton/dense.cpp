@@ -7,7 +7,7 @@
 namespace pbmpi::solver {
 namespace {
 
-/// The row of the largest number in a column, from the diagonal on.
+/// The row of the largest number in a column, from the diagonal down.
 int find_pivot(const DenseMatrix& a, int column) {
   int pivot = column;
   for (int i = column + 1; i < a.num_rows(); ++i) {
@@ -46,7 +46,7 @@ bool solve_by_elimination(DenseMatrix& a, std::vector<double>& x) {
 }
 
 bool CholeskyFactor::factor(DenseMatrix a) {
-  constexpr double rounding = 1e-14;  // of a diagonal, in sums of some hundred terms
+  constexpr double rounding = 1e-14;  // relative to a diagonal element, in sums of some hundred terms
   for (int j = 0; j < a.num_rows(); ++j) {
     double* row = a.row(j);
     const double before = row[j];

@@ -1,5 +1,5 @@
-/// Dense matrices and their factors. Plain loops, whose sums have one order on every machine: Eigen's blocks
-/// follow the size of the caches, and so do its last bits.
+/// Dense matrices and their factors. Plain loops, whose sums have the same order on every machine: Eigen's
+/// blocks, and hence its last bits, depend on the cache sizes.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,13 @@
 
 namespace pbmpi::solver {
 
-/// By rows, [num_rows][num_columns].
+/// A matrix by rows, [num_rows][num_columns].
 class DenseMatrix {
  public:
   DenseMatrix() = default;
   DenseMatrix(int num_rows, int num_columns) { clear(num_rows, num_columns); }
 
-  /// All zero from now on.
+  /// Sets the size, and all numbers to zero.
   void clear(int num_rows, int num_columns) {
     num_rows_ = num_rows;
     num_columns_ = num_columns;
@@ -34,10 +34,10 @@ class DenseMatrix {
 /// x = A^-1 x by elimination with partial pivoting, which overwrites A. False if A is singular.
 bool solve_by_elimination(DenseMatrix& a, std::vector<double>& x);
 
-/// A = L L^T of a symmetric positive definite matrix.
+/// The factor A = L L^T of a symmetric positive definite matrix.
 class CholeskyFactor {
  public:
-  /// Reads the lower triangle. False if rounding is as large as what is left of a diagonal.
+  /// Reads the lower triangle. False if rounding is as large as the remainder of a diagonal element.
   bool factor(DenseMatrix a);
   /// x = L^-1 x and x = L^-T x.
   void forward(std::vector<double>& x) const;

@@ -15,12 +15,12 @@ double product(const SixVector& a, const SixVector& b) {
   return sum;
 }
 
-/// Numbers of a row of a matrix.
+/// The numbers in a row of a matrix.
 Numbers row_of(const DenseMatrix& matrix, int row) {
   return {matrix.row(row), matrix.row(row) + matrix.num_columns()};
 }
 
-/// With the joints' rows held: what couples the others, W = A - B R^-1 B^T.
+/// The coupling of the other rows while the joints' rows hold, W = A - B R^-1 B^T.
 class Condensed {
  public:
   /// `held`: R, [held][held]; `across`: B, [others][held]. False if R is singular.
@@ -40,7 +40,7 @@ class Condensed {
       }
     }
   }
-  /// -B R^-1 u of each other row, given L^-1 u.
+  /// -B R^-1 u for one of the other rows, given L^-1 u.
   double carried(int other, const Numbers& half) const { return -product_of(other, half); }
   const CholeskyFactor& factors() const { return factor_; }
   /// x += L^-1 B^T change.
@@ -191,7 +191,7 @@ void RowSystem::solve(const Island& island) {
   for (std::size_t i = 0; i < island.held.size(); ++i) change(island.held[i], -half[i]);
 }
 
-/// Twice: the second time takes away what rounding left in the first.
+/// Solves each island twice: the second pass removes what rounding left in the first.
 void RowSystem::solve() {
   for (const Island& island : find_islands()) {
     for (int pass = 0; pass < 2; ++pass) solve(island);

@@ -1,4 +1,4 @@
-/// The rows of a world, island by island, solved as one system.
+/// Solves the rows of a world, each island as one system.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace pbmpi::solver {
 
-/// Velocity of a body: linear [m/s] before angular [rad/s], world frame; or a row's part on it.
+/// Velocity of a body: linear [m/s] before angular [rad/s], world frame; or a row's coefficients for it.
 using SixVector = std::array<double, 6>;
 
 /// J v + cfm p - rhs = 0, with the impulse p [N s or N m s], and M^-1 J^T p added to the velocities.
@@ -24,19 +24,21 @@ struct SystemRow {
 /// Bodies and rows, changed in place by solve().
 class RowSystem {
  public:
-  /// Islands with more rows, or more of them in contacts and bounds, stay as they are: the work grows with
-  /// the cube.
+  /// Islands with more rows than this, or more contact and bounded rows, stay as they are: the work grows
+  /// with the cube.
   static constexpr int most_rows = 2000, most_bounded_rows = 400;
 
-  /// Forgets what was there. `twists`: [num_bodies].
+  /// Starts a new system. `twists`: [num_bodies].
   void start(std::vector<SixVector> twists);
-  // Rows keep their order: it decides the last bits. Each returns the number of its (first) row.
+  // Rows keep the order in which they are added, which decides the last bits. Each call returns the index of
+  // its (first) row.
   int add_held(const SystemRow& row);
   int add_bounded(const SystemRow& row, double low, double high);
-  /// Normal, and two across it.
+  /// Adds a normal row, and two across it.
   int add_contact(const std::array<SystemRow, 3>& rows, double mu);
 
-  /// Brings each island to its solution, as far as ConeSolver does; an island's bits depend on it alone.
+  /// Brings each island to its solution, as closely as ConeSolver does; an island's bits depend on that
+  /// island alone.
   void solve();
 
   const SixVector& twist(int body) const { return twists_[static_cast<std::size_t>(body)]; }
@@ -44,7 +46,7 @@ class RowSystem {
 
  private:
   enum class Law : char { held, bounded, contact };
-  /// What holds of a row beside its equation.
+  /// What applies to a row in addition to its equation.
   struct Bound {
     Law law = Law::held;
     double low = 0, high = 0, mu = 0;

@@ -1,4 +1,4 @@
-/// Forces on the bodies of a pack, and how their velocities move them.
+/// Forces on the bodies of a pack, and their motion.
 #pragma once
 
 #include "core/elementary.h"
@@ -7,7 +7,7 @@
 
 namespace pbmpi::solver {
 
-/// Batch by batch. h [s]: a substep; dt [s]: the step.
+/// Works batch by batch. `h` [s]: length of a substep; `dt` [s]: length of the step.
 template <class T>
 class BodyMotion {
  public:
@@ -21,10 +21,10 @@ class BodyMotion {
 
   void apply_gyroscopic_torques(const Batch& batch, Scalar dt, const GyroscopicSlot<V>*& next);
   void apply_gravity(const Batch& batch, Scalar h);
-  /// last: the step ends here. `next`: as above, or null where bodies turn without the torque.
+  /// `last`: the step ends here. `next`: as above, or null where bodies turn without the torque.
   template <bool last>
   void move(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next);
-  /// Likewise, of one slot: its pose and rotation.
+  /// move() for one slot: its pose and rotation.
   template <bool last>
   void move_slot(int slot, Scalar h, const GyroscopicSlot<V>*& next, BodyLane<V>& body, Twist<V>& twist);
   void damp(const Batch& batch, double h);
@@ -34,7 +34,7 @@ class BodyMotion {
   WorldLanes<T>& worlds_;
 };
 
-/// `next`: the first slot with the torque that no batch before had; goes on to that of the next batch.
+/// `next`: the first slot with the torque that no earlier batch had; advances to that of the next batch.
 template <class T>
 void BodyMotion<T>::apply_gyroscopic_torques(const Batch& batch, Scalar dt, const GyroscopicSlot<V>*& next) {
   const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
@@ -52,7 +52,7 @@ void BodyMotion<T>::apply_gravity(const Batch& batch, Scalar h) {
   }
 }
 
-/// Between two substeps inertia in the world's frame stays that of the step's start, as in a step without
+/// Between two substeps the inertia in the world frame stays that of the step's start, as in a step without
 /// substeps.
 template <class T>
 template <bool last>
@@ -78,7 +78,7 @@ void BodyMotion<T>::move_slot(int slot, Scalar h, const GyroscopicSlot<V>*& next
   }
 }
 
-/// As ODE after it has moved a body: v <- (1 - scale) v. The scale of a step of any length is that of an
+/// Like ODE after it has moved a body: v <- (1 - scale) v. The scale of a step of any length is that of an
 /// exponential decay.
 template <class T>
 void BodyMotion<T>::damp(const Batch& batch, double h) {

@@ -24,24 +24,25 @@ class ColliderLanes {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// `sleeping`: only contacts with a body that is awake are looked for.
+  /// `sleeping`: looks only for contacts that have an awake body.
   ColliderLanes(std::span<const PackedWorld> worlds, const WorldLanes<T>& lanes, bool sleeping);
 
-  /// Joints of a world are broken from now on: State::broken_in.
+  /// Takes in which joints of a world are broken from now on (State::broken_in).
   void set_broken(int world, std::span<const std::int32_t> broken_in) {
     find_touchable(worlds_[static_cast<std::size_t>(world)], broken_in);
   }
-  /// Call when bodies that sleep have been moved from outside.
+  /// Call it when sleeping bodies have been moved from outside.
   void forget_boxes() { boxes_known_ = false; }
 
-  /// The contacts of each world, in canonical order: contacts[num_worlds].
+  /// Finds the contacts of each world, in canonical order: contacts[num_worlds].
   void collide(const WorldLanes<T>& lanes, std::span<std::vector<model::Contact>> contacts);
-  /// The contacts of given pairs of one world, pairs in canonical order; appended.
+  /// Appends the contacts of given pairs of one world, pairs in canonical order.
   void collide_pairs(const WorldLanes<T>& lanes, int world, std::span<const model::GeomPair> pairs,
                      std::vector<model::Contact>& contacts);
 
  private:
-  /// Above so many geoms groups of them are tested before their geoms are, and far above sorting is better.
+  /// Above most_ungrouped_geoms groups of geoms are tested before their geoms; above most_tested_geoms geoms
+  /// are sorted.
   static constexpr int most_ungrouped_geoms = 96;
   static constexpr int most_tested_geoms = GroupBoxes<T>::group_size * GroupBoxes<T>::most_groups;
 
@@ -50,7 +51,7 @@ class ColliderLanes {
     model::NarrowPhase* fallback = nullptr;
     std::span<const int> geoms;                ///< swept
     int first_column = 0;                      ///< of the swept geoms
-    std::unique_ptr<MayTouchTable> may_touch;  ///< of the swept geoms; none if they are many and sorted
+    std::unique_ptr<MayTouchTable> may_touch;  ///< of the swept geoms; none if they are sorted
     std::unique_ptr<BroadPhase> sorting;
     double margin_m = 0;
     std::optional<AwakeGeoms> awake;  ///< none without the pass "sleeping"
@@ -60,12 +61,12 @@ class ColliderLanes {
   void update_boxes(const WorldLanes<T>& lanes);
   void find_awake(const WorldLanes<T>& lanes);
   void find_pairs(const WorldLanes<T>& lanes, int world);
-  /// The i-th swept geom against all that come after it.
+  /// Tests the i-th swept geom against all that come after it.
   void test_solid(const World& world, int i);
-  /// The i-th swept geom against those of [first, last) only; `box` is its own, in all lanes.
+  /// Tests the i-th swept geom against those of [first, last) only; `box` is its own, in all lanes.
   PBMPI_LANES void test_range(const World& world, int i, const BoxLanes<T>& box, int first, int last);
   void test_plane(const World& world, int i);
-  /// The i-th swept geom, which sleeps or is static, against those after it that are awake.
+  /// Tests the i-th swept geom, which sleeps or is static, against the awake geoms after it.
   void test_sleeper(const World& world, int i);
   PBMPI_LANES void add_pairs(const World& world, int i, int first, unsigned touching);
   void run_kernels();
@@ -74,14 +75,14 @@ class ColliderLanes {
   GeomOrder order_;
   std::vector<World> worlds_;
   GeomLanes<T> geoms_;
-  GroupBoxes<T> groups_;           ///< of the world at hand
+  GroupBoxes<T> groups_;           ///< of the current world
   std::vector<int> swept_chunks_;  ///< of geoms_
-  std::vector<int> pair_chunks_;   ///< those of given pairs
+  std::vector<int> pair_chunks_;   ///< chunks of given pairs
   PairTable table_;
   PoseCache poses_;
   bool sleeping_;
   bool boxes_known_ = false;       ///< are the boxes of all sleeping geoms up to date?
-  long awake_revision_ = -1;       ///< of the bodies that World::awake is of
+  long awake_revision_ = -1;       ///< revision of the bodies for which World::awake holds
   std::vector<int> awake_chunks_;  ///< of geoms_
 };
 
@@ -147,7 +148,7 @@ void ColliderLanes<T>::collide_pairs(const WorldLanes<T>& lanes, int world,
   take_contacts(lanes, world, contacts);
 }
 
-/// The boxes of sleeping geoms do not change.
+/// Updates only awake geoms' boxes if it can: those of sleeping geoms do not change.
 template <class T>
 void ColliderLanes<T>::update_boxes(const WorldLanes<T>& lanes) {
   if (sleeping_) find_awake(lanes);
@@ -267,7 +268,7 @@ void ColliderLanes<T>::take_contacts(const WorldLanes<T>& lanes, int index,
       const int body = world.model->geoms[static_cast<std::size_t>(geom)].body;
       if (body == model::no_body) continue;
       poses[static_cast<std::size_t>(body)] = lanes.pose(index, body);
-      if (!is_finite(poses[static_cast<std::size_t>(body)])) return;  // the world is lost, and reports so
+      if (!is_finite(poses[static_cast<std::size_t>(body)])) return;  // the world is lost, and reports it
     }
     world.fallback->collide(poses, {&pair, 1}, contacts);
   });

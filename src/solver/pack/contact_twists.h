@@ -1,5 +1,5 @@
-/// Velocities of bodies in contact go to and fro between their slots, where joints work on them, and rows,
-/// where contacts do (twist_rows.h).
+/// Moves velocities of bodies in contact between their slots, where joints change them, and rows, where
+/// contacts do (twist_rows.h).
 #pragma once
 
 #include "solver/layout/slot_list.h"
@@ -7,12 +7,12 @@
 
 namespace pbmpi::solver {
 
-/// The velocities of bodies without joints lie in the rows throughout the solve; those of the others are
+/// The velocities of bodies without joints stay in the rows throughout the solve; those of jointed bodies are
 /// copied when the other side needs them.
 template <class T>
 class ContactTwists {
  public:
-  /// At the beginning of a step. for_each_body_slot(visit): the slots in contact, some more than once.
+  /// At the beginning of a step. for_each_body_slot(visit) visits the slots in contact, some more than once.
   template <class ForEachBodySlot>
   void find(const WorldLanes<T>& worlds, ForEachBodySlot for_each_body_slot) {
     jointed_.clear();
@@ -33,14 +33,14 @@ class ContactTwists {
     read(free_, bodies);
     need_slots(bodies);
   }
-  /// Before and after contacts work on the rows.
+  /// need_rows() before contacts change the rows, changed_rows() after.
   void need_rows(BodyLanes<T>& bodies) {
     if (where_ != Where::slots) return;
     write(jointed_, bodies);
     where_ = Where::both;
   }
   void changed_rows() { where_ = Where::rows; }
-  /// Before and after joints work on the slots of jointed bodies.
+  /// need_slots() before joints change the slots of jointed bodies, changed_slots() after.
   void need_slots(BodyLanes<T>& bodies) {
     if (where_ != Where::rows) return;
     read(jointed_, bodies);

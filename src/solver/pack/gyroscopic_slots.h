@@ -1,4 +1,4 @@
-/// Which bodies of a pack the gyroscopic torque turns.
+/// Which bodies of a pack have gyroscopic torque.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@ struct alignas(sizeof(V)) GyroscopicSlot {
   int slot = 0;
 };
 
-/// In the order of slots. `all_slots`: also those in which no body has it.
+/// The slots with gyroscopic torque, in order. `all_slots`: also those in which no body has it.
 template <class T>
 std::vector<GyroscopicSlot<typename T::V>> find_gyroscopic_slots(const LanePlaces& places,
                                                                  std::span<const model::Model* const> models,

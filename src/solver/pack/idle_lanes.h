@@ -1,4 +1,4 @@
-/// What stands in the lanes of a pack that no body and no joint uses.
+/// Fills the lanes of a pack that no body and no joint uses.
 #pragma once
 
 #include "solver/joints/joint_batches.h"
@@ -6,7 +6,7 @@
 
 namespace pbmpi::solver {
 
-/// Idle lanes of the last batch of a shape repeat lane 0, so that they compute something harmless.
+/// Makes the idle lanes of a shape's last batch repeat lane 0, so that they compute something harmless.
 template <class T>
 void fill_idle_lanes(const LanePlaces& places, BodyLanes<T>& bodies, JointBatches<T>& joints) {
   using V = typename T::V;

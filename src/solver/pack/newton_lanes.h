@@ -1,4 +1,4 @@
-/// Between a pack's lanes and the rows of its worlds as systems.
+/// Translates between a pack's lanes and RowSystem.
 #pragma once
 
 #include <algorithm>
@@ -13,15 +13,15 @@
 
 namespace pbmpi::solver {
 
-/// Ends the sweeps over rigid rows, with friction in cones, by RowSystem::solve(). A world's rows are brought
-/// into an order that the lanes do not show in.
+/// Ends the sweeps over rigid rows, with friction in cones, by RowSystem::solve(). It puts a world's rows in
+/// an order that does not depend on the lanes.
 template <class T>
 class NewtonLanes {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// cfm of the joints, divided by the step; `contacts`: what the rows were built with.
+  /// `cfm`: the joints' CFM divided by the step; `contacts`: the parameters with which the rows were built.
   NewtonLanes(Scalar cfm, const ContactParameters<Scalar>& contacts) : cfm_(cfm), parameters_(contacts) {}
 
   /// Changes impulses and the twists in the slots.
@@ -34,7 +34,7 @@ class NewtonLanes {
     V* impulse;
     int lane, row;
   };
-  /// A contact point, by its place in the canonical order.
+  /// A contact point; `contact` gives its place in the canonical order.
   struct Touch {
     const model::Contact* contact;
     Rows rows;
@@ -54,7 +54,7 @@ class NewtonLanes {
   template <model::JointKind kind>
   void add_joint(JointRows<T, kind>& rows, int lane);
   void add(const Touch& touch);
-  /// Of rows that hold; one without scale is a broken joint's.
+  /// Adds a held row; a row without scale is a broken joint's, and left out.
   void hold(SystemRow row, const V& scale, V& impulse, int lane);
   template <class Row>
   void bound(const Bounded<Row, V>& bounded, SystemRow row, V& impulse, int lane);
@@ -87,7 +87,7 @@ class NewtonLanes {
 
   Scalar cfm_;
   ContactParameters<Scalar> parameters_;
-  std::vector<int> body_at_;                 ///< [slots][num_lanes] of the world that a place belongs to
+  std::vector<int> body_at_;  ///< [slots][num_lanes] index of the body at a place in its world; -1: none
   std::vector<std::vector<Touch>> touches_;  ///< [num_worlds]
   RowSystem system_;
   std::vector<Home> homes_;  ///< of the system's rows
@@ -260,7 +260,7 @@ void NewtonLanes<T>::hold(SystemRow row, const V& scale, V& impulse, int lane) {
   homes_.push_back({&impulse, lane, system_.add_held(row)});
 }
 
-/// A row without room between its bounds is none in this lane.
+/// A row without room between its bounds does not exist in this lane.
 template <class T>
 template <class Row>
 void NewtonLanes<T>::bound(const Bounded<Row, V>& bounded, SystemRow row, V& impulse, int lane) {

@@ -1,5 +1,5 @@
-/// Packs for avx512. Only what is between the pragmas is compiled for it; fused multiply-add is not part of
-/// the set, since it would change bits.
+/// Packs for avx512. Only the code between the pragmas is compiled for it; fused multiply-add is left out,
+/// since it would change bits.
 #include "solver/pack/pack_before_target.h"
 
 #if defined(__clang__)

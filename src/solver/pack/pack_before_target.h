@@ -1,6 +1,6 @@
-/// To be included before the instruction set is switched on: what the lanes' templates use of the standard
-/// library and of our own plain code, so that none of it is compiled for an instruction set that another
-/// machine may lack.
+/// To be included before the instruction set is switched on: the parts of the standard library and of our own
+/// plain code that the lanes' templates use, so that none of it is compiled for an instruction set that
+/// another machine may lack.
 #pragma once
 
 #if defined(__x86_64__)

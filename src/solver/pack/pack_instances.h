@@ -1,4 +1,4 @@
-/// The packs that exist: each is compiled in a file of its own for its instruction set.
+/// The packs that exist; those of an instruction set are compiled in a file of their own.
 #pragma once
 
 #include <memory>

@@ -9,19 +9,20 @@
 
 namespace pbmpi::solver {
 
-/// Measures the rows of one world as the last sweep left them, with the twists of that time. For the numbers
-/// see stepping::Residuals. One lane at a time: it is called on demand only.
+/// Measures the rows of one world as the last sweep left them, with the twists at that time. For the numbers
+/// see stepping::Residuals. It goes lane by lane, since it is called on demand only.
 template <class T>
 class ResidualMeter {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// h [s], cfm [s/kg] of the joints, and what the contacts were built with.
+  /// `h` [s]: length of a substep; `cfm` [s/kg]: the joints'; `contacts`: the parameters with which the
+  /// contacts were built.
   ResidualMeter(Scalar h, double cfm, const ContactParameters<Scalar>& contacts)
       : cfm_(static_cast<Scalar>(cfm) / h), contacts_(contacts) {}
 
-  /// The rows of a joint in one lane.
+  /// Adds the rows of a joint in one lane.
   template <model::JointKind kind>
   void add_joint(const JointRows<T, kind>& rows, const BodyLanes<T>& bodies, int lane) {
     const Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
@@ -41,7 +42,7 @@ class ResidualMeter {
     }
   }
 
-  /// The contacts of a slot for which is_wanted(lane, point).
+  /// Adds the contacts of a slot for which is_wanted(lane, point).
   template <class Slot, class Point, class IsWanted>
   void add_contacts(const Slot& slot, const Point* points, const TwistRows<T>& twists, IsWanted is_wanted) {
     using Solver = ContactSolver<T, Point::two_bodies, Point::kind>;
@@ -80,7 +81,7 @@ class ResidualMeter {
     return error(dot(row.axis, a.angular - b.angular), row.rhs, cfm_, row.impulse, lane);
   }
 
-  /// A NaN stays: it is no small residual.
+  /// A NaN stays: it is not a small residual.
   static void raise(double& most, double value) {
     if (!(std::abs(value) <= most)) most = std::abs(value);
   }
@@ -130,7 +131,7 @@ class ResidualMeter {
       raise(line_.natural,
             natural(errors[k], impulses[k], -bound, bound, T::get(friction.rows[k].scale, lane)));
   }
-  /// Into the first two of each.
+  /// Writes the first two of each.
   template <class Solver>
   void read_friction(const typename Solver::Friction& friction, const typename Solver::Motion& a,
                      const typename Solver::Motion& b, int lane, double* errors, double* impulses) const {
@@ -141,7 +142,7 @@ class ResidualMeter {
           error(Solver::speed(row, a, b), T::broadcast(0), contacts_.cfm / contacts_.h, row.impulse, lane);
     }
   }
-  /// Of rows with one ball for bounds.
+  /// Natural map of rows with a common ball as bounds.
   template <std::size_t num_rows>
   static double ball_natural(const double (&errors)[num_rows], const double (&impulses)[num_rows],
                              double bound, double per_d) {

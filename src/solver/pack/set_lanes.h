@@ -1,4 +1,4 @@
-/// Plain numbers into one lane of what a pack keeps in lanes.
+/// Writes plain numbers into one lane of a pack's data.
 #pragma once
 
 #include "core/elementary.h"
@@ -29,7 +29,7 @@ struct SetLanes {
     set(s.yz, lane, m(1, 2));
     set(s.zz, lane, m(2, 2));
   }
-  /// Position and quaternion; refresh() makes the rest of them.
+  /// Sets position and quaternion; refresh() computes the rest from them.
   static void set(BodyLane<V>& body, int lane, const model::Pose& pose) {
     set(body.position, lane, pose.position);
     const model::Vec3 rounded = pose.position.cast<Scalar>().template cast<double>();
@@ -69,7 +69,8 @@ struct SetLanes {
     control.has_motor = control.has_motor || motor.active();
     control.has_hold = control.has_hold || (motor.active() && motor.hold_rate > 0);
   }
-  /// No stop is a stop that no angle reaches: s cos <= c sin with sin = -1, cos = 0 holds for no c > 0.
+  /// A missing stop is a stop that no angle reaches: s cos <= c sin with sin = -1, cos = 0 holds for no c >
+  /// 0.
   static void set(AxisControl<V>& control, int lane, const model::AxisLimit& limit) {
     const bool low = limit.low > -model::infinity, high = limit.high < model::infinity;
     set(control.low, lane, low ? limit.low : -huge_bound);

@@ -12,7 +12,7 @@ bool has_simd(Simd simd) {
   switch (simd) {
     case Simd::off:
     case Simd::sse2:
-      return true;  // part of x86-64; elsewhere registers of as many bits, such as those of arm64
+      return true;  // part of x86-64; elsewhere registers of the same width, such as arm64's
 #if defined(__x86_64__)
     case Simd::avx2:
       return __builtin_cpu_supports("avx2") != 0;

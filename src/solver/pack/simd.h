@@ -10,14 +10,14 @@
 
 namespace pbmpi::solver {
 
-/// The widest set that this machine has.
+/// The widest instruction set that this machine has.
 stepping::Simd best_simd();
 bool has_simd(stepping::Simd simd);
 
 /// Lanes of a register: `single` 4, 8, 16 and `double` 2, 4, 8 for SSE2, AVX2, AVX-512; 1 for off.
 int num_lanes(stepping::Simd simd, stepping::Precision precision);
 
-/// A pack of these worlds. Their erp, cfm and contact laws are equal.
+/// Makes a pack of these worlds. Their erp, cfm and contact laws must be equal.
 std::unique_ptr<Pack> make_pack(std::span<const PackedWorld> worlds, stepping::Simd simd,
                                 stepping::Precision precision);
 

@@ -10,7 +10,7 @@
 
 namespace pbmpi::solver {
 
-/// Sets marks[num_worlds] of the worlds whose lanes of a slot have a flag that is not 0.
+/// Sets marks[num_worlds] of the worlds that have a flag other than 0 in their lanes of a slot.
 template <class T>
 void mark_worlds(const LanePlaces& places, int slot, const typename T::V& flags, std::vector<char>& marks) {
   for (unsigned lanes = T::bits(flags); lanes != 0; lanes &= lanes - 1) {
@@ -27,14 +27,14 @@ class SpeedBounds {
 
   explicit SpeedBounds(const WorldLanes<T>& worlds);
 
-  /// Sets may_be_fast[num_worlds], 0 before, where a body does not keep its effects::SlowBound in a step of
+  /// Sets may_be_fast[num_worlds], initially 0, where a body exceeds its effects::SlowBound in a step of
   /// `dt_s`.
   void find_fast(const WorldLanes<T>& worlds, double dt_s, std::vector<char>& may_be_fast) const;
 
  private:
   struct alignas(sizeof(V)) Slot {
     V way2, turn2;  ///< squares of a body's SlowBound; infinite in idle lanes
-    /// Above 0 in the lanes of bodies that do not keep it. What is no number is not fast.
+    /// Above 0 in the lanes of bodies that exceed their bound. NaN counts as slow.
     V excess(const Twist<V>& twist, const V& dt2) const {
       const V way = dot(twist.linear, twist.linear) * dt2 - way2;
       const V turn = dot(twist.angular, twist.angular) * dt2 - turn2;
@@ -60,7 +60,7 @@ SpeedBounds<T>::SpeedBounds(const WorldLanes<T>& worlds) {
   }
 }
 
-/// Most steps have nothing fast: they pass over the slots once, without a branch.
+/// Most steps have no fast body: they go over the slots once, without a branch.
 template <class T>
 void SpeedBounds<T>::find_fast(const WorldLanes<T>& worlds, double dt_s,
                                std::vector<char>& may_be_fast) const {
@@ -76,15 +76,15 @@ void SpeedBounds<T>::find_fast(const WorldLanes<T>& worlds, double dt_s,
                    T::max(slots_[slot].excess(twists[slot], dt2), zero), may_be_fast);
 }
 
-/// Sets may_be_slow[num_worlds], 0 before, where the centre of a body moves by no more than `way_m` in a step
-/// of `dt_s`, or its lane cannot tell.
+/// Sets may_be_slow[num_worlds], initially 0, where the centre of a body moves by at most `way_m` in a step
+/// of `dt_s`, or rounding in its lane leaves it open.
 template <class T>
 void find_slow(const WorldLanes<T>& worlds, double dt_s, double way_m, std::vector<char>& may_be_slow) {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
   const V zero = T::broadcast(0), one = T::broadcast(1);
   const double speed = way_m / dt_s;
-  const V square = T::broadcast(static_cast<Scalar>(speed * speed * 1.001));  // what is rounded stays below
+  const V square = T::broadcast(static_cast<Scalar>(speed * speed * 1.001));  // leaves room for rounding
   for (int slot = 0; slot < worlds.places.num_slots(); ++slot) {
     const Twist<V>& twist = worlds.bodies.twists[slot];
     const V is_slow = dot(twist.linear, twist.linear) <= square ? one : zero;

@@ -16,7 +16,7 @@
 
 namespace pbmpi::solver {
 
-/// See Pack: begin(), iterate() and finish() follow each other in a step.
+/// See Pack: a step is begin(), iterate() and finish(), in this order.
 template <class T>
 class StepLanes {
  public:
@@ -39,7 +39,7 @@ class StepLanes {
   void finish(core::PhaseTimes& times);
   void look(std::span<model::State> states);
 
-  double h() const { return static_cast<double>(laws_.h()); }  ///< [s] a substep of the last step
+  double h() const { return static_cast<double>(laws_.h()); }  ///< [s] length of the last step's substeps
   stepping::Residuals residuals(int world) const { return residuals_[static_cast<std::size_t>(world)]; }
 
  private:
@@ -59,7 +59,7 @@ class StepLanes {
   void sweep();
   void sweep_joints(const JointLaws<Scalar>& laws);
   void sweep_contacts(const RowLaw<Scalar>& law, int iteration);
-  /// Of the order of rows in an iteration, relaxing ones included.
+  /// The key for the order of rows in an iteration, relaxing ones included.
   std::uint64_t order_key(int iteration) const {
     return core::mix_key(parameters_.order_key, static_cast<std::uint64_t>(substep_),
                          static_cast<std::uint64_t>(iteration));
@@ -67,11 +67,11 @@ class StepLanes {
   void end_sweeps();
   void finish_by_newton();
   void choose_trees(stepping::JointSolver solver);
-  /// With exact joints: gets ready for the rows of now.
+  /// With exact joints: prepares them for the current rows.
   void factor_joints() {
     if (trees_) trees_->factor(laws_.joint_cfm(), worlds_.bodies);
   }
-  /// From the last sweep with bias to the end of the substep: the bodies move, and the relaxing sweeps.
+  /// From the last sweep with bias to the end of the substep: moves the bodies, and does the relaxing sweeps.
   template <bool last>
   void end_substep();
   void relax();
@@ -91,13 +91,13 @@ class StepLanes {
   BodyMotion<T> motion_;
   ContactLists<T> contacts_;
   ContactTwists<T> twists_;
-  std::optional<JointTrees<T>> trees_;  ///< of a step that solves some joints exactly
-  StepParameters parameters_;           ///< of the step at hand, with how far it has come
-  StepLaws<T> laws_;                    ///< likewise
+  std::optional<JointTrees<T>> trees_;  ///< none in a step that solves no joints exactly
+  StepParameters parameters_;           ///< of the current step
+  StepLaws<T> laws_;                    ///< of the current step
   int substep_ = 0, iteration_ = 0;
   std::vector<PoseLane<V>> look_poses_;         ///< [slots] scratch
   std::vector<Twist<V>> kept_twists_;           ///< [slots] scratch
-  std::vector<stepping::Residuals> residuals_;  ///< [num_worlds] of the last step, if they are measured
+  std::vector<stepping::Residuals> residuals_;  ///< [num_worlds] of the last step, if measured
 };
 
 template <class T>
@@ -114,7 +114,7 @@ void StepLanes<T>::sort_contacts(Contacts contacts, Forces forces) {
   }
 }
 
-/// Rows and forces of a step, up to the first iteration.
+/// Builds the rows and applies the forces of a step, up to the first iteration.
 template <class T>
 void StepLanes<T>::start_step() {
   contacts_.build(worlds_.bodies, laws_.contacts());
@@ -144,7 +144,8 @@ void StepLanes<T>::start_substep() {
   push_carried();
 }
 
-/// What acts before the first sweep: motors at their limits, and the impulses that the rows start with.
+/// Applies what acts before the first sweep: motors at their limits, and the impulses with which the rows
+/// start.
 template <class T>
 void StepLanes<T>::push_carried() {
   worlds_.joints.for_each_active_batch(
@@ -158,12 +159,12 @@ void StepLanes<T>::push_carried() {
   iteration_ = 0;
 }
 
-/// One iteration: all joints, then all contacts. Without relaxing sweeps the joints come last in the last one
-/// of a substep: what is left of their error would open the gap at once and in every substep, whereas the
-/// next substep sees the depth that is left of a contact's.
+/// One iteration: all joints, then all contacts. Without relaxing sweeps the joints come last in a substep's
+/// last iteration: an error left in them would open their gap at once and in every substep, whereas an error
+/// left in a contact shows in its depth in the next substep.
 template <class T>
 void StepLanes<T>::sweep() {
-  constexpr int iterations_per_order = 8;  // of joints: as ODE's quickstep
+  constexpr int iterations_per_order = 8;  // of joints, as in ODE's quickstep
   if (!parameters_.shuffled) {
     if (iteration_ == 0) worlds_.joints.order_as_given();
   } else if (iteration_ % iterations_per_order == 0) {
@@ -185,8 +186,8 @@ void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, int iteration) {
   twists_.changed_rows();
 }
 
-/// With substeps the rows of a joint that hold its place come after those that hold its angles, which would
-/// open what is closed.
+/// With substeps the rows of a joint that hold a place come after those that hold its angles, which would
+/// reopen the gap.
 template <class T>
 void StepLanes<T>::sweep_joints(const JointLaws<Scalar>& laws) {
   twists_.need_slots(worlds_.bodies);
@@ -201,7 +202,7 @@ void StepLanes<T>::sweep_joints(const JointLaws<Scalar>& laws) {
   twists_.changed_slots();
 }
 
-/// Takes back the speed that pushed errors of position out.
+/// Removes the speed that corrected position errors.
 template <class T>
 void StepLanes<T>::relax() {
   for (int i = 0; i < parameters_.relax; ++i) {
@@ -210,7 +211,7 @@ void StepLanes<T>::relax() {
   }
 }
 
-/// Batch by batch, so that its bodies and joints are in the cache from pass to pass.
+/// Works batch by batch, so that a batch's bodies and joints stay in the cache from pass to pass.
 template <class T>
 template <bool last>
 void StepLanes<T>::end_substep() {
@@ -235,7 +236,7 @@ void StepLanes<T>::end_substep() {
   worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
 }
 
-/// One sweep over the contacts that have touched and whose bodies approached faster than the threshold.
+/// One sweep over the contacts that touched and whose bodies approached faster than the threshold.
 template <class T>
 void StepLanes<T>::bounce() {
   if (!passes_.restitution) return;
@@ -325,7 +326,7 @@ void StepLanes<T>::finish(core::PhaseTimes& times) {
   timer.lap(core::Phase::integrate);
 }
 
-/// Free bodies' twists lie with the contacts during the solve; what is copied of them here is overwritten
+/// The twists of free bodies are in the contacts' rows during the solve; the copies made here are overwritten
 /// when it ends.
 template <class T>
 void StepLanes<T>::look(std::span<model::State> states) {

@@ -12,11 +12,11 @@
 
 namespace pbmpi::solver {
 
-/// [m/s] With relaxing sweeps no contact pushes its bodies apart faster, however deep they are (Box2D v3 has
-/// the same).
+/// [m/s] With relaxing sweeps no contact pushes its bodies apart faster than this, however deep it is (as in
+/// Box2D v3).
 inline constexpr double fastest_push = 3;
 
-/// What the worlds of a pack have in common and what a run has chosen, put together for a step.
+/// The laws common to the worlds of a pack and the choices of a run, combined for a step.
 template <class T>
 class StepLaws {
  public:
@@ -34,16 +34,16 @@ class StepLaws {
     if (!step.pushes) contact_law_ = RowLaw<Scalar>::relaxing();
   }
 
-  Scalar h() const { return h_; }  ///< [s] a substep
+  Scalar h() const { return h_; }  ///< [s] length of a substep
   const ContactParameters<Scalar>& contacts() const { return contacts_; }
-  /// Of a sweep that pushes errors of position out.
+  /// The law of a sweep that corrects position errors.
   const RowLaw<Scalar>& contact_law() const { return contact_law_; }
   const JointLaws<Scalar>& joint_laws() const { return joint_laws_; }
 
   JointBuilder<T> joint_builder() const {
     return {h_, joint_erp_, joint_cfm_, sor_factor_, joints_ahead_s_, several_};
   }
-  /// last: no substep comes after this one.
+  /// `last`: no substep follows this one.
   JointAdvancer<T> joint_advancer(bool last) const {
     return {h_, joint_erp_, joint_cfm_, sor_factor_, warm_start_, last ? 0 : joints_ahead_s_};
   }
@@ -94,7 +94,7 @@ class StepLaws {
   JointErp<Scalar> joint_erp_;
   Scalar joint_cfm_, sor_factor_, warm_start_;
   Scalar joints_ahead_s_ = 0;  ///< at which joints that are springs hold a place: see build_point()
-  bool several_;               ///< substeps
+  bool several_;               ///< are there several substeps?
   JointLaws<Scalar> joint_laws_;
   RowLaw<Scalar> contact_law_;
   ContactParameters<Scalar> contacts_;

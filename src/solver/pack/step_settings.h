@@ -1,4 +1,4 @@
-/// What sor takes from a run's settings and a model's events, whole worlds and spaces alike.
+/// What sor takes from a run's settings and a model's events, for whole worlds and spaces alike.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +21,20 @@ inline bool spares_substeps(const stepping::StepperSettings& settings) {
   return settings.tolerance_m > 0 && settings.substeps > 1;
 }
 
-/// May islands get more substeps than others (loaded_islands.h, tall_islands.h)? Their springs are to be of
-/// use.
+/// May islands get more substeps than others (loaded_islands.h, tall_islands.h)? Only with a warm start are
+/// stiffer springs of use.
 inline bool adds_substeps(const stepping::StepperSettings& settings) {
   return settings.most_substeps > settings.substeps && remembers(settings);
 }
 
-/// Makes the memory of a state with which a world starts what the steps of a run need: no force where nothing
-/// is known, or none at all.
+/// Completes the memory of a state with which a world starts for the steps of a run: zero forces where none
+/// are known, or no memory at all.
 void start_memory(bool remembers, const model::Model& model, model::StepMemory& memory);
 
-/// [m] Up to which the lanes are to find contacts in a world: PackedWorld::contact_margin_m.
+/// [m] The gap up to which the lanes are to find contacts in a world: PackedWorld::contact_margin_m.
 double contact_margin_m(const stepping::StepperSettings& settings, const model::Model& model);
 
-/// The springs that contacts are in a run, and joints where they hold a place and where they hold a turn.
+/// The springs of a run's contacts, and of its joints' rows that hold a place and an orientation.
 Spring contact_spring(const stepping::StepperSettings& settings);
 Spring joint_place_spring(const stepping::StepperSettings& settings);
 Spring joint_turn_spring(const stepping::StepperSettings& settings);
@@ -48,13 +48,14 @@ std::span<const model::Event> events_of(const model::Model& model, std::int64_t 
 /// Puts the joint setting of an event into the pack; a launch has none.
 void apply_setting(const model::Event& event, int world, Pack& pack);
 
-/// A launch from where the body is, with its velocities in `state`: Pack::launch() rounds and places them.
+/// A launch at the body's current pose with its velocities in `state`, which Pack::launch() rounds and
+/// places.
 model::Event velocity_event(int body, const model::State& state);
 
-/// The motors and limits of the model, as at the start.
+/// Puts the model's initial motors and limits into the pack.
 void apply_first_settings(const model::Model& model, int world, Pack& pack);
 
-/// The joint settings of all steps before this one.
+/// Puts the joint settings of all steps before this one into the pack.
 void apply_settings_before(const model::Model& model, std::int64_t step, int world, Pack& pack);
 
 }  // namespace pbmpi::solver

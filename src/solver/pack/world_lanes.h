@@ -1,5 +1,5 @@
-/// The worlds of a pack in their lanes, and all that goes in and out. (Longer than other files: its many
-/// small functions are all of the one interface between models and lanes.)
+/// The worlds of a pack in their lanes, and all data that goes in and out. (Longer than other files: its many
+/// small functions all belong to the one interface between models and lanes.)
 #pragma once
 
 #include <span>
@@ -31,7 +31,7 @@ class WorldLanes {
   void load(int world, const model::State& state) {
     for (int body = 0; body < model(world).num_bodies(); ++body) load_body(world, body, state);
   }
-  /// Joints' forces only where the state has room for them.
+  /// Stores joints' forces only where the state has room for them.
   void store(int world, model::State& state) const {
     for (int body = 0; body < model(world).num_bodies(); ++body) store_body(world, body, state);
   }
@@ -39,20 +39,20 @@ class WorldLanes {
   void store_body(int world, int body, model::State& state) const {
     store_body(world, body, bodies.bodies.data(), state);
   }
-  /// A world as it would be with these poses [slots] and the twists of now.
+  /// Stores a world as it would be with these poses [slots] and the current twists.
   void store_with(const PoseLane<V>* poses, int world, model::State& state) const {
     for (int body = 0; body < model(world).num_bodies(); ++body) store_body(world, body, poses, state);
   }
-  /// See Pack. Batches know of it after the next update_active().
+  /// See Pack. Takes effect on batches at the next update_active().
   void set_active(int world, std::span<const int> moving) { active_.set(world, moving); }
   void set_awake(int world, std::span<const int> awake_bodies) { awake_.set(world, awake_bodies); }
   const ActiveBodies& awake() const { return awake_; }
   bool moves(int world, int body) const { return active_.contains(world, body); }
   void update_active();
-  /// With Passes::holds_bodies(): round a step, for the bodies that are not active in batches that are.
+  /// With Passes::holds_bodies(): around a step, for inactive bodies in active batches.
   void save_held() { held_.save(bodies); }
   void restore_held() { held_.restore(bodies); }
-  /// 1 in the lanes of a slot that are held, else 0; null if none is.
+  /// 1 in the held lanes of a slot, else 0; null if none is held.
   const V* held_lanes(int slot) const { return holds_bodies_ ? held_.lanes(slot) : nullptr; }
   template <class Visit>
   void for_each_active_slot(Visit visit) const {
@@ -81,7 +81,7 @@ class WorldLanes {
   }
   model::BodyPose pose(int world, int body) const;
   int joint_rows(int world, int joint) const;
-  /// visit(rows, lane) of each joint of a world, as last solved.
+  /// Calls visit(rows, lane) for each joint of a world, as last solved.
   template <class Visit>
   void visit_joint_rows(int world, Visit visit) const {
     for_each_acting_joint(world, [&](const JointPlace& at) {
@@ -99,7 +99,7 @@ class WorldLanes {
   int num_worlds() const { return static_cast<int>(models_.size()); }
   const model::Model& model(int world) const { return *models_[static_cast<std::size_t>(world)]; }
 
-  LanePlaces places;  ///< which body and joint lies where
+  LanePlaces places;  ///< where each body and joint lies
   BodyLanes<T> bodies;
   JointBatches<T> joints;
   std::vector<Vec3L<V>> gravity;              ///< [slots] worlds may differ
@@ -115,7 +115,7 @@ class WorldLanes {
       if (!broken_.contains(world, joint)) visit(places.joint(world, joint));
     }
   }
-  /// [m] Of a BodyLane or a PoseLane.
+  /// [m] Position of a BodyLane or a PoseLane.
   template <class Body>
   static model::Vec3 position(const Body& body, int lane) {
     const auto number = [lane](const V& high, const V& low) {
@@ -143,7 +143,7 @@ class WorldLanes {
     return joints.joints(at.shape)[at.joint];
   }
 
-  /// The joints of which a body is the first.
+  /// The joints whose first body this is.
   std::span<const int> joints_of(int world, int body) const {
     const JointsOfBodies& all = joints_of_bodies_[static_cast<std::size_t>(world)];
     const auto first = static_cast<std::size_t>(all.first[static_cast<std::size_t>(body)]);
@@ -156,7 +156,7 @@ class WorldLanes {
   bool holds_bodies_;
   ActiveBodies active_, awake_;
   BrokenJoints broken_;
-  long active_revision_ = 0;       ///< that slot_active_ and the batches are of
+  long active_revision_ = 0;       ///< for which slot_active_ and the batches hold
   std::vector<char> slot_active_;  ///< [slots]; empty: all are
   HeldLanes<T> held_;
 };
@@ -190,7 +190,7 @@ WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& pas
   for (BodyLane<V>& body : bodies.bodies) refresh(body);
 }
 
-/// Sets what never changes of a joint, and its limits and motors as at the start.
+/// Sets the constant terms of a joint, and its initial limits and motors.
 template <class T>
 void WorldLanes<T>::set_joint(int world, const Articulation& articulation, std::size_t index) {
   const int joint = articulation.joints[index];
@@ -217,7 +217,7 @@ void WorldLanes<T>::set_masses(int world, int body) {
 }
 
 /// Makes rows for limits and motors that are demanded though nothing calls for them: their limits are out of
-/// reach and their motors have no force, so that they push nothing.
+/// reach and their motors have no force, so that they exert nothing.
 template <class T>
 void WorldLanes<T>::allow_idle_controls(const Passes& passes) {
   for (int world = 0; world < num_worlds(); ++world) {
@@ -354,8 +354,8 @@ void WorldLanes<T>::set_twist(LanePlace at, const model::Vec3& linear, const mod
   Set::set(bodies.twists[at.slot].angular, at.lane, angular);
 }
 
-/// The rotation is computed in double from the quaternion: with one in float ODE's colliders take rounding
-/// noise for a contact normal.
+/// The rotation is computed in double from the quaternion: with a float rotation ODE's colliders mistake
+/// rounding noise for a contact normal.
 template <class T>
 model::BodyPose WorldLanes<T>::pose(int world, int body) const {
   const LanePlace at = places.body(world, body);

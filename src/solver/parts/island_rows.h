@@ -1,4 +1,4 @@
-/// Rows of the islands of a world.
+/// Counts the rows of the islands of a world.
 #pragma once
 
 #include <algorithm>
@@ -13,23 +13,23 @@ namespace pbmpi::solver {
 /// Joins bodies into islands and counts their rows. Keeps its memory from step to step.
 class IslandRows {
  public:
-  /// Bodies without links and rows.
+  /// Starts anew with bodies that have no links and no rows.
   void reset(int num_bodies);
-  /// The bodies are of one island; no_body as `b` joins nothing.
+  /// Puts the bodies into one island; no_body as `b` joins nothing.
   void join(int a, int b) {
     if (b != model::no_body) sets_.unite(a, b);
   }
-  /// Rows of which `body` is the first.
+  /// Adds rows whose first body is `body`.
   void add(int body, int rows) { rows_[static_cast<std::size_t>(body)] += rows; }
-  /// Sets rows, islands, max_island_rows and row_visits: what these bodies have, and the islands of which
-  /// they are the lowest. sweeps(body): that the rows of a body got.
+  /// Sets rows, max_island_rows and row_visits from the rows of these bodies, and islands to the number of
+  /// islands whose lowest body is among them. sweeps(body): how many sweeps the rows of a body got.
   template <class Sweeps>
   void count(std::span<const int> bodies, Sweeps sweeps, stepping::Observables& counts);
 
  private:
   model::DisjointSets sets_{0};
   std::vector<int> rows_;         ///< [num_bodies]
-  std::vector<int> island_rows_;  ///< [num_bodies] by the lowest body; scratch of count()
+  std::vector<int> island_rows_;  ///< [num_bodies] rows of an island at its lowest body; scratch of count()
 };
 
 template <class Sweeps>

@@ -26,7 +26,7 @@ std::optional<IslandShares> IslandShares::find(const model::Model& model,
   return any ? std::optional(std::move(shares)) : std::nullopt;
 }
 
-/// Islands are found only where a body may be in one that differs.
+/// Finds islands only where some body may be in one with a different share.
 void IslandShares::sort(std::span<const int> bodies, std::span<const model::Contact> contacts,
                         std::span<const model::ContactForce> forces, std::span<const std::int32_t> broken_in,
                         const model::State& before) {

@@ -1,4 +1,4 @@
-/// Which islands of a world get more or less of a step than a run gives to most.
+/// Which islands of a world get more or fewer substeps than the run's number.
 #pragma once
 
 #include <cstdint>
@@ -23,28 +23,29 @@ class IslandShares {
   static std::optional<IslandShares> find(const model::Model& model,
                                           const stepping::StepperSettings& settings);
 
-  /// Does sort() look at poses and velocities?
+  /// Does sort() need poses and velocities?
   bool wants_state() const { return quiet_ || loaded_; }
-  /// Does it at the forces of all joints?
+  /// Does sort() need the forces of all joints?
   bool wants_joints() const { return loaded_.has_value(); }
-  /// Can there be any that get more?
+  /// Can any island get more substeps?
   bool may_add_substeps() const { return loaded_ || tall_; }
-  /// Sorts these bodies, which are whole islands of joints and contacts. `forces` [contacts] with which they
-  /// start; `before`: what sort() looks at; `broken_in`: as State has it.
+  /// Sorts these bodies, which are whole islands of joints and contacts. `forces` [contacts]: those with
+  /// which they start; `before`: the state that wants_state() and wants_joints() ask for; `broken_in`:
+  /// State::broken_in.
   void sort(std::span<const int> bodies, std::span<const model::Contact> contacts,
             std::span<const model::ContactForce> forces, std::span<const std::int32_t> broken_in,
             const model::State& before);
-  /// Is there a body that gets more or less than most?
+  /// Does any body get more or fewer substeps than the run's number?
   bool differ() const { return any_loaded_ || any_tall_ || (quiet_ && !quiet_->bodies().empty()); }
   bool is_quiet(int body) const { return quiet_ && quiet_->contains(body); }
-  /// Those of a body that is not quiet.
+  /// The substeps of a body that is not quiet.
   int substeps(int body) const {
     if (any_loaded_ && is_loaded_[static_cast<std::size_t>(body)] != 0) return most_substeps_;
     return any_tall_ ? tall_->substeps(body) : substeps_;
   }
-  /// In the order in which they were given.
+  /// The bodies in quiet islands, in the order in which they were given.
   std::span<const int> quiet_bodies() const { return quiet_ ? quiet_->bodies() : std::span<const int>(); }
-  /// Of quiet bodies, whole islands: as QuietIslands::judge().
+  /// QuietIslands::judge() for quiet bodies, which are whole islands.
   void judge(std::span<const int> bodies, const model::State& before, const model::State& after,
              std::vector<int>& far) {
     quiet_->judge(bodies, islands_, before, after, far);

@@ -7,8 +7,9 @@
 namespace pbmpi::solver {
 namespace {
 
-/// A spring that is open by less of its give is held by stiffer ones than that was counted with. Soft ones at
-/// rest are open by all of it, stiff ones by less, even a step after they have become stiff.
+/// A spring that is open by less than this share of its give is held by stiffer springs than the give was
+/// computed for. Soft springs at rest are open by all of it, stiff ones by less, even one step after they
+/// have become stiff.
 constexpr double opened_by_soft_ones = 0.9;
 
 }  // namespace
@@ -22,7 +23,7 @@ LoadedIslands::LoadedIslands(const model::Model& model, const stepping::StepperS
       is_among_(model.bodies.size(), 0) {
   for (const model::Body& body : model.bodies) inverse_inertia_.push_back(body.inertia.inverse());
   for (const double size : geometry::sizes_of(model)) radius_m_.push_back(size / 2);
-  // A matrix turns no vector into one that is longer than by its Frobenius norm.
+  // A matrix lengthens no vector by more than its Frobenius norm.
   const auto most_at = [&](int body, double arm) {
     if (body == model::no_body) return 0.0;
     const auto b = static_cast<std::size_t>(body);
@@ -106,7 +107,7 @@ double LoadedIslands::give_of(const model::Joint& joint, const model::JointForce
   return give;
 }
 
-/// What is no number is too much.
+/// NaN counts as too much.
 bool LoadedIslands::is_loaded(double give, double opened) const {
   if (is_little(give)) return false;
   const bool is_held_by_stiff_ones = opened < opened_by_soft_ones * give;

@@ -6,12 +6,12 @@
 namespace pbmpi::solver {
 namespace {
 
-/// Relaxing sweeps of a step of one substep, at least, if there are any. What stands high leans a little, and
-/// forces that follow too late tip it over by its weight before so few sweeps as a substep has take its speed
-/// back: it would have to be put back again and again.
+/// The least relaxing sweeps of a trial, which is one substep, if the run relaxes at all. A tall stack leans
+/// a little, and when the forces lag its weight starts to tip it before the few sweeps of a substep can take
+/// its speed back: it would have to be put back again and again.
 constexpr int trial_relax = 6;
 
-/// The larger of each.
+/// The larger of each residual.
 stepping::Residuals join(const stepping::Residuals& a, const stepping::Residuals& b) {
   return {std::max(a.joint_speed, b.joint_speed), std::max(a.joint_turn, b.joint_turn),
           std::max(a.complementarity_j, b.complementarity_j), std::max(a.natural_speed, b.natural_speed),
@@ -51,7 +51,7 @@ bool PartedStep::has_parts() const {
   });
 }
 
-/// If all islands get the same, for good, that becomes the step's own.
+/// If all islands get the same share, without trials, that share becomes the step's own.
 void PartedStep::sort_bodies() {
   for (std::size_t w = 0; w < worlds_.size(); ++w) {
     const PartedWorld& world = worlds_[w];
@@ -97,15 +97,16 @@ std::vector<std::vector<int>>& PartedStep::bodies_of(const Part& like) {
   return fresh.bodies;
 }
 
-/// A spring keeps its periods a substep: shorter ones bear stiffer springs as well.
+/// A spring keeps its number of periods per substep: shorter substeps also bear stiffer springs.
 StepParameters PartedStep::parameters_of(const Part& part) const {
   StepParameters parameters = parameters_;
   const double stiffer = static_cast<double>(part.substeps) / parameters.substeps;
   for (Spring* spring : {&parameters.contacts, &parameters.joint_places, &parameters.joint_turns})
     spring->frequency_hz *= stiffer;
   parameters.substeps = parameters.all_substeps = part.substeps;
-  // Springs as stiff as those of all substeps would shake what rests if they pushed in one, and softer ones
-  // would let it sink: the forces that hold it are known, and its depths are right.
+  // A single substep does not push out penetration: springs as stiff as in all substeps would shake resting
+  // bodies, and softer ones would let them sink. The forces that hold them are known, and their depths are
+  // right.
   if (part.on_trial) {
     parameters.substeps = 1;
     parameters.pushes = false;
@@ -167,7 +168,8 @@ void PartedStep::judge(Pack& pack, std::size_t part) {
   }
 }
 
-/// Bodies that have gone too far, as they were before the step, into the part that gives them all substeps.
+/// Puts bodies that have moved too far back to before the step, and into the part that gives them all
+/// substeps.
 void PartedStep::put_back(Pack& pack, int world, std::span<const int> far, std::size_t part) {
   const auto w = static_cast<std::size_t>(world);
   const Part like = {.substeps = parts_[part].substeps, .iterations = parts_[part].iterations};
@@ -185,7 +187,7 @@ void PartedStep::put_back(Pack& pack, int world, std::span<const int> far, std::
   }
 }
 
-/// Batches with bodies of several parts get their rows anew for the next.
+/// Called before the next part, for which batches with bodies of several parts get new rows.
 void PartedStep::note(const Pack& pack, int world, int part) {
   const auto w = static_cast<std::size_t>(world);
   const model::Model& model = *worlds_[w].model;

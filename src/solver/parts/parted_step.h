@@ -15,44 +15,43 @@ namespace pbmpi::solver {
 /// A world of the pack as it enters a step.
 struct PartedWorld {
   const model::Model* model = nullptr;
-  std::span<const int> bodies;               ///< that are to move
+  std::span<const int> bodies;               ///< the bodies that are to move
   std::span<const model::Contact> contacts;  ///< between these bodies, in canonical order
   std::span<model::ContactForce> forces;     ///< [contacts] or none: see Pack::step()
-  /// Has sorted the bodies; null without the effect.
+  /// The field that has sorted the bodies; null without the effect.
   const effects::FieldOfInterest* field = nullptr;
-  /// Have sorted the bodies; null where all islands get the same.
+  /// The shares that have sorted the bodies; null where all islands get the same.
   IslandShares* shares = nullptr;
-  /// With `shares`: the world before the step, of its quiet bodies at least, joints' forces included; and
-  /// room for their poses and velocities after it.
+  /// With `shares`: the world before the step, at least its quiet bodies and the joints' forces; and room for
+  /// these bodies' poses and velocities after the step.
   const model::State* before = nullptr;
   model::State* after = nullptr;
 };
 
-/// Where islands get different shares of a step, it is taken part by part, each time with the bodies of one
-/// part active: first quiet islands, which are on trial, then the rest with what has failed, fewest substeps
-/// and iterations first. An island has the bits that a pack without the other islands would give
-/// it.
+/// Where islands get different shares of a step, the step is taken part by part, each time with the bodies of
+/// one part active: first quiet islands, which are on trial, then the rest together with failed trials,
+/// fewest substeps and iterations first. An island gets the same bits as in a pack without the other islands.
 ///
 /// A step is begin(), start(), perhaps iterate() and look(), finish().
 class PartedStep {
  public:
-  /// Begins a step for which a run has these parameters. The spans must live until the step is taken.
+  /// Begins a step with the run's parameters. The spans must live until the step is taken.
   void begin(std::span<const PartedWorld> worlds, const StepParameters& parameters);
-  /// Is there more than one part? The bodies of the last are active after finish().
+  /// Does the step have more than one part? After finish() the bodies of the last part are active.
   bool is_cut() const { return cut_; }
 
-  /// Takes all parts but the last, and the last up to the iterations of its last substep. With `look_after`:
-  /// sees the others as they would be after so many iterations.
+  /// Takes all parts except the last, and the last part up to the iterations of its last substep. With
+  /// `look_after`: records the other parts as they would be after so many iterations.
   void start(Pack& pack, std::optional<int> look_after, core::PhaseTimes& times);
-  /// As in Pack, of the last part.
+  /// Pack::iterate() for the last part.
   void iterate(Pack& pack, int iterations, core::PhaseTimes& times) const;
-  /// After start() with `look_after`: the states [num_worlds], as Pack::look().
+  /// After start() with `look_after`: the states [num_worlds], as in Pack::look().
   void look(Pack& pack, std::span<model::State> states) const;
   void finish(Pack& pack, core::PhaseTimes& times) const;
 
-  /// As in Pack, but for the whole step; valid until the next begin().
+  /// As in Pack, for the whole step; valid until the next begin().
   int joint_rows(const Pack& pack, int world, int joint) const;
-  /// Trials that failed count, too.
+  /// Failed trials count too.
   stepping::Residuals residuals(const Pack& pack, int world) const;
   effects::Reaction reaction(const Pack& pack, int world, int joint) const;
   /// Sweeps that the rows of a body got in the step, relaxing ones included.
@@ -61,7 +60,7 @@ class PartedStep {
  private:
   struct Part {
     bool on_trial = false;  ///< one substep
-    int substeps = 1;       ///< otherwise; with stiffer springs where they are more than most have
+    int substeps = 1;       ///< unless on trial; more substeps than the run's mean stiffer springs
     int iterations = 1;
     std::vector<std::vector<int>> bodies = {};  ///< [num_worlds]
 
@@ -69,18 +68,18 @@ class PartedStep {
     bool gets_as(const Part& other) const { return !(*this < other) && !(other < *this); }
     bool is_empty() const;
   };
-  /// What is left of a world's parts when the pack goes on to the next.
+  /// What is kept of a world's parts when the pack goes on to the next part.
   struct Seen {
-    std::vector<int> part_of_body;             ///< [num_bodies] or -1: does not move
-    std::vector<int> joint_rows;               ///< [joints] of all parts but the last, else -1
-    std::vector<effects::Reaction> reactions;  ///< [joints] likewise, of those that can break
+    std::vector<int> part_of_body;             ///< [num_bodies]; -1: the body does not move
+    std::vector<int> joint_rows;               ///< [joints] for all parts except the last, else -1
+    std::vector<effects::Reaction> reactions;  ///< [joints] likewise, for joints that can break
     stepping::Residuals residuals;
     std::vector<model::ContactForce> forces;  ///< with which the contacts start
   };
 
   bool has_parts() const;
   void sort_bodies();
-  /// The bodies of those that get as much as this one.
+  /// The bodies [num_worlds] of the part that gets the same share as `like`.
   std::vector<std::vector<int>>& bodies_of(const Part& like);
   StepParameters parameters_of(const Part& part) const;
   void activate(Pack& pack, const Part& part) const;
@@ -94,7 +93,7 @@ class PartedStep {
   std::vector<std::span<const model::Contact>> contacts_;  ///< [num_worlds]
   std::vector<std::span<model::ContactForce>> forces_;     ///< [num_worlds]
   std::vector<Part> parts_;                                ///< of a step that is cut
-  std::vector<Seen> seen_;                                 ///< [num_worlds] likewise
+  std::vector<Seen> seen_;                                 ///< [num_worlds] of a step that is cut
   std::vector<model::State> looks_, scratch_;              ///< [num_worlds]
   std::vector<int> far_;                                   ///< scratch
   bool cut_ = false;

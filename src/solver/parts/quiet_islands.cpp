@@ -8,7 +8,7 @@
 namespace pbmpi::solver {
 namespace {
 
-/// Of the nearer of the two quaternions that stand for b's orientation.
+/// Distance from a to the nearer of the two quaternions that represent b's orientation.
 double distance(const model::Quat& a, const model::Quat& b) {
   const auto square = [](double w, double x, double y, double z) { return w * w + x * x + y * y + z * z; };
   return std::sqrt(std::min(square(a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z),
@@ -30,7 +30,7 @@ double QuietIslands::way_m(int body, const model::State& state) const {
   return dt_s_ * (state.velocity[b].norm() + radius_m_[b] * state.angular_velocity[b].norm());
 }
 
-/// Quaternions that differ by a small turn are half its angle apart.
+/// Quaternions that differ by a small rotation are half its angle apart.
 double QuietIslands::way_between_m(int body, const model::State& before, const model::State& after) const {
   const auto b = static_cast<std::size_t>(body);
   return (after.position[b] - before.position[b]).norm() +
@@ -42,7 +42,7 @@ void QuietIslands::foresee_none() {
   quiet_.clear();
 }
 
-/// A way that is no number is far.
+/// NaN counts as far.
 void QuietIslands::foresee(std::span<const int> bodies, StepIslands& islands, const model::State& before) {
   foresee_none();
   far_.clear(bodies);

@@ -12,13 +12,13 @@
 namespace pbmpi::solver {
 
 /// An island is quiet in a step in which no point of it moves farther than the tolerance: the carried forces
-/// hold it, and one substep finds what little has changed. A body's way is that of the farthest point of its
-/// geoms, by the way of its centre and by its turn.
+/// hold it, and one substep finds the small changes. A body's displacement is that of its geoms' farthest
+/// point, from the displacement of its centre and its rotation.
 ///
-/// That is foreseen from the velocities with which the step begins, and seen after it: a step of one substep
-/// is on trial. If a body has moved farther, or leaves with a velocity that would, its island is put back and
-/// gets all substeps: what begins to fall, or is pushed by what was not there before, is in motion from that
-/// step on. So what an island gets depends on nothing but its own state.
+/// Quiet islands are predicted from the velocities at the start of the step, and checked after it: a step of
+/// one substep is on trial. If a body has moved farther, or its final velocity would move it farther, its
+/// island is put back and gets all substeps: an island that begins to fall, or is pushed by a newcomer, is in
+/// motion from that step on. An island's substeps thus depend on nothing but its own state.
 class QuietIslands {
  public:
   /// `model` is borrowed; spares_substeps(settings).
@@ -26,22 +26,23 @@ class QuietIslands {
 
   /// By the velocities in `state`, may a body be in a quiet island?
   bool is_slow(int body, const model::State& state) const { return way_m(body, state) <= tolerance_m_; }
-  /// Foresees which of these bodies, which are whole islands, are in quiet ones.
+  /// Predicts which of these bodies, which make up whole islands, are in quiet islands.
   void foresee(std::span<const int> bodies, StepIslands& islands, const model::State& before);
-  /// None is, without looking.
+  /// Makes no body quiet, without checking any.
   void foresee_none();
   /// Bodies of the last foresee() that are in quiet islands, in the order in which they were given.
   std::span<const int> bodies() const { return quiet_; }
   bool contains(int body) const { return is_quiet_[static_cast<std::size_t>(body)] != 0; }
 
-  /// Appends to `far` those of `bodies`, whole quiet islands, of which any body has gone too far after all.
+  /// Appends to `far` those of `bodies`, which make up whole quiet islands, in whose island any body has
+  /// moved too far after all.
   void judge(std::span<const int> bodies, StepIslands& islands, const model::State& before,
              const model::State& after, std::vector<int>& far);
 
  private:
-  /// How far a point of the body would come in a step by its velocities [m].
+  /// The farthest that a point of the body would move in a step at its velocities [m].
   double way_m(int body, const model::State& state) const;
-  /// How far one has come [m].
+  /// The farthest that a point of the body has moved between two states [m].
   double way_between_m(int body, const model::State& before, const model::State& after) const;
 
   double dt_s_, tolerance_m_;

@@ -1,4 +1,4 @@
-/// The islands of a world in a step: bodies that whole joints and the step's contacts connect.
+/// The islands of a world in a step: bodies connected by unbroken joints and the step's contacts.
 #pragma once
 
 #include <cstdint>
@@ -16,28 +16,28 @@ class StepIslands {
   /// `model` is borrowed.
   explicit StepIslands(const model::Model& model);
 
-  /// By joints that are whole. `broken_in`: as State has it.
+  /// Connects bodies by unbroken joints. `broken_in`: State::broken_in.
   void connect_joints(std::span<const std::int32_t> broken_in);
-  /// The lowest of the bodies that whole joints hold together with this one, as of the last connect_joints().
+  /// The lowest of the bodies that unbroken joints connect to this one, as of the last connect_joints().
   int unit_of(int body) { return jointed_.find(body); }
-  /// By these and `contacts`, which are in canonical order.
+  /// Connects bodies by unbroken joints and by `contacts`, which are in canonical order.
   void connect(std::span<const model::Contact> contacts, std::span<const std::int32_t> broken_in);
-  /// The lowest body of the island of this one, as of the last connect().
+  /// The lowest body of this body's island, as of the last connect().
   int find(int body) { return islands_.find(body); }
 
  private:
   const model::Model* model_;
-  std::vector<std::int32_t> broken_in_;  ///< that jointed_ is of
-  model::DisjointSets jointed_;          ///< bodies that whole joints connect
+  std::vector<std::int32_t> broken_in_;  ///< for which jointed_ holds
+  model::DisjointSets jointed_;          ///< bodies that unbroken joints connect
   model::DisjointSets islands_;
 };
 
-/// Bodies of some islands: an island is in it as a whole.
+/// A set of marked islands.
 class IslandMarks {
  public:
   explicit IslandMarks(const model::Model& model) : marks_(model.bodies.size(), 0) {}
 
-  /// Takes the marks off the islands of these bodies, which are whole islands.
+  /// Removes the marks of the islands of these bodies, which are whole islands.
   void clear(std::span<const int> bodies) {
     for (const int body : bodies) marks_[static_cast<std::size_t>(body)] = 0;
   }
@@ -47,7 +47,7 @@ class IslandMarks {
   }
 
  private:
-  std::vector<char> marks_;  ///< [num_bodies], of an island at its lowest body
+  std::vector<char> marks_;  ///< [num_bodies] an island's mark is at its lowest body
 };
 
 }  // namespace pbmpi::solver

@@ -9,11 +9,11 @@
 namespace pbmpi::solver {
 namespace {
 
-/// By how much of its bodies' size the top of an island may sink.
+/// Share of its bodies' size by which the top of an island may sink.
 constexpr double most_sink = 0.01;
-/// How many times as many substeps an island gets that sinks too far.
+/// Factor by which the substeps of an island grow while it sinks too far.
 constexpr double more_substeps = 1.25;
-/// The level of what no contacts lead to from the environment.
+/// The level of a unit to which no contacts lead from the environment.
 constexpr int unreached = std::numeric_limits<int>::max() / 2;
 
 }  // namespace
@@ -24,8 +24,8 @@ TallIslands::TallIslands(const model::Model& model, const stepping::StepperSetti
       size_m_(geometry::sizes_of(model)),
       most_levels_(adds_substeps(settings) ? model.num_bodies() : 0),
       least_tall_(1) {
-  // An island has as many bodies as levels, at least, so that their mean size is not below that of the
-  // smallest.
+  // An island has at least as many bodies as levels, so that their mean size is not below that of the model's
+  // smallest bodies.
   std::vector<double> sizes = size_m_;
   std::ranges::sort(sizes);
   double sum_m = 0;
@@ -49,8 +49,8 @@ int TallIslands::substeps_for(int levels, double size_m) const {
   return std::min(static_cast<int>(substeps), settings_.most_substeps);
 }
 
-/// From each unit to those that it touches, to and fro over the contacts until nothing changes: they are
-/// mostly sorted from below.
+/// Passes levels from each unit to those that it touches, forth and back over the contacts until nothing
+/// changes: they are mostly sorted from below.
 int TallIslands::count_levels(std::span<const model::Contact> contacts, StepIslands& islands) {
   level_.assign(model_->bodies.size(), unreached);
   touching_.clear();

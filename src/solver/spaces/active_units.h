@@ -9,15 +9,16 @@
 
 namespace pbmpi::solver {
 
-/// None at the start.
+/// No unit is active at the start.
 class ActiveUnits {
  public:
   /// `map` is borrowed.
   explicit ActiveUnits(const model::SpaceMap& map) : map_(&map) {}
 
   void clear();
-  /// Takes those of `units` (ascending) of which a body is awake; all without sleepers. False if that changes
-  /// nothing. `may_sleep_in_part`: not all bodies of a unit sleep together, since its joints break.
+  /// Takes those of `units` (ascending) that have an awake body, or all without sleepers. False if that
+  /// changes nothing. `may_sleep_in_part`: some bodies of a unit may sleep without the others, because its
+  /// joints can break.
   bool set(std::span<const int> units, const effects::SpaceSleepers* sleepers, bool may_sleep_in_part);
   bool contains(int unit) const;
   /// The awake bodies of these units, unit by unit.

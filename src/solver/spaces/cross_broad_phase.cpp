@@ -8,14 +8,14 @@ namespace {
 
 using geometry::Box;
 
-/// Adds the sides of boxes, and all of them together.
+/// Sums up the sides of boxes, and the box around them all.
 class Extents {
  public:
   void add(const Box& box) {
     all_.include(box);
     for (std::size_t axis = 0; axis < 3; ++axis) sum_[axis] += box.max[axis] - box.min[axis];
   }
-  /// The axis along which a box covers least of the whole, and so meets fewest of the others.
+  /// The axis along which a box covers the least share of the whole, and hence meets the fewest others.
   std::size_t best_axis() const {
     std::size_t best = 0;
     for (std::size_t axis = 1; axis < 3; ++axis) {

@@ -11,16 +11,17 @@
 
 namespace pbmpi::solver {
 
-/// Spaces whose boxes stay apart cost the test of their boxes and nothing else; of those that overlap, the
-/// geoms in another's box are sorted.
+/// Spaces whose boxes do not overlap cost only the test of their boxes; for those that overlap, the geoms in
+/// another space's box are sorted.
 class CrossBroadPhase {
  public:
   /// `model` and `bodies` are borrowed.
   CrossBroadPhase(const model::Model& model, const SpaceBodies& bodies);
 
-  /// Pairs (first < second, by geom index) of bodies whose spaces have different owners and whose boxes
-  /// overlap, of those that may touch (TouchRule), sorted. `owner`, `boxes`: [num_spaces]; `poses`:
-  /// [num_bodies], of the spaces that overlap another. A pose that is not finite has no pair.
+  /// Finds the pairs (first < second, by geom index) of geoms that may touch (TouchRule), whose boxes
+  /// overlap, and whose bodies' spaces have different owners, sorted. `owner`, `boxes`: [num_spaces];
+  /// `poses`: [num_bodies], current in the spaces that overlap another. A body whose pose is not finite is in
+  /// no pair.
   void find_pairs(std::span<const int> owner, std::span<const geometry::Box> boxes,
                   std::span<const model::BodyPose> poses, std::vector<model::GeomPair>& pairs);
 
@@ -36,9 +37,10 @@ class CrossBroadPhase {
   bool find_neighbours(std::span<const int> owner, std::span<const geometry::Box> boxes);
   void enter(int space, int owner, std::span<const geometry::Box> boxes,
              std::span<const model::BodyPose> poses);
-  /// Sorts the entries by owner and, of one owner, by where the axis meets them.
+  /// Sorts the entries by owner and, within an owner, by where they begin along the axis.
   void sort_along(std::size_t axis);
-  /// Pairs each of `a` whose beginning lies in one of `b`, or at it if `ties`, with that one.
+  /// Pairs each entry of `a` that begins within an entry of `b`, or where it begins if `ties`, with that
+  /// entry.
   void sweep(std::span<const Entry> a, std::span<const Entry> b, std::size_t axis, bool ties,
              std::vector<model::GeomPair>& pairs) const;
 
@@ -47,8 +49,8 @@ class CrossBroadPhase {
   const SpaceBodies* bodies_;
   std::vector<std::vector<int>> neighbours_;  ///< [num_spaces]
   std::vector<Entry> entries_;
-  std::vector<std::vector<std::pair<double, int>>> order_;  ///< [owners] where the axis meets it, index
-  std::vector<std::vector<Entry>> lists_;                   ///< [owners] in this order
+  std::vector<std::vector<std::pair<double, int>>> order_;  ///< [owners] begin along the axis, index
+  std::vector<std::vector<Entry>> lists_;                   ///< [owners] entries in the order of order_
 };
 
 }  // namespace pbmpi::solver

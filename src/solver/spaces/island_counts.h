@@ -14,9 +14,9 @@
 namespace pbmpi::solver {
 
 /// Counts islands of `units` (ascending) and all contacts that touch them. A unit whose joints have broken
-/// falls into several islands. `articulations`: of each unit. `joint_rows`: those of a joint in the last
-/// step, or nothing if it has broken; `sweeps`: of a body's rows in it. `sleepers` may be null; the islands
-/// that sleep count as such.
+/// falls into several islands. `articulations`: one for each unit. `joint_rows`: the rows of a joint in the
+/// last step, or nothing if it has broken; `sweeps`: the sweeps of a body's rows in it. `sleepers` may be
+/// null; sleeping islands are counted too.
 stepping::Observables count_islands(const model::Model& model, const model::SpaceMap& map,
                                     std::span<const Articulation> articulations, std::span<const int> units,
                                     std::span<const model::Contact> contacts,

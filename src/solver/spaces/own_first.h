@@ -1,4 +1,4 @@
-/// How the articulations of a world that is cut into spaces lie in one rank's pack.
+/// How the articulations of a world cut into spaces lie in one rank's pack.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Long because it is the whole of one interface (stepping::SpaceStepper); what it is made of lies beside it.
+// Long because it is the whole of one interface (stepping::SpaceStepper); its parts are in files beside it.
 #include "solver/spaces/sor_space_stepper.h"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   std::vector<char> own_mask() const;
   bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
   void activate(std::span<const int> units);
-  /// Finds out which islands get less of the step than others.
+  /// Finds which islands get different shares of the step.
   void part(std::span<const Contact> contacts, const StepParameters& parameters);
   void recall(std::span<const Contact> contacts);
   bool is_awake(int body) const { return rules_.sleepers() == nullptr || !rules_.sleepers()->asleep(body); }
@@ -94,22 +94,22 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   CrossBroadPhase cross_;
   std::unique_ptr<Pack> pack_;
   PackedState packed_;
-  effects::StepRules rules_;       ///< of a cut world: parts of them, between which the ranks agree
-  long shown_revision_ = -1;       ///< of the sleepers that the pack knows
+  effects::StepRules rules_;       ///< those of a cut world: the ranks agree between their parts
+  long shown_revision_ = -1;       ///< revision of the sleepers that the pack knows
   std::vector<char> is_own_;       ///< [num_spaces]
   std::vector<int> own_bodies_;    ///< ascending
   std::vector<int> other_bodies_;  ///< ascending
-  ActiveUnits active_;             ///< of the last solve()
+  ActiveUnits active_;             ///< units of the last solve()
   std::vector<model::GeomPair> pairs_;
   std::optional<SpaceFastBodies> fast_bodies_;  ///< none without the pass
-  PartedStep parted_;                           ///< of the last solve()
-  ContactRecall recall_;                        ///< likewise
-  std::optional<IslandShares> shares_;          ///< of a run in which they differ
-  model::State after_;                          ///< likewise: see PartedWorld
+  PartedStep parted_;                           ///< the step of the last solve()
+  ContactRecall recall_;                        ///< forces of the last solve()
+  std::optional<IslandShares> shares_;          ///< none where all islands get the same
+  model::State after_;                          ///< with shares: see PartedWorld
   int fast_own_bodies_ = 0;                     ///< in the last step
   int bodies_inside_ = 0;                       ///< of the last solve()
-  std::int64_t last_step_ = 0;                  ///< solved
-  std::optional<std::int64_t> launched_step_;   ///< the last one of launch_others()
+  std::int64_t last_step_ = 0;                  ///< the last step solved
+  std::optional<std::int64_t> launched_step_;   ///< step of the last launch_others()
 };
 
 SorSpaceStepper::SorSpaceStepper(const stepping::StepperSettings& settings,
@@ -175,7 +175,7 @@ std::vector<int> SorSpaceStepper::fast_bodies() {
   return fast_bodies_ ? fast_bodies_->find_own(state()) : std::vector<int>();
 }
 
-/// Bodies that sleep have other velocities than the pack knows.
+/// Sleeping bodies have other velocities than the pack knows.
 void SorSpaceStepper::show_sleepers() {
   const effects::SpaceSleepers* sleepers = rules_.sleepers();
   if (sleepers == nullptr || shown_revision_ == sleepers->revision()) return;
@@ -248,7 +248,7 @@ void SorSpaceStepper::fire_events(std::int64_t step) {
   change_velocities(true);
 }
 
-/// Once a step: a second launch would undo what the rules make of the first's velocity.
+/// Acts once a step: a second launch would undo the rules' changes of the first launch's velocity.
 void SorSpaceStepper::launch_others(std::int64_t step, std::span<geometry::Box> boxes) {
   if (launched_step_ == step) return;
   launched_step_ = step;
@@ -323,8 +323,8 @@ void SorSpaceStepper::part(std::span<const Contact> contacts, const StepParamete
   parted_.begin(std::span(&world, 1), parameters);
 }
 
-/// What is known of units that are solved elsewhere (which have the contacts of which a body is the first),
-/// or sleep, stays as it is.
+/// Forces of units that are solved elsewhere (where contacts belong whose first body is theirs), or that
+/// sleep, stay as they are.
 void SorSpaceStepper::recall(std::span<const Contact> contacts) {
   const auto sleeps = [&](int body) { return body != model::no_body && !is_awake(body); };
   recall_.recall(
@@ -350,7 +350,7 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   last_step_ = step;
   if (remembers()) recall_.store(packed_.state().memory.contacts);
   break_overloaded_joints(step);
-  // A pack with sleepers puts back the others.
+  // A pack with sleepers puts back the other bodies.
   packed_.store(active_.bodies(), *pack_, rules_.sleepers() != nullptr);
   if (parted_.is_cut()) pack_->set_active(0, active_.bodies());
   after.lap(core::Phase::integrate);

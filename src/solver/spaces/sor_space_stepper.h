@@ -9,8 +9,8 @@
 
 namespace pbmpi::solver {
 
-/// Holds a pack of all the world's articulations, own ones side by side in front, and moves in a step only
-/// those that it is told to. Throws core::InputError as make_sor_stepper() does.
+/// Holds a pack of all the world's articulations, with its own side by side in front, and in a step moves
+/// only those that it is told to. Throws core::InputError like make_sor_stepper().
 std::unique_ptr<stepping::SpaceStepper> make_sor_space_stepper(
     const stepping::StepperSettings& settings, const model::MakeNarrowPhase& make_narrow_phase,
     std::shared_ptr<const model::Model> model);

@@ -29,7 +29,7 @@ SpaceBodies::SpaceBodies(const model::Model& model, const model::SpaceMap& map, 
 Box SpaceBodies::ball_box(int body, const model::BodyPose& pose) const {
   Box box;
   for (std::size_t k = 0; k < 3; ++k) {
-    // Wider than the box of a geom in it, whose slack is 1e-6 of its coordinates.
+    // Wider than the box of any geom in it, whose slack is 1e-6 of its coordinates.
     const double reach = radius_[body] + margin_m_ + 2e-6 * (std::abs(pose.position[k]) + 2 * radius_[body]);
     box.min[k] = pose.position[k] - reach;
     box.max[k] = pose.position[k] + reach;

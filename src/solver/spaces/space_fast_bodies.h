@@ -1,4 +1,4 @@
-/// Contacts ahead of fast bodies in a world that is cut into spaces, as one rank looks for them.
+/// Speculative contacts of fast bodies in a world cut into spaces, as one rank finds them.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,21 @@
 
 namespace pbmpi::solver {
 
-/// Own bodies among each other and against static geoms; and, on root, all bodies across owners.
+/// Finds those of own bodies among each other and with static geoms; and, on root, those of all bodies across
+/// owners.
 class SpaceFastBodies {
  public:
   /// `model` and `map` are borrowed.
   SpaceFastBodies(const model::Model& model, const model::SpaceMap& map, double dt_s);
 
-  /// From now on these bodies [num_bodies] are this rank's own.
+  /// Makes these bodies [num_bodies] this rank's own from now on.
   void own(std::span<const char> is_own) { own_.emplace(*model_, is_own); }
-  /// Other joints are broken from now on (State::broken_in); after own().
+  /// Takes in which joints are broken from now on (State::broken_in); after own().
   void set_broken(std::span<const std::int32_t> broken_in) {
     own_->set_broken(broken_in);
     all_.set_broken(broken_in);
   }
-  /// Own bodies that are fast, ascending.
+  /// Finds the own bodies that are fast, ascending.
   std::vector<int> find_own(const model::State& state);
   /// Returns how many own bodies are fast.
   int add_own(const model::State& state, std::vector<model::Contact>& contacts);

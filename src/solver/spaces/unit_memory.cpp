@@ -57,7 +57,7 @@ void UnitMemory::put(std::span<const int> units, std::span<const double> rows, s
                 [&](const ContactForce& force) { return chosen[map.unit_of_body[force.body_a]] != 0; });
   const auto num_kept = std::ssize(memory.contacts);
   for (std::size_t i = 0; i < num_contacts; ++i) row = model::take_row(row, memory.contacts.emplace_back());
-  // All points of a pair have the same body a, and so came together.
+  // All points of a pair have the same body a, and hence arrived together.
   std::inplace_merge(memory.contacts.begin(), memory.contacts.begin() + num_kept, memory.contacts.end(),
                      [](const ContactForce& a, const ContactForce& b) { return a.geoms < b.geoms; });
 

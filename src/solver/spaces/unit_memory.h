@@ -1,4 +1,4 @@
-/// What a step hands on, unit by unit: as it travels between the ranks that solve the units.
+/// What a step hands on to the next, unit by unit, as it is sent between the ranks that solve the units.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace pbmpi::solver {
 
-/// The units of a world: `articulations` [num_units] has their joints. Both are borrowed.
+/// The units of a world; `articulations` [num_units] has their joints. Both are borrowed.
 struct UnitMemory {
   const model::SpaceMap& map;
   std::span<const Articulation> articulations;
@@ -19,7 +19,7 @@ struct UnitMemory {
   /// contacts, a row for each, and a row for each joint if the memory has joints.
   std::vector<double> rows(std::span<const int> units, const model::StepMemory& memory) const;
 
-  /// Inverse of rows(): replaces what `memory` holds of these units. `num_joints` of the model.
+  /// Inverse of rows(): replaces what `memory` holds of these units. `num_joints`: the model's.
   void put(std::span<const int> units, std::span<const double> rows, std::size_t num_joints,
            model::StepMemory& memory) const;
 };

@@ -6,9 +6,9 @@
 namespace pbmpi::solver {
 namespace {
 
-/// Bytes of velocities and rows that a pack may have for each body, about: what a sweep reads again and again
-/// should stay in a core's second cache (measured on 100CrSk: 500 to 2,000 bodies in float are alike, twice
-/// as many cost a tenth; in double half as many).
+/// Approximate bytes of velocities and rows in a pack for each body: what a sweep reads again and again
+/// should stay in a core's L2 cache (measured on 100CrSk: 500 to 2,000 bodies in float are equally fast,
+/// twice as many cost a tenth more; in double half as many).
 constexpr int bytes_a_number(stepping::Precision precision) {
   return precision == stepping::Precision::single ? 4 : 8;
 }

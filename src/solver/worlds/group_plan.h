@@ -1,4 +1,4 @@
-/// How many worlds lie in each pack.
+/// How many worlds each pack holds.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace pbmpi::solver {
 
-/// Deals worlds out to packs: whole batches of lanes each, but for the last one's last, and of each pack as
-/// many as of any other, or one more. As many packs as asked for, if there are batches for them: at least
-/// one.
+/// Deals worlds out to packs in whole batches of lanes, except for the very last batch; the numbers of
+/// batches of any two packs differ by at most one. There are as many packs as asked for, if there are enough
+/// batches, and at least one.
 class GroupPlan {
  public:
   GroupPlan(int num_worlds, int num_packs, int num_lanes);
@@ -18,7 +18,7 @@ class GroupPlan {
   int num_packs() const { return num_packs_; }
   /// The sizes of all packs, [num_packs()].
   std::vector<int> sizes() const;
-  /// Would a pack of so many worlds, full to the last lane, be one of them?
+  /// Does the plan have a pack of `size` worlds that is full to the last lane?
   bool contains(int size) const;
 
  private:
@@ -26,7 +26,7 @@ class GroupPlan {
 };
 
 /// As many packs as a core's cache asks for, times what it takes to have one for each of `num_threads`.
-/// `share`: of all bodies of the stepper are `num_bodies`.
+/// `share`: the part that `num_bodies` are of all bodies of the stepper.
 int packs_for(std::int64_t num_bodies, double share, stepping::Precision precision, int num_threads);
 
 }  // namespace pbmpi::solver

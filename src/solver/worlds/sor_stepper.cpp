@@ -53,7 +53,7 @@ class SorStepper final : public stepping::AnytimeStepper {
   }
 
  private:
-  /// The worlds are as before the step that has begun.
+  /// Puts the worlds back to before the step that has begun.
   void drop_begun() {
     if (std::exchange(begun_, false)) groups_.dissolve();
   }
@@ -66,7 +66,7 @@ class SorStepper final : public stepping::AnytimeStepper {
   std::map<int, std::unique_ptr<SorWorld>> worlds_;
   WorldGroups groups_;
   bool begun_ = false;                       ///< is every group in mid-step?
-  std::optional<core::ThreadPool> threads_;  ///< from the first time on that there is work for several
+  std::optional<core::ThreadPool> threads_;  ///< none until there is work for several threads
 };
 
 void SorStepper::set_state(int world, const model::State& state, std::int64_t step) {
@@ -92,14 +92,14 @@ void SorStepper::set_motor_velocity(int world, int joint, int axis, double veloc
   if (aimed.aim(joint, axis, velocity, pack, place.index)) drop_begun();
 }
 
-/// Each group takes all steps before the next, so that its data stays in the cache.
+/// Each group takes all steps before the next group starts, so that its data stays in the cache.
 void SorStepper::advance(int num_steps, core::PhaseTimes& times) {
   step_groups(times, [&](WorldGroup& group, core::PhaseTimes& spent) { group.advance(num_steps, spent); });
   for (const auto& group : groups_.all()) group->share_cost();
   begun_ = begun_ && num_steps == 0;
 }
 
-/// All groups stop before any goes on, so that the estimates of all worlds are there at once.
+/// All groups stop before any continues, so that the estimates of all worlds are available at once.
 void SorStepper::begin_step(int iterations, core::PhaseTimes& times) {
   core::require_invariant(!begun_, "begin_step: the step before is finished");
   core::require_invariant(iterations >= 0 && iterations <= settings_.iterations,
@@ -118,9 +118,9 @@ void SorStepper::step_groups(core::PhaseTimes& times, const Step& step) {
   }
 }
 
-/// What the threads have spent at the same time counts once: seconds of phases and worlds are scaled so that
-/// their sums are the time that passes on the clock, as with one thread. Loads of ranks with different
-/// numbers of threads compare that way.
+/// Time that threads spend in parallel counts once: the seconds of phases and worlds are scaled so that their
+/// sums are wall-clock time, as with one thread. This makes the loads of ranks with different numbers of
+/// threads comparable.
 void SorStepper::step_by_threads(core::PhaseTimes& times, const Step& step) {
   if (!threads_) threads_.emplace(settings_.threads);
   std::vector<core::PhaseTimes> spent(static_cast<std::size_t>(threads_->num_threads()));

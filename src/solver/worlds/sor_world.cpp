@@ -10,7 +10,7 @@
 
 namespace pbmpi::solver {
 
-/// The world where it lies in a pack, in the step at hand.
+/// The world in its place in a pack, during the current step.
 class SorWorld::InPack final : public effects::RuledWorld {
  public:
   InPack(SorWorld& world, Pack& pack, int index, std::vector<model::Contact>* contacts,
@@ -147,7 +147,7 @@ void SorWorld::before_solve(Pack& pack, int index, bool may_be_slow, std::vector
   if (sorted_) sort_islands(pack, index, contacts);
 }
 
-/// What a trial of quiet islands may put back includes the forces of their joints.
+/// A trial of quiet islands may have to put back the forces of their joints too.
 void SorWorld::sort_islands(const Pack& pack, int index, std::span<const model::Contact> contacts) {
   const std::size_t num_forces = state_.memory.joints.size();
   if (shares_->wants_state()) {
@@ -224,7 +224,7 @@ void SorWorld::count_rows(const Pack& pack, int index, const PartedStep& step,
       rules_.all_bodies(), [&](int body) { return step.sweeps(index, body); }, observables_);
 }
 
-/// While all of the pack sleeps there are no contacts, and the forces are those of an older step.
+/// While the whole pack sleeps there are no contacts, and the forces are those of an older step.
 void SorWorld::show_contacts(const Pack& pack, int index, std::span<const model::Contact> contacts) {
   shown_.contacts.assign(contacts.begin(), contacts.end());
   shown_.forces.assign(recall_.forces().begin(), recall_.forces().begin() + std::ssize(contacts));

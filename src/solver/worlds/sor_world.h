@@ -35,27 +35,27 @@ class SorWorld {
   const PackLaws& laws() const { return laws_; }
   const model::State& state() const { return state_; }
   const stepping::Observables& observables() const { return observables_; }
-  /// Null unless the run asks for them.
+  /// Null unless the run asks for contacts.
   const stepping::StepContacts* contacts() const { return shows_contacts_ ? &shown_ : nullptr; }
 
-  /// Forgets where the world was; a pack that holds it must be loaded anew, or entered anew if it was at
-  /// another step.
+  /// Replaces the state; a pack that holds the world must be loaded anew, or entered anew if the step has
+  /// changed.
   void set_state(const model::State& state, std::int64_t step);
-  /// As WorldStepper::set_motor_velocity(): false if the motor aims there already. `pack`: null if none holds
-  /// the world.
+  /// WorldStepper::set_motor_velocity(); false if the motor already aims at `velocity`. `pack`: null if none
+  /// holds the world.
   bool aim(int joint, int axis, double velocity, Pack* pack, int index);
 
-  /// Would a joint that is broken now hold again in this state? A pack has no way back.
+  /// Is a joint that is broken now unbroken in `state`? A pack cannot mend joints.
   bool mends(const model::State& state) const;
   /// Puts the state into the pack.
   void load(Pack& pack, int index) const;
   /// Puts the state, with the joint settings of this step and the targets of motors, into the pack.
   void enter(Pack& pack, int index) const;
 
-  // A step, as effects::StepRules has it.
+  // A step, in the order of effects::StepRules.
   void begin_step(Pack& pack, int index);
-  /// With the contacts of this step, to which those ahead of fast bodies are added, if it may have any; true
-  /// if bodies woke, whose own contacts are still to be found.
+  /// Adds speculative contacts to the contacts of this step, if it may have fast bodies. True if bodies woke
+  /// whose own contacts are still to be found.
   [[nodiscard]] bool after_collision(Pack& pack, int index, bool may_be_fast,
                                      std::vector<model::Contact>& contacts);
   /// may_be_slow: see Pack::find_slow().
@@ -63,27 +63,27 @@ class SorWorld {
   /// The world as it enters the solve.
   PartedWorld parted(std::span<const model::Contact> contacts);
   void after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts, const PartedStep& step);
-  /// Instead of all but begin_step(), if no world of the pack moves.
+  /// Replaces all calls after begin_step() if no world of the pack moves.
   void sleep_on();
 
-  /// Lets the steps to come move all that is awake.
+  /// Makes the awake bodies active for the coming steps.
   void activate(Pack& pack, int index) const { pack.set_active(index, rules_.awake()); }
   /// False if all bodies sleep: a step changes nothing.
   bool moves() const { return !rules_.all_asleep(); }
-  /// Copies the bodies that sleep into `state`.
+  /// Copies the sleeping bodies into `state`.
   void keep_sleepers(model::State& state) const;
-  /// For the pairs of shapes that the lanes do not collide.
+  /// Collides the pairs of shapes that the lanes do not handle.
   model::NarrowPhase& narrow_phase() const { return *narrow_phase_; }
   /// Reads the state back and measures it; rows and contacts are those of the last step.
   void observe(const Pack& pack, int index, const PartedStep& step, std::span<const model::Contact> contacts);
 
-  /// Measures the residuals of the last step, from which the state must have come.
+  /// Measures the residuals of the last step, which must have produced the current state.
   void observe_residuals(const Pack& pack, int index, const PartedStep& step) {
     observables_.residuals = step.residuals(pack, index);
   }
-  /// Bodies that the last step moved.
-  /// May some islands get more or less of a step than others?
+  /// May some islands get more or fewer substeps than others?
   bool moves_in_parts() const { return shares_.has_value(); }
+  /// Bodies that the last step moved.
   int num_awake() const { return static_cast<int>(rules_.awake().size()); }
 
   double cost_s = 0;  ///< of the last advance()
@@ -106,17 +106,17 @@ class SorWorld {
   stepping::MotorTargets targets_;
   effects::StepRules rules_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
-  bool remembers_;       ///< from step to step
+  bool remembers_;       ///< forces, from step to step
   bool shows_contacts_;  ///< StepperSettings::contacts
   ContactRecall recall_;
-  std::optional<IslandShares> shares_;  ///< of a run in which they differ
-  bool sorted_ = false;                 ///< are the islands, for the step at hand?
+  std::optional<IslandShares> shares_;  ///< none where all islands get the same
+  bool sorted_ = false;                 ///< are the islands sorted for the current step?
   model::State before_, after_;         ///< with shares: see PartedWorld
   stepping::StateObserver observer_;
   stepping::Observables observables_;
-  stepping::StepContacts shown_;  ///< of the last step, if it is shown
-  bool moved_ = true;             ///< since the last observe()
-  /// [num_joints] The bodies that each joins, beside each other for count_rows().
+  stepping::StepContacts shown_;  ///< contacts of the last step, if they are shown
+  bool moved_ = true;             ///< has the world moved since the last observe()?
+  /// [num_joints] The two bodies of each joint, contiguous for count_rows().
   std::vector<std::pair<int, int>> jointed_;
   IslandRows island_rows_;  ///< scratch of count_rows()
 };

@@ -54,10 +54,10 @@ void WorldGroup::begin_step(int iterations, core::PhaseTimes& times) {
 
 void WorldGroup::take_looks(core::PhaseTimes& times) {
   LapTimer timer(times);
-  if (looks_.empty()) {  // room for them, kept from step to step
+  if (looks_.empty()) {  // memory for them, kept from step to step
     for (const SorWorld* world : worlds_) {
       looks_.push_back(world->state());
-      looks_.back().memory.clear();  // nothing goes on from a look
+      looks_.back().memory.clear();  // no step starts from a look
     }
   }
   if (!sleeps_) parted_.look(*pack_, looks_);
@@ -93,7 +93,7 @@ void WorldGroup::part() {
     worlds_[i]->before_solve(*pack_, static_cast<int>(i), may_be_slow, contacts_[i]);
     parted_worlds_.push_back(worlds_[i]->parted(contacts_[i]));
   }
-  // The order of the rows follows the step, at which all worlds stand, or is always the same.
+  // The order of the rows follows from the step, which is the same for all worlds, or is always the same.
   parted_.begin(parted_worlds_, step_parameters(*settings_, worlds_.front()->step()));
 }
 

@@ -12,7 +12,7 @@ namespace pbmpi::solver {
 struct WorldGroups::Kind {
   const PackLaws* laws = nullptr;
   std::vector<SorWorld*> loose;     ///< in no group, ascending by id
-  std::vector<WorldGroup*> groups;  ///< each once
+  std::vector<WorldGroup*> groups;  ///< their groups, each once
   int num_worlds = 0;               ///< in groups or loose
   std::int64_t num_bodies = 0;      ///< theirs
 };
@@ -43,7 +43,7 @@ void WorldGroups::dissolve() {
   is_complete_ = false;
 }
 
-/// Worlds whose rows keep their order may stand at any steps.
+/// Worlds whose rows keep their order may be at different steps.
 void WorldGroups::part_steps() {
   if (!std::exchange(steps_changed_, false) || settings_->row_order == stepping::RowOrder::fixed) return;
   std::vector<const WorldGroup*> parted;
@@ -80,7 +80,7 @@ void WorldGroups::complete() {
   }
 }
 
-/// Groups that are as large as they would be if all were made anew stay.
+/// Keeps groups that are as large as they would be if all were made anew.
 void WorldGroups::deal(Kind& kind, std::int64_t bodies_of_all) {
   const double share = static_cast<double>(kind.num_bodies) / static_cast<double>(bodies_of_all);
   const int num_packs = packs_for(kind.num_bodies, share, settings_->precision, settings_->threads);

@@ -12,27 +12,27 @@
 
 namespace pbmpi::solver {
 
-/// Worlds share a group if they have equal laws and, where the order of rows is drawn from the step, stand at
-/// one step. Where worlds come, go or change step, only the groups that held them are made anew, and those
-/// that are not full.
+/// Worlds share a group if they have equal laws and, where the order of rows follows from the step, are at
+/// the same step. When worlds come, go or change step, only the groups that held them, and groups that are
+/// not full, are made anew.
 class WorldGroups {
  public:
   struct Place {
-    WorldGroup* group = nullptr;  ///< null: in none until complete()
+    WorldGroup* group = nullptr;  ///< null: in no group until complete()
     int index = 0;                ///< among its worlds
   };
 
   /// Borrows the settings.
   explicit WorldGroups(const stepping::StepperSettings& settings) : settings_(&settings) {}
 
-  /// Borrows the world, which has an id of its own.
+  /// Borrows the world, whose id must be unique.
   void add(SorWorld& world);
   void remove(const SorWorld& world);
   Place place(const SorWorld& world) const { return members_.at(world.id()).place; }
 
-  /// A world has come to another step.
+  /// Notes that a world has changed step.
   void note_step() { steps_changed_ = true; }
-  /// The group of a world is to be made anew from the states of its worlds; all groups are.
+  /// Marks a world's group, or all groups, to be made anew from the states of their worlds.
   void dissolve_group_of(const SorWorld& world);
   void dissolve();
 
@@ -55,7 +55,7 @@ class WorldGroups {
   const stepping::StepperSettings* settings_;
   std::map<int, Member> members_;  ///< by id
   std::vector<std::unique_ptr<WorldGroup>> groups_;
-  bool steps_changed_ = false;  ///< since complete()
+  bool steps_changed_ = false;  ///< has a world changed step since complete()?
   bool is_complete_ = true;
 };
 

@@ -15,22 +15,23 @@
 
 namespace pbmpi::stability {
 
-/// What a run of a case amounts to.
+/// The measured result of a run of a case.
 struct CaseMeasurement {
   std::array<double, num_metrics> metrics{};  ///< in the units of metric_table
   std::vector<double> expected_off;           ///< [expectations] distance from each; NaN: it was not reached
-  /// [s] at which a metric first passed its broken limit; infinite if none did.
+  /// [s] Time at which a metric first exceeded its broken limit; infinite if none did.
   double broken_at_s = std::numeric_limits<double>::infinity();
   double simulated_s = 0;  ///< less than the case's seconds if the run ended early
 };
 
-/// Sees all states of a run in their order. The case and the model outlive it.
+/// Sees all states of a run in order. The case and the model must outlive it.
 class CaseWatch {
  public:
-  /// Throws core::InputError if the case expects something of a body that the model lacks, or watches none.
+  /// Throws core::InputError if the case has an expectation of a body that the model lacks, or watches no
+  /// body.
   CaseWatch(const HardCase& hard_case, const model::Model& model, double dt_s);
 
-  /// The state after step `step` (1 = after the first), and what was observed of it. The states of a run come
+  /// Takes the state after step `step` (1 = after the first) and its observables. The states of a run come
   /// one by one, or every few steps.
   void see(const model::State& state, const stepping::Observables& seen, std::int64_t step);
 

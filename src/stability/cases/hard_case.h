@@ -1,4 +1,4 @@
-/// A case that is known to be hard: what is measured of it, and which numbers still count as right.
+/// A case that is known to be hard: what is measured in it, and which numbers still count as right.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace pbmpi::stability {
 
-/// A number that is measured of every run of a case, the worst over all its steps unless it says otherwise.
+/// A number that is measured in every run of a case, the worst over all its steps unless it says otherwise.
 enum class Metric {
   nonfinite,
   energy_gain,
@@ -30,12 +30,12 @@ enum class Metric {
 };
 
 struct MetricTraits {
-  std::string_view name;  ///< as in scene files and in the study's file
+  std::string_view name;  ///< its name in scene files and in the study's file
   std::string_view unit;
   std::string_view meaning;
 };
 
-/// In the order of Metric.
+/// Indexed by Metric.
 inline constexpr std::array<MetricTraits, 13> metric_table = {{
     {"nonfinite", "", "bodies with a NaN or an infinity"},
     {"energy_gain", "J", "energy gained since its lowest, beyond what motors, launches and springs gave"},
@@ -53,7 +53,7 @@ inline constexpr std::array<MetricTraits, 13> metric_table = {{
 }};
 inline constexpr std::size_t num_metrics = metric_table.size();
 
-/// A run is right up to `right`, broken beyond `broken`, and degraded between them.
+/// A run is right up to `right`, broken beyond `broken`, and degraded in between.
 struct Limits {
   double right = 0;
   double broken = 0;
@@ -69,16 +69,17 @@ enum class Quantity { x, y, z, vx, vy, vz, speed, way, turn };
 inline constexpr std::array<std::string_view, 9> quantity_names = {"x",  "y",     "z",   "vx",  "vy",
                                                                    "vz", "speed", "way", "turn"};
 
-/// [m], [m/s]; `way` from the start [m]; `turn` from the start [rad], the shortest rotation.
+/// A body's number [m], [m/s]; `way` is the distance from the start [m]; `turn` is the rotation from the
+/// start [rad], the shortest one.
 struct Expectation {
   std::string body;
   Quantity quantity = Quantity::x;
   double at_s = 0;
-  double value = 0;  ///< what the oracle says
+  double value = 0;  ///< the oracle's value
   Limits off_by;     ///< distance from it
 };
 
-/// Where all bodies have to stay, world frame [m].
+/// The region in which all bodies have to stay, world frame [m].
 struct Region {
   core::Vec3 low = core::Vec3::Constant(-std::numeric_limits<double>::infinity());
   core::Vec3 high = core::Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -87,12 +88,12 @@ struct Region {
 /// A scene file's [case].
 struct HardCase {
   std::string group;   ///< e.g. "rest"
-  int row = 0;         ///< of the list of hard cases in docs/stability.md
-  std::string source;  ///< where the case or its bound was read
+  int row = 0;         ///< row of the list of hard cases in docs/stability.md
+  std::string source;  ///< source of the case or its bound
   std::string oracle;  ///< what should happen, one line
   double seconds = 10;
-  double settle_s = 2;  ///< from which on `speed` counts
-  /// Beginnings of the names of watched bodies; none: all.
+  double settle_s = 2;  ///< time from which on `speed` counts
+  /// Name prefixes of watched bodies; none: all bodies.
   std::vector<std::string> watch;
   Region region;
   std::vector<Bound> bounds;

@@ -8,7 +8,7 @@ namespace {
 constexpr std::array<std::string_view, quantity_names.size()> quantity_units = {
     "m", "m", "m", "m/s", "m/s", "m/s", "m/s", "m", "rad"};
 
-/// How far a number is beyond what is right: 1 at the limit.
+/// How far a number exceeds its limit for right: 1 at the limit.
 double excess(double value, const Limits& limits) {
   if (std::isnan(value)) return INFINITY;
   if (limits.right > 0) return value / limits.right;

@@ -1,4 +1,4 @@
-/// Whether a run of a hard case came out right.
+/// Decides whether a run of a hard case came out right.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace pbmpi::stability {
 enum class Verdict { pass, degraded, broken, not_applicable };
 inline constexpr std::array<std::string_view, 4> verdict_names = {"pass", "degraded", "broken", "n/a"};
 
-/// The verdict, with the number that decided it: of those with the worst verdict the one that is farthest
-/// beyond its limit, as a share of it.
+/// The verdict, and the number that decided it: among the numbers with the worst verdict, the one that
+/// exceeds its limit by the largest share.
 struct Judgement {
   Verdict verdict = Verdict::pass;
   std::string decided_by;  ///< name of a metric, or "BODY.QUANTITY"
@@ -23,10 +23,10 @@ struct Judgement {
   std::string unit;
 };
 
-/// How right a number is: a NaN is broken.
+/// The verdict on one number; NaN is broken.
 Verdict verdict_of(double value, const Limits& limits);
 
-/// A run that lost a body to NaN is broken, whatever its bounds. The case has a bound or an expectation.
+/// A run in which a body became NaN is broken, whatever its bounds. The case needs a bound or an expectation.
 Judgement judge(const HardCase& hard_case, const CaseMeasurement& measured);
 
 }  // namespace pbmpi::stability

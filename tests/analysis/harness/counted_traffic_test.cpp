@@ -7,7 +7,7 @@
 namespace pbmpi::analysis {
 namespace {
 
-/// Sums over all ranks and frames of what FrameRecord::traffic says.
+/// Sums FrameRecord::traffic over all ranks and frames.
 class TrafficCount final : public stepping::FrameObserver {
  public:
   void frame_done(const stepping::FrameRecord& frame) override {
@@ -17,7 +17,7 @@ class TrafficCount final : public stepping::FrameObserver {
   core::Traffic sum;
 };
 
-// What is sent does not depend on the clock: exact.
+// The traffic does not depend on the clock, so it is exact.
 TEST(FrameTraffic, is_what_the_ranks_count) {
   const mpi::Communicator comm = mpi::Communicator::world();
   constexpr int bodies = 5, frames = 4;

@@ -7,7 +7,7 @@
 namespace pbmpi::analysis {
 namespace {
 
-// Times that follow the formulas give their costs back, but for the rounding of the fit: 1e-6 of each.
+// Times that follow the formulas give their costs back, up to the rounding of the fit: 1e-6 of each.
 TEST(FitCosts, finds_the_costs_of_which_times_are_made) {
   std::vector<TimedCase> cases;
   for (const std::int64_t worlds : {1, 10, 100}) {
@@ -41,7 +41,7 @@ TEST(FitCosts, finds_the_costs_of_which_times_are_made) {
 }
 
 TEST(FitCosts, has_no_negative_cost) {
-  // The more ranks, the less time: as if a rank gave time back.
+  // The time falls as ranks are added, as if a rank gave time back.
   const std::vector<TimedCase> cases = {{TimedPart::balance, 10, 100, 0, 0, 0, 1e-3},
                                         {TimedPart::balance, 1000, 100, 0, 0, 0, 0.9e-3}};
   const HarnessCosts costs = fit_costs(cases);

@@ -12,7 +12,7 @@ constexpr double rounding_s = 1e-15;
 
 TEST(FrameForecast, of_a_flat_gather_is_the_messages_that_root_takes_one_after_the_other) {
   const LinkCosts link{.latency_s = 2e-6, .overhead_s = 1e-6, .gap_s = 0.5e-6, .byte_s = 1e-9};
-  // 4 worlds of 1 body on 4 ranks: three messages of 64 bytes, all sent at 0 and there after o + L.
+  // 4 worlds of 1 body on 4 ranks: three messages of 64 bytes, all sent at 0 and received after o + L.
   const HarnessLoad load{.num_ranks = 4, .num_worlds = 4, .bodies_each = 1};
   const double message_s = 1e-6 + 64e-9;
   EXPECT_NEAR(gather_s(load, link, GatherShape::linear(4)), 1e-6 + 2e-6 + 3 * message_s, rounding_s);
@@ -21,8 +21,8 @@ TEST(FrameForecast, of_a_flat_gather_is_the_messages_that_root_takes_one_after_t
 TEST(FrameForecast, of_a_binomial_gather_follows_the_longest_way) {
   const LinkCosts link{.latency_s = 2e-6, .overhead_s = 1e-6, .gap_s = 0, .byte_s = 1e-9};
   const HarnessLoad load{.num_ranks = 4, .num_worlds = 4, .bodies_each = 1};
-  // 3 sends to 2, which has all of it after o + L + o + 64 G and hands on two shares for another o; by then
-  // root has the message of 1.
+  // 3 sends to 2, which has the whole message after o + L + o + 64 G and hands on two shares for another o;
+  // by then root has the message of 1.
   const double at_2 = 1e-6 + 2e-6 + 1e-6 + 64e-9;
   EXPECT_NEAR(gather_s(load, link, {.radix = 2, .piece_bytes = 1 << 20}), at_2 + 1e-6 + 2e-6 + 1e-6 + 128e-9,
               rounding_s);

@@ -1,4 +1,4 @@
-/// Steps a batch of worlds, begins some of them anew, and goes back to where it was.
+/// Steps a batch of worlds, restarts some of them, and returns to a saved state.
 #include <array>
 #include <cstdint>
 #include <iomanip>
@@ -23,13 +23,13 @@ void run() {
   std::cout << "pbmpi " << pbmpi::version() << ", worlds: " << batch.num_worlds()
             << ", bodies each: " << batch.num_bodies() << '\n';
 
-  // As many steps as pbmpi does of this scene: 3 frames of warm-up, and 5 that it measures.
+  // The number of steps that pbmpi does with this scene: 3 frames of warm-up, and 5 measured ones.
   batch.step(8 * batch.steps_per_frame());
   print_hash("hash", batch);
   const pbmpi::BatchState& state = batch.state();
   std::cout << batch.body_names().front() << " of world 0 is at x = " << state.position.front() << " m\n";
 
-  // World 1 begins anew, the others go on; then all go back.
+  // World 1 restarts, the others go on; then all return to the saved state.
   const auto saved = batch.save();
   const std::array<bool, 3> mask = {false, true, false};
   batch.reset(mask, 1);

@@ -11,7 +11,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// As in the paper, or, where it gives no number, as its words have it.
+/// A run with the paper's numbers, or, where it gives none, with numbers that match its words.
 SuiteRun suite_run(const PaperRow& paper) {
   SuiteRun run;
   run.islands.scene = run.cores.scene = run.work.scene = paper.scene;
@@ -37,7 +37,8 @@ SuiteRun suite_run(const PaperRow& paper) {
 
 Rate satisfied(double hz) { return {hz, hz >= 300 ? 1.0 : 0.0}; }
 
-/// A solver's step of `rows` rows: quick grows with the rows and the iterations, direct with their cube.
+/// A solver's step of `rows` rows: quick's cost grows with the rows and the iterations, direct's with the
+/// cube of the rows.
 IslandWork work_of(const std::string& scene, int iterations, double (*cost)(double rows)) {
   IslandWork work;
   work.scene = scene;
@@ -114,7 +115,7 @@ StabilityMap stability_as_in_the_manual() {
   return map;
 }
 
-/// A machine and programs on which everything came out as in the paper.
+/// A machine and programs that reproduce the paper's results.
 PaperData as_in_the_paper() {
   PaperData data;
   for (const PaperRow& row : paper_rows()) {
@@ -160,7 +161,7 @@ PaperStatement statement_on(const PaperData& data, const std::string& words) {
   return {};
 }
 
-/// What `change` does to a machine on which all is as in the paper refutes the statement with these words.
+/// Expects that `change` to data as in the paper refutes the statement with these words.
 void expect_refuted(const std::string& words, void (*change)(PaperData& data)) {
   PaperData data = as_in_the_paper();
   EXPECT_EQ(statement_on(data, words).verdict.finding, Finding::confirmed)
@@ -191,7 +192,7 @@ TEST(PaperStatements, a_machine_on_which_all_is_as_in_the_paper_refutes_only_its
     const PaperVerdict& verdict = statement.verdict;
     if (statement.basis == Basis::nothing || statement.basis == Basis::prediction) continue;
     if (verdict.statement.starts_with("changes of length")) continue;  // about observers
-    // CrashWa's and Battle's numbers of Table 1 cannot be of five frames, whatever is measured.
+    // CrashWa's and Battle's numbers of Table 1 cannot come from five frames, whatever is measured.
     const bool is_arithmetic = verdict.statement.starts_with("Table 1 is of the five");
     EXPECT_EQ(verdict.finding, is_arithmetic ? Finding::refuted : Finding::confirmed)
         << verdict.statement << ": " << verdict.number << "; " << statement.remark;
@@ -358,7 +359,7 @@ TEST(PaperStatements, of_direct_where_it_was_not_counted_extrapolate) {
   for (IslandWork* work : {&suite_of(data, "Battle").work}) {
     for (std::vector<SolvedIsland>& step : work->islands) step.front().rows *= 2;
   }
-  // Eight times the cubes, so eight times the solver's part of 50 million; collision is 7 % of quick's 10.
+  // Eight times the cubes, hence eight times the solver's part of 50 million; collision is 7 % of quick's 10.
   const PaperStatement statement = statement_on(data, "Figure 3, Battle:");
   EXPECT_EQ(statement.verdict.number, "quick 10 million a frame, direct 373 (373 to 373)");
   EXPECT_EQ(statement.verdict.finding, Finding::confirmed);

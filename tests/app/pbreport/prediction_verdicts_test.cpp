@@ -19,7 +19,7 @@ PredictionRun run_of(const std::string& name, double hz, double predicted_hz, do
   return run;
 }
 
-/// As the paper has it.
+/// The scene with the paper's numbers.
 PredictionScene scene_of(const std::string& name) {
   PredictionScene scene;
   scene.name = name;
@@ -106,7 +106,7 @@ TEST(PaperVerdicts, decide_nothing_about_frames_that_were_all_satisfied_before) 
 TEST(PaperVerdicts, leave_out_what_a_run_that_blew_up_gains) {
   PredictionScene fight = scene_of("Fight"), battle = scene_of("Battle2");
   fight.runs[4].predicted.hz = 110;
-  battle.runs[4].predicted.hz = 1000;  // its bodies are lost: there is less to compute
+  battle.runs[4].predicted.hz = 1000;  // its bodies are lost, so there is less to compute
   battle.runs[4].nonfinite_frame = 3;
   const std::string number = verdict_on(study_of({fight, battle}), "less attractive").number;
   EXPECT_NE(number.find("FVP6 +10.0 %"), std::string::npos) << number;

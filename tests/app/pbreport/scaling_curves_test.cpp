@@ -5,7 +5,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// The k-th run of a point, after those of the points before it in the round.
+/// The k-th run of a point, after the runs of the previous points in the round.
 ScalingRun run_of(int ranks, int worlds, int round, double frame_s, const std::string& way = "worlds") {
   ScalingRun run;
   run.path =
@@ -31,7 +31,7 @@ std::vector<std::string> doubts_of(const std::vector<ScalingRun>& runs, const Sc
 }
 
 TEST(ScalingCurves, pair_runs_by_their_starts) {
-  // In a slow second round both points take three times as long: no ratio sees it.
+  // In a slow second round both points take three times as long, which no ratio shows.
   const std::vector<ScalingRun> runs = {run_of(2, 4, 2, 1.5), run_of(1, 4, 1, 0.8), run_of(2, 4, 1, 0.5),
                                         run_of(1, 4, 2, 2.4), run_of(1, 4, 3, 0.9), run_of(2, 4, 3, 0.5)};
   const auto curves = curves_of(runs, {});

@@ -7,7 +7,8 @@
 namespace pbmpi::app {
 namespace {
 
-/// Two worlds on two ranks; one warm-up frame, whose numbers are far from the others', and two measured ones.
+/// Two worlds on two ranks; one warm-up frame, whose numbers differ strongly from the others', and two
+/// measured frames.
 io::RunData small_run() {
   io::RunData run;
   run.attributes = {{"pbmpi_version", "1.2.3"}, {"scene", "Test"}, {"state_hash", "00000000000000ff"}};
@@ -42,7 +43,7 @@ io::RunData small_run() {
   return run;
 }
 
-// Sums of a few decimal fractions: the last bits are all that may differ.
+// Sums of a few decimal fractions differ only in the last bits.
 constexpr double rounding = 1e-12;
 
 TEST(SummaryFromFile, takes_only_the_measured_frames) {

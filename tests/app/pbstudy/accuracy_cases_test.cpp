@@ -245,7 +245,7 @@ TEST(ConvergingStepper, solves_each_step_of_each_world_as_far_as_asked) {
     EXPECT_TRUE((std::set<int>{40, 160, 640, 2560}.contains(iterations))) << iterations;
   EXPECT_TRUE(reference.account.residual <= 1e-3 || used.contains(2560));
 
-  // World 1 alone takes the same course.
+  // World 1 converges in the same way on its own.
   ConvergingStepper stepper({reference.worlds[1]}, asked);
   for (const std::vector<int>& step : reference.iterations) {
     stepper.advance();
@@ -282,7 +282,7 @@ TEST(Yardsticks, the_reference_solved_further_is_nearer_to_it_than_half_of_it) {
   EXPECT_GT(defect(CaseKind::halved_dt).rms, further) << "the step is long";
 }
 
-/// The settings, own solutions and floors of these options.
+/// The settings, own solutions and noise floors of these options.
 std::vector<AccuracyCase> own_cases_of(const std::vector<std::string>& args) {
   const auto cases = cases_of(options_of(args));
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -302,7 +302,7 @@ TEST(OwnSolution, is_shared_by_all_settings_that_solve_the_same_equations) {
   const auto cases =
       own_cases_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20", "--substeps", "1", "14",
                     "--precision", "double", "single", "--floor-seeds", "3"});
-  // At two lengths of the step: quick, direct, and sor cold and with springs in one and in twelve substeps.
+  // At two step lengths: quick, direct, and sor cold and with springs in one and in twelve substeps.
   EXPECT_EQ(count(cases, CaseKind::own), 2 * (1 + 1 + 2 * 2));
   EXPECT_EQ(count(cases, CaseKind::own_floor), 3 * 3) << "a kind of stepper has one floor";
   std::set<std::uint64_t> seeds;
@@ -408,7 +408,7 @@ TEST(OwnSolution, a_disturbance_moves_all_by_no_more_than_its_size) {
   for (std::size_t body = 0; body < start.position.size(); ++body) {
     const double way = (moved.position[body] - start.position[body]).cwiseAbs().maxCoeff();
     EXPECT_GT(way, 0);
-    EXPECT_LT(way, 1.1e-12);  // of coordinates up to 100 m, whose rounding is 1e-14 m
+    EXPECT_LT(way, 1.1e-12);  // for coordinates up to 100 m, whose rounding is 1e-14 m
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Without padding, whose bytes would be any.
+/// Has no padding, whose bytes would be arbitrary.
 struct Number {
   std::int64_t index = 0;
   double value = 0;

@@ -153,13 +153,13 @@ TEST(EffectRunner, demanding_what_nothing_calls_for_changes_no_bit) {
 }
 
 TEST(EffectRunner, the_errors_of_a_world_without_weight_are_those_of_a_free_fall) {
-  // The bodies lie still on the ground: without weight nothing moves them, with it the contacts' softness
-  // does, by far less than a fall of one frame (4.4 mm).
+  // The bodies rest on the ground: without gravity nothing moves them; with it the contacts' softness does,
+  // by far less than a fall of one frame (4.4 mm).
   const EffectResult gravity = result_of("gravity", 1);
   EXPECT_NE(gravity.hash_variant, gravity.hash_baseline);
   EXPECT_LT(gravity.defect.body_position.max, 4.4e-3);
-  // Without collision they fall: of each frame's start on the ground by 9.81 h^2 (1 + 2 + ... + 24) m in the
-  // 24 substeps h of the first-order integrator, when the velocity is zero at the start.
+  // Without collision they fall: from each frame's start on the ground by 9.81 h^2 (1 + 2 + ... + 24) m in
+  // the 24 substeps h of the first-order integrator, if the velocity is zero at the start.
   const EffectResult collision = result_of("collision", 1);
   EXPECT_NEAR(collision.defect.body_position.max, 9.81 * 0.00125 * 0.00125 * 300, 1e-3)
       << "a body at rest sinks a little";

@@ -1,6 +1,5 @@
-/// Steps a batch as a program in C++ does, on request: `batch_loop SCENE WORLDS PRECISION THREADS`. For each
-/// line "FRAMES" of its input it steps so many frames, looks at the poses after each, and prints "SECONDS
-/// HASH HEIGHT".
+/// Steps a batch as a C++ program does, on request: `batch_loop SCENE WORLDS PRECISION THREADS`. For each
+/// input line "FRAMES" it steps so many frames, reads the poses after each, and prints "SECONDS HASH HEIGHT".
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,6 @@
-/// bench_batch [WORLDS] [STEPS] [ROUNDS] [SCENE]: what pbmpi::Batch adds to the time of the stepper under it.
-/// Both step the same worlds, in turn step by step; the line gives the median of the steps' ratios of CPU
-/// time, the seconds of a step of each, and the hash that both end with.
+/// bench_batch [WORLDS] [STEPS] [ROUNDS] [SCENE]: measures what pbmpi::Batch adds to the time of the stepper
+/// under it. Both step the same worlds, alternating step by step; the output line gives the median of the
+/// steps' ratios of CPU time, the seconds of a step of each, and the hash at which both end.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -28,7 +28,7 @@ struct Times {
   std::vector<double> batch_s, bare_s, ratio;
 };
 
-/// The worlds as the scene's defaults and those of sor have them, in single precision.
+/// The worlds with the scene's and sor's defaults, in single precision.
 std::unique_ptr<stepping::WorldStepper> bare_stepper(const std::string& name, int num_worlds) {
   const auto scene = scenes::parse_scene(scenes::find_scene(name));
   stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
@@ -58,7 +58,7 @@ double seconds_of(Function&& function) {
   return core::thread_cpu_s() - start_s;
 }
 
-/// Both from their start; the first step, in which the lanes are filled, is not counted.
+/// Both run from their start; the first step, which fills the lanes, is not counted.
 void run_round(const std::string& scene, int num_worlds, int num_steps, Times& times) {
   const auto bare = bare_stepper(scene, num_worlds);
   Batch batch = make_batch(scene, num_worlds);

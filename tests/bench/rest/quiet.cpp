@@ -13,8 +13,8 @@
 namespace pbmpi::bench {
 namespace {
 
-constexpr int num_rounds = 20, frames_a_round = 5;  ///< so that each finds its memory in the caches
-constexpr int finer = 4;                            ///< the reference
+constexpr int num_rounds = 20, frames_a_round = 5;  ///< enough for each to find its memory in the caches
+constexpr int finer = 4;                            ///< factor of the reference
 
 Models awake(const Subject& subject) {
   Models models;
@@ -48,7 +48,7 @@ class Side {
       stepper_->add(static_cast<int>(world), models[world], states[world], step);
   }
 
-  /// Seconds of CPU time.
+  /// Returns seconds of CPU time.
   double advance(int num_steps) {
     core::PhaseTimes times;
     const double start_s = core::thread_cpu_s();
@@ -64,7 +64,7 @@ class Side {
     return states;
   }
 
-  /// In the last step of each call of advance().
+  /// Visits of rows in the last step of each call of advance().
   double row_visits() const { return row_visits_; }
 
  private:

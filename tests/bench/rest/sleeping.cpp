@@ -20,10 +20,10 @@ namespace {
 constexpr int steps_per_frame = 3;
 constexpr int num_rounds = 40;
 constexpr int steps_awake = 200;  ///< before the rule begins to count
-constexpr int most_steps = 6000;  ///< until all must sleep: a minute
+constexpr int most_steps = 6000;  ///< by then all must sleep: a minute
 
-/// Battle2 before its action: no events, nothing moves. Humans that stand sway by some 0.1 m in half a
-/// second, so that the rule must take this for rest.
+/// Battle2 before its action: no events, nothing moves. Standing humans sway by some 0.1 m in half a second,
+/// and the rule must count this as rest.
 model::Model quiet_battle2() {
   model::Model model = *scenes::parse_scene(scenes::find_scene("Battle2"))->build(0, 1);
   model.events.clear();
@@ -43,7 +43,7 @@ std::unique_ptr<stepping::WorldStepper> make_stepper(stepping::StepperKind kind)
   return ode::make_ode_stepper(settings);
 }
 
-/// A state of Battle2, which each frame starts from.
+/// A state of Battle2 from which each frame starts.
 class Side {
  public:
   Side(std::string name, stepping::StepperKind kind, const model::Model& model, const model::State& state,
@@ -77,11 +77,11 @@ class Side {
 
  private:
   std::string name_;
-  int frames_;  ///< a round
+  int frames_;  ///< per round
   std::unique_ptr<stepping::WorldStepper> stepper_;
   model::State start_;
   std::int64_t step_ = 0;
-  std::vector<double> frame_s_;  ///< [num_rounds] of CPU time
+  std::vector<double> frame_s_;  ///< [num_rounds] CPU time
 };
 
 model::Model without_effects(model::Model model) {
@@ -108,7 +108,7 @@ model::State settle(stepping::StepperKind kind, const model::Model& model) {
   throw core::RunError("Battle2 does not fall asleep in a minute");
 }
 
-/// One ball that lies apart rolls at walking pace.
+/// One ball that lies apart from the others rolls at walking pace.
 model::State with_a_ball_awake(const model::Model& model, model::State state) {
   for (int body = 0; body < model.num_bodies(); ++body) {
     if (model.bodies[body].name != "ball_left.25") continue;

@@ -1,10 +1,10 @@
-/// What sleeping saves.
+/// Measures what sleeping saves.
 #pragma once
 
 namespace pbmpi::bench {
 
-/// A settled Battle2 in which all bodies sleep, and one in which all but a ball do, against the same state
-/// kept awake, in sor and in quick: prints the ratios of their frames' CPU times.
+/// Steps a settled Battle2 in which all bodies sleep, and one in which all but one ball sleep, against the
+/// same state kept awake, in sor and in quick: prints the ratios of their frames' CPU times.
 void compare_sleeping();
 
 }  // namespace pbmpi::bench

@@ -12,7 +12,7 @@
 namespace pbmpi::core {
 namespace {
 
-/// Returns if nothing ends the process.
+/// Returns only if nothing ends the process.
 void sleep_in_vain() {
   constexpr int most_s = 60;
   for (int i = 0; i < 10 * most_s; ++i) usleep(100000);

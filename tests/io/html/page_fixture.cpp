@@ -1,4 +1,4 @@
-/// Writes the page of a made-up run: page_fixture OUT WORLDS FRAMES MAX_POSE_BYTES.
+/// Writes the page of an artificial run: page_fixture OUT WORLDS FRAMES MAX_POSE_BYTES.
 #include <cstdlib>
 #include <iostream>
 

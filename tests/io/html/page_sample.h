@@ -1,4 +1,4 @@
-/// Runs made up for the tests of the page: no engine, but poses whose values are known.
+/// Artificial runs for the tests of the page: no engine, but poses with known values.
 #pragma once
 
 #include "io/run/run_data.h"
@@ -13,7 +13,7 @@ struct SampleSize {
 };
 
 /// Worlds with a ground plane, a ramp, a car, two humans, a wall and a ball. The car drives along +x at
-/// `car_speed` + 0.5 m/s per world; the rest stands until the car is at x = 0, and then falls over.
+/// `car_speed` + 0.5 m/s per world; the other bodies stand until the car is at x = 0, and then fall over.
 RunData sample_run(const SampleSize& size = {});
 
 inline constexpr double car_start_x_m = -4;

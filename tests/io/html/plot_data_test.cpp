@@ -63,7 +63,7 @@ TEST(PlotData, shows_what_a_simulation_should_keep_with_lengths_in_mm) {
 TEST(PlotData, counts_frames_from_the_start_of_the_simulation) {
   RunData run = sample_run();
   EXPECT_EQ(nlohmann::json::parse(plots_json(run, 1))["first_frame"], 0);
-  run.attributes["first_frame"] = "30";  // goes on from a checkpoint
+  run.attributes["first_frame"] = "30";  // resumed from a checkpoint
   EXPECT_EQ(nlohmann::json::parse(plots_json(run, 1))["first_frame"], 30);
 }
 

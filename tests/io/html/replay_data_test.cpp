@@ -10,7 +10,7 @@
 namespace pbmpi::io::html {
 namespace {
 
-/// Bytes that so many bodies take in so many frames, of which the initial pose is one.
+/// Bytes of so many bodies in so many frames, one of which is the initial pose.
 std::int64_t room_for(std::int64_t bodies, std::int64_t frames) { return pose_bytes(bodies * frames); }
 
 std::int64_t bodies_of(const RunData& run) { return static_cast<std::int64_t>(run.bodies.id.size()); }

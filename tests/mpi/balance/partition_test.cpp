@@ -16,7 +16,7 @@ double makespan(const Placement& placement, const std::vector<double>& cost, int
   return *std::max_element(loads.begin(), loads.end());
 }
 
-/// The least makespan of all placements, by trying them all.
+/// The least makespan of all placements, found by trying them all.
 double best_makespan(const std::vector<double>& cost, int num_ranks) {
   Placement placement(cost.size(), 0);
   double best = std::numeric_limits<double>::infinity();
@@ -31,7 +31,7 @@ double best_makespan(const std::vector<double>& cost, int num_ranks) {
   return best;
 }
 
-/// Whole numbers, so that sums are exact and comparisons need no tolerance.
+/// Integer costs, so that sums are exact and comparisons need no tolerance.
 std::vector<double> random_costs(std::mt19937& random, int count) {
   std::uniform_int_distribution<int> whole(1, 1000);
   std::vector<double> cost(count);

@@ -38,7 +38,7 @@ TEST(Rebalance, leaves_loads_within_the_threshold_alone) {
   Placement placement(100, 1);
   std::fill(placement.begin(), placement.begin() + 54, 0);
   EXPECT_TRUE(rebalance(placement, cost, 2, 1.1).moves.empty());
-  // A threshold of 1.05 is passed; its lower half ends at 1.025, which 51 and 49 are the first to meet.
+  // A threshold of 1.05 is exceeded; its lower half ends at 1.025, which 51 and 49 are the first to meet.
   EXPECT_EQ(rebalance(placement, cost, 2, 1.05).moves.size(), 3u);
 }
 
@@ -54,7 +54,7 @@ TEST(Rebalance, moves_one_world_where_one_is_enough) {
 }
 
 TEST(Rebalance, swaps_where_no_single_world_can_move) {
-  // Loads 16 and 8: moving 8 only exchanges the roles, but 8 against 4 gives 12 and 12.
+  // Loads 16 and 8: moving 8 only swaps the roles, but exchanging 8 for 4 gives 12 and 12.
   const std::vector<double> cost = {8, 8, 4, 4};
   const Rebalancing found = rebalance(Placement{0, 0, 1, 1}, cost, 2, 1.1);
   EXPECT_EQ(found.moves.size(), 2u);
@@ -71,8 +71,8 @@ TEST(Rebalance, gives_up_where_idle_ranks_cannot_be_filled) {
 }
 
 TEST(Rebalance, moves_nothing_for_a_gain_that_is_not_worth_it) {
-  // Max/avg 1.3 (130 against 70). The only world small enough to move takes 2 off 130, less than the 5 %
-  // asked.
+  // Max/avg 1.3 (130 against 70). The only world small enough to move lowers 130 by 2, less than the required
+  // 5 %.
   const std::vector<double> cost = {128, 2, 70};
   EXPECT_TRUE(rebalance(Placement{0, 0, 1}, cost, 2, 1.1).moves.empty());
 }
@@ -98,7 +98,7 @@ TEST(Rebalance, is_never_worse_and_never_moves_a_world_to_where_it_is) {
     const Placement after = moved(placement, found.moves);
     EXPECT_EQ(differences(placement, after), std::ssize(found.moves));
     if (found.moves.empty()) continue;
-    // Whole costs: sums are exact. 5 % is the gain asked at threshold 1.1, 1e-12 its rounding.
+    // Integer costs: sums are exact. 5 % is the gain required at threshold 1.1, 1e-12 its rounding.
     EXPECT_LE(max_load(after, cost, num_ranks), max_load(placement, cost, num_ranks) * (0.95 + 1e-12));
     EXPECT_DOUBLE_EQ(found.imbalance_after, imbalance(rank_loads(after, cost, num_ranks)));
     const Rebalancing again = rebalance(placement, cost, num_ranks, 1.1);
@@ -124,7 +124,7 @@ TEST(Rebalance, evens_out_many_unequal_worlds_and_moves_fewer_than_a_fresh_place
 }
 
 TEST(Rebalance, ends_where_sums_round) {
-  // 0.1 is no binary fraction: 30 worlds of equal cost on 4 ranks, as unequally as can be.
+  // 0.1 is not a binary fraction: 30 worlds of equal cost on 4 ranks, distributed as unevenly as possible.
   const std::vector<double> cost(30, 0.1);
   const Rebalancing found = rebalance(Placement(30, 2), cost, 4, 1.0);
   EXPECT_EQ(found.moves.size(), 22u);  // 8 of 30 stay

@@ -33,7 +33,7 @@ TEST(Rebalancer, follows_a_change_that_lasts) {
 
 TEST(Rebalancer, rests_after_a_rebalance) {
   Rebalancer rebalancer(2, 1.1);
-  const Placement lopsided = {0, 0, 0, 1};  // offered again and again, as if the moves had not helped
+  const Placement lopsided = {0, 0, 0, 1};  // offered repeatedly, as if the moves had not helped
   int rebalances = 0;
   const int frames = 16;
   for (int frame = 0; frame < frames; ++frame) {

@@ -10,7 +10,8 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// The message of the error of type Error that `function` throws; a failure if it throws none or another.
+/// The message of the error of type Error that `function` throws; the test fails if it throws none or another
+/// type.
 template <class Error, class Function>
 std::string message_of(Function&& function) {
   try {
@@ -40,7 +41,7 @@ TEST(AgreeOnErrors, throws_on_every_rank_what_one_rank_throws_and_names_it) {
       return 1;
     });
   });
-  // With one rank the error is everywhere, and no rank is to be named.
+  // With a single rank the error is everywhere, and no rank is named.
   const std::string prefix = comm.size() > 1 ? "rank " + std::to_string(culprit) + ": " : "";
   EXPECT_EQ(message, prefix + "scene.toml: cannot be read");
 }

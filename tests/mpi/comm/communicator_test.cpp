@@ -17,7 +17,7 @@ struct Odd {
   bool operator==(const Odd&) const = default;
 };
 
-/// Checks that hold for any communicator, also for the null one (of one rank).
+/// Checks that hold for any communicator, including the null one (of one rank).
 void expect_collectives_work(const Communicator& comm) {
   const int rank = comm.rank();
   const int size = comm.size();

@@ -86,7 +86,7 @@ TEST(Mail, brings_messages_of_any_length_in_order_and_counts_them) {
   Mail mail(comm);
   const int next = (comm.rank() + 1) % comm.size();
   const int previous = (comm.rank() + comm.size() - 1) % comm.size();
-  // More than fits an eager buffer: all ranks send before anyone receives.
+  // More than fits into an eager buffer: all ranks send before any rank receives.
   const std::vector<std::size_t> lengths = {0, 1, 200000, 7};
   for (const std::size_t length : lengths)
     mail.post(std::vector<std::byte>(length, static_cast<std::byte>(comm.rank())), next, 5);

@@ -8,7 +8,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-// Pieces are of 448 values: less than one, whole ones, and one value more.
+// Pieces have 448 values: these are less than one piece, whole pieces, and one value more.
 constexpr int lengths[] = {1, 447, 448, 449, 3 * 448, 10'000};
 
 std::vector<double> message(int length, int from) {
@@ -62,7 +62,7 @@ TEST(PendingMessages, those_given_up_leave_the_communicator_usable) {
   std::vector<double> never(100);
   {
     PendingMessages pending(comm);
-    if (comm.is_root()) pending.receive(never, 1, 9);  // that nobody sends
+    if (comm.is_root()) pending.receive(never, 1, 9);  // nobody sends this
   }
   double value = comm.is_root() ? 42 : 0;
   comm.bcast_value(value);

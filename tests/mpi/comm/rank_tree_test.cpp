@@ -7,7 +7,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// The ranks below `rank`, itself included, as its children lead to them, in the order in which they are
+/// Collects `rank` and the ranks below it by following its children, in the order in which their data are
 /// handed on.
 void collect(const RankTree& tree, int rank, std::vector<int>& ranks) {
   ranks.push_back(rank);

@@ -1,5 +1,5 @@
-/// A program in which one rank fails while the others wait for it: `unwind` by an exception through the
-/// session (exit code 4), `abort` by Session::abort (exit code 3).
+/// A program in which one rank fails while the others wait for it: `unwind` with an exception through the
+/// session (exit code 4), `abort` with Session::abort (exit code 3).
 
 #include <cstdio>
 #include <exception>
@@ -17,7 +17,7 @@ void fail_on_the_last_rank(bool unwind) {
     if (unwind) throw std::runtime_error("this rank alone fails");
     pbmpi::mpi::Session::abort(3);
   }
-  world.barrier();  // for ever, unless the launcher ends it
+  world.barrier();  // waits for ever, unless the launcher ends it
 }
 
 }  // namespace

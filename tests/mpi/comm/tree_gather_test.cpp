@@ -7,7 +7,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// Rank r has so many numbers: none, few, and more than a piece of 64 bytes.
+/// How many numbers rank r has: none, few, or more than a piece of 64 bytes.
 std::int64_t count_of(int rank) { return rank % 3 == 1 ? 0 : 3 + 11 * rank; }
 
 std::vector<double> numbers_of(int rank) {

@@ -13,7 +13,7 @@ using testing_support::SyntheticStepper;
 
 constexpr int num_worlds = 11;
 
-/// The poses that root must get: those of all worlds, stepped in one place.
+/// Expects on root the poses of all worlds, stepped in one place.
 void expect_gathered(const PoseGather& gather, const SyntheticStepper& reference,
                      const stepping::WorldTable& table) {
   ASSERT_EQ(std::ssize(gather.position()), table.num_bodies());
@@ -28,7 +28,7 @@ void expect_gathered(const PoseGather& gather, const SyntheticStepper& reference
   }
 }
 
-/// Gathers three frames by a tree of this radix, and moves all worlds after each.
+/// Gathers three frames over a tree of this radix, and moves all worlds after each.
 void gather_frames(const Communicator& comm, int radix) {
   SyntheticStepper stepper;
   SyntheticStepper reference;

@@ -18,7 +18,7 @@ double odd_nan() {
   return number;
 }
 
-/// With as many contact forces as joints.
+/// Has as many contact forces as joints.
 model::State sample(bool rests, int num_joints) {
   model::State state;
   state.resize(3);

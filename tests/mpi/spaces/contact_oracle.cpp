@@ -38,7 +38,8 @@ ContactOracle::ContactOracle(const mpi::Communicator& comm, std::shared_ptr<cons
   pack_ = solver::make_pack({&world, 1}, settings.simd, settings.precision);
 }
 
-/// Collides every pair that may touch, except solids whose boxes are apart, for which colliders find nothing.
+/// Collides every pair that may touch, except solids whose boxes do not overlap, for which colliders find
+/// nothing.
 std::vector<model::Contact> ContactOracle::brute_force(std::int64_t step) {
   const model::State& before = whole_->state(0);
   rule_ = model::TouchRule(*model_, before.broken_in);

@@ -1,4 +1,4 @@
-/// The contacts of a world as they must be, found by brute force, without spaces, on one rank.
+/// The expected contacts of a world, found by brute force, without spaces, on one rank.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@
 
 namespace pbmpi::testing_support {
 
-/// Steps the undecomposed world beside the run on root, and tests each pair of its geoms.
+/// Steps the undecomposed world alongside the run on root, and tests each pair of its geoms.
 class ContactOracle {
  public:
   ContactOracle(const mpi::Communicator& comm, std::shared_ptr<const model::Model> model,
                 const stepping::StepperSettings& settings);
 
-  /// Collective, once a step. `contacts`: those that this rank solved. Fails the test on root unless the
-  /// contacts of all ranks together are those of the undecomposed world at the start of the step, every bit,
-  /// each once.
+  /// Collective, once per step. `contacts`: the contacts that this rank solved. Fails the test on root unless
+  /// the contacts of all ranks together are those of the undecomposed world at the start of the step, every
+  /// bit, each once.
   void check(std::int64_t step, std::span<const model::Contact> contacts);
 
   std::int64_t contacts_checked() const { return contacts_checked_; }  ///< on root
@@ -39,12 +39,12 @@ class ContactOracle {
   const mpi::Communicator* comm_;
   std::shared_ptr<const model::Model> model_;
   double dt_s_;
-  double margin_m_;  ///< up to which contacts are found
+  double margin_m_;  ///< distance up to which contacts are found
   model::TouchRule rule_;
   std::optional<effects::FastBodies> fast_bodies_;  ///< none without the pass
   std::unique_ptr<stepping::WorldStepper> whole_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
-  std::unique_ptr<solver::Pack> pack_;  ///< of the world, for its colliders
+  std::unique_ptr<solver::Pack> pack_;  ///< holds the world, for its colliders
   std::int64_t contacts_checked_ = 0;
   std::int64_t contacts_ahead_checked_ = 0;
 };

@@ -23,7 +23,7 @@ using testing_support::space_settings;
 using testing_support::whole_hash;
 using testing_support::world;
 
-/// A row of four cubes, joined at their edges, that falls flat on a cube of another space.
+/// A row of four cubes, joined at their edges, that falls flat onto a cube of another space.
 void add_row(model::Model& model, int row, double break_force, double break_torque) {
   const std::string name = "row" + std::to_string(row);
   const int actor = support::add_actor(model, name, model::ActorKind::prop, true);
@@ -51,8 +51,8 @@ void add_row(model::Model& model, int row, double break_force, double break_torq
                3);
 }
 
-/// Three rows in spaces of their own; they fall on cubes of a fourth, so that the islands in which they break
-/// lie on several ranks.
+/// Three rows in spaces of their own that fall onto cubes of a fourth space, so that the islands in which
+/// they break lie on several ranks.
 SharedModel falling_rows(bool sleeping) {
   model::Model model;
   model.spaces = {"first", "second", "third", "blocks"};
@@ -60,7 +60,7 @@ SharedModel falling_rows(bool sleeping) {
   add_row(model, 0, 300, 0);
   add_row(model, 1, 400, 150);
   add_row(model, 2, 1200, 0);
-  // In flight; on the blocks, where with sleep the row has fallen asleep.
+  // In flight, and on the blocks, where with sleeping the row has fallen asleep.
   for (const auto& [step, joint] : {std::pair(30, 6), std::pair(190, 7)}) {
     model::Event event;
     event.kind = model::EventKind::release;

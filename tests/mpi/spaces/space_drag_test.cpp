@@ -22,7 +22,7 @@ model::Model in_thick_air(model::Model model) {
   return model;
 }
 
-// Root sees the fast bodies of other ranks slowed down, too, before it looks ahead of them.
+// Root, too, sees the fast bodies of other ranks slowed down before it looks for their speculative contacts.
 TEST(SpaceDrag, has_the_bits_of_the_whole_world_for_every_ownership) {
   WorldRunSettings settings = space_settings();
   settings.rebalance_threshold = model::infinity;

@@ -54,7 +54,7 @@ TEST(SpaceDriver, has_the_same_bits_for_every_ownership) {
 }
 
 // Speculative contacts: two balls that would pass through each other are in one space, others are shot at
-// boxes of other spaces, so that with 4 owners both the ranks and root find contacts ahead.
+// boxes of other spaces, so that with 4 owners both the ranks and root find speculative contacts.
 TEST(SpaceDriver, sees_ahead_of_fast_bodies_across_spaces) {
   stepping::StepperSettings single;
   single.precision = stepping::Precision::single;
@@ -92,7 +92,7 @@ TEST(SpaceDriver, moves_spaces_when_the_work_is_uneven_and_keeps_the_bits) {
 TEST(SpaceDriver, sends_no_message_inside_a_step_if_there_is_one_space) {
   const SpaceRun run = expect_whole(share(support::crash()));
   const std::int64_t frames = run.result.frames_done;
-  // One message a frame: the account of each rank but root.
+  // One message per frame: the account of each rank except root.
   EXPECT_EQ(run.messages, world().is_root() ? 0 : frames);
   std::vector<int> idle;
   for (int rank = 1; rank < world().size(); ++rank) idle.push_back(rank);
@@ -142,7 +142,7 @@ TEST(SpaceDriver, runs_with_an_empty_space_and_with_more_ranks_than_spaces) {
 }
 
 TEST(SpaceDriver, merges_all_spaces_into_one_island_when_they_pile_up) {
-  // Boxes of a pile, one a space: from the first contact on all are one island, which one rank solves.
+  // The boxes of a pile, one per space: after the first contact all form one island, which one rank solves.
   model::Model model = support::pile(8);
   model.spaces.clear();
   for (model::Geom& geom : model.geoms) {

@@ -24,14 +24,14 @@ using testing_support::SpaceRun;
 using testing_support::whole_hash;
 using testing_support::world;
 
-/// A field of interest round the last ball, which rolls, is launched into the middle, and falls on a pile.
+/// A field of interest around the last ball, which rolls, is launched into the middle, and falls on a pile.
 model::Model followed_ball() {
   model::Model model = neighbours();
   model.interest = model::Interest{{0, 0, 0}, model.num_bodies() - 1, 1.2, 3};
   return model;
 }
 
-/// A field of interest round a place in the middle.
+/// A field of interest around a fixed point in the middle.
 model::Model watched_place() {
   model::Model model = neighbours();
   model.interest = model::Interest{{1, 0, 3}, model::no_body, 1, 3};
@@ -100,14 +100,14 @@ TEST(SpaceFocus, has_the_bits_of_a_world_without_where_it_holds_everything) {
   EXPECT_NE(run_spaces(world(), share(followed_ball()), settings).result.state_hash, expected);
 }
 
-// Where bodies cannot cross, a rank learns from the owner alone where the body is that the field follows.
+// Where bodies cannot cross, a rank learns only from the owner where the body is that the field follows.
 TEST(SpaceFocus, has_the_bits_of_the_whole_world_where_spaces_never_meet) {
   model::Model model = followed_ball();
   model.events.clear();
   model.spaces_meet = false;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     model.bodies[i].pose.position.y() += 4.0 * model.geoms[i + 1].space;
-  model.bodies.back().velocity = {-6, -8, 0};  // along the others, at a distance
+  model.bodies.back().velocity = {-6, -8, 0};  // parallel to the others, at a distance
   model.interest->radius_m = 5;
   const SharedModel shared = share(model);
   const WorldRunSettings settings = space_settings(10);
@@ -134,7 +134,7 @@ TEST(SpaceFocus, counts_the_bodies_inside_as_the_whole_world_does) {
   }
 }
 
-// A field that stands still needs no message; one that moves needs one a step to each other rank.
+// A field that stands still needs no message; one that moves needs one message per step to each other rank.
 TEST(SpaceFocus, sends_no_message_for_a_center_that_stands) {
   WorldRunSettings settings = space_settings();
   settings.rebalance_threshold = model::infinity;
@@ -144,7 +144,7 @@ TEST(SpaceFocus, sends_no_message_for_a_center_that_stands) {
     const auto run = run_spaces(world(), share(std::move(model)), settings, {}, Oracle::none);
     return run.messages;
   };
-  model::Model all = neighbours();  // the same bits in all three, and so the same islands that cross
+  model::Model all = neighbours();  // the same bits in all three, hence the same islands that cross
   const std::int64_t plain = messages(all);
   all.interest = model::Interest{{0, 0, 0}, model::no_body, 1000, 3};
   EXPECT_EQ(messages(all), plain);

@@ -1,4 +1,4 @@
-// Many worlds, each cut into spaces over a group of ranks, beside the same worlds in one piece.
+// Many worlds, each cut into spaces over a group of ranks, compared with the same worlds in one piece.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using testing_support::world;
 
 constexpr int num_worlds = 3;
 
-/// Worlds of which no two are alike.
+/// Worlds that all differ.
 std::vector<SharedModel> three_worlds() {
   std::vector<SharedModel> worlds;
   for (int number = 0; number < num_worlds; ++number) {
@@ -43,7 +43,7 @@ WorldRunSettings group_settings(int frames = 12, double rebalance_threshold = mo
   return settings;
 }
 
-/// Of the ranks of the test; spaces cost the same.
+/// Groups of the test's ranks; all spaces cost the same.
 RankGroups groups_of(int ranks_per_world) {
   return group_ranks(std::vector<double>{1, 1, 1, 1}, num_worlds, world().size(), ranks_per_world);
 }
@@ -57,7 +57,7 @@ class Shelf : public SnapshotKeeper {
   std::vector<Snapshot> snapshots;
 };
 
-/// Keeps all poses that root gets.
+/// Records all poses that root gets.
 class Poses final : public stepping::PoseConsumer {
  public:
   void poses(std::int64_t, stepping::PoseKind kind, std::span<const model::Vec3> position,
@@ -77,7 +77,7 @@ struct GroupRun {
   std::vector<model::State> saved;  ///< on root, after the last frame
 };
 
-/// What a run may have besides its worlds.
+/// Optional parts of a run.
 struct With {
   std::span<const model::State> states{};
   const stability::GuardSettings* guards = nullptr;
@@ -128,7 +128,7 @@ GroupRun run_whole(const std::vector<SharedModel>& worlds, WorldRunSettings sett
   return run;
 }
 
-/// Each form of groups on the ranks of the test.
+/// Each way to group the ranks of the test.
 std::vector<RankGroups> all_groups() {
   std::vector<RankGroups> all;
   for (int ranks_per_world = 1; ranks_per_world <= world().size(); ++ranks_per_world)
@@ -226,14 +226,14 @@ TEST(SpaceGroups, refuse_to_go_on_from_fewer_states_than_worlds) {
     EXPECT_THROW(run_cut(world(), worlds, groups, rest, {.states = two}), core::RunError);
 }
 
-/// Three worlds, in the second of which a launch puts a ball into a box of another space in step 22.
+/// Three worlds; in the second a launch puts a ball into a box of another space in step 22.
 std::vector<SharedModel> one_on_collision_course() {
   std::vector<SharedModel> worlds = three_worlds();
   worlds[1] = share(testing_support::on_collision_course(*worlds[1]));
   return worlds;
 }
 
-/// Of guards; groups tell of checkpoints and rebalances, too.
+/// Events of guards; groups also report checkpoints and rebalances.
 std::vector<std::string> told(const GroupRun& run) {
   std::vector<std::string> found;
   for (const stepping::RunEvent& event : run.seen.events) {
@@ -307,7 +307,7 @@ class FailingStepper final : public testing_support::WrappedSpaceStepper {
   std::int64_t step_ = -1;
 };
 
-/// The error with which a run ends in which rank `rank` fails with the last world of its group.
+/// The error that ends a run in which rank `rank` fails in the last world of its group.
 std::string error_of_run(const RankGroups& groups, int rank, bool collides) {
   const std::vector<SharedModel> worlds = three_worlds();
   const std::vector<int> own = groups.worlds_of(groups.group_of_rank(world().rank()));

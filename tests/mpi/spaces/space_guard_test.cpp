@@ -20,7 +20,7 @@ using testing_support::SharedModel;
 using testing_support::space_settings;
 using testing_support::world;
 
-/// neighbours(), where a launch puts a ball into a box of another space in step 22.
+/// neighbours() in which a launch puts a ball into a box of another space in step 22.
 SharedModel collision_course() {
   return share(testing_support::on_collision_course(testing_support::neighbours()));
 }

@@ -20,7 +20,7 @@ using testing_support::SpaceRun;
 using testing_support::whole_hash;
 using testing_support::world;
 
-/// With soft contacts what stands on something else is tall already.
+/// With soft contacts a body that stands on another one already makes the island tall.
 stepping::StepperSettings settings_with(double tolerance_m, double sag_m,
                                         double contact_hz = model::infinity) {
   stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor);

@@ -1,4 +1,4 @@
-// What a step hands on to the next (State::memory), in a world cut into spaces.
+// The memory that a step hands on to the next (State::memory), in a world cut into spaces.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -21,7 +21,7 @@ using testing_support::space_settings;
 using testing_support::world;
 
 /// Moves bodies as sor without a warm start does, and keeps an account of contacts and joints in the memory
-/// that depends on all steps before, so that whatever is lost on the way shows at the end.
+/// that depends on all previous steps, so that anything lost in transit shows at the end.
 class Accountant final : public testing_support::WrappedSpaceStepper {
  public:
   explicit Accountant(const SharedModel& model)
@@ -33,7 +33,7 @@ class Accountant final : public testing_support::WrappedSpaceStepper {
     return state_;
   }
   void own(std::span<const int> spaces, const model::State& state, std::int64_t step) override {
-    const model::StepMemory memory = state.memory;  // `state` may be that of state()
+    const model::StepMemory memory = state.memory;  // `state` may be the result of state()
     WrappedSpaceStepper::own(spaces, state, step);
     memory_ = memory;
   }
@@ -60,7 +60,7 @@ class Accountant final : public testing_support::WrappedSpaceStepper {
   mutable model::State state_;
 };
 
-/// Begins with what was booked of the same point before: the one at this place among the points of the pair.
+/// Starts from the previous entry for the same point: the one at this place among the points of the pair.
 model::ContactForce Accountant::entry_of(const model::Contact& contact, std::size_t place) const {
   model::ContactForce entry{contact.geoms, contact.body_a, contact.body_b, contact.position};
   for (const model::ContactForce& before : memory_.contacts) {

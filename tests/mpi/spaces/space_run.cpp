@@ -120,7 +120,7 @@ void add_balls(model::Model& model, double x, int space) {
     event.kind = model::EventKind::launch;
     event.body = body;
     event.velocity = {2, 0, -3};
-    if (i != 2) event.pose = model::Pose{{1.0 * i, 0.1, 4}, {}};  // among the others; one keeps its place
+    if (i != 2) event.pose = model::Pose{{1.0 * i, 0.1, 4}, {}};  // among the others; one keeps its position
     model.events.push_back(event);
   }
 }

@@ -1,4 +1,4 @@
-/// One world cut into spaces, run on the ranks of a test, and the same world in one piece.
+/// Runs one world cut into spaces on the ranks of a test, and the same world in one piece.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct SpaceRun {
   std::vector<int> idle_ranks;
   std::vector<int> owners;                  ///< at the end
   std::int64_t contacts_checked = 0;        ///< on root
-  std::int64_t contacts_ahead_checked = 0;  ///< of them ahead of fast bodies
+  std::int64_t contacts_ahead_checked = 0;  ///< those that are speculative contacts of fast bodies
   std::int64_t messages = 0;                ///< of this rank
 };
 
@@ -48,19 +48,19 @@ SpaceRun run_spaces(const mpi::Communicator& comm, const SharedModel& model,
                     const mpi::WorldRunSettings& settings = space_settings(),
                     const stepping::StepperSettings& stepper = {}, Oracle oracle = Oracle::each_step);
 
-/// State hash of the undecomposed world after as many steps on one rank.
+/// State hash of the undecomposed world after the same number of steps on one rank.
 std::uint64_t whole_hash(const SharedModel& model, const mpi::WorldRunSettings& settings = space_settings(),
                          const stepping::StepperSettings& stepper = {});
 
-/// Four spaces in a row, 1 m apart: a pile of boxes, a chain that falls on its neighbours, a pile, loose
+/// Four spaces in a row, 1 m apart: a pile of boxes, a chain that falls on its neighbours, a pile, and loose
 /// balls that roll from one end to the other and are launched into other spaces.
 model::Model neighbours();
 
-/// neighbours() of any kind, where a launch puts a ball into a box of another space in step 22.
+/// Any variant of neighbours(), with a launch that puts a ball into a box of another space in step 22.
 model::Model on_collision_course(model::Model model);
 
-/// neighbours(), where two balls are shot at each other above the piles, and two through the piles, at 60 to
-/// 90 m/s.
+/// neighbours() in which two balls are shot at each other above the piles, and two through the piles, at 60
+/// to 90 m/s.
 model::Model shoot_out();
 
 }  // namespace pbmpi::testing_support

@@ -1,4 +1,4 @@
-/// Every built-in scene of several spaces, over 60 frames, with the brute-force oracle on each step.
+/// Every built-in scene with several spaces, over 60 frames, with the brute-force oracle in each step.
 
 #include <gtest/gtest.h>
 

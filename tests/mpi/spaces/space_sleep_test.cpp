@@ -31,9 +31,9 @@ void add_launch(model::Model& model, int step, int body, const model::Vec3& velo
 
 constexpr int num_frames = 70;  // of 3 steps, of 0.01 s
 
-/// Two stacks, the boxes of each in two spaces by turns, so that islands sleep across ranks; two balls in a
-/// third and a fourth. One is thrown at the first stack after a second, the other at the second after 1.4 s,
-/// while the first settles.
+/// Two stacks, with the boxes of each alternating between two spaces, so that islands sleep across ranks; two
+/// balls in a third and a fourth space. One is thrown at the first stack after a second, the other at the
+/// second after 1.4 s, while the first settles.
 model::Model stacks_across_spaces() {
   model::Model model;
   support::add_ground(model);
@@ -97,7 +97,8 @@ TEST(SpaceSleep, sends_nothing_in_the_steps_in_which_all_sleep) {
   const auto shared = std::make_shared<const model::Model>(model);
   const auto sleeping = run_spaces(world(), shared, settings, {}, Oracle::none);
   if (world().size() == 1) return;
-  // Asleep after 50 of 126 steps; then each rank but root sends one message a frame, its account.
+  // All bodies sleep after 50 of 126 steps; then each rank except root sends one message per frame, its
+  // account.
   const auto& frames = sleeping.result.times;
   for (std::size_t frame = 18; frame < frames.size(); ++frame)
     EXPECT_LE(frames[frame].traffic.messages, 1) << "frame " << frame;
@@ -106,8 +107,8 @@ TEST(SpaceSleep, sends_nothing_in_the_steps_in_which_all_sleep) {
   EXPECT_GT(awake, 15) << "before that islands go across";
 }
 
-/// Makes sure that the scene tests what it should: there are steps in which all sleep, in which the first
-/// stack is awake, and the second.
+/// Makes sure that the scene tests what it should: in some steps all bodies sleep, in some the first stack is
+/// awake, and in some the second.
 TEST(SpaceSleep, is_tried_where_islands_sleep_and_wake) {
   const SharedModel model = shared_stacks();
   const auto worlds = solver::make_sor_stepper({}, ode::make_narrow_phase);

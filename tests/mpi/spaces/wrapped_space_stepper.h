@@ -1,4 +1,4 @@
-/// A stepper round another, of which tests override what they change.
+/// A stepper that wraps another one; tests override what they change.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace pbmpi::testing_support {
 
-/// Hands on what every stepper has; what only some have it lacks.
+/// Forwards the functions that every stepper has; lacks those that only some have.
 class WrappedSpaceStepper : public stepping::SpaceStepper {
  public:
   explicit WrappedSpaceStepper(std::unique_ptr<stepping::SpaceStepper> inner) : inner_(std::move(inner)) {}

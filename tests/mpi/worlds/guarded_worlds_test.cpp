@@ -1,4 +1,4 @@
-// Worlds that blow up, over ranks that they move between.
+// Worlds that blow up, on ranks between which they move.
 #include <gtest/gtest.h>
 
 #include "../world_driver_support.h"

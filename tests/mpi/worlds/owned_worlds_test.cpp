@@ -112,7 +112,7 @@ TEST(OwnedWorlds, refuses_another_model_where_a_world_arrives) {
   const Communicator comm = Communicator::world();
   if (comm.size() == 1) GTEST_SKIP() << "needs two ranks";
   SyntheticStepper stepper;
-  // World 0 begins on rank 0 and has one body there, but two on any other rank.
+  // World 0 begins on rank 0, where it has one body, but it has two on any other rank.
   const auto build = [&](int world) { return synthetic_model(comm.is_root() ? world : world + 1); };
   OwnedWorlds worlds(comm, stepper, build, Placement{0});
   const std::vector<Move> moves = {{0, 1}};

@@ -1,4 +1,4 @@
-/// How a run ends before its last frame: stop, error, non-finite state, settings refused.
+/// How a run ends before its last frame: stop, error, non-finite state, refused settings.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using testing_support::settings_of;
 using testing_support::synthetic_model;
 using testing_support::SyntheticStepper;
 
-/// Throws from one frame on one rank.
+/// Throws from a given frame on, on one rank.
 class FailingObserver : public stepping::FrameObserver {
  public:
   FailingObserver(std::int64_t frame, bool here) : frame_(frame), here_(here) {}
@@ -51,7 +51,7 @@ TEST(WorldDriver, stops_all_ranks_after_the_same_frame_when_one_is_asked_to) {
   const Communicator comm = Communicator::world();
   std::atomic<int> stop{0};
   SyntheticStepper::Behaviour behaviour;
-  // A signal that the owner of world 4 alone receives, in frame 5 (steps 15 to 17).
+  // A signal that only the owner of world 4 receives, in frame 5 (steps 15 to 17).
   behaviour.before_step = [&](int world, std::int64_t step) {
     if (world == 4 && step == 16) stop = 15;
   };
@@ -99,7 +99,7 @@ TEST(WorldDriver, throws_on_every_rank_what_the_stepper_throws_on_one) {
 TEST(WorldDriver, throws_on_every_rank_what_an_observer_throws_on_one_in_any_frame) {
   const Communicator comm = Communicator::world();
   const int culprit = comm.size() - 1;
-  for (const std::int64_t frame : {0, 5, 11}) {  // 11 is the last one: nothing but the end of the run follows
+  for (const std::int64_t frame : {0, 5, 11}) {  // 11 is the last frame: only the end of the run follows
     SyntheticStepper stepper;
     WorldDriver driver(comm, stepper, synthetic_model, settings_of(8));
     FailingObserver failing(frame, comm.rank() == culprit);
@@ -107,7 +107,7 @@ TEST(WorldDriver, throws_on_every_rank_what_an_observer_throws_on_one_in_any_fra
     driver.add_observer(failing);
     driver.add_observer(after);
     EXPECT_EQ(message_of<core::RunError>([&] { driver.run(); }), named(comm, culprit, "disk full"));
-    EXPECT_EQ(std::ssize(after.frames), frame + 1);  // observers after the failing one were not left out
+    EXPECT_EQ(std::ssize(after.frames), frame + 1);  // observers after the failing one were not skipped
   }
 }
 

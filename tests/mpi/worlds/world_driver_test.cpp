@@ -22,7 +22,7 @@ using testing_support::settings_of;
 using testing_support::synthetic_model;
 using testing_support::SyntheticStepper;
 
-/// Costs by which the worlds of the first rank are three times as expensive as the others.
+/// Costs that make the worlds of the first rank three times as expensive as the others.
 SyntheticStepper::Behaviour dear_first_quarter(int num_worlds) {
   SyntheticStepper::Behaviour behaviour;
   behaviour.cost_s = [num_worlds](int world) { return world < num_worlds / 4 ? 3e-3 : 1e-3; };
@@ -149,7 +149,7 @@ TEST(WorldDriver, shows_every_frame_once_to_observers_on_every_rank) {
     // Root's wall time reaches every rank.
     for (const double wall_s : comm.allgather(frame.wall_s)) EXPECT_EQ(wall_s, frame.wall_s);
     EXPECT_GT(frame.wall_s, 0);
-    // The worlds of all ranks together are each world once.
+    // The ranks' worlds together contain each world once.
     std::vector<int> worlds = comm.allgatherv(std::span<const int>(frame.worlds));
     EXPECT_TRUE(std::is_sorted(frame.worlds.begin(), frame.worlds.end()));
     std::sort(worlds.begin(), worlds.end());
@@ -171,7 +171,7 @@ TEST(WorldDriver, books_the_phases_of_a_frame_and_the_output_of_the_frame_before
     EXPECT_GT(phases[core::Phase::gather], 0);
     EXPECT_GT(phases[core::Phase::wait], 0);
     if (!comm.is_root()) continue;
-    // Parts of the frame, read from the same clock: they fit in without a tolerance.
+    // Parts of the frame, read from the same clock: they fit without a tolerance.
     EXPECT_LE(phases[core::Phase::solve] + phases[core::Phase::gather], recorder.frames[k].wall_s);
   }
 }

@@ -20,7 +20,7 @@ TEST(GenericBody, is_turned_by_its_rotation_and_then_by_its_heading) {
       "capsule",
       "radius = 0.1\nlength = 1\nmass = 1\nrotation = { axis = [0, 2, 0], angle = 90 }\nheading = 90\n"
       "position = [0, 0, 1]\n"));
-  // The axis z goes to x, and x to y. 1e-15: rounding of two quarter turns.
+  // The z axis turns to x, and x to y. 1e-15: rounding of two quarter turns.
   const Vec3 axis = body(*model, "a").pose.direction_to_outer(Vec3::UnitZ());
   EXPECT_LT((axis - Vec3::UnitY()).norm(), 1e-15);
 }

@@ -18,7 +18,7 @@ const std::string hammer =
 TEST(Compound, is_one_body_whose_geoms_keep_their_places_in_the_actors_frame) {
   const auto model = build(hammer + "mass = 1\nposition = [2, 0, 1]\nheading = 90\n");
   ASSERT_EQ(model->num_bodies(), 1);
-  ASSERT_EQ(model->geoms.size(), 3u);  // with the ground
+  ASSERT_EQ(model->geoms.size(), 3u);  // includes the ground
   const model::Geom& head = model->geoms[2];
   EXPECT_EQ(head.body, 0);
   const Vec3 middle = body(*model, "a").pose.point_to_outer(head.local.position);

@@ -7,7 +7,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-/// The next line is the sixth.
+/// The line after this text is the sixth.
 const std::string ball =
     "title = \"t\"\n[[actor]]\nname = \"ball\"\ntype = \"sphere\"\nposition = [1, 2, 3]\n";
 const std::string solid = "radius = 0.1\nmass = 1\n";

@@ -15,7 +15,7 @@ TEST(Projectile, leaves_the_muzzle_along_the_barrel_one_copy_after_the_other) {
   ASSERT_EQ(model->events.size(), 3u);
   const Pose barrel = body(*model, "a.barrel").pose;
   const Vec3 ahead = barrel.direction_to_outer(Vec3::UnitX());
-  EXPECT_GT(ahead.y(), 0.99);  // the tank looks along y, its gun 5 degrees up
+  EXPECT_GT(ahead.y(), 0.99);  // the tank points along y, its gun 5 degrees up
   EXPECT_NEAR(ahead.z(), std::sin(5 * M_PI / 180), 1e-9);
   for (int shot = 0; shot < 3; ++shot) {
     const model::Event& event = model->events[shot];
@@ -25,7 +25,7 @@ TEST(Projectile, leaves_the_muzzle_along_the_barrel_one_copy_after_the_other) {
     ASSERT_TRUE(event.pose.has_value());
     const Vec3 from_barrel = event.pose->position - barrel.position;
     EXPECT_LT(from_barrel.cross(ahead).norm(), 1e-9);
-    EXPECT_GT(from_barrel.norm(), 2.5 + 0.1);  // clear of half a barrel by more than its radius
+    EXPECT_GT(from_barrel.norm(), 2.5 + 0.1);  // farther than half a barrel by more than its radius
   }
 }
 

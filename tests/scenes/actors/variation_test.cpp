@@ -58,7 +58,7 @@ TEST(Variation, stays_within_its_half_widths_and_reaches_both_sides) {
     low = std::min(low, ball.pose.position.x());
     high = std::max(high, ball.pose.position.x());
   }
-  // Of 200 uniform draws none falls into the outer tenth of a side with a chance of 0.95^200 = 4e-5.
+  // The chance that none of 200 uniform draws falls into the outer tenth of a side is 0.95^200 = 4e-5.
   EXPECT_LT(low, 0.91);
   EXPECT_GT(high, 1.09);
 }

@@ -42,13 +42,13 @@ TEST(Wall, leaves_its_opening_free_and_bridges_it_with_a_lintel) {
   for (const model::Geom& geom : model->geoms) {
     if (geom.body == model::no_body) continue;
     const Vec3 centre = model->bodies[geom.body].pose.position;
-    const double gap = std::abs(centre.x()) - geom.size[0] / 2;  // of the block to the opening's middle
+    const double gap = std::abs(centre.x()) - geom.size[0] / 2;  // from the block to the opening's middle
     if (centre.z() < 1.6) {
       EXPECT_GE(gap, 0.6) << model->bodies[geom.body].name;
     }
     longest = std::max(longest, geom.size[0]);
   }
-  EXPECT_NEAR(longest, 1.2 + 0.8, 0.01);  // half a block's bearing at each end, less a joint
+  EXPECT_NEAR(longest, 1.2 + 0.8, 0.01);  // half a block's bearing at each end, minus a joint
 }
 
 struct Mistake {

@@ -1,4 +1,4 @@
-// What hits bounces: the effect "restitution".
+// Colliding bodies bounce: the effect "restitution".
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Vec3 up(const model::State& state, int body) {
   return Pose{state.position[body], state.orientation[body]}.direction_to_outer(Vec3::UnitZ());
 }
 
-/// A pin that leans by more than 45 degrees, or has left the lane downwards.
+/// A pin that leans by more than 45 degrees, or has dropped below the lane.
 bool has_fallen(const model::State& state, int pin) {
   return up(state, pin).z() < std::sqrt(0.5) || state.position[pin].z() < 0;
 }
@@ -32,14 +32,14 @@ int num_fallen(const model::State& state) {
   return fallen;
 }
 
-/// Where the belly of a pin is: the second of its geoms.
+/// Position of a pin's belly: the second of its geoms.
 Vec3 belly(const model::Model& model, const model::State& state, int pin) {
   const auto first = std::ranges::find(model.geoms, pin, &model::Geom::body);
   return Pose{state.position[pin], state.orientation[pin]}.point_to_outer((first + 1)->local.position);
 }
 
 /// The speed at which ball and head pin approach each other at the point where they meet, and the share of it
-/// at which they part after the step in which they do.
+/// at which they separate after the step of the impact.
 struct Blow {
   double approach_m_s = 0, bounce = 0;
 };
@@ -120,7 +120,7 @@ TEST(Bowling, its_ball_and_head_pin_do_not_part_without_restitution) {
   SteppedScene scene("Bowling", {{"restitution", false}});
   scene.seconds(lane_s);
   EXPECT_NEAR(first_blow(scene).bounce, 0,
-              0.1);  // measured 0.06: the lane's contacts at the pin are not iterated to their end
+              0.1);  // measured 0.06: the lane's contacts at the pin are not iterated to convergence
 }
 
 TEST(Bowling, most_pins_fall_and_some_fly) {

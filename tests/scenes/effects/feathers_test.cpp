@@ -13,13 +13,13 @@ namespace {
 using effects::EffectId;
 using std::numbers::pi;
 
-/// Cd A [m^2] as scenes/FORMAT.md says: a quarter of the surface.
+/// Cd A [m^2] as in scenes/FORMAT.md: a quarter of the surface.
 double drag_area(const model::Geom& geom) {
   const auto& [a, b, c] = geom.size;
   return geom.shape == model::Shape::sphere ? 0.47 * pi * a * a : 1.05 * (a * b + b * c + c * a) / 2;
 }
 
-/// [m/s] at which drag and weight are in balance.
+/// [m/s] Speed at which drag balances weight.
 double terminal_speed(const model::Model& model, const std::string& name) {
   for (const model::Geom& geom : model.geoms) {
     if (geom.body == model::no_body || model.bodies[geom.body].name != name) continue;
@@ -39,8 +39,8 @@ class Feathers : public testing::TestWithParam<SteppedBy> {};
 INSTANTIATE_TEST_SUITE_P(EveryStepper, Feathers, testing::ValuesIn(every_stepper()),
                          [](const auto& test) { return test.param.name; });
 
-// What falls from rest has the speed v tanh(g t / v), v being the terminal speed. A step of h misses it by g
-// h / 2, 0.6 % of the feather's, and single precision by less.
+// A body that falls from rest has the speed v tanh(g t / v), where v is the terminal speed. The error of a
+// step of h is g h / 2, 0.6 % of the feather's speed, and that of single precision is less.
 TEST_P(Feathers, fall_as_the_formula_says) {
   SteppedScene scene("Feathers", {}, GetParam().settings);
   scene.seconds(0.96);  // the steel balls land after 1.01 s
@@ -63,7 +63,7 @@ TEST_P(Feathers, have_reached_their_terminal_speed_when_the_balls_have_landed) {
   EXPECT_GT(scene.state().position[index_of(scene.model(), "feather.1")].z(), 3.5);
 }
 
-// Torque-free but for the damping: the angular momentum dies away as exp(-2 t).
+// Torque-free except for the damping: the angular momentum decays as exp(-2 t).
 TEST_P(Feathers, stop_tumbling) {
   SteppedScene scene("Feathers", {}, GetParam().settings);
   const int feather = index_of(scene.model(), "feather.1");

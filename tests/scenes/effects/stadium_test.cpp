@@ -17,7 +17,7 @@ TEST(Stadium, calls_for_the_field_of_interest) {
             "within 5 m of 'car.chassis'; elsewhere at most 4 iterations");
 }
 
-// While all are in the air each is an island of his own.
+// While all humans are in the air, each is an island of its own.
 TEST(Stadium, whole_humans_are_inside_and_others_once_the_car_has_moved_on) {
   SteppedScene scene("Stadium", {}, default_settings(StepperKind::quick));
   const double radius = scene.model().interest->radius_m;
@@ -36,7 +36,7 @@ TEST(Stadium, whole_humans_are_inside_and_others_once_the_car_has_moved_on) {
   EXPECT_EQ(scene.observables().nonfinite, 0);
 }
 
-// The car is always inside, and rolls by itself: what is solved elsewhere, and how, is nothing to it.
+// The car is always inside, and rolls on its own: how other bodies are solved does not affect it.
 TEST(Stadium, only_what_is_outside_is_solved_otherwise) {
   stepping::StepperSettings settings = default_settings(StepperKind::sor);
   settings.iterations = 8;  // above the field's 4

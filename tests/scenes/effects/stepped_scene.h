@@ -11,7 +11,7 @@
 
 namespace pbmpi::scenes {
 
-/// A scene that pbmpi brings, with its own time step and, of quick, its own iterations.
+/// A scene that comes with pbmpi, with its own time step and, for quick, its own iterations.
 class SteppedScene {
  public:
   explicit SteppedScene(const std::string& name, const model::EffectChoices& effects = {},

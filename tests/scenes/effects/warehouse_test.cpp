@@ -1,4 +1,4 @@
-// What rests is not stepped: the effect "sleeping".
+// Resting bodies are not stepped: the effect "sleeping".
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ int num_asleep(const model::State& state) {
   return static_cast<int>(std::ranges::count_if(state.rest, &model::Rest::asleep));
 }
 
-// One run for all that is asked of it, as 5,000 boxes take a second to fall asleep.
+// One run serves all checks, since 5,000 boxes take a second to fall asleep.
 TEST(Warehouse, steps_only_what_the_forklift_touches) {
   SteppedScene scene("Warehouse");
   EXPECT_EQ(scene.reason(effects::EffectId::sleeping), "after 0.5 s below 0.05 m/s and 0.1 rad/s");
@@ -51,7 +51,7 @@ TEST(Warehouse, steps_only_what_the_forklift_touches) {
       EXPECT_TRUE(stands_in_the_way(bodies[body])) << bodies[body].name;
       EXPECT_GT(moved, 0.1) << bodies[body].name;
     } else if (is_box(bodies[body])) {
-      EXPECT_LT(moved, 1e-3) << bodies[body].name;  // settled by its contacts' softness
+      EXPECT_LT(moved, 1e-3) << bodies[body].name;  // has settled by its contacts' softness
     }
   }
 }

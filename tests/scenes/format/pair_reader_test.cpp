@@ -26,7 +26,7 @@ material = { mu = 0.3 }
 [[pair]]
 )";
 
-/// Of geom 0, the ground, and box `number`.
+/// The material of geom 0, the ground, with box `number`.
 model::Material on_ground(const model::Model& model, int number) {
   return model::pair_material(model, {0, number}, model.geoms[0].material, model.geoms[number].material);
 }

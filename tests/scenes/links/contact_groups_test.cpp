@@ -10,7 +10,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-/// A floor, and spheres a, b, c, d that are each free, unless they say more.
+/// A floor, and spheres a, b, c, d that are all free, unless they specify more.
 std::string four(const std::string& floor = "", const std::string& geom = "", const std::string& contact = "",
                  const std::string& of_a = "") {
   std::string xml = "<mujoco><worldbody><geom type='plane' size='1 1 1' " + floor + "/>";
@@ -20,7 +20,7 @@ std::string four(const std::string& floor = "", const std::string& geom = "", co
   return xml + "</worldbody><contact>" + contact + "</contact></mujoco>";
 }
 
-/// May the geoms of two of them touch? 0: the floor, 1 to 4: the spheres.
+/// May the geoms of these two touch? 0: the floor, 1 to 4: the spheres.
 bool touch(const std::string& xml, int first, int second) {
   const auto model = model_of(xml);
   return model::TouchRule(*model).may_touch(first, second);
@@ -50,7 +50,7 @@ TEST(ContactGroups, say_whom_they_part_besides) {
 }
 
 TEST(ContactGroups, follow_types_and_affinities) {
-  // As robots have it whose parts meet the floor alone.
+  // As in robots whose parts touch only the floor.
   const std::string xml = four("conaffinity='1'", "contype='1' conaffinity='0'");
   EXPECT_TRUE(touch(xml, 0, 1));
   EXPECT_FALSE(touch(xml, 1, 2));

@@ -16,7 +16,7 @@ using model::JointKind;
 using model::Mat3;
 using std::numbers::pi;
 
-constexpr double rounding = 1e-12;  // of numbers of order 1
+constexpr double rounding = 1e-12;  // for numbers of order 1
 
 void expect_near(const Vec3& a, const Vec3& b, double within = rounding) {
   EXPECT_LE((a - b).norm(), within) << a.transpose() << " instead of " << b.transpose();
@@ -79,8 +79,7 @@ TEST(Mjcf, turns_by_degrees_unless_told_otherwise) {
   expect_near(link(*model, "b").pose.direction_to_outer(Vec3::UnitZ()), {1, 0, 0});
 }
 
-// Turns about moved axes (small letters) and about fixed ones (capital letters) in opposite orders are the
-// same.
+// Turns about moved axes (lower case) and about fixed axes (upper case) in opposite orders are the same.
 TEST(Mjcf, turns_about_moved_and_about_fixed_axes) {
   const Vec3 moved = z_of("euler='0.1 0.2 0.3'", "<compiler eulerseq='xyz'/>");
   const Vec3 fixed = z_of("euler='0.3 0.2 0.1'", "<compiler eulerseq='ZYX'/>");
@@ -169,7 +168,7 @@ TEST(Mjcf, scales_and_bounds_masses_as_the_compiler_says) {
   const auto bounded =
       model_of(mujoco(boxed("<freejoint/>"), "<compiler boundmass='2' boundinertia='0.03'/>"));
   EXPECT_EQ(link(*bounded, "b").mass_kg, 2);
-  // Of the box of 1 kg: 13/300, 10/300 and 5/300.
+  // The box of 1 kg has 13/300, 10/300 and 5/300.
   expect_near(link(*bounded, "b").inertia.diagonal(), {13.0 / 300, 10.0 / 300, 0.03});
   const std::string thin = "<inertial pos='0 0 0' mass='2' diaginertia='1 2 6'/>";
   const auto balanced = model_of(mujoco(boxed("<freejoint/>" + thin), "<compiler balanceinertia='true'/>"));
@@ -303,8 +302,8 @@ TEST(Mjcf, makes_servos_part_of_the_motor) {
       << "a default of one actuator is one of all";
 }
 
-// A control that nobody sets is 0, which MuJoCo clips to its range: the knee of a quadruped has none that
-// holds 0.
+// A control that nobody sets is 0, which MuJoCo clips to its range: for the knee of a quadruped the range
+// does not contain 0.
 TEST(Mjcf, aims_servos_at_the_control_that_is_nearest_to_0) {
   const auto motor = [&](const std::string& actuator) {
     const std::string body = boxed("<joint name='h' damping='1' range='-2 -.5' ref='-1'/>");
@@ -318,7 +317,7 @@ TEST(Mjcf, aims_servos_at_the_control_that_is_nearest_to_0) {
   EXPECT_NEAR(motor("<position joint='h' kp='10' inheritrange='1'/>").velocity, 10 * 0.5, rounding);
   EXPECT_NEAR(motor("<position joint='h' kp='10' ctrllimited='false' ctrlrange='-2 -.5'/>").velocity, 10 * 1,
               rounding);
-  // Of 2 x 3 (0.6 - 3 v) and -v: at rest where both are even.
+  // Torques 2 x 3 (0.6 - 3 v) and -v: at rest where they balance.
   EXPECT_NEAR(motor("<velocity joint='h' kv='2' gear='3' ctrlrange='.6 2'/>").velocity, 3.6 / 19, rounding);
 }
 

@@ -9,9 +9,9 @@ using stepping::StepperKind;
 using stepping::StepperSettings;
 
 constexpr double seconds = 1;
-constexpr double close_m = 1e-3;  ///< what is asked of both over a second
+constexpr double close_m = 1e-3;  ///< required of both over a second
 
-/// Both integrate to the first order of the step: of 0.1 ms that leaves less than a millimetre.
+/// Both integrate to first order in the step: with 0.1 ms that leaves less than a millimetre.
 constexpr double small_s = 1e-4;
 
 std::string mjcf(const std::string& world) {
@@ -26,7 +26,7 @@ double difference(const std::string& world, double dt_s = small_s) {
                           by_pbmpi(mjcf(world), settings, seconds));
 }
 
-/// A rod from its body's origin to (0.3, 0.05, 0), and a body of it at the end of another.
+/// A rod from its body's origin to (0.3, 0.05, 0), and a body with this rod at the end of another.
 const std::string rod = "<geom type='capsule' fromto='0 0 0 .3 .05 0' size='.03'/>";
 
 std::string hanging(const std::string& joint) { return "<body name='a'>" + joint + rod + "</body>"; }
@@ -62,7 +62,8 @@ TEST(Mujoco, agrees_on_a_ball_joint) {
   EXPECT_LT(difference("<body name='b' euler='.1 .2 .3'><joint type='ball'/>" + rod + "</body>"), close_m);
 }
 
-// The second rod whirls: what is left is the integrators', and goes with the step.
+// The second rod whirls: the remaining difference comes from the integrators, and is proportional to the
+// step.
 TEST(Mujoco, agrees_on_two_hinges_at_right_angles) {
   const std::string world = hanging_twice("<joint axis='1 0 0'/><joint axis='0 .6 .8'/>");
   const double finer = difference(world, small_s / 5);
@@ -82,7 +83,7 @@ TEST(Mujoco, agrees_on_an_armature) {
   EXPECT_LT(difference(hanging("<joint axis='0 1 0' armature='.1'/>")), close_m);
 }
 
-// MuJoCo's limits and contacts yield a little; these have come to rest.
+// MuJoCo's limits and contacts yield slightly; these have come to rest.
 TEST(Mujoco, agrees_on_a_limit) {
   EXPECT_LT(difference(hanging("<joint axis='0 1 0' range='-1 .5'/>")), close_m);
 }
@@ -128,7 +129,7 @@ TEST(Mujoco, is_near_on_a_cart_that_slides_both_ways) {
             between_m);
 }
 
-// Dry friction instead of damping is another law (drive.h): it keeps the rod in bounds, and no more than
+// Dry friction instead of damping is another law (drive.h): it keeps the rod in bounds, but no more than
 // that.
 TEST(Mujoco, is_another_on_a_damped_hinge) {
   const double distance = difference(hanging("<joint axis='0 1 0' damping='.2'/>"));

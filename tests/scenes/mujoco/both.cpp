@@ -16,7 +16,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-/// A file with this text, until the end.
+/// A file with this text, removed with the object.
 class TextFile {
  public:
   explicit TextFile(const std::string& text) {
@@ -64,7 +64,7 @@ Centres by_pbmpi(const std::string& mjcf, const stepping::StepperSettings& setti
   stepper->advance(static_cast<int>(std::lround(seconds / settings.dt_s)), times);
   Centres centres;
   for (std::size_t i = 0; i < model->bodies.size(); ++i)
-    centres[model->bodies[i].name.substr(5)] = stepper->state(0).position[i];  // without "test."
+    centres[model->bodies[i].name.substr(5)] = stepper->state(0).position[i];  // strips "test."
   return centres;
 }
 

@@ -12,13 +12,13 @@ namespace pbmpi::scenes {
 /// Centres of mass [m] of bodies by their names, world frame.
 using Centres = std::map<std::string, core::Vec3>;
 
-/// After `seconds`, in steps of dt_s, which replaces the file's. The bodies with names.
+/// MuJoCo's named bodies after `seconds`, in steps of dt_s, which replaces the file's.
 Centres by_mujoco(const std::string& mjcf, double dt_s, double seconds);
 
-/// Likewise, with these settings, whose dt_s counts.
+/// pbmpi's bodies after `seconds` with these settings, including their dt_s.
 Centres by_pbmpi(const std::string& mjcf, const stepping::StepperSettings& settings, double seconds);
 
-/// The largest distance [m] of a body in one from that in the other, over the bodies that both have.
+/// The largest distance [m] between a body's two positions, over the bodies that both have.
 double largest_distance(const Centres& a, const Centres& b);
 
 }  // namespace pbmpi::scenes

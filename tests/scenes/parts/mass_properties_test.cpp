@@ -11,7 +11,7 @@ namespace {
 using model::Shape;
 using std::numbers::pi;
 
-/// Volume and inertia by summing small cubes, as an oracle that knows no formula. `inside` tells whether a
+/// Volume and inertia by summing small cubes, as an oracle that uses no formula. `inside` tells whether a
 /// point belongs to the shape, which lies within [-half, half]^3.
 template <class Inside>
 std::pair<double, model::Mat3> summed(double half, Inside inside) {
@@ -32,7 +32,7 @@ std::pair<double, model::Mat3> summed(double half, Inside inside) {
   return {volume, inertia};
 }
 
-/// 2 %: the staircase of cubes of 1/100 of the width along a curved surface.
+/// 2 %: the error of cubes of 1/100 of the width along a curved surface.
 constexpr double tolerance = 0.02;
 
 template <class Inside>
@@ -70,9 +70,9 @@ TEST(MassProperties, of_a_capsule_without_length_are_those_of_a_sphere) {
   EXPECT_TRUE(capsule.isApprox(solid_inertia(Shape::sphere, {0.3, 0, 0}, 2), 1e-9));  // of the length, 1e-12
 }
 
-// A bar that is sawn into three, one of which is given as lying and turned back.
+// A bar cut into three parts, one of which is given lying and turned back.
 TEST(MassProperties, of_parts_are_those_of_the_whole) {
-  const core::Quat quarter_turn{std::sqrt(0.5), 0, std::sqrt(0.5), 0};  // about y: z goes to x
+  const core::Quat quarter_turn{std::sqrt(0.5), 0, std::sqrt(0.5), 0};  // about y: turns z to x
   const std::vector<Solid> parts = {{Shape::box, {1, 0.2, 0.3}, {{0.5, 0, 0}, {}}},
                                     {Shape::box, {2, 0.2, 0.3}, {{2, 0, 0}, {}}},
                                     {Shape::box, {0.3, 0.2, 3}, {{4.5, 0, 0}, quarter_turn}}};

@@ -40,7 +40,7 @@ TEST(Overlap, up_to_two_centimetres_is_a_contact) {
 }
 
 TEST(Overlap, is_measured_along_the_bodies_own_axes) {
-  // Corner to face: half a diagonal, 0.707 m, and half a side, 0.5 m, apart by 1.2 or by 1.21 m.
+  // Corner to face: half a diagonal, 0.707 m, plus half a side, 0.5 m; the distance is 1.2 or 1.21 m.
   const std::string turned = "rotation = { axis = [0, 0, 1], angle = 45 }\n";
   EXPECT_NE(error_after_ground(two_boxes("position = [1.17, 0, 0.5]\n" + turned)), "");
   EXPECT_EQ(error_after_ground(two_boxes("position = [1.21, 0, 0.5]\n" + turned)), "");

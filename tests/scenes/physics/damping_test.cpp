@@ -1,4 +1,4 @@
-// Velocities die away as exp(-damping t), whatever the step.
+// Velocities decay as exp(-damping t), for any step.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -24,13 +24,13 @@ TEST_P(Damping, is_an_exponential_decay_of_any_step) {
     const model::State state = state_after(
         std::string("title = \"t\"\ngravity = [0, 0, 0]\nlinear_damping = 0.7\nangular_damping = 2\n") + ball,
         settings, num_steps);
-    // 300 products of single precision each lose 6e-8 of a number below 4.
+    // Each of 300 products in single precision loses 6e-8 of a number below 4.
     EXPECT_LT((state.velocity[0] - std::exp(-0.7) * model::Vec3(3, -2, 1)).norm(), 1e-4);
     EXPECT_LT((state.angular_velocity[0] - std::exp(-2.0) * model::Vec3(1, 2, -4)).norm(), 1e-4);
   }
 }
 
-// After a step's move by h (v + g h), not before: so the first step is not damped in its way.
+// Damping acts after a step's move by h (v + g h), so the first step's displacement is not damped.
 TEST_P(Damping, acts_on_the_velocity_after_the_move) {
   stepping::StepperSettings settings = GetParam().settings;
   settings.substeps = 1;

@@ -1,4 +1,4 @@
-// The air slows bodies down with every stepper.
+// Air drag slows bodies down with every stepper.
 #include <cmath>
 #include <numbers>
 
@@ -43,7 +43,7 @@ TEST(AirDensity, must_not_be_negative) {
   EXPECT_NE(error.find("density"), std::string::npos) << error;
 }
 
-// Balls that fall on each other in thick air, so that contacts and drag meet.
+// Balls that fall on each other in thick air, which combines contacts and drag.
 TEST(DragOfSor, has_the_same_bits_with_every_instruction_set) {
   const std::string scene =
       "title = \"t\"\n[air]\ndensity = 50\n"

@@ -1,4 +1,4 @@
-// Forcing an effect that nothing calls for changes time, not a bit of a state.
+// Forcing an effect that nothing calls for changes the time, but not a bit of a state.
 #include "effects/effects.h"
 
 #include <array>
@@ -37,7 +37,7 @@ SceneSource smooth_scene() {
               "anchor = [3.7, 0, 1]\naxis = [0, 0, 1]\n"};
 }
 
-/// A ball that flies on its own: a world that calls for nothing.
+/// A ball that flies alone: a world that calls for nothing.
 SceneSource lonely_scene() {
   return {
       "lonely", "lonely.toml",
@@ -69,7 +69,7 @@ std::uint64_t hash_after(const SceneSource& source, const EffectChoices& effects
   return model::hash(stepper->state(0));
 }
 
-/// Those of the registry that world 0 does not call for.
+/// The effects of the registry that world 0 does not call for.
 std::vector<std::string> unneeded(const SceneSource& source) {
   const effects::StepPlan plan(*parse_scene(source)->build(0, 1));
   std::vector<std::string> names;
@@ -93,7 +93,7 @@ void expect_same_bits(const SceneSource& source, int num_steps) {
 
 class UnneededEffect : public testing::TestWithParam<const char*> {};
 
-// Seven frames of the eight that a run has: through the action that the measured window is laid on.
+// Seven of the run's eight frames: through the action that the measured window covers.
 TEST_P(UnneededEffect, changes_no_bit_where_it_is_demanded) {
   const SceneSource source = find_scene(GetParam());
   EXPECT_FALSE(unneeded(source).empty());
@@ -128,7 +128,7 @@ TEST(UnneededEffect, changes_no_bit_of_a_world_that_calls_for_nothing) {
   expect_same_bits(lonely_scene(), 120);
 }
 
-// That the ball alone calls for nothing proves little of what the solver would do with contacts and joints.
+// The lone ball calls for nothing, which proves little of what the solver would do with contacts and joints.
 TEST(UnneededEffect, is_tried_in_one_of_the_nine_for_all_that_not_each_of_them_needs) {
   std::set<std::string> tried;
   for (const char* scene : suite) {
@@ -140,7 +140,8 @@ TEST(UnneededEffect, is_tried_in_one_of_the_nine_for_all_that_not_each_of_them_n
     EXPECT_EQ(tried.count(name), 1u) << name;
 }
 
-// What is called for must not be left out unseen: each of these moves the bits of the same few steps.
+// An effect that is called for must not be dropped silently: each of these changes the bits of the same few
+// steps.
 TEST(CalledForEffect, changes_the_result_when_it_is_left_out) {
   for (const StepperKind kind : {StepperKind::quick, StepperKind::sor}) {
     const SceneSource source = find_scene("CrashSk");

@@ -1,4 +1,4 @@
-/// A world in each of the steppers.
+/// Runs a world in each of the steppers.
 #pragma once
 
 #include <memory>
@@ -11,18 +11,18 @@
 namespace pbmpi::scenes {
 
 struct SteppedBy {
-  std::string name;  ///< of a test
+  std::string name;  ///< in a test's name
   stepping::StepperSettings settings;
 };
 
-/// In a test's name.
+/// Prints the name in a test's name.
 inline std::ostream& operator<<(std::ostream& out, const SteppedBy& by) { return out << by.name; }
 
-/// quick, direct, and sor: cold in double, in single precision and with substeps, and as it is meant to be
-/// used.
+/// quick, direct, and sor: cold in double precision, in single precision and with substeps, and as it is
+/// meant to be used.
 std::vector<SteppedBy> every_stepper();
 
-/// The stepper of these settings, of whichever kind, without worlds.
+/// A stepper with these settings, of any kind, without worlds.
 std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings);
 
 /// The state after `num_steps` steps of world 0 of the scene with this text.

@@ -6,8 +6,8 @@
 namespace pbmpi::scenes {
 namespace {
 
-/// Two boxes side by side on ground that is tilted by 20 degrees: the first is on ice, the second holds. Of
-/// all geoms the friction alone, 0.9 x 0.5, would hold both.
+/// Two boxes side by side on ground tilted by 20 degrees: the first is on ice, the second holds. The friction
+/// from the geoms alone, 0.9 x 0.5, would hold both.
 const std::string slope = R"(title = "t"
 gravity = [3.355, 0, -9.218]
 [[actor]]

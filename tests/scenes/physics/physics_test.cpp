@@ -11,7 +11,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-// Table 1: constant in the measured window.
+// Table 1: constant within the measured window.
 TEST(TwoCars, are_two_islands_in_the_window) {
   EXPECT_EQ(measured_islands("2-Cars", 1), std::vector<int>(5, 2));
 }
@@ -33,7 +33,7 @@ TEST(TwoCars, one_climbs_the_ramp_in_the_window_and_they_collide_after_it) {
   EXPECT_NE(std::find(later.begin(), later.end(), 1), later.end());
 }
 
-// Table 1: max 3, min 1, mean 2 (+- 0.3 asked).
+// Table 1: max 3, min 1, mean 2 (+- 0.3 required).
 TEST(CrashSk, goes_from_three_islands_to_one_in_the_window) {
   int num_ended_as_one = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
@@ -64,15 +64,15 @@ TEST(CrashSk, stays_finite_and_together_long_after_the_crash) {
   for (int second = 0; second < 3; ++second) {
     run.steps(100);
     EXPECT_EQ(run.observables(0).nonfinite, 0);
-    EXPECT_LT(run.observables(0).energy_j, start_j);  // nothing here feeds energy in
+    EXPECT_LT(run.observables(0).energy_j, start_j);  // nothing here adds energy
   }
   EXPECT_LT(run.observables(0).joint_gap_m,
-            0.05);  // a tenth of a limb: three seconds after the blow all is whole
+            0.05);  // a tenth of a limb: three seconds after the impact all joints are intact
 }
 
 /// The head's motion over two seconds, over 16 seeds of the solver's row order.
 TEST(Human, stands_for_two_seconds_without_falling_or_sagging) {
-  // Contacts take back 0.8 of their depth, as in ODE's crash demo.
+  // Contacts correct 0.8 of their depth, as in ODE's crash demo.
   const auto scene = parse("erp = 0.8\n" + scene_with("human") + "[contact]\nsoft_erp = 0.8\n");
   const auto model = scene->build(0, 1);
   const int head = index_of(*model, "a.head");
@@ -84,15 +84,15 @@ TEST(Human, stands_for_two_seconds_without_falling_or_sagging) {
   for (int world = 0; world < num_worlds; ++world) {
     const Vec3 moved = run.state(world).position[head] - start;
     mean_drift_m += moved.head<2>().norm() / num_worlds;
-    // A fall takes the head down by 1.6 m; the lean that 20 iterations allow in 2 s by less than 0.1 m.
+    // A fall lowers the head by 1.6 m; the lean that 20 iterations allow in 2 s by less than 0.1 m.
     EXPECT_GT(moved.z(), -0.1) << world;
     EXPECT_EQ(run.observables(world).nonfinite, 0);
   }
   EXPECT_LT(mean_drift_m,
-            0.2);  // measured 0.11 m: the muscles creep, as 20 iterations leave torques unsolved
+            0.2);  // measured 0.11 m: the muscles creep, since 20 iterations leave torques unsolved
 }
 
-/// In CrashSk he must not move before he is hit, 0.12 s after the start.
+/// In CrashSk the human must not move before the impact, 0.12 s after the start.
 TEST(Human, stands_still_in_the_crash_until_he_is_hit) {
   const auto scene = parse_scene(find_scene("CrashSk"));
   const auto model = scene->build(0, 1);
@@ -105,12 +105,12 @@ TEST(Human, stands_still_in_the_crash_until_he_is_hit) {
   }
 }
 
-/// A man without muscle tone, thrown forward, collapses.
+/// A man without muscle tone who is thrown forward collapses.
 TEST(Human, falls_with_knees_and_elbows_bent_the_human_way_only) {
   const auto scene = parse(scene_with("human", "tone = 0\nvelocity = [2, 0, 0]\n"));
   const auto model = scene->build(0, 1);
   Simulation run(*scene, 1);
-  // Turn about y of the outer segment against the inner one.
+  // Turn about y of the outer segment relative to the inner one.
   const auto bend_deg = [&](const std::string& inner, const std::string& outer) {
     const auto a = run.state(0).orientation[index_of(*model, inner)].to_eigen();
     const auto b = run.state(0).orientation[index_of(*model, outer)].to_eigen();
@@ -157,8 +157,8 @@ TEST(Car, holds_its_speed_and_turns_left_for_a_positive_angle) {
   EXPECT_NEAR(run.state(0).velocity[chassis].norm(), 10, 0.5);  // rolling costs nothing, steering a little
   const Vec3 forward = run.state(0).orientation[chassis].to_eigen() * Vec3::UnitX();
   const double turned_deg = std::atan2(forward.y(), forward.x()) * 57.29577951308232;
-  // A car of 2.6 m wheelbase at 10 m/s turns by 10 / 2.6 x tan(4 degrees) = 15.4 degrees a second, for 1.4 s;
-  // a quarter less for the tyres' slip.
+  // A car with a wheelbase of 2.6 m at 10 m/s turns by 10 / 2.6 x tan(4 degrees) = 15.4 degrees per second,
+  // for 1.4 s; a quarter less because of the tyres' slip.
   EXPECT_GT(turned_deg, 15);
   EXPECT_LT(turned_deg, 25);
 }
@@ -170,7 +170,7 @@ TEST(Car, its_drive_brings_it_up_to_speed) {
   const int chassis = index_of(*model, "a.chassis");
   EXPECT_EQ(model->bodies[chassis].velocity.x(), 5);
   run.steps(400);
-  // Two wheels of 400 N m at 0.3 m push 1.28 t by 2.1 m/s^2: 5 m/s in 2.4 s.
+  // Two wheels with 400 N m at 0.3 m accelerate 1.28 t by 2.1 m/s^2: 5 m/s in 2.4 s.
   EXPECT_NEAR(run.state(0).velocity[chassis].x(), 10, 0.5);
 }
 

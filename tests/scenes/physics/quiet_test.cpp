@@ -25,7 +25,7 @@ using stepping::StepperSettings;
 struct Setting {
   std::string name;
   StepperSettings stepper;
-  int num_worlds = 1;  ///< that differ in the solver's row order alone
+  int num_worlds = 1;  ///< that differ only in the solver's row order
 };
 std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out << setting.name; }
 
@@ -35,7 +35,7 @@ StepperSettings in_single(StepperSettings settings) {
 }
 /// One substep, no memory.
 StepperSettings cold(int iterations) { return {.kind = StepperKind::sor, .iterations = iterations}; }
-/// The faster of the two with a memory.
+/// The faster of the two settings with a memory.
 StepperSettings four_substeps() {
   StepperSettings settings = default_settings(StepperKind::sor);
   settings.substeps = 4;
@@ -59,7 +59,7 @@ const Setting direct = {"direct", default_settings(StepperKind::direct)};
 const std::vector<std::string> all_scenes = {"2-Cars",  "10-Cars", "CrashSk", "CrashWa", "Environ",
                                              "100CrSk", "Battle",  "Fight",   "Battle2"};
 
-/// What is known to go wrong today. A case that begins to pass fails its test: take it off the list.
+/// Known failures of today. A case that begins to pass fails its test: remove it from the list then.
 struct KnownFailure {
   std::string setting, scene, what;
 };
@@ -92,7 +92,7 @@ struct Measured {
   int nonfinite = 0, blocks_sunk = 0, heads_sunk = 0;
 };
 
-/// Bodies of walls, or heads, that lie lower than at the start.
+/// Counts blocks of walls, or heads, that are lower than at the start.
 int count_sunk(const model::Model& model, const model::State& state, bool heads) {
   int count = 0;
   for (int i = 0; i < model.num_bodies(); ++i) {
@@ -100,7 +100,7 @@ int count_sunk(const model::Model& model, const model::State& state, bool heads)
     const bool counts =
         heads ? body.name.ends_with(".head") : model.actors[body.actor].kind == model::ActorKind::wall;
     const double most = heads ? most_sink_of_heads_m : most_sink_of_blocks_m;
-    // A position that is no number counts as sunk.
+    // A NaN position counts as sunk.
     count += counts && !(state.position[i].z() > body.pose.position.z() - most);
   }
   return count;
@@ -136,7 +136,7 @@ Measured measure(const Setting& setting, const std::string& name) {
   return found;
 }
 
-/// Everything that is not as it should be, empty if nothing is.
+/// All faults as text, empty if there are none.
 std::string faults_of(const Measured& found) {
   std::ostringstream faults;
   const auto demand = [&](bool right, double number, const char* what) {

@@ -1,4 +1,4 @@
-// CrashWa, Environ, Battle, Fight and Battle2 when ODE steps them.
+// CrashWa, Environ, Battle, Fight and Battle2 stepped by ODE.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace pbmpi::scenes {
 namespace {
 
-/// Table 1's row, and the space counts of its two forms.
+/// Table 1's row, and the number of spaces in its two forms.
 struct Row {
   const char* scene;
   double max, min, mean;
@@ -26,7 +26,7 @@ TEST_P(Suite, has_the_papers_islands_in_the_window_within_ten_percent) {
   const auto islands = measured_islands(row.scene, 1);
   EXPECT_NEAR(*std::max_element(islands.begin(), islands.end()), row.max, 0.1 * row.max);
   EXPECT_NEAR(mean(islands), row.mean, 0.1 * row.mean);
-  // Battle's 2 cannot be: its scene file says why.
+  // Battle's minimum of 2 cannot be reached, for a reason given in its scene file.
   if (row.min > 2) {
     EXPECT_NEAR(*std::min_element(islands.begin(), islands.end()), row.min, 0.1 * row.min);
   }
@@ -68,19 +68,19 @@ TEST(SpacesForm, is_chosen_by_the_file_and_overridden_by_the_caller) {
   EXPECT_EQ(parse_scene(source, {}, SpacesForm::many)->build(0, 1)->geoms[0].space, 1);
 }
 
-// The wall must stand until the car comes, after 19 steps.
+// The wall must stand until the car arrives, after 19 steps.
 TEST(CrashWa, its_wall_stands_until_it_is_hit) {
   const auto scene = parse_scene(find_scene("CrashWa"));
   const auto model = scene->build(0, 1);
   Simulation run(*scene, 1);
-  run.steps(17);  // the first round reaches it in the step after
+  run.steps(17);  // the first round reaches it in the next step
   for (int i = 0; i < model->num_bodies(); ++i) {
     if (model->actors[model->bodies[i].actor].kind != model::ActorKind::wall) continue;
-    // Blocks settle by the solver's residual; a hundredth of a block's height.
+    // Blocks settle by the solver's residual: 1 % of a block's height.
     EXPECT_LT((run.state(0).position[i] - model->bodies[i].pose.position).norm(), 0.004)
         << model->bodies[i].name;
   }
-  run.steps(7);  // 0.24 s: the car, at 0.894 m a step, has gone through the wall
+  run.steps(7);  // 0.24 s: the car, at 0.894 m per step, has passed through the wall
   EXPECT_GT(run.state(0).position[index_of(*model, "car.chassis")].x(), -1);
 }
 
@@ -93,7 +93,7 @@ TEST(Wall, stands_for_two_seconds_with_an_opening) {
   Simulation run(*scene, 1);
   run.steps(200);
   for (int i = 0; i < model->num_bodies(); ++i) {
-    // Measured 5 mm: 20 iterations leave friction rows unsolved, so that blocks creep.
+    // Measured 5 mm: 20 iterations leave friction rows unsolved, and blocks creep.
     EXPECT_LT((run.state(0).position[i] - model->bodies[i].pose.position).norm(), 0.02)
         << model->bodies[i].name;
   }
@@ -122,7 +122,7 @@ TEST(Centipede, walks_ahead_on_its_legs) {
   const int head = index_of(*model, "a.segment1");
   const Vec3 moved = run.state(0).position[head] - model->bodies[head].pose.position;
   EXPECT_GT(moved.x(), 0.3);            // measured 0.8 m in four strides of 0.5 s
-  EXPECT_LT(std::abs(moved.y()), 0.5);  // straight ahead, roughly
+  EXPECT_LT(std::abs(moved.y()), 0.5);  // roughly straight ahead
   EXPECT_LT(std::abs(moved.z()), 0.1);  // neither sunk nor overturned
 }
 
@@ -140,7 +140,7 @@ TEST(Projectile, flies_where_it_is_aimed) {
   EXPECT_NEAR(run.state(0).position[shell].y(), 5, 0.01);
   run.steps(20);
   const Pose start = *model->events.at(0).pose;
-  // Semi-implicit Euler: n steps of a fall are g dt^2 n (n + 1) / 2.
+  // Semi-implicit Euler: n steps of free fall are g dt^2 n (n + 1) / 2.
   const Vec3 expected = start.position + Vec3(40 * 0.2, 0, -9.81 * 1e-4 * 20 * 21 / 2);
   EXPECT_LT((run.state(0).position[shell] - expected).norm(), 1e-9);  // rounding
 }

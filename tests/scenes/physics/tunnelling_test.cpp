@@ -1,4 +1,4 @@
-// What flies at 89.4 m/s does not pass through a wall that is thinner than its step.
+// A body at 89.4 m/s does not pass through a wall that is thinner than its displacement per step.
 #include <gtest/gtest.h>
 
 #include "every_stepper.h"
@@ -8,7 +8,7 @@ namespace {
 
 class Tunnelling : public testing::TestWithParam<SteppedBy> {
  protected:
-  /// x of the first body after 30 steps; `keys` of a projectile that starts at x = `from`.
+  /// Position x of the first body after 30 steps; `keys` describe a projectile that starts at x = `from`.
   double end_of(const std::string& keys, double from, const std::string& wall, const char* effects = "") {
     const std::string text = "title = \"shot\"\ngravity = [0, 0, 0]\n[[actor]]\nname = \"shot\"\n" + keys +
                              "mass = 5\nvelocity = [89.4, 0, 0]\nposition = [" + std::to_string(from) +
@@ -25,12 +25,13 @@ INSTANTIATE_TEST_SUITE_P(EveryStepper, Tunnelling, testing::ValuesIn(every_stepp
 constexpr const char* ball = "type = \"sphere\"\nradius = 0.1\n";
 constexpr const char* thin_static_wall = "size = [0.02, 4, 4]\nposition = [0, 0, 1]\nstatic = true\n";
 
-// Nine starts within a step's way, so that some step ends at any distance before the wall.
+// Nine starts within one step's displacement, so that some step ends at any distance from the wall.
 TEST_P(Tunnelling, of_a_static_wall_is_kept_from_balls_wherever_their_steps_end) {
   int num_lost = 0;
   for (int i = 0; i < 9; ++i) {
     const double from = -4 - 0.1 * i;
-    // Stopped by its surface: 0.11 m before the middle of the wall, but for what soft contacts let in.
+    // Stopped by its surface: 0.11 m before the middle of the wall, except for the penetration that soft
+    // contacts allow.
     const double end = end_of(ball, from, thin_static_wall);
     EXPECT_LT(end, -0.1) << from;
     EXPECT_GT(end, -0.5) << from << ": it came as far as the wall";
@@ -54,13 +55,14 @@ TEST_P(Tunnelling, of_a_ball_on_a_round_post_is_kept) {
   EXPECT_LT(end, 0);
 }
 
-// A plate of 20 kg takes the ball's momentum: 5 kg x 89.4 m/s over 25 kg. Before or behind the ball it goes
-// on at the speed of both, or faster: it is pushed, not passed.
+// A plate of 20 kg takes on the ball's momentum: 5 kg x 89.4 m/s over 25 kg. In front of or behind the ball
+// it moves on at their common speed, or faster: it is pushed, not passed.
 TEST_P(Tunnelling, of_a_plate_that_gives_way_hands_on_the_momentum) {
   end_of(ball, -4.35, "size = [0.02, 4, 4]\nposition = [0, 0.1, 1]\nmass = 20\n");
   EXPECT_LT(state_.position[0].x(), state_.position[1].x());
   EXPECT_GT(state_.velocity[1].x(), 17);
-  // Both steppers conserve what rows exchange to rounding: 447 kg m/s, in single precision to 1e-4 of it.
+  // Both steppers conserve the momentum that rows exchange up to rounding: 447 kg m/s, in single precision to
+  // 1e-4 of it.
   EXPECT_NEAR(5 * state_.velocity[0].x() + 20 * state_.velocity[1].x(), 5 * 89.4, 0.05);
 }
 

@@ -1,5 +1,5 @@
-// count_steps SCENE quick|sor [+EFFECT,-EFFECT]: steps world 0 of a scene. For callgrind, which is to count
-// in counted_steps() or, as a check of the counting, in counted_plan() only.
+// count_steps SCENE quick|sor [+EFFECT,-EFFECT]: steps world 0 of a scene. For callgrind, which counts only
+// in counted_steps() or, as a check of the counting, in counted_plan().
 #include <malloc.h>
 
 #include <cstdint>
@@ -26,26 +26,26 @@ using namespace pbmpi;
 
 constexpr int warmup_steps = 9, num_steps = 15;
 
-// Not in the nameless namespace, as callgrind is told their names.
+// Not in the unnamed namespace, because callgrind is told their names.
 [[gnu::noinline]] void counted_steps(stepping::WorldStepper& stepper) {
   core::PhaseTimes times;
   stepper.advance(num_steps, times);
 }
 
-/// Looks through the registry once. The number of passes.
+/// Goes through the registry once. Returns the number of passes.
 [[gnu::noinline]] std::size_t counted_plan(const model::Model& model) {
   return effects::StepPlan(model).passes().size();
 }
 
 namespace {
 
-/// How malloc finds a block, and whether a copy takes its slow way, depend on where blocks lie. That the one
-/// program has a longer registry than the other shall not change it: what was freed before is used up, the
-/// registry is made, and what follows starts at a multiple of 64 KiB.
+/// How malloc finds a block, and whether a copy takes its slow path, depend on the addresses of blocks. A
+/// longer registry in one program than in the other must not change this: freed memory is used up, the
+/// registry is made, and everything after it starts at a multiple of 64 KiB.
 void put_the_registry_out_of_the_way() {
   static std::vector<std::unique_ptr<char[]>> kept;
   kept.reserve(1 << 12);
-  mallopt(M_TOP_PAD, 1 << 28);  // the heap is extended once
+  mallopt(M_TOP_PAD, 1 << 28);  // the heap is extended only once
   for (std::size_t size = 8; size < 4096; size += 16) {
     for (int i = 0; i < 10; ++i) kept.push_back(std::make_unique<char[]>(size));
   }

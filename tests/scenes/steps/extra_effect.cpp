@@ -1,5 +1,5 @@
-// The registry with one more effect, which nothing calls for. It is linked instead of the library's own,
-// which this program has under another name.
+// The registry with one more effect, which nothing calls for. It is linked instead of the library's own
+// registry, which has another name in this program.
 #include "effects/effects.h"
 
 namespace pbmpi::effects {
@@ -7,11 +7,11 @@ namespace pbmpi::effects {
 const std::vector<Effect>& effects_of_the_library();
 
 const std::vector<Effect>& effect_registry() {
-  // At the end, since EffectId is the index of the others: whoever looks through all the registry passes it.
+  // At the end, since EffectId is the index of the others: a loop over the whole registry passes it.
   static const std::vector<Effect> effects = [] {
     const auto& others = effects_of_the_library();
     std::vector<Effect> all;
-    all.reserve(others.size() + 1);  // no block is freed, into which others would then be put
+    all.reserve(others.size() + 1);  // no block is freed that others would then reuse
     all.insert(all.end(), others.begin(), others.end());
     const auto id = static_cast<EffectId>(others.size());
     all.push_back({id, "magnetism", "nothing is magnetic", core::Phase::rows,

@@ -20,7 +20,7 @@ TEST(Xml, knows_the_place_of_elements_and_attributes) {
   EXPECT_EQ(root.children[0].find("three"), nullptr);
 }
 
-// The parser shortens text in place; what follows must keep its place.
+// The parser shortens text in place; the places of everything after it must stay right.
 TEST(Xml, keeps_places_behind_entities_and_windows_line_ends) {
   const Element root = parse("<a x='&lt;&amp;&#65;'\r\n y='1'>\r\n<b/></a>", "f.xml");
   EXPECT_EQ(root.find("x")->value, "<&A");

@@ -25,7 +25,7 @@ model::Model cloud(int count, double side) {
     };
     const auto shape = static_cast<model::Shape>(i % 4);
     const int actor =
-        support::add_actor(model, "solid" + std::to_string(i / 3));  // three of an actor never touch
+        support::add_actor(model, "solid" + std::to_string(i / 3));  // three geoms of one actor never touch
     support::add_solid(model, actor, "body" + std::to_string(i), shape,
                        {0.2 + 0.3 * number(0), 0.3 + 0.4 * number(1), 0.4}, 1,
                        {side * number(2), side * number(3), side * number(4)},
@@ -38,7 +38,7 @@ BroadPhase broad_phase_of_all(const model::Model& model) {
   return BroadPhase(model, support::all_geoms(model));
 }
 
-/// Every pair of geoms, tested as the header says.
+/// Every pair of geoms, tested by the rules in the header.
 std::vector<GeomPair> brute_force(const model::Model& model, const std::vector<model::BodyPose>& poses) {
   std::vector<GeomPair> pairs;
   for (int i = 0; i < static_cast<int>(model.geoms.size()); ++i) {

@@ -26,7 +26,7 @@ struct Pair {
   Shape a, b;
 };
 
-/// Two geoms, each of a body of its own but for a plane.
+/// Two geoms, each on a body of its own except for a plane.
 model::Model pair_model(const Pair& pair) {
   model::Model model;
   int index = 0;
@@ -45,7 +45,7 @@ model::Model pair_model(const Pair& pair) {
   return model;
 }
 
-/// A pair whose poses a test sets, in a pack with a margin and in one without.
+/// A pair whose poses a test sets, in a pack with a margin and in a pack without one.
 class TwoGeoms {
  public:
   explicit TwoGeoms(const Pair& pair)
@@ -98,7 +98,7 @@ class ContactMargin : public testing::TestWithParam<Pair> {
     }
   }
 
-  /// Of boxes another axis may count with a margin, of those that overlap as little as the least but for 5 %.
+  /// With a margin the boxes may use another axis along which they overlap as little, up to 5 % more.
   static double ratio_of_depths() {
     const bool are_boxes = GetParam().a == Shape::box && GetParam().b == Shape::box;
     return are_boxes ? 1.05 : 1;
@@ -135,8 +135,8 @@ TEST_P(ContactMargin, finds_a_gap_of_which_less_can_be_closed_without_touching) 
   EXPECT_GT(gaps, 20);
 }
 
-/// What touches, drawn apart along its normal, has a gap. Boxes and cylinders may then be farther apart along
-/// another axis.
+/// Touching geoms that are moved apart along their normal have a gap. Boxes and cylinders may then be farther
+/// apart along another axis.
 TEST_P(ContactMargin, finds_what_was_drawn_apart_by_half_of_it_and_not_by_twice) {
   const auto has_edges = [](Shape shape) { return shape == Shape::box || shape == Shape::cylinder; };
   if (has_edges(GetParam().a) && has_edges(GetParam().b)) GTEST_SKIP() << "they have many axes";
@@ -151,7 +151,7 @@ TEST_P(ContactMargin, finds_what_was_drawn_apart_by_half_of_it_and_not_by_twice)
     geoms.state().position[contact.body_a] = start + (contact.depth + margin_m / 2) * contact.normal;
     const std::vector<Contact> near = geoms.contacts_ahead();
     ASSERT_FALSE(near.empty()) << "try " << i;
-    EXPECT_NEAR(deepest(near).depth, -margin_m / 2, 2e-3);  // round shapes turn their normal a little
+    EXPECT_NEAR(deepest(near).depth, -margin_m / 2, 2e-3);  // round shapes turn their normal slightly
     geoms.state().position[contact.body_a] = start + (contact.depth + 2 * margin_m) * contact.normal;
     EXPECT_TRUE(geoms.contacts_ahead().empty() || deepest(geoms.contacts_ahead()).depth >= -margin_m);
     ++drawn;
@@ -210,8 +210,8 @@ TEST(ContactMarginOfBoxes, has_the_four_corners_of_a_box_that_hangs_just_over_an
   }
 }
 
-/// Across another by a right angle, and each sways: the one point where two edges come nearest does not carry
-/// it.
+/// A box across another at a right angle, swaying slightly: the single point where two edges are closest
+/// would not support it.
 TEST(ContactMarginOfBoxes, has_the_four_corners_of_one_that_leans_across_another) {
   TwoGeoms geoms({Shape::box, Shape::box});
   std::mt19937_64 engine(3);

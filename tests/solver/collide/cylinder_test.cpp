@@ -1,5 +1,5 @@
-/// The kernels that collide cylinders: what touches and how deep, by an oracle that looks along many
-/// directions; the points, by what lies on what.
+/// The kernels that collide cylinders: touching and depth are tested by an oracle that searches many
+/// directions, the points by what rests on what.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ class Pairs {
 
  private:
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
-  /// Any, or one of the right angles and their halves, with or without a slight tilt.
+  /// Any rotation, or by a multiple of 45 degrees, with or without a slight tilt.
   static model::Quat rotation(Dice& dice) {
     if (dice() < 0.5) return dice.rotation();
     const double turn = std::floor(dice.between(0, 4)) * 0.39269908169872414;
@@ -102,9 +102,9 @@ class Cylinder : public testing::TestWithParam<Shape> {};
 
 constexpr double huge_m = 1e9;
 
-/// What is tested of a precision.
+/// The bounds tested for one precision.
 struct Bounds {
-  double verdict_m;  ///< nearer to touching than this either verdict will do
+  double verdict_m;  ///< closer to touching than this either verdict is accepted
   double overlap_m;
 };
 
@@ -127,14 +127,14 @@ void expect_true_contacts(Shape other, stepping::Precision precision, const Boun
       ++touching;
       ASSERT_NEAR(contacts[0].normal.norm(), 1, bounds.overlap_m);
       if (along > 1.01 * least + bounds.overlap_m) ++too_deep;
-      // No point is deeper, and the deepest nearly as deep as the solids are along the axis.
+      // No point is deeper, and the deepest is nearly as deep as the solids overlap along the axis.
       ASSERT_LE(deepest(contacts), along + bounds.overlap_m);
       ASSERT_GE(deepest(contacts), 0.8 * least - bounds.overlap_m);
       ASSERT_LE(contacts.size(), 4u);
       for (const Contact& contact : contacts) {
         ASSERT_EQ(contact.normal, contacts[0].normal);
         ASSERT_GE(contact.depth, 0);
-        // Half way between two surfaces, whose features are tilted a little against each other.
+        // Halfway between two surfaces whose features are slightly tilted against each other.
         const double outside =
             std::max(distance_outside(a, contact.position), distance_outside(b, contact.position));
         if (along <= 1.01 * least) {
@@ -144,7 +144,7 @@ void expect_true_contacts(Shape other, stepping::Precision precision, const Boun
     }
   }
   EXPECT_GT(touching, 400) << "too few pairs touch to say much";
-  // Deep inside there are more axes of locally least overlap than the kernels look at.
+  // Deep inside there are more axes of locally least overlap than the kernels test.
   EXPECT_LE(too_deep, touching / 100);
 }
 
@@ -156,9 +156,9 @@ TEST_P(Cylinder, touches_the_same_in_single_precision) {
   expect_true_contacts(GetParam(), stepping::Precision::single, {1e-5, 1e-4});
 }
 
-// Spheres are the same. With boxes dCollide looks at fewer axes, so that some poses touch for one of the two
-// only, and others have another normal. Capsules and cylinders it leaves to libccd, whose normal is that of a
-// portal, along which they overlap more.
+// For spheres the two agree. For boxes dCollide tests fewer axes, so that some poses touch for only one of
+// the two, and others have another normal. Capsules and cylinders it leaves to libccd, whose normal is that
+// of a portal, along which they overlap more.
 TEST_P(Cylinder, agrees_with_dcollide_as_far_as_that_is_exact) {
   const bool exact = GetParam() == Shape::sphere, box = GetParam() == Shape::box;
   Pairs pairs(GetParam(), 500, stepping::Simd::automatic, stepping::Precision::double_);
@@ -215,7 +215,7 @@ std::vector<Contact> contacts_at(const model::Geom& moving, const model::Pose& p
   return contacts_of(moving, pose, other);
 }
 
-/// As a rotation round x, y or z.
+/// A rotation about x, y or z.
 model::Quat turned(int axis, double angle) {
   double q[4] = {std::cos(angle / 2), 0, 0, 0};
   q[1 + axis] = std::sin(angle / 2);
@@ -256,7 +256,7 @@ TEST(CylinderPoints, a_cylinder_that_lies_on_a_box_touches_at_both_ends_of_its_s
 }
 
 TEST(CylinderPoints, a_wheel_that_lies_along_an_edge_touches_along_it) {
-  // The box stands on an edge, and has one on top along x; so has the wheel its axis.
+  // The box stands on an edge, and has one on top along x, as has the wheel its axis.
   const model::Geom box = geom_of(Shape::box, 0, {0.1, 1, 1});
   const double top = std::sqrt(0.5);
   model::Geom above = fixed_wheel;
@@ -300,7 +300,7 @@ TEST(CylinderPoints, a_cylinder_stands_on_another_on_four_points_wherever_they_o
     const auto contacts = contacts_at(wheel, {{offset, 0, 0.19}, {}}, fixed_wheel);
     ASSERT_EQ(contacts.size(), 4u) << offset;
     expect_all(contacts, 0.01, {0, 0, 1});
-    // The lens that two circles of radius 0.5 share; of a rim eight places are looked at.
+    // The lens shared by two circles of radius 0.5; eight points of a rim are tested.
     EXPECT_NEAR(width_of(contacts, 0), 1 - offset, 0.15) << offset;
     EXPECT_NEAR(width_of(contacts, 1), 2 * std::sqrt(0.25 - offset * offset / 4), 0.15) << offset;
   }
@@ -336,7 +336,7 @@ TEST(CylinderPoints, a_capsule_lies_on_a_cylinders_end_and_beside_its_side_on_tw
   EXPECT_NEAR(width_of(beside, 2), 0.2, 1e-9);
 }
 
-/// Counts what is left to ODE.
+/// Counts the pairs that are left to ODE.
 class CountingPhase : public model::NarrowPhase {
  public:
   void collide(std::span<const model::BodyPose>, std::span<const model::GeomPair> pairs,
@@ -346,7 +346,7 @@ class CountingPhase : public model::NarrowPhase {
   int asked = 0;
 };
 
-// All scenes are made of these shapes, so that no pair of any scene goes to ODE.
+// All scenes consist of these shapes, so no pair of any scene goes to ODE.
 TEST(Kernels, no_pair_of_shapes_is_left_to_dcollide) {
   for (int first = 0; first < model::num_shapes; ++first) {
     for (int second = 0; second < model::num_shapes; ++second) {

@@ -33,7 +33,7 @@ class Dice {
   std::uint64_t seed_, next_ = 0;
 };
 
-/// Of random size; body no_body for a plane, which lies anywhere.
+/// A geom of random size; `body` is no_body for a plane, which has a random pose.
 model::Geom make_geom(model::Shape shape, int body, Dice& dice);
 
 /// Two geoms of random sizes at the origin, each on a body of its own.
@@ -42,7 +42,7 @@ model::Model make_model(const ShapePair& shapes, Dice& dice);
 /// `body` may be no_body.
 model::Geom geom_of(model::Shape shape, int body, const std::array<double, 3>& size);
 
-/// Contacts of two geoms at rest, the first on a body that lies at `pose`.
+/// Contacts of two geoms at rest, the first one on a body at `pose`.
 std::vector<model::Contact> contacts_of(const model::Geom& moving, const model::Pose& pose,
                                         const model::Geom& other,
                                         stepping::Precision precision = stepping::Precision::double_);

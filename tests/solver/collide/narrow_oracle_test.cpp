@@ -1,5 +1,5 @@
-/// The kernels over lanes against ODE's dCollide, on a million random pairs in all.
-/// One file: each pair of shapes has its own degenerate cases, and all share the generator of pairs.
+/// The kernels over lanes against ODE's dCollide, on a million random pairs in all. One file: each pair of
+/// shapes has its own degenerate cases, and all share the generator of pairs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ class NarrowOracle : public testing::TestWithParam<Kind> {
     pack_ = make_pack(packed, stepping::Simd::automatic, stepping::Precision::double_);
   }
 
-  /// Gives a world random poses; its contacts as ODE has them.
+  /// Gives a world random poses; returns its contacts according to ODE.
   void throw_dice(int world, Dice& dice, std::vector<Contact>& ode) {
     const model::Model& model = models_[static_cast<std::size_t>(world)];
     model::State state = model::initial_state(model);
@@ -74,13 +74,13 @@ double distance_to(const Vec3& point, const std::vector<Contact>& contacts) {
   return distance;
 }
 
-// Nearer to touching than this the verdict is rounding's [m]: some 1e-15 of the sizes, widened by the
+// Closer to touching than this [m] rounding decides the verdict: some 1e-15 of the sizes, enlarged by the
 // divisions of edges against edges.
 constexpr double band_m = 1e-9;
 constexpr double depth_tolerance_m = 1e-6;
 
-/// Of a capsule whose segment has entered the box dCollide says that the normal is the world's x axis; the
-/// kernel looks for the way out (a_capsule_in_a_box_is_led_out).
+/// For a capsule whose segment has entered the box dCollide returns the world's x axis as normal; the kernel
+/// looks for the way out (a_capsule_in_a_box_is_led_out).
 bool is_capsule_in_box(const model::Model& model, const std::vector<Contact>& oracle) {
   const auto capsule = std::find_if(model.geoms.begin(), model.geoms.end(),
                                     [](const model::Geom& g) { return g.shape == Shape::capsule; });
@@ -107,7 +107,7 @@ TEST_P(NarrowOracle, agrees_with_dcollide) {
       if (own.empty()) continue;
       ++touching;
       if (is_capsule_in_box(models_[static_cast<std::size_t>(world)], oracle)) continue;
-      // Two boxes may overlap equally along two axes; then either answers.
+      // Two boxes may overlap equally along two axes; then either answer is right.
       if (own.front().normal.dot(oracle.front().normal) < 1 - 1e-9) {
         ++other_axis;
         continue;
@@ -116,7 +116,7 @@ TEST_P(NarrowOracle, agrees_with_dcollide) {
       ASSERT_NEAR(deepest(own), deepest(oracle), depth_tolerance_m)
           << "world " << world << " round " << round;
       const bool boxes = GetParam().a == Shape::box && GetParam().b == Shape::box;
-      if (boxes) {  // of more than four points each keeps those that it thinks span the most
+      if (boxes) {  // with more than four points each keeps those that it expects to span the most
         ASSERT_EQ(own.size() == 1, oracle.size() == 1);
         continue;
       }
@@ -184,7 +184,7 @@ TEST(NarrowLanes, a_cylinder_is_as_deep_in_a_plane_as_dcollide_says) {
   EXPECT_GT(touching, 200);
 }
 
-/// Pushed by its contacts' depths along their normals a capsule comes out of a box, wherever it began.
+/// Pushed along its contacts' normals by their depths, a capsule leaves a box, wherever it began.
 void expect_led_out(stepping::Precision precision, double tolerance_m) {
   const ode::Engine engine;
   Dice dice(23);
@@ -209,7 +209,7 @@ void expect_led_out(stepping::Precision precision, double tolerance_m) {
 
 TEST(NarrowLanes, a_capsule_in_a_box_is_led_out) { expect_led_out(stepping::Precision::double_, 1e-9); }
 
-// Positions of a metre, rounded to 1e-7.
+// Positions of about a metre are rounded to 1e-7.
 TEST(NarrowLanes, a_capsule_in_a_box_is_led_out_in_single_precision) {
   expect_led_out(stepping::Precision::single, 1e-5);
 }
@@ -231,7 +231,7 @@ std::string kind_name(const testing::TestParamInfo<Kind>& info) {
   return std::string(name_of(info.param.a)) + "_and_" + std::string(name_of(info.param.b));
 }
 
-// Either order of the shapes in some, so that the turning of normals is seen too.
+// Some pairs in either order of the shapes, which also tests the turning of normals.
 INSTANTIATE_TEST_SUITE_P(EveryKind, NarrowOracle,
                          testing::Values(Kind{Shape::sphere, Shape::plane},
                                          Kind{Shape::plane, Shape::capsule}, Kind{Shape::box, Shape::plane},

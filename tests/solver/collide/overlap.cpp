@@ -13,7 +13,7 @@ using model::Vec3;
 
 constexpr int num_directions = 1500;
 
-/// Directions that lie evenly on the sphere, on a spiral.
+/// Directions distributed evenly over the sphere, on a spiral.
 std::vector<Vec3> make_directions() {
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   std::vector<Vec3> directions;
@@ -24,7 +24,7 @@ std::vector<Vec3> make_directions() {
   return directions;
 }
 
-/// Downhill from n by steps in twelve directions, which shrink when none leads down.
+/// Descends from n by steps in twelve directions, which shrink when none leads down.
 double downhill(const PlacedGeom& a, const PlacedGeom& b, Vec3 n) {
   constexpr double least_step = 1e-8, shrink = 0.6;
   double overlap = overlap_along(a, b, n), step = 0.08;
@@ -33,7 +33,7 @@ double downhill(const PlacedGeom& a, const PlacedGeom& b, Vec3 n) {
     const Vec3 other = n.cross(across);
     bool lower = false;
     for (int way = 0; way < 12 && !lower; ++way) {
-      const double turn = way * std::numbers::pi / 6 + i;  // other ways at each step, for the sake of kinks
+      const double turn = way * std::numbers::pi / 6 + i;  // other directions at each step, because of kinks
       const Vec3 next = (n + step * (std::cos(turn) * across + std::sin(turn) * other)).normalized();
       const double value = overlap_along(a, b, next);
       if (value < overlap) {
@@ -79,7 +79,7 @@ double least_overlap(const PlacedGeom& a, const PlacedGeom& b) {
     Vec3 n;
   };
   constexpr std::size_t num_starts = 6;
-  constexpr double near = 0.97;  // cosine: one start for a neighbourhood
+  constexpr double near = 0.97;  // cosine: one start per neighbourhood
   std::vector<Start> all, starts;
   for (const Vec3& n : directions) all.push_back({overlap_along(a, b, n), n});
   std::sort(all.begin(), all.end(), [](const Start& s, const Start& t) { return s.overlap < t.overlap; });

@@ -1,4 +1,4 @@
-/// How far two convex solids overlap, found by looking: an oracle that shares nothing with the kernels.
+/// How far two convex solids overlap, found by search: an oracle that shares nothing with the kernels.
 #pragma once
 
 #include "model/model.h"
@@ -18,12 +18,12 @@ double support(const PlacedGeom& solid, const model::Vec3& n);
 /// Overlap of two solids along n, which points into a [m]: below 0 there is a gap.
 double overlap_along(const PlacedGeom& a, const PlacedGeom& b, const model::Vec3& n);
 
-/// The least overlap over all directions, to some 1e-6 m: from the lowest of many directions downhill by
-/// pattern search. Below 0: how far they are apart. Where the overlap has a kink the search ends early, and
-/// what it gives is too large.
+/// The least overlap over all directions, to some 1e-6 m: pattern search downhill from the lowest of many
+/// directions. Below 0: how far they are apart. Where the overlap has a kink the search ends early, and its
+/// result is too large.
 double least_overlap(const PlacedGeom& a, const PlacedGeom& b);
 
-/// How far a place is outside of the solid [m], 0 inside.
+/// Distance of a point from the solid [m], 0 inside.
 double distance_outside(const PlacedGeom& solid, const model::Vec3& place);
 
 }  // namespace pbmpi::solver

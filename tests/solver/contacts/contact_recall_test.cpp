@@ -32,7 +32,7 @@ ContactForce force(const GeomPair& geoms, const Vec3& arm, double normal) {
 
 constexpr auto keeps_none = [](const ContactForce&) { return false; };
 
-/// The normal forces with which contacts start.
+/// The normal forces from which contacts start.
 std::vector<double> recalled(const std::vector<Contact>& contacts, const std::vector<ContactForce>& before) {
   ContactRecall recall;
   recall.recall(contacts, before, centre, keeps_none);
@@ -107,7 +107,7 @@ TEST(ContactRecall, keeps_the_rows_of_bodies_that_are_not_looked_at) {
   const auto is_asleep = [](const ContactForce& old) { return old.body_a == 1; };
   ContactRecall recall;
   std::vector<ContactForce> memory = before;
-  for (int step = 0; step < 3; ++step) {  // the same however long they sleep
+  for (int step = 0; step < 3; ++step) {  // the same for any number of steps asleep
     recall.recall(std::vector{contact({0, 1}, {0, 0, 0}), contact({0, 3}, {0, 0, 0})},
                   std::vector<ContactForce>(memory), centre, is_asleep);
     EXPECT_EQ(recall.forces().size(), 2u) << "the kept ones are solved by nobody";

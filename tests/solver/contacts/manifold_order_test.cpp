@@ -13,7 +13,7 @@ struct Given {
   int color, num_points;
 };
 
-/// Manifold i is of body i, with the environment.
+/// Manifold i is that of body i with the environment.
 class Deal {
  public:
   explicit Deal(const std::vector<Given>& manifolds) {

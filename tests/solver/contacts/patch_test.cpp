@@ -1,4 +1,4 @@
-/// Friction that the contacts of two bodies share, against the laws of a box that slides and spins.
+/// Friction shared by the contacts of two bodies, against the laws of a box that slides and spins.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -35,7 +35,7 @@ model::Model cube() {
   return model;
 }
 
-/// [N], [N m] about the cube's middle. Of all contacts of the last step.
+/// Friction on the cube from all contacts of the last step [N], [N m] about the cube's middle.
 struct Wrench {
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
 };
@@ -50,7 +50,7 @@ Wrench friction_of(const stepping::StepContacts& step) {
 
 class Patch : public testing::TestWithParam<Precision> {};
 
-/// Each corner resists with mu times a quarter of the weight, across its way from the middle.
+/// Each corner resists with mu times a quarter of the weight, perpendicular to its radius from the middle.
 TEST_P(Patch, brakes_a_spinning_cube_as_its_corners_would) {
   const double spin = 6;
   model::Model model = cube();
@@ -76,7 +76,7 @@ TEST_P(Patch, brakes_a_spinning_cube_as_its_corners_would) {
   }
 }
 
-/// Force and twist are bounded together, and the contacts have them.
+/// Force and twist are bounded together, and the contacts carry them.
 TEST_P(Patch, has_a_force_and_a_twist_within_one_ellipsoid) {
   model::Model model = cube();
   model.bodies[0].velocity = {2, 1, 0};
@@ -105,7 +105,7 @@ TEST_P(Patch, has_a_force_and_a_twist_within_one_ellipsoid) {
   EXPECT_LT(slipping, 75) << "and then it stands";
 }
 
-/// What holds the cube on a slope is known: its weight along the slope, and no twist.
+/// The load on a cube that is held on a slope is known: its weight along the slope, and no twist.
 TEST_P(Patch, holds_a_cube_on_a_slope_by_its_weight) {
   model::Model model = cube();
   const double slope = 0.2;
@@ -120,7 +120,7 @@ TEST_P(Patch, holds_a_cube_on_a_slope_by_its_weight) {
   EXPECT_LT((stepper->state(0).position[0] - model.bodies[0].pose.position).norm(), 1e-3);
 }
 
-/// A cube spins on a slab that slides freely: the slab takes on what the cube loses.
+/// A cube spins on a slab that slides freely: the slab gains what the cube loses.
 TEST_P(Patch, takes_from_one_body_what_it_gives_the_other) {
   model::Model model;
   support::add_ground(model);
@@ -144,7 +144,7 @@ TEST_P(Patch, takes_from_one_body_what_it_gives_the_other) {
 
 INSTANTIATE_TEST_SUITE_P(Patch, Patch, testing::Values(Precision::double_, Precision::single));
 
-/// The contacts of a body with planes that are not one are no patch: each has its own friction.
+/// Contacts of a body with different planes are not a patch: each has its own friction.
 TEST(Patch, does_not_join_contacts_of_different_planes) {
   model::Model model;
   const int ground = support::add_actor(model, "gutter"), actor = support::add_actor(model, "ball");

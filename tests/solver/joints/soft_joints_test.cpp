@@ -1,4 +1,4 @@
-/// Joints that are springs: what they hold of what turns fast, and what of what leans on a limit.
+/// Joints that are springs: how they hold bodies that turn fast, and bodies that lean on a limit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Model whirling_bar() {
   return model;
 }
 
-/// [m] in its first second.
+/// Largest gap [m] in its first second.
 double largest_gap_of_whirling_bar(int substeps) {
   const auto stepper = make_stepper(settings_with(substeps), {whirling_bar()});
   double gap_m = 0;
@@ -46,7 +46,7 @@ double largest_gap_of_whirling_bar(int substeps) {
   return gap_m;
 }
 
-// Along the arms of a substep's start each substep would open a gap of second order, of which half a substep
+// With the arms of a substep's start each substep would open a gap of second order, of which half a substep
 // leaves a quarter.
 TEST(SoftJoints, hold_what_whirls_to_third_order) {
   double before_m = largest_gap_of_whirling_bar(6);
@@ -60,7 +60,7 @@ TEST(SoftJoints, hold_what_whirls_to_third_order) {
   }
 }
 
-/// What is left, as a share, of a gap of 1 mm at the middle of a free body that a ball joint pulls to the
+/// The share of a gap of 1 mm that remains, at the middle of a free body that a ball joint pulls to the
 /// world.
 double share_left_of_a_gap(stepping::JointSolver solver, double damping) {
   Model model;
@@ -80,8 +80,8 @@ double share_left_of_a_gap(stepping::JointSolver solver, double damping) {
   return stepper->state(0).position[0].x() / 1e-3;
 }
 
-// By the ERP of a spring of 0.2 periods in a substep, a / (2 z + a) with a = 0.4 pi. A swept row is soft
-// besides: with its CFM, 1 / (a (2 z + a)), it takes 1 / (1 + CFM) of its way.
+// The ERP of a spring with 0.2 periods per substep, a / (2 z + a) with a = 0.4 pi. A swept row is also soft:
+// with its CFM, 1 / (a (2 z + a)), it closes 1 / (1 + CFM) of its gap.
 TEST(SoftJoints, close_gaps_by_their_damping_and_exact_ones_by_a_small_one) {
   const double a = 0.4 * M_PI;
   const auto erp = [a](double damping) { return a / (2 * damping + a); };
@@ -91,7 +91,7 @@ TEST(SoftJoints, close_gaps_by_their_damping_and_exact_ones_by_a_small_one) {
   EXPECT_NEAR(share_left_of_a_gap(stepping::JointSolver::sweeps, 3), 1 - erp(3) / (1 + cfm), 1e-7);
 }
 
-/// Bars that hang on the world one below the other, level at the start, by hinges that bend by 0.1 rad.
+/// Bars that hang on the world one below the other, level at the start, on hinges that bend by 0.1 rad.
 Model bars_at_their_limits(int num_bars) {
   Model model;
   model.angular_damping = 2;
@@ -106,7 +106,7 @@ Model bars_at_their_limits(int num_bars) {
   return model;
 }
 
-// A limit that pushed as hard as it takes, and remembered it, would let all of them tremble.
+// A limit that pushed as hard as needed, and remembered it, would make all of them tremble.
 TEST(SoftJoints, rest_at_their_limits) {
   for (const stepping::JointSolver solver : {stepping::JointSolver::hanging, stepping::JointSolver::tree}) {
     stepping::StepperSettings settings = settings_with(12);
@@ -121,7 +121,7 @@ TEST(SoftJoints, rest_at_their_limits) {
   }
 }
 
-// What a motor pushes into its own limit acts on no body.
+// The part of a motor's force that pushes into its own limit acts on no body.
 TEST(SoftJoints, give_no_way_to_a_motor_that_pushes_into_its_limit) {
   Model model;
   model.gravity.setZero();

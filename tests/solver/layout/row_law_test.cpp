@@ -10,7 +10,7 @@ namespace {
 
 constexpr double h = 0.00125;  // [s]
 
-/// A body on a line with a row that wants it at 0, as the sweeps of a substep solve it.
+/// A body on a line with a row that pulls it to 0, as the sweeps of a substep solve it.
 struct Oscillator {
   double position = 0, velocity = 0;  // [m], [m/s]
   double inv_mass = 1;
@@ -48,7 +48,7 @@ TEST(SpringStep, is_solved_by_one_sweep_from_whatever_impulse) {
   for (const Spring& spring : springs) {
     const double expected = implicit_euler(spring, 0.02, -0.7);
     Oscillator body{0.02, -0.7, 0.25};
-    body.impulse = 3;  // of the substep before, and pushed already
+    body.impulse = 3;  // of the substep before, and already applied
     body.velocity += body.inv_mass * body.impulse;
     for (int sweep = 0; sweep < 3; ++sweep) {
       body.sweep(SpringStep(spring, h));

@@ -8,7 +8,7 @@
 namespace pbmpi::solver {
 namespace {
 
-/// A ball of 4 kg on the ground (as tests/jobs/test_siconos.py has it), the speed along the ground given.
+/// A ball of 4 kg on the ground (as in tests/jobs/test_siconos.py), with this speed along the ground.
 ConeProblem ball(double slide) {
   const double normal = 1.0 / 4, across = normal + 0.25 / (0.4 * 4 * 0.25);
   ConeProblem problem;
@@ -20,8 +20,8 @@ ConeProblem ball(double slide) {
   return problem;
 }
 
-/// A square plate of 1 kg that lies on four points and is pushed along a diagonal: how they share normals and
-/// friction only a CFM tells.
+/// A square plate of 1 kg that lies on four points and is pushed along a diagonal: only a CFM determines how
+/// the points share normal forces and friction.
 ConeProblem plate(double cfm, double push) {
   constexpr double sign[4][2] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
   constexpr double half = 0.5, height = 0.1, inertia = 0.1, spin = 0.17;
@@ -56,12 +56,12 @@ double solved_residual(const ConeProblem& problem) {
 
 TEST(ConeSolver, a_ball_slides_rolls_or_flies_as_hands_compute) {
   Numbers r(3, 0);
-  ConeSolver(ball(3)).solve(r);  // slides: the friction turns against the slip
+  ConeSolver(ball(3)).solve(r);  // slides: the friction opposes the slip
   EXPECT_NEAR(r[0], 4 * 0.0981, 1e-14);
   EXPECT_NEAR(r[1], -0.5 * r[0] * 0.6, 1e-14);
   EXPECT_NEAR(r[2], 0.5 * r[0] * 0.8, 1e-14);
   r.assign(3, 0);
-  ConeSolver(ball(0.1)).solve(r);  // is held
+  ConeSolver(ball(0.1)).solve(r);  // sticks
   EXPECT_NEAR(r[1], -0.06 / ball(0).w.row(1)[1], 1e-14);
   EXPECT_NEAR(r[2], 0.08 / ball(0).w.row(1)[1], 1e-14);
   ConeProblem flies = ball(3);
@@ -86,7 +86,7 @@ TEST(ConeSolver, rows_with_bounds_stop_at_them) {
 }
 
 TEST(ConeSolver, loads_that_only_a_cfm_shares_out_are_solved_to_rounding) {
-  // The bar of the judge is 1e-8; sweeps alone would need some 1e8 of them.
+  // The judge's bound is 1e-8; sweeps alone would need some 1e8 iterations.
   for (const double push : {0.01, 0.05, 0.2}) {
     for (const double cfm : {1e-4, 1e-8}) EXPECT_LT(solved_residual(plate(cfm, push)), 1e-12) << push << cfm;
   }

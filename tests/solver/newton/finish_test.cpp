@@ -1,4 +1,4 @@
-/// Steps whose sweeps end by Newton's method, against steps of very many sweeps.
+/// Steps whose sweeps end with Newton's method, against steps of very many sweeps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ StepperSettings cold(int iterations, Finish finish) {
   return settings;
 }
 
-/// A box that slides over the ground on one edge and drags another by a hinge with a limit.
+/// A box that slides over the ground on one edge and drags another one by a hinge with a limit.
 model::Model dragged_box() {
   model::Model model;
   const int actor = support::add_actor(model, "boxes");
@@ -59,7 +59,7 @@ TEST(Finish, by_newton_is_where_very_many_sweeps_lead) {
     advance(*few, 1);
     advance(*many, 1);
   }
-  // [m/s, rad/s] of some; the sweeps leave the more.
+  // [m/s, rad/s] for speeds of a few units; the sweeps leave the larger error.
   EXPECT_LT(largest_difference(few->state(0), many->state(0)), 1e-7);
 }
 

@@ -1,4 +1,4 @@
-// Which worlds of a pack may have a fast body: the same as body by body, for every instruction set.
+// Which worlds of a pack may have a fast body: the same result as body by body, for every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 constexpr double dt_s = 0.01;
 constexpr int num_worlds = 37;  // the last batch of every width has idle lanes
 
-/// Boxes and a ball that keep to their bounds by far; in every other world one moves or turns by up to 30 %
+/// Boxes and a ball that stay well within their bounds; in every other world one moves or turns by up to 30 %
 /// less or more than its bound.
 model::Model model_of(int world) {
   model::Model model;

@@ -30,7 +30,7 @@ std::vector<Link> random_links(int num_bodies, std::uint64_t seed) {
 
 int sweeps_of(int body) { return 1 + body % 3; }
 
-/// Link by link, over the islands that model::find_islands() has.
+/// Counts link by link, over the islands of model::find_islands().
 stepping::Observables counted_by_links(int num_bodies, const std::vector<Link>& links) {
   std::vector<std::pair<int, int>> pairs;
   for (const Link& link : links) pairs.emplace_back(link.a, link.b);

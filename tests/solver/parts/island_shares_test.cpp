@@ -15,7 +15,7 @@ using namespace testing_support;
 struct Lengths {
   const char* name;
   double tolerance_m, sag_m;
-  double contact_hz = model::infinity;  ///< with softer ones the stacks are tall
+  double contact_hz = model::infinity;  ///< with softer contacts the stacks are tall
 
   StepperSettings settings() const {
     StepperSettings settings = default_settings(stepping::StepperKind::sor);

@@ -26,7 +26,7 @@ StepperSettings settings_with(double sag_m) {
   return settings;
 }
 
-/// A ball on a light one, that hangs by a joint.
+/// A ball on a light one that hangs on a joint.
 Model heavy_on_light(double ratio) {
   Model model;
   const int actor = support::add_actor(model, "chain");
@@ -39,7 +39,7 @@ Model heavy_on_light(double ratio) {
   return model;
 }
 
-/// A stack of boxes that grow heavier.
+/// A stack of boxes of growing mass.
 Model stack(double ratio) {
   Model model;
   support::add_ground(model);
@@ -57,7 +57,7 @@ std::vector<int> all_bodies(const Model& model) {
   return bodies;
 }
 
-/// Does find() call an island of this state loaded at this sag?
+/// Does find() count an island of this state as loaded at this sag?
 bool is_loaded(const Model& model, const State& state, std::span<const model::Contact> contacts,
                double sag_m) {
   std::vector<int> loaded;
@@ -94,7 +94,7 @@ TEST(LoadedIslands, stay_so_down_to_an_eighth_of_the_sag) {
   }
 }
 
-// Else it would be pushed out and let down in turn.
+// Otherwise it would alternately be pushed out and let down.
 TEST(LoadedIslands, a_column_rests_whatever_sag_is_named) {
   Model model;
   support::add_ground(model);
@@ -132,7 +132,7 @@ TEST(LoadedIslands, are_those_whose_contacts_give_by_more_than_the_sag) {
   }
 }
 
-// What is skipped for its bounds is not loaded.
+// An island that is skipped because of its bounds is not loaded.
 TEST(LoadedIslands, forces_that_give_little_wherever_they_act_are_those_of_no_loaded_island) {
   Model model = heavy_on_light(3);
   std::mt19937 random(5);
@@ -147,7 +147,7 @@ TEST(LoadedIslands, forces_that_give_little_wherever_they_act_are_those_of_no_lo
     state.memory.joints.resize(model.joints.size());
     state.memory.joints[1].force = vector();
     state.memory.joints[1].torque = vector();
-    // By hand: the largest give over all ways in which the bodies may lie is not below that of this one.
+    // By hand: the largest deflection over all poses of the bodies is not below that of these poses.
     const model::JointForce& force = state.memory.joints[1];
     const auto inverse = model.bodies[0].inertia.inverse().eval();
     const auto accelerations_of = [&](int body, const model::Vec3& anchor) -> std::pair<double, double> {

@@ -56,10 +56,10 @@ TEST(QuietIslands, change_no_bit_of_a_world_that_moves) {
   }
 }
 
-// At step 0 nothing moves, and all is foreseen to be quiet; then everything falls.
+// At step 0 nothing moves, and all islands are predicted to be quiet; then everything falls.
 TEST(QuietIslands, what_begins_to_move_is_put_back_with_all_its_forces) {
   Model model = yards(true, true);
-  model.bodies.front().velocity = {0, 0, -1};  // so that the first stack never was quiet
+  model.bodies.front().velocity = {0, 0, -1};  // keeps the first stack from ever being quiet
   for (int i = 4; i < 8; ++i) model.bodies[static_cast<std::size_t>(i)].pose.position.z() += 2;
   for (int step : {0, 10}) {
     StepperSettings settings = settings_with(0);
@@ -83,7 +83,7 @@ TEST(QuietIslands, what_begins_to_move_is_put_back_with_all_its_forces) {
   }
 }
 
-/// What foresee() makes of one body, by itself.
+/// The prediction of foresee() for one body alone.
 bool is_quiet(const Model& model, const State& state, const StepperSettings& settings) {
   QuietIslands quiet(model, settings);
   StepIslands islands(model);
@@ -93,7 +93,7 @@ bool is_quiet(const Model& model, const State& state, const StepperSettings& set
   return quiet.contains(0);
 }
 
-// The bound of a way is one for every point of a body.
+// The bound on the displacement is the same for every point of a body.
 TEST(QuietIslands, no_point_of_a_quiet_body_moves_farther_than_the_tolerance) {
   Model model;
   const int actor = support::add_actor(model, "rod");

@@ -18,7 +18,7 @@ constexpr double side_m = 0.02;
 
 StepperSettings default_sor() { return default_settings(stepping::StepperKind::sor); }
 
-/// Columns of cubes on the ground, each of as many.
+/// Columns of cubes on the ground with these heights.
 Model columns(const std::vector<int>& heights) {
   Model model;
   support::add_ground(model);
@@ -64,7 +64,7 @@ std::vector<int> find(const Model& model, const StepperSettings& settings,
   return substeps;
 }
 
-/// By how much the top sinks, as tall_islands.h has it.
+/// How far the top sinks, by the formula of tall_islands.h.
 double sink_m(int levels, double substeps) {
   const double w = 2 * std::numbers::pi * most_contact_periods * substeps / 0.01;
   return levels * levels / 2.0 * 9.81 / (w * w);
@@ -113,14 +113,14 @@ TEST(TallIslands, are_counted_one_by_one_and_by_the_shortest_way_down) {
   EXPECT_EQ(substeps[0], substeps[19]);
   EXPECT_EQ(substeps[20], 14) << "the low one";
   EXPECT_EQ(substeps[25], substeps[0]);
-  contacts.push_back(stands_on(10, 22));  // leans on the low one: half as high
+  contacts.push_back(stands_on(10, 22));  // leans on the low column, half as high
   substeps = find(model, default_sor(), contacts);
   EXPECT_LT(substeps[0], substeps[25]);
   EXPECT_EQ(substeps[0], substeps[22]) << "one island";
   contacts.push_back(stands_on(19, model::no_body));  // and is held at its top
   EXPECT_EQ(find(model, default_sor(), contacts)[0], 14);
   contacts = contacts_of_columns(heights);
-  contacts.erase(contacts.begin());  // flies
+  contacts.erase(contacts.begin());  // hangs in the air
   EXPECT_EQ(find(model, default_sor(), contacts)[0], 14);
 }
 

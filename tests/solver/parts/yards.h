@@ -1,4 +1,4 @@
-/// Worlds of which some islands rest while others move, for tests of steps in which islands differ.
+/// Worlds in which some islands rest while others move, for tests of steps in which islands differ.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ using model::Model;
 using model::State;
 using stepping::StepperSettings;
 
-/// A stack of boxes, and a chain on hinges that falls beside it and comes to rest.
+/// A stack of boxes, and a chain on hinges that falls next to it and comes to rest.
 inline void add_yard(Model& model, double x) {
   const std::string at = "." + std::to_string(static_cast<int>(x));
   const int wall = support::add_actor(model, "wall" + at, model::ActorKind::wall, true);

@@ -1,4 +1,4 @@
-// Motors that are aimed from outside, in all steppers: quick, direct and sor.
+// Motors whose targets are set from outside, in all steppers: quick, direct and sor.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,7 +74,7 @@ model::Event motor_event(std::int64_t step, const model::AxisMotor& motor) {
 class Motors : public testing::TestWithParam<Setting> {
  protected:
   const StepperSettings& settings() const { return GetParam().settings; }
-  /// About or along y, of the only body. Single precision rounds at 1e-7 of it.
+  /// Velocity along or about y, of the only body. Single precision rounds at 1e-7 of it.
   static void expect_rate(const State& state, bool slides, double rate) {
     const Vec3& found = slides ? state.velocity[0] : state.angular_velocity[0];
     EXPECT_NEAR(found.y(), rate, 1e-5);
@@ -100,7 +100,7 @@ TEST_P(Motors, hinge_and_slider_reach_the_velocity_they_are_aimed_at) {
 }
 
 TEST_P(Motors, keep_the_force_of_their_model) {
-  // A slider: 5 N on 1 kg are 5 m/s^2.
+  // A slider: 5 N on 1 kg give 5 m/s^2.
   const auto stepper = start(settings(), driven_box(JointKind::slider, {0, 5}));
   stepper->set_motor_velocity(0, 0, 0, 100);
   advance(*stepper, 20);
@@ -187,7 +187,7 @@ TEST_P(Motors, are_those_of_one_world) {
     stepper->set_motor_velocity(world, joint, 0, 6);
     advance(*stepper, 10);
   }
-  if (settings().kind != StepperKind::quick) {  // which draws the order of its rows for each world
+  if (settings().kind != StepperKind::quick) {  // quick draws the order of its rows for each world
     EXPECT_EQ(hash_of(*together, 3), hash_of(*lone));
   }
   EXPECT_NE(hash_of(*together, 3), hash_of(*together, 2));

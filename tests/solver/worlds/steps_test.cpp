@@ -1,4 +1,4 @@
-// Worlds of one stepper that stand at different steps.
+// Worlds of one stepper that are at different steps.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -17,7 +17,7 @@ using model::Model;
 using model::State;
 using stepping::StepperSettings;
 
-/// A crash whose first driven axis gets other motors at two steps, so that the joints tell steps apart.
+/// A crash whose first driven axis gets other motors at two steps, so that the joints depend on the step.
 Model driven_crash(int variant) {
   Model model = support::crash(variant);
   int joint = 0;

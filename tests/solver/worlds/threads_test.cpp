@@ -24,8 +24,8 @@ using model::Model;
 using model::State;
 using stepping::StepperSettings;
 
-/// Worlds of several kinds, all shapes and kinds of joints among them: some have laws of their own, some
-/// sleep and wake, joints break.
+/// Worlds of several kinds, with all shapes and kinds of joints among them: some have laws of their own, in
+/// some bodies sleep and wake, and joints break.
 std::vector<Model> many_worlds() {
   std::vector<Model> worlds;
   for (int i = 0; i < 18; ++i) worlds.push_back(support::crash(i));
@@ -145,7 +145,7 @@ TEST(Threads, share_out_the_cost_of_their_worlds) {
     EXPECT_GT(stepper->cost_s(world), 0);
     sum_s += stepper->cost_s(world);
   }
-  // Phases leave out what a group does between them, a call's entry and exit.
+  // Phases leave out the work of a group between them, and a call's entry and exit.
   EXPECT_LE(times.useful_s(), sum_s * (1 + 1e-9));
   EXPECT_GT(times.useful_s(), 0.5 * sum_s);
 }
@@ -181,7 +181,7 @@ TEST(Threads, step_groups_at_the_same_time) {
   const auto stepper = two_groups([&](const Model&) {
     return std::make_unique<Calling>([&] {
       ++arrived;
-      while (arrived < 2) std::this_thread::yield();  // for the other group: one thread would wait for ever
+      while (arrived < 2) std::this_thread::yield();  // for the other group: alone it would wait for ever
     });
   });
   advance(*stepper, 1);

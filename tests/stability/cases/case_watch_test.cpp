@@ -39,7 +39,7 @@ TEST(CaseWatch, measures_the_longest_way_and_the_deepest_descent_of_watched_bodi
   hard_case.watch = {model.bodies[1].name};
   CaseWatch watch(hard_case, model, dt_s);
   State state = initial_state(model);
-  state.position[0].x() += 5;  // not watched
+  state.position[0].x() += 5;  // this body is not watched
   state.position[1] += model::Vec3(0.3, 0, -0.4);
   see(watch, model, state, 1);
   state.position[1] -= model::Vec3(0.3, 0, -0.4);
@@ -67,7 +67,7 @@ TEST(CaseWatch, measures_creep_over_the_second_half) {
   CaseWatch watch(case_of(1), model, dt_s);
   State state = initial_state(model);
   for (int step = 1; step <= 100; ++step) {
-    // A jump in the first half is no creep; then 3 mm/s.
+    // A jump in the first half is not creep; then 3 mm/s.
     state.position[0].x() = step < 20 ? 0 : 0.5 + 0.003 * std::max(0, step - 50) * dt_s;
     see(watch, model, state, step);
   }
@@ -105,7 +105,7 @@ TEST(CaseWatch, takes_angular_momentum_about_the_centre_of_mass) {
   model.bodies[0].velocity = {3, 0, 0};
   CaseWatch watch(case_of(1), model, dt_s);
   State state = initial_state(model);
-  state.position[0] += model::Vec3(0, 50, 0);  // about the origin this would be another
+  state.position[0] += model::Vec3(0, 50, 0);  // about the origin this would be another value
   see(watch, model, state, 1);
   EXPECT_NEAR(watch.metric(Metric::angular_momentum), 0, 1e-12);
   state.angular_velocity[0].z() = 2.2;

@@ -13,7 +13,7 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
-/// "  '':--output | '':-o) files=yes ;;" and the like: `command` is the word that the options belong to.
+/// Prints lines like "  '':--output | '':-o) files=yes ;;"; `command` is the word that the options belong to.
 void print_values(const std::string& command, const Manual& manual, std::ostream& out) {
   for (const OptionRow& option : option_rows(manual.options)) {
     if (option.placeholder.empty()) continue;

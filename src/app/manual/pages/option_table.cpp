@@ -31,7 +31,7 @@ bool begins_with(const std::string& line, const po::option_description& option) 
 }  // namespace
 
 std::vector<OptionGroup> option_groups(const po::options_description& description) {
-  std::ostringstream printed;  // Boost shows nowhere else which group an option is in
+  std::ostringstream printed;  // Boost shows only here which group an option is in
   printed << description;
   std::istringstream lines(printed.str());
   std::vector<OptionGroup> groups;

@@ -1,4 +1,4 @@
-/// The options of a program as rows, out of what Boost knows of them.
+/// The options of a program as rows, from Boost's description of them.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct OptionRow {
   std::string placeholder;  ///< "FILE"; empty: the option takes no value
   std::string fallback;     ///< the default that Boost shows, or empty
   std::string meaning;
-  bool takes_many = false;  ///< values, up to the next option
+  bool takes_many = false;  ///< several values, up to the next option
 };
 
 struct OptionGroup {
@@ -24,7 +24,7 @@ struct OptionGroup {
 
 /// In the order of --help.
 std::vector<OptionGroup> option_groups(const boost::program_options::options_description& description);
-/// Those of all groups.
+/// The rows of all groups.
 std::vector<OptionRow> option_rows(const boost::program_options::options_description& description);
 
 }  // namespace pbmpi::app

@@ -9,7 +9,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// The commands of a table, but for those that are the program itself.
+/// The commands of a table, except the one that is the program itself.
 template <class Commands>
 std::vector<Manual> manuals_of(const Commands& commands, const Manual& program) {
   std::vector<Manual> manuals;

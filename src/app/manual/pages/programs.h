@@ -1,4 +1,4 @@
-/// The three programs as a manual has them.
+/// The three programs as the manual describes them.
 #pragma once
 
 #include <string>
@@ -10,18 +10,18 @@ namespace pbmpi::app {
 
 struct ProgramManual {
   Manual program;
-  std::vector<Manual> commands;  ///< "pbreport csv" ...; none of pbmpi
+  std::vector<Manual> commands;  ///< "pbreport csv" ...; none for pbmpi
   bool reads_files = false;      ///< words without a dash are files
 };
 
 std::vector<ProgramManual> all_manuals();
 
-/// "csv" of "pbreport csv".
+/// "csv" for "pbreport csv".
 std::string word_of(const Manual& command);
-/// "pbreport-csv" of "pbreport csv".
+/// "pbreport-csv" for "pbreport csv".
 std::string page_name(const Manual& manual);
 
-/// The text on one line, cut after `most` letters at the end of a word: what a shell shows beside an option.
+/// The text on one line, cut at the end of a word within `most` letters: what a shell shows beside an option.
 std::string one_line(const std::string& text, std::size_t most);
 
 }  // namespace pbmpi::app

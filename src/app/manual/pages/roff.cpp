@@ -10,7 +10,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// Text as it stands: no letter means anything to roff.
+/// Text taken literally: no letter means anything to roff.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -63,7 +63,7 @@ std::string options_text(const Manual& manual) {
   return text;
 }
 
-/// Lines as they stand.
+/// Lines set literally.
 std::string verbatim(const std::vector<std::string>& lines) {
   std::string text = ".PP\n.RS 4\n.nf\n";
   for (const std::string& line : lines) text += escaped(line) + "\n";

@@ -10,7 +10,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// The parts of "a|b|c" that are words to be typed as they stand, not names of something.
+/// The parts of "a|b|c" that are typed literally, not placeholders.
 std::vector<std::string> literal_words(const std::string& placeholder) {
   std::vector<std::string> words;
   if (placeholder.find('|') == std::string::npos) return words;

@@ -1,4 +1,4 @@
-/// Which values a shell offers behind an option.
+/// The values that a shell offers for an option.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ struct OfferedValues {
   bool files = false, folders = false;
 };
 
-/// The words of a placeholder that lists them ("quick|direct|sor"), also where a study varies an option of a
-/// step; the scenes that pbmpi brings; the effects; files, folders; or nothing.
+/// The words of a placeholder that lists them ("quick|direct|sor"), also where a study varies a step option;
+/// the scenes that pbmpi brings; the effects; files, folders; or nothing.
 OfferedValues offered_values(const OptionRow& option);
 
 }  // namespace pbmpi::app

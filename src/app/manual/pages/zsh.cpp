@@ -7,7 +7,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// For _arguments, in single quotes: brackets and colons mean something to it.
+/// Text for _arguments, in single quotes: brackets and colons mean something to it.
 std::string zsh_escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -21,7 +21,7 @@ std::string zsh_escaped(const std::string& text) {
   return result;
 }
 
-/// What _arguments does about a value.
+/// How _arguments completes a value.
 std::string zsh_action(const OptionRow& option) {
   const OfferedValues values = offered_values(option);
   std::string words;
@@ -38,7 +38,7 @@ void print_zsh_options(const Manual& manual, std::ostream& out) {
     std::string value;
     if (!option.placeholder.empty()) value = ":" + zsh_escaped(option.placeholder) + ":" + zsh_action(option);
     const std::string meaning = "[" + zsh_escaped(one_line(option.meaning, 70)) + "]" + value + "'";
-    // With more than one value each further one is offered behind the option's name again.
+    // An option with several values is offered again for each further one.
     out << " \\\n    '" << (option.takes_many ? "*" : "") << "--" << option.name << (value.empty() ? "" : "=")
         << meaning;
     if (!option.short_name.empty())
@@ -63,7 +63,7 @@ std::string zsh_completion(const ProgramManual& program) {
     print_arguments(program.program, program.reads_files, out);
     return out.str();
   }
-  // The command's own options are those behind its word.
+  // The command's own options follow its word.
   out << "local -a commands=(";
   for (const ManualEntry& command : program.program.commands)
     out << "\n    '" << command.word << ":" << zsh_escaped(command.meaning) << "'";

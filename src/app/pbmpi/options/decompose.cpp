@@ -1,4 +1,4 @@
-/// How the work of a run is cut over the ranks, and why some cannot be.
+/// How the work of a run is cut over the ranks, and why some work cannot be cut.
 #include <optional>
 #include <string>
 
@@ -33,7 +33,7 @@ std::optional<std::string> why_whole(const RunSpec& spec) {
   return std::nullopt;
 }
 
-/// Threads step worlds of their own.
+/// Threads step separate worlds, so a world that is cut has one thread per rank.
 void require_one_thread(int num_threads) {
   require_input(num_threads == 1,
                 "--threads " + std::to_string(num_threads) +
@@ -41,7 +41,7 @@ void require_one_thread(int num_threads) {
                     "ranks and leave --threads out, or use --decompose worlds");
 }
 
-/// Ranks a world: as asked, or all for one world, or as predicted.
+/// Ranks per world: as asked, or all for one world, or as predicted.
 mpi::RankGroups groups_of(const RunSpec& spec, std::span<const double> space_costs, int num_ranks) {
   int ranks_per_world = num_ranks;
   if (spec.num_worlds > 1)
@@ -51,7 +51,7 @@ mpi::RankGroups groups_of(const RunSpec& spec, std::span<const double> space_cos
 }
 
 /// Is it better to cut than to leave ranks without a world? Whole worlds keep the solver's lanes full, so
-/// that they are not cut where each rank has one.
+/// they are not cut where each rank has one.
 bool cuts_by_itself(const RunSpec& spec, std::span<const double> space_costs, int num_ranks) {
   if (space_costs.size() < 2 || num_ranks < 2) return false;
   if (spec.num_worlds == 1) return true;

@@ -167,7 +167,7 @@ std::optional<T> given(const po::variables_map& values, const char* name) {
   return values[name].as<T>();
 }
 
-/// The enumerator that belongs to the word given for --`name`; `names` are in the order of the enumerators.
+/// The enumerator for the word given to --`name`; `names` are in the order of the enumerators.
 template <class Enum, std::size_t N>
 Enum choice(const po::variables_map& values, const std::string& name,
             const std::array<std::string_view, N>& names) {
@@ -188,7 +188,7 @@ model::EffectChoices effect_choices(const std::string& text) {
 
 constexpr std::array<std::string_view, 2> report_format_names = {"text", "json"};
 
-/// A time that is above 0, if it is given.
+/// A time above 0, if given.
 std::optional<double> seconds(const po::variables_map& values, const char* name) {
   const std::optional<double> time_s = given<double>(values, name);
   require_input(!time_s || (std::isfinite(*time_s) && *time_s > 0),

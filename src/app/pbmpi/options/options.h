@@ -1,4 +1,4 @@
-/// The command line of pbmpi, and the run that it and the scene ask for together.
+/// The command line of pbmpi, and the run that it and the scene together describe.
 #pragma once
 
 #include <array>
@@ -33,15 +33,15 @@ struct WorldRange {
   int first = 0, end = 0;
 };
 
-/// The command line as given; what is absent is left to the scene.
+/// The command line as given; missing options are left to the scene.
 struct Options {
   Action action = Action::run;
   std::string scene;
   std::optional<int> replicas, frames, warmup, steps_per_frame;
-  std::optional<std::string> parameters;  ///< path of a table
+  std::optional<std::string> parameters;  ///< path of the table
   std::optional<WorldRange> world_range;
   stepping::StepChoices step;
-  Decomposition decomposition = Decomposition::automatic;
+  Decomposition decomposition = Decomposition::automatic;  ///< as asked, until decompose() decides it
   std::optional<int> ranks_per_world;
   std::uint64_t seed = 1;
   bool feec = false;
@@ -59,7 +59,7 @@ struct Options {
   stability::OnBlowup on_blowup = stability::OnBlowup::report;
   ReportFormat report = ReportFormat::text;
   bool no_xdmf = false;
-  std::vector<core::NamedPath> paths;  ///< that the command line names
+  std::vector<core::NamedPath> paths;  ///< named on the command line
   std::optional<std::string> checkpoint, resume;
   std::optional<double> checkpoint_every_s, max_time_s;
   double budget_s = stepping::default_frame_budget_s;
@@ -73,20 +73,20 @@ struct Options {
   }
 };
 
-/// The step options of which FEEC's estimate has its own: "estimate-stepper" and so on.
+/// The step options that FEEC's estimate has in its own version: "estimate-stepper" and so on.
 inline constexpr std::array<std::string_view, 3> estimate_options = {"stepper", "iterations", "precision"};
 
-/// `saved`: further options of lower rank, one "name = value" a line. Throws core::InputError with one clear
-/// message.
+/// `saved`: further options that all others override, one "name = value" a line. Throws core::InputError with
+/// one clear message.
 Options parse_options(const std::vector<std::string>& args, const std::string& saved = "");
 
 Manual pbmpi_manual();
 
-/// What a resumed run needs to know of the one that wrote the checkpoint.
+/// What a resumed run needs to know about the run that wrote the checkpoint.
 struct ResumePoint {
   std::string path;         ///< of the checkpoint; empty: the run begins anew
   std::int64_t frames = 0;  ///< done, warm-up included
-  std::string output;       ///< of that run, or empty
+  std::string output;       ///< of the run that wrote the checkpoint, or empty
 };
 
 /// When a run stops early or is saved, and where.
@@ -95,37 +95,38 @@ struct CheckpointSpec {
   std::optional<double> every_s, max_time_s;
   bool at_end = false;
   std::string resumed_from;      ///< path, or empty
-  std::int64_t first_frame = 0;  ///< frames done by then
+  std::int64_t first_frame = 0;  ///< frames done before this run
 };
 
 /// Everything that a run needs to know: options over the scene's defaults.
 struct RunSpec {
   int num_worlds = 1;
-  int ensemble_worlds = 1;          ///< of the ensemble, of which the run has all, or a range:
+  int ensemble_worlds = 1;          ///< of the ensemble; the run has all of them, or a range:
   std::optional<WorldRange> range;  ///< num_worlds of them
   int warmup = 3;
   int frames = 5;
   int steps_per_frame = 3;
-  std::uint64_t scene_seed = 1;  ///< of the scene's variation; the stepper has its own
+  std::uint64_t scene_seed = 1;  ///< for the scene's variation; the stepper has its own seed
   stepping::StepperSettings stepper;
   std::optional<EstimateSpec> estimate;                ///< FEEC: how each frame is estimated first
   std::optional<std::string> output;                   ///< path of the HDF5 file, or nothing with --no-output
-  std::optional<std::string> sidecar;                  ///< path of ParaView's, or nothing
-  double budget_s = stepping::default_frame_budget_s;  ///< for a frame; changes no result
+  std::optional<std::string> sidecar;                  ///< path of ParaView's sidecar, or nothing
+  double budget_s = stepping::default_frame_budget_s;  ///< per frame; changes no result
   int record_every = 1;
   bool record_islands = false;
   stability::OnBlowup on_blowup = stability::OnBlowup::report;
   scenes::SpacesForm spaces = scenes::SpacesForm::many;
-  Decomposition decomposition = Decomposition::automatic;  ///< of resolve(): as asked; decided by decompose()
-  std::optional<int> ranks_per_world;                      ///< as asked: of a world that is cut
-  mpi::RankGroups groups;        ///< with spaces: which ranks cut which worlds; decided by decompose()
-  model::EffectChoices effects;  ///< of the scene file and the command line
+  Decomposition decomposition =
+      Decomposition::automatic;        ///< as asked from resolve(), decided by decompose()
+  std::optional<int> ranks_per_world;  ///< as asked, for worlds that are cut
+  mpi::RankGroups groups;              ///< with spaces: which ranks cut which worlds; decided by decompose()
+  model::EffectChoices effects;        ///< from the scene file and the command line
 
   CheckpointSpec checkpoint;
 
-  /// The number in the ensemble of the run's first world.
+  /// The ensemble number of the run's first world.
   int first_world() const { return range ? range->first : 0; }
-  /// From the start of the first run, whatever was resumed.
+  /// Counted from the start of the first run, across resumes.
   int total_frames() const { return warmup + frames; }
   std::int64_t frames_to_do() const { return total_frames() - checkpoint.first_frame; }
 };
@@ -144,10 +145,10 @@ struct Cut {
   mpi::RankGroups groups;  ///< with spaces
 };
 
-/// The cut on so many ranks: as asked, and by itself into spaces if the stepper is sor, a world has more than
-/// one space, there are more ranks than worlds, and either there is one world or groups of ranks are
-/// predicted to be done sooner. `space_costs`: mpi::space_costs() of world 0, after which groups are chosen
-/// for all. Throws core::InputError where spaces are asked for and cannot be had.
+/// The cut for this many ranks. Unless asked otherwise, worlds are cut into spaces if the stepper is sor, a
+/// world has more than one space, there are more ranks than worlds, and either there is one world or groups
+/// of ranks are predicted to be done sooner. `space_costs`: mpi::space_costs() of world 0, from which the
+/// groups for all worlds are chosen. Throws core::InputError where spaces are asked for and not possible.
 Cut decompose(const RunSpec& spec, std::span<const double> space_costs, int num_ranks);
 
 }  // namespace pbmpi::app

@@ -1,4 +1,4 @@
-/// What the options and the scene's defaults make of a run, and what they refuse.
+/// Resolves options and the scene's defaults to a run, and refuses impossible ones.
 #include <array>
 #include <filesystem>
 #include <regex>
@@ -20,7 +20,7 @@ void require_at_least(int value, int least, const char* option) {
                                     std::to_string(least));
 }
 
-/// Up to a number that no run reaches, so that sums and products of such numbers have room.
+/// The upper bound is a number that no run reaches, so that sums and products of such numbers have room.
 void require_between(int value, int least, int most, const char* option) {
   require_at_least(value, least, option);
   require_input(value <= most, std::string(option) + " " + std::to_string(value) + ": it must be at most " +
@@ -61,7 +61,8 @@ std::optional<EstimateSpec> resolve_estimate(const Options& options, const RunSp
 
 namespace fs = std::filesystem;
 
-/// "run.xdmf" of "run.h5"; any other name gets ".xdmf" behind it, so that two runs share none but r and r.h5.
+/// "run.xdmf" for "run.h5"; any other name gets ".xdmf" appended, so that two runs share none, except r and
+/// r.h5.
 std::string sidecar_of(const std::string& output) {
   const fs::path path(output);
   return path.extension() == ".h5" ? fs::path(path).replace_extension(".xdmf").string() : output + ".xdmf";
@@ -73,7 +74,7 @@ std::string stem(const std::string& path) {
   return file.extension() == ".h5" ? fs::path(file).replace_extension().string() : path;
 }
 
-/// What follows the checkpoint has a file of its own beside that of the run which wrote it.
+/// The run after a checkpoint writes a file of its own beside that of the run which wrote the checkpoint.
 std::string output_after(const ResumePoint& from) {
   const std::string first = std::regex_replace(stem(from.output), std::regex("\\.from[0-9]+$"), "");
   const std::string path = first + ".from" + std::to_string(from.frames) + ".h5";
@@ -82,10 +83,10 @@ std::string output_after(const ResumePoint& from) {
   return near.starts_with("..") ? path : near;
 }
 
-/// "column20" of "hard/rest/column20".
+/// "column20" for "hard/rest/column20".
 std::string file_stem(const scenes::Scene& scene) { return scene.name().substr(scene.name().rfind('/') + 1); }
 
-/// What the run's files are called by themselves: jobs that share an ensemble may run in one folder.
+/// The default name of the run's files: jobs that share an ensemble may run in one folder.
 std::string name_of_run(const Options& options, const scenes::Scene& scene) {
   const std::optional<WorldRange>& range = options.world_range;
   return file_stem(scene) +
@@ -125,7 +126,7 @@ CheckpointSpec resolve_checkpoint(const Options& options, const scenes::Scene& s
   return spec;
 }
 
-/// Nothing that is written may be read too, or written twice, whether it was named or follows from another
+/// No path that is written may be read too, or written twice, whether it was given or derived from another
 /// name.
 void require_separate_files(const Options& options, const RunSpec& spec) {
   std::vector<core::NamedPath> paths;
@@ -134,7 +135,7 @@ void require_separate_files(const Options& options, const RunSpec& spec) {
   }
   if (spec.output) paths.push_back({"--output", *spec.output, true});
   if (spec.sidecar) paths.push_back({"the sidecar for ParaView (--no-xdmf)", *spec.sidecar, true});
-  // Without --checkpoint a saved run replaces the one that it came from.
+  // Without --checkpoint a saved run replaces the checkpoint that it came from.
   paths.push_back({"--checkpoint", spec.checkpoint.path, true});
   if (!spec.checkpoint.resumed_from.empty() &&
       !core::is_same_file(spec.checkpoint.resumed_from, spec.checkpoint.path))
@@ -142,7 +143,7 @@ void require_separate_files(const Options& options, const RunSpec& spec) {
   core::require_separate(paths);
 }
 
-/// How many worlds the ensemble has, and which of them the run.
+/// How many worlds the ensemble has, and which of them belong to the run.
 void resolve_worlds(const Options& options, const scenes::Scene& scene, std::optional<int> num_rows,
                     RunSpec& spec) {
   const int asked = options.replicas.value_or(scene.defaults().replicas);
@@ -170,7 +171,7 @@ stepping::StepperSettings resolve_step(const Options& options, const scenes::Run
   return step;
 }
 
-/// Throws core::InputError for what this kind of stepper cannot record, or has no file for.
+/// Throws core::InputError for output that this kind of stepper cannot record, or has no file for.
 void require_recordable(const Options& options, stepping::StepperKind kind) {
   const stepping::StepperTraits& traits = traits_of(kind);
   require_input(!options.record_islands || traits.profiles_islands,

@@ -17,7 +17,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// Options of the run, beside those of the step, that decide the bits of its result.
+/// Options of the run, in addition to those of the step, that decide the bits of its result.
 constexpr std::array<std::string_view, 4> physics_of_the_run = {"replicas", "world-range", "steps-per-frame",
                                                                 "seed"};
 
@@ -83,7 +83,7 @@ void add_estimate(const EstimateSpec& estimate, Lines& lines) {
                          " and would become another one; leave the option out, or begin without --resume");
 }
 
-/// Effects are chosen one by one; their order says nothing.
+/// Effects are chosen one by one; their order does not matter.
 std::set<std::string> chosen(const std::string& effects) {
   std::set<std::string> names;
   std::istringstream list(effects);

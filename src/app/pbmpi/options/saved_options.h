@@ -1,4 +1,4 @@
-/// The options that a checkpoint keeps, and which of them a run that goes on may change.
+/// The options that a checkpoint keeps, and those that a resumed run may change.
 #pragma once
 
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace pbmpi::app {
 
-/// Scene aside, all that decides the bits of a run, and what else a run goes on with unless told otherwise:
-/// values as resolved, one "name = value" a line, as in a file of --config. `asked`: how the work was to be
-/// cut.
+/// All options except the scene that decide the bits of a run, and those that a resumed run keeps unless told
+/// otherwise: values as resolved, one "name = value" a line, as in a file of --config. `asked`: how the work
+/// was to be cut.
 std::string saved_options(const RunSpec& spec, Decomposition asked);
 
 /// Throws core::InputError unless `now` is the stepper of `saved`, without which its other options make no
-/// sense. `path`: of the checkpoint.
+/// sense. `path`: the checkpoint's.
 void require_same_stepper(const std::string& path, const std::string& saved, stepping::StepperKind now);
 
-/// Throws core::InputError unless `now` has the physics of `saved` (both of saved_options()).
+/// Throws core::InputError unless `now` has the physics of `saved`; both come from saved_options().
 void require_same_physics(const std::string& path, const std::string& saved, const std::string& now);
 
 }  // namespace pbmpi::app

@@ -25,7 +25,7 @@ std::string setting_colour(const stepping::StepperSettings& settings) {
   return settings.precision == stepping::Precision::single ? single : engine_colour(settings.kind);
 }
 
-/// "2 substeps of 20 iterations": which is which in "2 x 20".
+/// "2 substeps of 20 iterations": explains "2 x 20".
 std::string sweeps_text(const StudyCase& one) {
   const auto counted = [](int count, const char* noun) {
     return format("%d %s%s", count, noun, count == 1 ? "" : "s");
@@ -42,11 +42,11 @@ ChartJson point(const StudyCase& one, double y_mm) {
       {"label", setting_text(one) + sweeps_text(one) + format(": %.3f ms, %.4g mm", 1e3 * one.time_s, y_mm)}};
 }
 
-/// Shapes that a point has by its number of substeps, the fewest first; more numbers than shapes share the
-/// last.
+/// Shapes of points by number of substeps, the fewest first; if there are more numbers than shapes, the rest
+/// share the last.
 constexpr std::array<const char*, 5> shapes = {"circle", "triangle", "rect", "rectRot", "star"};
 
-/// The numbers of substeps in the study, rising, and the most iterations.
+/// The numbers of substeps in the study, ascending, and the most iterations.
 struct SweepScale {
   std::vector<int> substeps;
   int most_iterations = 1;
@@ -63,7 +63,7 @@ struct SweepScale {
     const auto place = static_cast<std::size_t>(std::ranges::lower_bound(substeps, count) - substeps.begin());
     return shapes[std::min(place, shapes.size() - 1)];
   }
-  /// In pixels: 3 for one iteration, 6.5 for the most, even in the logarithm between.
+  /// Radius in pixels: 3 for one iteration, 6.5 for the most, linear in the logarithm in between.
   double radius(int iterations) const {
     const double share = std::log2(std::max(1, iterations)) / std::max(1.0, std::log2(most_iterations));
     return 3 + 3.5 * share;
@@ -91,8 +91,8 @@ ChartJson line(double value, const char* axis, const char* label, const char* co
           {"label", label}, {"colour", colour}, {"dash", dash}};
 }
 
-/// What the reference is known to, and from what that follows; what was asked for. `ranked`: the diagram
-/// shows the error by which settings are ranked.
+/// The uncertainty of the reference, with the cases that bound it, and the limits asked for. `ranked`: the
+/// diagram shows the error by which settings are ranked.
 ChartJson bands_of(const SceneCases& scene, ErrorOf error_mm, bool ranked,
                    const AccuracyReportOptions& options) {
   double floor = 0;
@@ -116,7 +116,8 @@ ChartJson bands_of(const SceneCases& scene, ErrorOf error_mm, bool ranked,
   return bands;
 }
 
-/// A set of points for each stepper: the shape says how many substeps, the size how many iterations.
+/// A set of points for each stepper: the shape shows the number of substeps, the size the number of
+/// iterations.
 ChartJson setting_sets(const SceneCases& scene, ErrorOf error_mm, const SweepScale& scale) {
   struct Points {
     std::string colour;
@@ -151,7 +152,7 @@ ChartJson front_set(const SceneCases& scene, ErrorOf error_mm) {
           {"borderWidth", 1.5},      {"pointRadius", 0}, {"unread", true},   {"pointHitRadius", 0}};
 }
 
-/// A ring round the chosen setting; none: nothing was asked for, or nothing keeps it.
+/// A ring round the chosen setting; none if no choice was asked for, or no setting keeps the limits.
 std::optional<ChartJson> chosen_set(const SceneCases& scene, ErrorOf error_mm,
                                     const AccuracyReportOptions& options) {
   const auto chosen = chosen_setting(scene, options);
@@ -165,7 +166,7 @@ std::optional<ChartJson> chosen_set(const SceneCases& scene, ErrorOf error_mm,
                    {"keyShape", "ring"},       {"unread", true}};
 }
 
-/// Looks of FEEC into the frame's last solve.
+/// FEEC's looks into the frame's last solve.
 std::optional<ChartJson> estimate_set(const SceneCases& scene, ErrorOf error_mm) {
   ChartJson points = ChartJson::array();
   for (const StudyCase& one : scene.estimates) {

@@ -14,9 +14,9 @@ std::string engine_colour(stepping::StepperKind kind);
 /// An error of a case [mm].
 using ErrorOf = double (*)(const StudyCase&);
 
-/// Time against error of all settings that did not blow up, of the estimates, the front, the chosen setting,
-/// and what the reference leaves open. `axis`: what stands at the y axis; `measure`: which of the errors that
-/// settings are ranked by it is.
+/// Time against error: all settings that did not blow up, the estimates, the front, the chosen setting, and
+/// the uncertainty of the reference. `axis`: label of the y axis; `measure`: which of the measures that
+/// settings can be ranked by `error_mm` is.
 io::html::Chart diagram(const SceneCases& scene, const AccuracyReportOptions& options, const char* title,
                         const char* axis, ErrorOf error_mm, ErrorMeasure measure);
 

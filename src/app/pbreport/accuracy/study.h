@@ -1,4 +1,4 @@
-/// "pbreport [study] accuracy.h5": what accuracy costs in time, and which setting to take.
+/// "pbreport [study] accuracy.h5": the cost of accuracy in time, and the setting to choose.
 #pragma once
 
 #include <iosfwd>
@@ -10,7 +10,7 @@
 namespace pbmpi::app {
 
 /// Throws core::InputError: bad usage, a file that is no study, an output that cannot be written, a budget or
-/// tolerance that no setting keeps where a preset is asked for.
+/// tolerance that no setting keeps when a preset is asked for.
 core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out);
 
 }  // namespace pbmpi::app

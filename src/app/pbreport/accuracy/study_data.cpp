@@ -24,7 +24,7 @@ StudyCase read_case(const CaseRow& row) {
   one.frames = row.integer("frames");
   if (row.has("estimate_iterations"))  // since version 1.1 of the file
     one.estimate_iterations = row.integer("estimate_iterations");
-  if (row.has("estimate_source")) {  // since version 1.5; before all were looks
+  if (row.has("estimate_source")) {  // since version 1.5; all estimates were looks before
     one.estimate_after = row.integer("estimate_after");
     one.is_look = row.text("estimate_source") == "same_solve";
   } else if (one.estimate_iterations > 0) {

@@ -19,39 +19,39 @@ struct StudyCase {
   std::string scene, kind;
   stepping::StepperSettings stepper;
   int steps_per_frame = 0, worlds = 1, warmup = 0, frames = 0;
-  int estimate_iterations = 0;  ///< FEEC's, of a look or of each step of a short run; 0: the frame's end
-  int estimate_after = 0;       ///< precise steps before them
+  int estimate_iterations = 0;  ///< FEEC's, for a look or for each step of a short run; 0: the frame's end
+  int estimate_after = 0;       ///< number of precise steps before the estimate
   bool is_look = false;         ///< into the solve of the frame's last step
-  double time_s = 0;            ///< of the worst measured frame: what a budget must hold
-  double median_time_s = 0;     ///< of the measured frames
+  double time_s = 0;            ///< for the worst measured frame: what a budget must hold
+  double median_time_s = 0;     ///< over the measured frames
   double row_visits = 0;
   double joint_gap_m = 0, penetration_m = 0, energy_change_j = 0;
-  /// The scene at rest: bodies that fell, when the first did, creep of the fastest [m/s], energy gained
-  /// without a cause [J]. NaN if the study did not watch it.
+  /// The scene at rest: number of bodies that fell, time when the first did, creep of the fastest [m/s],
+  /// energy gained without a cause [J]. NaN if the study did not watch it.
   double rest_fallen = NAN, rest_fell_at_s = NAN, rest_creep_m_s = NAN, rest_energy_gain_j = NAN;
-  /// Of a case that is solved as the reference is: what was left unsolved of a step [m], at most, and the
-  /// mean of its iterations. NaN of others, and in older files.
+  /// For a case that is solved like the reference: the largest residual of a step [m], and the mean number of
+  /// its iterations. NaN for others, and in older files.
   double solve_residual_m = NAN, solve_iterations = NAN;
   analysis::ErrorTable defect, drift;
-  /// Against its own equations solved by its own stepper; of an own solution against itself with a quarter of
-  /// its iterations, and of one from disturbed states against the undisturbed one. No entries: not measured.
+  /// Against its own equations solved by its own stepper; an own solution against itself with a quarter of
+  /// its iterations, and one from disturbed states against the undisturbed one. No entries: not measured.
   analysis::ErrorTable own_defect;
-  int own = -1;  ///< the row of its own solution; -1: there is none
+  int own = -1;  ///< the row of its own solution; -1: none
 
   /// Did every body and joint stay finite?
   bool finite() const;
-  /// Does the setting fell what should stand, as far as the study knows?
+  /// Does the setting make a structure fall that should stand, as far as the study knows?
   bool fells() const { return rest_fallen > 0; }
   /// The error by which settings are ranked [m].
   double error_m(ErrorMeasure measure) const;
 
   /// Was it compared with its own solution?
   bool has_own() const { return own_defect.body_position.count > 0; }
-  /// The error against that [m], by the same number; NaN if it was not.
+  /// The error against its own solution [m], by the same measure; NaN without one.
   double own_error_m(ErrorMeasure measure) const;
 };
 
-/// "sor single, 2 substeps x 3 iterations"; what all have in common is left out.
+/// "sor single, 2 substeps x 3 iterations"; values that all settings share are left out.
 std::string setting_text(const StudyCase& one);
 /// The options of pbmpi that give this setting, e.g. {"stepper", "sor"}.
 std::vector<std::pair<std::string, std::string>> setting_options(const StudyCase& one);
@@ -60,13 +60,13 @@ std::vector<std::pair<std::string, std::string>> setting_options(const StudyCase
 struct SceneCases {
   std::string name;
   std::vector<StudyCase> settings;
-  std::vector<StudyCase> estimates;  ///< of the scene's own setting; never chosen, since more work follows
+  std::vector<StudyCase> estimates;  ///< for the scene's own setting; never chosen, since more work follows
   std::vector<StudyCase> floor;
   std::vector<StudyCase> own;        ///< own solutions of the steppers (since version 1.6)
   std::vector<StudyCase> own_floor;  ///< own solutions from disturbed states
   std::optional<StudyCase> reference, more_iterations, second_method,
-      halved_dt;                                                ///< older files have not all
-  std::optional<StudyCase> halved_iterations, halved_substeps;  ///< of older files
+      halved_dt;                                                ///< older files lack some
+  std::optional<StudyCase> halved_iterations, halved_substeps;  ///< in older files
 
   /// The noise floor [m]: the largest error that another seed alone gave the reference.
   double floor_m(ErrorMeasure measure) const;
@@ -74,18 +74,18 @@ struct SceneCases {
   /// another seed gave it. NaN if none was measured.
   double own_floor_m(stepping::StepperKind kind, ErrorMeasure measure) const;
   /// How far the reference may be off [m]: its largest distance from itself with other seeds and more
-  /// iterations (in older files half as many), and from a second method. What the length of the step does is
-  /// no part of it: all settings share it.
+  /// iterations (in older files half as many), and from a second method. The effect of the step's length is
+  /// excluded: all settings share it.
   double uncertainty_m(ErrorMeasure measure) const;
   double uncertainty(const std::function<double(const StudyCase&)>& error) const;
-  /// Indices of the settings that no other beats in time and error at once, by rising time: the error falls
-  /// from each to the next. Settings that blew up are never among them.
+  /// Indices of the settings that no other beats in both time and error, by ascending time: the error falls
+  /// from each to the next. Excludes settings that blew up.
   std::vector<std::size_t> pareto_front(ErrorMeasure measure) const;
   std::vector<std::size_t> pareto_front(const std::function<double(const StudyCase&)>& error) const;
-  /// The front of the settings that fell nothing at rest.
+  /// The front of the settings that let nothing fall at rest.
   std::vector<std::size_t> standing_front(ErrorMeasure measure) const;
   /// The setting with the least error within the time, or the least time within the error, among those that
-  /// fell nothing at rest.
+  /// let nothing fall at rest.
   std::optional<std::size_t> best_within(double budget_s, ErrorMeasure measure) const;
   std::optional<std::size_t> cheapest_within(double tolerance_m, ErrorMeasure measure) const;
 };

@@ -10,13 +10,13 @@
 
 namespace pbmpi::app {
 
-/// By which number of the defect settings are ranked.
+/// The statistic of the defect by which settings are ranked.
 enum class ErrorMeasure { rms, p99, max, joint };
 
 struct AccuracyReportOptions : ReportOfStudyOptions {
   ErrorMeasure measure = ErrorMeasure::rms;
-  std::optional<double> budget_s;     ///< for a frame
-  std::optional<double> tolerance_m;  ///< for the error
+  std::optional<double> budget_s;     ///< per frame
+  std::optional<double> tolerance_m;  ///< of the error
   std::optional<std::string> preset;
 };
 

@@ -54,7 +54,7 @@ std::string floor_text(const SceneCases& scene) {
          format(", drift rms %9.4g mm (largest of %zu seeds)\n", 1e3 * drift, scene.floor.size());
 }
 
-/// The own solutions, and how near to them more iterations and a disturbed start come.
+/// The own solutions, and how far they move with more iterations and from a disturbed start.
 std::string own_text(const SceneCases& scene) {
   std::string text;
   for (const StudyCase& one : scene.own) {

@@ -7,18 +7,18 @@
 
 namespace pbmpi::app {
 
-/// The setting that the options ask for, or nothing.
+/// The setting that the options ask for; none without such options, or if no setting keeps them.
 std::optional<std::size_t> chosen_setting(const SceneCases& scene, const AccuracyReportOptions& options);
 
-/// Is its error no larger than what the reference is known to?
+/// Is its error within the uncertainty of the reference?
 bool is_inside(const SceneCases& scene, const StudyCase& one, const AccuracyReportOptions& options);
-/// If so: ": within the 1.2 mm to which the reference is known"; else empty.
+/// If so: ": within the 1.2 mm to which the reference is known"; otherwise empty.
 std::string inside_text(const SceneCases& scene, const StudyCase& one, const AccuracyReportOptions& options);
 
 std::string study_to_text(const io::TableFile& file, const std::vector<SceneCases>& scenes,
                           const AccuracyReportOptions& options);
 std::string study_to_json(const std::vector<SceneCases>& scenes, const AccuracyReportOptions& options);
-/// "fells 12 bodies at rest, the first after 1.4 s", "at the noise floor"; empty: nothing is to be said.
+/// "fells 12 bodies at rest, the first after 1.4 s", "at the noise floor"; empty without a remark.
 std::string remarks_text(const StudyCase& one, bool at_floor);
 /// Lines "name = value" for pbmpi --preset.
 std::string preset_text(const StudyCase& one);

@@ -1,4 +1,4 @@
-/// "pbreport calibrate": what the harness costs, and what that means on more ranks than there are.
+/// "pbreport calibrate": the cost of the harness, and what it means for more ranks than are available.
 #pragma once
 
 #include <ostream>

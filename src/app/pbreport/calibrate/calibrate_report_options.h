@@ -14,7 +14,7 @@ struct CalibrateReportOptions {
   bool help = false;
   PrintForm form = PrintForm::text;
   bool quiet = false;
-  std::string file, table;  ///< table: which for csv
+  std::string file, table;  ///< table: the one for csv
   std::optional<std::string> csv;
   ForecastQuestion question;
 };

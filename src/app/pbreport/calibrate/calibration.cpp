@@ -28,7 +28,7 @@ double number_in(const io::TableFile& file, const std::string& name) {
   throw core::InputError("a study of calibrate has no parameter '" + name + "'; measure it again");
 }
 
-/// Frames of several ranks are what a forecast is compared with, and not what it is made from.
+/// Frames of several ranks are compared with a forecast, which is not made from them.
 bool is_fitted(const TimedCase& one) { return one.part != TimedPart::frame || one.ranks == 1; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// A study of the harness' costs read back.
+/// The study of the harness's costs, read back.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@ namespace pbmpi::app {
 
 struct Calibration {
   std::vector<analysis::TimedCase> cases;
-  analysis::HarnessCosts costs;  ///< fitted to the cases of one rank, of root and of messages
+  analysis::HarnessCosts costs;  ///< fitted to the cases of one rank, of root's work and of messages
 };
 
-/// Throws core::InputError for a part that this program does not know.
+/// Throws core::InputError for a part unknown to this program.
 Calibration calibration_of(const io::TableFile& file);
 
 /// A cost by its name, and its unit.

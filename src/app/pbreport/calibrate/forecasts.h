@@ -1,4 +1,4 @@
-/// What a calibration says of numbers of ranks and worlds, with a flat gather and with a tree of ranks.
+/// Forecasts from a calibration for numbers of ranks and worlds, with a flat gather and with a tree of ranks.
 #pragma once
 
 #include <array>
@@ -13,16 +13,16 @@
 
 namespace pbmpi::app {
 
-/// What is forecast.
+/// The question that a forecast answers.
 struct ForecastQuestion {
   std::vector<std::int64_t> ranks = {2, 64, 1024, 16384, 131072};
   std::vector<std::int64_t> worlds = {100, 10000, 1000000, 100000000};
-  std::int64_t bodies = 37;  ///< of a world
-  double step_s = 0;         ///< of a world, in its engine; 0: the harness alone
-  double budget_s = 0;       ///< of a frame
+  std::int64_t bodies = 37;  ///< per world
+  double step_s = 0;         ///< per world, in its engine; 0: the harness alone
+  double budget_s = 0;       ///< per frame
 };
 
-/// How data come to root: by messages straight to it, with results on every rank, or by the tree.
+/// How data reach root: by messages straight to it, with results on every rank, or by the tree.
 enum class Way { flat, tree };
 inline constexpr std::array<std::string_view, 2> way_names = {"flat", "tree"};
 
@@ -35,11 +35,11 @@ struct Forecast {
   bool within_budget = true;
 };
 
-/// For each number of worlds and ranks, that has no fewer worlds than ranks, both ways.
+/// Both ways for each number of worlds and ranks with no fewer worlds than ranks.
 std::vector<Forecast> forecasts_of(const ForecastQuestion& question, const analysis::HarnessCosts& costs);
 
-/// At which power of two of ranks a part of the frame alone takes longer than the budget; 0: at none up to
-/// 131,072, or as many ranks as worlds.
+/// The power of two of ranks at which a part of the frame alone takes longer than the budget; 0: none up to
+/// 131,072, or up to as many ranks as worlds.
 struct Wall {
   std::int64_t worlds = 0;
   analysis::FramePart part = analysis::FramePart::gather;

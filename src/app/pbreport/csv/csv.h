@@ -9,7 +9,8 @@
 
 namespace pbmpi::app {
 
-/// Throws core::InputError: bad usage, no file of a run, a table, body, actor or world that it does not have.
+/// Throws core::InputError: bad usage, a file that is not a run's, a table, body, actor or world that it does
+/// not have.
 core::ExitCode run_csv(const std::vector<std::string>& args, std::ostream& out);
 
 }  // namespace pbmpi::app

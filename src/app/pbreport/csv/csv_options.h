@@ -11,7 +11,7 @@
 
 namespace pbmpi::app {
 
-/// Frames from `first` to `last`, both included, every so many of them; numbers as in the file's events.
+/// Frames from `first` to `last`, both included, in steps of `every`; numbered as in the file's events.
 struct FrameRange {
   std::int64_t first = 0, last = std::numeric_limits<std::int64_t>::max(), every = 1;
 

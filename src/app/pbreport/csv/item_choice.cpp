@@ -16,7 +16,7 @@ std::vector<std::string> without_repeats(std::vector<std::string> names) {
   return names;
 }
 
-/// Takes those out of `chosen` whose name is not among `names`.
+/// Removes from `chosen` the bodies whose name is not among `names`.
 void choose(const std::vector<std::string>& names, const std::vector<std::string>& of_bodies,
             const std::string& option, std::vector<bool>& chosen) {
   if (names.empty()) return;

@@ -1,4 +1,4 @@
-/// Which worlds and bodies of a run a user has chosen.
+/// The worlds and bodies of a run that a user has chosen.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace pbmpi::app {
 
 class ItemChoice {
  public:
-  /// Throws core::InputError for what the run or the table does not have.
+  /// Throws core::InputError for choices that the run or the table does not have.
   ItemChoice(const io::RunTables& run, const io::RunTable& table, const CsvOptions& options);
 
-  /// -1: of no world, left out if worlds are chosen.
+  /// -1: belongs to no world, left out if worlds are chosen.
   bool has_world(std::int64_t world) const;
-  /// -1: no body, left out if bodies are chosen.
+  /// -1: belongs to no body, left out if bodies are chosen.
   bool has_body(std::int64_t body) const;
   /// Is item `item` of the table's rows chosen? For all tables but contacts and events.
   bool has_item(std::int64_t item) const;

@@ -15,7 +15,7 @@ using io::ItemsOf;
 using io::RowsOf;
 using io::TableColumn;
 
-/// What stands before the columns of each line.
+/// Names of the labels that precede the columns on each line.
 std::string label_names(const io::RunTable& table) {
   if (table.rows == RowsOf::events) return "";
   if (table.rows == RowsOf::run) return "world";
@@ -62,7 +62,7 @@ std::string item_label(const io::RunItems& names, ItemsOf items, std::int64_t it
   return "";
 }
 
-/// "_x" ... of a vector, "_w" ... of a quaternion, "_1" ... of anything else; nothing of a number.
+/// "_x" ... for a vector, "_w" ... for a quaternion, "_1" ... for anything else; empty for a number.
 std::string component(std::size_t width, std::size_t k) {
   constexpr std::array vector = {"_x", "_y", "_z"};
   constexpr std::array quaternion = {"_w", "_x", "_y", "_z"};
@@ -72,7 +72,7 @@ std::string component(std::size_t width, std::size_t k) {
   return "_" + std::to_string(k + 1);
 }
 
-/// Columns that do not repeat what stands before them.
+/// Columns that do not repeat the labels before them.
 std::vector<TableColumn> shown(std::vector<TableColumn> columns, const io::RunTable& table) {
   if (table.name != "timings") return columns;
   std::erase_if(columns, [](const TableColumn& column) {
@@ -92,7 +92,7 @@ std::string header(const std::vector<TableColumn>& columns, const io::RunTable& 
   return line + "\n";
 }
 
-/// The values of the item that is the `index`th of all that `columns` hold.
+/// Appends the values of item `index` among all that `columns` hold.
 void append_values(const std::vector<TableColumn>& columns, std::size_t index, std::string& line) {
   for (const TableColumn& column : columns) {
     for (std::size_t k = 0; k < column.width; ++k) {
@@ -107,7 +107,7 @@ const std::vector<std::int64_t>& integers(const std::vector<TableColumn>& column
   return std::get<std::vector<std::int64_t>>(std::ranges::find(columns, name, &TableColumn::name)->values);
 }
 
-/// Of the rows [first, first + count) the lines that are chosen.
+/// The chosen lines of the rows [first, first + count).
 class Lines {
  public:
   Lines(const io::RunTables& run, const io::RunTable& table, const CsvOptions& options)

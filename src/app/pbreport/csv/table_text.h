@@ -9,8 +9,8 @@
 
 namespace pbmpi::app {
 
-/// Hands out the chosen rows, a line each item of each row, the names of the columns and their units first.
-/// Throws core::InputError for what the run does not have.
+/// Hands out the chosen rows, one line per item of each row, after the names of the columns and their units.
+/// Throws core::InputError for choices that the run does not have.
 void put_table(const io::RunTables& run, const io::RunTable& table, const CsvOptions& options,
                const std::function<void(std::string_view)>& put);
 

@@ -11,7 +11,7 @@ namespace {
 
 using core::Vec3;
 
-/// What some joints and contacts are off by.
+/// Errors of some joints and contacts.
 struct Violations {
   std::vector<double> gap_m, bend_rad, depth_m, slip_m;
   std::int64_t broken = 0;
@@ -28,7 +28,7 @@ struct Violations {
   }
 };
 
-/// A frame, by actors; contacts between two actors stand with both, and once in `all`.
+/// One frame, by actors; contacts between two actors count for both, and once in `all`.
 struct FrameViolations {
   Violations all;
   std::vector<Violations> by_actor;
@@ -57,7 +57,7 @@ void add_joints(const RunModels& models, const RecordedPoses& recorded,
   }
 }
 
-/// Velocity of a body's point.
+/// Velocity of a point of a body.
 Vec3 velocity_at(const io::RecordedContacts& frame, const std::vector<Vec3>& centres, std::int64_t body,
                  const Vec3& point) {
   if (body < 0) return Vec3::Zero();
@@ -65,13 +65,14 @@ Vec3 velocity_at(const io::RecordedContacts& frame, const std::vector<Vec3>& cen
   return frame.velocity[i] + frame.angular_velocity[i].cross(point - centres[i]);
 }
 
-/// A pyramid holds more than this along its diagonal: what it calls sliding may still stick, not the reverse.
+/// A pyramid holds more than this along its diagonal: a contact that slides by this test may still stick, not
+/// the reverse.
 bool should_stick(const io::ContactRow& contact) {
   constexpr double nearly = 0.99;
   return contact.normal_force > 0 && contact.friction.norm() < nearly * contact.mu * contact.normal_force;
 }
 
-/// [m] by which a contact slips in a step.
+/// Displacement [m] of a slipping contact in a step.
 double slip_of(const io::RecordedContacts& frame, const std::vector<Vec3>& centres,
                const io::ContactRow& contact, double dt_s) {
   const Vec3 speed = velocity_at(frame, centres, contact.body_a, contact.position) -

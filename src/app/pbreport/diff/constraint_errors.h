@@ -1,5 +1,4 @@
-/// How far a recorded run is from what its own constraints ask for: joints, and contacts if they are
-/// recorded.
+/// How far a recorded run is from satisfying its own constraints: joints, and contacts if they are recorded.
 #pragma once
 
 #include <array>
@@ -13,20 +12,20 @@
 
 namespace pbmpi::app {
 
-/// Over the measured frames that are recorded. Entries of joints are as many for every method: what is broken
-/// is a class of its own.
+/// Over the measured frames that are recorded. Every method has the same number of joint entries: broken
+/// joints are a class of their own.
 struct ConstraintErrors {
-  analysis::ErrorSummary joint_gap;   ///< [m] distance of what a joint holds together
-  analysis::ErrorSummary joint_bend;  ///< [rad] by which it is turned where it must not turn
-  /// [m] depth of each contact of the last step of a frame; none without --record-contacts.
+  analysis::ErrorSummary joint_gap;   ///< [m] distance between a joint's two halves
+  analysis::ErrorSummary joint_bend;  ///< [rad] rotation about axes that the joint locks
+  /// [m] penetration depth of each contact of the last step of a frame; none without --record-contacts.
   std::optional<analysis::ErrorSummary> penetration;
-  /// [m] way along the surface, in that step, of a contact whose friction is below 99 % of what it can be: it
-  /// should stick.
+  /// [m] displacement along the surface, in that step, of a contact whose friction is below 99 % of its
+  /// limit: it should stick.
   std::optional<analysis::ErrorSummary> slip;
-  std::int64_t passages = 0;  ///< bodies that went through something, as the run's guards saw it
+  std::int64_t passages = 0;  ///< bodies that passed through something, as the run's guards saw it
 };
 
-/// The four sums by the names that they have in reports.
+/// The four error summaries, by their names in reports.
 struct NamedConstraint {
   const char* name;
   const char* unit;
@@ -39,16 +38,16 @@ inline constexpr std::array<NamedConstraint, 4> constraint_columns = {{
     {"slip", "m", [](const ConstraintErrors& e) { return e.slip ? &*e.slip : nullptr; }},
 }};
 
-/// The same, and part by part.
+/// Constraint errors of a whole run, and by frame and by actor.
 struct RunConstraints {
   ConstraintErrors all;
-  std::vector<ConstraintErrors> by_frame;  ///< [rows] that were asked for, without passages
-  /// [actors] as actors_of() has them, without passages, over the frames of `all`. A joint counts for the
-  /// actor of its first body, a contact for those of both.
+  std::vector<ConstraintErrors> by_frame;  ///< [rows] for the rows asked for, without passages
+  /// [actors] in the order of actors_of(), without passages, over the frames of `all`. A joint counts for the
+  /// actor of its first body, a contact for both actors.
   std::vector<ConstraintErrors> by_actor;
 };
 
-/// `rows`: recorded rows that by_frame is to have; `path`: the run's file.
+/// `rows`: the recorded rows for by_frame; `path`: the run's file.
 RunConstraints constraint_errors(const RunModels& models, const io::RunData& run, const std::string& path,
                                  const std::vector<std::size_t>& rows);
 

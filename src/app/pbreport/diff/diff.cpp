@@ -228,7 +228,7 @@ core::ExitCode run_diff(const std::vector<std::string>& args, std::ostream& out)
     out << help_of(diff_manual());
     return core::ExitCode::done;
   }
-  std::optional<io::OutputLock> output;  // a place that cannot be written is told before the work
+  std::optional<io::OutputLock> output;  // an unwritable path is reported before the work
   if (options.output) {
     output.emplace(*options.output);
     io::require_kind(*options.output, diff_filetype);

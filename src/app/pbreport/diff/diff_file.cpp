@@ -11,7 +11,7 @@ using Columns = std::vector<io::TableColumn>;
 
 using Summaries = std::vector<const analysis::ErrorSummary*>;
 
-/// Columns of one error, e.g. body_position_rms, a row each of `rows`.
+/// Adds columns of one error, e.g. body_position_rms, with one row for each of `rows`.
 void add_error(const std::string& name, const std::string& unit, const Summaries& rows, Columns& columns) {
   const auto add = [&](const char* what, const std::string& of, auto member) {
     std::vector<std::decay_t<decltype(std::declval<analysis::ErrorSummary>().*member)>> values;
@@ -37,7 +37,7 @@ void add_errors(const std::vector<analysis::ErrorTable>& tables, Columns& column
   }
 }
 
-/// Columns of constraints that were recorded, e.g. run_penetration_rms.
+/// Adds columns of constraints that were recorded, e.g. run_penetration_rms.
 void add_constraints(const std::string& whose, const std::vector<ConstraintErrors>& errors,
                      Columns& columns) {
   for (const NamedConstraint& named : constraint_columns) {
@@ -48,7 +48,7 @@ void add_constraints(const std::string& whose, const std::vector<ConstraintError
   }
 }
 
-/// Of both runs; `part`: their frames or their actors.
+/// Adds the columns of both runs; `part`: their frames or their actors.
 void add_constraints(const RunComparison& comparison, std::vector<ConstraintErrors> RunConstraints::*part,
                      Columns& columns) {
   if (comparison.run_constraints) add_constraints("run", *comparison.run_constraints.*part, columns);

@@ -17,7 +17,7 @@ namespace {
 using analysis::ErrorSummary;
 using ChartJson = nlohmann::json;
 
-/// A curve: a number of each frame.
+/// A curve: one number for each frame.
 struct Line {
   std::string label;
   const char* colour;
@@ -27,7 +27,7 @@ struct Line {
 
 constexpr const char *blue = "#0072b2", *orange = "#d55e00";
 
-/// More frames than fit are drawn in bins, by their largest.
+/// How many frames share a point: more frames than fit are drawn in bins, by the bin's largest value.
 std::size_t frames_a_point(const RunComparison& c) {
   return std::max<std::size_t>((c.num_frames + io::html::max_plot_points - 1) / io::html::max_plot_points, 1);
 }
@@ -63,7 +63,7 @@ std::vector<double> numbers(std::size_t count, const std::function<double(std::s
   return values;
 }
 
-/// "joint gap" for joint_gap.
+/// "joint gap" from "joint_gap".
 std::string spoken(std::string name) {
   std::ranges::replace(name, '_', ' ');
   return name;
@@ -90,7 +90,7 @@ io::html::PageSection drift_section(const RunComparison& c) {
   return section;
 }
 
-/// Curves of one constraint, of the runs that have recorded it.
+/// Curves of one constraint, for the runs that have recorded it.
 std::vector<Line> constraint_lines(const RunComparison& c, const NamedConstraint& named) {
   std::vector<Line> lines;
   const auto add = [&](const std::string& whose, const char* colour,
@@ -124,7 +124,7 @@ io::html::PageSection constraint_section(const RunComparison& c) {
   return section;
 }
 
-/// The number of an actor in a constraint; empty where none is recorded.
+/// The largest error of a constraint for an actor; empty where none is recorded.
 std::string largest_of(const std::optional<RunConstraints>& of_run, std::size_t actor,
                        const NamedConstraint& named) {
   if (!of_run || actor >= of_run->by_actor.size()) return "";

@@ -21,7 +21,7 @@ RecordedPoses estimated(const RunModels& models, const io::RunData& run, std::si
 
 using PosesOf = RecordedPoses (*)(const RunModels&, const io::RunData&, std::size_t);
 
-/// Errors of the measured frames that both have, one after the other.
+/// Errors of the measured frames that both runs have, one after the other.
 std::vector<analysis::PoseErrors> errors_by_frame(const RunModels& models, const io::RunData& run,
                                                   PosesOf poses, const io::RunData& reference) {
   std::vector<analysis::PoseErrors> frames;

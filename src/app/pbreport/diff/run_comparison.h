@@ -1,4 +1,4 @@
-/// What "pbreport diff" finds out about two runs.
+/// The results of "pbreport diff" on two runs.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@
 
 namespace pbmpi::app {
 
-/// What a run kept or lost by itself, over its measured frames.
+/// Invariants of a run, over its measured frames.
 struct RunInvariants {
   double max_penetration_m = 0, max_joint_gap_m = 0;
   double energy_first_j = 0, energy_last_j = 0;
   analysis::StretchBands stretch{};  ///< human segments of all measured frames
-  double max_stretch = 0;            ///< of the finite ones
+  double max_stretch = 0;            ///< largest of the finite ones
 };
 
 /// The errors of an actor's bodies, and of the joints whose first body is one of them.
@@ -33,11 +33,11 @@ struct RunComparison {
   analysis::ErrorTable drift;
   std::vector<analysis::ErrorTable> drift_by_frame;    ///< [num_frames]
   std::vector<std::size_t> rows;                       ///< [num_frames] recorded rows of both files
-  std::vector<std::int64_t> steps;                     ///< [num_frames] done by then
-  std::vector<double> times_s;                         ///< [num_frames] simulated by then
-  std::vector<ActorErrors> drift_by_actor;             ///< of all frames, in the order of their bodies
-  std::optional<analysis::ErrorTable> defect;          ///< of the run's estimates, with FEEC
-  std::optional<analysis::ErrorTable> estimate_drift;  ///< of the run's estimates against the reference
+  std::vector<std::int64_t> steps;                     ///< [num_frames] at the frame's end
+  std::vector<double> times_s;                         ///< [num_frames] simulated time at the frame's end
+  std::vector<ActorErrors> drift_by_actor;             ///< over all frames, in the order of their bodies
+  std::optional<analysis::ErrorTable> defect;          ///< error of the run's estimates, with FEEC
+  std::optional<analysis::ErrorTable> estimate_drift;  ///< error of the run's estimates against the reference
   std::vector<analysis::ErrorTable> floor;             ///< drift of each floor run against the reference
   RunInvariants run, reference;
   std::optional<RunConstraints> run_constraints, reference_constraints;  ///< if asked for

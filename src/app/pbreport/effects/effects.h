@@ -1,4 +1,4 @@
-/// "pbreport [effects] effects.h5": what each effect costs, and what leaving it out does.
+/// "pbreport [effects] effects.h5": the cost of each effect, and the consequence of leaving it out.
 #pragma once
 
 #include <iosfwd>

@@ -11,7 +11,7 @@
 
 namespace pbmpi::app {
 
-/// Median and tenths of a sample.
+/// Median, 10th and 90th percentile of a sample.
 struct ReadSpread {
   double median = 0, p10 = 0, p90 = 0;
 };
@@ -23,8 +23,8 @@ struct EffectRow {
   bool called_for = false;
   std::optional<bool> same_bits;  ///< none: nothing was measured
   int worlds = 1;
-  ReadSpread time_with_s, time_without_s, cost_s;  ///< of a step of all worlds
-  ReadSpread share;                                ///< of the step with the effect
+  ReadSpread time_with_s, time_without_s, cost_s;  ///< for a step of all worlds
+  ReadSpread share;                                ///< of the time of a step with the effect
   std::optional<double> instructions_with, instructions_without;
   analysis::ErrorTable defect, drift;
 
@@ -34,8 +34,8 @@ struct EffectRow {
   /// The study adds the effect to the scene: nothing calls for it, it comes only on request, or the scene
   /// leaves it out.
   bool demanded() const { return kind == "demanded"; }
-  /// The effect must not change the result. `called_for` does not tell: what comes only on request is not
-  /// called for either.
+  /// The effect must not change the result. `called_for` cannot tell: an effect that comes only on request is
+  /// not called for either.
   bool unneeded() const { return reason.starts_with("nothing calls for it"); }
 };
 
@@ -46,19 +46,19 @@ struct EffectScene {
   std::vector<EffectRow> effects;
   std::vector<EffectRow> floor;  ///< other solver seeds
 
-  /// Largest rms of body positions that another seed alone gave [m].
+  /// Largest rms of body positions that another seed alone caused [m].
   double floor_defect_m() const;
   double floor_drift_m() const;
-  /// Largest share of a step that another seed alone seemed to cost: what the clock does not resolve.
+  /// Largest share of a step that another seed alone seemed to cost: the clock does not resolve less.
   double floor_share() const;
-  /// Median time of a step of the scene as it is [s]; NaN if nothing was measured.
+  /// Median time of a step of the unchanged scene [s]; NaN if nothing was measured.
   double step_s() const;
 };
 
 /// In the order of the file. Throws core::InputError for a scene that is not in it.
 std::vector<EffectScene> effect_scenes(const io::TableFile& file, const std::vector<std::string>& names);
 
-/// What counted instructions: none, perf_event, callgrind.
+/// How instructions were counted: none, perf_event, callgrind.
 std::string instructions_by(const io::TableFile& file);
 
 }  // namespace pbmpi::app

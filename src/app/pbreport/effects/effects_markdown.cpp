@@ -47,7 +47,7 @@ std::string line(const std::string& label, const Scenes& scenes, Cell cell_of) {
   return text + "\n";
 }
 
-/// Effects that were measured in any of the scenes, in the order of the registry.
+/// Effects that were measured in some scene, in the order of the registry.
 std::vector<std::string> measured_effects(const Scenes& scenes) {
   std::vector<std::string> names;
   for (const EffectRow& row : scenes.front()->effects) {

@@ -21,7 +21,7 @@ using ChartJson = nlohmann::json;
 constexpr std::array<const char*, 9> colours = {"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00",
                                                 "#56b4e9", "#f0e442", "#000000", "#999999"};
 
-/// What a chart shows of a row; none = no bar.
+/// The number that a chart shows for a row; none = no bar.
 using Value = std::optional<double> (*)(const EffectRow&);
 
 std::optional<double> share_of_left_out(const EffectRow& row) {
@@ -49,7 +49,7 @@ std::vector<std::string> steppers_of(const std::vector<EffectScene>& scenes) {
   return names;
 }
 
-/// Effects of which some scene has a value, in their order, which is that of each scene.
+/// Effects for which some scene has a value, in their order, which is that of each scene.
 std::vector<std::string> effects_with(const std::vector<EffectScene>& scenes, Value value) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < scenes.front().effects.size(); ++i) {
@@ -75,10 +75,10 @@ ChartJson time_noise(const std::vector<EffectScene>& scenes) {
 enum class Floor {
   none,
   time,   ///< a band: what another solver seed seems to cost
-  error,  ///< bars of their own: what another solver seed changes
+  error,  ///< separate bars: the change caused by another solver seed
 };
 
-/// Bars: a group an effect, a bar a scene.
+/// Bars: one group per effect, one bar per scene.
 io::html::Chart bars(const char* title, const char* text, const char* axis, const char* scale,
                      const std::vector<EffectScene>& scenes, Value value, Floor floor) {
   std::vector<std::string> labels = effects_with(scenes, value);

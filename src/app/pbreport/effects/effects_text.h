@@ -11,10 +11,10 @@ namespace pbmpi::app {
 /// "57.2 %"; a dash for NaN.
 std::string percent_text(double share);
 
-/// What the study found beyond numbers: "no bit changes", "cannot be left out: ..."
+/// Findings other than numbers: "no bit changes", "cannot be left out: ..."
 std::string note_of(const EffectRow& row);
 
-/// "instructions: counted by callgrind", or that nothing counted them.
+/// "instructions: counted by callgrind", or that they were not counted.
 std::string instructions_text(const io::TableFile& file);
 
 std::string effects_to_text(const io::TableFile& file, const std::vector<EffectScene>& scenes);

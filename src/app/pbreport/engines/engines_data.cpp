@@ -16,7 +16,7 @@ namespace {
 
 using stepping::StepperKind;
 
-/// At the end of the list, unless it is there already.
+/// Appends the value, unless the list has it already.
 template <class Value>
 void add_new(const Value& value, std::vector<Value>& list) {
   if (std::ranges::find(list, value) == list.end()) list.push_back(value);
@@ -36,7 +36,7 @@ EngineOfScene engine_of(const SceneCases& scene, StepperKind kind) {
     engine.felled += one.fells() ? 1 : 0;
   }
   engine.floor_m = scene.own_floor_m(kind, ErrorMeasure::rms);
-  // The own solution of which the noise was measured is that of the usual settings.
+  // The own solution whose noise was measured is that of the usual settings.
   if (engine.cases.own_floor.empty()) return engine;
   const auto usual = std::ranges::find(scene.own, engine.cases.own_floor.front().own, &StudyCase::own);
   if (usual == scene.own.end()) return engine;
@@ -95,7 +95,7 @@ std::vector<SettingVerdicts> settings_of(const io::TableFile& file, const Stabil
   return settings;
 }
 
-/// Adds what each of the engines takes otherwise of the scenes whose texts the file has.
+/// Adds the parts that each engine treats differently, for the scenes whose texts the file has.
 void add_differences(const io::TableFile& file, const std::vector<std::string>& scenes,
                      const std::vector<StepperKind>& kinds, std::vector<Difference>& differences) {
   for (const std::string& name : scenes) {

@@ -19,21 +19,21 @@ namespace pbmpi::app {
 /// own solution. They answer different questions and are never mixed.
 enum class Yardstick { common, own };
 
-/// rms of body positions after one frame [m]; infinite for what blew up or fells what should stand, and where
-/// the study has no own solution.
+/// rms of body positions after one frame [m]; infinite for a setting that blew up or lets bodies fall at
+/// rest, and where the study has no own solution.
 double error_m(const StudyCase& one, Yardstick yardstick);
 
 /// An engine in a scene.
 struct EngineOfScene {
   stepping::StepperKind kind = stepping::StepperKind::sor;
   SceneCases cases;                ///< its settings alone
-  int not_finite = 0, felled = 0;  ///< how many of them blew up; how many fell what stands at rest
-  /// Of its solution with its usual settings [m], rms: how far it is from the common reference (by what its
-  /// model differs), from itself with fewer iterations, and from itself begun in disturbed states with
-  /// another seed (its noise). NaN where the study has none.
+  int not_finite = 0, felled = 0;  ///< settings that blew up; that let bodies fall at rest
+  /// For the engine's solution with its usual settings [m], rms: its distance from the common reference (by
+  /// what its model differs), from itself with fewer iterations, and from itself begun in disturbed states
+  /// with another seed (its noise). NaN where the study has none.
   double law_m = NAN, fewer_m = NAN, floor_m = NAN;
 
-  /// Indices of settings, by rising time; empty if none stands.
+  /// Indices of settings, by ascending time; empty if none stands.
   std::vector<std::size_t> front(Yardstick yardstick) const;
 };
 
@@ -45,27 +45,27 @@ struct SceneOfEngines {
   std::vector<EngineOfScene> engines = {};
 
   bool has_own_solutions() const;
-  /// Those by which the study has errors.
+  /// The yardsticks for which the study has errors.
   std::vector<Yardstick> yardsticks() const;
 };
 
-/// What a setting holds of a group of hard cases: cases of each verdict.
+/// Results of a setting in a group of hard cases: number of cases with each verdict.
 using VerdictCounts = std::array<int, stability::verdict_names.size()>;
 struct SettingVerdicts {
   std::string setting;
   stepping::StepperKind kind = stepping::StepperKind::sor;
-  std::vector<VerdictCounts> groups = {};  ///< as EnginesReport::groups
+  std::vector<VerdictCounts> groups = {};  ///< in the order of EnginesReport::groups
   VerdictCounts all{};
 };
 
-/// What an engine takes otherwise than ODE does, and in how many scenes and cases.
+/// Something that an engine treats differently from ODE, and in how many scenes and cases.
 struct Difference {
   stepping::StepperKind kind = stepping::StepperKind::bullet;
   std::string text;
   std::vector<std::string> scenes;  ///< of the studies, in their order
 };
 
-/// A study's origin: what stands beside its name in a report.
+/// A study's origin, shown beside its name in a report.
 struct StudySource {
   std::string file, command_line;
   std::vector<std::pair<std::string, std::string>> versions;  ///< of pbmpi, its build, the engines
@@ -79,15 +79,15 @@ struct EnginesReport {
   std::vector<SettingVerdicts> settings;
   std::optional<StabilityMap> map;
   std::vector<Difference> differences;
-  /// Steppers of the studies whose engine this build of pbreport lacks, so that it cannot say what they take
-  /// otherwise.
+  /// Steppers of the studies whose engine this build of pbreport lacks, so that their differences are
+  /// unknown.
   std::vector<std::string> unknown;
 };
 
-/// Throws core::InputError for what cannot be read, and for a scene that is not there.
+/// Throws core::InputError for files that cannot be read, and for a scene that is not there.
 EnginesReport read_engines(const EnginesOptions& options);
 
-/// What no setting makes comparable, a paragraph each.
+/// Differences that no setting removes, one paragraph each.
 std::vector<std::string> not_comparable();
 
 }  // namespace pbmpi::app

@@ -12,7 +12,7 @@ namespace pbmpi::app {
 
 struct EnginesOptions {
   bool help = false;
-  std::optional<std::string> accuracy, stability;  ///< the studies' files; one of them at least
+  std::optional<std::string> accuracy, stability;  ///< the studies' files; at least one of them
   std::vector<std::string> scenes;                 ///< of the accuracy study; empty: all
   std::optional<std::string> html;
   PrintForm form = PrintForm::text;

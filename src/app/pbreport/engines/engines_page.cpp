@@ -28,7 +28,7 @@ ChartJson points_of(const EngineOfScene& engine, Yardstick yardstick) {
   return points;
 }
 
-/// What lies below these lines says nothing: the common reference's uncertainty, or each engine's own noise.
+/// Errors below these lines say nothing: the common reference's uncertainty, or each engine's own noise.
 ChartJson lines_of(const SceneOfEngines& scene, Yardstick yardstick) {
   ChartJson lines = ChartJson::array();
   const auto add = [&](double at_mm, const std::string& label, const std::string& colour) {
@@ -94,7 +94,7 @@ io::html::PageSection section_of(const SceneOfEngines& scene) {
   return section;
 }
 
-/// A row a hard case, a column a setting: its verdict.
+/// Verdicts: one row per hard case, one column per setting.
 io::html::TextTable case_table(const EnginesReport& report) {
   io::html::TextTable table{"Case by case", {"case"}, {}};
   for (const std::string& setting : report.map->settings) table.header.push_back(setting);

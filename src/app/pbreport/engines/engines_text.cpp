@@ -14,13 +14,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using stability::Verdict;
 
-constexpr std::size_t most_names = 4;  ///< of scenes in a cell
+constexpr std::size_t most_names = 4;  ///< scenes listed in a cell
 
 std::string millimetres(double length_m) {
   return std::isnan(length_m) ? "-" : format("%.3g", 1e3 * length_m);
 }
 
-/// "6 pass, 1 degraded"; "-" of nothing.
+/// "6 pass, 1 degraded"; "-" without any.
 std::string counts_text(const VerdictCounts& counts) {
   std::string text;
   for (std::size_t verdict = 0; verdict < counts.size(); ++verdict) {

@@ -14,11 +14,11 @@ struct EnginesTable {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// What the yardstick compares with, e.g. "the common reference".
+/// The solution that the yardstick compares with, e.g. "the common reference".
 std::string name_of(Yardstick yardstick);
 /// An engine's settings on its front in a scene.
 EnginesTable front_table(const SceneOfEngines& scene, Yardstick yardstick);
-/// How each engine's own solution lies in a scene.
+/// Errors of each engine's own solution in a scene.
 EnginesTable own_table(const SceneOfEngines& scene);
 EnginesTable verdict_table(const EnginesReport& report);
 EnginesTable difference_table(const EnginesReport& report);

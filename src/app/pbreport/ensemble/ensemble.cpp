@@ -33,7 +33,7 @@ core::ExitCode run_ensemble(const std::vector<std::string>& args, std::ostream& 
     require_printed(out, "the help");
     return core::ExitCode::done;
   }
-  std::optional<io::OutputLock> output;  // a place that cannot be written is told before the work
+  std::optional<io::OutputLock> output;  // an unwritable path is reported before the work
   if (options.output) {
     output.emplace(*options.output);
     io::require_kind(*options.output, ensemble_filetype);

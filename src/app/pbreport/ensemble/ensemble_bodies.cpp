@@ -11,7 +11,7 @@ namespace {
 
 using core::Vec3;
 
-/// Positions of all samples in one recorded frame: of a body those of samples 0, 1, 2 ...
+/// Positions of all samples in one recorded frame; for each body those of samples 0, 1, 2 ...
 class Samples {
  public:
   Samples(const EnsembleRuns& ensemble, std::int64_t row)
@@ -78,7 +78,7 @@ PositionSpread join_bodies(std::size_t frame, const std::vector<BodySpread>& bod
   return all;
 }
 
-/// Squares and samples of a body over the frames.
+/// Sums of squares and number of samples of a body over the frames.
 struct Sums {
   double squares = 0, count = 0;
 };

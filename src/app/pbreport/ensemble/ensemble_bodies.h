@@ -11,8 +11,8 @@
 
 namespace pbmpi::app {
 
-/// A body in a recorded frame. A sample is a body's position in a run (or world of it); its distance is that
-/// from the mean of the samples that are finite.
+/// A body in a recorded frame. A sample is the body's position in a run (or in a world of it); its distance
+/// is measured from the mean of the finite samples.
 struct BodySpread {
   core::Vec3 mean;   ///< [m]; NaN without a finite sample
   double rms_m = 0;  ///< of the distances
@@ -22,15 +22,15 @@ struct BodySpread {
 /// All bodies in a recorded frame.
 struct PositionSpread {
   std::size_t frame = 0;           ///< index in the runs' frames
-  double rms_m = 0;                ///< of the distances of all samples of all bodies
-  Spread of_bodies;                ///< [m] of the rms of each
-  std::int64_t widest = -1;        ///< the body with the largest; -1: none is finite
+  double rms_m = 0;                ///< over the distances of all samples of all bodies
+  Spread of_bodies;                ///< [m] of the bodies' rms
+  std::int64_t widest = -1;        ///< the body with the largest rms; -1: none is finite
   std::vector<BodySpread> bodies;  ///< [bodies of a sample]; only if they are kept
 };
 
 /// A body over the measured frames.
 struct BodySummary {
-  double rms_m = 0, max_m = 0;  ///< of its distances
+  double rms_m = 0, max_m = 0;  ///< over its distances
   std::int64_t nonfinite = 0;   ///< samples
   BodySpread last;              ///< in the last recorded frame
 };

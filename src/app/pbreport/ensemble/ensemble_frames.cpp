@@ -53,7 +53,7 @@ struct Piece {
   TableColumn wall;
   int num_worlds = 0;
 
-  /// [num_worlds] values of a frame; empty if the file (of an older layout) does not have the column.
+  /// [num_worlds] values of a frame; empty if the file (of an older layout) lacks the column.
   std::vector<double> worlds(const Quantity& quantity, std::size_t frame) const {
     const std::string name =
         quantity.width > 1 ? quantity.name.substr(0, quantity.name.size() - 2) : quantity.name;
@@ -86,7 +86,7 @@ void add_samples(const Piece& piece, const Quantity& quantity, std::size_t frame
   }
 }
 
-/// Sums of the measured frames of one run.
+/// Sums over the measured frames of one run.
 class WorldSums {
  public:
   WorldSums(std::size_t run, const io::RunItems& items) : worlds_(items.world_id.size()) {
@@ -148,7 +148,7 @@ class WorldSums {
   double num_frames_ = 0, num_timed_ = 0;
 };
 
-/// Seconds of a step by world, of the frames that are measured: with --record-islands only.
+/// Adds the seconds of a step by world, over the measured frames: with --record-islands only.
 void add_step_times(const RunTables& run, std::int64_t num_frames, WorldSums& sums) {
   const io::RunTable *islands = run.find("islands"), *spaces = run.find("spaces");
   if (islands == nullptr || spaces == nullptr) return;

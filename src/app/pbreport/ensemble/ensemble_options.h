@@ -22,7 +22,7 @@ struct EnsembleOptions {
   bool by_body = false;
   PrintForm form = PrintForm::text;
   bool quiet = false;
-  std::string table = "frames";            ///< of csv
+  std::string table = "frames";            ///< for csv
   std::optional<std::string> csv, output;  ///< output: HDF5
 };
 

@@ -41,7 +41,7 @@ void require_same_times(const RunTables& a, const RunTables& b) {
   require_input(frames > 0, a.path() + " and " + b.path() + ": one of them has no frame");
   for (std::size_t i = 0; i < frames; ++i) {
     const io::FrameTime &x = a.frames()[i], &y = b.frames()[i];
-    // Times are step x dt, so that another dt rounds otherwise.
+    // Times are step x dt, so another dt rounds differently.
     require_input(
         x.frame == y.frame && std::abs(x.time_s - y.time_s) <= 1e-9 && x.is_measured == y.is_measured,
         a.path() + " and " + b.path() + ": frame " + std::to_string(x.frame) +
@@ -75,7 +75,7 @@ void EnsembleRuns::require_comparable(const RunTables& run, const EnsembleOption
                 both + " are not of one ensemble: " +
                     (apart.empty() ? "" : io::text_of(apart.front(), first().path(), run.path())) +
                     "; leave one out, or allow what differs (--allow" + names + ")");
-  // Worlds are compared one by one, so that runs may have other numbers of them: parts of an ensemble.
+  // Worlds are compared one by one, so runs may have different numbers of them: parts of an ensemble.
   const bool same_bodies = over_ == SampleOf::worlds
                                ? bodies_of_a_world(first()) == bodies_of_a_world(run)
                                : first().items().body_name == run.items().body_name &&

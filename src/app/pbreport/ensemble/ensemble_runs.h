@@ -1,4 +1,4 @@
-/// The runs of an ensemble: what they have in common, and in what they differ.
+/// The runs of an ensemble: what they share, and how they differ.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@ namespace pbmpi::app {
 
 class EnsembleRuns {
  public:
-  /// Opens all. Throws core::InputError: runs of other bodies, scenes or settings (those that the options
-  /// allow apart), the same seeds twice, frames at other times.
+  /// Opens all runs. Throws core::InputError for runs with different bodies, scenes or settings (except those
+  /// that the options allow), the same seeds twice, or frames at different times.
   explicit EnsembleRuns(const EnsembleOptions& options);
 
   const std::vector<io::RunTables>& runs() const { return runs_; }
   const io::RunTables& first() const { return runs_.front(); }
-  /// Frames, and frames with positions, that all have.
+  /// Frames, and frames with positions, that all runs have.
   std::int64_t num_frames() const { return num_frames_; }
   std::int64_t num_recorded() const { return num_frames_ / first().record_every(); }
   SampleOf over() const { return over_; }
   std::int64_t num_samples() const;
-  /// Bodies of a sample: all, or those of a world.
+  /// Bodies of a sample: all, or those of one world.
   std::int64_t num_bodies() const;
-  /// "ranks is 1 in a.h5 and 2 in b.h5": of what differs beside the seeds, allowed or of no matter for
+  /// "ranks is 1 in a.h5 and 2 in b.h5": differences other than seeds that are allowed, or do not affect
   /// results.
   const std::vector<std::string>& differences() const { return differences_; }
 

@@ -16,13 +16,13 @@ namespace {
 
 using Columns = std::vector<io::TableColumn>;
 
-/// A table whose rows have frames and spreads.
+/// A table whose rows have a frame and spreads.
 template <class Row>
 class Table : public RowTable<Row> {
  public:
   using RowTable<Row>::RowTable;
 
-  /// Columns of a Spread: count, nonfinite, mean ...; without `prefix` as they are.
+  /// Adds the columns of a Spread: count, nonfinite, mean ...; without `prefix` under these names.
   template <class SpreadOf>
   void add_spread(const std::string& prefix, const std::string& unit, const std::vector<double>& quantiles,
                   SpreadOf&& spread_of_row) {
@@ -36,7 +36,7 @@ class Table : public RowTable<Row> {
                 [&](const Row& row) { return spread_of_row(row).quantiles[q]; });
     this->add(prefix + "max", unit, [&](const Row& row) { return spread_of_row(row).max; });
   }
-  /// Columns of the frame in which a row is.
+  /// Adds the columns of a row's frame.
   template <class FrameOf>
   void add_frame(FrameOf&& frame_of) {
     this->add("frame", "", [&](const Row& row) { return frame_of(row).frame; });
@@ -206,7 +206,8 @@ Columns worlds_table(const std::vector<WorldFacts>& worlds) {
   return table.columns;
 }
 
-/// Adds columns that runs have once, a row a world: those of `names`, or all; of runs that all have them.
+/// Adds columns that a run has once, one row per world: those in `names`, or all; only columns that all runs
+/// have.
 void append_once(const EnsembleRuns& ensemble, const char* table_name, const std::vector<std::string>& names,
                  Columns& columns) {
   std::vector<Columns> parts;

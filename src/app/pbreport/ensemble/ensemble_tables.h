@@ -1,4 +1,4 @@
-/// What is found out about an ensemble, as tables: those of its HDF5 file, of CSV and of JSON.
+/// The findings about an ensemble, as the tables of its HDF5 file, of CSV and of JSON.
 #pragma once
 
 #include "app/pbreport/ensemble/ensemble_bodies.h"

@@ -7,7 +7,7 @@
 
 namespace pbmpi::app {
 
-/// Runs, and what is in the last frame that all have.
+/// Runs, and the values in the last frame that all runs have.
 std::string ensemble_text(const EnsembleRuns& runs, const Ensemble& found, const EnsembleOptions& options);
 std::string ensemble_markdown(const EnsembleRuns& runs, const Ensemble& found,
                               const EnsembleOptions& options);

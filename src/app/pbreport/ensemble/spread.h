@@ -1,4 +1,4 @@
-/// How far the samples of a number are apart.
+/// The spread of a number's samples.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace pbmpi::app {
 
-/// Over the finite samples. NaN for what needs more of them: mean and quantiles one, stddev two.
+/// Over the finite samples. NaN with too few of them: mean and quantiles need one, stddev two.
 struct Spread {
   std::int64_t count = 0;       ///< finite samples
   std::int64_t nonfinite = 0;   ///< the others

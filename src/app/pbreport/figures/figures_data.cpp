@@ -22,7 +22,7 @@ struct Recorded {
   io::RunData run;
 };
 
-/// Stepper and precision that the file names with this prefix.
+/// Stepper and precision that the file stores under this prefix.
 stepping::StepperSettings step_settings(const io::RunData& run, const std::string& prefix) {
   stepping::StepperSettings settings;
   for (const char* name : {"stepper", "precision"}) {
@@ -64,8 +64,8 @@ std::vector<double> frame_times(const io::RunData& run, bool is_estimate) {
   return measured;
 }
 
-/// Frame by frame the least of the repeats: what else runs on the machine only adds, to some runs and not to
-/// others.
+/// Frame by frame the least time of the repeats: other programs on the machine only add time, to some runs
+/// and not to others.
 void fill_times(const std::vector<const Recorded*>& runs, FigureMethod& method) {
   std::vector<std::vector<double>> by_frame;
   for (const Recorded* run : runs) {
@@ -86,7 +86,7 @@ void fill_times(const std::vector<const Recorded*>& runs, FigureMethod& method) 
   method.satisfied_fraction = satisfied / num_frames;
 }
 
-/// Stretch of the human segments in what consumers see.
+/// Stretch of the human segments in the poses that consumers see.
 std::vector<double> measured_stretch(const RunModels& models, const io::RunData& run, bool is_estimate) {
   std::vector<double> all;
   const auto& positions = is_estimate ? run.estimate.position : run.position;

@@ -1,4 +1,4 @@
-/// What figures 8 and 9 show, from recorded runs.
+/// The contents of figures 8 and 9, from recorded runs.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ namespace pbmpi::app {
 struct FigureMethod {
   std::string label;
   bool is_estimate = false;
-  int num_runs = 0;               ///< recorded; a frame's time is its least over them
-  double frame_rate_hz = 0;       ///< harmonic mean of the measured frames; of an estimate: of its deliveries
+  int num_runs = 0;          ///< recorded; a frame's time is its least over them
+  double frame_rate_hz = 0;  ///< harmonic mean over the measured frames; for an estimate: over its deliveries
   double satisfied_fraction = 0;  ///< frames, or deliveries, within the budget
   double mean_frame_s = 0;        ///< time of the precise result, or of the delivery
-  analysis::ErrorTable errors;    ///< against Iter20: drift; of an estimate: of what was delivered
-  bool same_hash = false;         ///< is the run's precise state that of Iter20, bit for bit?
-  std::vector<double> stretch;    ///< of the human segments in all measured frames; NaN: not finite
-  double max_joint_gap_m = 0;     ///< of the precise result
+  analysis::ErrorTable errors;    ///< against Iter20: drift; for an estimate: of the delivered poses
+  bool same_hash = false;         ///< does the run's precise state equal that of Iter20, bit for bit?
+  std::vector<double> stretch;    ///< for the human segments in all measured frames; NaN: not finite
+  double max_joint_gap_m = 0;     ///< in the precise result
 };
 
 struct FigureScene {
@@ -29,7 +29,7 @@ struct FigureScene {
   std::vector<analysis::ErrorTable> floor;  ///< Iter20 with other solver seeds against Iter20
 
   const FigureMethod* find(const std::string& label) const;
-  /// Mean time of an Iter20 frame over that of an estimate's delivery.
+  /// Mean time of an Iter20 frame divided by that of an estimate's delivery.
   double ratio(const FigureMethod& estimate) const {
     return methods.front().mean_frame_s / estimate.mean_frame_s;
   }
@@ -40,7 +40,7 @@ struct RecordedFigures {
   std::vector<io::html::FileAttributes> files;  ///< in the order in which they were named
 };
 
-/// Sorts the runs by scene and by what their files say of stepper, iterations, seed and estimate. Throws
+/// Sorts the runs by scene and by the stepper, iterations, seed and estimate in their files. Throws
 /// core::InputError for a file that is no run, or a scene without a run of `quick` with 20 iterations.
 RecordedFigures recorded_figures(const std::vector<std::string>& paths);
 

@@ -66,7 +66,7 @@ double floor_share(const FigureScene& scene, const analysis::NamedSummary& colum
   return scene.floor.empty() ? 0 : sum / static_cast<double>(scene.floor.size());
 }
 
-/// One stack of five categories a method and scene. Iter20 is left out: it is the reference.
+/// One stack of five categories per method and scene. Iter20 is left out: it is the reference.
 io::html::Chart panel(const std::vector<FigureScene>& scenes, const char* title,
                       const analysis::NamedSummary& column,
                       const std::array<std::string_view, analysis::num_bands>& names) {

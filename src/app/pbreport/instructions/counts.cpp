@@ -8,7 +8,7 @@
 namespace pbmpi::app {
 namespace {
 
-using Json = nlohmann::ordered_json;  // scenes stay in the order of the file
+using Json = nlohmann::ordered_json;  // keeps the scenes in the order of the file
 
 Json document_of(const std::string& path) {
   return Json::parse(core::read_input_file(path, "name the figure3.json of jobs/figure3.sh"), nullptr, false);

@@ -9,7 +9,7 @@
 
 namespace pbmpi::app {
 
-/// The key "filetype" of such a file.
+/// The key "filetype" in a file of counts.
 inline constexpr const char* counts_filetype = "pbmpi-instructions";
 
 /// Mean over the measured frames, inside the stepper.
@@ -27,10 +27,10 @@ struct CountedScene {
   std::optional<InstructionCounts> quick, direct;
 };
 
-/// Is this a JSON document with that filetype?
+/// Is this a JSON document with this filetype?
 bool has_counts(const std::string& path);
 
-/// Throws core::InputError for another file, or a number that is missing.
+/// Throws core::InputError for another file, or if a number is missing.
 std::vector<CountedScene> read_counts(const std::string& path);
 
 }  // namespace pbmpi::app

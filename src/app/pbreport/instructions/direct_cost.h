@@ -1,4 +1,4 @@
-/// What the big matrix of `direct` would cost where nobody waits for it.
+/// The cost of the big matrix of `direct` where running it would take too long.
 #pragma once
 
 #include <optional>
@@ -11,29 +11,30 @@
 
 namespace pbmpi::app {
 
-/// An island has to have so many rows for its cubic part to lead.
+/// The fewest rows of an island for the cubic part of its cost to dominate.
 inline constexpr int leading_rows = 100;
 
-/// Cost of the solver over the sum of rows^3 of the islands (IslandWork::cubed_rows()), over some scenes.
+/// Cost of the solver divided by the sum of rows^3 of the islands (IslandWork::cubed_rows()), over some
+/// scenes.
 struct CubicCost {
   double least = 0, middle = 0, most = 0;  ///< middle: the geometric mean
   int num_scenes = 0;
 };
 
-/// Of ratios above 0; nothing of none.
+/// From the ratios above 0; empty without any.
 std::optional<CubicCost> cubic_cost(std::span<const double> ratios);
 
-/// Instructions a cubed row, of the scenes that were counted with direct and have an island of
+/// Instructions per cubed row, from the scenes that were counted with direct and have an island of
 /// `leading_rows`. `works`: with any stepper, since all see the same contacts in the first steps.
 std::optional<CubicCost> counted_cost(const std::vector<CountedScene>& scenes,
                                       const std::vector<IslandWork>& works);
 
-/// Instructions of a frame with direct: counted, or as far as `cost` goes.
+/// Instructions of a frame with direct: counted, or extrapolated with `cost`.
 struct DirectCost {
   double least = 0, middle = 0, most = 0;
   bool is_counted = false;
 };
-/// Nothing where direct was not counted and there is no cost, no work or no count of quick, whose collision
+/// Empty where direct was not counted and there is no cost, no work or no count of quick, whose collision
 /// detection is the same.
 std::optional<DirectCost> direct_cost(const CountedScene& scene, const std::optional<CubicCost>& cost,
                                       const std::vector<IslandWork>& works);

@@ -9,11 +9,11 @@
 
 namespace pbmpi::app {
 
-/// `works`: of the scenes in which direct was not counted.
+/// `works`: for the scenes in which direct was not counted.
 io::html::PageSection figure3_section(const std::vector<CountedScene>& scenes,
                                       const std::vector<IslandWork>& works);
 
-/// A line a scene and stepper, and what was extrapolated.
+/// One line per scene and stepper, and which numbers were extrapolated.
 std::string figure3_text(const std::vector<CountedScene>& scenes, const std::vector<IslandWork>& works);
 
 }  // namespace pbmpi::app

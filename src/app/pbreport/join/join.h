@@ -1,4 +1,4 @@
-/// "pbreport join A B ... -o ALL": a run and what went on from its checkpoints as one file.
+/// "pbreport join A B ... -o ALL": a run and the runs resumed from its checkpoints as one file.
 #pragma once
 
 #include <iosfwd>

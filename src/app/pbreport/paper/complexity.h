@@ -14,10 +14,10 @@ struct Growth {
   int num_islands = 0, least_rows = 0, most_rows = 0;
 };
 
-/// Nothing unless the largest of them has four times the rows of the smallest.
+/// Empty unless the largest island has four times the rows of the smallest.
 std::optional<Growth> growth_of(const std::vector<IslandWork>& works);
 
-/// Seconds of all islands over their rows; 0 without rows.
+/// Seconds of all islands divided by their rows; 0 without rows.
 double time_of_a_row(const IslandWork& work);
 
 }  // namespace pbmpi::app

@@ -12,7 +12,7 @@ double share_of_band(const analysis::ErrorSummary& errors, std::size_t band) {
   return errors.count == 0 ? 0 : static_cast<double>(errors.bands[band]) / static_cast<double>(errors.count);
 }
 
-/// Positions that are 1 cm or more away, or nowhere.
+/// Share of positions that are off by 1 cm or more, or not finite.
 double share_beyond_1_cm(const analysis::ErrorSummary& errors) { return 1 - share_of_band(errors, 0); }
 
 constexpr std::size_t worst_band = analysis::num_bands - 1;

@@ -75,7 +75,7 @@ PaperStatement of_constraints(const PaperData& data) {
   return statement;
 }
 
-/// Cases that break under "quick, 1 x ITERATIONS"; nothing if the study lacks the setting.
+/// Cases that break under "quick, 1 x ITERATIONS"; empty if the study lacks the setting.
 std::optional<int> broken_cases(const StabilityMap& map, int iterations) {
   const auto found = std::ranges::find(map.settings, format("quick, 1 x %d", iterations));
   if (found == map.settings.end()) return std::nullopt;

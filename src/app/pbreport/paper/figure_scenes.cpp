@@ -24,7 +24,7 @@ std::vector<const FigureScene*> scenes_with(const PaperData& data, const std::ve
 
 StretchCount count_stretch(const std::vector<double>& stretch) {
   StretchCount count{.all = stretch.size()};
-  for (const double one : stretch) {  // a NaN is seen
+  for (const double one : stretch) {  // a NaN counts as seen
     if (!(one < 0.027)) ++count.perhaps_seen;
     if (!(one <= 0.20)) ++count.seen;
     if (std::isfinite(one)) count.most = std::max(count.most, one);

@@ -1,4 +1,4 @@
-/// "pbreport paper FOLDER|FILE...": every statement of the paper beside what jobs/paper.sh has measured.
+/// "pbreport paper FOLDER|FILE...": every statement of the paper beside the measurements of jobs/paper.sh.
 #pragma once
 
 #include <iosfwd>

@@ -19,7 +19,7 @@ using core::InputError;
 
 struct GivenFile {
   std::string path;
-  bool is_named = false;  ///< by itself, not by its folder
+  bool is_named = false;  ///< itself, rather than its folder
 };
 
 bool is_data(const fs::path& path) { return path.extension() == ".h5" || path.extension() == ".json"; }
@@ -74,7 +74,7 @@ const std::string& scene_of(const SuiteRun& run) { return run.islands.scene; }
 const std::string& scene_of(const IslandWork& work) { return work.scene; }
 const std::string& scene_of(const FigureScene& scene) { return scene.name; }
 
-/// Into the order of the paper's Table 1; other scenes come last.
+/// Sorts into the order of the paper's Table 1; other scenes come last.
 template <class Of>
 void sort_scenes(std::vector<Of>& scenes) {
   const auto place = [](const Of& one) {
@@ -97,7 +97,7 @@ void keep_least(io::Table& times, const io::Table& others) {
   }
 }
 
-/// Keeps the lesser of each two times of one and the same run: what else runs on the machine only adds.
+/// Keeps the lesser of each two times of the same run: other programs on the machine only add time.
 void keep_least(io::RunData& run, const io::RunData& repeat) {
   for (auto& [name, times] : run.rank_times) keep_least(times, repeat.rank_times.at(name));
   for (auto& [name, times] : run.space_times) keep_least(times, repeat.space_times.at(name));

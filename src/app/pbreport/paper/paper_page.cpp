@@ -63,7 +63,7 @@ io::html::PageSection section_of(const Chapter& chapter) {
   return section;
 }
 
-/// Figure 6: serial rate, and with a core for each island, then also for each space.
+/// Figure 6: serial rate, and the rate with a core for each island, then also for each space.
 io::html::PageSection rates_section(const std::vector<SuiteRun>& suite) {
   struct Bar {
     const char* label;

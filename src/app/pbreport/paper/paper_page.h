@@ -1,4 +1,4 @@
-/// The paper beside what was measured, as a page.
+/// The paper's statements beside the measurements, as a page.
 #pragma once
 
 #include <vector>

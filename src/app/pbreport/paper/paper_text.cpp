@@ -16,7 +16,7 @@ std::string markdown_row(const std::vector<std::string>& cells) {
   return text + "\n";
 }
 
-/// What would measure what was not, else why the number is as it is.
+/// How to measure a missing number, or why a number is as it is.
 std::string remark_of(const PaperStatement& statement) {
   return statement.verdict.number == not_measured ? "measured by " + statement.command : statement.remark;
 }

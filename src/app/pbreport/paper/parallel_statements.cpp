@@ -7,7 +7,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// From this gain on parallel islands count as a benefit, below as little improvement.
+/// At this gain or above parallel islands count as a benefit, below as little improvement.
 constexpr double benefit = 1.5;
 constexpr const char* our_processor = "ours is taken to be no slower than the paper's 2.4 GHz Pentium 4";
 
@@ -43,7 +43,7 @@ PaperStatement of_simplest_scenes(const PaperData& data) {
   return statement;
 }
 
-/// "CrashWa 40 %, ..." of frames within the budget.
+/// "CrashWa 40 %, ..." for frames within the budget.
 SceneList satisfied(const PaperData& data, Rate CoreSummary::*of,
                     bool (*is_meant)(const std::string& scene)) {
   SceneList list;
@@ -53,7 +53,7 @@ SceneList satisfied(const PaperData& data, Rate CoreSummary::*of,
   return list;
 }
 
-/// The paper's processor cannot do it; only where ours cannot either can that be told.
+/// The paper says its processor cannot do it; this can be judged only where ours cannot either.
 void decide_by_failures(PaperStatement& statement, std::size_t num_failing, std::size_t num_measured,
                         std::size_t num_needed) {
   if (num_measured >= num_needed && num_failing < num_needed) {

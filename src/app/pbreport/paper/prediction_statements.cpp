@@ -17,7 +17,7 @@ std::string remark_of(const PaperVerdict& verdict) {
 std::vector<PaperStatement> prediction_statements(const PaperData& data) {
   std::vector<PaperStatement> statements = {
       undecidable("5.1", "an error of 1e-6 m is visually negligible", "1e-6 m", "no observers here")};
-  // Without a study the same statements, none of them decided.
+  // Without a study, the same statements, all of them undecided.
   for (PaperVerdict& verdict : judge_paper(data.prediction.value_or(PredictionStudy()))) {
     if (verdict.section == "3.3") continue;  // judged among those of the suite, as callgrind counts
     std::string remark = remark_of(verdict);

@@ -1,4 +1,4 @@
-/// What the paper says beside what was measured, and what follows.
+/// A statement of the paper beside the measurement, and the conclusion.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 
 namespace pbmpi::app {
 
-/// What a number rests on.
+/// The basis of a number.
 enum class Basis {
-  counts,        ///< states and counts of runs: the same bits in each
-  clock,         ///< times of this machine
+  counts,        ///< states and counts of runs: the same bits in each run
+  clock,         ///< times measured on this machine
   instructions,  ///< counted by callgrind
   prediction,    ///< the study of value prediction, and its modelled processor
   nothing,       ///< nothing here can decide it
@@ -37,17 +37,17 @@ class SceneList {
 };
 
 struct PaperStatement {
-  PaperVerdict verdict;  ///< its number: ours
+  PaperVerdict verdict;  ///< its number is ours
   std::string papers;    ///< the paper's value
   Basis basis = Basis::counts;
-  std::string command;  ///< measures it
+  std::string command;  ///< measures the number
   std::string remark;   ///< why it is so, or what differs
 
-  /// Sets the finding. Unless all scenes that the statement is about were measured it stays undecidable, and
+  /// Sets the finding. Unless all scenes that the statement is about were measured, it stays undecidable, and
   /// the remark says so.
   void decide(bool is_confirmed, std::size_t num_measured, std::size_t num_needed);
-  /// The same of what was measured of each scene, which becomes the number, behind `lead`. Nothing measured
-  /// leaves the statement as it is.
+  /// decide() from the scenes measured; `lead` and their list become the number. An empty list leaves the
+  /// statement as it is.
   void decide(bool is_confirmed, const SceneList& measured, std::size_t num_needed,
               const std::string& lead = "");
 };
@@ -57,13 +57,13 @@ inline constexpr std::size_t num_scenes = 9;
 inline constexpr std::array<const char*, 5> figure_8_scenes = {"CrashWa", "Environ", "Battle", "Fight",
                                                                "Battle2"};
 
-/// Within a tenth of the paper's.
+/// Is our number within a tenth of the paper's?
 bool is_near(double ours, double papers);
 
-/// The number of a statement for which the files have nothing.
+/// The number of a statement for which the files have no data.
 inline constexpr const char* not_measured = "not measured";
 
-/// Nothing here can decide it, for this reason.
+/// A statement that nothing here can decide, for this reason.
 PaperStatement undecidable(const std::string& section, const std::string& statement,
                            const std::string& papers, const std::string& reason);
 

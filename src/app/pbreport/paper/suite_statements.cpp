@@ -33,9 +33,9 @@ PaperStatement of_islands(const PaperRow& paper, const PaperData& data) {
   return statement;
 }
 
-/// The fewest frames that can have this least, or largest, number, mean and deviation: one lies there, and
-/// the others together on the other side of the mean, so that deviation^2 (n - 1) >= distance^2. All numbers
-/// are taken as rounded in favour of fewer.
+/// The fewest frames that allow this row's least, or largest, number with its mean and deviation: one frame
+/// has that number, and the others lie together on the other side of the mean, so that deviation^2 (n - 1) >=
+/// distance^2. All numbers are taken as rounded in favour of fewer.
 double fewest_frames(const PaperRow& row) {
   if (row.islands_stddev == 0) return 1;
   const double rounded = row.islands_stddev == std::floor(row.islands_stddev) ? 0.5 : 0.05;
@@ -104,7 +104,7 @@ PaperStatement of_traffic(const PaperData& data) {
   return statement;
 }
 
-/// Frames that have another number of islands than the one before.
+/// Frames whose number of islands differs from that of the frame before.
 std::size_t changes_of(const SuiteRun& run) {
   std::size_t changes = 0;
   for (std::size_t i = 1; i < run.islands_by_frame.size(); ++i) {
@@ -135,7 +135,7 @@ PaperStatement of_temporal_behaviour(const PaperData& data) {
   return statement;
 }
 
-/// Numbers of bodies that actors of a kind have, over all scenes.
+/// The numbers of bodies of actors of a kind, over all scenes.
 std::vector<int> bodies_of(const PaperData& data, const std::string& kind) {
   std::vector<int> numbers;
   for (const SuiteRun& run : data.suite) {

@@ -22,7 +22,7 @@ class Frames {
   double real(const std::string& name, std::size_t row) const {
     return file_.column<double>("frames", name)[row];
   }
-  /// Those of a case that count: measured, and with FEEC the estimates.
+  /// The frames of a case that count: measured ones, and with FEEC the estimates.
   std::vector<std::size_t> of(std::size_t index, int warmup, bool feec) const {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < file_.column<std::int64_t>("frames", "case").size(); ++i) {

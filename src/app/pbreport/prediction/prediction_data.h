@@ -1,4 +1,4 @@
-/// What a study of prediction amounts to, scene by scene.
+/// The results of a study of prediction, scene by scene.
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@ struct HitCounts {
   double executed = 0, exact = 0, fuzzy = 0, wrong = 0;
   double error_sum = 0, error_max = 0;
 
-  double coverage() const { return (exact + fuzzy) / executed; }  ///< right ones of all executions
-  double hit_rate() const { return (exact + fuzzy) / (exact + fuzzy + wrong); }  ///< of those that were used
-  double mean_error() const { return error_sum / fuzzy; }  ///< of what goes on into the simulation
+  double coverage() const { return (exact + fuzzy) / executed; }  ///< correct predictions / executions
+  double hit_rate() const { return (exact + fuzzy) / (exact + fuzzy + wrong); }  ///< correct / used
+  double mean_error() const { return error_sum / fuzzy; }  ///< of values that enter the simulation
 };
 
 /// Frames on the modelled processor; NaN where none was modelled.
@@ -38,10 +38,10 @@ struct PredictionRun {
   double threshold = 0;
   bool feec = false, ended = false, same_hash = false, errors_known = false;
   int exit_code = 0;                  ///< -1: the time limit
-  int frames_done = 0, measured = 0;  ///< measured: of the frames that count
+  int frames_done = 0, measured = 0;  ///< measured: number of frames that count
   int nonfinite_step = -1, nonfinite_frame = -1;
   double islands = NAN, base_islands = NAN;
-  double instructions = NAN;     ///< a frame, mean
+  double instructions = NAN;     ///< per frame, mean
   double collision_share = NAN;  ///< of the instructions
   InstructionMix mix{};
   HitCounts loads, operations;  ///< floating point
@@ -86,13 +86,13 @@ struct PredictionStudy {
 /// `names`: these scenes only; empty: all. Throws core::InputError.
 PredictionStudy prediction_study(const io::TableFile& file, const std::vector<std::string>& names);
 
-/// Predictions of one engine in a scene, beside each other.
+/// Predictions of one engine in a scene, exact and fuzzy.
 struct EngineHits {
   std::string engine;  ///< "quick single" (as in the paper), "quick double", "sor"
   HitCounts exact, fuzzy;
-  int frames = 0;  ///< measured, of the fuzzy run: fewer where it was lost
+  int frames = 0;  ///< measured, in the fuzzy run: fewer where it was lost
 };
-/// Those that the study has.
+/// The engines that the study has.
 std::vector<EngineHits> engine_hits(const PredictionScene& scene, const std::string& fvp);
 
 /// 20Iter, 19Iter, FEEC, FVP6, EVP, FEEC+FVP6.

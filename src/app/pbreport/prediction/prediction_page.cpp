@@ -20,7 +20,7 @@ using ChartJson = nlohmann::json;
 constexpr std::array<const char*, 6> colours = {"#0072b2", "#56b4e9", "#e69f00",
                                                 "#d55e00", "#009e73", "#cc79a7"};
 
-/// Bars: a group a scene, a bar a way to compute its frames.
+/// Bars: one group per scene, one bar per way to compute its frames.
 io::html::Chart bars(const PredictionStudy& study, double FrameRate::*number, double scale, const char* title,
                      const char* axis, const char* kind) {
   ChartJson labels = ChartJson::array(), datasets = ChartJson::array();

@@ -7,7 +7,7 @@
 
 namespace pbmpi::app {
 
-/// "blown up in step 11", "not ended", or nothing.
+/// "blown up in step 11", "not ended", or empty.
 std::string fate_text(const PredictionRun& run);
 
 std::string prediction_to_text(const PredictionStudy& study);

@@ -9,8 +9,8 @@
 namespace pbmpi::app {
 namespace {
 
-/// What a bar gains over 20Iter; none where one of the two was not modelled, or its run blew up: a world
-/// whose bodies are lost has less to compute.
+/// A bar's gain over 20Iter; none if one of the two was not modelled, or its run blew up: a world that has
+/// lost bodies has less to compute.
 std::optional<double> gain(const PredictionScene& scene, const std::string& fvp, const std::string& name) {
   const PredictionRun* run = scene.find(name);
   if (run != nullptr && run->is_broken()) return std::nullopt;
@@ -89,7 +89,7 @@ PaperVerdict of_fight(const PredictionStudy& study) {
   return verdict;
 }
 
-/// Scenes in which FEEC with FVP is slower than FEEC alone, of how many.
+/// Scenes in which FEEC with FVP is slower than FEEC alone, and the number of scenes compared.
 std::pair<std::vector<const PredictionScene*>, int> degraded(const PredictionStudy& study) {
   std::pair<std::vector<const PredictionScene*>, int> result;
   for (const PredictionScene& scene : study.scenes) {

@@ -1,4 +1,4 @@
-/// The paper's statements about value prediction, each with what the study says of it.
+/// The paper's statements about value prediction, each judged by the study.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace pbmpi::app {
 
-/// Undecidable, all of them, of a study without scenes.
+/// All statements are undecidable for a study without scenes.
 std::vector<PaperVerdict> judge_paper(const PredictionStudy& study);
 
 }  // namespace pbmpi::app

@@ -1,4 +1,4 @@
-/// "pbreport repair FILE": gives back the disk space that a killed run keeps.
+/// "pbreport repair FILE": frees the disk space that a killed run still occupies.
 #pragma once
 
 #include <iosfwd>
@@ -10,7 +10,7 @@
 
 namespace pbmpi::app {
 
-/// Throws core::InputError: bad usage, no file of a run, one that a run still writes.
+/// Throws core::InputError: bad usage, a file that is not a run's, or one that a run is still writing.
 core::ExitCode run_repair(const std::vector<std::string>& args, std::ostream& out);
 Manual repair_manual();
 

@@ -24,7 +24,7 @@ bool same_start(const core::Pose& a, const core::Pose& b) {
   return a.position == b.position && a.orientation == b.orientation;
 }
 
-/// Why two runs do not have the same bodies; empty if they have.
+/// Why two runs do not have the same bodies; empty if they do.
 std::string difference(const io::BodyTable& a, const io::BodyTable& b) {
   if (a.id.size() != b.id.size()) {
     return std::to_string(a.id.size()) + " bodies against " + std::to_string(b.id.size());
@@ -158,7 +158,7 @@ void require_comparable(const io::RunData& a, const std::string& path_a, const i
   const std::size_t rows = std::min(a.recorded_time_s.size(), b.recorded_time_s.size());
   core::require_input(rows > 0, path_a + " and " + path_b + ": one of them has no recorded frame to compare");
   for (std::size_t row = 0; row < rows; ++row) {
-    // Times are step x dt, so that another dt rounds otherwise.
+    // Times are step x dt, so another dt rounds differently.
     if (std::abs(a.recorded_time_s[row] - b.recorded_time_s[row]) <= 1e-9) continue;
     throw core::InputError(
         path_a + " and " + path_b + ": row " + std::to_string(row) +

@@ -15,7 +15,7 @@ namespace pbmpi::app {
 struct RunModels {
   std::vector<std::shared_ptr<const model::Model>> worlds;
   std::vector<std::size_t> first_body;   ///< [num_worlds] in the file's order
-  std::vector<std::size_t> first_joint;  ///< [num_worlds] likewise
+  std::vector<std::size_t> first_joint;  ///< [num_worlds] in the file's order
 };
 
 /// Worlds of `scene` as the run had them: with their numbers in the ensemble, and their parameters. Throws
@@ -36,14 +36,14 @@ struct RecordedPoses {
   analysis::PoseView world(const RunModels& models, std::size_t world) const;
 };
 
-/// Joints that are broken in a recorded row, as the file's column or its events tell, [J]; empty if none is
-/// known to be.
+/// [J] joints that are broken in a recorded row, from the file's column or its events; empty if none is known
+/// to be broken.
 std::vector<std::int32_t> broken_at(const RunModels& models, const io::RunData& run, std::size_t row);
 
 /// [J] the first body of each joint, over all worlds.
 std::vector<std::size_t> bodies_of_joints(const RunModels& models);
 
-/// Every body and joint of every world, in order; joints by their rows in the file.
+/// Compares every body and joint of every world, in order; joints by their rows in the file.
 analysis::PoseErrors compare_recorded(const RunModels& models, const RecordedPoses& poses,
                                       const RecordedPoses& reference);
 
@@ -54,7 +54,7 @@ std::vector<double> recorded_stretch(const RunModels& models, const RecordedPose
 std::vector<std::size_t> measured_rows(const io::RunData& run, std::size_t num_rows);
 
 /// Throws core::InputError unless both runs have the same bodies in the same order, with the same mass and
-/// the same start, and recorded them at the same times (as far as both go).
+/// the same start, and recorded them at the same times (as far as both runs reach).
 void require_comparable(const io::RunData& a, const std::string& path_a, const io::RunData& b,
                         const std::string& path_b);
 

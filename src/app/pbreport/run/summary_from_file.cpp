@@ -26,7 +26,7 @@ Number number_of(const io::RunData& run, const std::string& name, const std::str
   return number;
 }
 
-/// A column of /timings/rank summed over the ranks, of every frame.
+/// A column of /timings/rank summed over the ranks, for every frame.
 std::vector<double> sum_over_ranks(const io::RunData& run, const std::string& name) {
   std::vector<double> sums(run.frame_measured.size(), 0);
   const auto found = run.rank_times.find(name);
@@ -73,7 +73,7 @@ std::vector<int> idle_ranks(const io::RunData& run) {
 }
 
 /// The effects that the scene calls for, from the scene's text in the file. None if this pbmpi cannot read
-/// that text (a newer scene format): the rest of the summary stands without them.
+/// the text (a newer scene format): the rest of the summary is still valid.
 std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed) {
   try {
     const std::string name = core::value_in(run.attributes, "scene");
@@ -90,13 +90,13 @@ std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed
   }
 }
 
-/// Events of a kind in the whole run, those included for which the file had no row.
+/// Events of a kind in the whole run, including those for which the file had no row.
 std::int64_t num_events(const io::RunData& run, const char* kind) {
   const auto found = run.num_events.find(kind);
   return found == run.num_events.end() ? 0 : found->second;
 }
 
-/// Of a run that was cut off as far as its frames tell.
+/// For a run that was cut off, as far as its frames tell.
 std::int64_t worlds_survived(const io::RunData& run) {
   if (!run.world_results.empty()) return std::ranges::count(run.world_results, 1, &io::WorldResult::survived);
   std::vector<bool> survived(static_cast<std::size_t>(run.num_worlds), true);
@@ -127,12 +127,12 @@ void read_settings(const io::RunData& run, const std::string& path, RunSummary& 
   summary.steps_per_frame = number_of<int>(run, "steps_per_frame", path);
   summary.dt_s = number_of<double>(run, "dt", path);
   summary.seed = number_of<std::uint64_t>(run, "seed", path);
-  // Older files do not name their budget.
+  // Older files do not store their budget.
   summary.budget_s = run.parameters.contains("budget") ? number_of<double>(run, "budget", path)
                                                        : stepping::default_frame_budget_s;
 }
 
-/// The run's estimates against its precise poses; those of recorded, measured frames.
+/// The run's estimates against its precise poses, over recorded, measured frames.
 EstimateSummary estimate_of(const io::RunData& run, const std::string& path, double budget_s) {
   EstimateSummary summary;
   summary.stepper = core::value_in(run.parameters, "estimate_stepper");
@@ -190,7 +190,7 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   summary.output = path;
   summary.complete = run.complete;
   summary.state_hash = core::value_in(run.attributes, "state_hash");
-  // Until the run ends, the file keeps its place with blanks.
+  // The file has blanks in its place until the run ends.
   if (summary.state_hash.find_first_not_of(' ') == std::string::npos) {
     summary.state_hash = "none (the run was cut off)";
   }

@@ -1,4 +1,4 @@
-/// The summary of a run that was read back from its file.
+/// The summary of a run, read back from its file.
 #pragma once
 
 #include <string>
@@ -14,8 +14,9 @@ ObservedFrames observed_frames(const io::RunData& run);
 /// The measured frames' rows of the run's columns. Frames before the first measured one are warm-up.
 MeasuredFrames measured_frames(const io::RunData& run);
 
-/// The numbers that pbmpi printed at the end of the run; of a run that was cut off, those of the frames
-/// that its file holds. `path` names the file. Throws core::InputError if a setting is missing or no number.
+/// The numbers that pbmpi printed at the end of the run; for a run that was cut off, the numbers for the
+/// frames in its file. `path` names the file. Throws core::InputError if a setting is missing or not a
+/// number.
 RunSummary summary_from_file(const io::RunData& run, const std::string& path);
 
 }  // namespace pbmpi::app

@@ -1,4 +1,4 @@
-/// "pbreport scaling RUN...": what more ranks bring.
+/// "pbreport scaling RUN...": the gain from more ranks.
 #pragma once
 
 #include <iosfwd>
@@ -9,8 +9,8 @@
 
 namespace pbmpi::app {
 
-/// Throws core::InputError: bad usage, no file of a run, no two runs of one work on different numbers of
-/// ranks.
+/// Throws core::InputError: bad usage, a file that is not a run's, no two runs of one work on different
+/// numbers of ranks.
 core::ExitCode run_scaling(const std::vector<std::string>& args, std::ostream& out);
 
 }  // namespace pbmpi::app

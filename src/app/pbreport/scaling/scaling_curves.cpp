@@ -13,7 +13,7 @@ namespace {
 
 constexpr double confidence = 0.95;
 
-/// Runs of one problem: all but the numbers of worlds and ranks is the same.
+/// Runs of one problem, which differ only in the numbers of worlds and ranks.
 using Series = std::vector<const ScalingRun*>;
 
 std::vector<Series> series_of(const std::vector<ScalingRun>& runs) {
@@ -35,7 +35,7 @@ std::vector<Series> series_of(const std::vector<ScalingRun>& runs) {
   return series;
 }
 
-/// By ranks. Runs that recorded islands are none: they do more in a frame.
+/// Points by ascending ranks. Excludes runs that recorded islands, which do more in a frame.
 std::vector<ScalingPoint> points_of(const Series& series) {
   std::vector<ScalingPoint> points;
   for (const ScalingRun* run : series) {
@@ -90,7 +90,7 @@ std::vector<std::string> doubts_of(const ScalingPoint& point, const ScalingPoint
     doubts.push_back(
         format("interval of %.0f %%, %.0f %% at most", 100 * width, 100 * rules.widest_interval));
   if (hashes.size() > 1) doubts.push_back(format("%zu different hashes", hashes.size()));
-  // A ratio is no better than the runs of the base that it is taken against.
+  // A ratio is no better than the base runs in its denominator.
   const auto any_run = [&](const auto& predicate) {
     const auto holds = [&](const ScalingRun* run) { return predicate(*run); };
     return std::ranges::any_of(point.runs, holds) || std::ranges::any_of(base.runs, holds);
@@ -107,7 +107,7 @@ std::vector<std::string> doubts_of(const ScalingPoint& point, const ScalingPoint
   return doubts;
 }
 
-/// Of all runs of a series with so many worlds.
+/// State hashes of all runs of a series with this number of worlds.
 std::set<std::string> hashes_of(const Series& series, int worlds) {
   std::set<std::string> hashes;
   for (const ScalingRun* run : series) {
@@ -120,7 +120,7 @@ bool has_several_ranks(const std::vector<ScalingPoint>& points) {
   return points.front().ranks != points.back().ranks;
 }
 
-/// The fastest of those on the fewest ranks, which come first.
+/// The fastest point on the fewest ranks; these come first.
 const ScalingPoint& base_of(const std::vector<ScalingPoint>& points) {
   const ScalingPoint* best = &points.front();
   for (const ScalingPoint& point : points) {
@@ -140,7 +140,7 @@ std::optional<Figure6Bars> figure6_of(const ScalingCurve& curve, const std::vect
   return read_figure6_bars(*found);
 }
 
-/// `points`: by ranks, the base among them.
+/// `points`: by ascending ranks, including the base.
 ScalingCurve curve_of(ScalingKind kind, const std::string& decomposition, const Series& series,
                       std::vector<ScalingPoint> points, const ScalingPoint& base, const ScalingRules& rules) {
   ScalingCurve curve;
@@ -165,7 +165,7 @@ std::vector<ScalingPoint> chosen(const std::vector<ScalingPoint>& points, const 
   return found;
 }
 
-/// One a number of worlds and decomposition.
+/// Adds one curve per number of worlds and decomposition.
 void add_strong(const Series& series, const std::vector<ScalingPoint>& points, const ScalingRules& rules,
                 std::vector<ScalingCurve>& curves) {
   std::set<std::pair<int, std::string>> keys;
@@ -182,7 +182,7 @@ void add_strong(const Series& series, const std::vector<ScalingPoint>& points, c
   }
 }
 
-/// One a number of worlds a rank; a world that is cut does not grow with the ranks.
+/// Adds one curve per number of worlds a rank; a world that is cut does not grow with the ranks.
 void add_weak(const Series& series, const std::vector<ScalingPoint>& points, const ScalingRules& rules,
               std::vector<ScalingCurve>& curves) {
   std::map<std::pair<int, int>, std::vector<ScalingPoint>> by_load;

@@ -17,7 +17,7 @@ struct ScalingOptions {
   ScalingRules rules;
   PrintForm form = PrintForm::text;
   bool quiet = false;
-  std::string table = "points";  ///< of csv
+  std::string table = "points";  ///< for csv
   std::optional<std::string> csv, html;
 };
 

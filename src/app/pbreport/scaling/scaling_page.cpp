@@ -20,7 +20,7 @@ constexpr std::array<const char*, core::num_phases> phase_colours = {
     "#56b4e9", "#f0e442", "#009e73", "#0072b2", "#cc79a7",
     "#d55e00", "#e69f00", "#000000", "#999999", "#c9c9c9"};
 
-/// "2", or "1, worlds" where the point is not decomposed as the curve.
+/// "2", or "1, worlds" where the point has another decomposition than the curve.
 std::string label_of(const ScalingCurve& curve, const ScalingPoint& point) {
   const std::string ranks = std::to_string(point.ranks);
   return point.decomposition == curve.decomposition ? ranks : ranks + ", " + point.decomposition;
@@ -32,7 +32,7 @@ std::vector<std::string> labels_of(const ScalingCurve& curve) {
   return labels;
 }
 
-/// A line over the points of a curve; `value` of a point, `text` read off it.
+/// A line over the points of a curve; `value` gives a point's y.
 template <class Value>
 ChartJson line_of(const ScalingCurve& curve, const char* name, const char* colour, const Value& value) {
   ChartJson points = ChartJson::array();

@@ -40,7 +40,7 @@ int most_ranks_of_a_host(const std::vector<std::string>& hosts) {
   return most;
 }
 
-/// Sums over the frames of what `of` says of a frame's phases [ranks].
+/// Sums `of`, a number of a frame's phases [ranks], over the frames.
 template <class Of>
 std::vector<double> seconds_of_ranks(const MeasuredFrames& frames, const Of& of) {
   std::vector<double> seconds;

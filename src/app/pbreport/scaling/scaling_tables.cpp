@@ -26,7 +26,7 @@ std::vector<PointRow> rows_of(const std::vector<ScalingCurve>& curves) {
   return rows;
 }
 
-/// Which point it is; `row_of`: the PointRow of a row.
+/// Adds columns that identify the point; `row_of`: the PointRow of a row.
 template <class Row, class RowOf>
 void add_point(RowTable<Row>& table, const RowOf& row_of) {
   table.add("curve", "", [&](const Row& row) { return row_of(row).curve; });

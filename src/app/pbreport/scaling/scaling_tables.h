@@ -1,4 +1,4 @@
-/// Curves of scaling as tables: those of CSV and of JSON.
+/// Curves of scaling as the tables of CSV and of JSON.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace pbmpi::app {
 
-/// A row a point of a curve; a phase of a point; a run of a point.
+/// One row per point of a curve; per phase of a point; per run of a point.
 inline constexpr std::array<std::string_view, 3> scaling_table_names = {"points", "phases", "runs"};
 
 io::TableFile scaling_tables(const std::vector<ScalingCurve>& curves);

@@ -17,7 +17,7 @@ std::string plural(int count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-/// Milliseconds in each phase by number of ranks; phases in which no rank was are left out.
+/// Milliseconds in each phase by number of ranks; leaves out phases in which no rank spent time.
 std::vector<Cells> phase_cells(const ScalingCurve& curve) {
   std::vector<Cells> rows(1, Cells{"ms a frame, mean rank"});
   for (const ScalingPoint& point : curve.points)

@@ -11,12 +11,12 @@ namespace pbmpi::app {
 std::string name_of(ScalingKind kind);
 /// "100CrSk, 100 worlds, sor double: strong scaling, worlds over ranks".
 std::string title_of(const ScalingCurve& curve);
-/// What the curve is compared with, and what bounds it.
+/// The base of the curve, and the bound on its speed-up.
 std::string base_text(const ScalingCurve& curve);
-/// "3 of 5 repeats; 2 different hashes"; empty if nothing speaks against a point.
+/// "3 of 5 repeats; 2 different hashes"; empty if nothing speaks against the point.
 std::string doubts_text(const ScalingPoint& point);
 double ideal_speed_up(const ScalingCurve& curve, const ScalingPoint& point);
-/// The same, or with a cut world what its largest island leaves of it, if that is less.
+/// The ideal speed-up or, for a cut world, the bound from its largest island if that is less.
 double bound_of(const ScalingCurve& curve, const ScalingPoint& point);
 /// Seconds of a phase in a frame: mean over the ranks, median over the runs.
 double phase_s(const ScalingPoint& point, const std::string& phase);

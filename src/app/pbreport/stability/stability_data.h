@@ -12,15 +12,15 @@ namespace pbmpi::app {
 
 /// A row of /cases.
 struct StabilityCell {
-  std::size_t index = 0;  ///< of the row
+  std::size_t index = 0;  ///< index of the row
   std::string setting;
   double dt_s = 0;
   stability::Judgement judged;
   std::array<double, stability::num_metrics> metrics{};
   double broken_at_s = 0, simulated_s = 0;
-  double row_visits = 0;   ///< of a step, mean
+  double row_visits = 0;   ///< per step, mean
   double step_time_s = 0;  ///< mean
-  int drift_band = 0;      ///< the paper's category of the body that drifted farthest
+  int drift_band = 0;      ///< the paper's category for the body that drifted farthest
 };
 
 /// A hard case under all settings of the study.
@@ -36,14 +36,14 @@ struct StabilityMap {
   std::vector<StabilityScene> scenes;  ///< in the order of the file
 };
 
-/// `names`: scenes; all if it is empty. Throws core::InputError for a scene that is not in the file.
+/// `names`: scenes; empty: all. Throws core::InputError for a scene that is not in the file.
 StabilityMap stability_map(const io::TableFile& file, const std::vector<std::string>& names);
 
 /// How many of a setting's cases have each verdict.
 std::array<int, stability::verdict_names.size()> count_verdicts(const StabilityMap& map, std::size_t setting);
 
 std::string_view name_of(stability::Verdict verdict);
-/// "drift 12.3 mm", "sink 1.2 m at 3.1 s" of what broke; empty where the setting could not run the case.
+/// "drift 12.3 mm", "sink 1.2 m at 3.1 s" for a broken case; empty where the setting could not run it.
 std::string decided_text(const StabilityCell& cell);
 
 }  // namespace pbmpi::app

@@ -92,7 +92,7 @@ void add_poses(const io::TableFile& file, const RowsOfCase& rows, std::size_t in
   }
 }
 
-/// How dark a field is: 0 at a number that is right, 1 a thousandfold beyond its limit.
+/// How dark a cell is: 0 for a right number, 1 at a thousand times its limit or more.
 double severity(const stability::Judgement& judged) {
   if (judged.verdict == Verdict::pass || judged.verdict == Verdict::not_applicable) return 0;
   if (!(judged.limits.right > 0) || !std::isfinite(judged.value)) return 1;

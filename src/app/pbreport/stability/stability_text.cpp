@@ -66,7 +66,7 @@ std::string markdown_line(const std::vector<std::string>& cells) {
   return text + "\n";
 }
 
-/// A case's name without what all of them share.
+/// A case's name without the part that all share.
 std::string short_name(const std::string& name) {
   const std::size_t slash = name.find('/');
   return slash == std::string::npos ? name : name.substr(slash + 1);

@@ -9,7 +9,7 @@ namespace pbmpi::app {
 
 std::string stability_to_text(const StabilityMap& map);
 std::string stability_to_json(const StabilityMap& map);
-/// A row a case, a column a setting; below them how many cases each setting holds.
+/// One row per case, one column per setting; below them how many cases have each verdict under a setting.
 std::string stability_to_markdown(const StabilityMap& map);
 
 }  // namespace pbmpi::app

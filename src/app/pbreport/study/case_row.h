@@ -1,4 +1,4 @@
-/// How the reports of studies read their file.
+/// Reads the cases of a study's file for its report.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class CaseRow {
   std::string text(const std::string& name) const {
     return file_->column<std::string>("cases", name)[index_];
   }
-  /// The settings of a step, as far as the file has columns of them.
+  /// The settings of a step, as far as the file has columns for them.
   stepping::StepperSettings step_settings() const {
     stepping::StepperSettings settings;
     for (const stepping::StepOption& option : stepping::step_options()) {
@@ -67,8 +67,8 @@ class CaseRow {
   std::size_t index_;
 };
 
-/// The scenes (each has a `name`) that `names` names, in its order; all if it is empty. Throws
-/// core::InputError for a scene that is not in the study.
+/// The scenes (each has a `name`) in the order of `names`; empty: all. Throws core::InputError for a scene
+/// that is not in the study.
 template <class Scene>
 std::vector<Scene> chosen_scenes(const std::vector<Scene>& scenes, const std::vector<std::string>& names) {
   if (names.empty()) return scenes;

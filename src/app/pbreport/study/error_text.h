@@ -8,7 +8,7 @@
 
 namespace pbmpi::app {
 
-/// "185/0/0/0/0": bodies a band.
+/// "185/0/0/0/0": bodies per band.
 std::string bands_text(const analysis::BandCounts& bands, const char* separator = "/");
 
 /// rms, p99, max and bands of each column of the table, e.g. under "body_position_m".

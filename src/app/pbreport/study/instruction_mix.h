@@ -1,4 +1,4 @@
-/// Classes of instructions, and what the paper's section 3.3 says of them.
+/// Classes of instructions, and the paper's statements about them in section 3.3.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@ inline constexpr std::array<const char*, 5> mix_names = {"floating point", "inte
 using InstructionMix = std::array<double, mix_names.size()>;
 inline constexpr InstructionMix paper_mix = {0.34, 0.25, 0.06, 0.05, 0.30};
 
-/// Of nothing: all zero.
+/// All zero without scenes.
 InstructionMix mean_mix(const std::vector<InstructionMix>& scenes);
 
 /// Undecidable without scenes.
 PaperVerdict judge_mix(const std::vector<InstructionMix>& scenes);
-/// `shares`: of collision detection in the instructions of each scene. Undecidable without scenes.
+/// `shares`: collision detection's share of the instructions of each scene. Undecidable without scenes.
 PaperVerdict judge_collision_share(const std::vector<double>& shares);
 
 }  // namespace pbmpi::app

@@ -1,4 +1,4 @@
-/// What is found about a statement of the paper.
+/// A verdict on a statement of the paper.
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ inline Finding finding_if(bool is_confirmed) { return is_confirmed ? Finding::co
 
 struct PaperVerdict {
   std::string section;    ///< of the paper
-  std::string statement;  ///< the paper's, in short
-  std::string rule;       ///< when it counts as confirmed
+  std::string statement;  ///< the paper's, abridged
+  std::string rule;       ///< when the statement counts as confirmed
   Finding finding = Finding::undecidable;
-  std::string number;  ///< what was found, or why nothing was
+  std::string number;  ///< the result, or why there is none
 };
 
 }  // namespace pbmpi::app

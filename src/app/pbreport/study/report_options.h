@@ -1,4 +1,4 @@
-/// What the command lines of the reports of all studies have in common.
+/// Command-line options that the reports of all studies share.
 #pragma once
 
 #include <optional>
@@ -20,9 +20,9 @@ struct ReportOfStudyOptions {
   bool quiet = false;
 };
 
-/// --html and --csv. `page`: what the page shows.
+/// Adds --html and --csv. `page`: what the page shows.
 void add_output_options(const std::string& page, boost::program_options::options_description& description);
-/// --scene.
+/// Adds --scene.
 void add_scene_choice(boost::program_options::options_description& description);
 
 /// Throws core::InputError unless one file is named. `what`: e.g. "a study of effects", `example`: a file's

@@ -6,7 +6,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// The files of the first version had accuracy studies only, and did not say so.
+/// The first version of the files had only accuracy studies, and did not say so.
 std::string kind_of(const io::TableFile& file) {
   const auto study = file.attributes.find("study");
   return study == file.attributes.end() ? "accuracy" : study->second;

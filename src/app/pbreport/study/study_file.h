@@ -1,4 +1,4 @@
-/// What the reports of all studies do with the files of pbstudy.
+/// Reading of pbstudy's files by the reports of all studies.
 #pragma once
 
 #include <string>
@@ -12,14 +12,15 @@ namespace pbmpi::app {
 inline constexpr const char* study_filetype = "pbmpi-study";
 
 /// The attribute `study` of the first file of pbstudy among a command's arguments, e.g. "accuracy"; empty if
-/// none of them is one.
+/// there is none.
 std::string study_named_in(const std::vector<std::string>& args);
 
-/// Reads the file of a study of this kind. Throws core::InputError, with the command for the study that it is
-/// of.
+/// Reads the file of a study of this kind. Throws core::InputError for another kind, naming the command for
+/// that study.
 io::TableFile read_study(const std::string& path, const std::string& kind);
 
-/// All rows and one-dimensional columns of /cases, with a header; a column of several values becomes several.
+/// All rows and one-dimensional columns of /cases, with a header; a column with several values becomes
+/// several.
 std::string study_to_csv(const io::TableFile& file);
 
 /// The text of a value of /parameters, or `absent`.

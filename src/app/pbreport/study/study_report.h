@@ -1,4 +1,4 @@
-/// The command that reports a study, where it has no options of its own.
+/// Runs the command that reports a study, for studies without options of their own.
 #pragma once
 
 #include <functional>
@@ -13,15 +13,15 @@
 
 namespace pbmpi::app {
 
-/// What such commands differ in, in words.
+/// The words in which such commands differ.
 struct StudyReport {
-  std::string name;   ///< of the study, of the command and, with .h5, of the file
+  std::string name;   ///< of the study, the command and, with .h5, the file
   std::string shows;  ///< "pbreport NAME shows ..."
   std::string page;   ///< what --html writes
   std::string table;  ///< what --markdown prints
 };
 
-/// A study that has been read, in the forms that a user may ask for.
+/// A study that has been read, in the forms that a user may request.
 struct StudyViews {
   std::function<void(const std::string& path)> write_page;
   std::function<std::string()> json, markdown, text;
@@ -32,8 +32,8 @@ using ReadStudy = std::function<StudyViews(const io::TableFile& file, const Repo
 Manual manual_of(const StudyReport& report);
 /// Throws core::InputError with one clear message.
 ReportOfStudyOptions parse_options(const StudyReport& report, const std::vector<std::string>& args);
-/// `read` is called with the file, which outlives the views. Throws core::InputError for what cannot be read
-/// or written.
+/// `read` is called with the file, which outlives the views. Throws core::InputError for a file that cannot
+/// be read or written.
 core::ExitCode run_study_report(const StudyReport& report, const std::vector<std::string>& args,
                                 std::ostream& out, const ReadStudy& read);
 

@@ -24,8 +24,8 @@ std::vector<double> solve_times(const std::vector<io::IslandRow>& islands) {
   return times;
 }
 
-/// What one thread a world would see: worlds are spaces that nothing crosses, so that with spaces in parallel
-/// collision detection takes as long as the longest of all worlds.
+/// The share with one thread per world: nothing crosses between worlds, so with spaces in parallel collision
+/// detection takes as long as the longest of all worlds.
 double spaces_share(const io::RunData& run, std::size_t frame) {
   const double serial_s = total(run.space_times.at("collide")[frame]);
   const auto& parallel = run.space_times.at("collide_spaces")[frame];

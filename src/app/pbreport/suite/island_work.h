@@ -1,4 +1,4 @@
-/// What a solver has to do in the profiled steps of a run, island by island.
+/// The solver's work in the profiled steps of a run, island by island.
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@ namespace pbmpi::app {
 /// An island of one step.
 struct SolvedIsland {
   int rows = 0;
-  double solve_s = 0;  ///< a step of the solver with this island alone
+  double solve_s = 0;  ///< time of a solver step with this island alone
 };
 
 /// The measured frames of a run with --record-islands.
 struct IslandWork {
   std::string scene, stepper;
   int iterations = 0, steps_per_frame = 0, bodies = 0;
-  double frame_s = 0;                              ///< of a frame, mean over the frames
-  std::vector<std::vector<SolvedIsland>> islands;  ///< [frames] of the last step of each
+  double frame_s = 0;                              ///< per frame, mean over the frames
+  std::vector<std::vector<SolvedIsland>> islands;  ///< [frames] in the last step of each
 
   /// Sum of rows^3 over the islands of a frame's steps, mean over the frames: the profiled step stands for
-  /// all of its frame.
+  /// all steps of its frame.
   double cubed_rows() const;
 };
 

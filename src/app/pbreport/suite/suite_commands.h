@@ -10,7 +10,7 @@
 
 namespace pbmpi::app {
 
-/// Table 1. Throws core::InputError, as the others do.
+/// Table 1. Throws core::InputError, like the others.
 core::ExitCode run_islands(const std::vector<std::string>& args, std::ostream& out);
 /// Table 2, and the frame rates of Figure 6.
 core::ExitCode run_cores(const std::vector<std::string>& args, std::ostream& out);

@@ -1,4 +1,4 @@
-/// The rows of "pbreport islands" and "pbreport cores" as JSON: what --json prints and the page shows.
+/// The rows of "pbreport islands" and "pbreport cores" as JSON, for --json and the page.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,7 +7,7 @@
 
 namespace pbmpi::app {
 
-/// Paper and relative difference are null where the scene or its number is not the paper's.
+/// Paper and relative difference are null where the paper lacks the scene or the number.
 nlohmann::ordered_json to_json(const IslandSummary& summary);
 nlohmann::ordered_json to_json(const CoreSummary& summary);
 

@@ -10,7 +10,7 @@
 
 namespace pbmpi::app {
 
-/// Each column is a function of the row, whose value is a double, a std::int64_t or a std::string.
+/// Each column is a function of the row that returns a double, a std::int64_t or a std::string.
 template <class Row>
 class RowTable {
  public:

@@ -7,8 +7,8 @@
 
 namespace pbmpi::app {
 
-/// One document, with a newline at the end: the parameters by name, then an object a table with an array a
-/// column; what is not finite is null.
+/// One document, with a newline at the end: the parameters by name, then one object per table with one array
+/// per column; numbers that are not finite are null.
 std::string to_json(const io::TableFile& file);
 
 }  // namespace pbmpi::app

@@ -6,9 +6,9 @@
 
 namespace pbmpi::app {
 
-/// Columns as wide as their longest cell, right-aligned but for the last. The first row has their names.
+/// Columns as wide as their longest cell, right-aligned except the last. The first row has their names.
 std::string aligned(const std::vector<std::vector<std::string>>& rows);
-/// As a table in Markdown.
+/// The rows as a table in Markdown.
 std::string markdown(const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace pbmpi::app

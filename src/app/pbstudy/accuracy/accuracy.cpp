@@ -13,8 +13,7 @@ namespace {
 
 using io::Parameter;
 
-/// The reference of a scene, and the own solutions of its cases, are made by each rank that has cases of
-/// them.
+/// Each rank that has cases of a scene makes the scene's reference and own solutions itself.
 std::vector<CaseResult> run_cases(const mpi::Communicator& comm, const AccuracyOptions& options,
                                   const std::vector<AccuracyCase>& cases, StudyRunner& runner) {
   std::optional<SolvedReference> reference;

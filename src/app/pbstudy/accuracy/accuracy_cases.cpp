@@ -14,7 +14,7 @@ namespace {
 
 using stepping::StepperSettings;
 
-/// Steps of dt in a frame; they must fill it to within rounding.
+/// Steps of dt in a frame; they must fill it, except for rounding.
 int steps_in_frame(const StudyScene& scene, double dt_s) {
   const double steps = scene.frame_s / dt_s;
   core::require_input(std::abs(steps - std::round(steps)) < 1e-6 && steps > 0.5,
@@ -23,7 +23,7 @@ int steps_in_frame(const StudyScene& scene, double dt_s) {
   return static_cast<int>(std::round(steps));
 }
 
-/// The stepper of this kind as it is meant to be used, with a memory if it has one.
+/// A stepper of this kind with its usual settings, with a memory if it has one.
 StepperSettings remembering(const StepperSettings& base) {
   StepperSettings settings = default_settings(base.kind);
   settings.dt_s = base.dt_s;
@@ -48,8 +48,8 @@ void add_estimates_of(AccuracyCase precise, const AccuracyOptions& options,
   }
 }
 
-/// Estimates of the scene's own iterations, and of the stepper as it is meant to be used, in each precision
-/// of the study.
+/// Estimates with the scene's own iterations, and with the stepper's usual settings, in each precision of the
+/// study.
 void add_estimates(const AccuracyCase& base, const StudyScene& scene, const AccuracyOptions& options,
                    std::vector<AccuracyCase>& cases) {
   const auto precisions =
@@ -79,7 +79,7 @@ void add_settings(const AccuracyCase& base, const AccuracyOptions& options,
   });
 }
 
-/// The settings with a memory from step to step, in the study's numbers of substeps, precisions, tolerances
+/// The settings with a memory from step to step, with the study's numbers of substeps, precisions, tolerances
 /// and sags.
 void add_remembering(const AccuracyCase& base, const AccuracyOptions& options,
                      std::vector<AccuracyCase>& cases) {
@@ -120,10 +120,11 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
   });
 }
 
-/// Of a world that `direct` can solve in seconds: it takes the cube of the rows of an island.
+/// The largest world that `direct` can solve in seconds: its cost is cubic in the rows of an island.
 constexpr int most_bodies_for_direct = 60;
 
-/// ODE with the scene's step: direct where worlds are small, else quick with the iterations of the check.
+/// ODE with the scene's step: direct where worlds are small, otherwise quick with the iterations of the
+/// check.
 StepperSettings second_method(const StudyScene& scene, const StepperSettings& reference,
                               const AccuracyOptions& options) {
   StepperSettings second;
@@ -165,7 +166,8 @@ bool solve_the_same(const StepperSettings& a, const StepperSettings& b) {
   });
 }
 
-/// The own solutions of the scene's settings, the cases from `first` on, one for all that share it.
+/// Adds the own solutions of the scene's settings (the cases from `first` on), one for all settings that
+/// share it.
 void add_own_solutions(std::size_t first, const AccuracyOptions& options, std::vector<AccuracyCase>& cases) {
   const std::size_t end = cases.size();
   for (std::size_t i = first; i < end; ++i) {
@@ -181,8 +183,8 @@ void add_own_solutions(std::size_t first, const AccuracyOptions& options, std::v
   }
 }
 
-/// The noise of each kind of stepper at the first step of the study, of its usual equations if they are
-/// studied.
+/// Adds the noise of each kind of stepper at the first step of the study, with its usual equations if they
+/// are studied.
 void add_own_floors(std::size_t first, const AccuracyOptions& options, std::vector<AccuracyCase>& cases) {
   std::map<stepping::StepperKind, std::size_t> own_of;
   const std::size_t end = cases.size();

@@ -14,20 +14,20 @@ namespace pbmpi::app {
 
 /// Why a case is there.
 enum class CaseKind {
-  setting,          ///< one of the matrix
-  reference,        ///< itself: how far it was solved, and what that took
-  floor,            ///< the reference with another solver seed: what noise alone does
+  setting,          ///< one setting of the matrix
+  reference,        ///< the reference itself: how far it was solved, and at what cost
+  floor,            ///< the reference with another solver seed: the effect of noise alone
   more_iterations,  ///< each of its steps with many times as many iterations: has it converged?
-  second_method,    ///< its frames by ODE, with contact points and a solver of its own
-  halved_dt,        ///< the reference with half the step: what the step's length does, which no solver mends
-  estimate,         ///< FEEC: what a frame of the setting shows before it has ended
-  own,        ///< the equations of settings of one stepper, solved by that stepper itself, by many iterations
-  own_floor,  ///< the same from disturbed states with another solver seed: the engine's noise
+  second_method,    ///< the reference's frames by ODE, with contact points and a solver of its own
+  halved_dt,  ///< the reference with half the step: the effect of the step's length, which no solver mends
+  estimate,   ///< FEEC: what a frame of the setting shows before it has ended
+  own,        ///< the equations of one stepper's settings, solved by that stepper itself with many iterations
+  own_floor,  ///< own, from disturbed states with another solver seed: the engine's noise
 };
 inline constexpr std::array<std::string_view, 9> case_kind_names = {
     "setting",   "reference", "floor", "more_iterations", "second_method",
     "halved_dt", "estimate",  "own",   "own_floor"};
-/// Is it there to judge the reference?
+/// Does the case judge the reference?
 constexpr bool is_yardstick(CaseKind kind) { return kind > CaseKind::setting && kind < CaseKind::estimate; }
 constexpr bool is_own(CaseKind kind) { return kind == CaseKind::own || kind == CaseKind::own_floor; }
 
@@ -38,31 +38,31 @@ struct AccuracyCase {
   CaseKind kind = CaseKind::setting;
   stepping::StepperSettings stepper;
   int steps_per_frame = 3;
-  std::optional<EstimateSpec> estimate = {};  ///< of CaseKind::estimate
-  /// The case of its equations' own solution, of a setting and of what is_own(); else no_own.
+  std::optional<EstimateSpec> estimate = {};  ///< for CaseKind::estimate
+  /// For a setting and for is_own(): the case that solves the same equations; otherwise no_own.
   int own = no_own;
 
   int sweeps() const { return sweeps_of(stepper); }  ///< in a step
-  int sweeps_a_frame() const;                        ///< until what it shows is there
+  int sweeps_a_frame() const;                        ///< until the estimate, or the frame's end, is there
 };
 
 StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions& options);
 
-/// The setting of the reference: a cold sor in double precision, with the iterations that it begins with.
+/// The reference's setting: a cold sor in double precision, with the iterations that it begins with.
 stepping::StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options);
 ReferenceSolve reference_solve(const StudyScene& scene, const AccuracyOptions& options);
 
-/// The settings that solve the equations of `setting` by so many iterations a step. What decides how they are
-/// solved is taken from the stepper's usual settings (over-relaxation, warm start, order, precision, and no
-/// tolerance); what decides what is solved stays: the step, and of sor substeps, springs, margin, friction,
-/// sag, and whether there are relaxing sweeps, of which there are then as many as others. Substeps share the
-/// iterations. A stepper without iterations keeps its settings.
+/// The settings that solve the equations of `setting` with so many iterations a step. What decides how they
+/// are solved is taken from the stepper's usual settings (over-relaxation, warm start, order, precision, and
+/// no tolerance). What decides which equations are solved stays: the step and, for sor, substeps, springs,
+/// margin, friction, sag, and whether there are relaxing sweeps, which then number as many as the others.
+/// Substeps share the iterations. A stepper without iterations keeps its settings.
 stepping::StepperSettings own_settings(const stepping::StepperSettings& setting, int iterations);
 
 /// All cases of all scenes, scene by scene. Throws core::InputError for a dt that does not fill a frame.
 std::vector<AccuracyCase> make_cases(const std::vector<StudyScene>& scenes, const AccuracyOptions& options);
 
-/// Which rank works on which case [num_cases]: by expected cost, the dearest first.
+/// [num_cases] the rank that works on each case: dealt out by expected cost, the dearest first.
 std::vector<int> deal_out(const std::vector<AccuracyCase>& cases, const std::vector<StudyScene>& scenes,
                           int num_ranks);
 

@@ -123,7 +123,7 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   AccuracyOptions options;
   static_cast<StudyOptions&>(options) = study_options(values, "pbstudy accuracy", args);
   options.settings = setting_lists(varied, values);
-  // Who varies what only the cold step has asks for that.
+  // Varying an option that only the cold step has asks for the cold step.
   options.with_default =
       values.count("sor-factor") + values.count("warm-start") + values.count("row-order") == 0;
   options.dts = setting_list(varied_dt, values);

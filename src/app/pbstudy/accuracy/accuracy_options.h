@@ -13,18 +13,18 @@ namespace pbmpi::app {
 /// The settings that are crossed, and how each is measured.
 struct AccuracyOptions : StudyOptions {
   std::vector<SettingList> settings;      ///< the stepper first; the last varies fastest
-  bool with_default = true;               ///< besides them sor as it is meant to be used
-  SettingList dts;                        ///< without values: the scene's and half of it
-  SettingList tolerances, sags;           ///< of sor as it is meant to be used
-  std::vector<int> estimates;             ///< iterations with which frames are estimated (FEEC)
+  bool with_default = true;               ///< also study sor with its usual settings
+  SettingList dts;                        ///< empty: the scene's and half of it
+  SettingList tolerances, sags;           ///< for sor with its usual settings
+  std::vector<int> estimates;             ///< numbers of iterations with which frames are estimated (FEEC)
   int max_sweeps = 320;                   ///< iterations x substeps of a case, at most
-  int reference_iterations = 640;         ///< with which each of its steps is tried first
-  double reference_residual_m = 1e-5;     ///< asked of each step; 0: nothing
-  int reference_most_iterations = 40960;  ///< of a step that does not get there
-  int reference_check = 30;               ///< times as many iterations, for comparison; 0: no such case
-  int own_iterations = 640;  ///< a step with which a stepper's own solution is tried first; 0: there is none
-  int own_most_iterations = 10240;  ///< a step of a frame that does not settle
-  double rest_s = 3;  ///< for which the scene at rest is watched under each setting; 0: not at all
+  int reference_iterations = 640;         ///< first tried for each of its steps
+  double reference_residual_m = 1e-5;     ///< required of each step; 0: no requirement
+  int reference_most_iterations = 40960;  ///< at most, for a step that does not get there
+  int reference_check = 30;               ///< factor on the iterations, for comparison; 0: no such case
+  int own_iterations = 640;               ///< per step, first tried for a stepper's own solution; 0: none
+  int own_most_iterations = 10240;        ///< per step, for a frame that does not settle
+  double rest_s = 3;  ///< how long the scene at rest is watched under each setting; 0: not at all
 };
 
 /// Throws core::InputError with one clear message.

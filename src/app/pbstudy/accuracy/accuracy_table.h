@@ -8,7 +8,7 @@
 
 namespace pbmpi::app {
 
-/// Columns with a row a case (io/SCHEMA.md). `results` [num_cases] in the order of the cases.
+/// Columns with one row per case (io/SCHEMA.md). `results` [num_cases] in the order of the cases.
 std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
                                           const std::vector<AccuracyCase>& cases,
                                           const std::vector<CaseResult>& results);

@@ -18,7 +18,7 @@ analysis::PoseView view(const State& state) { return {state.position, state.orie
 /// Raises `most` to `value`; a NaN counts as infinite.
 void raise(double& most, double value) { most = std::isnan(value) ? INFINITY : std::max(most, value); }
 
-/// What a frame did to joints, contacts, energy, momentum and segments.
+/// Records what a frame did to joints, contacts, energy, momentum and segments.
 void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector<State>& reference,
              CaseResult& result) {
   for (std::size_t i = 0; i < worlds.size(); ++i) {
@@ -40,8 +40,8 @@ void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector
   }
 }
 
-/// Times [measured frame][repeat], in rounds over the frames: from one frame to the next the stepper already
-/// stands at the right step. Errors come from the first round, the others give the same bits.
+/// Times [measured frame][repeat]. Rounds go over all frames, so that the stepper already stands at the right
+/// step of the next frame. Errors come from the first round; the others give the same bits.
 std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const StudyScene& scene,
                                                 const Reference& reference, const Worlds& worlds, int repeats,
                                                 const FrameEnds* own, CaseResult& result) {
@@ -49,7 +49,7 @@ std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const S
   std::vector<std::vector<double>> times_s(static_cast<std::size_t>(scene.frames));
   PoseErrors errors, own_errors;
   for (int round = 0; round < repeats; ++round) {
-    if (scene.warmup > 0) {  // what a jump back to another step costs must not be timed
+    if (scene.warmup > 0) {  // the cost of a jump back to another step must not be timed
       stepper.start_from(reference.states[static_cast<std::size_t>(scene.warmup - 1)], scene.warmup - 1);
       stepper.advance_frame();
     }
@@ -75,7 +75,7 @@ std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const S
   return times_s;
 }
 
-/// An estimate's drift is that of the precise run that it is taken from.
+/// An estimate's drift is the drift of the precise run that it is taken from.
 void measure_drift(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
                    const Worlds& worlds, CaseResult& result) {
   CaseStepper stepper(worlds, one.stepper, one.steps_per_frame);

@@ -14,8 +14,8 @@ using States = std::vector<State>;
 
 namespace {
 
-/// What the noise floors of engines start from: a few hundred times the rounding of a position in a world of
-/// ten metres.
+/// The disturbance from which the noise floors of engines start: a few hundred times the rounding of a
+/// position in a world of ten metres.
 constexpr double disturbance = 1e-12;  // [m] and [m/s]
 
 /// Does one frame of some worlds of a case.
@@ -24,7 +24,7 @@ class FrameSolver {
   FrameSolver(const AccuracyCase& one, const Worlds& worlds, int frame)
       : one_(one), worlds_(worlds), first_step_(static_cast<std::int64_t>(frame) * one.steps_per_frame) {}
 
-  /// Writes the ends of `which` into `ends` [num_worlds].
+  /// Writes the end states of the worlds `which` into `ends` [num_worlds].
   void solve(const std::vector<int>& which, const States& start, int iterations, States& ends) const {
     const auto stepper = engines::make_stepper(own_settings(one_.stepper, iterations), "own solution: ");
     for (const int world : which) {
@@ -42,7 +42,7 @@ class FrameSolver {
   std::int64_t first_step_;
 };
 
-/// The longest way [m] between the bodies of two states; NaN if any is.
+/// The largest displacement [m] of a body between two states; NaN if any is NaN.
 double farthest_m(const State& a, const State& b) {
   double most = 0;
   for (std::size_t body = 0; body < a.position.size(); ++body) {
@@ -97,7 +97,7 @@ OwnSolutions::Solution OwnSolutions::solve(const AccuracyCase& one) const {
         used[static_cast<std::size_t>(world)] = static_cast<int>(wanted);
       }
       solver.solve(open, start, static_cast<int>(wanted), ends);
-      std::erase_if(open, [&](int world) {  // what is not finite will not settle either
+      std::erase_if(open, [&](int world) {  // a world that is not finite will not settle either
         const auto place = static_cast<std::size_t>(world);
         return !(farthest_m(fewer[place], ends[place]) > options_.reference_residual_m);
       });
@@ -110,7 +110,7 @@ OwnSolutions::Solution OwnSolutions::solve(const AccuracyCase& one) const {
   return found;
 }
 
-/// With the iterations that the undisturbed solution took.
+/// Uses the iterations that the undisturbed solution took.
 OwnSolutions::Solution OwnSolutions::solve_disturbed(const AccuracyCase& one, const Solution& own) const {
   Solution found;
   found.worlds = own.worlds;

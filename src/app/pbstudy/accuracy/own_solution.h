@@ -1,5 +1,5 @@
-/// What a setting loses of its own equations: a stepper solved with so many iterations that more change
-/// little, from the same states as its cases.
+/// How far a setting is from the solution of its own equations, found by the same stepper from the same
+/// states with so many iterations that more change little.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,22 @@
 namespace pbmpi::app {
 
 /// Moves every coordinate of a position by up to `size` [m] and of a velocity by up to `size` [m/s], at
-/// random by `key`. Orientations and turning stay.
+/// random by `key`. Orientations and angular velocities stay.
 void disturb(double size, std::uint64_t key, model::State& state);
 
-/// The own solutions of the cases of one scene, each made when it is first asked for. A world's result
-/// depends on nothing but the world.
+/// The own solutions of the cases of one scene, each made when first asked for. A world's result depends on
+/// the world alone.
 class OwnSolutions {
  public:
-  /// All are borrowed.
+  /// All arguments are borrowed.
   OwnSolutions(const StudyScene& scene, const Reference& reference, const std::vector<AccuracyCase>& cases,
                const AccuracyOptions& options);
 
-  /// Ends of the frames of case `index`, which is of CaseKind::own; null for AccuracyCase::no_own.
+  /// Ends of the frames of case `index`, which has CaseKind::own; null for AccuracyCase::no_own.
   const FrameEnds* ends(int index);
-  /// Errors of a case of CaseKind::own, against itself with a quarter of its iterations, or of
-  /// CaseKind::own_floor, against the undisturbed one (`own_defect`), and of both against the reference
-  /// (`defect`). Iterations a step are `solve_iterations`; nothing else is observed: NaN.
+  /// Judges a case of CaseKind::own against itself with a quarter of its iterations, or of
+  /// CaseKind::own_floor against the undisturbed solution (`own_defect`), and both against the reference
+  /// (`defect`). `solve_iterations` are the iterations a step; all other observations are NaN.
   CaseResult judge(int index);
 
  private:
@@ -36,8 +36,8 @@ class OwnSolutions {
     Worlds worlds;
     FrameEnds ends;
     FrameEnds fewer;                           ///< with a quarter of the iterations
-    std::vector<std::vector<int>> iterations;  ///< [frames][num_worlds] a step
-    std::vector<double> times_s;               ///< [frames] of processor time, of all that was tried
+    std::vector<std::vector<int>> iterations;  ///< [frames][num_worlds] per step
+    std::vector<double> times_s;               ///< [frames] of processor time, for everything that was tried
   };
   const Solution& solution(int index);
   Solution solve(const AccuracyCase& one) const;

@@ -10,7 +10,7 @@ namespace pbmpi::app {
 
 using model::State;
 
-/// A stepper of so many iterations, and the worlds that are in it.
+/// A stepper with so many iterations, and the worlds in it.
 struct ConvergingStepper::Level {
   std::unique_ptr<stepping::WorldStepper> stepper;
   std::set<int> worlds;
@@ -23,7 +23,7 @@ ConvergingStepper::ConvergingStepper(const Worlds& worlds, const ReferenceSolve&
       residual_(worlds.size()),
       iterations_(worlds.size()) {
   solve_.stepper.residuals = true;
-  if (solve_.residual <= 0) solve_.most_iterations = solve_.stepper.iterations;  // nothing is asked
+  if (solve_.residual <= 0) solve_.most_iterations = solve_.stepper.iterations;  // nothing is required
   for (const auto& model : worlds_) states_.push_back(model::initial_state(*model));
 }
 
@@ -97,7 +97,7 @@ void ConvergingStepper::end_step() {
   std::swap(states_, next_);
   ++step_;
   for (std::size_t world = 0; world < worlds_.size(); ++world) {
-    // A NaN stays: it is no small residual.
+    // A NaN stays: it is not a small residual.
     if (!(residual_[world] <= account_.residual)) account_.residual = residual_[world];
     account_.most_iterations = std::max(account_.most_iterations, iterations_[world]);
     account_.iterations += (iterations_[world] - account_.iterations) / static_cast<double>(++steps_done_);

@@ -1,4 +1,4 @@
-/// The reference of "pbstudy accuracy": how far a step is solved, and what that leaves open.
+/// The reference of "pbstudy accuracy": how far a step is solved, and the remaining error.
 #pragma once
 
 #include <map>
@@ -15,31 +15,31 @@ namespace pbmpi::app {
 /// How far each step of each world is solved.
 struct ReferenceSolve {
   stepping::StepperSettings
-      stepper;  ///< a cold sor; its iterations are those that each step is tried with first
-  /// Asked of each step: what the natural map of its rows (stepping::Residuals) still moves within the step,
-  /// as a length [m] and, of rows about axes, as an angle [rad]. 0: nothing is asked.
+      stepper;  ///< a cold sor; its iterations are those that each step is first tried with
+  /// Required of each step: how far the natural map of its rows (stepping::Residuals) still moves within the
+  /// step, as a length [m] and, for rows about axes, as an angle [rad]. 0: no requirement.
   double residual = 0;
-  int most_iterations = 0;  ///< a step that is not there by then is left at that
+  int most_iterations = 0;  ///< a step that has not got there by then stays as it is
 };
 
-/// What it took.
+/// The residual and iterations of a solve.
 struct SolveAccount {
-  double residual = 0;    ///< largest of all steps and worlds, as ReferenceSolve has it
-  double iterations = 0;  ///< mean of all steps and worlds
+  double residual = 0;    ///< largest over all steps and worlds, as ReferenceSolve defines it
+  double iterations = 0;  ///< mean over all steps and worlds
   int most_iterations = 0;
 };
 
-/// Steps worlds as far as they are asked to be solved. A world's result depends on nothing but the world.
+/// Steps worlds until each is solved as far as required. A world's result depends on the world alone.
 class ConvergingStepper {
  public:
   ConvergingStepper(const Worlds& worlds, const ReferenceSolve& solve);
   ~ConvergingStepper();
 
-  /// Puts all worlds into `states` [num_worlds], those at the start of `step`.
+  /// Puts all worlds into `states` [num_worlds] at the start of `step`.
   void start_from(const std::vector<model::State>& states, std::int64_t step);
-  /// A step of each world, with four times as many iterations again and again until it is solved so far.
+  /// Takes a step of each world, repeated with four times as many iterations until it is solved far enough.
   void advance();
-  /// A step of each world with so many iterations, [num_worlds].
+  /// Takes a step of each world with the given iterations, [num_worlds].
   void advance_with(std::span<const int> iterations);
 
   const std::vector<model::State>& states() const { return states_; }  ///< [num_worlds]
@@ -49,7 +49,7 @@ class ConvergingStepper {
  private:
   struct Level;
   Level& level(int iterations);
-  /// Steps these worlds from their states; next_ and residual_ become theirs.
+  /// Steps `worlds` from their states; sets their next_ and residual_.
   void try_step(std::span<const int> worlds, int iterations);
   void end_step();
 
@@ -63,7 +63,7 @@ class ConvergingStepper {
   SolveAccount account_;
 };
 
-/// The run that cases are compared with, and what it took.
+/// The run that cases are compared with, and its iterations.
 struct SolvedReference : Reference {
   std::vector<std::vector<int>> iterations;  ///< [steps][num_worlds]
   SolveAccount account;

@@ -11,7 +11,7 @@ namespace {
 using model::State;
 using States = std::vector<State>;
 
-/// Does frame `frame` from these states.
+/// Computes frame `frame` from these states.
 using SolveFrame = std::function<States(const States& start, int frame)>;
 
 /// The defect of the measured frames.
@@ -42,7 +42,7 @@ void measure_drift(const StudyScene& scene, const SolvedReference& reference, co
   result.drift = analysis::summarize(errors);
 }
 
-/// The reference anew, with the case's seed and step.
+/// Solves the reference anew, with the case's seed and step.
 CaseResult solve_anew(const AccuracyCase& one, const StudyScene& scene, const SolvedReference& reference,
                       const AccuracyOptions& options) {
   const Worlds worlds = worlds_at_step(reference, scene, one.stepper.dt_s, options.seed);
@@ -95,7 +95,7 @@ CaseResult solve_otherwise(const AccuracyCase& one, const StudyScene& scene,
   return result;
 }
 
-/// The reference itself: no error, and what it took.
+/// Result of the reference itself: no error, and the cost of its solve.
 CaseResult account_for(const StudyScene& scene, const SolvedReference& reference) {
   const SolveFrame look_up = [&](const States&, int frame) {
     return reference.states[static_cast<std::size_t>(frame) + 1];

@@ -23,7 +23,7 @@ namespace {
 using analysis::TimedCase;
 using io::Parameter;
 
-/// Case by case, the seconds of each round; on root.
+/// The seconds of each round, case by case; on root.
 using CaseTimes = std::vector<std::vector<double>>;
 
 double time_case(const mpi::Communicator& comm, const TimedCase& one) {
@@ -38,7 +38,7 @@ bool takes_part(const mpi::Communicator& comm, const TimedCase& one) {
   return one.part == analysis::TimedPart::frame || comm.rank() < 2;
 }
 
-/// Ranks that have no part in a case wait in a barrier, so that none takes time from those that have.
+/// Ranks that take no part in a case wait in a barrier, so that they take no time from those that do.
 CaseTimes time_all(const mpi::Communicator& comm, const std::vector<TimedCase>& cases,
                    const CalibrateOptions& options) {
   CaseTimes times(cases.size());
@@ -51,7 +51,7 @@ CaseTimes time_all(const mpi::Communicator& comm, const std::vector<TimedCase>& 
   return times;
 }
 
-/// Heap bytes of a body in a world of many.
+/// Heap bytes per body in a world of many bodies.
 double bytes_of_a_body() {
   constexpr int bodies = 4096;
   const auto model = synthetic::make_model(bodies);

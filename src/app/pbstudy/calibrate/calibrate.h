@@ -1,4 +1,4 @@
-/// "pbstudy calibrate": what the harness costs beside the physics.
+/// "pbstudy calibrate": the cost of the harness, without the physics.
 #pragma once
 
 #include <string>

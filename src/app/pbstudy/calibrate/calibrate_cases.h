@@ -1,4 +1,4 @@
-/// What "pbstudy calibrate" times: its cases, and in which order.
+/// The cases that "pbstudy calibrate" times, and their order.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace pbmpi::app {
 
-/// `num_ranks`: that there are. Cases without seconds. Those of one rank come first, then those in which all
-/// ranks take part: frames of all of them, and messages.
+/// Cases without seconds; `num_ranks`: the ranks available. Those of one rank come first, then those in which
+/// all ranks take part: frames of all of them, and messages.
 std::vector<analysis::TimedCase> make_calibrate_cases(int num_ranks, int largest_ranks);
 
-/// Does a case need the other ranks?
+/// Does a case need other ranks?
 bool is_collective(const analysis::TimedCase& one);
 
 /// The cases 0 to `num_cases` - 1 in the random order of a round.

@@ -19,7 +19,7 @@ double time_frame(const mpi::Communicator& comm, const analysis::TimedCase& one)
   mpi::WorldDriver driver(
       comm, stepper, [&](int) { return model; }, settings);
   const mpi::WorldRunResult result = driver.run();
-  // What disturbs a frame only adds time, and the frames are alike.
+  // Disturbances only add time, and the frames are alike.
   double shortest_s = std::numeric_limits<double>::infinity();
   for (const mpi::FrameTimes& times : result.times) {
     if (times.measured) shortest_s = std::min(shortest_s, times.wall_s);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int burst = 64, burst_tag = 5, message_tag = 6;
 
-/// Half of a message there and back; several, since one is shorter than the clock resolves.
+/// Half of a message there and back; mean of several, since one is shorter than the clock resolves.
 double time_there_and_back(const mpi::Communicator& comm, std::int64_t bytes) {
   const int rounds = bytes > 65536 ? 20 : 100;
   std::vector<std::byte> message(static_cast<std::size_t>(bytes));
@@ -25,7 +25,7 @@ double time_there_and_back(const mpi::Communicator& comm, std::int64_t bytes) {
   return (core::now_s() - start_s) / (2.0 * rounds);
 }
 
-/// A message of a burst at root, which sends all of them, or receives what has come before.
+/// Time of one message in a burst at root, which either sends them all or receives what has already arrived.
 double time_burst(const mpi::Communicator& comm, std::int64_t bytes, bool root_sends) {
   std::vector<std::byte> message(static_cast<std::size_t>(bytes));
   const bool sends = comm.is_root() == root_sends;
@@ -41,7 +41,7 @@ double time_burst(const mpi::Communicator& comm, std::int64_t bytes, bool root_s
     }
     return (core::now_s() - start_s) / burst;
   };
-  exchange();  // opens the way
+  exchange();  // opens the connection
   double seconds = 0;
   if (!comm.is_root()) {
     exchange();

@@ -43,11 +43,11 @@ double time_unpack(const TimedCase& one) {
   mpi::GatheredPoses poses;
   poses.resize(table);
   poses.unpack(table, placement, received,
-               next);  // the first touches memory that a run has touched long before
+               next);  // in a run, this memory has been touched long before
   return seconds_of([&] { poses.unpack(table, placement, received, next); });
 }
 
-/// Even costs, or ones of which half the ranks have double.
+/// All costs equal, or half of the ranks with twice the cost.
 double time_decision(const TimedCase& one, bool is_even) {
   const auto ranks = static_cast<int>(one.ranks);
   const mpi::Placement placement = mpi::equal_placement(static_cast<int>(one.worlds), ranks);
@@ -70,7 +70,7 @@ double time_bodies(const TimedCase& one) {
       hashes ^= model::hash(state);
     }
   });
-  return hashes == 0 ? 0 : seconds;  // else nobody would ask for the hashes
+  return hashes == 0 ? 0 : seconds;  // uses the hashes, so that they are not optimised away
 }
 
 double time_hash(const TimedCase& one) {

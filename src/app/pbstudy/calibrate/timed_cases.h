@@ -6,14 +6,15 @@
 
 namespace pbmpi::app {
 
-/// Seconds of a frame of worlds without physics; the shortest of a few. Collective over `comm`, the null
-/// communicator for frames of one rank.
+/// Seconds of a frame of worlds without physics; the shortest of a few. Collective over `comm`, which is the
+/// null communicator for frames of one rank.
 double time_frame(const mpi::Communicator& comm, const analysis::TimedCase& one);
 
-/// Seconds of what root does for one.ranks ranks, none of which is there. Not collective.
+/// Seconds of root's work for one.ranks ranks, none of which is there. Not collective.
 double time_root(const analysis::TimedCase& one);
 
-/// Seconds of a message between ranks 0 and 1; collective over the two. At the rank that the part is of.
+/// Seconds of a message between ranks 0 and 1; collective over the two. Measured at the rank that the part
+/// names.
 double time_message(const mpi::Communicator& comm, const analysis::TimedCase& one);
 
 }  // namespace pbmpi::app

@@ -6,12 +6,12 @@
 namespace pbmpi::app {
 namespace {
 
-/// What two studies must agree in before one can take the other's counts.
+/// The columns in which two studies must agree before one can take the other's counts.
 const std::vector<std::string> setting_columns = {"scene",           "kind",       "effect", "stepper",
                                                   "precision",       "iterations", "dt",     "solver_seed",
                                                   "steps_per_frame", "worlds",     "warmup", "frames"};
 
-/// Throws unless `columns` has column `name` with the values of the file's.
+/// Throws unless `columns` has a column `name` whose values equal the file's.
 void require_equal(const io::TableFile& file, const std::vector<io::TableColumn>& columns,
                    const std::string& name, const std::string& refusal) {
   for (const io::TableColumn& mine : columns) {

@@ -1,4 +1,4 @@
-/// Counts of instructions out of a study of effects that counted them.
+/// Counts of instructions from a study of effects that counted them.
 #pragma once
 
 #include <string>
@@ -11,13 +11,14 @@ namespace pbmpi::app {
 
 class CountedStudy {
  public:
-  /// Throws core::InputError if the file is no study of effects, has no counts, or not just these cases.
+  /// Throws core::InputError if the file is no study of effects, has no counts, or has other cases than
+  /// these.
   CountedStudy(std::string path, const std::vector<StudyScene>& scenes, const std::vector<EffectCase>& cases);
 
-  /// What counted them, as core::name_of names it.
+  /// The source of the counts, as core::name_of names it.
   std::string source() const;
-  /// Puts the counts into `results` [num_cases]. Throws core::InputError if their states are others than
-  /// those that were counted.
+  /// Puts the counts into `results` [num_cases]. Throws core::InputError if their states differ from the
+  /// counted ones.
   void give_counts(std::vector<EffectResult>& results) const;
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 using io::Parameter;
 
-/// The run of the scene as it is, that the cases of one scene and stepper share.
+/// The run of the unchanged scene, shared by the cases of one scene and stepper.
 struct Baseline {
   int scene = -1;
   stepping::StepperSettings stepper;

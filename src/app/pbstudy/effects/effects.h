@@ -1,4 +1,4 @@
-/// "pbstudy effects": what each effect costs, and what leaving it out does to the result.
+/// "pbstudy effects": the cost of each effect, and how leaving it out changes the result.
 #pragma once
 
 #include <string>

@@ -34,7 +34,7 @@ bool leaves_out(const StudyScene& scene, const std::string& effect) {
   return choice != scene.effects.end() && !choice->second;
 }
 
-/// `baseline`: of the scene as it is.
+/// `baseline`: the plan of the unchanged scene.
 EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const effects::RunPlan& baseline,
                    const std::string& effect) {
   EffectCase one;
@@ -46,7 +46,7 @@ EffectCase case_of(int index, const StudyScene& scene, std::uint64_t seed, const
     const effects::RunPlan variant = plan_of(scene, seed, one.choices());
     const auto demanded = pass ? pass : pass_of(variant, effect);
     const bool has_reason = demanded && !demanded->idle;
-    // An effect that has a reason only in the variant, and is not left out by the scene, comes on request
+    // If only the variant gives the effect a reason, and the scene does not leave it out, it comes on request
     // alone.
     const bool on_request = !pass && has_reason && !leaves_out(scene, effect);
     one.called_for = has_reason && !on_request;
@@ -115,7 +115,7 @@ std::vector<EffectCase> make_effect_cases(const std::vector<StudyScene>& scenes,
 
 std::vector<int> deal_out(const std::vector<EffectCase>& cases, const std::vector<StudyScene>& scenes,
                           int num_ranks) {
-  std::vector<double> bodies;  // of a scene: its worlds differ little
+  std::vector<double> bodies;  // of a scene's first world: its worlds differ little
   for (const StudyScene& scene : scenes) {
     const auto first = scenes::parse_scene(scene.source, scene.dt_s)->build(0, 1);
     bodies.push_back(scene.num_worlds * first->num_bodies());

@@ -11,12 +11,12 @@
 
 namespace pbmpi::app {
 
-/// What a case does to the scene as it is.
+/// What a case changes in the scene.
 enum class EffectCaseKind {
-  left_out,  ///< takes an effect away that the scene has
-  demanded,  ///< adds one that it does not have
+  left_out,  ///< takes away an effect that the scene has
+  demanded,  ///< adds an effect that the scene does not have
   refused,   ///< an effect that cannot be changed; nothing is measured
-  floor,     ///< changes the solver's seed only: what noise alone does, to errors and to times
+  floor,     ///< changes the solver's seed only: the effect of noise alone, on errors and on times
 };
 inline constexpr std::array<std::string_view, 4> effect_case_kind_names = {"left_out", "demanded", "refused",
                                                                            "floor"};
@@ -24,12 +24,12 @@ inline constexpr std::array<std::string_view, 4> effect_case_kind_names = {"left
 struct EffectCase {
   int scene = 0;  ///< index into the study's scenes
   EffectCaseKind kind = EffectCaseKind::floor;
-  stepping::StepperSettings stepper;  ///< of a floor's variant; its baseline has the study's seed
-  std::string effect;                 ///< empty: floor
+  stepping::StepperSettings stepper;  ///< the variant's; a floor's baseline has the study's seed
+  std::string effect;                 ///< empty for a floor
   bool called_for = false;            ///< by something in the scene
   std::string reason;                 ///< what calls for it, or why it is refused
 
-  /// What makes the variant out of the scene.
+  /// The choices that turn the scene into the variant.
   model::EffectChoices choices() const;
 };
 
@@ -38,7 +38,7 @@ struct EffectCase {
 std::vector<EffectCase> make_effect_cases(const std::vector<StudyScene>& scenes,
                                           const EffectsOptions& options);
 
-/// Which rank works on which case [num_cases]: by expected cost, the dearest first.
+/// [num_cases] the rank that works on each case: dealt out by expected cost, the dearest first.
 std::vector<int> deal_out(const std::vector<EffectCase>& cases, const std::vector<StudyScene>& scenes,
                           int num_ranks);
 

@@ -38,7 +38,7 @@ po::options_description options_description() {
   return all;
 }
 
-/// The names given, each once and in the registry's order; all for none.
+/// The names given, each once and in the registry's order; all names if none is given.
 std::vector<std::string> known_effects(const std::vector<std::string>& given) {
   for (const std::string& name : given) effects::require_effect(name);
   std::vector<std::string> names;

@@ -13,10 +13,10 @@
 namespace pbmpi::app {
 
 struct EffectsOptions : StudyOptions {
-  std::vector<std::string> effects;              ///< of the registry, in its order
-  std::vector<SettingList> settings;             ///< of the steppers that are measured
-  std::optional<int> iterations;                 ///< else the scene's
-  std::optional<std::string> instructions_from;  ///< a file of the same cases, counted
+  std::vector<std::string> effects;              ///< names in the registry's order
+  std::vector<SettingList> settings;             ///< of the steppers to measure
+  std::optional<int> iterations;                 ///< empty: the scene's
+  std::optional<std::string> instructions_from;  ///< a file with counts for the same cases
 };
 
 /// Throws core::InputError with one clear message.

@@ -23,11 +23,11 @@ std::uint64_t hash_of(const std::vector<State>& states) {
   return mpi::combine_world_hashes(hashes);
 }
 
-/// Frames of one of the two that are compared.
+/// The frames of baseline or variant.
 struct Side {
   CaseStepper stepper;
   std::vector<double> frame_s;  ///< processor time, round by round
-  /// [frames] The fewest of all rounds: in the first ones memory grows and functions are bound.
+  /// [frames] The fewest over all rounds: in the first ones memory grows and functions are bound.
   std::vector<double> instructions;
 
   void advance_frame(std::size_t frame, core::InstructionCounter& counter) {
@@ -41,8 +41,8 @@ struct Side {
   }
 };
 
-/// All frames of one round, from the baseline's states, both sides in turn; `first` goes first at first.
-/// Before them a frame that is not kept: what a jump back to another step costs must not be timed.
+/// All frames of one round, from the baseline's states, both sides in turn, beginning with side `first`. A
+/// frame before them is discarded: the cost of a jump back to another step must not be timed.
 template <class AfterFrame>
 void run_round(std::array<Side, 2>& sides, const StudyScene& scene, const Reference& baseline,
                std::size_t first, core::InstructionCounter& counter, AfterFrame&& after_frame) {

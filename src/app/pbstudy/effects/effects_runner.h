@@ -17,24 +17,24 @@ struct Spread {
   double median = NAN, p10 = NAN, p90 = NAN;
 };
 
-/// What is measured of a case. Sent between ranks as its bytes. NaN where nothing is (a refused effect;
-/// instructions that nothing counts).
+/// Measurements of a case. Sent between ranks as its bytes. NaN where nothing is measured (a refused effect;
+/// instructions without a counter).
 struct EffectResult {
-  int index = 0;  ///< into the cases
-  // Times are of one step of all worlds; processor time, since other processes on the core spoil it less than
-  // elapsed time. In a floor's case "without" is the other seed.
+  int index = 0;  ///< index of the case
+  // Times are processor times of one step of all worlds, since other processes on the core disturb these less
+  // than elapsed time. In a floor's case "without" is the other seed.
   Spread time_with_s, time_without_s;
   Spread cost_s;  ///< with - without, frame by frame and repeat by repeat
-  Spread share;   ///< of the step with the effect: cost / time with it
-  double instructions_with = NAN, instructions_without = NAN;  ///< mean of a step
+  Spread share;   ///< cost / time of the step with the effect
+  double instructions_with = NAN, instructions_without = NAN;  ///< mean over steps
   std::uint64_t hash_baseline = 0, hash_variant = 0;           ///< at the end of the measured window
-  // Variant against baseline.
+  // The variant's errors against the baseline.
   analysis::ErrorTable defect;  ///< after one frame from the baseline's state, all measured frames
   analysis::ErrorTable drift;   ///< at the end of the measured window
 };
 static_assert(std::is_trivially_copyable_v<EffectResult>);
 
-/// `baseline` is the scene as it is, stepped with the case's stepper and the study's seed.
+/// `baseline`: the unchanged scene, stepped with the case's stepper and the study's seed.
 EffectResult run_effect_case(const EffectCase& one, const StudyScene& scene, const Reference& baseline,
                              const stepping::StepperSettings& baseline_stepper, int repeats,
                              core::InstructionCounter& counter);

@@ -8,7 +8,7 @@
 
 namespace pbmpi::app {
 
-/// Columns with a row a case (io/SCHEMA.md), those of instructions only if `counted`. `results` [num_cases]
+/// Columns with one row per case (io/SCHEMA.md), with instructions only if `counted`. `results` [num_cases]
 /// in the order of the cases.
 std::vector<io::TableColumn> effect_columns(const std::vector<StudyScene>& scenes,
                                             const std::vector<EffectCase>& cases,

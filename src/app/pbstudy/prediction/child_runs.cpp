@@ -31,7 +31,7 @@ std::string new_folder() {
   return path;
 }
 
-/// The scene as a file, under its own name: hashes and random numbers follow from that.
+/// The scene as a file under its own name, on which hashes and random numbers depend.
 std::string scene_file(const ChildRuns& runs, const StudyScene& scene) {
   std::string name = scene.source.name;
   std::ranges::replace(name, '/', '_');

@@ -12,7 +12,7 @@
 namespace pbmpi::app {
 namespace {
 
-/// 100CrSk has a hundred worlds that differ little: ten of them in the default form.
+/// 100CrSk has a hundred worlds that differ little; the default form takes ten of them.
 constexpr int most_worlds = 10;
 
 using Outcomes = CaseOutcomes<PredictionResult, PredictedFrame, VariantCycles>;
@@ -28,7 +28,7 @@ Outcomes run_cases(const mpi::Communicator& comm, const PredictionOptions& optio
       });
 }
 
-/// The same answer on every rank.
+/// Is `program` there for root? Every rank gets the same answer.
 bool has_on_root(const mpi::Communicator& comm, const char* program) {
   std::int32_t has = has_program(program) ? 1 : 0;
   comm.bcast_value(has);

@@ -1,4 +1,4 @@
-/// "pbstudy prediction": what value prediction would do for a frame, and to its result.
+/// "pbstudy prediction": how value prediction would change the time of a frame, and its result.
 #pragma once
 
 #include <string>

@@ -28,7 +28,7 @@ class CaseList {
     cases_.push_back(one);
     return cases_.back();
   }
-  /// Exact and with the threshold of Figure 8.
+  /// Adds an exact case, and one with the threshold of Figure 8.
   void add_engine(const std::string& name, double threshold, bool has_cycles) {
     for (const double one_threshold : {0.0, threshold}) {
       PredictionCase& one =
@@ -42,7 +42,7 @@ class CaseList {
     }
   }
   /// Valgrind takes about as long to start as to step a hundred bodies; cycles take several times as long as
-  /// hits, and a pair of variants again as long.
+  /// hits, and a pair of variants the same again.
   void estimate_costs() {
     for (PredictionCase& one : cases_) {
       if (one.scene != scene_) continue;

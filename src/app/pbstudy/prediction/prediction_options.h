@@ -10,11 +10,11 @@
 namespace pbmpi::app {
 
 struct PredictionOptions : StudyOptions {
-  std::vector<double> thresholds;         ///< of fuzzy prediction, the first one that of Figure 8
-  std::string detail_scene;               ///< the scene of the sensitivity table and of the scopes; "none"
+  std::vector<double> thresholds;         ///< for fuzzy prediction, the first one from Figure 8
+  std::string detail_scene;               ///< the scene for the sensitivity table and the scopes; "none"
   std::vector<std::string> tool_options;  ///< for pbvalue, after the study's own
-  double budget_s = 0;                    ///< of a frame
-  double time_limit_s = 0;                ///< of a run
+  double budget_s = 0;                    ///< per frame
+  double time_limit_s = 0;                ///< per run
   bool has_ode_single = false;            ///< this build can run quick in single precision
   bool full = false;                      ///< every world of every scene, cycles of every threshold
 };

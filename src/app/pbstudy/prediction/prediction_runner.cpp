@@ -25,8 +25,8 @@ class PredictedRuns {
     if (case_.has_cycles) add_models(command);
     return runs_.simulate("run", case_, scene_, std::move(command), step_options(case_.feec));
   }
-  /// The step in which a number is no longer finite: a run of one step a frame tells it from the frame. -1 if
-  /// that run loses none.
+  /// The step in which a number is no longer finite, found by a run with one step per frame. -1 if all
+  /// numbers of that run stay finite.
   int find_step() {
     const ChildRun run = runs_.simulate("steps", case_, scene_, tool(), step_options(false), 1);
     return run.has_ended_well() ? run.nonfinite_frame() : -1;
@@ -89,7 +89,7 @@ void require_tool() {
   core::require_input(std::filesystem::exists(tool_folder() + "/pbvalue-amd64-linux"),
                       "this build has no Valgrind tool pbvalue (" + tool_folder() +
                           "); install Debian's valgrind, and configure and build again");
-  // What lies beside Valgrind's own tools is linked, not copied: an installed pbvalue may have lost it.
+  // The files beside Valgrind's own tools are linked, not copied: an installed pbvalue may have lost them.
   core::require_input(std::filesystem::exists(tool_folder() + "/default.supp"),
                       "Valgrind is not installed, and pbvalue needs it (" + tool_folder() +
                           "/default.supp leads nowhere); install Debian's valgrind");

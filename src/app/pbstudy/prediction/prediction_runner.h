@@ -1,4 +1,4 @@
-/// Runs one case of "pbstudy prediction": pbmpi under pbvalue, beside the unpredicted run.
+/// Runs one case of "pbstudy prediction": pbmpi under pbvalue, and compares it with the unpredicted run.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace pbmpi::app {
 
-/// As pbvalue has them.
+/// In pbvalue's order and with its names.
 inline constexpr std::array<const char*, 4> value_classes = {"fp_load", "fp_operation", "int_load",
                                                              "int_operation"};
 inline constexpr std::array<const char*, 5> mix_classes = {"floating_point", "integer", "branch", "store",
@@ -40,20 +40,20 @@ struct VariantCycles {
   std::int64_t cycles = 0, predicted_cycles = 0;
 };
 
-/// What became of a run. Plain data.
+/// The outcome of a run. Plain data.
 struct PredictionResult {
   std::int32_t index = 0;
-  std::int32_t exit_code = 0;         ///< of pbmpi: 1 with a number that is not finite, above 128 by a signal
+  std::int32_t exit_code = 0;         ///< pbmpi's: 1 with a number that is not finite, above 128 by a signal
   std::int32_t ended = 0;             ///< 1: by itself, within the time limit
-  std::int32_t num_frames = 0;        ///< counted, of warm-up and measured ones
-  std::int32_t same_hash = 0;         ///< the bits of the unpredicted run
+  std::int32_t num_frames = 0;        ///< counted frames, both warm-up and measured ones
+  std::int32_t same_hash = 0;         ///< 1: the bits of the unpredicted run
   std::int32_t nonfinite_frame = -1;  ///< the first with a number that is not finite; -1: none
-  std::int32_t nonfinite_step = -1;   ///< its step; -1: the second run lost none
+  std::int32_t nonfinite_step = -1;   ///< its step; -1: all numbers of the second run stayed finite
   std::int32_t errors_known = 0;      ///< 1: a frame could be compared
   double islands_mean = 0, islands_max = 0, base_islands_mean = 0;
   analysis::ErrorTable defect;  ///< after the first frame, from the same state
-  analysis::ErrorTable drift;   ///< of the measured frames; with FEEC of the estimates
-  analysis::ErrorTable floor;   ///< drift of another solver seed
+  analysis::ErrorTable drift;   ///< over the measured frames; with FEEC of the estimates
+  analysis::ErrorTable floor;   ///< drift caused by another solver seed
 };
 
 using PredictionOutcome = CaseOutcome<PredictionResult, PredictedFrame, VariantCycles>;
@@ -63,8 +63,8 @@ class UnpredictedRuns;
 /// Throws core::InputError where this build has no pbvalue.
 void require_tool();
 
-/// Throws core::RunError if a run ends as none should. `case_index` goes into the rows; `unpredicted` holds
-/// what cases share, and is for all of them.
+/// Throws core::RunError if a run ends abnormally. `case_index` goes into the rows; `unpredicted`, used for
+/// all cases, holds the runs that they share.
 PredictionOutcome run_prediction_case(const PredictionCase& one, const StudyScene& scene,
                                       const PredictionOptions& options, int case_index,
                                       UnpredictedRuns& unpredicted);

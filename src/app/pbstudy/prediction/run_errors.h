@@ -1,4 +1,4 @@
-/// What "pbreport diff" says of a run's positions, velocities, ... joined over frames.
+/// The errors that "pbreport diff" reports of a run's positions, velocities, ... joined over frames.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace pbmpi::app {
 
-/// The bands and sizes of the tables `first` to before `last` (at most all) as one; no p99, which their p99
-/// do not give. The rms is over entries that have a finite error, as in each table.
+/// The bands and sizes of the tables from `first` to before `last` (at most all), joined; no p99, which
+/// cannot be computed from theirs. The rms is over entries that have a finite error, as in each table.
 analysis::ErrorTable joined_errors(const nlohmann::json& tables, std::size_t first, std::size_t last);
 
 }  // namespace pbmpi::app

@@ -1,4 +1,4 @@
-/// The file that pbvalue writes (docs/prediction.md), as rows of the study.
+/// Reads the file that pbvalue writes (docs/prediction.md) into rows of the study.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace pbmpi::app {
 
-/// Adds frames and variants, whose case is `case_index`. False if the file holds no report.
+/// Adds frames and variants with case index `case_index`. False if the file holds no report.
 bool read_tool_report(const std::string& path, const PredictionCase& one, int case_index,
                       PredictionOutcome& outcome);
 

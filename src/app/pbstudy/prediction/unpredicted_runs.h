@@ -14,17 +14,17 @@ namespace pbmpi::app {
 struct UnpredictedRun {
   std::string file;
   double islands_mean = 0;
-  analysis::ErrorTable floor;  ///< drift of the measured frames that another solver seed makes
+  analysis::ErrorTable floor;  ///< drift over the measured frames, caused by another solver seed
 };
 
-/// Each is run when it is asked for first, and its file lies there as long as this object.
+/// Each is run when first asked for, and its file stays as long as this object.
 class UnpredictedRuns {
  public:
   explicit UnpredictedRuns(const PredictionOptions& options)
       : options_(options), runs_(options.time_limit_s) {}
 
-  /// With the scene's iterations and without FEEC, whatever those of the case. Throws core::RunError if one
-  /// ends as none should.
+  /// The run with the scene's iterations and without FEEC, whatever the case's. Throws core::RunError if a
+  /// run ends abnormally.
   const UnpredictedRun& of(const PredictionCase& one, const StudyScene& scene);
 
  private:
@@ -39,7 +39,7 @@ class UnpredictedRuns {
 std::vector<std::string> seed_options(const PredictionOptions& options, int solver_seed_offset = 0);
 std::vector<std::string> iteration_options(const PredictionCase& one, int iterations);
 
-/// Mean or largest number of islands of a run; NaN if it is unknown. `which`: "mean" or "max".
+/// Mean or largest number of islands of a run; NaN if unknown. `which`: "mean" or "max".
 double islands(const nlohmann::json& summary, const char* which);
 
 }  // namespace pbmpi::app

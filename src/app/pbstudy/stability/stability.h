@@ -1,4 +1,4 @@
-/// "pbstudy stability": which settings hold the hard cases.
+/// "pbstudy stability": which settings pass the hard cases.
 #pragma once
 
 #include <string>

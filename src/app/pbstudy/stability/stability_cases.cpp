@@ -12,7 +12,7 @@ namespace {
 
 using stepping::StepperKind;
 
-/// Bodies up to which a dense solve ends in reasonable time: it is of third order in the rows.
+/// The most bodies for a dense solve in reasonable time: its cost is cubic in the rows.
 constexpr int most_bodies_of_direct = 45;
 
 std::string why_not(const StabilityCase& one, const HardScene& hard, double most_work) {

@@ -39,7 +39,7 @@ struct StabilityCase {
 std::vector<StabilityCase> make_stability_cases(const std::vector<StudyScene>& scenes,
                                                 const StabilityOptions& options);
 
-/// Which rank works on which case [num_cases]: by expected cost, the dearest first.
+/// [num_cases] the rank that works on each case: dealt out by expected cost, the dearest first.
 std::vector<int> deal_out(const std::vector<StabilityCase>& cases, int num_ranks);
 
 }  // namespace pbmpi::app

@@ -12,8 +12,8 @@ namespace pbmpi::app {
 
 struct StabilityOptions : StudyOptions {
   std::vector<StabilitySetting> settings;
-  int most_poses = 1200;  ///< recorded of each case for the replay
-  double most_work = 0;   ///< body-steps of a case; cases with more are left out
+  int most_poses = 1200;  ///< recorded per case for the replay
+  double most_work = 0;   ///< body-steps per case; cases with more are left out
 };
 
 /// Throws core::InputError with one clear message.

@@ -15,10 +15,10 @@ namespace {
 using model::State;
 using stability::Metric;
 
-/// Longer runs are looked at this often.
+/// Longer runs are observed only this often.
 constexpr std::int64_t most_looks = 20'000;
 
-/// Sees the states of a run: measures them, and keeps curves and poses.
+/// Observes the states of a run: measures them, and keeps curves and poses.
 class Recorder {
  public:
   Recorder(const StabilityCase& one, const HardScene& hard, int most_poses, std::vector<RecordedPose>& poses)
@@ -95,7 +95,7 @@ void run_whole(const StabilityCase& one, const HardScene& hard, Recorder& record
   }
 }
 
-/// Sees what is shown of each step before its solve has ended; what is stepped on from is the precise state.
+/// Observes what each step shows before its solve has ended; the next step starts from the precise state.
 void run_estimates(const StabilityCase& one, const HardScene& hard, Recorder& recorder) {
   const auto stepper = engines::make_anytime_stepper(one.stepper);
   stepper->add(0, hard.model, model::initial_state(*hard.model), 0);
@@ -115,7 +115,7 @@ void run_estimates(const StabilityCase& one, const HardScene& hard, Recorder& re
   }
 }
 
-/// The world with its units in two spaces, the first half of them and the rest.
+/// The world cut into two spaces: the first half of its units, and the rest.
 std::shared_ptr<const model::Model> cut_in_two(const model::Model& whole) {
   const model::SpaceMap map = model::make_space_map(whole);
   auto cut = std::make_shared<model::Model>(whole);
@@ -128,7 +128,7 @@ std::shared_ptr<const model::Model> cut_in_two(const model::Model& whole) {
   return cut;
 }
 
-/// Has each step of a driver recorded.
+/// Records each step of a driver.
 class StepObserver final : public stepping::FrameObserver {
  public:
   explicit StepObserver(Recorder& recorder) : recorder_(recorder) {}
@@ -148,7 +148,7 @@ void run_cut(const StabilityCase& one, const HardScene& hard, Recorder& recorder
   settings.frames = static_cast<int>(one.num_steps);
   settings.steps_per_frame = 1;
   settings.dt_s = one.stepper.dt_s;
-  mpi::SpaceDriver driver(mpi::Communicator(), *stepper, settings);  // one rank, whose result is that of many
+  mpi::SpaceDriver driver(mpi::Communicator(), *stepper, settings);  // one rank gives the result of many
   StepObserver observer(recorder);
   driver.add_observer(observer);
   const double start_s = core::thread_cpu_s();

@@ -10,13 +10,13 @@
 
 namespace pbmpi::app {
 
-/// A point of a case's curves: at `time_s`, the worst since the point before.
+/// A point of a case's curves: the worst values from the point before until `time_s`.
 struct CurvePoint {
   double time_s = 0;
-  double energy_j = 0;  ///< of that moment
+  double energy_j = 0;  ///< at `time_s`
   double joint_gap_m = 0;
   double penetration_m = 0;
-  double drift_m = 0;  ///< so far
+  double drift_m = 0;  ///< largest so far
 };
 inline constexpr int most_curve_points = 100;
 
@@ -28,18 +28,18 @@ struct RecordedPose {
   std::array<double, 7> pose{};  ///< position [m], orientation (w, x, y, z); world frame
 };
 
-/// A case with more expectations is refused.
+/// The most expectations of a case; more are refused.
 inline constexpr std::size_t most_expectations = 24;
 
-/// What is measured of a case. Sent between ranks as its bytes.
+/// Measurements of a case. Sent between ranks as its bytes.
 struct StabilityResult {
-  int index = 0;  ///< into the cases
+  int index = 0;  ///< index of the case
   std::array<double, stability::num_metrics> metrics{};
   std::array<double, most_expectations> expected_off{};
   double broken_at_s = 0;
   double simulated_s = 0;
-  double step_time_s = 0;  ///< processor time of a step, mean
-  double row_visits = 0;   ///< of a step, mean
+  double step_time_s = 0;  ///< processor time per step, mean
+  double row_visits = 0;   ///< per step, mean
   int num_points = 0;
   std::array<CurvePoint, most_curve_points> curve{};
 
@@ -48,7 +48,7 @@ struct StabilityResult {
 static_assert(std::is_trivially_copyable_v<StabilityResult>);
 static_assert(std::is_trivially_copyable_v<RecordedPose>);
 
-/// Appends at most `most_poses` poses, of moments at even distances.
+/// Appends at most `most_poses` poses, at evenly spaced moments.
 StabilityResult run_stability_case(const StabilityCase& one, const HardScene& hard, int most_poses,
                                    std::vector<RecordedPose>& poses);
 

@@ -1,4 +1,4 @@
-/// The settings that "pbstudy stability" holds against each case.
+/// The settings that "pbstudy stability" tests on each case.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ struct StabilitySetting {
   stepping::StepperSettings stepper;  ///< its dt_s is the scene's unless `own_dt`
   bool own_dt = false;
   bool cut = false;             ///< the world in two spaces (sor)
-  int estimate_iterations = 0;  ///< sor: what is judged is FEEC's look at the solve after so many iterations
+  int estimate_iterations = 0;  ///< sor: FEEC's look at the solve after so many iterations is judged
 };
 
-/// Words "quick", "sor iterations=80 precision=single", "sor cut", "sor estimate=1": a stepper, then options
-/// of a step by name, dt among them. Throws core::InputError for what cannot be.
+/// Reads "quick", "sor iterations=80 precision=single", "sor cut", "sor estimate=1": a stepper, then step
+/// options by name, including dt. Throws core::InputError for impossible ones.
 StabilitySetting parse_stability_setting(const std::string& text);
 
-/// What the study takes unless told otherwise.
+/// The settings that the study takes unless told otherwise.
 const std::vector<std::string>& default_stability_settings();
 
 /// "sor single, 5 x 3, in two spaces"

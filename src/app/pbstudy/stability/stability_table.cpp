@@ -73,7 +73,7 @@ std::vector<io::TableColumn> stability_columns(const StabilityRows& rows) {
     columns.push_back(column<double>(std::string(traits.name), std::string(traits.unit), results,
                                      [m](Result r) { return r.metrics[m]; }));
   }
-  // The paper's category of the body that drifted farthest.
+  // The paper's category for the body that drifted farthest.
   columns.push_back(column<std::int64_t>("drift_band", "", results, [](Result r) {
     return analysis::position_band(r.metrics[static_cast<std::size_t>(Metric::drift)]);
   }));

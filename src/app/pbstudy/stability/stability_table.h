@@ -10,7 +10,7 @@
 
 namespace pbmpi::app {
 
-/// What the file's columns are made of; all [num_cases], in the order of the cases.
+/// The data for the file's columns; all [num_cases], in the order of the cases.
 struct StabilityRows {
   const std::vector<StudyScene>& scenes;
   const std::vector<StabilitySetting>& settings;
@@ -19,13 +19,13 @@ struct StabilityRows {
   const std::vector<StabilityResult>& results;
 };
 
-/// Columns with a row a case (io/SCHEMA.md).
+/// Columns with one row per case (io/SCHEMA.md).
 std::vector<io::TableColumn> stability_columns(const StabilityRows& rows);
 /// Tables "curves" and "poses".
 std::map<std::string, std::vector<io::TableColumn>> stability_tables(const StabilityRows& rows,
                                                                      const std::vector<RecordedPose>& poses);
 
-/// "9 of 70 broken" a setting, for the end of the run.
+/// "9 of 70 broken" for each setting, for the end of the run.
 std::string stability_note(const StabilityRows& rows);
 
 }  // namespace pbmpi::app

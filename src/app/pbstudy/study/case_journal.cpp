@@ -58,7 +58,7 @@ Word checksum_of(std::span<const std::byte> bytes) {
   return checksum.value();
 }
 
-/// The records of a journal, until the first that is not whole; `length`: how far they reach.
+/// The records of a journal, until the first incomplete one; `length`: where they end.
 std::map<std::int64_t, std::vector<std::byte>> records_of(std::span<const std::byte> bytes,
                                                           std::size_t& length) {
   std::map<std::int64_t, std::vector<std::byte>> records;
@@ -94,7 +94,7 @@ CaseJournal::CaseJournal(const std::string& output, int rank, std::uint64_t key)
     : path_(prefix_of(output) + std::to_string(rank)), file_(path_, O_RDWR | O_CREAT) {
   core::require_input(file_.is_open(), path_ + ": cannot be created: " + core::reason_of(errno) +
                                            "; it keeps the study's cases as they are done");
-  // What a kill cut off goes, so that what is appended can be read.
+  // Removes a record that a kill cut off, so that what is appended can be read.
   const std::string text = read_journal(path_, key);
   std::size_t length = 0;
   if (!text.empty()) records_of(std::as_bytes(std::span(text)), length);

@@ -1,4 +1,4 @@
-/// The outcomes of a study's cases as they come: what a study that is stopped, or killed, goes on from.
+/// The outcomes of a study's cases as they come, with which a stopped or killed study can go on.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace pbmpi::app {
 
-/// A file a rank, beside that of the study: OUTPUT.cases-RANK. It begins with "PBMPICAS" and the study's key;
-/// then come records: the index of a case, the number of its bytes, their checksum, and they. A record that a
-/// kill has cut off is none. The journals of a study belong to whoever holds the lock of its file.
+/// One file per rank, beside the study's: OUTPUT.cases-RANK. It begins with "PBMPICAS" and the study's key;
+/// then come records: the index of a case, the number of its bytes, their checksum, and the bytes. A record
+/// that a kill cut off does not count. The journals of a study belong to whoever holds the lock of its file.
 class CaseJournal {
  public:
-  /// Opens this rank's, to append to it. `key`: of all that the outcomes depend on. Throws core::InputError
-  /// if it cannot be written.
+  /// Opens this rank's journal, to append to it. `key`: hash of everything that the outcomes depend on.
+  /// Throws core::InputError if the journal cannot be written.
   CaseJournal(const std::string& output, int rank, std::uint64_t key);
 
-  /// Waits until it is on the disk. Throws core::RunError.
+  /// Waits until the outcome is on the disk. Throws core::RunError.
   void add(std::int64_t index, std::span<const std::byte> outcome);
 
  private:
@@ -29,12 +29,12 @@ class CaseJournal {
   core::Descriptor file_;
 };
 
-/// The outcomes by case that journals of this study hold, of whichever ranks. Throws core::InputError if one
-/// is of another study, by its key.
+/// The outcomes by case in the journals of this study, of all ranks. Throws core::InputError if a journal's
+/// key is another study's.
 std::map<std::int64_t, std::vector<std::byte>> read_case_journals(const std::string& output,
                                                                   std::uint64_t key);
 
-/// Removes all of them.
+/// Removes the journals of all ranks.
 void remove_case_journals(const std::string& output);
 
 }  // namespace pbmpi::app

@@ -1,4 +1,4 @@
-/// What comes of the cases of a study: plain data, which ranks exchange, and which a journal keeps, as bytes.
+/// Outcomes of a study's cases: plain data, which ranks exchange, and which a journal keeps, as bytes.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace pbmpi::app {
 
-/// Of one case: a result, and rows of other tables. A result has the member `index`, a row `case_index`: that
-/// of the case.
+/// The outcome of one case: a result, and rows of other tables. The case's index is the member `index` of a
+/// result, and `case_index` of a row.
 template <class Result, class... Rows>
 struct CaseOutcome {
   static_assert((std::is_trivially_copyable_v<Result> && ... && std::is_trivially_copyable_v<Rows>));
@@ -27,7 +27,7 @@ struct CaseOutcome {
   }
 };
 
-/// Of all cases, in their order.
+/// The outcomes of all cases, in their order.
 template <class Result, class... Rows>
 struct CaseOutcomes {
   std::vector<Result> results;
@@ -47,7 +47,7 @@ struct CaseOutcomes {
   }
 };
 
-/// The result, then of each table the number of its rows and the rows.
+/// The bytes of the result, then for each table the number of its rows and the rows.
 template <class Result, class... Rows>
 std::vector<std::byte> bytes_of(const CaseOutcome<Result, Rows...>& outcome) {
   std::vector<std::byte> bytes;
@@ -65,7 +65,7 @@ std::vector<std::byte> bytes_of(const CaseOutcome<Result, Rows...>& outcome) {
   return bytes;
 }
 
-/// Throws core::RunError for what bytes_of() did not give.
+/// Throws core::RunError for bytes that bytes_of() did not give.
 template <class Result, class... Rows>
 CaseOutcome<Result, Rows...> outcome_of(std::span<const std::byte> bytes) {
   const auto take = [&](void* data, std::size_t size) {

@@ -11,7 +11,7 @@ using model::State;
 
 analysis::PoseView view(const State& state) { return {state.position, state.orientation, state.broken_in}; }
 
-/// `state_of(world)`: what is compared.
+/// `state_of(world)`: the state to compare.
 template <class StateOf>
 analysis::PoseErrors compare_all(const Worlds& worlds, const StateOf& state_of,
                                  const std::vector<State>& reference) {
@@ -51,7 +51,7 @@ void CaseStepper::start_from(const std::vector<State>& states, int frame) {
   step_ = static_cast<std::int64_t>(frame) * steps_per_frame_;
   for (int world = 0; world < num_worlds_; ++world)
     stepper_->set_state(world, states[static_cast<std::size_t>(world)], step_);
-  // What a jump costs is no frame's: joints that hold again make sor's packs anew before the next step.
+  // No frame includes the cost of a jump: joints that hold again make sor's packs anew before the next step.
   core::PhaseTimes times_of_none;
   stepper_->advance(0, times_of_none);
 }

@@ -16,20 +16,20 @@ namespace pbmpi::app {
 
 /// The worlds of a scene at one step length.
 using Worlds = std::vector<std::shared_ptr<const model::Model>>;
-/// `effects` go before those that the scene chooses.
+/// `effects` override those that the scene chooses.
 Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed,
                     const model::EffectChoices& effects = {});
 
-/// A stepper with all worlds of a case, from their initial states on.
+/// A stepper with all worlds of a case, starting from their initial states.
 class CaseStepper {
  public:
-  /// With `estimate` it shows the estimate of a frame (FEEC) in place of its end.
+  /// With `estimate` it shows the estimate of a frame (FEEC) instead of its end.
   CaseStepper(const Worlds& worlds, const stepping::StepperSettings& settings, int steps_per_frame,
               const std::optional<EstimateSpec>& estimate = std::nullopt);
 
-  /// Puts all worlds into `states` [num_worlds], those at the start of frame `frame`.
+  /// Puts all worlds into `states` [num_worlds] at the start of frame `frame`.
   void start_from(const std::vector<model::State>& states, int frame);
-  /// Seconds of processor time that one frame takes; of an estimate those until it is there.
+  /// Seconds of processor time that one frame takes; for an estimate, until it is there.
   double advance_frame();
 
   /// The state that the last frame showed: its end, or its estimate.
@@ -42,7 +42,7 @@ class CaseStepper {
   double estimate_frame();
 
   std::unique_ptr<stepping::WorldStepper> stepper_;
-  std::unique_ptr<stepping::Estimator> estimator_;  ///< if it is to estimate
+  std::unique_ptr<stepping::Estimator> estimator_;  ///< null without an estimate
   int num_worlds_;
   int steps_per_frame_;
   std::int64_t step_ = 0;
@@ -51,7 +51,7 @@ class CaseStepper {
 /// Errors of all bodies and joints of all worlds, in `states` [num_worlds], against `reference` [num_worlds].
 analysis::PoseErrors errors_between(const Worlds& worlds, const std::vector<model::State>& states,
                                     const std::vector<model::State>& reference);
-/// ... and as they are shown.
+/// Errors of the states that `stepper` shows.
 analysis::PoseErrors errors_of(const CaseStepper& stepper, const Worlds& worlds,
                                const std::vector<model::State>& reference);
 
@@ -61,8 +61,8 @@ struct Reference {
   std::vector<std::vector<model::State>>
       states;  ///< [total_frames + 1][num_worlds] at the start of each frame
 };
-/// Its worlds with steps of dt. Another length than the scene's has its events at other steps; the bodies are
-/// the same.
+/// The reference's worlds with steps of dt. With another dt than the scene's, events come at other steps; the
+/// bodies are the same.
 Worlds worlds_at_step(const Reference& reference, const StudyScene& scene, double dt_s, std::uint64_t seed);
 Reference make_reference(const StudyScene& scene, const stepping::StepperSettings& settings);
 

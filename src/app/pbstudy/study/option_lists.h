@@ -1,4 +1,4 @@
-/// What the studies' command lines have in common: lists, counts with a least value.
+/// What the studies' command lines share: lists, and counts with a least value.
 #pragma once
 
 #include <optional>

@@ -19,7 +19,7 @@ void set_value(const SettingList& list, const std::string& value, stepping::Step
   set(*list.option, value, "--" + std::string(list.option->name), settings);
 }
 
-/// The values that make a difference over `base`; none: it is left as it is.
+/// The values that make a difference over `base`; none: `base` is left as it is.
 std::span<const std::string> useful(const SettingList& list, const stepping::StepperSettings& base) {
   const std::span<const std::string> values = list.values;
   if (!fits(*list.option, base.kind)) return {};

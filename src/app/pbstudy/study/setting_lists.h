@@ -13,7 +13,7 @@
 
 namespace pbmpi::app {
 
-/// What a study's command line says of a step option.
+/// How a study's command line describes a step option.
 struct VariedOption {
   std::string_view name;
   std::string_view meaning;   ///< for --help
@@ -29,14 +29,14 @@ struct SettingList {
 /// Adds an option that takes a list.
 void add_setting_list(const VariedOption& varied, boost::program_options::options_description& description);
 
-/// The values given, or the fallback. Throws core::InputError for one that cannot be.
+/// The values given, or the fallback. Throws core::InputError for an impossible one.
 SettingList setting_list(const VariedOption& varied, const boost::program_options::variables_map& values);
 std::vector<SettingList> setting_lists(std::span<const VariedOption> varied,
                                        const boost::program_options::variables_map& values);
 
-/// Takes each combination over `base`, the last list varying fastest. Of what a setting has no use for (an
-/// option that its stepper lacks, iterations without sweeps, a tolerance without a second substep, a sag
-/// where all get the most) there is one value.
+/// Takes each combination over `base`, the last list varying fastest. An option that a setting has no use for
+/// (one that its stepper lacks, iterations without sweeps, a tolerance without a second substep, a sag where
+/// all get the most) takes one value only.
 void cross_settings(const stepping::StepperSettings& base, std::span<const SettingList> lists,
                     const std::function<void(const stepping::StepperSettings&)>& take);
 

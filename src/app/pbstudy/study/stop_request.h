@@ -1,11 +1,11 @@
-/// What asks a study to stop after the cases at hand.
+/// Notes requests to stop a study after its current cases.
 #pragma once
 
 namespace pbmpi::app {
 
-/// While one lives, USR2 is noted: what a job script sends to mpirun when the time is up, which passes it to
-/// all ranks. One at a time. INT and TERM end the process at once; what its cases have given so far is in the
-/// journal.
+/// While an object of this class lives, USR2 is noted: a job script sends it to mpirun when the time is up,
+/// and mpirun passes it to all ranks. At most one object at a time. INT and TERM end the process at once; the
+/// outcomes so far are in the journal.
 class StopRequest {
  public:
   StopRequest();

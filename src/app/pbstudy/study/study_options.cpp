@@ -12,7 +12,7 @@ namespace po = boost::program_options;
 
 namespace {
 
-/// Without what says where, how long and how loudly.
+/// The arguments without those that only say where, how long and how loudly.
 std::vector<std::string> deciding_among(const std::vector<std::string>& args) {
   const std::set<std::string, std::less<>> switches = {"--resume", "--quiet", "-q"};
   const std::set<std::string, std::less<>> valued = {"--output", "-o", "--max-time", "--progress"};

@@ -1,4 +1,4 @@
-/// What the command lines of all studies have: the scenes, the window, how often each frame is measured.
+/// Options of all studies: the scenes, the window, how often each frame is measured.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,22 @@ struct StudyOptions {
   bool help = false;
   std::vector<std::string> scenes;
   SceneOverrides overrides;
-  int repeats = 1;      ///< times that each frame is timed
-  int floor_seeds = 0;  ///< other solver seeds, for the noise floor
+  int repeats = 1;      ///< how often each frame is timed
+  int floor_seeds = 0;  ///< number of other solver seeds, for the noise floor
   std::uint64_t seed = 1;
   std::string output;
-  bool resume = false;               ///< go on with the cases that a stopped study has left
-  std::optional<double> max_time_s;  ///< then no further case is begun
+  bool resume = false;               ///< go on with the cases left by a stopped study
+  std::optional<double> max_time_s;  ///< after which no further case is begun
   CommonOptions common;
   std::string command_line;
   std::vector<std::string> deciding;  ///< the arguments on which outcomes depend
 };
 
-/// --scene.
+/// Adds --scene.
 void add_scene_option(boost::program_options::options_description& what);
 
-/// "How to measure": --replicas, --frames, --warmup, and what each study says of the others. What is its own
-/// it adds after them.
+/// "How to measure": --replicas, --frames, --warmup, and the options that each study describes in its own
+/// words. A study adds its own options after them.
 struct HowOptions {
   const char* seed = "";
   const char* repeats = "";
@@ -43,7 +43,7 @@ boost::program_options::options_description how_to_measure(const HowOptions& say
 /// "What to write": --output, --resume, --max-time.
 boost::program_options::options_description what_to_write(const char* default_output);
 
-/// Throws core::InputError for a number that cannot be.
+/// Throws core::InputError for an impossible number.
 StudyOptions study_options(const boost::program_options::variables_map& values, const std::string& program,
                            const std::vector<std::string>& args);
 

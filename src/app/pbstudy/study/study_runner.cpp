@@ -50,7 +50,7 @@ void StudyRunner::open_output(const std::function<void()>& check) {
   provenance_ = collect_provenance(comm_, options_.command_line);
 }
 
-/// Of what decides the outcomes of the cases, but for what the machine does.
+/// Hash of what decides the outcomes of the cases, except for the machine.
 std::uint64_t StudyRunner::key_of(std::uint64_t layout) const {
   core::Hash64 hash;
   const auto add = [&](const std::string& text) {

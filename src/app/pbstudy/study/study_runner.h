@@ -1,4 +1,4 @@
-/// How a study runs, whatever its cases are: scenes, cases dealt out over the ranks, results, the file.
+/// Runs a study of any kind of cases: scenes, cases dealt out over the ranks, results, the file.
 #pragma once
 
 #include <algorithm>
@@ -25,43 +25,44 @@
 
 namespace pbmpi::app {
 
-/// What a study adds to what the files of all studies hold, and to what is printed at the end.
+/// What a study adds to the common content of all studies' files, and to the text printed at the end.
 struct StudyContent {
   std::vector<io::Parameter> parameters;
-  std::vector<io::TableColumn> cases;                          ///< a row a case
-  std::map<std::string, std::vector<io::TableColumn>> tables;  ///< others, by name
-  std::string note;                                            ///< lines for the end of the run
-  std::string next;                                            ///< options of pbreport to go on with
+  std::vector<io::TableColumn> cases;                          ///< one row per case
+  std::map<std::string, std::vector<io::TableColumn>> tables;  ///< other tables, by name
+  std::string note;                                            ///< lines printed at the end of the run
+  std::string next;                                            ///< options of pbreport for the next look
 };
 
-/// A study was to stop before all its cases were done, on all ranks: it is not complete, and can go on.
+/// Thrown on all ranks when a study was stopped before all its cases were done: it is incomplete, and can go
+/// on.
 struct StudyStopped {
   std::string message;
 };
 
-/// All calls are collective, and made in this order: open_output(), run(), write().
+/// All calls are collective, in this order: open_output(), run(), write().
 class StudyRunner {
  public:
-  /// Reads the scenes. `name`: of the study, e.g. "accuracy". `comm` and `options` are borrowed. Throws
+  /// Reads the scenes. `name`: the study's, e.g. "accuracy". `comm` and `options` are borrowed. Throws
   /// core::InputError on every rank.
   StudyRunner(const mpi::Communicator& comm, std::string name, const StudyOptions& options);
 
   const std::vector<StudyScene>& scenes() const { return scenes_; }
   const StudyScene& scene(int index) const { return scenes_[static_cast<std::size_t>(index)]; }
 
-  /// Makes sure that the file can be written before the work begins, if `check` (on root) throws nothing.
+  /// Makes sure before the work begins that the file can be written, if `check` (on root) throws nothing.
   void open_output(const std::function<void()>& check = {});
 
   /// Runs the cases whose `owner` [num_cases] is this rank, one at a time and in their order, with
   /// run_case(index), which gives a CaseOutcome; all ranks get the outcomes of all cases, in their order. A
-  /// case has a `scene`. What is done is kept in a journal beside the output until write(); with --resume the
-  /// cases that are in it already are not run again. What `run_case` throws on one rank, all throw;
-  /// StudyStopped if a rank was asked to stop, or the time is up.
+  /// case has a `scene`. Outcomes are kept in a journal beside the output until write(); with --resume, cases
+  /// already in it are not run again. If `run_case` throws on one rank, all ranks throw; StudyStopped if a
+  /// rank was asked to stop, or the time is up.
   template <class Result, class... Rows, class Case, class RunCase>
   CaseOutcomes<Result, Rows...> run(const std::vector<Case>& cases, const std::vector<int>& owner,
                                     RunCase&& run_case);
 
-  /// Root writes what `content` (called on root) gives, and prints where it is.
+  /// Root writes the result of `content` (called on root), and prints the file's path.
   void write(const std::function<StudyContent()>& content);
 
  private:
@@ -69,7 +70,7 @@ class StudyRunner {
   io::TableFile file_with(StudyContent content) const;
   void print_end(const StudyContent& content) const;
   void case_done(int scene);
-  /// Collective. What the journals hold, on root; which cases that are, everywhere.
+  /// Collective. Reads the journals' outcomes on root, and on all ranks which cases they are.
   void open_journal(std::uint64_t layout, std::size_t num_cases);
   std::uint64_t key_of(std::uint64_t layout) const;
   bool is_to_stop() const;
@@ -87,7 +88,7 @@ class StudyRunner {
   std::unique_ptr<CaseJournal> journal_;
   std::map<std::int64_t, std::vector<std::byte>> kept_;  ///< on root: outcomes of an earlier run
   std::vector<char> is_kept_;                            ///< [num_cases]
-  std::optional<ProgressLine> progress_;  ///< on root, of its own cases: they stand for the others'
+  std::optional<ProgressLine> progress_;  ///< on root, for its own cases, which stand for the others'
   std::size_t num_cases_ = 0, own_cases_ = 0, own_done_ = 0;
 };
 

@@ -10,31 +10,31 @@
 
 namespace pbmpi::app {
 
-/// What does not depend on a case's setting.
+/// What all settings of a case share.
 struct StudyScene {
   scenes::SceneSource source;
   int num_worlds = 1;
   int warmup = 3, frames = 5;      ///< frames
-  double frame_s = 0.03;           ///< length of a frame, simulated
+  double frame_s = 0.03;           ///< simulated length of a frame
   double dt_s = 0.01;              ///< the scene's step
   int iterations = 20;             ///< the scene's
   model::EffectChoices effects;    ///< the scene's
-  std::vector<std::string> notes;  ///< of scenes::Scene
+  std::vector<std::string> notes;  ///< from scenes::Scene
 
   int total_frames() const { return warmup + frames; }
   int steps_per_frame() const {
     return static_cast<int>(std::round(frame_s / dt_s));
-  }  ///< of the scene's step
+  }  ///< with the scene's step
 };
 
-/// What the command line says instead of the scene.
+/// What the command line sets instead of the scene.
 struct SceneOverrides {
   std::optional<int> replicas, frames, warmup;
 };
 
 StudyScene study_scene(const scenes::SceneSource& source, const SceneOverrides& overrides);
 
-/// The names of --scene: those given, or all that pbmpi brings for none or the word "all".
+/// The names given with --scene; all scenes that pbmpi brings if none is given, or for the word "all".
 std::vector<std::string> study_scene_names(const std::vector<std::string>& given);
 
 }  // namespace pbmpi::app

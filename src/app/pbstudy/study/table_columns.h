@@ -1,4 +1,4 @@
-/// How rows of results become columns of a study's file.
+/// Turns rows of results into columns of a study's file.
 #pragma once
 
 #include <string>
@@ -31,7 +31,8 @@ io::TableColumn step_column(const stepping::StepOption& option, const std::vecto
   return std::visit(of_type, value_of(option, stepping::StepperSettings{}));
 }
 
-/// A column a step option that is part of a setting (and the solver's seed), of the settings of each case.
+/// One column for each step option that is part of a setting (and the solver's seed), from the settings of
+/// each case.
 template <class Case>
 void add_step_columns(const std::vector<Case>& cases, std::vector<io::TableColumn>& columns) {
   for (const stepping::StepOption& option : stepping::step_options()) {
@@ -39,7 +40,7 @@ void add_step_columns(const std::vector<Case>& cases, std::vector<io::TableColum
   }
 }
 
-/// Columns "PREFIX_body_position_rms" and so on, of the ErrorTable that `table` points to in each result.
+/// Columns "PREFIX_body_position_rms" and so on, for the ErrorTable that `table` points to in each result.
 template <class Result>
 void add_errors(const std::string& prefix, analysis::ErrorTable Result::*table,
                 const std::vector<Result>& results, std::vector<io::TableColumn>& columns) {

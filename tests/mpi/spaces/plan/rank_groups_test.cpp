@@ -8,7 +8,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-// Costs are small whole numbers, so that nothing here is rounded.
+// Costs are small integers, so nothing here is rounded.
 using Costs = std::vector<double>;
 using Counts = std::vector<int>;
 
@@ -56,12 +56,12 @@ TEST(RankGroups, leave_ranks_idle_rather_than_give_a_world_more_than_asked_for) 
 }
 
 TEST(RankGroups, give_more_worlds_to_larger_groups) {
-  // Two ranks are done with a world in half of the time.
+  // Two ranks finish a world in half of the time.
   const RankGroups uneven = group_ranks(four_alike, 6, 3, 2);
   EXPECT_EQ(uneven.ranks, (Counts{2, 1}));
   EXPECT_EQ(uneven.worlds, (Counts{4, 2}));
   EXPECT_EQ(makespan(four_alike, uneven), 8);
-  // One space has all the work, so that a second rank does not help.
+  // One space has all the work, so a second rank does not help.
   EXPECT_EQ(group_ranks(Costs{4, 0}, 6, 3, 2).worlds, (Counts{3, 3}));
 }
 
@@ -86,10 +86,10 @@ TEST(RankGroups, are_of_as_few_ranks_as_reach_the_least_makespan) {
 }
 
 TEST(RankGroups, grow_only_if_that_is_predicted_to_gain_a_tenth) {
-  // A cut in two saves two parts of 21, and one.
+  // A cut in two saves two parts of 21, and one part.
   EXPECT_EQ(choose_ranks_per_world(Costs{19, 2}, 1, 2), 2);
   EXPECT_EQ(choose_ranks_per_world(Costs{20, 1}, 1, 2), 1);
-  // 13 worlds a rank against 25 halves for two ranks: a cut would save a twenty-fifth.
+  // 13 worlds per rank against 25 halves for two ranks: a cut would save a twenty-fifth.
   EXPECT_EQ(choose_ranks_per_world(four_alike, 100, 8), 1);
 }
 

@@ -5,7 +5,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-// Times in seconds that doubles hold exactly, so that nothing here is rounded.
+// Times are seconds that doubles represent exactly, so nothing here is rounded.
 
 /// Root sent its verdict at 0 and has solved at 100.
 RootSchedule after_a_step(const StepPace& own, const StepPace& other, double search_s, int num_ranks = 2) {
@@ -36,7 +36,7 @@ TEST(RootSchedule, takes_the_time_it_expected_for_that_of_an_arrival_it_did_not_
   schedule.note_arrival(1, 125, 150, {20, 100});  // expected at 130
   schedule.note_verdict(131, 5);
   EXPECT_EQ(schedule.expected_s(), 130 + 20 + 100);
-  schedule.note_arrival(1, 190, 200, {20, 100});  // by then they were there
+  schedule.note_arrival(1, 190, 200, {20, 100});  // they had arrived by then
   schedule.note_verdict(201, 5);
   EXPECT_EQ(schedule.expected_s(), 200 + 20 + 100);
 }

@@ -7,7 +7,7 @@
 namespace pbmpi::mpi {
 namespace {
 
-/// Spaces with these numbers of equal units; a batch of `lanes` units takes a second, collision none.
+/// Spaces with these numbers of equal units; a batch of `lanes` units takes one second, collision none.
 SpaceLoads spaces_of(const std::vector<int>& units, int lanes = 1) {
   SpaceLoads loads;
   loads.num_lanes = lanes;
@@ -88,7 +88,7 @@ TEST(SpaceLoads, brings_the_spaces_of_an_island_together) {
   EXPECT_EQ(makespan(loads, owner, 2), 8);
 }
 
-// Weights and costs are small whole numbers, so that the fit is exact but for the rounding of a division.
+// Weights and costs are small integers, so the fit is exact up to the rounding of a division.
 TEST(SolverCosts, are_found_from_ranks_that_differ) {
   const SolverCosts costs =
       fit_costs(std::vector<RankSample>{{10, 2, 10 * 1 + 2 * 3}, {4, 8, 4 * 1 + 8 * 3}});
