@@ -78,7 +78,7 @@ for scene in "${scenes[@]}" "${cases[@]}"; do
   [[ $scene != hard/* ]] || seconds=$((time / 12))
   more=()
   [[ $scene != 100CrSk ]] || more=(--replicas 16)
-  record default "$scene" "$seconds" ${more[@]+"${more[@]}"}
+  record default "$scene" "$seconds" --friction cone ${more[@]+"${more[@]}"}
   for few in 20 1000; do
     record "${few}_sweeps" "$scene" "$seconds" "${cold[@]}" --warm-start 0 --iterations "$few" ${more[@]+"${more[@]}"}
   done

@@ -114,7 +114,7 @@ bool World::may_be_fast() const {
   return false;
 }
 
-void World::add_contacts_ahead(effects::FastBodies& fast, const model::State& before) {
+void World::add_speculative_contacts(effects::FastBodies& fast, const model::State& before) {
   ahead_.clear();
   fast.add(
       before, [](int, int) { return true; }, ahead_);

@@ -82,7 +82,7 @@ void StepRules::look_ahead(RuledWorld& world) {
   if (!fast_bodies_) make_fast_bodies();
   world.store(all_bodies_, before_);
   has_before_ = true;
-  if (fast_bodies_->look(before_, dt_s_)) world.add_contacts_ahead(*fast_bodies_, before_);
+  if (fast_bodies_->look(before_, dt_s_)) world.add_speculative_contacts(*fast_bodies_, before_);
   num_fast_ = static_cast<int>(fast_bodies_->bodies().size());
 }
 

@@ -28,7 +28,7 @@ class RuledWorld {
   /// False if no geom can be fast in the current step (SlowBound), after its events.
   virtual bool may_be_fast() const = 0;
   /// Adds the speculative contacts that `fast` finds in `before`, the state at the step's start.
-  virtual void add_contacts_ahead(FastBodies& fast, const model::State& before) = 0;
+  virtual void add_speculative_contacts(FastBodies& fast, const model::State& before) = 0;
   /// The contacts of the current step, speculative ones included; valid until the next call.
   virtual std::span<const BodyPair> touching() = 0;
   /// What a joint exerted in the step just solved.

@@ -46,7 +46,7 @@ class World final : effects::RuledWorld {
   void store(std::span<const int> bodies, model::State& state) const override;
   void set_velocities(std::span<const int> bodies, const model::State& state) override;
   bool may_be_fast() const override { return false; }
-  void add_contacts_ahead(effects::FastBodies&, const model::State&) override {}
+  void add_speculative_contacts(effects::FastBodies&, const model::State&) override {}
   std::span<const effects::BodyPair> touching() override { return {}; }
   effects::Reaction reaction(int joint) const override { return compiled_->loads.reaction(joint); }
   void show_awake() override {}

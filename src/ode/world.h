@@ -67,7 +67,7 @@ class World final : private effects::RuledWorld {
   void store(std::span<const int> bodies, model::State& state) const override;
   void set_velocities(std::span<const int> bodies, const model::State& state) override;
   bool may_be_fast() const override;
-  void add_contacts_ahead(effects::FastBodies& fast, const model::State& before) override;
+  void add_speculative_contacts(effects::FastBodies& fast, const model::State& before) override;
   std::span<const effects::BodyPair> touching() override;
   effects::Reaction reaction(int joint) const override { return loads_.reaction(joint); }
   void show_awake() override;
@@ -107,7 +107,7 @@ class World final : private effects::RuledWorld {
   Contacts contacts_;
   std::optional<BroadPhase> broad_phase_;    ///< none without the effect "collision"
   std::optional<Focus> focus_;               ///< none without this pass
-  std::vector<model::Contact> ahead_;        ///< scratch of add_contacts_ahead()
+  std::vector<model::Contact> ahead_;        ///< scratch of add_speculative_contacts()
   std::vector<GeomPair> awake_pairs_;        ///< scratch
   std::vector<effects::BodyPair> touching_;  ///< scratch
   RowCounter row_counter_;

@@ -183,11 +183,12 @@ constexpr std::array<StepOption, 25> options = {{
      .in_short = "*"},
     {.name = "friction",
      .member = &Settings::friction,
-     .placeholder = "cone|patch|pyramid",
+     .placeholder = "patch|cone|pyramid",
      .meaning =
-         "sor: cone: the same in all directions, at each contact; patch: the contacts of two bodies share "
-         "friction at their middle, and resist a twist about it; pyramid: as ODE's, which holds more "
-         "along the diagonals of two axes; default: cone",
+         "sor: patch: the same in all directions, shared by the contacts of two bodies in a plane, which "
+         "also "
+         "resist a twist about their middle; cone: the same in all directions, at each contact; pyramid: as "
+         "ODE's, which holds more along the diagonals of two axes; default: patch",
      .needs = &Traits::tunes_sweeps,
      .in_short = "*"},
     {.name = "finish",
@@ -349,7 +350,7 @@ StepperSettings default_settings(StepperKind kind) {
   settings.warm_start = 1;
   settings.contact_frequency = settings.joint_frequency = std::numeric_limits<double>::infinity();
   settings.contact_margin = 1;
-  settings.friction = Friction::cone;
+  settings.friction = Friction::patch;
   settings.joint_solver = JointSolver::hanging;
   return settings;
 }

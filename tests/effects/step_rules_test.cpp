@@ -35,7 +35,7 @@ class NotingWorld final : public RuledWorld {
     calls.emplace_back("set velocities");
   }
   bool may_be_fast() const override { return is_fast; }
-  void add_contacts_ahead(FastBodies&, const model::State&) override { calls.emplace_back("ahead"); }
+  void add_speculative_contacts(FastBodies&, const model::State&) override { calls.emplace_back("ahead"); }
   std::span<const BodyPair> touching() override { return touches; }
   Reaction reaction(int joint) const override {
     calls.push_back("reaction of " + std::to_string(joint));

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "solver/contacts/contact_rows.h"
+#include "solver/contacts/contact_solver.h"
 #include "solver/contacts/manifold_order.h"
 #include "solver/lanes/plane_space.h"
 
@@ -30,20 +30,20 @@ class ContactBuilder {
   /// Impulses start with their share of what the manifolds remember. `points`: [slot.num_points].
   void build(const Manifold* manifolds, Slot& slot, Point* points) const;
 
-  /// Next substep, with the velocities as the last sweep left them: the depth that the normal speed has left,
-  /// the same directions and arms. What is deeper than the push has planned is taken back at once: that is no
-  /// more than the last sweep's residual.
+  /// Leads the points on to the next substep, with the velocities that the last sweep left: depths follow the
+  /// normal speeds, directions and arms stay. Depth beyond what the push has planned is taken back at once:
+  /// it is no more than the last sweep's residual.
   void advance(const Slot& slot, Point* points) const;
 
  private:
-  /// What is read of a manifold's bodies.
+  /// What the builder reads of a manifold's bodies.
   struct BodyPair {
     L3 centre_a, centre_b;
     Sym3L<V> inv_inertia_a, inv_inertia_b;
     Motion motion_a, motion_b;
   };
-  /// The point at hand of each lane's manifold; harmless numbers in idle lanes. What rows of this kind do not
-  /// need is not read.
+  /// The current point of each lane's manifold; harmless numbers in idle lanes. Members that rows of this
+  /// kind do not need are not read.
   struct Given {
     L3 position, normal;
     V depth, mu, restitution, factor;
@@ -61,21 +61,26 @@ class ContactBuilder {
   PBMPI_LANES Arms arms_of(const BodyPair& pair, const Given& given) const;
   template <bool bounces>
   void build_point(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, Point& point) const;
-  /// Where depths are kept: what carries force lets its bodies come no closer, though it has opened a little.
+  /// Where depths are kept: a point that carries force lets its bodies come no closer, even if it has opened
+  /// a little.
   PBMPI_LANES void keep_depth(Point& point) const {
     const V zero = T::broadcast(0);
     if (parameters_.keeps_depths) point.rhs = point.normal.impulse > zero ? zero : point.rhs;
   }
-  /// What a patch has of a point.
+  /// What a patch needs of a point.
   struct PatchPart {
     Arms arms;
-    L3 force;    ///< [N] of friction, that the point remembers
-    V is_there;  ///< 1, or 0 in lanes whose manifold has no such point
+    L3 friction_force;  ///< [N] remembered
+    V normal_force;     ///< [N] remembered
+    V is_there;         ///< 1, or 0 in lanes whose manifold has no such point
   };
-  /// first: of points[0]; parts[slot.num_points].
+  /// The arms of a patch's middle: the mean of its points', each weighted by the normal force that it
+  /// remembers, or of all alike where none remembers any.
+  static Arms middle_of(const PatchPart* parts, int num_points);
+  /// `first`: given for points[0]; `parts` [slot.num_points].
   void build_patch(const BodyPair& pair, const Given& first, const PatchPart* parts, Slot& slot,
                    Point* points) const;
-  /// At these arms, with the normal and mu of `given`, for the points' friction force `carried` [N].
+  /// Friction rows at these arms, with the normal and mu of `given`; they start with the force `carried` [N].
   void build_friction(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, const Arms& arms,
                       const L3& carried, Friction& friction) const;
   PBMPI_LANES static void build_row(const ContactSlot<T>& slot, const BodyPair& pair, const L3& direction,
@@ -115,7 +120,7 @@ void ContactBuilder<T, two_bodies, kind>::build(const Manifold* manifolds, Slot&
       build_point<false>(slot, pair, given, points[i]);
     }
     if constexpr (Solver::patched)
-      parts[i] = {arms_of(pair, given), given.friction_force,
+      parts[i] = {arms_of(pair, given), given.friction_force, given.normal_force,
                   given.factor > T::broadcast(0) ? T::broadcast(1) : T::broadcast(0)};
   }
   if constexpr (Solver::patched) build_patch(pair, read(manifolds, 0), parts, slot, points);
@@ -224,33 +229,48 @@ void ContactBuilder<T, two_bodies, kind>::build_point(const ContactSlot<T>& slot
     build_friction(slot, pair, given, arms, given.friction_force, point.friction);
 }
 
-/// The middle is that of the points, whatever they carry, so that a patch is the same throughout a step. What
-/// they remember acts at it as a force and a twist.
+template <class T, bool two_bodies, ContactKind kind>
+typename ContactBuilder<T, two_bodies, kind>::Arms ContactBuilder<T, two_bodies, kind>::middle_of(
+    const PatchPart* parts, int num_points) {
+  const V zero = T::broadcast(0), one = T::broadcast(1);
+  constexpr Scalar least_force = static_cast<Scalar>(1e-25);  // [N] below any that bears something
+  V pressure = zero, total = zero;
+  for (int i = 0; i < num_points; ++i) pressure += parts[i].normal_force;
+  const auto presses = pressure > T::broadcast(least_force);
+  const Arms& first = parts[0].arms;
+  Arms away{{zero, zero, zero}, {zero, zero, zero}};
+  for (int i = 0; i < num_points; ++i) {
+    const V weight = presses ? parts[i].normal_force : parts[i].is_there;
+    total += weight;
+    away.a = away.a + (parts[i].arms.a - first.a) * weight;
+    away.b = away.b + (parts[i].arms.b - first.b) * weight;
+  }
+  const V share = 1 / (total > zero ? total : one);
+  return {first.a + away.a * share, first.b + away.b * share};
+}
+
+/// The middle stays the same throughout the step. It is the previous step's centre of pressure: a twist about
+/// a place that carries no load could not be written as forces of the points that do, and would be lost from
+/// one step to the next. The remembered forces act at the middle as a force and a twist.
 template <class T, bool two_bodies, ContactKind kind>
 void ContactBuilder<T, two_bodies, kind>::build_patch(const BodyPair& pair, const Given& first,
                                                       const PatchPart* parts, Slot& slot,
                                                       Point* points) const {
   const V zero = T::broadcast(0), one = T::broadcast(1);
-  V count = zero;
-  Arms middle{{zero, zero, zero}, {zero, zero, zero}};
+  const Arms middle = middle_of(parts, slot.num_points);
   L3 force{zero, zero, zero}, torque = force;
-  for (int i = 0; i < slot.num_points; ++i) {
-    const PatchPart& part = parts[i];
-    count += part.is_there;
-    middle.a = middle.a + part.arms.a * part.is_there;
-    middle.b = middle.b + part.arms.b * part.is_there;
-    force = force + part.force;
-  }
-  const V share = 1 / T::max(count, one);
-  middle = {middle.a * share, middle.b * share};
+  V farthest = zero;
   slot.normal = first.normal;
   for (int i = 0; i < slot.num_points; ++i) {
     const L3 away = (parts[i].arms.a - middle.a) * parts[i].is_there;
     const L3 lever = away - slot.normal * dot(slot.normal, away);
     points[i].lever = lever;
     points[i].distance = T::sqrt(dot(lever, lever));
-    torque = torque + cross(lever, parts[i].force);
+    farthest = T::max(farthest, points[i].distance);
+    force = force + parts[i].friction_force;
+    torque = torque + cross(lever, parts[i].friction_force);
   }
+  slot.least_distance = farthest * T::broadcast(static_cast<Scalar>(1e-4));
   build_friction(slot, pair, first, middle, force, slot.friction);
   slot.turn_a = pair.inv_inertia_a * slot.normal;
   V diagonal = dot(slot.normal, slot.turn_a);

@@ -1,7 +1,7 @@
 /// What contact points take over from substep to substep, and leave to the next step.
 #pragma once
 
-#include "solver/contacts/contact_rows.h"
+#include "solver/contacts/contact_solver.h"
 #include "solver/contacts/manifold_order.h"
 
 namespace pbmpi::solver {
@@ -31,7 +31,7 @@ class ContactMemory {
   PBMPI_LANES void reduce(V& impulse) const {
     impulse = warm_start_ > 0 ? impulse * T::broadcast(warm_start_) : T::broadcast(0);
   }
-  /// [N s] Without impulses +0, as of a contact that has no friction rows.
+  /// [N s] Gives +0 if there are no impulses, like a contact without friction rows.
   PBMPI_LANES static L3 impulse_of(const Friction& friction) {
     const V zero = T::broadcast(0);
     return L3{zero, zero, zero} + friction.rows[0].direction * friction.rows[0].impulse +
@@ -56,11 +56,12 @@ void ContactMemory<T, two_bodies, kind>::carry(Slot& slot, Point* points) const 
   }
 }
 
-/// What a patch does, as impulses [N s] at its points [slot.num_points], to each by what it carries, n_i:
+/// Writes the force and twist of a patch as impulses [N s] at its points [slot.num_points]. Point i gets, by
+/// its normal impulse n_i,
 ///   n_i (c + b normal x (r_i - r)),  r = sum n_i r_i / sum n_i,
-/// with c and b such that they have the patch's sum and twist. Single points may so do more than mu n_i, but
-/// b turns none by more than 2 mu n_i: where only one point carries, or those that do lie close together,
-/// less of the twist is left, or none.
+/// with c and b such that sum and torque are the patch's. A single point may get more than mu n_i, but b
+/// turns none by more than 2 mu n_i: if the points that carry lie close together, part of the twist is lost,
+/// and all of it within PatchSlot::least_distance, where levers may be rounding errors.
 template <class T, bool two_bodies, ContactKind kind>
 void ContactMemory<T, two_bodies, kind>::share_out(const Slot& slot, const Point* points, L3* impulses) {
   constexpr Scalar least_pressure = static_cast<Scalar>(1e-25);  // [N s] below any that bears something
@@ -86,7 +87,8 @@ void ContactMemory<T, two_bodies, kind>::share_out(const Slot& slot, const Point
   const V twist = slot.twist - dot(slot.normal, cross(middle, sum));
   const V most = 2 * slot.friction.mu * spread, length = T::sqrt(farthest) * T::abs(twist);
   const auto is_little = length <= most;
-  const auto twists = carries ? spread > zero : carries;
+  const V least = slot.least_distance * slot.least_distance * pressure;
+  const auto twists = carries ? spread > least : carries;
   const V within = is_little ? one : most / (is_little ? one : length);
   const V turning = twists ? twist * within / (twists ? spread : one) : zero;
   for (int i = 0; i < slot.num_points; ++i) {

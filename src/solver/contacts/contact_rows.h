@@ -5,27 +5,26 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "solver/contacts/sweep_order.h"
 #include "solver/layout/body_lanes.h"
 #include "solver/layout/row_law.h"
 
 namespace pbmpi::solver {
 
-/// Uniform numbers of contacts in a substep.
+/// Numbers that all contacts of a substep share.
 ///
-/// push_rate [1/s]: the share of its depth that a contact is to push out in a second. As a spring's it
-/// follows from its frequency and damping (layout/row_law.h). From the scene's ERP it is that divided by the
-/// length of the whole step: divided by that of a substep it would push as many times faster as there are
-/// substeps, and without relaxing sweeps nothing takes away the speed that a push gives.
+/// push_rate [1/s]: the share of its depth that a contact is to push out in a second. A spring's follows from
+/// its frequency and damping (layout/row_law.h). With the scene's ERP it is the ERP over the length of the
+/// whole step: over the length of a substep it would push as many times faster as there are substeps, and
+/// without relaxing sweeps nothing takes away the speed that a push gives.
 template <class Scalar>
 struct ContactParameters {
   Scalar h, push_rate, push_limit, soft_cfm, cfm, bounce_velocity, sor_factor;
   Scalar warm_start;  ///< share of the impulses that a step and a substep take over from the one before
   bool restitution;   ///< may a contact bounce?
-  bool turning;       ///< may a contact turn a body? If not, its rows do not, of whatever kind they are.
+  bool turning;       ///< may a contact turn a body? If not, rows of no kind do.
   bool keeps_depths;  ///< does a contact that carries force stay as deep, or as open, as it is?
-  bool relaxes;       ///< do sweeps follow that push nothing out? Then contacts bounce after them.
-  bool cone;          ///< friction that is the same in all directions; of patches always
+  bool relaxes;       ///< do relaxing sweeps follow, which push nothing out? Then contacts bounce after them.
+  bool cone;          ///< is friction the same in all directions? That of patches always is.
 };
 
 /// Which rows a contact has. `central`: no friction, and its normal goes through the centres of its bodies,
@@ -39,7 +38,7 @@ struct alignas(sizeof(V)) CentralRow {
   Vec3L<V> direction;
   V scale, impulse;
 };
-/// A row with the angular parts of J and of M^-1 J^T, but for those of b where b is the environment.
+/// A row with the angular parts of J and of M^-1 J^T, except b's where b is the environment.
 template <class V, bool two_bodies>
 struct alignas(sizeof(V)) TurningRow : CentralRow<V> {
   Vec3L<V> moment_a, turn_a;
@@ -83,7 +82,7 @@ struct alignas(sizeof(V)) ContactPoint<V, two_bodies, ContactKind::patched>
     : ContactPoint<V, two_bodies, ContactKind::smooth> {
   static constexpr ContactKind kind = ContactKind::patched;
   V distance;      ///< [m] from the middle of the patch, along the surface
-  Vec3L<V> lever;  ///< likewise
+  Vec3L<V> lever;  ///< [m] from the middle of the patch, along the surface
 };
 
 /// The bodies of a slot's manifolds; its points are elsewhere, one after the other.
@@ -94,297 +93,21 @@ struct alignas(sizeof(typename T::V)) ContactSlot {
   int first_point = 0, num_points = 0;
 };
 
-/// Friction of all points of each lane's manifold at once: a force at their middle, and a twist about the
-/// normal. PhysX and Box3D have the like; a patch has n + 3 rows where n points with friction have 3 n.
+/// Friction of all points of each lane's manifold together: a force at their middle, and a twist about the
+/// normal, as in PhysX and Box3D. A patch of n points has n + 3 rows, where n points with friction have 3 n.
 template <class T, bool two_bodies>
 struct alignas(sizeof(typename T::V)) PatchSlot : ContactSlot<T> {
   using V = typename T::V;
   FrictionRows<V, two_bodies> friction;
   Vec3L<V> normal;
+  V least_distance;         ///< [m] a load that lies closer to the middle on average cannot twist
   Vec3L<V> turn_a, turn_b;  ///< I^-1 normal
   V twist_scale, twist;     ///< impulse [N m s] on a, against which b is turned
   // With K the 2 x 2 block of the force, k what each of its rows makes of a twist, and c = 1 / twist_scale:
   V lean[2];           ///< K^-1 k
-  V free_twist_scale;  ///< 1 / (c - k K^-1 k): of a twist to which the force gives way
+  V free_twist_scale;  ///< 1 / (c - k K^-1 k): scale of a twist to which the force adapts
 };
 template <class T, bool two_bodies, ContactKind kind>
 using SlotOf = std::conditional_t<kind == ContactKind::patched, PatchSlot<T, two_bodies>, ContactSlot<T>>;
-
-/// Sweeps over the points of a slot.
-template <class T, bool two_bodies, ContactKind kind>
-class ContactSolver {
- public:
-  using V = typename T::V;
-  using Scalar = typename T::Scalar;
-  using Row = ContactRow<V, two_bodies, kind>;
-  using Point = ContactPoint<V, two_bodies, kind>;
-  using Slot = SlotOf<T, two_bodies, kind>;
-  using Friction = FrictionRows<V, two_bodies>;
-
-  static constexpr bool central = kind == ContactKind::central;
-  static constexpr bool friction = kind == ContactKind::rough;
-  static constexpr bool patched = kind == ContactKind::patched;
-  /// What a contact can change of a body's velocity.
-  using Motion = std::conditional_t<central, Vec3L<V>, Twist<V>>;
-
-  /// law: of this sweep.
-  ContactSolver(const ContactParameters<Scalar>& parameters, const RowLaw<Scalar>& law)
-      : normal_cfm_(parameters.soft_cfm / parameters.h),
-        friction_cfm_(parameters.cfm / parameters.h),
-        inverse_factor_(1 / parameters.sor_factor),
-        law_(law),
-        cone_(parameters.cone) {}
-
-  /// `points`: those of the slot, [slot.num_points]. `order`: in which they are solved. A patch comes between
-  /// them, after half of the places of the order: before or after all of them it would be a bias, by which
-  /// pyramids sag more.
-  PBMPI_LANES void solve(TwistRows<T>& twists, Slot& slot, Point* points,
-                         const SweepOrder::Points& order) const {
-    with_motions(twists, slot, [&](Motion& a, Motion& b) {
-      for (std::size_t place = 0; place < order.size(); ++place) {
-        if constexpr (patched) {
-          if (place == order.size() / 2) solve_patch(slot, points, a, b);
-        }
-        const int i = order[place];
-        if (i >= slot.num_points) continue;
-        solve_normal(slot, points[i], a, b);
-        if constexpr (friction)
-          solve_friction(slot, points[i].friction, points[i].friction.mu * points[i].normal.impulse, a, b);
-      }
-    });
-  }
-
-  /// Lets the impulses that the points start with act on the bodies.
-  PBMPI_LANES static void push_carried(TwistRows<T>& twists, const Slot& slot, const Point* points) {
-    with_motions(twists, slot, [&](Motion& a, Motion& b) {
-      for (int i = 0; i < slot.num_points; ++i) {
-        push(slot, points[i].normal, points[i].normal.impulse, a, b);
-        if constexpr (friction) push_friction(slot, points[i].friction, a, b);
-      }
-      if constexpr (patched) {
-        push_friction(slot, slot.friction, a, b);
-        if (slot.num_points > 1) twist(slot, slot.twist, a, b);
-      }
-    });
-  }
-
-  /// After the relaxing sweeps: what has touched parts at its speed of bouncing.
-  PBMPI_LANES void bounce(TwistRows<T>& twists, const ContactSlot<T>& slot, Point* points) const {
-    const V zero = T::broadcast(0);
-    with_motions(twists, slot, [&](Motion& a, Motion& b) {
-      for (int i = 0; i < slot.num_points; ++i) {
-        Row& row = points[i].normal;
-        const V bounces = points[i].peak > zero ? points[i].bounce : zero;
-        if (!T::any(bounces)) continue;
-        const V change = (bounces - speed(row, a, b)) * (row.scale * inverse_factor_);
-        const V applied = bounces > zero ? T::max(change, -row.impulse) : zero;
-        row.impulse += applied;
-        push(slot, row, applied, a, b);
-      }
-    });
-  }
-
-  PBMPI_LANES static Motion gather(const TwistRows<T>& twists, const std::int32_t* at) {
-    if constexpr (central) {
-      return twists.gather_linear(at);
-    } else {
-      return twists.gather(at);
-    }
-  }
-  /// How fast the bodies part along a row; `b` is not read where it is the environment.
-  PBMPI_LANES static V speed(const Row& row, const Motion& a, const Motion& b) {
-    if constexpr (central && two_bodies) {
-      return dot(row.direction, a - b);
-    } else if constexpr (central) {
-      return dot(row.direction, a);
-    } else if constexpr (two_bodies) {
-      return dot(row.direction, a.linear - b.linear) + dot(row.moment_a, a.angular) +
-             dot(row.moment_b, b.angular);
-    } else {
-      return dot(row.direction, a.linear) + dot(row.moment_a, a.angular);
-    }
-  }
-  /// [rad/s] How fast a patch turns about its normal.
-  PBMPI_LANES static V twist_speed(const Slot& slot, const Motion& a, const Motion& b) {
-    if constexpr (two_bodies) {
-      return dot(slot.normal, a.angular - b.angular);
-    } else {
-      return dot(slot.normal, a.angular);
-    }
-  }
-
- private:
-  template <class Change>
-  PBMPI_LANES static void with_motions(TwistRows<T>& twists, const ContactSlot<T>& slot, Change change) {
-    Motion a = gather(twists, slot.row_a), b{};
-    if constexpr (two_bodies) b = gather(twists, slot.row_b);
-    change(a, b);
-    scatter(twists, slot.row_a, a);
-    if constexpr (two_bodies) scatter(twists, slot.row_b, b);
-  }
-  PBMPI_LANES static void scatter(TwistRows<T>& twists, const std::int32_t* at, const Motion& motion) {
-    if constexpr (central) {
-      twists.scatter_linear(at, motion);
-    } else {
-      twists.scatter(at, motion);
-    }
-  }
-
-  /// A gap (rhs < 0) is no spring: what approaches stops where it touches.
-  PBMPI_LANES void solve_normal(const ContactSlot<T>& slot, Point& point, Motion& a, Motion& b) const {
-    const V zero = T::broadcast(0), one = T::broadcast(1);
-    Row& row = point.normal;
-    const V rhs = T::min(point.rhs, T::broadcast(law_.most_push));
-    const V share = point.rhs < zero ? one : T::broadcast(law_.mass_share);
-    const V relief = point.rhs < zero ? zero : T::broadcast(law_.relief);
-    const V change =
-        (rhs - speed(row, a, b) - normal_cfm_ * row.impulse) * (row.scale * share) - relief * row.impulse;
-    const V impulse = T::max(row.impulse + change, zero);
-    const V applied = impulse - row.impulse;
-    row.impulse = impulse;
-    push(slot, row, applied, a, b);
-  }
-
-  /// Force and twist have a ball for bounds, once a twist is divided by the mean distance of what the points
-  /// carry from their middle: the limit surface of a patch as an ellipsoid (R. Howe and M. Cutkosky, IJRR
-  /// 1996). As long as it holds, they are solved as a block, since of a patch aside of its body's centre each
-  /// makes the other. Where it slips, a step along the velocity in the metric of that ball has the law of
-  /// most dissipation as its fixed point.
-  PBMPI_LANES void solve_patch(Slot& slot, const Point* points, Motion& a, Motion& b) const {
-    const V zero = T::broadcast(0), one = T::broadcast(1);
-    V force = zero, torque = zero;
-    for (int i = 0; i < slot.num_points; ++i) {
-      force += points[i].normal.impulse;
-      torque += points[i].normal.impulse * points[i].distance;
-    }
-    const V bound = slot.friction.mu * force;
-    if (slot.num_points == 1) {
-      solve_friction(slot, slot.friction, bound, a, b);
-      return;
-    }
-    Row &row0 = slot.friction.rows[0], &row1 = slot.friction.rows[1];
-    const V distance = torque / (force > zero ? force : one);
-    const auto twists = distance > T::broadcast(least_distance);
-    const V per_distance = twists ? 1 / (twists ? distance : one) : zero;
-    const FreeFriction free = free_friction(slot.friction, a, b);
-    const V spin = twist_speed(slot, a, b) + friction_cfm_ * slot.twist;
-    const V left = spin - slot.lean[0] * free.speed[0] - slot.lean[1] * free.speed[1];
-    const V change = twists ? left * slot.free_twist_scale : zero;
-    const V free0 = twists ? free.impulse[0] + slot.lean[0] * change : free.impulse[0];
-    const V free1 = twists ? free.impulse[1] + slot.lean[1] * change : free.impulse[1];
-    const V free_twist = twists ? slot.twist - change : zero;
-    const V free_arm = free_twist * per_distance;
-    const auto sticks = free0 * free0 + free1 * free1 + free_arm * free_arm <= bound * bound;
-    const V step = twists ? T::min(slot.friction.slide, slot.twist_scale * per_distance * per_distance)
-                          : slot.friction.slide;
-    const V slid0 = row0.impulse - step * free.speed[0], slid1 = row1.impulse - step * free.speed[1];
-    const V slid_arm = slot.twist * per_distance - step * distance * spin;
-    const V square = T::max(slid0 * slid0 + slid1 * slid1 + slid_arm * slid_arm, T::broadcast(least_square));
-    const V share = T::min(bound / T::sqrt(square), one);
-    const V applied0 = (sticks ? free0 : slid0 * share) - row0.impulse;
-    const V applied1 = (sticks ? free1 : slid1 * share) - row1.impulse;
-    const V twisted = (sticks ? free_twist : slid_arm * share * distance) - slot.twist;
-    row0.impulse += applied0;
-    row1.impulse += applied1;
-    slot.twist += twisted;
-    push(slot, row0, applied0, a, b);
-    push(slot, row1, applied1, a, b);
-    twist(slot, twisted, a, b);
-  }
-
-  /// Leaves a velocity of -0 as it is where there is no twist, as in a slot where no manifold has any.
-  PBMPI_LANES static void twist(const Slot& slot, const V& applied, Motion& a, Motion& b) {
-    const auto turns = applied != T::broadcast(0);
-    const auto add = [&](Vec3L<V>& angular, const Vec3L<V>& turn, const V& impulse) {
-      angular.x = turns ? angular.x + turn.x * impulse : angular.x;
-      angular.y = turns ? angular.y + turn.y * impulse : angular.y;
-      angular.z = turns ? angular.z + turn.z * impulse : angular.z;
-    };
-    add(a.angular, slot.turn_a, applied);
-    if constexpr (two_bodies) add(b.angular, slot.turn_b, -applied);
-  }
-  PBMPI_LANES static void push_friction(const ContactSlot<T>& slot, const Friction& friction_rows, Motion& a,
-                                        Motion& b) {
-    for (const auto& row : friction_rows.rows) push(slot, row, row.impulse, a, b);
-  }
-
-  PBMPI_LANES void solve_friction(const ContactSlot<T>& slot, Friction& friction_rows, const V& bound,
-                                  Motion& a, Motion& b) const {
-    Row &row0 = friction_rows.rows[0], &row1 = friction_rows.rows[1];
-    if (!cone_) {
-      const V zero = T::broadcast(0);
-      for (Row* row : {&row0, &row1}) solve_row(slot, *row, zero, friction_cfm_, -bound, bound, a, b);
-      return;
-    }
-    apply_friction(slot, friction_rows, free_friction(friction_rows, a, b), bound, a, b);
-  }
-
-  /// Speeds along both rows of friction, and the impulses that would stop them.
-  struct FreeFriction {
-    V speed[2], impulse[2];
-  };
-  PBMPI_LANES FreeFriction free_friction(const Friction& friction_rows, const Motion& a,
-                                         const Motion& b) const {
-    const Row &row0 = friction_rows.rows[0], &row1 = friction_rows.rows[1];
-    const V speed0 = speed(row0, a, b) + friction_cfm_ * row0.impulse;
-    const V speed1 = speed(row1, a, b) + friction_cfm_ * row1.impulse;
-    return {{speed0, speed1},
-            {row0.impulse - row0.scale * speed0 - friction_rows.coupling * speed1,
-             row1.impulse - friction_rows.coupling * speed0 - row1.scale * speed1}};
-  }
-  /// Where it slides, the impulse turns against the velocity: a step of the same scale along both rows has
-  /// that as its fixed point, the block's has not.
-  PBMPI_LANES static void apply_friction(const ContactSlot<T>& slot, Friction& friction_rows,
-                                         const FreeFriction& free, const V& bound, Motion& a, Motion& b) {
-    Row &row0 = friction_rows.rows[0], &row1 = friction_rows.rows[1];
-    const V &free0 = free.impulse[0], &free1 = free.impulse[1];
-    const auto sticks = free0 * free0 + free1 * free1 <= bound * bound;
-    const V slid0 = row0.impulse - friction_rows.slide * free.speed[0];
-    const V slid1 = row1.impulse - friction_rows.slide * free.speed[1];
-    const V square = T::max(slid0 * slid0 + slid1 * slid1, T::broadcast(least_square));
-    const V share = T::min(bound / T::sqrt(square), T::broadcast(1));
-    const V applied0 = (sticks ? free0 : slid0 * share) - row0.impulse;
-    const V applied1 = (sticks ? free1 : slid1 * share) - row1.impulse;
-    row0.impulse += applied0;
-    row1.impulse += applied1;
-    push(slot, row0, applied0, a, b);
-    push(slot, row1, applied1, a, b);
-  }
-
-  PBMPI_LANES static void solve_row(const ContactSlot<T>& slot, Row& row, const V& rhs, Scalar cfm,
-                                    const V& low, const V& high, Motion& a, Motion& b) {
-    const V change = (rhs - speed(row, a, b) - cfm * row.impulse) * row.scale;
-    const V impulse = T::min(T::max(row.impulse + change, low), high);
-    const V applied = impulse - row.impulse;
-    row.impulse = impulse;
-    push(slot, row, applied, a, b);
-  }
-
-  PBMPI_LANES static Vec3L<V>& linear(Motion& motion) {
-    if constexpr (central) {
-      return motion;
-    } else {
-      return motion.linear;
-    }
-  }
-  PBMPI_LANES static void push(const ContactSlot<T>& slot, const Row& row, const V& applied, Motion& a,
-                               Motion& b) {
-    linear(a) = linear(a) + row.direction * (slot.inv_mass_a * applied);
-    if constexpr (two_bodies) linear(b) = linear(b) - row.direction * (slot.inv_mass_b * applied);
-    if constexpr (!central) {
-      a.angular = a.angular + row.turn_a * applied;
-      if constexpr (two_bodies) b.angular = b.angular + row.turn_b * applied;
-    }
-  }
-
-  /// Of an impulse, so that none divides by 0: its root is far below any impulse.
-  static constexpr Scalar least_square = static_cast<Scalar>(1e-30);
-  /// [m] Points that lie closer together make no patch that could twist.
-  static constexpr Scalar least_distance = static_cast<Scalar>(1e-15);
-
-  Scalar normal_cfm_, friction_cfm_, inverse_factor_;
-  RowLaw<Scalar> law_;
-  bool cone_;
-};
 
 }  // namespace pbmpi::solver

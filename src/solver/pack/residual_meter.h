@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/contacts/contact_rows.h"
+#include "solver/contacts/contact_solver.h"
 #include "stepping/observables.h"
 
 namespace pbmpi::solver {
@@ -167,7 +167,8 @@ class ResidualMeter {
       torque += impulse * T::get(points[i].distance, lane);
     }
     const double bound = T::get(slot.friction.mu, lane) * force;
-    if (!(torque > 0)) return add_friction<Solver>(slot.friction, bound, a, b, lane);
+    if (!(torque > force * T::get(slot.least_distance, lane)))
+      return add_friction<Solver>(slot.friction, bound, a, b, lane);
     const double distance = torque / force;
     double errors[3], impulses[3];
     read_friction<Solver>(slot.friction, a, b, lane, errors, impulses);

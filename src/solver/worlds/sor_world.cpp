@@ -39,7 +39,7 @@ class SorWorld::InPack final : public effects::RuledWorld {
     for (const int body : bodies) pack_.launch(index_, velocity_event(body, state));
   }
   bool may_be_fast() const override { return may_be_fast_; }
-  void add_contacts_ahead(effects::FastBodies& fast, const model::State& before) override {
+  void add_speculative_contacts(effects::FastBodies& fast, const model::State& before) override {
     fast.add(
         before, [](int, int) { return true; }, *contacts_);
   }
