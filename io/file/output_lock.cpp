@@ -85,7 +85,7 @@ std::string beside(const std::string& path, const std::string& prefix, const std
   return (file.parent_path() / (prefix + name + suffix)).string();
 }
 
-/// Removes a dead holder's file only if its name has the form of a temporary file of `path`.
+/// Removes a dead holder's temporary file; a name that is no temporary file beside `path` is left alone.
 void remove_unfinished(const std::string& path, const Holder& holder) {
   const fs::path temporary = fs::path(path).parent_path() / holder.temporary;
   if (holder.temporary.empty() || holder.temporary.find('/') != std::string::npos ||
