@@ -73,6 +73,9 @@ StepChoices choose_step(const std::map<std::string, std::string>& texts, const s
     set(option, text_of_option(option), dashes + name, choices.settings);
     choices.given.insert(name);
   }
+  // Newton's method solves cones of friction, so they are its default.
+  if (choices.settings.finish == Finish::newton && !choices.has("friction"))
+    choices.settings.friction = Friction::cone;
   return choices;
 }
 

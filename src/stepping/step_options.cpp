@@ -195,9 +195,9 @@ constexpr std::array<StepOption, 25> options = {{
      .member = &Settings::finish,
      .placeholder = "none|newton",
      .meaning =
-         "sor: newton: after the sweeps over rigid rows (--relax 0, no springs, --friction cone) islands of "
-         "up to "
-         "400 rows of contacts, limits and motors are solved to rounding, for references; default: none",
+         "sor: newton: after the sweeps over rigid rows (--relax 0, no springs; --friction is then cone by "
+         "default) islands of up to 400 rows of contacts, limits and motors are solved to rounding, for "
+         "references; default: none",
      .needs = &Traits::tunes_sweeps,
      .in_short = "by *"},
     {.name = "row-order",

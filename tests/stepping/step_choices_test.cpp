@@ -40,6 +40,13 @@ TEST(StepChoices, win_over_what_is_proposed) {
   EXPECT_EQ(settings.seed, 9u);
 }
 
+TEST(StepChoices, take_cones_of_friction_for_newton_unless_another_is_chosen) {
+  EXPECT_EQ(choose_step({}, "").settings.friction, Friction::patch);
+  EXPECT_EQ(choose_step({{"finish", "newton"}}, "").settings.friction, Friction::cone);
+  EXPECT_EQ(choose_step({{"finish", "newton"}, {"friction", "pyramid"}}, "").settings.friction,
+            Friction::pyramid);
+}
+
 TEST(StepChoices, that_cannot_be_are_refused_by_name) {
   EXPECT_NE(refusal({{"substep", "3"}}).find("substep: a step has no such option; did you mean 'substeps'"),
             std::string::npos)

@@ -32,6 +32,7 @@ class Finish(ProgramTest):
         self.summary(1, *run, "--finish", "newton", "--output", "newton.h5")
         with h5py.File(self.path("plain.h5")) as none, h5py.File(self.path("newton.h5")) as newton:
             self.assertEqual((none["parameters/finish"][()], newton["parameters/finish"][()]), (b"none", b"newton"))
+            self.assertEqual((none["parameters/friction"][()], newton["parameters/friction"][()]), (b"patch", b"cone"))
             left, now = (file["observables/residual/natural_speed"][:].max() for file in (none, newton))
         self.assertGreater(left, 1e-3)
         self.assertLess(now, 1e-6)
