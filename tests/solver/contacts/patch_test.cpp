@@ -135,9 +135,10 @@ TEST_P(Patch, remembers_forces_that_balance_a_plank_which_leans_on_one_point) {
                        turn);
   };
   add("block", {0.4, 1, 0.4}, 50, {0, 0, 0.2}, {});
-  const auto lean = support::rotation(Vec3(0.02, 1, 0.01).normalized(), -0.6);
+  const auto lean = support::rotation(Vec3(0.2, 1, 0.06).normalized(), -0.6);
   add("plank", {1.2, 0.3, 0.05}, 3, {-0.34, 0.1, 0.35}, lean);
   for (model::Geom& geom : model.geoms) geom.material.mu = 0.8;
+  model.gravity = {0, 2, -gravity};
   const auto stepper = make_stepper(settings_of(Friction::patch, GetParam()), {model});
   advance(*stepper, 300);
   const stepping::StepContacts& seen = *stepper->contacts(0);
@@ -156,7 +157,8 @@ TEST_P(Patch, remembers_forces_that_balance_a_plank_which_leans_on_one_point) {
   }
   EXPECT_GT(idle, 0) << "a point of a patch carries nothing";
   EXPECT_LT(force.norm(), 1e-3 * 3 * gravity);
-  EXPECT_LT(torque.norm(), 1e-3 * 3 * gravity);
+  EXPECT_LT(torque.norm(), 2e-5 * 3 * gravity)
+      << "a twist about the middle of both points loses 6e-5 and more";
 }
 
 /// The load on a cube that is held on a slope is known: its weight along the slope, and no twist.
