@@ -131,10 +131,16 @@ Content content_of(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_size == 0)
     return Content::nothing;
+  // HDF5 looks for its signature at 0, 512, 1024, 2048 ...: before it a user may have put a block of their
+  // own.
   constexpr std::array<char, 8> signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
-  std::array<char, 8> begin{};
-  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
-  return begin == signature ? Content::hdf5 : Content::other;
+  constexpr off_t first_block = 512;
+  std::ifstream file(path, std::ios::binary);
+  for (off_t at = 0; at < status.st_size && file; at = at == 0 ? first_block : 2 * at) {
+    std::array<char, 8> found{};
+    if (file.seekg(at) && file.read(found.data(), found.size()) && found == signature) return Content::hdf5;
+  }
+  return Content::other;
 }
 
 void write_file(const std::string& path, std::string_view text) {

@@ -146,6 +146,12 @@ std::int64_t require_type(const std::string& path, hid_t file, const std::string
 
 }  // namespace
 
+File open_unlocked(const std::string& path) {
+  const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
+  check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");
+  return owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), "H5Fopen");
+}
+
 File open_run(const std::string& path) { return open_file(path, filetype, layout_major); }
 
 File open_file(const std::string& path, const std::string& type, std::int64_t major,
@@ -155,12 +161,9 @@ File open_file(const std::string& path, const std::string& type, std::int64_t ma
   core::require_input(
       seal != core::Seal::broken,
       path + ": its bytes do not have the checksum that was written with them; the file is damaged");
-  const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
-  // A file may be read while it is written, and on file systems without locks.
-  check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");
   File file;
   try {
-    file = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), "H5Fopen");
+    file = open_unlocked(path);
   } catch (const core::RunError& e) {
     throw core::InputError(path + ": cannot be opened as an HDF5 file (" + e.what() +
                            "); give a file that pbmpi has written");

@@ -12,6 +12,10 @@
 
 namespace pbmpi::io {
 
+/// Opens any HDF5 file read-only, also while it is written, and on file systems without locks. Throws
+/// core::RunError.
+File open_unlocked(const std::string& path);
+
 /// Opens `path` read-only and checks that it is a pbmpi-run file that this program understands. Throws
 /// core::InputError.
 File open_run(const std::string& path);

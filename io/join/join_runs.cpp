@@ -263,8 +263,7 @@ JoinedRun join_runs(const std::vector<std::string>& paths, const std::string& ou
     JoinedRun joined = describe(sources, plan);
     joined.left_out = common.of_some;
 
-    require_kind(output, filetype);
-    OutputTarget target(output, bytes_of(paths));
+    OutputTarget target = output_target(output, filetype, bytes_of(paths));
     File file = create_alone(target.temporary_path());
     std::set<std::string> left_out = result_datasets(parts.front().file);
     left_out.insert(common.left_out.begin(), common.left_out.end());

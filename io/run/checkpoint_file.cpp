@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/file/output_target.h"
 #include "io/file/write_file.h"
 #include "io/hdf5/file_types.h"
 #include "io/run/table_rows.h"
@@ -216,8 +215,7 @@ Checkpoint read_checkpoint(const std::string& path) {
 }
 
 OutputLock lock_checkpoint(const std::string& path, std::int64_t bytes) {
-  require_kind(path, checkpoint_filetype);
-  return OutputTarget(path, std::max<std::int64_t>(bytes, 1)).take_lock();
+  return output_target(path, checkpoint_filetype, std::max<std::int64_t>(bytes, 1)).take_lock();
 }
 
 }  // namespace pbmpi::io

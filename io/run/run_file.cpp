@@ -89,8 +89,7 @@ RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(s
   ranks_.together<core::InputError>([this] {
     const std::int64_t bytes = estimate_file_bytes(shape_);
     if (!ranks_.is_root()) return;
-    require_kind(setup_.path, filetype);
-    target_ = OutputTarget(setup_.path, bytes);
+    target_ = output_target(setup_.path, filetype, bytes);
   });
   try {
     ranks_.together([this] { make_skeleton(); });

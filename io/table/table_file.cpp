@@ -9,7 +9,6 @@
 #include "core/system/input_file.h"
 #include "core/system/seal.h"
 #include "core/text.h"
-#include "io/file/output_target.h"
 #include "io/file/write_file.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/read_columns.h"
@@ -150,9 +149,7 @@ struct TableWriter::Impl {
 
 TableWriter::TableWriter(const std::string& path) {
   prepare_hdf5();
-  constexpr std::int64_t about_bytes = std::int64_t{1} << 20;
-  require_kind(path, "pbmpi-study");
-  impl_ = std::make_unique<Impl>(Impl{OutputTarget(path, about_bytes)});
+  impl_ = std::make_unique<Impl>(Impl{output_target(path, "pbmpi-study", table_bytes)});
 }
 TableWriter::~TableWriter() = default;
 
@@ -192,11 +189,17 @@ TableFile read_table_file(const std::string& path, const std::string& filetype, 
   }
 }
 
-void require_kind(const std::string& path, const std::string& filetype) {
-  const std::string found = filetype_of(path);
-  core::require_input(found.empty() || found == filetype,
-                      "cannot create " + path + ": it is a file of type " + found + ", which one of type " +
-                          filetype + " would replace; give another name, or remove it first");
+OutputTarget output_target(const std::string& path, const std::string& filetype, std::int64_t bytes) {
+  OutputTarget target(path, bytes);
+  if (content_of(target.path()) == Content::nothing) return target;
+  const std::string found = filetype_of(target.path());
+  if (found.empty() || found != filetype)
+    refuse_output(path,
+                  "an HDF5 file is there that " +
+                      (found.empty() ? "has no readable attribute filetype" : "is of type " + found) +
+                      ", which one of type " + filetype + " would replace",
+                  "give another name, or remove it first");
+  return target;
 }
 
 std::string filetype_of(const std::string& path) {
@@ -204,7 +207,7 @@ std::string filetype_of(const std::string& path) {
   if (content_of(path) != Content::hdf5) return "";  // a pipe is not even opened
   try {
     if (core::seal_of(path) == core::Seal::broken) return "";  // nothing in the file can be trusted
-    const auto file = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "H5Fopen");
+    const File file = open_unlocked(path);
     return core::value_in(attributes_as_text(file.id(), "/"), "filetype");
   } catch (const std::runtime_error&) {
     return "";

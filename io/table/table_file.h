@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "io/file/output_target.h"
 #include "io/hdf5/parameter.h"
 
 namespace pbmpi::io {
@@ -65,6 +66,9 @@ class TableWriter {
 /// Major and minor version of the layout of a study's file.
 inline constexpr std::array<std::int64_t, 2> study_version = {1, 6};
 
+/// About as many bytes as a table file has.
+inline constexpr std::int64_t table_bytes = std::int64_t{1} << 20;
+
 /// The bytes of a table file, made in memory: a file written in one go is never left half done. Sealed
 /// (core/system/seal.h) from minor version 3 on.
 std::vector<std::byte> table_image(const std::string& filetype, const std::array<std::int64_t, 2>& version,
@@ -75,10 +79,11 @@ std::vector<std::byte> table_image(const std::string& filetype, const std::array
 TableFile read_table_file(const std::string& path, const std::string& filetype,
                           std::int64_t major = study_version[0]);
 
-/// Throws core::InputError if `path` is a pbmpi file of another type, which the new file would replace.
-void require_kind(const std::string& path, const std::string& filetype);
+/// The right to write an HDF5 file of this type and of about `bytes`, which replaces only a file of its own
+/// type: any other HDF5 file may be somebody's data. Throws core::InputError like OutputTarget's constructor.
+OutputTarget output_target(const std::string& path, const std::string& filetype, std::int64_t bytes);
 
-/// The attribute filetype of an HDF5 file; empty if `path` is not one, or has no such attribute.
+/// The attribute filetype of an HDF5 file; empty if `path` is not one, is damaged, or has no such attribute.
 std::string filetype_of(const std::string& path);
 
 }  // namespace pbmpi::io

@@ -130,6 +130,35 @@ class NothingOverwritten(ProgramTest):
         self.refused(self.pbmpi(1, *SHORT, "--output", "b.h5", "--checkpoint", "run.h5"), "pbmpi-run")
         self.refused(self.report("run.h5", "--html", "a.h5"), "HDF5")
 
+    def test_data_of_somebody_else_stay(self):
+        """HDF5 files without the attribute filetype, of a type unknown here, behind a block of the user's own; no HDF5."""
+        for name, block, kind in (("plain", 0, None), ("other", 0, "solver-mesh"), ("block", 1024, None)):
+            with h5py.File(self.path(name), "w", userblock_size=block) as file:
+                file["measured"] = range(1000)
+                if kind:
+                    file.attrs["filetype"] = kind
+        self.write("text", "notes of my own")
+        pbstudy = ["mpirun", "-n", "1", os.path.join(os.path.dirname(PBMPI), STUDY[0])]
+        self.assertEqual(self.pbmpi(1, *SHORT, "--seed", 2, "--output", "b.h5").returncode, 0)
+        for name in ("plain", "other", "block", "text"):
+            before = digest(self.path(name))
+            writers = [lambda: self.pbmpi(1, *SHORT, "--output", name),
+                       lambda: self.pbmpi(2, *SHORT, "--output", name),
+                       lambda: self.pbmpi(1, *SHORT, "--output", "new.h5", "--checkpoint", name),
+                       lambda: self.report("ensemble", "run.h5", "b.h5", "--output", name),
+                       lambda: self.report("diff", "run.h5", "b.h5", "--output", name),
+                       lambda: self.run_command([*pbstudy, *STUDY[1:], "--output", name]),
+                       lambda: self.run_command([*pbstudy, "calibrate", "--output", name])]
+            if name != "text":  # a text may replace a text
+                writers += [lambda: self.report("run.h5", "--html", name), lambda: self.report("run.h5", "--xdmf", name),
+                            lambda: self.report("csv", "run.h5", "--output", name)]
+            for number, write in enumerate(writers):
+                with self.subTest(name=name, writer=number):
+                    self.refused(write(), name, "HDF5 file", "; ")
+                    self.assertEqual(digest(self.path(name)), before)
+        left = set(os.listdir(self.folder)) - {"run.h5", "run.xdmf", "b.h5", "b.xdmf"}
+        self.assertEqual(left, {"plain", "other", "block", "text"}, "nothing else is left")
+
     def test_sidecars_of_different_files_do_not_meet(self):
         for name in ("s.xdmf", "run.hdf5"):
             result = self.pbmpi(1, *SHORT, "--output", name)

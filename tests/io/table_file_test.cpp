@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "io/file/write_file.h"
 #include "scratch.h"
 
 namespace pbmpi::io::test {
@@ -64,6 +65,48 @@ TEST(TableFile, other_files_are_refused) {
   EXPECT_NE(refusal(scratch.file("text.h5"), "pbmpi-study").find("HDF5"), std::string::npos);
   EXPECT_EQ(filetype_of(scratch.file("text.h5")), "");
   EXPECT_EQ(filetype_of(scratch.file("absent.h5")), "");
+}
+
+std::string refusal_to_replace(const std::string& path, const std::string& filetype) {
+  try {
+    output_target(path, filetype, 1000);
+    return "";
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(TableFile, replaces_only_a_file_of_its_own_type) {
+  const Scratch scratch;
+  const std::string path = scratch.file("a.h5");
+  const auto put = [&](const std::string& filetype, std::int64_t minor) {
+    replace_file(OutputLock(path), table_image(filetype, {1, minor}, sample()));
+  };
+  EXPECT_EQ(refusal_to_replace(path, "pbmpi-test"), "");
+  put("pbmpi-test", 6);
+  EXPECT_EQ(refusal_to_replace(path, "pbmpi-test"), "");
+  EXPECT_NE(refusal_to_replace(path, "pbmpi-run").find("pbmpi-test"), std::string::npos);
+  put("", 0);
+  EXPECT_NE(refusal_to_replace(path, "pbmpi-run").find("no readable attribute filetype"), std::string::npos);
+  EXPECT_NE(refusal_to_replace(path, "").find("no readable"), std::string::npos) << "an empty type is none";
+  EXPECT_EQ(scratch.num_files(), 1u);
+}
+
+/// Behind a block of the user's own HDF5 begins at byte 512 or a power of two above it.
+TEST(TableFile, sees_hdf5_behind_a_users_block) {
+  const Scratch scratch;
+  const std::vector<std::byte> image = table_image("pbmpi-test", {1, 0}, sample());
+  for (const std::size_t block : {512u, 1024u, 4096u}) {
+    const std::string path = scratch.file("block" + std::to_string(block));
+    std::ofstream file(path, std::ios::binary);
+    file << std::string(block, ' ');
+    file.write(reinterpret_cast<const char*>(image.data()), std::ssize(image));
+    file.close();
+    EXPECT_EQ(content_of(path), Content::hdf5) << block;
+    EXPECT_THROW(write_file(path, "text"), core::InputError) << block;
+  }
+  std::ofstream(scratch.file("text")) << std::string(600, ' ') << "\x89HDF\r\n\x1a\n";
+  EXPECT_EQ(content_of(scratch.file("text")), Content::other);
 }
 
 TEST(TableFile, any_bit_that_changed_is_noticed) {

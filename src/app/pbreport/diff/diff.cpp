@@ -229,10 +229,7 @@ core::ExitCode run_diff(const std::vector<std::string>& args, std::ostream& out)
     return core::ExitCode::done;
   }
   std::optional<io::OutputLock> output;  // an unwritable path is reported before the work
-  if (options.output) {
-    output.emplace(*options.output);
-    io::require_kind(*options.output, diff_filetype);
-  }
+  if (options.output) output = io::output_target(*options.output, diff_filetype, io::table_bytes).take_lock();
   const io::RunData run = io::read_run(options.run);
   const io::RunData reference = io::read_run(options.reference);
   require_comparable(run, options.run, reference, options.reference);

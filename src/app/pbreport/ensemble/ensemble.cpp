@@ -34,10 +34,8 @@ core::ExitCode run_ensemble(const std::vector<std::string>& args, std::ostream& 
     return core::ExitCode::done;
   }
   std::optional<io::OutputLock> output;  // an unwritable path is reported before the work
-  if (options.output) {
-    output.emplace(*options.output);
-    io::require_kind(*options.output, ensemble_filetype);
-  }
+  if (options.output)
+    output = io::output_target(*options.output, ensemble_filetype, io::table_bytes).take_lock();
   const EnsembleRuns runs(options);
   Ensemble found;
   found.quantities = spread_by_frame(runs, options.quantiles);
