@@ -14,15 +14,31 @@
 namespace pbmpi::scenes {
 namespace {
 
+/// The model's own text, or a scene of it and of what it includes. Included files are named from the model's
+/// folder, which `source.file` begins with.
+SceneSource read_model_scene(SceneSource source) {
+  xml::Texts texts{{source.file, source.text}};
+  for (auto missing = missing_includes(texts, source.file); !missing.empty();
+       missing = missing_includes(texts, source.file)) {
+    for (const std::string& file : missing)
+      texts[file] = core::read_input_file(file, source.file + " includes it: give the path of an MJCF");
+  }
+  if (texts.size() > 1) source.text = scene_with_includes(source, texts);
+  return source;
+}
+
 SceneSource read_file(const std::string& path) {
   const std::filesystem::path at(path);
   SceneSource source{at.stem().string(), path,
                      core::read_input_file(path, "give the path of a scene file (TOML, MJCF or URDF)")};
-  for (const std::string& file : missing_files(source)) {
-    const std::string found = (at.parent_path() / file).string();
-    source.text = with_file(
-        source.text, file,
-        core::read_input_file(found, path + " names it: give the path of a model file (MJCF or URDF)"));
+  if (xml::is_xml(source.text)) return read_model_scene(std::move(source));
+  for (auto missing = missing_files(source); !missing.empty(); missing = missing_files(source)) {
+    for (const std::string& file : missing) {
+      const std::string found = (at.parent_path() / file).string();
+      source.text = with_file(
+          source.text, file,
+          core::read_input_file(found, path + " names it: give the path of a model file (MJCF or URDF)"));
+    }
   }
   return source;
 }

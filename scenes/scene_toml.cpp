@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "scenes/actors/model_file.h"
 #include "scenes/format/table_reader.h"
 #include "scenes/lay_overrides.h"
@@ -68,11 +70,24 @@ std::optional<SceneSource> base_of(const toml::table& scene) {
   }
 }
 
+/// A model alone in its world must have a link that moves.
+void require_mass(const links::Mechanism& mechanism, const std::string& file) {
+  std::string names;
+  for (const links::Link& link : mechanism.links) {
+    if (link.mass) return;
+    names += (names.empty() ? "" : ", ") + core::in_quotes(link.name);
+  }
+  throw core::InputError((mechanism.links.empty() ? file : mechanism.links.front().where) +
+                         ": no body of the model moves, since these have no mass: " + names +
+                         "; give what moves a mass and an inertia");
+}
+
 /// A scene with a model as its only actor: its frames are as close to 1/30 s as possible, and cover 10 s in
 /// all.
-toml::table scene_of_model(const SceneSource& source) {
+toml::table scene_of_model(const SceneSource& source, const xml::Texts& texts) {
   xml::Notes told_later;  // the readers of the actor report these
-  const links::ModelFile model = read_model_file(source.text, source.file, {}, told_later);
+  const links::ModelFile model = read_model_file(texts, source.file, {}, told_later);
+  require_mass(model.mechanism, source.file);
   constexpr double frame_s = 1.0 / 30, run_s = 10;
   toml::table run;
   if (model.dt_s) {
@@ -90,8 +105,25 @@ toml::table scene_of_model(const SceneSource& source) {
   scene.insert("overlap", std::numeric_limits<double>::infinity());  // as in the file's own simulator
   scene.insert("actor",
                toml::array{toml::table{{"name", source.name}, {"type", "model"}, {"file", source.file}}});
+  return scene;
+}
+
+toml::table scene_of_one_file(const SceneSource& source) {
+  toml::table scene = scene_of_model(source, {{source.file, source.text}});
   scene.insert("files", toml::table{{source.file, toml::table{{"text", source.text}}}});
   return scene;
+}
+
+/// The texts in the scene's [files].
+xml::Texts texts_of(const toml::table& scene) {
+  xml::Texts texts;
+  if (const toml::table* files = scene["files"].as_table()) {
+    for (const auto& [name, file] : *files) {
+      if (const auto text = scene["files"][name.str()]["text"].value<std::string>())
+        texts[std::string(name.str())] = *text;
+    }
+  }
+  return texts;
 }
 
 }  // namespace
@@ -129,7 +161,7 @@ std::vector<SceneSource> bases_of(const SceneSource& source) {
 }
 
 toml::table parse_with_base(const SceneSource& source) {
-  if (xml::is_xml(source.text)) return scene_of_model(source);
+  if (xml::is_xml(source.text)) return scene_of_one_file(source);
   toml::table scene = parse_text(source);
   const std::optional<SceneSource> base = base_of(scene);
   if (!base) return scene;
@@ -144,20 +176,31 @@ std::vector<std::string> missing_files(const SceneSource& source) {
   std::vector<std::string> missing;
   if (xml::is_xml(source.text)) return missing;
   const toml::table scene = parse_text(source);
+  const xml::Texts texts = texts_of(scene);
   const toml::array* actors = scene["actor"].as_array();
   if (actors == nullptr) return missing;
   for (const toml::node& node : *actors) {
     const toml::table* actor = node.as_table();
     if (actor == nullptr || (*actor)["type"].value<std::string>() != "model") continue;
     const auto file = (*actor)["file"].value<std::string>();
-    if (!file || scene["files"][*file] || std::ranges::find(missing, *file) != missing.end()) continue;
-    missing.push_back(*file);
+    if (!file) continue;
+    for (const std::string& one : missing_includes(texts, *file)) {
+      if (std::ranges::find(missing, one) == missing.end()) missing.push_back(one);
+    }
   }
   return missing;
 }
 
 std::string with_file(const std::string& text, const std::string& file, const std::string& file_text) {
   return text + "\n[files." + toml_string(file) + "]\ntext = " + toml_string(file_text) + "\n";
+}
+
+std::string scene_with_includes(const SceneSource& model, const xml::Texts& texts) {
+  std::ostringstream scene;
+  scene << scene_of_model(model, texts) << '\n';
+  std::string text = scene.str();
+  for (const auto& [name, file_text] : texts) text = with_file(text, name, file_text);
+  return text;
 }
 
 }  // namespace pbmpi::scenes

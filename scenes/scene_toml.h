@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include "scenes/scene.h"
+#include "scenes/xml/include.h"
 
 namespace pbmpi::scenes {
 
@@ -21,10 +22,15 @@ toml::table parse_text(const SceneSource& source);
 /// Lays a table over its base as parse_with_base() does.
 void lay_over(toml::table& base, toml::table&& over);
 
-/// The model files that a scene's actors name but whose texts the scene does not have.
+/// The model files that a scene's actors name, and those that these include, whose texts the scene does not
+/// have. None for a scene that is a model itself.
 std::vector<std::string> missing_files(const SceneSource& source);
 
 /// `text` with the text of a file appended, in the form that missing_files() looks for.
 std::string with_file(const std::string& text, const std::string& file, const std::string& file_text);
+
+/// A model that includes other files, as the TOML scene that parse_with_base() would make of it, with all
+/// texts.
+std::string scene_with_includes(const SceneSource& model, const xml::Texts& texts);
 
 }  // namespace pbmpi::scenes

@@ -37,15 +37,13 @@ double read_mass(TableReader& actor, const std::vector<Solid>& solids) {
   return actor.number("density", Sign::positive) * volume(solids);
 }
 
-/// Inertia about the centre, in the body's axes. No mass distribution has a moment above the sum of the other
-/// two.
+/// Inertia about the centre, in the body's axes.
 model::Mat3 read_inertia(TableReader& actor) {
-  const Vec3 moments = actor.vector("inertia", Sign::positive);
-  constexpr double rounding = 1e-9;  // for rounded digits of a flat body, where the two are equal
-  if (2 * moments.maxCoeff() > (1 + rounding) * moments.sum()) {
+  const model::Mat3 inertia = actor.vector("inertia", Sign::positive).asDiagonal();
+  if (!is_of_a_body(inertia)) {
     actor.fail("inertia", "no body has a moment of inertia above the sum of the other two; change one");
   }
-  return moments.asDiagonal();
+  return inertia;
 }
 
 /// Composing two rotations rounds; a geom whose frame coincides with the body's keeps the frame's bits.

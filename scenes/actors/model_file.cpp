@@ -16,13 +16,35 @@ bool is_model_file(const std::string& path) {
   return std::ranges::any_of(ends, [&](std::string_view end) { return path.ends_with(end); });
 }
 
-links::ModelFile read_model_file(const std::string& text, const std::string& file,
-                                 const std::set<std::string>& leave_out, xml::Notes& notes) {
-  const xml::Element root = xml::parse(text, file);
-  if (root.name == "mujoco") return mjcf::read(root, leave_out, notes);
-  if (root.name == "robot") return urdf::read(root, leave_out, notes);
-  throw core::InputError(root.where + ": neither MJCF (<mujoco>) nor URDF (<robot>), but " +
-                         core::in_quotes(root.name) + "; give one of the two");
+links::ModelFile read_model_file(const xml::Texts& texts, const std::string& file,
+                                 const ModelChoices& choices, xml::Notes& notes) {
+  const xml::LeaveOut leave_out(choices.leave_out, notes);
+  xml::Element root = xml::parse(texts.at(file), file);
+  if (root.name == "mujoco") {
+    xml::expand_includes(root, file, texts, leave_out);
+    return mjcf::read(root, choices.keyframe, leave_out);
+  }
+  core::require_input(root.name == "robot", root.where +
+                                                ": neither MJCF (<mujoco>) nor URDF (<robot>), but " +
+                                                core::in_quotes(root.name) + "; give one of the two");
+  core::require_input(choices.keyframe.empty(),
+                      root.where + ": a URDF has no keyframes; give 'joints' their starts");
+  return urdf::read(root, leave_out);
+}
+
+std::vector<std::string> missing_includes(const xml::Texts& texts, const std::string& file) {
+  std::vector<std::string> missing, found{file};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto text = texts.find(found[i]);
+    if (text == texts.end()) {
+      missing.push_back(found[i]);
+      continue;
+    }
+    for (const std::string& name : xml::included_in(text->second, found[i], file)) {
+      if (std::ranges::find(found, name) == found.end()) found.push_back(name);
+    }
+  }
+  return missing;
 }
 
 }  // namespace pbmpi::scenes

@@ -3,8 +3,10 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "scenes/links/links.h"
+#include "scenes/xml/include.h"
 #include "scenes/xml/notes.h"
 
 namespace pbmpi::scenes {
@@ -12,9 +14,18 @@ namespace pbmpi::scenes {
 /// Does the path end like a model file's, e.g. in ".urdf"?
 bool is_model_file(const std::string& path);
 
-/// Reads MJCF (root `<mujoco>`) or URDF (root `<robot>`). `file`: its name in messages; `leave_out`: names of
-/// elements or types that are dropped instead of refused. Throws core::InputError "file:line:column: ...".
-links::ModelFile read_model_file(const std::string& text, const std::string& file,
-                                 const std::set<std::string>& leave_out, xml::Notes& notes);
+/// How a model file is to be read.
+struct ModelChoices {
+  std::set<std::string> leave_out;  ///< elements, types or attributes that are dropped instead of refused
+  std::string keyframe;  ///< of an MJCF, from which the model starts; empty: from its bodies' places
+};
+
+/// Reads MJCF (root `<mujoco>`) or URDF (root `<robot>`). `file`: its name in `texts`, which also have what
+/// it includes, and in messages. Throws core::InputError "file:line:column: ...".
+links::ModelFile read_model_file(const xml::Texts& texts, const std::string& file,
+                                 const ModelChoices& choices, xml::Notes& notes);
+
+/// The files that a model includes, directly or not, and that `texts` lack.
+std::vector<std::string> missing_includes(const xml::Texts& texts, const std::string& file);
 
 }  // namespace pbmpi::scenes

@@ -2,8 +2,8 @@
 
 namespace pbmpi::scenes {
 
-Quat read_rotation(TableReader& table) {
-  auto rotation_table = table.table("rotation");
+Quat read_rotation(TableReader& table, std::string_view key) {
+  auto rotation_table = table.table(key);
   if (!rotation_table) return {};
   const Vec3 axis = rotation_table->direction("axis");
   const double angle_deg = rotation_table->number("angle", Sign::any);

@@ -6,7 +6,7 @@
 
 namespace pbmpi::scenes {
 
-/// Reads `rotation = { axis = [x, y, z], angle = deg }`; the identity without the key.
-Quat read_rotation(TableReader& table);
+/// Reads `key = { axis = [x, y, z], angle = deg }`; the identity without the key.
+Quat read_rotation(TableReader& table, std::string_view key = "rotation");
 
 }  // namespace pbmpi::scenes

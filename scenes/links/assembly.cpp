@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "scenes/links/drive.h"
+#include "scenes/links/start.h"
 
 namespace pbmpi::scenes::links {
 namespace {
@@ -26,14 +28,6 @@ void refuse_double_names(const Mechanism& mechanism) {
 
 /// Does a single joint of the Model connect the body to its parent?
 bool is_joined(const JointChain& chain) { return chain.pieces.size() == 1 || chain.is_gimbal; }
-
-std::vector<std::pair<int, int>> rigids_of(const Mechanism& mechanism, const RigidTree& tree) {
-  std::vector<std::pair<int, int>> pairs;
-  for (const auto& [a, b] : mechanism.apart)
-    pairs.emplace_back(tree.rigid_of[static_cast<std::size_t>(a)],
-                       tree.rigid_of[static_cast<std::size_t>(b)]);
-  return pairs;
-}
 
 /// The friction that all geoms of a group share; NaN where they differ, with a note.
 std::vector<double> frictions(const RigidTree& tree, const ContactGroups& groups, xml::Notes& notes) {
@@ -70,12 +64,38 @@ std::vector<model::AxisMotor> motors_of(const ChainPiece& piece, double dt_s, xm
   return motors;
 }
 
+/// Larger angles from the start cannot be told apart (ODE manual, "Stops and motor parameters").
+model::AxisLimit limit_of(const LinkJoint& joint, xml::Notes& notes) {
+  model::AxisLimit limit = joint.limit;
+  if (joint.motion != Motion::hinge) return limit;
+  constexpr double half_turn = std::numbers::pi;
+  const bool has_far = (std::isfinite(limit.low) && limit.low < -half_turn) ||
+                       (std::isfinite(limit.high) && limit.high > half_turn);
+  if (has_far) notes.add(joint.where, "a limit of more than half a turn from the start is left out");
+  if (limit.low < -half_turn) limit.low = -model::infinity;
+  if (limit.high > half_turn) limit.high = model::infinity;
+  return limit;
+}
+
+void note_joint(const LinkJoint& joint, xml::Notes& notes) {
+  limit_of(joint, notes);
+  constexpr double rounding = 1e-6;  // [rad] or [m] of a user's digits
+  if (joint.limit.low > rounding || joint.limit.high < -rounding)
+    notes.add(joint.where,
+              "the joint starts outside of its limits, which push it back ('joints' of a TOML scene "
+              "gives it another start)");
+  if (!(joint.armature > 0)) return;
+  notes.add(joint.where, joint.motion == Motion::slide
+                             ? "its armature is left out: the slide moves as if it were lighter"
+                             : "its armature becomes inertia of the body that it turns, about its axis");
+}
+
 }  // namespace
 
 Assembly::Assembly(const Mechanism& mechanism, double dt_s, xml::Notes& notes)
-    : tree_(merge(mechanism)), dt_s_(dt_s) {
+    : tree_(merge(at_start(mechanism), notes)), dt_s_(dt_s) {
   refuse_double_names(mechanism);
-  std::vector<std::pair<int, int>> apart = rigids_of(mechanism, tree_), joined;
+  std::vector<std::pair<int, int>> apart, joined;
   for (std::size_t i = 0; i < tree_.rigids.size(); ++i) {
     const Rigid& rigid = tree_.rigids[i];
     chains_.push_back(chain_of(rigid));
@@ -92,10 +112,7 @@ void Assembly::note_chains(xml::Notes& notes) const {
   for (const JointChain& chain : chains_) {
     for (const ChainPiece& piece : chain.pieces) {
       motors_of(piece, dt_s_, notes);
-      for (const LinkJoint& joint : piece.joints) {
-        if (joint.armature > 0)
-          notes.add(joint.where, "its armature becomes inertia of the body that it turns, about its axis");
-      }
+      for (const LinkJoint& joint : piece.joints) note_joint(joint, notes);
     }
     if (chain.pieces.size() > 1)
       notes.add(
@@ -227,10 +244,10 @@ class Assembly::Builder {
                               frame.point_to_outer(inner.anchor), axis1, has_two ? axis2 : Vec3::UnitX());
     xml::Notes told_before;
     const std::vector<model::AxisMotor> motors = motors_of(piece, assembly_.dt_s_, told_before);
-    joint.limits[0] = inner.limit;
+    joint.limits[0] = limit_of(inner, told_before);
     joint.motors[0] = motors.back();
     if (has_two) {
-      joint.limits[1] = outer.limit;
+      joint.limits[1] = limit_of(outer, told_before);
       joint.motors[1] = motors.front();
     }
     model_.joints.push_back(std::move(joint));

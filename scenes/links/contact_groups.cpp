@@ -18,9 +18,9 @@ Pairs sorted(const std::vector<std::pair<int, int>>& pairs) {
   return result;
 }
 
-/// The geoms of one body with the same type and affinity.
+/// The geoms of one link with the same type and affinity.
 struct Kind {
-  int rigid;
+  int rigid, link;
   unsigned contype, conaffinity;
   auto operator<=>(const Kind&) const = default;
 };
@@ -33,7 +33,11 @@ bool meet(const Kind& a, const Kind& b) {
 class Grouping {
  public:
   Grouping(const Mechanism& mechanism, const RigidTree& tree, Pairs apart, Pairs joined)
-      : mechanism_(mechanism), tree_(tree), apart_(std::move(apart)), joined_(std::move(joined)) {
+      : mechanism_(mechanism),
+        tree_(tree),
+        apart_links_(sorted(mechanism.apart)),
+        apart_(std::move(apart)),
+        joined_(std::move(joined)) {
     for (std::size_t rigid = 0; rigid < tree.rigids.size(); ++rigid) {
       for (const LinkGeom& geom : tree.rigids[rigid].geoms) {
         if (geom.contype != 0 || geom.conaffinity != 0)
@@ -80,7 +84,9 @@ class Grouping {
   }
 
  private:
-  static Kind kind_of(int rigid, const LinkGeom& geom) { return {rigid, geom.contype, geom.conaffinity}; }
+  static Kind kind_of(int rigid, const LinkGeom& geom) {
+    return {rigid, geom.link, geom.contype, geom.conaffinity};
+  }
 
   std::size_t find(std::size_t kind) {
     while (leader_[kind] != kind) kind = leader_[kind] = leader_[leader_[kind]];
@@ -92,10 +98,11 @@ class Grouping {
   void for_each_pair(Visit visit) const {
     for (std::size_t a = 0; a < kinds_.size(); ++a) {
       for (std::size_t b = a + 1; b < kinds_.size(); ++b) {
-        const int first = kinds_[a].rigid, second = kinds_[b].rigid;
-        if (first == second || joined_.contains({first, second})) continue;
-        const bool own = first != 0 && second != 0 && !mechanism_.self_collision;
-        visit(a, b, !own && meet(kinds_[a], kinds_[b]) && !apart_.contains({first, second}));
+        const std::pair rigids(kinds_[a].rigid, kinds_[b].rigid);
+        if (rigids.first == rigids.second || joined_.contains(rigids)) continue;
+        const bool are_apart = !mechanism_.self_collision || apart_.contains(rigids) ||
+                               apart_links_.contains(std::minmax(kinds_[a].link, kinds_[b].link));
+        visit(a, b, !are_apart && meet(kinds_[a], kinds_[b]));
       }
     }
   }
@@ -103,11 +110,11 @@ class Grouping {
   void note_what_is_parted(xml::Notes& notes) {
     Pairs parted;
     for_each_pair([&](std::size_t a, std::size_t b, bool touch) {
-      if (touch && find(a) == find(b)) parted.insert({kinds_[a].rigid, kinds_[b].rigid});
+      if (touch && find(a) == find(b)) parted.insert({kinds_[a].link, kinds_[b].link});
     });
     for (const auto& [a, b] : parted) {
-      const Rigid &first = tree_.rigids[static_cast<std::size_t>(a)],
-                  &second = tree_.rigids[static_cast<std::size_t>(b)];
+      const Link &first = mechanism_.links[static_cast<std::size_t>(a)],
+                 &second = mechanism_.links[static_cast<std::size_t>(b)];
       notes.add(second.where, core::in_quotes(first.name) + " and " + core::in_quotes(second.name) +
                                   " do not touch either: they are kept apart from a third");
     }
@@ -115,7 +122,8 @@ class Grouping {
 
   const Mechanism& mechanism_;
   const RigidTree& tree_;
-  Pairs apart_, joined_;
+  Pairs apart_links_;                // of links
+  Pairs apart_, joined_;             // of rigids
   std::vector<Kind> kinds_;          // sorted
   std::vector<std::size_t> leader_;  // [num_kinds] union-find
 };

@@ -19,9 +19,10 @@ struct ContactGroups {
   std::vector<std::vector<int>> group_of;  ///< [num_rigids][num_geoms]
 };
 
-/// `apart`: pairs of rigids that never touch; `joined`: pairs that do not touch because joints of the Model
-/// connect them. Geoms that must not touch share a group whose geoms never touch each other: where this
-/// separates more geoms than required, a note says which. A geom that touches no other geom has the group -1.
+/// `apart`: pairs of rigids that never touch, in addition to the mechanism's pairs of links; `joined`: pairs
+/// that do not touch because joints of the Model connect them. Geoms that must not touch share a group whose
+/// geoms never touch each other: where this separates more geoms than required, a note says which. A geom
+/// that touches no other geom has the group -1.
 ContactGroups contact_groups(const Mechanism& mechanism, const RigidTree& tree,
                              const std::vector<std::pair<int, int>>& apart,
                              const std::vector<std::pair<int, int>>& joined, xml::Notes& notes);

@@ -74,8 +74,10 @@ void split_evenly(std::size_t count, JointChain& chain) {
 void add_armatures(JointChain& chain) {
   for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
     MassProperties& turned = i < chain.between.size() ? chain.between[i] : chain.rest;
-    for (const LinkJoint& joint : chain.pieces[i].joints)
-      turned.inertia += joint.armature * joint.axis * joint.axis.transpose();
+    for (const LinkJoint& joint : chain.pieces[i].joints) {
+      if (joint.motion == Motion::hinge)
+        turned.inertia += joint.armature * joint.axis * joint.axis.transpose();
+    }
   }
 }
 

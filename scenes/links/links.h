@@ -23,28 +23,33 @@ struct Drive {
   double friction = 0;   ///< [N m] or [N] dry
   double damping = 0;    ///< [N m s/rad] or [N s/m]: of the joint and of its drives
   double stiffness = 0;  ///< [N m/rad] or [N/m]
-  double target = 0;     ///< [rad] or [m] from the start: rest position of the spring or the servo
+  double target = 0;     ///< [rad] or [m] from the pose: rest position of the spring or the servo
   double velocity = 0;   ///< [rad/s] or [m/s] target velocity of a servo
   double most_force = model::infinity;  ///< [N m] or [N] limit of a servo
 };
 
 /// Moves a link relative to its parent. Several joints of one link act in their order, starting at the
-/// parent; each is described in the link's frame at the start.
+/// parent; each is described in the link's frame, at the link's pose, from which its limits and its drive
+/// count.
 struct LinkJoint {
   Motion motion = Motion::hinge;
   std::string name;
   std::string where;           ///< "file:line:column"
   Vec3 anchor = Vec3::Zero();  ///< [m]; hinge and ball
   Vec3 axis = Vec3::UnitZ();   ///< unit; hinge and slide
-  model::AxisLimit limit;      ///< [rad] or [m] from the start
+  model::AxisLimit limit;      ///< [rad] or [m] from the pose
   Drive drive;
-  double armature = 0;  ///< [kg m^2] inertia that turns only with a hinge, e.g. a motor's rotor
+  double armature = 0;  ///< [kg m^2] or [kg] inertia that only the hinge or slide moves, e.g. a motor's rotor
+  double reference = 0;  ///< [rad] or [m] coordinate at the pose, as the file counts
+  double start = 0;      ///< [rad] or [m] from the pose: where a hinge or slide starts
+  Quat start_turn;       ///< rotation from the pose with which a ball starts
 };
 
 struct LinkGeom {
   model::Shape shape = model::Shape::sphere;
   std::array<double, 3> size{};  ///< as in model::Geom
   Pose pose;                     ///< in the link's frame
+  int link = no_link;            ///< set where links become bodies
   double mu = 1;
   unsigned contype = 1, conaffinity = 1;  ///< two geoms may touch if one's type meets the other's affinity
   std::string where;
@@ -54,7 +59,7 @@ struct Link {
   std::string name;
   std::string where;
   int parent = no_link;                ///< index of an earlier link
-  Pose pose;                           ///< at the start, in the parent's frame
+  Pose pose;                           ///< in the parent's frame, before its joints move to their starts
   std::vector<LinkJoint> joints;       ///< none: rigidly part of the parent, or of the world
   std::optional<MassProperties> mass;  ///< in the link's frame
   std::vector<LinkGeom> geoms;
@@ -66,6 +71,8 @@ struct Mechanism {
   /// Pairs of links whose geoms never touch, in addition to those that a joint connects.
   std::vector<std::pair<int, int>> apart;
   bool self_collision = true;  ///< may geoms of different links touch at all?
+  bool joins_massless =
+      false;  ///< do links without mass become part of others, where that changes no motion?
 };
 
 /// What a model file of another simulator describes.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenes/links/links.h"
+#include "scenes/xml/notes.h"
 
 namespace pbmpi::scenes::links {
 
@@ -24,8 +25,10 @@ struct RigidTree {
   std::vector<int> rigid_of;  ///< [num_links]
 };
 
-/// Joins links without joints to their parents. Throws core::InputError where a body that moves has no mass.
-RigidTree merge(const Mechanism& mechanism);
+/// Joins links without joints to their parents. Throws core::InputError where bodies that move have no mass,
+/// naming all of them; with Mechanism::joins_massless after join_massless() (massless.h), which `notes`
+/// tells.
+RigidTree merge(const Mechanism& mechanism, xml::Notes& notes);
 
 /// The mass properties of two masses that are rigidly joined, in one frame.
 MassProperties together(const MassProperties& a, const MassProperties& b);

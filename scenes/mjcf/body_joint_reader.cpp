@@ -1,7 +1,5 @@
 #include "scenes/mjcf/body_joint_reader.h"
 
-#include <numbers>
-
 #include "core/text.h"
 
 namespace pbmpi::scenes::mjcf {
@@ -18,20 +16,12 @@ Motion read_motion(Attributes& joint) {
   return type == "ball" ? Motion::ball : Motion::hinge;
 }
 
-/// Reads the limits relative to the start. Angles of more than half a turn are ambiguous (ODE manual, "Stops
-/// and motor parameters").
-model::AxisLimit read_range(Attributes& joint, bool is_angle, double start, const Compiler& compiler,
-                            xml::Notes& notes) {
+/// Reads the limits relative to the pose in the file.
+model::AxisLimit read_range(Attributes& joint, bool is_angle, double reference, const Compiler& compiler) {
   const std::vector<double> range = joint.numbers("range", 2, 2);
   if (!(range[0] < range[1])) joint.fail("range", "the first number of 'range' must be below the second");
-  const auto from_start = [&](double value) { return (is_angle ? compiler.angle(value) : value) - start; };
-  model::AxisLimit limit{from_start(range[0]), from_start(range[1])};
-  if (!is_angle) return limit;
-  if (limit.low < -std::numbers::pi || limit.high > std::numbers::pi)
-    notes.add(joint.where("range"), "a limit of more than half a turn from the start is left out");
-  if (limit.low < -std::numbers::pi) limit.low = -model::infinity;
-  if (limit.high > std::numbers::pi) limit.high = model::infinity;
-  return limit;
+  const auto from_pose = [&](double value) { return (is_angle ? compiler.angle(value) : value) - reference; };
+  return {from_pose(range[0]), from_pose(range[1])};
 }
 
 /// Neither a ball joint nor a free body has an axis for a motor or a limit.
@@ -39,7 +29,8 @@ void refuse_axis_laws(Attributes& joint, const links::LinkJoint& read, bool is_l
   const auto refuse = [&](std::string_view name, bool is_on) {
     if (is_on)
       joint.fail(name, core::in_quotes(name) +
-                           " of a joint of type ball or free has no equal; leave it out, or take hinges");
+                           " of a joint of type ball or free has no equal; take hinges, or " +
+                           xml::LeaveOut::advice(name));
   };
   refuse("damping", read.drive.damping > 0);
   refuse("stiffness", read.drive.stiffness > 0);
@@ -64,18 +55,17 @@ ReadJoint read_joint(Attributes attributes, const std::string& name, const Compi
     const double value = attributes.number(key, Range::any, 0.0);
     return is_hinge ? compiler.angle(value) : value;
   };
-  read.start = value_of("ref");
+  joint.reference = value_of("ref");
   joint.drive.damping = attributes.number("damping", Range::non_negative, 0.0);
   joint.drive.stiffness = attributes.number("stiffness", Range::non_negative, 0.0);
   joint.drive.friction = attributes.number("frictionloss", Range::non_negative, 0.0);
-  joint.drive.target = value_of("springref") - read.start;
+  joint.drive.target = value_of("springref") - joint.reference;
   joint.armature = attributes.number("armature", Range::non_negative, 0.0);
   const bool is_limited = compiler.is_limited(attributes, "limited", "range") && option.has_limits;
   if (!is_hinge && !is_slide) refuse_axis_laws(attributes, joint, is_limited);
-  if (is_slide && joint.armature > 0)
-    attributes.fail("armature", "'armature' of a slide joint has no equal; leave it out");
-  if (is_limited) joint.limit = read_range(attributes, is_hinge, read.start, compiler, notes);
-  attributes.refuse({"springdamper"}, "give 'stiffness' and 'damping' instead");
+  if (is_limited) joint.limit = read_range(attributes, is_hinge, joint.reference, compiler);
+  attributes.refuse({"springdamper"},
+                    "give 'stiffness' and 'damping' instead, or " + xml::LeaveOut::advice("springdamper"));
   for (const char* key : {"solreflimit", "solimplimit", "solreffriction", "solimpfriction", "margin"}) {
     if (attributes.has(key))
       notes.add(attributes.where(key), core::in_quotes(key) + " of joints is left out: limits are rigid");
@@ -86,8 +76,9 @@ ReadJoint read_joint(Attributes attributes, const std::string& name, const Compi
   return read;
 }
 
-links::LinkJoint read_free_joint(const xml::Element& element, const std::string& name) {
-  Attributes attributes(element);
+links::LinkJoint read_free_joint(const xml::Element& element, const std::string& name,
+                                 const xml::LeaveOut& leave_out) {
+  Attributes attributes(element, leave_out);
   links::LinkJoint joint;
   joint.where = attributes.where();
   joint.name = attributes.text("name", name);

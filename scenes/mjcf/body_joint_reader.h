@@ -10,7 +10,6 @@ namespace pbmpi::scenes::mjcf {
 /// A joint, with the data that its servos need.
 struct ReadJoint {
   links::LinkJoint joint;
-  double start = 0;  ///< [rad] or [m] value at the start (`ref`), from which servos and limits count
   double most_servo_force = model::infinity;  ///< [N m] or [N] limit of all servos together
 };
 
@@ -18,6 +17,7 @@ struct ReadJoint {
 ReadJoint read_joint(xml::Attributes attributes, const std::string& name, const Compiler& compiler,
                      const Option& option, xml::Notes& notes);
 
-links::LinkJoint read_free_joint(const xml::Element& element, const std::string& name);
+links::LinkJoint read_free_joint(const xml::Element& element, const std::string& name,
+                                 const xml::LeaveOut& leave_out);
 
 }  // namespace pbmpi::scenes::mjcf

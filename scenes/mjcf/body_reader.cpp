@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -27,24 +28,26 @@ void collect_names(const xml::Element& element, std::set<std::string>& names) {
 
 class BodyReader {
  public:
-  BodyReader(const Context& context, links::Mechanism& mechanism, xml::Notes& notes)
-      : context_(context), mechanism_(mechanism), notes_(notes) {}
+  BodyReader(const Context& context, links::Mechanism& mechanism)
+      : context_(context), mechanism_(mechanism), notes_(context.leave_out.notes()) {}
 
-  void read_world(const xml::Element& world) {
-    Attributes(world).finish();
-    collect_names(world, given_names_);
+  void read_worlds(const std::vector<const xml::Element*>& worlds) {
     links::Link link;
     link.name = "world";
-    link.where = world.where;
+    link.where = worlds.front()->where;
     mechanism_.links.push_back(std::move(link));
-    read_children(world, 0, "");
+    for (const xml::Element* world : worlds) collect_names(*world, given_names_);
+    for (const xml::Element* world : worlds) {
+      Attributes(*world, context_.leave_out).finish();
+      read_children(*world, 0, "");
+    }
   }
 
   std::vector<JointPlace> take_joints() { return std::move(joints_); }
 
  private:
   void read_body(const xml::Element& element, int parent, std::string childclass) {
-    Attributes body(element);
+    Attributes body(element, context_.leave_out);
     const auto index = static_cast<int>(mechanism_.links.size());
     links::Link link;
     link.name = body.text("name", unused_name(index));
@@ -53,9 +56,11 @@ class BodyReader {
     link.pose = read_pose(body, context_.compiler);
     childclass = body.text("childclass", childclass);
     if (body.flag("mocap", false))
-      body.fail("mocap", "'mocap' bodies, which are moved from outside, have no equal");
+      body.fail("mocap", "'mocap' bodies, which are moved from outside, have no equal; take it out, or " +
+                             xml::LeaveOut::advice("mocap"));
     if (body.number("gravcomp", xml::Range::any, 0.0) != 0)
-      body.fail("gravcomp", "gravity acts on all bodies alike; leave 'gravcomp' out");
+      body.fail("gravcomp", "gravity acts on all bodies alike; take 'gravcomp' out, or " +
+                                xml::LeaveOut::advice("gravcomp"));
     body.allow({"user", "sleep"});
     body.finish();
     mechanism_.links.push_back(std::move(link));
@@ -75,7 +80,7 @@ class BodyReader {
     for (const xml::Element& child : element.children) {
       if (child.name == "inertial") {
         core::require_input(!inertial, child.where + ": a second <inertial> of one body; leave one");
-        inertial = read_inertial(child, context_.compiler);
+        inertial = read_inertial(child, context_.compiler, context_.leave_out);
       } else if (child.name == "geom") {
         add_geom(child, index, childclass, of_geoms);
       } else if (child.name == "joint" || child.name == "freejoint") {
@@ -93,11 +98,9 @@ class BodyReader {
 
   void skip(const xml::Element& child) {
     if (std::ranges::find(onlookers_of_bodies, child.name) != onlookers_of_bodies.end()) return;
-    if (!context_.leave_out.contains(child.name))
-      Attributes(child).fail(
-          "this element cannot be read here; write out its bodies, or leave it out ('leave_out' "
-          "of a TOML scene)");
-    notes_.add(child.where, core::in_quotes(child.name) + " is left out");
+    if (!context_.leave_out.drops(child.name, child.where))
+      Attributes(child).fail("this element cannot be read here; write out its bodies, or " +
+                             xml::LeaveOut::advice(child.name));
   }
 
   links::Link& link(int index) { return mechanism_.links[static_cast<std::size_t>(index)]; }
@@ -105,7 +108,7 @@ class BodyReader {
   void add_geom(const xml::Element& element, int index, const std::string& childclass,
                 std::optional<MassProperties>& sum) {
     ReadGeom read = read_geom(Attributes(element, context_.defaults.of(element, childclass)),
-                              context_.compiler, context_.leave_out, notes_);
+                              context_.compiler, context_.leave_out);
     if (read.mass) sum = sum ? links::together(*sum, *read.mass) : *read.mass;
     if (!read.geom) return;
     if (!context_.option.collides) read.geom->contype = read.geom->conaffinity = 0;
@@ -118,13 +121,12 @@ class BodyReader {
         own.name + ".joint" + (own.joints.empty() ? "" : std::to_string(own.joints.size() + 1));
     ReadJoint read;
     if (element.name == "freejoint") {
-      read.joint = read_free_joint(element, name);
+      read.joint = read_free_joint(element, name, context_.leave_out);
     } else {
-      read = read_joint(Attributes(element, context_.defaults.of(element, childclass)), name,
-                        context_.compiler, context_.option, notes_);
+      read = read_joint(Attributes(element, context_.leave_out, context_.defaults.of(element, childclass)),
+                        name, context_.compiler, context_.option, notes_);
     }
-    joints_.push_back(
-        {read.joint.name, index, static_cast<int>(own.joints.size()), read.start, read.most_servo_force});
+    joints_.push_back({read.joint.name, index, static_cast<int>(own.joints.size()), read.most_servo_force});
     own.joints.push_back(std::move(read.joint));
   }
 
@@ -162,10 +164,10 @@ class BodyReader {
 
 }  // namespace
 
-std::vector<JointPlace> read_bodies(const xml::Element& worldbody, const Context& context,
-                                    links::Mechanism& mechanism, xml::Notes& notes) {
-  BodyReader reader(context, mechanism, notes);
-  reader.read_world(worldbody);
+std::vector<JointPlace> read_bodies(const std::vector<const xml::Element*>& worlds, const Context& context,
+                                    links::Mechanism& mechanism) {
+  BodyReader reader(context, mechanism);
+  reader.read_worlds(worlds);
   return reader.take_joints();
 }
 

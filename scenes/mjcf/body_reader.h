@@ -1,7 +1,6 @@
 /// MJCF's `<worldbody>`: the tree of bodies.
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,12 +14,12 @@ struct Context {
   Compiler compiler;
   Option option;
   Defaults defaults;
-  std::set<std::string> leave_out;
+  const xml::LeaveOut& leave_out;
 };
 
-/// Reads the bodies below `<worldbody>` as links, parents before children; the geoms of the world itself are
-/// a link without joints. Returns the joints.
-std::vector<JointPlace> read_bodies(const xml::Element& worldbody, const Context& context,
-                                    links::Mechanism& mechanism, xml::Notes& notes);
+/// Reads the bodies below all `<worldbody>` as links, parents before children; the geoms of the world itself
+/// are a link without joints. Returns the joints in the order of MuJoCo's qpos.
+std::vector<JointPlace> read_bodies(const std::vector<const xml::Element*>& worlds, const Context& context,
+                                    links::Mechanism& mechanism);
 
 }  // namespace pbmpi::scenes::mjcf

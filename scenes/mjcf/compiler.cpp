@@ -64,8 +64,8 @@ Quat read_quat(Attributes& element) {
   return Quat::from_eigen(value.normalized());
 }
 
-void read_flags(const xml::Element& element, Option& option) {
-  Attributes flags(element);
+void read_flags(const xml::Element& element, const xml::LeaveOut& leave_out, Option& option) {
+  Attributes flags(element, leave_out);
   const auto is_on = [&](std::string_view name) {
     return flags.word(name, {"enable", "disable"}, "enable") == "enable";
   };
@@ -76,7 +76,8 @@ void read_flags(const xml::Element& element, Option& option) {
   for (const std::string_view name : {"constraint", "equality", "frictionloss", "passive", "spring", "damper",
                                       "filterparent", "clampctrl"}) {
     if (!is_on(name))
-      flags.fail(name, core::in_quotes(name) + " cannot be disabled here; take out what it turns off");
+      flags.fail(name, core::in_quotes(name) + " cannot be disabled here; take out what it turns off, or " +
+                           xml::LeaveOut::advice(name));
   }
   flags.allow({"warmstart", "refsafe", "sensor", "midphase", "eulerdamp", "nativeccd", "autoreset", "island",
                "override", "energy", "fwdinv", "invdiscrete", "sensornoise", "multiccd"});
@@ -103,8 +104,8 @@ double Compiler::most_force(Attributes& attributes, std::string_view limited, st
   return std::max(std::abs(forces[0]), std::abs(forces[1]));
 }
 
-void read_compiler(const xml::Element& element, Compiler& compiler) {
-  Attributes from(element);
+void read_compiler(const xml::Element& element, const xml::LeaveOut& leave_out, Compiler& compiler) {
+  Attributes from(element, leave_out);
   if (from.has("angle")) compiler.in_degrees = from.word("angle", {"degree", "radian"}, "degree") == "degree";
   if (from.has("eulerseq")) compiler.euler_sequence = read_euler_sequence(from);
   compiler.autolimits = from.flag("autolimits", compiler.autolimits);
@@ -128,17 +129,18 @@ void read_compiler(const xml::Element& element, Compiler& compiler) {
   from.finish();
 }
 
-void read_option(const xml::Element& element, Option& option, xml::Notes& notes) {
-  Attributes from(element);
+void read_option(const xml::Element& element, const xml::LeaveOut& leave_out, Option& option) {
+  Attributes from(element, leave_out);
   option.timestep_s = from.number("timestep", Range::positive, option.timestep_s);
   option.gravity = from.vector("gravity", option.gravity);
   for (const char* name : {"density", "viscosity"}) {
     if (from.number(name, Range::any, 0.0) != 0)
-      from.fail(name, "a medium has no equal here; in a TOML scene, [air] has a density");
+      from.fail(name, "a medium has no equal here; in a TOML scene, [air] has a density; take it out, or " +
+                          xml::LeaveOut::advice(name));
   }
   from.word("collision", {"all"}, "all");
   if (from.has("o_margin") || from.has("o_solref") || from.has("o_solimp") || from.has("o_friction"))
-    notes.add(from.where(), "contacts that are overridden here (o_...) are those of the geoms");
+    leave_out.notes().add(from.where(), "contacts that are overridden here (o_...) are those of the geoms");
   from.allow({"wind",
               "magnetic",
               "impratio",
@@ -167,8 +169,12 @@ void read_option(const xml::Element& element, Option& option, xml::Notes& notes)
               "actuatorgroupdisable"});
   from.finish();
   for (const xml::Element& child : element.children) {
-    if (child.name != "flag") Attributes(child).fail("unknown element; <option> has only <flag>");
-    read_flags(child, option);
+    if (child.name == "flag") {
+      read_flags(child, leave_out, option);
+    } else if (!leave_out.drops(child.name, child.where)) {
+      Attributes(child).fail("unknown element; <option> has only <flag>; take it out, or " +
+                             xml::LeaveOut::advice(child.name));
+    }
   }
 }
 

@@ -39,8 +39,8 @@ struct Option {
 };
 
 /// Reads the element; later elements of one kind complete earlier ones.
-void read_compiler(const xml::Element& element, Compiler& compiler);
-void read_option(const xml::Element& element, Option& option, xml::Notes& notes);
+void read_compiler(const xml::Element& element, const xml::LeaveOut& leave_out, Compiler& compiler);
+void read_option(const xml::Element& element, const xml::LeaveOut& leave_out, Option& option);
 
 /// Reads the position and the orientation of an element in the frame around it: `pos`, and one of `quat`,
 /// `axisangle`, `euler`, `xyaxes`, `zaxis`.

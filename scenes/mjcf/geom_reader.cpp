@@ -91,10 +91,8 @@ MassProperties mass_of(Attributes& geom, const links::LinkGeom& read) {
 
 }  // namespace
 
-ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const std::set<std::string>& leave_out,
-                   xml::Notes& notes) {
+ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const xml::LeaveOut& leave_out) {
   attributes.allow({"name", "class", "rgba", "material", "user", "hfield", "mesh", "fitscale", "fluidcoef"});
-  attributes.refuse({"shellinertia"}, "hollow geoms are not read; give the body an <inertial>");
   const std::string type = attributes.text("type", attributes.has("mesh") ? "mesh" : "sphere");
   const int contype = attributes.integer("contype", 0, 1),
             conaffinity = attributes.integer("conaffinity", 0, 1);
@@ -102,23 +100,25 @@ ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const std::s
   if (!shape) {
     const bool is_known = type == "mesh" || type == "ellipsoid" || type == "hfield" || type == "sdf";
     const bool is_drawing = is_known && contype == 0 && conaffinity == 0;
-    if (!is_drawing && !leave_out.contains(type))
-      attributes.fail("type",
-                      "geoms of type " + core::in_quotes(type) +
-                          " cannot be collided here; take spheres, capsules, cylinders, boxes or planes"
-                          ", or leave them out (" +
-                          core::in_quotes("leave_out") + " of a TOML scene)");
-    notes.add(attributes.where(),
-              "a geom of type " + core::in_quotes(type) + " is left out, and so is its mass");
+    if (!is_drawing && !leave_out.names(type))
+      attributes.fail(
+          "type", "geoms of type " + core::in_quotes(type) +
+                      " cannot be collided here; take spheres, capsules, cylinders, boxes or planes, or " +
+                      xml::LeaveOut::advice(type));
+    leave_out.notes().add(attributes.where(),
+                          "a geom of type " + core::in_quotes(type) + " is left out, and so is its mass");
     return {};
   }
+  attributes.drop(leave_out);  // now that 'mesh' can only mean the type
+  attributes.refuse({"shellinertia"}, "hollow geoms are not read; give the body an <inertial>, or " +
+                                          xml::LeaveOut::advice("shellinertia"));
   links::LinkGeom geom;
   geom.shape = *shape;
   geom.where = attributes.where();
   geom.contype = static_cast<unsigned>(contype);
   geom.conaffinity = static_cast<unsigned>(conaffinity);
-  geom.mu = read_friction(attributes, notes);
-  note_contact_numbers(attributes, notes);
+  geom.mu = read_friction(attributes, leave_out.notes());
+  note_contact_numbers(attributes, leave_out.notes());
   geom.pose = read_pose(attributes, compiler);
   const auto segment =
       *shape == Shape::sphere || *shape == Shape::plane ? std::nullopt : read_segment(attributes);
@@ -137,8 +137,9 @@ ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const std::s
   return read;
 }
 
-MassProperties read_inertial(const xml::Element& element, const Compiler& compiler) {
-  Attributes inertial(element);
+MassProperties read_inertial(const xml::Element& element, const Compiler& compiler,
+                             const xml::LeaveOut& leave_out) {
+  Attributes inertial(element, leave_out);
   const Pose pose = read_pose(inertial, compiler);
   if (!inertial.has("pos")) inertial.fail("it has no 'pos'; give the centre of mass");
   const double mass = inertial.number("mass", Range::non_negative);
@@ -153,10 +154,7 @@ MassProperties read_inertial(const xml::Element& element, const Compiler& compil
   } else {
     inertia << full[0], full[3], full[4], full[3], full[1], full[5], full[4], full[5], full[2];
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(inertia, Eigen::EigenvaluesOnly);
-  constexpr double rounding = 1e-9;  // for rounded digits of a flat body, where the two are equal
-  if (!compiler.balances_inertia &&
-      2 * eigen.eigenvalues().maxCoeff() > (1 + rounding) * eigen.eigenvalues().sum())
+  if (!compiler.balances_inertia && !is_of_a_body(inertia))
     inertial.fail("no body has a moment of inertia above the sum of the other two; change one");
   return links::moved({mass, Vec3::Zero(), inertia}, pose);
 }

@@ -1,9 +1,6 @@
 /// MJCF's `<geom>` and `<inertial>`.
 #pragma once
 
-#include <set>
-#include <string>
-
 #include "scenes/links/links.h"
 #include "scenes/mjcf/compiler.h"
 #include "scenes/xml/notes.h"
@@ -18,10 +15,10 @@ struct ReadGeom {
 
 /// `attributes` include the defaults of the geom's class. A geom whose contype and conaffinity are both 0
 /// touches nothing, but has mass.
-ReadGeom read_geom(xml::Attributes attributes, const Compiler& compiler,
-                   const std::set<std::string>& leave_out, xml::Notes& notes);
+ReadGeom read_geom(xml::Attributes attributes, const Compiler& compiler, const xml::LeaveOut& leave_out);
 
-MassProperties read_inertial(const xml::Element& element, const Compiler& compiler);
+MassProperties read_inertial(const xml::Element& element, const Compiler& compiler,
+                             const xml::LeaveOut& leave_out);
 
 /// A body's mass properties after the changes that `<compiler>` asks for.
 MassProperties adjusted(const MassProperties& mass, const Compiler& compiler);

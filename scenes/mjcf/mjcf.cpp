@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "scenes/mjcf/body_reader.h"
+#include "scenes/mjcf/keyframe.h"
 
 namespace pbmpi::scenes::mjcf {
 namespace {
@@ -13,30 +14,28 @@ namespace {
 using xml::Attributes;
 
 /// Sections whose elements are seen, measured, or looked up by name, and do not affect motion.
-constexpr std::array<std::string_view, 7> sections_that_move_nothing = {
-    "asset", "visual", "statistic", "size", "sensor", "custom", "keyframe"};
+constexpr std::array<std::string_view, 6> sections_that_move_nothing = {"asset", "visual", "statistic",
+                                                                        "size",  "sensor", "custom"};
 
 class Reader {
  public:
-  Reader(const xml::Element& root, const std::set<std::string>& leave_out, xml::Notes& notes)
-      : root_(root), notes_(notes) {
-    context_.leave_out = leave_out;
-  }
+  Reader(const xml::Element& root, const std::string& keyframe, const xml::LeaveOut& leave_out)
+      : root_(root),
+        keyframe_name_(keyframe),
+        leave_out_(leave_out),
+        context_{Compiler(), Option(), Defaults(), leave_out} {}
 
   links::ModelFile read() {
-    Attributes mujoco(root_);
+    Attributes mujoco(root_, leave_out_);
     file_.mechanism.name = mujoco.text("model", "");
     mujoco.finish();
-    for_each("compiler", [&](const xml::Element& one) { read_compiler(one, context_.compiler); });
-    for_each("option", [&](const xml::Element& one) { read_option(one, context_.option, notes_); });
-    for_each("default", [&](const xml::Element& one) { context_.defaults.read(one); });
+    for (const xml::Element* one : all("compiler")) read_compiler(*one, leave_out_, context_.compiler);
+    for (const xml::Element* one : all("option")) read_option(*one, leave_out_, context_.option);
+    for (const xml::Element* one : all("default")) context_.defaults.read(*one);
+    keyframe_ = read_keyframe(all("keyframe"), keyframe_name_, leave_out_);
     read_world();
-    for_each("contact", [&](const xml::Element& one) { read_contact(one); });
-    for_each("actuator", [&](const xml::Element& one) {
-      if (context_.option.has_actuators)
-        read_actuators(one, context_.defaults, context_.compiler, joints_, context_.leave_out,
-                       file_.mechanism, notes_);
-    });
+    for (const xml::Element* one : all("contact")) read_contact(*one);
+    if (context_.option.has_actuators) read_actuators();
     for (const xml::Element& one : root_.children) require_known(one);
     scale_mass();
     file_.gravity = context_.option.gravity;
@@ -45,20 +44,30 @@ class Reader {
   }
 
  private:
-  template <class Visit>
-  void for_each(std::string_view name, Visit visit) const {
+  std::vector<const xml::Element*> all(std::string_view name) const {
+    std::vector<const xml::Element*> found;
     for (const xml::Element& one : root_.children) {
-      if (one.name == name) visit(one);
+      if (one.name == name) found.push_back(&one);
     }
+    return found;
   }
 
   void read_world() {
-    int count = 0;
-    for_each("worldbody", [&](const xml::Element& one) {
-      core::require_input(++count == 1, one.where + ": a second <worldbody>; put its bodies into the first");
-      joints_ = read_bodies(one, context_, file_.mechanism, notes_);
-    });
-    core::require_input(count == 1, root_.where + ": there is no <worldbody>; give one with bodies");
+    const std::vector<const xml::Element*> worlds = all("worldbody");
+    core::require_input(!worlds.empty(), root_.where + ": there is no <worldbody>; give one with bodies");
+    joints_ = read_bodies(worlds, context_, file_.mechanism);
+    keyframe_.move(joints_, file_.mechanism);
+  }
+
+  void read_actuators() {
+    std::vector<const xml::Element*> all_actuators;
+    for (const xml::Element* section : all("actuator")) {
+      for (const xml::Element& one : section->children) all_actuators.push_back(&one);
+    }
+    const std::vector<double> controls = keyframe_.controls(all_actuators.size());
+    for (std::size_t i = 0; i < all_actuators.size(); ++i)
+      read_actuator(*all_actuators[i], controls[i], context_.defaults, context_.compiler, joints_, leave_out_,
+                    file_.mechanism);
   }
 
   int named_link(Attributes& exclude, const char* key) const {
@@ -77,7 +86,7 @@ class Reader {
         leave_out_or_fail(one, "only <exclude> of <contact> can be read");
         continue;
       }
-      Attributes exclude(one);
+      Attributes exclude(one, leave_out_);
       const int first = named_link(exclude, "body1");
       file_.mechanism.apart.emplace_back(first, named_link(exclude, "body2"));
       exclude.allow({"name", "class"});
@@ -87,30 +96,27 @@ class Reader {
 
   /// Refuses elements that affect motion and that pbmpi does not read.
   void require_known(const xml::Element& one) {
-    constexpr std::array<std::string_view, 6> read = {"compiler",  "option",  "default",
-                                                      "worldbody", "contact", "actuator"};
+    constexpr std::array<std::string_view, 7> read = {"compiler", "option",   "default", "worldbody",
+                                                      "contact",  "actuator", "keyframe"};
     if (std::ranges::find(read, one.name) != read.end()) return;
     if (std::ranges::find(sections_that_move_nothing, one.name) != sections_that_move_nothing.end()) return;
-    constexpr std::array<std::string_view, 5> known = {"equality", "tendon", "include", "deformable",
-                                                       "extension"};
+    constexpr std::array<std::string_view, 4> known = {"equality", "tendon", "deformable", "extension"};
     if (std::ranges::find(known, one.name) == known.end()) {
+      if (leave_out_.drops(one.name, one.where)) return;
       std::vector<std::string> names;
       names.insert(names.end(), read.begin(), read.end());
       names.insert(names.end(), sections_that_move_nothing.begin(), sections_that_move_nothing.end());
       names.insert(names.end(), known.begin(), known.end());
-      Attributes(one).fail("unknown element" + core::suggestion(one.name, names));
+      names.emplace_back("include");
+      Attributes(one).fail("unknown element; take it out, or " + xml::LeaveOut::advice(one.name) +
+                           core::suggestion(one.name, names));
     }
-    if (one.name == "include")
-      Attributes(one).fail("a scene is one file, so that it says all; write out what it includes");
     for (const xml::Element& child : one.children) {
       const xml::Attribute* active = child.find("active");
       const bool is_off = one.name == "equality" && active != nullptr && active->value == "false";
       const bool is_idle = one.name == "tendon" && is_idle_tendon(child);
-      if (is_off || is_idle || context_.leave_out.contains(one.name)) {
-        if (!is_off && !is_idle) notes_.add(child.where, core::in_quotes(one.name) + " is left out");
-      } else {
-        leave_out_or_fail(child, core::in_quotes(one.name) + " has no equal");
-      }
+      if (is_off || is_idle || leave_out_.drops(one.name, child.where)) continue;
+      leave_out_or_fail(child, core::in_quotes(one.name) + " has no equal");
     }
   }
 
@@ -123,9 +129,8 @@ class Reader {
   }
 
   void leave_out_or_fail(const xml::Element& one, const std::string& problem) {
-    if (!context_.leave_out.contains(one.name))
-      Attributes(one).fail(problem + "; take it out, or leave it out ('leave_out' of a TOML scene)");
-    notes_.add(one.where, core::in_quotes(one.name) + " is left out");
+    if (!leave_out_.drops(one.name, one.where))
+      Attributes(one).fail(problem + "; take it out, or " + xml::LeaveOut::advice(one.name));
   }
 
   void scale_mass() {
@@ -142,16 +147,18 @@ class Reader {
   }
 
   const xml::Element& root_;
-  xml::Notes& notes_;
+  const std::string& keyframe_name_;
+  const xml::LeaveOut& leave_out_;
   Context context_;
+  Keyframe keyframe_;
   links::ModelFile file_;
   std::vector<JointPlace> joints_;
 };
 
 }  // namespace
 
-links::ModelFile read(const xml::Element& root, const std::set<std::string>& leave_out, xml::Notes& notes) {
-  return Reader(root, leave_out, notes).read();
+links::ModelFile read(const xml::Element& root, const std::string& keyframe, const xml::LeaveOut& leave_out) {
+  return Reader(root, keyframe, leave_out).read();
 }
 
 }  // namespace pbmpi::scenes::mjcf

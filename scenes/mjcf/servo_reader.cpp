@@ -27,28 +27,30 @@ const JointPlace& read_driven_joint(Attributes& actuator, const std::vector<Join
 
 void allow_others(Attributes& actuator) {
   actuator.allow({"name", "class", "group", "user", "lengthrange", "actlimited", "actrange", "actearly"});
-  actuator.refuse({"timeconst", "dampratio"}, "the servos here have no such term; give 'kp' and 'kv'");
+  for (const std::string_view name : {"timeconst", "dampratio"})
+    actuator.refuse(
+        {name}, "the servos here have no such term; give 'kp' and 'kv', or " + xml::LeaveOut::advice(name));
 }
 
-/// MuJoCo clips controls to their range; nothing sets controls here.
-double control_of(Attributes& actuator, const Compiler& compiler) {
-  if (!compiler.is_limited(actuator, "ctrllimited", "ctrlrange")) return 0;
+/// MuJoCo clips controls to their range.
+double clipped(double control, Attributes& actuator, const Compiler& compiler) {
+  if (!compiler.is_limited(actuator, "ctrllimited", "ctrlrange")) return control;
   const std::vector<double> range = actuator.numbers("ctrlrange", 2, 2);
   if (!(range[0] < range[1]))
     actuator.fail("ctrlrange", "the first number of 'ctrlrange' must be below the second");
-  return std::clamp(0.0, range[0], range[1]);
+  return std::clamp(control, range[0], range[1]);
 }
 
 /// Alternatively a position servo's control range is its joint's range times a factor.
-double control_of_position(Attributes& servo, const Compiler& compiler, const links::LinkJoint& joint,
-                           double start) {
+double clipped_of_position(double control, Attributes& servo, const Compiler& compiler,
+                           const links::LinkJoint& joint) {
   const double times = servo.number("inheritrange", Range::non_negative, 0.0);
   const bool inherits = times > 0 && std::isfinite(joint.limit.low) && std::isfinite(joint.limit.high);
-  if (!inherits) return control_of(servo, compiler);
+  if (!inherits) return clipped(control, servo, compiler);
   servo.allow({"ctrllimited", "ctrlrange"});
-  const double middle = (joint.limit.low + joint.limit.high) / 2 + start;
+  const double middle = (joint.limit.low + joint.limit.high) / 2 + joint.reference;
   const double reach = times * (joint.limit.high - joint.limit.low) / 2;
-  return std::clamp(0.0, middle - reach, middle + reach);
+  return std::clamp(control, middle - reach, middle + reach);
 }
 
 /// The rest value of two springs, each of which pulls towards its own value with its own weight.
@@ -57,9 +59,10 @@ double balance(double weight, double value, double other_weight, double other_va
   return sum > 0 ? (weight * value + other_weight * other_value) / sum : value;
 }
 
-void read_servo(const xml::Element& element, const Defaults& defaults, const Compiler& compiler,
-                const std::vector<JointPlace>& joints, links::Mechanism& mechanism, xml::Notes& notes) {
-  Attributes actuator(element, defaults.of(element, ""));
+void read_servo(const xml::Element& element, double control, const Defaults& defaults,
+                const Compiler& compiler, const std::vector<JointPlace>& joints,
+                const xml::LeaveOut& leave_out, links::Mechanism& mechanism) {
+  Attributes actuator(element, leave_out, defaults.of(element, ""));
   const JointPlace& at = read_driven_joint(actuator, joints);
   links::LinkJoint& joint =
       mechanism.links[static_cast<std::size_t>(at.link)].joints[static_cast<std::size_t>(at.joint)];
@@ -68,18 +71,18 @@ void read_servo(const xml::Element& element, const Defaults& defaults, const Com
   const std::vector<double> gears = actuator.numbers("gear", 1, 6);
   const double gear = gears.empty() ? 1 : gears[0];
   const bool is_position = element.name == "position";
-  const double control =
-      is_position ? control_of_position(actuator, compiler, joint, at.start) : control_of(actuator, compiler);
+  control = is_position ? clipped_of_position(control, actuator, compiler, joint)
+                        : clipped(control, actuator, compiler);
   const double aim = gear == 0 ? 0 : control / gear;  // target of the joint itself
   links::Drive& drive = joint.drive;
   const double kp = is_position ? actuator.number("kp", Range::non_negative, 1.0) : 0;
   const double kv = actuator.number("kv", Range::non_negative, is_position ? 0.0 : 1.0);
   const double stiffness = kp * gear * gear, damping = kv * gear * gear;
-  drive.target = balance(drive.stiffness, drive.target, stiffness, aim - at.start);
+  drive.target = balance(drive.stiffness, drive.target, stiffness, aim - joint.reference);
   drive.velocity = balance(drive.damping, drive.velocity, damping, is_position ? 0 : aim);
   drive.stiffness += stiffness;
   drive.damping += damping;
-  const double most = compiler.most_force(actuator, "forcelimited", "forcerange", notes);
+  const double most = compiler.most_force(actuator, "forcelimited", "forcerange", leave_out.notes());
   if (std::isfinite(most))
     drive.most_force = (std::isinf(drive.most_force) ? 0 : drive.most_force) + most * std::abs(gear);
   drive.most_force = std::min(drive.most_force, at.most_servo_force);
@@ -87,35 +90,34 @@ void read_servo(const xml::Element& element, const Defaults& defaults, const Com
   actuator.finish();
 }
 
-void require_idle(const xml::Element& element, const Defaults& defaults, const Compiler& compiler) {
-  Attributes actuator(element, defaults.of(element, ""));
-  if (control_of(actuator, compiler) != 0)
-    actuator.fail(
-        "ctrlrange",
-        "'ctrlrange' leaves out 0, so that it always acts, which has no equal; widen it, or leave it "
-        "out ('leave_out' of a TOML scene)");
+void require_idle(const xml::Element& element, double control, const Defaults& defaults,
+                  const Compiler& compiler, const xml::LeaveOut& leave_out) {
+  Attributes actuator(element, leave_out, defaults.of(element, ""));
+  if (clipped(control, actuator, compiler) == 0) return;
+  const std::string why = control == 0 ? "'ctrlrange' leaves out 0" : "the keyframe gives it a control";
+  actuator.fail("ctrlrange", why + ", so that it always acts, which has no equal; change that, or " +
+                                 xml::LeaveOut::advice(element.name));
 }
 
 }  // namespace
 
-void read_actuators(const xml::Element& element, const Defaults& defaults, const Compiler& compiler,
-                    const std::vector<JointPlace>& joints, const std::set<std::string>& leave_out,
-                    links::Mechanism& mechanism, xml::Notes& notes) {
-  for (const xml::Element& one : element.children) {
-    const bool is_idle = one.name == "motor" || one.name == "damper" || one.name == "adhesion";
-    if (is_idle || leave_out.contains(one.name)) {
-      if (is_idle && !leave_out.contains(one.name)) require_idle(one, defaults, compiler);
-      notes.add(one.where, "actuators of type " + core::in_quotes(one.name) + " are left out" +
-                               (is_idle ? ": their control is 0, with which they do nothing" : ""));
-    } else if (one.name == "position" || one.name == "velocity") {
-      read_servo(one, defaults, compiler, joints, mechanism, notes);
-    } else if (is_actuator(one.name)) {
-      Attributes(one).fail(
-          "an actuator of this type has no equal; take position, velocity or motor, or leave it out "
-          "('leave_out' of a TOML scene)");
-    } else {
-      Attributes(one).fail("unknown element in <actuator>");
-    }
+void read_actuator(const xml::Element& element, double control, const Defaults& defaults,
+                   const Compiler& compiler, const std::vector<JointPlace>& joints,
+                   const xml::LeaveOut& leave_out, links::Mechanism& mechanism) {
+  const std::string actuators = "actuators of type " + core::in_quotes(element.name) + " are left out";
+  if (leave_out.names(element.name)) {
+    leave_out.notes().add(element.where, actuators);
+  } else if (element.name == "motor" || element.name == "damper" || element.name == "adhesion") {
+    require_idle(element, control, defaults, compiler, leave_out);
+    leave_out.notes().add(element.where, actuators + ": their control is 0, with which they do nothing");
+  } else if (element.name == "position" || element.name == "velocity") {
+    read_servo(element, control, defaults, compiler, joints, leave_out, mechanism);
+  } else if (is_actuator(element.name)) {
+    Attributes(element).fail("an actuator of this type has no equal; take position, velocity or motor, or " +
+                             xml::LeaveOut::advice(element.name));
+  } else {
+    Attributes(element).fail("unknown element in <actuator>; take it out, or " +
+                             xml::LeaveOut::advice(element.name));
   }
 }
 

@@ -1,7 +1,6 @@
 /// MJCF's `<actuator>`: servos become part of the drive along a joint's axis.
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -16,14 +15,14 @@ namespace pbmpi::scenes::mjcf {
 struct JointPlace {
   std::string name;
   int link = 0, joint = 0;
-  double start = 0;
   double most_servo_force = model::infinity;
 };
 
-/// All controls are 0, as in MuJoCo before anybody sets them, or as close to 0 as a `ctrlrange` allows: a
-/// position servo holds the joint's zero, a velocity servo resists like a damper, a motor does nothing.
-void read_actuators(const xml::Element& element, const Defaults& defaults, const Compiler& compiler,
-                    const std::vector<JointPlace>& joints, const std::set<std::string>& leave_out,
-                    links::Mechanism& mechanism, xml::Notes& notes);
+/// Reads one element of `<actuator>`. `control`: 0, as in MuJoCo before anybody sets it, or a keyframe's; or
+/// as close to it as a `ctrlrange` allows. A position servo holds its joint there, a velocity servo resists
+/// like a damper or drives, a motor does nothing at 0.
+void read_actuator(const xml::Element& element, double control, const Defaults& defaults,
+                   const Compiler& compiler, const std::vector<JointPlace>& joints,
+                   const xml::LeaveOut& leave_out, links::Mechanism& mechanism);
 
 }  // namespace pbmpi::scenes::mjcf

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include <Eigen/Eigenvalues>
+
 #include "core/error.h"
 
 namespace pbmpi::scenes {
@@ -68,6 +70,12 @@ model::Mat3 solid_inertia(Shape shape, const std::array<double, 3>& size, double
   }
   core::require_invariant(false, "solid_inertia() of a plane");
   return model::Mat3::Identity();
+}
+
+bool is_of_a_body(const model::Mat3& inertia) {
+  constexpr double rounding = 1e-3;
+  const Eigen::SelfAdjointEigenSolver<model::Mat3> moments(inertia, Eigen::EigenvaluesOnly);
+  return 2 * moments.eigenvalues().maxCoeff() <= (1 + rounding) * moments.eigenvalues().sum();
 }
 
 double volume(const std::vector<Solid>& solids) {

@@ -14,6 +14,10 @@ double volume(model::Shape shape, const std::array<double, 3>& size);
 /// Inertia [kg m^2] about the centre of mass, in the shape's own axes (capsule and cylinder lie along z).
 model::Mat3 solid_inertia(model::Shape shape, const std::array<double, 3>& size, double mass_kg);
 
+/// May a body have this inertia? None has a moment above the sum of the other two, except by the rounding of
+/// three digits, as model files often give them for flat bodies, where the two are equal.
+bool is_of_a_body(const model::Mat3& inertia);
+
 /// A part of a rigid body, in a frame that all its parts share; `size` as in model::Geom.
 struct Solid {
   model::Shape shape = model::Shape::box;

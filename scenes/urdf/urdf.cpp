@@ -6,6 +6,8 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scenes/urdf/elements.h"
+#include "scenes/urdf/joint_reader.h"
 #include "scenes/urdf/link_reader.h"
 #include "scenes/xml/attributes.h"
 
@@ -19,15 +21,15 @@ constexpr std::array<std::string_view, 8> of_others = {"material",           "tr
 
 class Reader {
  public:
-  Reader(const xml::Element& root, const std::set<std::string>& leave_out, xml::Notes& notes)
-      : root_(root), leave_out_(leave_out), notes_(notes) {}
+  Reader(const xml::Element& root, const xml::LeaveOut& leave_out) : root_(root), leave_out_(leave_out) {}
 
   links::ModelFile read() {
-    xml::Attributes robot(root_);
+    xml::Attributes robot(root_, leave_out_);
     file_.mechanism.name = robot.text("name", "");
     file_.mechanism.self_collision = false;
+    file_.mechanism.joins_massless = true;
     robot.allow({"version"});
-    robot.finish();
+    robot.finish(leave_out_.notes());
     for (const xml::Element& one : root_.children) read_one(one);
     core::require_input(!links_.empty(), root_.where + ": there is no <link>; give one");
     place(root_link(), links::no_link, 0);
@@ -38,19 +40,17 @@ class Reader {
  private:
   void read_one(const xml::Element& one) {
     if (one.name == "link") {
-      links_.push_back(read_link(one, leave_out_, notes_));
+      links_.push_back(read_link(one, leave_out_));
       const links::Link& link = links_.back();
       core::require_input(index_.emplace(link.name, links_.size() - 1).second,
                           link.where + ": a second link " + core::in_quotes(link.name) + "; rename one");
     } else if (one.name == "joint") {
-      joints_.push_back(read_joint(one, leave_out_, notes_));
+      joints_.push_back(read_joint(one, leave_out_));
     } else if (std::ranges::find(of_others, one.name) != of_others.end()) {
       if (one.name == "gazebo")
-        notes_.add(one.where, "<gazebo> is left out, with what it says of friction and contacts");
+        leave_out_.notes().add(one.where, "<gazebo> is left out, with what it says of friction and contacts");
     } else {
-      std::vector<std::string> known = {"link", "joint"};
-      known.insert(known.end(), of_others.begin(), of_others.end());
-      xml::Attributes(one).fail("unknown element" + core::suggestion(one.name, known));
+      pass_over(one, root_, {"link", "joint"}, leave_out_);
     }
   }
 
@@ -132,8 +132,7 @@ class Reader {
   }
 
   const xml::Element& root_;
-  const std::set<std::string>& leave_out_;
-  xml::Notes& notes_;
+  const xml::LeaveOut& leave_out_;
   std::vector<links::Link> links_;
   std::map<std::string, std::size_t> index_;
   std::vector<ReadJoint> joints_;
@@ -143,8 +142,8 @@ class Reader {
 
 }  // namespace
 
-links::ModelFile read(const xml::Element& root, const std::set<std::string>& leave_out, xml::Notes& notes) {
-  return Reader(root, leave_out, notes).read();
+links::ModelFile read(const xml::Element& root, const xml::LeaveOut& leave_out) {
+  return Reader(root, leave_out).read();
 }
 
 }  // namespace pbmpi::scenes::urdf

@@ -45,6 +45,11 @@ Attributes::Attributes(const Element& element, const std::vector<Attribute>& def
   }
 }
 
+void Attributes::drop(const LeaveOut& leave_out) {
+  std::erase_if(attributes_,
+                [&](const Attribute& attribute) { return leave_out.drops(attribute.name, attribute.where); });
+}
+
 bool Attributes::has(std::string_view name) { return find(name) != nullptr; }
 
 std::string Attributes::text(std::string_view name, const std::optional<std::string>& fallback) {
@@ -124,12 +129,33 @@ void Attributes::refuse(std::initializer_list<std::string_view> names, const std
 }
 
 void Attributes::finish() const {
-  for (const Attribute& attribute : attributes_) {
-    const bool is_name_space = attribute.name.starts_with("xmlns");
-    if (!is_name_space && std::ranges::find(known_, attribute.name) == known_.end())
-      fail(attribute.name,
-           "unknown attribute " + core::in_quotes(attribute.name) + core::suggestion(attribute.name, known_));
+  for (const Attribute* attribute : unknown()) fail_unknown(*attribute, known_);
+}
+
+void Attributes::finish(Notes& notes) const {
+  std::vector<std::string> missing;
+  for (const std::string& name : known_) {
+    if (peek(name) == nullptr) missing.push_back(name);
   }
+  for (const Attribute* attribute : unknown()) {
+    if (!core::nearest_name(attribute->name, missing).empty()) fail_unknown(*attribute, missing);
+    notes.add(attribute->where,
+              "the attribute " + core::in_quotes(attribute->name) + " is unknown, and left out");
+  }
+}
+
+std::vector<const Attribute*> Attributes::unknown() const {
+  std::vector<const Attribute*> found;
+  for (const Attribute& attribute : attributes_) {
+    const bool is_of_xml = attribute.name == "xmlns" || attribute.name.find(':') != std::string::npos;
+    if (!is_of_xml && std::ranges::find(known_, attribute.name) == known_.end()) found.push_back(&attribute);
+  }
+  return found;
+}
+
+void Attributes::fail_unknown(const Attribute& attribute, const std::vector<std::string>& names) const {
+  fail(attribute.name, "unknown attribute " + core::in_quotes(attribute.name) + "; take another, or " +
+                           LeaveOut::advice(attribute.name) + core::suggestion(attribute.name, names));
 }
 
 std::string Attributes::where(std::string_view name) const {

@@ -10,6 +10,7 @@
 
 #include "core/vector.h"
 #include "scenes/xml/element.h"
+#include "scenes/xml/leave_out.h"
 
 namespace pbmpi::scenes::xml {
 
@@ -18,12 +19,19 @@ enum class Range { any, positive, non_negative };
 
 /// Each getter marks its attribute as known; finish() then refuses all others. All errors are
 /// core::InputError "file:line:column: element 'name': ...". The needed parts of the element are copied, not
-/// borrowed.
+/// borrowed. Attributes of XML itself, whose names have a prefix (xmlns:a, xsi:b), never matter.
 class Attributes {
  public:
   /// `defaults`: attributes that apply where the element has none of that name; the first of a name counts.
   explicit Attributes(const Element& element, const std::vector<Attribute>& defaults = {});
+  /// Without the attributes that `leave_out` names.
+  Attributes(const Element& element, const LeaveOut& leave_out, const std::vector<Attribute>& defaults = {})
+      : Attributes(element, defaults) {
+    drop(leave_out);
+  }
 
+  /// Takes the attributes that `leave_out` names as missing, with notes.
+  void drop(const LeaveOut& leave_out);
   bool has(std::string_view name);
   std::string text(std::string_view name, const std::optional<std::string>& fallback = std::nullopt);
   double number(std::string_view name, Range range = Range::any,
@@ -46,6 +54,9 @@ class Attributes {
   void refuse(std::initializer_list<std::string_view> names, const std::string& problem);
   /// To be called when all attributes have been read.
   void finish() const;
+  /// finish() where other tools may add attributes of their own, which get a note: only what may be meant for
+  /// an attribute that is missing here is refused.
+  void finish(Notes& notes) const;
 
   const std::string& where() const { return where_; }
   /// The place of the attribute, or of the element if it has no attribute of that name.
@@ -56,6 +67,8 @@ class Attributes {
  private:
   const Attribute* find(std::string_view name);
   const Attribute* peek(std::string_view name) const;
+  std::vector<const Attribute*> unknown() const;
+  [[noreturn]] void fail_unknown(const Attribute& attribute, const std::vector<std::string>& names) const;
   double to_number(const Attribute& attribute, std::string_view word) const;
 
   std::string what_, where_;

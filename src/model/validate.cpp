@@ -161,7 +161,8 @@ void validate_interest(const Model& model, const Interest& interest, const std::
 }  // namespace
 
 void validate(const Model& model, const std::string& where) {
-  require_input(!model.bodies.empty(), where + ": the world has no body; place an actor");
+  require_input(!model.bodies.empty(),
+                where + ": the world has no body; place an actor that moves, such as a model with a mass");
   require_input(model.gravity.allFinite(), where + ": gravity is not finite");
   require_input(std::isfinite(model.erp) && model.erp >= 0 && model.erp <= 1,
                 where + ": erp must lie in [0, 1]");

@@ -78,5 +78,16 @@ TEST(ContactGroups, keep_parent_and_child_apart_but_not_the_world) {
   EXPECT_TRUE(touch(xml, 1, 3));
 }
 
+// MuJoCo excludes the geoms of the two bodies, not of all that stands fast with them.
+TEST(ContactGroups, part_a_body_from_a_fixed_one_and_not_from_the_floor) {
+  const std::string geom = "<geom size='1'/>";
+  const std::string xml = "<mujoco><worldbody><geom type='plane' size='1 1 1'/><body name='base'>" + geom +
+                          "<body name='a'><joint/>" + geom +
+                          "</body></body></worldbody>"
+                          "<contact><exclude body1='base' body2='a'/></contact></mujoco>";
+  EXPECT_TRUE(touch(xml, 0, 2)) << "the floor";
+  EXPECT_FALSE(touch(xml, 1, 2)) << "the base";
+}
+
 }  // namespace
 }  // namespace pbmpi::scenes

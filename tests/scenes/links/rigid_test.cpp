@@ -20,7 +20,8 @@ TEST(RigidTree, joins_links_without_joints_to_those_above) {
                      link("tool", 1, 6, {0, 4, 0}), link("hand", 2, 1, {0, 1, 0})};
   mechanism.links[1].joints.emplace_back();
   mechanism.links[3].joints.emplace_back();
-  const RigidTree tree = merge(mechanism);
+  xml::Notes notes;
+  const RigidTree tree = merge(mechanism, notes);
   ASSERT_EQ(tree.rigids.size(), 3u);
   EXPECT_EQ(tree.rigid_of, (std::vector<int>{0, 1, 1, 2}));
   EXPECT_EQ(tree.rigids[1].name, "arm");

@@ -344,6 +344,30 @@ TEST(Mjcf, adds_an_armature_about_the_axis) {
   expect_near(more.diagonal(), {0.5, 0, 0});
 }
 
+TEST(Mjcf, tells_of_the_armature_of_a_slide) {
+  const std::string xml = mujoco(boxed("<joint type='slide' armature='0.5'/>"));
+  EXPECT_EQ(link(*model_of(xml), "b").mass_kg, 1);
+  EXPECT_TRUE(says(notes_of(xml), "its armature is left out"));
+}
+
+TEST(Mjcf, joins_all_worldbodies) {
+  const auto model = model_of(
+      "<mujoco><worldbody>" + boxed("<freejoint/>") +
+      "</worldbody><worldbody><geom type='plane' size='1 1 1'/><body name='c' pos='0 0 3'><freejoint/>"
+      "<geom size='.1'/></body></worldbody></mujoco>");
+  EXPECT_EQ(model->num_bodies(), 2);
+  EXPECT_EQ(model->geoms[0].shape, model::Shape::plane);
+}
+
+TEST(Mjcf, leaves_out_attributes_that_the_scene_names) {
+  const std::string xml = mujoco(boxed("<freejoint/>", "gravcomp='1'"), "<option speed='9' viscosity='1'/>");
+  EXPECT_NE(refusal_of(xml).find("leave_out = [\"viscosity\"]"), std::string::npos) << refusal_of(xml);
+  EXPECT_EQ(refusal_of("title = 't'\n[[actor]]\nname = 'm'\ntype = 'model'\nfile = 'a.xml'\n"
+                       "leave_out = ['gravcomp', 'viscosity', 'speed']\n[files.'a.xml']\ntext = \"\"\"" +
+                       xml + "\"\"\"\n"),
+            "");
+}
+
 TEST(Mjcf, keeps_what_stands_fast_in_the_world) {
   const auto model =
       model_of(mujoco("<geom type='plane' size='1 1 1' pos='0 0 -1'/>"
