@@ -9,11 +9,14 @@
 namespace pbmpi::effects {
 namespace {
 
+/// Of the geom's body.
+model::BodyPose body_pose_of(const model::State& state, const model::Geom& geom) {
+  if (geom.body == model::no_body) return geometry::static_pose();
+  return geometry::body_pose({state.position[geom.body], state.orientation[geom.body]});
+}
+
 model::BodyPose pose_of(const model::State& state, const model::Geom& geom) {
-  return geometry::geom_pose(
-      geom, geom.body == model::no_body
-                ? geometry::static_pose()
-                : geometry::body_pose({state.position[geom.body], state.orientation[geom.body]}));
+  return geometry::geom_pose(geom, body_pose_of(state, geom));
 }
 
 /// `geom_at`: the geom's pose; the other arguments are the body's.
@@ -58,7 +61,11 @@ std::vector<SlowBound> slow_bounds(const model::Model& model) {
 }
 
 FastBodies::FastBodies(const model::Model& model, std::span<const char> of_bodies)
-    : model_(&model), rule_(model), fast_of_geom_(model.geoms.size(), -1), met_poses_(model.geoms.size()) {
+    : model_(&model),
+      rule_(model),
+      seams_(geometry::Seams::find(model)),
+      fast_of_geom_(model.geoms.size(), -1),
+      met_poses_(model.geoms.size()) {
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
     const model::Geom& geom = model.geoms[i];
     const int index = static_cast<int>(i);
@@ -134,6 +141,12 @@ void FastBodies::forget_met() {
   met_.clear();
 }
 
+bool FastBodies::is_covered(const model::State& state, int geom, const core::Vec3& point,
+                            const core::Vec3& normal) const {
+  return seams_ && seams_->covers(geom, body_pose_of(state, model_->geoms[static_cast<std::size_t>(geom)]),
+                                  point, normal);
+}
+
 /// The contact acts somewhere between the point where the path meets the surface and the point below the fast
 /// geom's centre: the lever arm of an oblique hit would turn a body instead of stopping it, so the arm is
 /// divided by how easily the two bodies turn, with less for the one that turns more easily.
@@ -143,6 +156,7 @@ void FastBodies::meet(const model::State& state, const Fast& fast, const core::V
   const auto entry = geometry::enter(model_->geoms[other], met_pose(state, other), centre, way);
   if (!entry || !rule_.may_touch(fast.geom, other)) return;
   const core::Vec3 hit = centre + entry->share * way;
+  if (is_covered(state, other, hit, entry->normal)) return;
   const double height = entry->normal.dot(centre - hit);
   const int other_body = model_->geoms[other].body;
   const double own_ease = ease_of_turning_[geom.body];

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "geometry/seams.h"
 #include "geometry/swept_balls.h"
 #include "model/contact.h"
 #include "model/model.h"
@@ -34,7 +36,8 @@ std::vector<SlowBound> slow_bounds(const model::Model& model);
 /// touch, relative to that geom if it is fast itself. Where the path enters the geom, a contact with a gap
 /// (negative depth) keeps the two from coming closer than touching. This contact has neither friction nor
 /// restitution, which belong to touching surfaces: the next step's contact has them. A pair that already
-/// touches gets one too, since a contact at the end of a rod turns the rod and lets its middle through. A
+/// touches gets one too, since a contact at the end of a rod turns the rod and lets its middle through. There
+/// is none where a neighbour covers the surface (geometry::Seams), which the path has then entered first. A
 /// pair's contact depends on nothing but the two geoms, so that a world cut into spaces finds the same
 /// contacts.
 ///
@@ -104,14 +107,17 @@ class FastBodies {
   template <class Accepts>
   void look_from(const model::State& state, const Fast& fast, const BallSet& set, const Accepts& accepts);
   void meet(const model::State& state, const Fast& fast, const core::Vec3& way, int other);
+  bool is_covered(const model::State& state, int geom, const core::Vec3& point,
+                  const core::Vec3& normal) const;
   /// The pose of a geom that a path may meet, computed once in each call of add() or add_across().
   const model::BodyPose& met_pose(const model::State& state, int geom);
   void forget_met();
 
   const model::Model* model_;
   model::TouchRule rule_;
-  std::vector<Watched> watched_;         ///< ascending
-  std::vector<Ball> balls_;              ///< ascending, static ones too
+  std::unique_ptr<const geometry::Seams> seams_;  ///< none where no geoms touch that keep together
+  std::vector<Watched> watched_;                  ///< ascending
+  std::vector<Ball> balls_;                       ///< ascending, static ones too
   std::vector<double> ease_of_turning_;  ///< [bodies] one over the mean moment of inertia [1/(kg m^2)]
   std::vector<Fast> fast_;               ///< ascending
   std::vector<int> fast_of_geom_;        ///< [geoms] index into fast_, or -1

@@ -13,7 +13,8 @@ Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan,
       friction_(plan.has(effects::EffectId::friction)),
       restitution_(plan.has(effects::EffectId::restitution)),
       cross_space_(plan.has(effects::EffectId::cross_space)),
-      joints_(dJointGroupCreate(0)) {
+      joints_(dJointGroupCreate(0)),
+      seams_(plan.has(effects::EffectId::collision) ? geometry::Seams::find(model) : nullptr) {
   constexpr int most_of_dcollide = 0xffff;  // the flags of dCollide hold the count in 16 bits
   found_.resize(static_cast<std::size_t>(std::min(model.contact_law.max_per_pair, most_of_dcollide)));
   contact_.surface.soft_erp = model.contact_law.soft_erp;
@@ -68,10 +69,36 @@ void Contacts::make(dWorldID world, const std::vector<GeomPair>& pairs, const st
   touches_.clear();
   deepest_m_ = 0;
   for (const GeomPair& pair : pairs) {
-    const int num_contacts = dCollide(geoms[pair.first], geoms[pair.second], static_cast<int>(found_.size()),
-                                      found_.data(), sizeof(dContactGeom));
+    int num_contacts = dCollide(geoms[pair.first], geoms[pair.second], static_cast<int>(found_.size()),
+                                found_.data(), sizeof(dContactGeom));
+    if (seams_) num_contacts = correct_at_seams(pair, num_contacts);
     if (num_contacts > 0) join(world, pair, num_contacts);
   }
+}
+
+/// Returns how many contacts are left. ODE's normals point into the first geom.
+int Contacts::correct_at_seams(const GeomPair& pair, int num_contacts) {
+  corrected_.clear();
+  for (int i = 0; i < num_contacts; ++i) corrected_.push_back(to_contact(*model_, pair, found_[i]));
+  const auto pose_of = [&](int body) {
+    model::BodyPose pose;
+    std::copy_n(dBodyGetPosition(bodies_[body]), 3, pose.position);
+    const dReal* rotation = dBodyGetRotation(bodies_[body]);  // rows of four
+    for (int row = 0; row < 3; ++row) std::copy_n(rotation + 4 * row, 3, pose.rotation + 3 * row);
+    return pose;
+  };
+  constexpr double touching = 0;
+  seams_->correct(0, touching, pose_of, corrected_);
+  const bool swapped = model_->geoms[pair.first].body == model::no_body;
+  for (std::size_t i = 0; i < corrected_.size(); ++i) {
+    const model::Contact& contact = corrected_[i];
+    for (int k = 0; k < 3; ++k) {
+      found_[i].pos[k] = real(contact.position[k]);
+      found_[i].normal[k] = real(swapped ? -contact.normal[k] : contact.normal[k]);
+    }
+    found_[i].depth = real(contact.depth);
+  }
+  return static_cast<int>(corrected_.size());
 }
 
 /// ODE takes no negative depth; instead the motion along the normal sets the lowest speed at which the bodies

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <vector>
 
 #include "effects/effects.h"
+#include "geometry/seams.h"
 #include "model/contact.h"
 #include "model/step_memory.h"
 #include "ode/collide/broad_phase.h"
@@ -60,6 +62,7 @@ class Contacts {
 
  private:
   dBodyID body_id(int body) const { return body == model::no_body ? nullptr : bodies_[body]; }
+  int correct_at_seams(const GeomPair& pair, int num_contacts);
   void join(dWorldID world, const GeomPair& pair, int num_contacts);
   int set_surface(const GeomPair& pair);
   void watch(dJointID joint, const model::Contact& contact);
@@ -71,8 +74,10 @@ class Contacts {
   bool restitution_;
   bool cross_space_;
   JointGroupHandle joints_;
-  dContact contact_{};               ///< the contact that is being filled
-  std::vector<dContactGeom> found_;  ///< [max_per_pair]
+  dContact contact_{};                            ///< the contact that is being filled
+  std::vector<dContactGeom> found_;               ///< [max_per_pair]
+  std::unique_ptr<const geometry::Seams> seams_;  ///< none where no geoms touch that keep together
+  std::vector<model::Contact> corrected_;         ///< scratch of correct_at_seams()
   struct Kept {
     model::Contact contact;
     dJointFeedback feedback;

@@ -101,18 +101,21 @@ class PairTable {
   TouchPoint* points() { return points_.data(); }
 
   /// Appends the contacts of a world, in canonical order. `fallback(pair)` appends those of a pair
-  /// without a kernel.
-  template <class Fallback>
-  void append_contacts(int world, std::vector<model::Contact>& contacts, Fallback fallback) const {
+  /// without a kernel; `correct(first)` may then change those of the pair, contacts[first ...].
+  template <class Fallback, class Correct>
+  void append_contacts(int world, std::vector<model::Contact>& contacts, Fallback fallback,
+                       Correct correct) const {
     for (int i = world_begin_[static_cast<std::size_t>(world)];
          i < world_begin_[static_cast<std::size_t>(world) + 1]; ++i) {
       const Touch& touch = touches_[static_cast<std::size_t>(i)];
       const model::GeomPair& pair = pairs_[static_cast<std::size_t>(i)];
+      const std::size_t first = contacts.size();
       if (touch.to_fallback) {
         fallback(pair);
       } else if (touch.num_points > 0) {
         append(world, pair, touch, contacts);
       }
+      if (contacts.size() > first) correct(first);
     }
   }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/seams.h"
 #include "solver/collide/broad_phase.h"
 #include "solver/collide/group_boxes.h"
 #include "solver/collide/may_touch_table.h"
@@ -53,7 +54,9 @@ class ColliderLanes {
     int first_column = 0;                      ///< of the swept geoms
     std::unique_ptr<MayTouchTable> may_touch;  ///< of the swept geoms; none if they are sorted
     std::unique_ptr<BroadPhase> sorting;
+    std::unique_ptr<const geometry::Seams> seams;  ///< none where no geoms touch that keep together
     double margin_m = 0;
+    bool lanes_collide = true;
     std::optional<AwakeGeoms> awake;  ///< none without the pass "sleeping"
   };
 
@@ -100,7 +103,9 @@ ColliderLanes<T>::ColliderLanes(std::span<const PackedWorld> worlds, const World
     World& world = worlds_.emplace_back();
     world.model = &model;
     world.fallback = packed.fallback;
+    world.seams = geometry::Seams::find(model);
     world.margin_m = packed.contact_margin_m;
+    world.lanes_collide = packed.lanes_collide;
     world.geoms = order_.swept(w);
     world.first_column = order_.first(w);
     if (sleeping) world.awake.emplace(model, world.geoms, T::num_lanes);
@@ -262,7 +267,7 @@ template <class T>
 void ColliderLanes<T>::take_contacts(const WorldLanes<T>& lanes, int index,
                                      std::vector<model::Contact>& contacts) {
   const World& world = worlds_[static_cast<std::size_t>(index)];
-  table_.append_contacts(index, contacts, [&](const model::GeomPair& pair) {
+  const auto collide_otherwise = [&](const model::GeomPair& pair) {
     const std::span<model::BodyPose> poses = poses_.all(world.model->num_bodies());
     for (const int geom : {pair.first, pair.second}) {
       const int body = world.model->geoms[static_cast<std::size_t>(geom)].body;
@@ -271,7 +276,14 @@ void ColliderLanes<T>::take_contacts(const WorldLanes<T>& lanes, int index,
       if (!is_finite(poses[static_cast<std::size_t>(body)])) return;  // the world is lost, and reports it
     }
     world.fallback->collide(poses, {&pair, 1}, contacts);
-  });
+  };
+  const double least_depth = world.lanes_collide ? -world.margin_m : 0;
+  const auto correct_at_seams = [&](std::size_t first) {
+    if (!world.seams) return;
+    world.seams->correct(
+        first, least_depth, [&](int body) { return lanes.pose(index, body); }, contacts);
+  };
+  table_.append_contacts(index, contacts, collide_otherwise, correct_at_seams);
 }
 
 }  // namespace pbmpi::solver
