@@ -15,7 +15,7 @@ namespace pbmpi::io {
 namespace {
 
 /// Version of the layout; the first number changes when old programs would be misled.
-constexpr std::array<std::int64_t, 2> version = {1, 4};
+constexpr std::array<std::int64_t, 2> version = {1, 5};
 
 using core::Quat;
 using core::Vec3;
@@ -24,6 +24,8 @@ using Integers = std::vector<std::int64_t>;
 
 /// Tables of State::memory, and the columns of /worlds that count the rows of each world.
 constexpr const char *contact_forces = "contact_forces", *joint_forces = "joint_forces";
+/// The table of State::rest, and the column of /worlds that counts its rows.
+constexpr const char *rest_table = "rest", *num_resting = "resting";
 
 void append(Doubles& column, const Vec3& vector) {
   column.insert(column.end(), vector.data(), vector.data() + 3);
@@ -34,8 +36,8 @@ void append(Doubles& column, const Quat& q) { column.insert(column.end(), {q.w, 
 struct Columns {
   Integers bodies, resting, joints;  ///< [W] rows of each world
   Doubles position, orientation, velocity, angular_velocity;
-  Doubles rest_position, rest_orientation;
-  Integers idle_steps, broken_in;
+  Doubles rest_rows;  ///< as put_row() writes them
+  Integers broken_in;
   Doubles energy_gain, largest_kinetic;  ///< [W], as frozen_in
   Integers frozen_in;
   Integers num_contact_forces, num_joint_forces;  ///< [W] rows of each world
@@ -51,11 +53,7 @@ struct Columns {
       append(velocity, state.velocity[i]);
       append(angular_velocity, state.angular_velocity[i]);
     }
-    for (const model::Rest& rest : state.rest) {
-      append(rest_position, rest.position);
-      append(rest_orientation, rest.orientation);
-      idle_steps.push_back(rest.idle_steps);
-    }
+    model::append_rows(rest_rows, state.rest, model::numbers_of_rest);
     broken_in.insert(broken_in.end(), state.broken_in.begin(), state.broken_in.end());
     energy_gain.push_back(state.guard.energy_gain_j);
     largest_kinetic.push_back(state.guard.largest_kinetic_j);
@@ -86,7 +84,7 @@ TableFile tables_of(const Checkpoint& checkpoint) {
                      Parameter::of("options", checkpoint.options),
                      Parameter::of("output", checkpoint.output)};
   file.tables["worlds"] = {{"bodies", "", std::move(columns.bodies)},
-                           {"resting", "", std::move(columns.resting)},
+                           {num_resting, "", std::move(columns.resting)},
                            {"joints", "", std::move(columns.joints)},
                            {"energy_gain", "J", std::move(columns.energy_gain)},
                            {"largest_kinetic", "J", std::move(columns.largest_kinetic)},
@@ -97,9 +95,7 @@ TableFile tables_of(const Checkpoint& checkpoint) {
                            {"orientation", "", std::move(columns.orientation), 4},
                            {"velocity", "m s-1", std::move(columns.velocity), 3},
                            {"angular_velocity", "rad s-1", std::move(columns.angular_velocity), 3}};
-  file.tables["rest"] = {{"position", "m", std::move(columns.rest_position), 3},
-                         {"orientation", "", std::move(columns.rest_orientation), 4},
-                         {"idle_steps", "", std::move(columns.idle_steps)}};
+  file.tables[rest_table] = columns_of(model::rest_parts, columns.rest_rows);
   file.tables["joints"] = {{"broken_in", "", std::move(columns.broken_in)}};
   file.tables[contact_forces] = columns_of(model::contact_force_parts, columns.contact_force_rows);
   file.tables[joint_forces] = columns_of(model::joint_force_parts, columns.joint_force_rows);
@@ -108,43 +104,51 @@ TableFile tables_of(const Checkpoint& checkpoint) {
 
 void read_memory(const TableFile& file, std::vector<model::State>& worlds) {
   if (!file.has_column("worlds", contact_forces)) return;  // layout 1.1
-  ForceReader<model::ContactForce, model::contact_force_parts.size()> contacts(file, contact_forces,
-                                                                               model::contact_force_parts);
-  ForceReader<model::JointForce, model::joint_force_parts.size()> joints(file, joint_forces,
-                                                                         model::joint_force_parts);
+  ItemReader<model::ContactForce> contacts(file, contact_forces, model::contact_force_parts, contact_forces,
+                                           model::contact_force_parts.size());
+  ItemReader<model::JointForce> joints(file, joint_forces, model::joint_force_parts, joint_forces,
+                                       model::joint_force_parts.size());
   for (model::State& state : worlds) state.memory = {contacts.of_next_world(), joints.of_next_world()};
   contacts.require_end();
   joints.require_end();
 }
 
+/// Before layout 1.5 a row said only where a body has stayed, and for how long. An awake body of such a file
+/// begins to rest anew.
+void read_rest(const TableFile& file, std::vector<model::State>& worlds) {
+  const bool is_whole = file.has_column(rest_table, "short_knots");
+  ItemReader<model::Rest> rests(file, rest_table, model::rest_parts, num_resting,
+                                is_whole ? model::rest_parts.size() : 3);
+  for (model::State& state : worlds) {
+    state.rest = rests.of_next_world();
+    for (int body = 0; !is_whole && body < std::ssize(state.rest); ++body) {
+      if (!state.rest[body].asleep()) state.rest[body] = model::begin_rest(state, body);
+    }
+  }
+  rests.require_end();
+}
+
 std::vector<model::State> worlds_of(const TableFile& file) {
-  RowReader<std::int64_t> bodies(file, "worlds", "bodies"), resting(file, "worlds", "resting"),
-      joints(file, "worlds", "joints"), idle_steps(file, "rest", "idle_steps"),
+  RowReader<std::int64_t> bodies(file, "worlds", "bodies"), joints(file, "worlds", "joints"),
       broken_in(file, "joints", "broken_in"), frozen_in(file, "worlds", "frozen_in");
   RowReader<double> position(file, "bodies", "position", 3), orientation(file, "bodies", "orientation", 4),
       velocity(file, "bodies", "velocity", 3), angular_velocity(file, "bodies", "angular_velocity", 3),
-      rest_position(file, "rest", "position", 3), rest_orientation(file, "rest", "orientation", 4),
       energy_gain(file, "worlds", "energy_gain"), largest_kinetic(file, "worlds", "largest_kinetic");
   std::vector<model::State> worlds(file.column<std::int64_t>("worlds", "bodies").size());
   for (model::State& state : worlds) {
-    const int num_bodies = bodies.integer(), num_resting = resting.integer(), num_joints = joints.integer();
+    const int num_bodies = bodies.integer(), num_joints = joints.integer();
     for (int body = 0; body < num_bodies; ++body) {
       state.position.push_back(position.vector());
       state.orientation.push_back(orientation.quaternion());
       state.velocity.push_back(velocity.vector());
       state.angular_velocity.push_back(angular_velocity.vector());
     }
-    for (int body = 0; body < num_resting; ++body)
-      state.rest.push_back({rest_position.vector(), rest_orientation.quaternion(), idle_steps.integer()});
     for (int joint = 0; joint < num_joints; ++joint) state.broken_in.push_back(broken_in.integer());
     state.guard = {*energy_gain.next(), *largest_kinetic.next(), frozen_in.integer()};
   }
-  for (const auto* column :
-       {&position, &orientation, &velocity, &angular_velocity, &rest_position, &rest_orientation}) {
-    column->require_end();
-  }
-  idle_steps.require_end();
+  for (const auto* column : {&position, &orientation, &velocity, &angular_velocity}) column->require_end();
   broken_in.require_end();
+  read_rest(file, worlds);
   read_memory(file, worlds);
   return worlds;
 }

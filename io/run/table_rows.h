@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -87,31 +88,33 @@ class RowReader {
   std::size_t width_, next_ = 0;
 };
 
-/// Reads the forces of all worlds that columns_of() wrote. A column of /worlds with the table's name says how
-/// many each world has.
-template <class Force, std::size_t N>
-class ForceReader {
+/// Reads the items (forces, rests) of all worlds from the table that columns_of() wrote. The column `counts`
+/// of /worlds says how many each world has. Of the parts an older file has the first `num_parts` only; the
+/// numbers of the others are 0.
+template <class Item>
+class ItemReader {
  public:
-  ForceReader(const TableFile& file, const std::string& table, const std::array<model::RowPart, N>& parts)
-      : counts_(file, "worlds", table) {
-    for (const model::RowPart& part : parts) {
+  ItemReader(const TableFile& file, const std::string& table, std::span<const model::RowPart> parts,
+             const std::string& counts, std::size_t num_parts)
+      : counts_(file, "worlds", counts) {
+    for (const model::RowPart& part : parts) width_ += part.width;
+    for (const model::RowPart& part : parts.first(num_parts)) {
       if (part.is_index) {
         columns_.emplace_back(RowReader<std::int64_t>(file, table, part.name, part.width));
       } else {
         columns_.emplace_back(RowReader<double>(file, table, part.name, part.width));
       }
-      width_ += part.width;
     }
   }
-  std::vector<Force> of_next_world() {
-    std::vector<Force> forces;
+  std::vector<Item> of_next_world() {
+    std::vector<Item> items;
     std::vector<double> row(width_);
     for (int left = counts_.integer(); left > 0; --left) {
       double* to = row.data();
       for (Column& column : columns_) to = std::visit([to](auto& reader) { return reader.put(to); }, column);
-      model::take_row(row.data(), forces.emplace_back());
+      model::take_row(row.data(), items.emplace_back());
     }
-    return forces;
+    return items;
   }
   void require_end() const {
     for (const Column& column : columns_)

@@ -80,12 +80,7 @@ std::vector<double> pack(const model::State& state) {
   to = put(state.orientation, to);
   to = put(state.velocity, to);
   to = put(state.angular_velocity, to);
-  for (const model::Rest& rest : state.rest) {
-    std::memcpy(to, rest.position.data(), 3 * sizeof(double));
-    std::memcpy(to + 3, &rest.orientation.w, 4 * sizeof(double));
-    to[7] = rest.idle_steps;
-    to += model::numbers_of_rest;
-  }
+  for (const model::Rest& rest : state.rest) to = model::put_row(rest, to);
   to = std::copy(state.broken_in.begin(), state.broken_in.end(), to);
   for (const model::ContactForce& force : state.memory.contacts) to = model::put_row(force, to);
   for (const model::JointForce& force : state.memory.joints) to = model::put_row(force, to);
@@ -118,12 +113,7 @@ model::State unpack(std::span<const double> packed) {
   from = take(from, state.orientation);
   from = take(from, state.velocity);
   from = take(from, state.angular_velocity);
-  for (model::Rest& rest : state.rest) {
-    std::memcpy(rest.position.data(), from, 3 * sizeof(double));
-    std::memcpy(&rest.orientation.w, from + 3, 4 * sizeof(double));
-    rest.idle_steps = static_cast<std::int32_t>(from[7]);
-    from += model::numbers_of_rest;
-  }
+  for (model::Rest& rest : state.rest) from = model::take_row(from, rest);
   for (std::size_t joint = 0; joint < lengths.joints; ++joint)
     state.broken_in.push_back(static_cast<std::int32_t>(*from++));
   for (model::ContactForce& force : state.memory.contacts) from = model::take_row(from, force);

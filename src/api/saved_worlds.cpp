@@ -13,7 +13,7 @@ namespace pbmpi::api {
 namespace {
 
 /// The number at the end is raised when the layout changes.
-constexpr std::string_view magic = "pbmpi worlds 1\n";
+constexpr std::string_view magic = "pbmpi worlds 2\n";
 
 class Writer {
  public:

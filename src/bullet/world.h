@@ -56,6 +56,7 @@ class World final : private effects::RuledWorld {
   void add_speculative_contacts(effects::FastBodies& fast, const model::State& before) override;
   std::span<const effects::BodyPair> touching() override;
   effects::Reaction reaction(int joint) const override { return loads_.reaction(joint); }
+  bool is_driven(int joint) const override { return targets_->drive(*model_, step_ + 1, joint); }
   void show_awake() override;
   void show_asleep(std::span<const int> bodies) override;
   void show_broken() override;

@@ -1,7 +1,8 @@
 #include "effects/space_sleepers.h"
 
 #include <algorithm>
-#include <cstring>
+
+#include "model/memory_rows.h"
 
 namespace pbmpi::effects {
 
@@ -12,26 +13,14 @@ void SpaceSleepers::start() {
 
 void SpaceSleepers::put(std::span<const int> bodies, std::span<const double> rows) {
   const double* row = rows.data();
-  for (const int body : bodies) {
-    model::Rest& rest = state_->rest[body];
-    std::memcpy(rest.position.data(), row, 3 * sizeof(double));
-    rest.orientation = {row[3], row[4], row[5], row[6]};
-    rest.idle_steps = static_cast<std::int32_t>(row[7]);
-    row += model::numbers_of_rest;
-  }
+  for (const int body : bodies) row = model::take_row(row, state_->rest[body]);
   start();
 }
 
 std::vector<double> SpaceSleepers::rest_rows(std::span<const int> bodies) const {
-  std::vector<double> rows;
-  rows.reserve(model::numbers_of_rest * bodies.size());
-  for (const int body : bodies) {
-    const model::Rest& rest = state_->rest[body];
-    const core::Quat& q = rest.orientation;
-    for (const double number : {rest.position.x(), rest.position.y(), rest.position.z(), q.w, q.x, q.y, q.z,
-                                static_cast<double>(rest.idle_steps)})
-      rows.push_back(number);
-  }
+  std::vector<double> rows(model::numbers_of_rest * bodies.size());
+  double* to = rows.data();
+  for (const int body : bodies) to = model::put_row(state_->rest[body], to);
   return rows;
 }
 
@@ -55,13 +44,14 @@ bool SpaceSleepers::wake_islands_of(std::span<const int> bodies) {
 }
 
 std::vector<Resting> SpaceSleepers::find_resting(std::span<const int> bodies,
-                                                 std::span<const BodyPair> touching) {
+                                                 std::span<const BodyPair> touching,
+                                                 const Sleepers::IsDriven& is_driven) {
   std::vector<int> awake;
   for (const int body : bodies) {
     if (!asleep(body)) awake.push_back(body);
   }
   sleepers_.count(awake, *state_);
-  return sleepers_.find_resting(awake, touching, *state_);
+  return sleepers_.find_resting(awake, touching, is_driven, *state_);
 }
 
 void SpaceSleepers::put_to_sleep(std::span<const Resting> resting) {

@@ -23,7 +23,7 @@ class SpaceSleepers {
   void start();
   /// Takes in rest_rows().
   void put(std::span<const int> bodies, std::span<const double> rows);
-  /// State::rest of these bodies, [bodies][8]: position, orientation (w, x, y, z), idle_steps.
+  /// State::rest of these bodies, [bodies][numbers_of_rest] (model/memory_rows.h).
   std::vector<double> rest_rows(std::span<const int> bodies) const;
 
   bool asleep(int body) const { return state_->rest[body].asleep(); }
@@ -43,8 +43,9 @@ class SpaceSleepers {
   bool wake_islands_of(std::span<const int> bodies);
 
   /// At the end of a step: counts the rest of the awake bodies among these, which make up whole islands
-  /// except for contacts across spaces; returns those that may fall asleep.
-  std::vector<Resting> find_resting(std::span<const int> bodies, std::span<const BodyPair> touching);
+  /// except for contacts across spaces; returns those that rest, for Sleepers::join().
+  std::vector<Resting> find_resting(std::span<const int> bodies, std::span<const BodyPair> touching,
+                                    const Sleepers::IsDriven& is_driven);
   void put_to_sleep(std::span<const Resting> resting);
 
  private:

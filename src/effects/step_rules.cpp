@@ -132,7 +132,9 @@ void StepRules::take_in_broken() {
 void StepRules::fall_asleep(RuledWorld& world) {
   if (!sleepers_) return;
   world.store(awake(), *state_);
-  const std::vector<Resting> resting = sleepers_->find_resting(awake(), world.touching());
+  const auto is_driven = [&](int joint) { return world.is_driven(joint); };
+  const std::vector<Resting> resting =
+      Sleepers::join(model_->num_bodies(), sleepers_->find_resting(awake(), world.touching(), is_driven), {});
   if (resting.empty()) return;
   sleepers_->put_to_sleep(resting);
   std::vector<int> bodies;

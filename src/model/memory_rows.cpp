@@ -16,6 +16,18 @@ const double* take(const double* from, int& index) {
   index = static_cast<int>(*from);
   return from + 1;
 }
+const double* take(const double* from, Pose& pose) {
+  pose.position = Vec3(from);
+  pose.orientation = {from[3], from[4], from[5], from[6]};
+  return from + 7;
+}
+
+double* put(const Pose& pose, double* to) {
+  to = std::copy_n(pose.position.data(), 3, to);
+  const Quat& q = pose.orientation;
+  for (const double number : {q.w, q.x, q.y, q.z}) *to++ = number;
+  return to;
+}
 
 }  // namespace
 
@@ -32,6 +44,19 @@ double* put_row(const JointForce& force, double* to) {
   return std::copy_n(force.control, 2, to);
 }
 
+double* put_row(const Rest& rest, double* to) {
+  to = put(Pose{rest.position, rest.orientation}, to);
+  *to++ = rest.idle_steps;
+  for (const Vec3* vector : {&rest.velocity, &rest.angular_velocity}) to = std::copy_n(vector->data(), 3, to);
+  for (const MotionWatch& watch : rest.watches) {
+    *to++ = watch.steps;
+    for (const Pose& knot : watch.knots) to = put(knot, to);
+    *to++ = watch.tremble;
+    *to++ = watch.angular_tremble;
+  }
+  return to;
+}
+
 const double* take_row(const double* from, ContactForce& force) {
   for (int* index : {&force.geoms.first, &force.geoms.second, &force.body_a, &force.body_b})
     from = take(from, *index);
@@ -45,6 +70,22 @@ const double* take_row(const double* from, JointForce& force) {
   from = take(from, force.torque);
   std::copy_n(from, 2, force.control);
   return from + 2;
+}
+
+const double* take_row(const double* from, Rest& rest) {
+  Pose near;
+  from = take(from, near);
+  rest.position = near.position;
+  rest.orientation = near.orientation;
+  from = take(from, rest.idle_steps);
+  for (Vec3* vector : {&rest.velocity, &rest.angular_velocity}) from = take(from, *vector);
+  for (MotionWatch& watch : rest.watches) {
+    from = take(from, watch.steps);
+    for (Pose& knot : watch.knots) from = take(from, knot);
+    watch.tremble = *from++;
+    watch.angular_tremble = *from++;
+  }
+  return from;
 }
 
 void add_bits(const StepMemory& memory, core::Hash64& hash) {

@@ -23,6 +23,15 @@ void copy_body(int body, const State& from, State& to) {
   to.angular_velocity[at] = from.angular_velocity[at];
 }
 
+Rest begin_rest(const State& state, int body) {
+  const Pose pose = state.pose(body);
+  return {.position = pose.position,
+          .orientation = pose.orientation,
+          .velocity = state.velocity[body],
+          .angular_velocity = state.angular_velocity[body],
+          .watches = {{{.knots = {pose, pose}}, {.knots = {pose, pose}}}}};
+}
+
 State initial_state(const Model& model) {
   State state;
   state.resize(model.num_bodies());

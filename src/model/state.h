@@ -1,6 +1,7 @@
 /// The moving part of a world: what is hashed, sent, recorded and restored.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,13 +10,25 @@
 
 namespace pbmpi::model {
 
-/// How long a body has rested (effects/sleepers.h).
+/// What tells a motion of a body from its trembling, on one scale of time (effects/sleepers.h).
+struct MotionWatch {
+  std::int32_t steps = 0;       ///< taken since the watch began, as far as the rule counts them
+  std::array<Pose, 2> knots{};  ///< where the body was at the ends of the last two intervals
+  /// Mean squares of what a step of this scale changes: of the velocity [m^2/s^2] and of the angular velocity
+  /// [rad^2/s^2].
+  double tremble = 0, angular_tremble = 0;
+};
+
+/// How long a body has rested.
 struct Rest {
   Vec3 position = Vec3::Zero();  ///< the pose near which it has stayed [m], world frame
   Quat orientation;
-  /// Steps for which it has rested, up to what the rule asks for. For a sleeping body: -1 - the lowest body
-  /// of its island.
+  /// Steps for which it has stayed there, up to what the rule asks for. For a sleeping body: -1 - the lowest
+  /// body of its island.
   std::int32_t idle_steps = 0;
+  Vec3 velocity = Vec3::Zero();          ///< after the last step [m/s]
+  Vec3 angular_velocity = Vec3::Zero();  ///< [rad/s]
+  std::array<MotionWatch, 2> watches{};  ///< over parts of the rule's time, and over four times it
 
   bool asleep() const { return idle_steps < 0; }
   int island() const { return -1 - idle_steps; }  ///< of a sleeping body: the island's lowest body
@@ -58,11 +71,14 @@ struct State {
 };
 
 /// How many numbers are sent for a body: position and orientation (w, x, y, z); these plus velocity and
-/// angular velocity; position, orientation and idle_steps of Rest.
-inline constexpr int numbers_of_pose = 7, numbers_of_state = 13, numbers_of_rest = 8;
+/// angular velocity.
+inline constexpr int numbers_of_pose = 7, numbers_of_state = 13;
 
 /// Copies the pose and velocities of one body between two states of one model.
 void copy_body(int body, const State& from, State& to);
+
+/// What State::rest holds of a body that begins to rest where it is now.
+Rest begin_rest(const State& state, int body);
 
 /// The state in which `model` starts.
 State initial_state(const Model& model);

@@ -49,6 +49,7 @@ class World final : effects::RuledWorld {
   void add_speculative_contacts(effects::FastBodies&, const model::State&) override {}
   std::span<const effects::BodyPair> touching() override { return {}; }
   effects::Reaction reaction(int joint) const override { return compiled_->loads.reaction(joint); }
+  bool is_driven(int) const override { return false; }  ///< asked for by sleeping alone, which is refused
   void show_awake() override {}
   void show_asleep(std::span<const int>) override {}
   /// Makes the next step use another tree.

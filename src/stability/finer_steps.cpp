@@ -12,7 +12,9 @@ model::Model in_finer_steps(const model::Model& model, int finer) {
 
 model::State to_finer_steps(model::State state, int finer) {
   for (model::Rest& rest : state.rest) {
-    if (!rest.asleep()) rest.idle_steps *= finer;
+    if (rest.asleep()) continue;
+    rest.idle_steps *= finer;
+    rest.watches[0].steps *= finer;
   }
   for (std::int32_t& step : state.broken_in) {
     if (step != model::unbroken) step = 0;  // long enough ago for every reader
@@ -22,7 +24,9 @@ model::State to_finer_steps(model::State state, int finer) {
 
 model::State from_finer_steps(model::State state, int finer, const model::State& before) {
   for (model::Rest& rest : state.rest) {
-    if (!rest.asleep()) rest.idle_steps /= finer;
+    if (rest.asleep()) continue;
+    rest.idle_steps /= finer;
+    rest.watches[0].steps /= finer;
   }
   for (std::size_t joint = 0; joint < state.broken_in.size(); ++joint) {
     std::int32_t& step = state.broken_in[joint];

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "model/motors.h"
 
 namespace pbmpi::stepping {
 namespace {
@@ -14,17 +15,6 @@ using core::require_input;
 
 bool drives(const model::Event& event, int joint, int axis) {
   return event.kind == model::EventKind::motor && event.joint == joint && event.axis == axis;
-}
-
-/// The motor of an axis after the events of all steps before `step`.
-model::AxisMotor motor_before(const model::Model& model, std::int64_t step, int joint, int axis) {
-  model::AxisMotor motor =
-      model.joints[static_cast<std::size_t>(joint)].motors[static_cast<std::size_t>(axis)];
-  for (const model::Event& event : model.events) {
-    if (event.step >= step) break;
-    if (drives(event, joint, axis)) motor = event.motor;
-  }
-  return motor;
 }
 
 void require_motor(const model::Model& model, int joint, int axis) {
@@ -55,7 +45,7 @@ const MotorTargets::Target* MotorTargets::set(const model::Model& model, std::in
   auto at = std::ranges::lower_bound(targets_, wanted, {}, place);
   if (at == targets_.end() || place(*at) != wanted) {
     require_motor(model, joint, axis);
-    at = targets_.insert(at, {joint, axis, motor_before(model, step, joint, axis)});
+    at = targets_.insert(at, {joint, axis, model::motor_before(model, step, joint, axis)});
   }
   if (at->motor.velocity == velocity) return nullptr;
   at->motor.velocity = velocity;
@@ -69,10 +59,20 @@ void MotorTargets::pass(const model::Model& model, std::int64_t first_step, std:
     std::erase_if(targets_, [&](const Target& target) { return drives(*event, target.joint, target.axis); });
 }
 
+bool MotorTargets::drive(const model::Model& model, std::int64_t step, int joint) const {
+  const auto of_joint = std::ranges::equal_range(targets_, joint, {}, &Target::joint);
+  const auto drives_axis = [&](int axis) {
+    const auto target = std::ranges::find(of_joint, axis, &Target::axis);
+    return model::keeps_moving(target != of_joint.end() ? target->motor
+                                                        : model::motor_before(model, step, joint, axis));
+  };
+  return drives_axis(0) || drives_axis(1);
+}
+
 void MotorTargets::move_to(const model::Model& model, std::int64_t step) {
   for (Target& target : targets_) {
     const double velocity = target.motor.velocity;
-    target.motor = motor_before(model, step, target.joint, target.axis);
+    target.motor = model::motor_before(model, step, target.joint, target.axis);
     target.motor.velocity = velocity;
   }
 }

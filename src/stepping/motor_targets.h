@@ -31,6 +31,10 @@ class MotorTargets {
   /// that step.
   void move_to(const model::Model& model, std::int64_t step);
 
+  /// Does a motor of the joint keep its axis moving, by its target or after the events of all steps before
+  /// `step`?
+  bool drive(const model::Model& model, std::int64_t step, int joint) const;
+
   std::span<const Target> all() const { return targets_; }
 
  private:

@@ -137,7 +137,9 @@ TEST(Breakage, parts_what_falls_asleep) {
   for (int step = 0; step < 60; ++step) {
     state.position[2].x() += 0.01;  // link 2 moves at 1 m/s
     sleepers.count(sleepers.awake(), state);
-    sleepers.put_to_sleep(sleepers.find_resting(sleepers.awake(), {}, state), state);
+    sleepers.put_to_sleep(sleepers.find_resting(
+                              sleepers.awake(), {}, [](int) { return false; }, state),
+                          state);
   }
   EXPECT_TRUE(state.rest[0].asleep() && state.rest[1].asleep());
   EXPECT_FALSE(state.rest[2].asleep());

@@ -17,12 +17,14 @@ struct Rank {
 
 constexpr int steps_of_rest = 50;
 
+bool undriven(int) { return false; }
+
 TEST(SpaceSleepers, count_for_the_bodies_that_they_are_asked_for) {
   Rank rank;
   const std::vector<int> own = {1};
   for (int step = 0; step < steps_of_rest - 1; ++step)
-    EXPECT_TRUE(rank.sleepers.find_resting(own, {}).empty());
-  const std::vector<Resting> resting = rank.sleepers.find_resting(own, {});
+    EXPECT_TRUE(rank.sleepers.find_resting(own, {}, undriven).empty());
+  const std::vector<Resting> resting = rank.sleepers.find_resting(own, {}, undriven);
   ASSERT_EQ(resting.size(), 1u);
   EXPECT_EQ(resting[0].body, 1);
   EXPECT_EQ(rank.state.rest[0].idle_steps, 0) << "the other rank's";
@@ -31,9 +33,9 @@ TEST(SpaceSleepers, count_for_the_bodies_that_they_are_asked_for) {
 TEST(SpaceSleepers, go_on_with_rows_that_came_from_the_last_owner) {
   Rank first, second;
   const std::vector<int> both = {0, 1};
-  for (int step = 0; step < steps_of_rest - 1; ++step) first.sleepers.find_resting(both, {});
+  for (int step = 0; step < steps_of_rest - 1; ++step) first.sleepers.find_resting(both, {}, undriven);
   second.sleepers.put(both, first.sleepers.rest_rows(both));
-  EXPECT_EQ(second.sleepers.find_resting(both, {}).size(), 2u);
+  EXPECT_EQ(second.sleepers.find_resting(both, {}, undriven).size(), 2u);
   first.sleepers.put_to_sleep(std::vector<Resting>{{0, 0}, {1, 0}});
   second.sleepers.put(both, first.sleepers.rest_rows(both));
   EXPECT_TRUE(second.sleepers.all_asleep());

@@ -24,6 +24,24 @@ StepMemory sample() {
   return memory;
 }
 
+/// Every number differs from the others.
+Rest resting() {
+  Rest rest = {.position = {0.1, 0.2, 0.3},
+               .orientation = {0.4, 0.5, 0.6, 0.7},
+               .idle_steps = -8,
+               .velocity = {9, 10, 11},
+               .angular_velocity = {12, 13, -0.0}};
+  for (const int i : {0, 1}) {
+    const double first = 15.0 + 17 * i;
+    rest.watches[i] = {.steps = 14 + 17 * i, .tremble = first + 14, .angular_tremble = first + 15};
+    for (const int knot : {0, 1}) {
+      const double at = first + 7 * knot;
+      rest.watches[i].knots[knot] = {{at, at + 1, at + 2}, {at + 3, at + 4, at + 5, at + 6}};
+    }
+  }
+  return rest;
+}
+
 template <class Force, std::size_t width>
 void expect_same_row(const Force& force) {
   std::array<double, width> row, again;
@@ -38,6 +56,7 @@ TEST(MemoryRows, come_back_bit_for_bit) {
   for (const ContactForce& force : sample().contacts)
     expect_same_row<ContactForce, numbers_of_contact_force>(force);
   for (const JointForce& force : sample().joints) expect_same_row<JointForce, numbers_of_joint_force>(force);
+  expect_same_row<Rest, numbers_of_rest>(resting());
 }
 
 TEST(MemoryRows, have_their_parts_in_the_order_of_the_tables) {
@@ -47,6 +66,10 @@ TEST(MemoryRows, have_their_parts_in_the_order_of_the_tables) {
   std::array<double, numbers_of_joint_force> joint;
   put_row(sample().joints[0], joint.data());
   EXPECT_EQ(joint, (std::array<double, 8>{1, 2, 3, 4, 5, 6, 7, 8}));
+  std::array<double, numbers_of_rest> rest;
+  put_row(resting(), rest.data());
+  EXPECT_EQ(rest[7], -8);
+  for (std::size_t i = 14; i < rest.size(); ++i) EXPECT_EQ(rest[i], static_cast<double>(i));
 }
 
 State remembering() {

@@ -99,6 +99,7 @@ class SyntheticStepper final : public stepping::WorldStepper {
       model::Rest& rest = world.state.rest[i];
       rest.position += 0.3 * world.state.position[i];
       rest.orientation.y += world.state.position[i].z();
+      rest.watches[1].tremble += rest.orientation.y;
       rest.idle_steps = static_cast<std::int32_t>(world.step % 2 == 0 ? world.step : -1 - world.step);
     }
     for (std::size_t i = 0; i < world.state.broken_in.size(); ++i) {

@@ -24,17 +24,22 @@ TEST(FinerSteps, count_rest_and_breaks_in_steps_of_the_run) {
   State state = initial_state(support::pile(3));
   state.rest.resize(3);
   state.rest[0].idle_steps = 5;
+  state.rest[0].watches[0].steps = 7;
+  state.rest[0].watches[1].steps = 3;
   state.rest[1].sleep_in(2);
   state.broken_in = {model::unbroken, 3, model::unbroken};
   const State before = state;
   State finer = to_finer_steps(state, 8);
   EXPECT_EQ(finer.rest[0].idle_steps, 40);
+  EXPECT_EQ(finer.rest[0].watches[0].steps, 56);
+  EXPECT_EQ(finer.rest[0].watches[1].steps, 3) << "counted in intervals of the first";
   EXPECT_EQ(finer.rest[1].island(), 2);
   EXPECT_TRUE(finer.is_broken(1));
   finer.rest[0].idle_steps += 8;
   finer.broken_in[2] = 8 * 11 + 5;
   state = from_finer_steps(finer, 8, before);
   EXPECT_EQ(state.rest[0].idle_steps, 6);
+  EXPECT_EQ(state.rest[0].watches[0].steps, 7);
   EXPECT_EQ(state.rest[1].island(), 2);
   EXPECT_EQ(state.broken_in, (std::vector<std::int32_t>{model::unbroken, 3, 11}));
 }

@@ -63,6 +63,20 @@ TEST(MotorTargets, end_with_an_event_of_their_axis) {
   EXPECT_TRUE(targets.all().empty());
 }
 
+TEST(MotorTargets, drive_a_joint_that_a_motor_without_a_hold_rate_turns) {
+  const model::Model model = two_hinges();
+  MotorTargets targets;
+  EXPECT_FALSE(targets.drive(model, 5, 0)) << "with a hold rate it aims at a pose";
+  EXPECT_TRUE(targets.drive(model, 6, 0)) << "the event of step 5 has given it another motor";
+  EXPECT_FALSE(targets.drive(model, 20, 1));
+  EXPECT_TRUE(targets.drive(model, 21, 1));
+  targets.set(model, 21, 1, 0, 0);
+  EXPECT_FALSE(targets.drive(model, 21, 1));
+  EXPECT_TRUE(targets.drive(model, 21, 0)) << "the other joint's has no target";
+  targets.set(model, 21, 1, 0, 1e-6);
+  EXPECT_TRUE(targets.drive(model, 21, 1)) << "however slowly";
+}
+
 TEST(MotorTargets, are_refused_where_no_motor_ever_is) {
   model::Model model = two_hinges();
   model.events.pop_back();

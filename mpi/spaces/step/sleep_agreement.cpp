@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/motors.h"
+
 namespace pbmpi::mpi {
 
 using core::Phase;
@@ -39,29 +41,33 @@ void SleepAgreement::wake_touched(std::int64_t step, std::vector<model::Contact>
   touching_ = effects::touching_bodies(contacts);
 }
 
-void SleepAgreement::put_resting_to_sleep(core::LapTimer& timer) {
+void SleepAgreement::put_resting_to_sleep(std::int64_t step, core::LapTimer& timer) {
   if (shared_->sleepers == nullptr) return;
+  const auto is_driven = [&](int joint) {
+    return model::is_driven_before(shared_->stepper->model(), step + 1, joint);
+  };
   std::vector<Resting> resting;
-  shared_->guard([&] { resting = shared_->sleepers->find_resting(shared_->own_bodies(), touching_); });
+  shared_->guard(
+      [&] { resting = shared_->sleepers->find_resting(shared_->own_bodies(), touching_, is_driven); });
   timer.lap(Phase::islands);
   if (shared_->crosses) {
     resting = shared_->comm->allgatherv(std::span<const Resting>(resting));
-    if (!resting.empty()) resting = join(resting);
     timer.lap(Phase::wait);
   }
+  if (!resting.empty()) resting = join(resting);
   shared_->sleepers->put_to_sleep(resting);
 }
 
 /// Joins the ranks' parts of islands by the contacts across spaces, which only root knows.
 std::vector<Resting> SleepAgreement::join(std::span<const Resting> resting) {
   std::vector<int> across;  // two bodies per contact
-  if (shared_->is_root()) {
+  if (shared_->crosses && shared_->is_root()) {
     for (const model::Contact& contact : crossing_->contacts()) {
       across.push_back(contact.body_a);
       across.push_back(contact.body_b);
     }
   }
-  across = shared_->comm->allgatherv(std::span<const int>(across));
+  if (shared_->crosses) across = shared_->comm->allgatherv(std::span<const int>(across));
   std::vector<BodyPair> touching;
   for (std::size_t i = 0; i < across.size(); i += 2) touching.emplace_back(across[i], across[i + 1]);
   return effects::Sleepers::join(shared_->stepper->model().num_bodies(), resting, touching);

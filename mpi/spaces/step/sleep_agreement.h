@@ -30,7 +30,7 @@ class SleepAgreement {
   /// rank or across spaces. `contacts`: this rank's own.
   void wake_touched(std::int64_t step, std::vector<model::Contact>& contacts, core::LapTimer& timer);
   /// At the end of a step: puts an island to sleep once all its parts, on whatever ranks, have rested.
-  void put_resting_to_sleep(core::LapTimer& timer);
+  void put_resting_to_sleep(std::int64_t step, core::LapTimer& timer);
 
  private:
   std::vector<effects::Resting> join(std::span<const effects::Resting> resting);

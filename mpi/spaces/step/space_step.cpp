@@ -49,7 +49,7 @@ void SpaceStep::run(std::int64_t step, bool last, core::PhaseTimes& times) {
   core::LapTimer after(times);
   if (shared_.crosses) shipping_.ship_back(after);
   crossing_.note_pace(began_s, collided_s);
-  sleep_.put_resting_to_sleep(after);
+  sleep_.put_resting_to_sleep(step, after);
   if (last) {
     report_frame(times);
   } else if (shared_.crosses && !shared_.is_root()) {

@@ -48,6 +48,9 @@ class SorWorld::InPack final : public effects::RuledWorld {
     return touching_;
   }
   effects::Reaction reaction(int joint) const override { return solved_->reaction(pack_, index_, joint); }
+  bool is_driven(int joint) const override {
+    return world_.targets_.drive(*world_.model_, world_.step_ + 1, joint);
+  }
   void show_awake() override { world_.show_awake(pack_, index_); }
   void show_asleep(std::span<const int> bodies) override {
     pack_.load(index_, bodies, world_.state_);

@@ -112,8 +112,8 @@ model::State settle(stepping::StepperKind kind, const model::Model& model) {
 model::State with_a_ball_awake(const model::Model& model, model::State state) {
   for (int body = 0; body < model.num_bodies(); ++body) {
     if (model.bodies[body].name != "ball_left.25") continue;
-    state.rest[body] = {state.position[body], state.orientation[body], 0};
     state.velocity[body] = {0, 1, 0};
+    state.rest[body] = model::begin_rest(state, body);
     return state;
   }
   throw core::RunError("Battle2 has lost its last ball");
