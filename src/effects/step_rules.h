@@ -33,7 +33,7 @@ class RuledWorld {
   virtual std::span<const BodyPair> touching() = 0;
   /// What a joint exerted in the step just solved.
   virtual Reaction reaction(int joint) const = 0;
-  /// Does a motor of the joint aim at a velocity, after the events of the current step (model/motors.h)?
+  /// Does a motor of the joint aim at a velocity, after the events of the current step (effects/motors.h)?
   virtual bool is_driven(int joint) const = 0;
   /// The set of awake bodies has changed (StepRules::awake()).
   virtual void show_awake() = 0;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "model/motors.h"
+#include "effects/motors.h"
 
 namespace pbmpi::stepping {
 namespace {
@@ -45,7 +45,7 @@ const MotorTargets::Target* MotorTargets::set(const model::Model& model, std::in
   auto at = std::ranges::lower_bound(targets_, wanted, {}, place);
   if (at == targets_.end() || place(*at) != wanted) {
     require_motor(model, joint, axis);
-    at = targets_.insert(at, {joint, axis, model::motor_before(model, step, joint, axis)});
+    at = targets_.insert(at, {joint, axis, effects::motor_before(model, step, joint, axis)});
   }
   if (at->motor.velocity == velocity) return nullptr;
   at->motor.velocity = velocity;
@@ -63,8 +63,8 @@ bool MotorTargets::drive(const model::Model& model, std::int64_t step, int joint
   const auto of_joint = std::ranges::equal_range(targets_, joint, {}, &Target::joint);
   const auto drives_axis = [&](int axis) {
     const auto target = std::ranges::find(of_joint, axis, &Target::axis);
-    return model::keeps_moving(target != of_joint.end() ? target->motor
-                                                        : model::motor_before(model, step, joint, axis));
+    return effects::keeps_moving(target != of_joint.end() ? target->motor
+                                                          : effects::motor_before(model, step, joint, axis));
   };
   return drives_axis(0) || drives_axis(1);
 }
@@ -72,7 +72,7 @@ bool MotorTargets::drive(const model::Model& model, std::int64_t step, int joint
 void MotorTargets::move_to(const model::Model& model, std::int64_t step) {
   for (Target& target : targets_) {
     const double velocity = target.motor.velocity;
-    target.motor = model::motor_before(model, step, target.joint, target.axis);
+    target.motor = effects::motor_before(model, step, target.joint, target.axis);
     target.motor.velocity = velocity;
   }
 }

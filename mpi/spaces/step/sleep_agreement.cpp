@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/motors.h"
+#include "effects/motors.h"
 
 namespace pbmpi::mpi {
 
@@ -44,7 +44,7 @@ void SleepAgreement::wake_touched(std::int64_t step, std::vector<model::Contact>
 void SleepAgreement::put_resting_to_sleep(std::int64_t step, core::LapTimer& timer) {
   if (shared_->sleepers == nullptr) return;
   const auto is_driven = [&](int joint) {
-    return model::is_driven_before(shared_->stepper->model(), step + 1, joint);
+    return effects::is_driven_before(shared_->stepper->model(), step + 1, joint);
   };
   std::vector<Resting> resting;
   shared_->guard(

@@ -5,17 +5,17 @@
 
 #include "model/model.h"
 
-namespace pbmpi::model {
+namespace pbmpi::effects {
 
 /// The motor of an axis after the events of all steps before `step`.
-AxisMotor motor_before(const Model& model, std::int64_t step, int joint, int axis);
+model::AxisMotor motor_before(const model::Model& model, std::int64_t step, int joint, int axis);
 
 /// Does the motor aim at a velocity for good? With a hold rate it aims at a pose, where it comes to rest.
-inline bool keeps_moving(const AxisMotor& motor) {
+inline bool keeps_moving(const model::AxisMotor& motor) {
   return motor.active() && motor.velocity != 0 && motor.hold_rate == 0;
 }
 
 /// Does a motor of the joint keep its axis moving after the events of all steps before `step`?
-bool is_driven_before(const Model& model, std::int64_t step, int joint);
+bool is_driven_before(const model::Model& model, std::int64_t step, int joint);
 
-}  // namespace pbmpi::model
+}  // namespace pbmpi::effects
