@@ -97,10 +97,10 @@ TEST(SpaceSleep, sends_nothing_in_the_steps_in_which_all_sleep) {
   const auto shared = std::make_shared<const model::Model>(model);
   const auto sleeping = run_spaces(world(), shared, settings, {}, Oracle::none);
   if (world().size() == 1) return;
-  // All bodies sleep after 50 of 126 steps; then each rank except root sends one message per frame, its
+  // All bodies sleep after some 65 of 126 steps; then each rank except root sends one message per frame, its
   // account.
   const auto& frames = sleeping.result.times;
-  for (std::size_t frame = 18; frame < frames.size(); ++frame)
+  for (std::size_t frame = 22; frame < frames.size(); ++frame)
     EXPECT_LE(frames[frame].traffic.messages, 1) << "frame " << frame;
   std::int64_t awake = 0;
   for (std::size_t frame = 0; frame < 15; ++frame) awake += frames[frame].traffic.messages;
