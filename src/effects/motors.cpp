@@ -7,8 +7,7 @@ model::AxisMotor motor_before(const model::Model& model, std::int64_t step, int 
       model.joints[static_cast<std::size_t>(joint)].motors[static_cast<std::size_t>(axis)];
   for (const model::Event& event : model.events) {
     if (event.step >= step) break;
-    if (event.kind == model::EventKind::motor && event.joint == joint && event.axis == axis)
-      motor = event.motor;
+    if (sets_motor(event, joint, axis)) motor = event.motor;
   }
   return motor;
 }

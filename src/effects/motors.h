@@ -7,6 +7,11 @@
 
 namespace pbmpi::effects {
 
+/// Does the event replace the motor of this axis?
+inline bool sets_motor(const model::Event& event, int joint, int axis) {
+  return event.kind == model::EventKind::motor && event.joint == joint && event.axis == axis;
+}
+
 /// The motor of an axis after the events of all steps before `step`.
 model::AxisMotor motor_before(const model::Model& model, std::int64_t step, int joint, int axis);
 

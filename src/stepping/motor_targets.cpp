@@ -13,10 +13,6 @@ namespace {
 
 using core::require_input;
 
-bool drives(const model::Event& event, int joint, int axis) {
-  return event.kind == model::EventKind::motor && event.joint == joint && event.axis == axis;
-}
-
 void require_motor(const model::Model& model, int joint, int axis) {
   require_input(joint >= 0 && joint < model.num_joints(),
                 "the motor of joint " + std::to_string(joint) + " cannot be aimed: the world has " +
@@ -26,7 +22,7 @@ void require_motor(const model::Model& model, int joint, int axis) {
   const model::Joint& held = model.joints[static_cast<std::size_t>(joint)];
   const bool has_motor = held.motors[static_cast<std::size_t>(axis)].active() ||
                          std::any_of(model.events.begin(), model.events.end(), [&](const auto& event) {
-                           return drives(event, joint, axis) && event.motor.active();
+                           return effects::sets_motor(event, joint, axis) && event.motor.active();
                          });
   require_input(has_motor, "joint '" + held.name + "' has no motor on axis " + std::to_string(axis + 1) +
                                " to aim; give it one with a max_force in the scene");
@@ -56,7 +52,9 @@ void MotorTargets::pass(const model::Model& model, std::int64_t first_step, std:
   if (targets_.empty()) return;
   auto event = std::ranges::lower_bound(model.events, first_step, {}, &model::Event::step);
   for (; event != model.events.end() && event->step < first_step + num_steps; ++event)
-    std::erase_if(targets_, [&](const Target& target) { return drives(*event, target.joint, target.axis); });
+    std::erase_if(targets_, [&](const Target& target) {
+      return effects::sets_motor(*event, target.joint, target.axis);
+    });
 }
 
 bool MotorTargets::drive(const model::Model& model, std::int64_t step, int joint) const {
