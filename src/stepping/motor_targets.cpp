@@ -28,6 +28,11 @@ void require_motor(const model::Model& model, int joint, int axis) {
                                " to aim; give it one with a max_force in the scene");
 }
 
+/// What the targets are sorted by.
+constexpr auto place = [](const MotorTargets::Target& target) {
+  return std::pair(target.joint, target.axis);
+};
+
 }  // namespace
 
 const MotorTargets::Target* MotorTargets::set(const model::Model& model, std::int64_t step, int joint,
@@ -37,7 +42,6 @@ const MotorTargets::Target* MotorTargets::set(const model::Model& model, std::in
                            "; give a finite number of rad/s or m/s");
   }
   const std::pair wanted(joint, axis);
-  const auto place = [](const Target& target) { return std::pair(target.joint, target.axis); };
   auto at = std::ranges::lower_bound(targets_, wanted, {}, place);
   if (at == targets_.end() || place(*at) != wanted) {
     require_motor(model, joint, axis);
@@ -58,11 +62,11 @@ void MotorTargets::pass(const model::Model& model, std::int64_t first_step, std:
 }
 
 bool MotorTargets::drive(const model::Model& model, std::int64_t step, int joint) const {
-  const auto of_joint = std::ranges::equal_range(targets_, joint, {}, &Target::joint);
   const auto drives_axis = [&](int axis) {
-    const auto target = std::ranges::find(of_joint, axis, &Target::axis);
-    return effects::keeps_moving(target != of_joint.end() ? target->motor
-                                                          : effects::motor_before(model, step, joint, axis));
+    const auto target = std::ranges::lower_bound(targets_, std::pair(joint, axis), {}, place);
+    const bool is_steered = target != targets_.end() && place(*target) == std::pair(joint, axis);
+    return effects::keeps_moving(is_steered ? target->motor
+                                            : effects::motor_before(model, step, joint, axis));
   };
   return drives_axis(0) || drives_axis(1);
 }
