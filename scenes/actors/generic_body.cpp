@@ -39,7 +39,7 @@ double read_mass(TableReader& actor, const std::vector<Solid>& solids) {
 
 /// Inertia about the centre, in the body's axes.
 model::Mat3 read_inertia(TableReader& actor) {
-  const model::Mat3 inertia = actor.vector("inertia", Sign::positive).asDiagonal();
+  model::Mat3 inertia = actor.vector("inertia", Sign::positive).asDiagonal();
   if (!is_of_a_body(inertia)) {
     actor.fail("inertia", "no body has a moment of inertia above the sum of the other two; change one");
   }

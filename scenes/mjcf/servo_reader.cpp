@@ -104,12 +104,12 @@ void require_idle(const xml::Element& element, double control, const Defaults& d
 void read_actuator(const xml::Element& element, double control, const Defaults& defaults,
                    const Compiler& compiler, const std::vector<JointPlace>& joints,
                    const xml::LeaveOut& leave_out, links::Mechanism& mechanism) {
-  const std::string actuators = "actuators of type " + core::in_quotes(element.name) + " are left out";
+  const std::string left_out = "actuators of type " + core::in_quotes(element.name) + " are left out";
   if (leave_out.names(element.name)) {
-    leave_out.notes().add(element.where, actuators);
+    leave_out.notes().add(element.where, left_out);
   } else if (element.name == "motor" || element.name == "damper" || element.name == "adhesion") {
     require_idle(element, control, defaults, compiler, leave_out);
-    leave_out.notes().add(element.where, actuators + ": their control is 0, with which they do nothing");
+    leave_out.notes().add(element.where, left_out + ": their control is 0, with which they do nothing");
   } else if (element.name == "position" || element.name == "velocity") {
     read_servo(element, control, defaults, compiler, joints, leave_out, mechanism);
   } else if (is_actuator(element.name)) {

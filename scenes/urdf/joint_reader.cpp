@@ -64,7 +64,7 @@ Vec3 read_axis(const Element& element, const LeaveOut& leave_out) {
   const Element* axis = child_of(element, "axis");
   if (axis == nullptr) return Vec3::UnitX();
   Attributes attributes(*axis, leave_out);
-  const Vec3 direction = attributes.direction("xyz", Vec3::UnitX());
+  Vec3 direction = attributes.direction("xyz", Vec3::UnitX());
   attributes.finish(leave_out.notes());
   return direction;
 }
