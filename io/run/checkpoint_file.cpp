@@ -106,8 +106,9 @@ void read_memory(const TableFile& file, std::vector<model::State>& worlds) {
   if (!file.has_column("worlds", contact_forces)) return;  // layout 1.1
   ItemReader<model::ContactForce> contacts(file, contact_forces, model::contact_force_parts, contact_forces,
                                            model::contact_force_parts.size());
-  ItemReader<model::JointForce> joints(file, joint_forces, model::joint_force_parts, joint_forces,
-                                       model::joint_force_parts.size());
+  ItemReader<model::JointForce> joints(
+      file, joint_forces, model::joint_force_parts, joint_forces,
+      file.has_column(joint_forces, "angle") ? model::joint_force_parts.size() : 3);
   for (model::State& state : worlds) state.memory = {contacts.of_next_world(), joints.of_next_world()};
   contacts.require_end();
   joints.require_end();

@@ -73,7 +73,9 @@ void put_forces(const FrameSource& source, GrowingTable& row) {
       const model::JointForce force = force_of(world, j);
       row.put(0, item, force.force);
       row.put(1, item, force.torque);
-      row.put(2, item, std::array{force.control[0], force.control[1]});
+      int column = 2;
+      for (const double* pair : {force.control, force.rotor, force.angle})
+        row.put(column++, item, std::array{pair[0], pair[1]});
     }
   }
 }
@@ -104,7 +106,9 @@ std::vector<FrameTable> joint_tables(const OptionalColumns& optional) {
     tables.push_back({"/observables/joint",
                       {{"force", H5T_NATIVE_DOUBLE, 3, "N"},
                        {"torque", H5T_NATIVE_DOUBLE, 3, "N m"},
-                       {"control", H5T_NATIVE_DOUBLE, 2}},
+                       {"control", H5T_NATIVE_DOUBLE, 2},
+                       {"rotor", H5T_NATIVE_DOUBLE, 2},
+                       {"angle", H5T_NATIVE_DOUBLE, 2, "rad"}},
                       Items::joints,
                       Rows::frames,
                       put_forces});

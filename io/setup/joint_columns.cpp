@@ -56,6 +56,10 @@ std::vector<JointNumbers> joint_numbers() {
            [](const Joint& j, Values& v) {
              for (const model::AxisMotor& motor : j.motors) v.push_back(motor.hold_rate);
            }},
+          {"armature",
+           "",
+           {2},
+           [](const Joint& j, Values& v) { v.insert(v.end(), j.armature.begin(), j.armature.end()); }},
           {"stiffness", "N m-1", {}, [](const Joint& j, Values& v) { v.push_back(j.suspension.stiffness); }},
           {"damping", "N s m-1", {}, [](const Joint& j, Values& v) { v.push_back(j.suspension.damping); }},
           {"break_force", "N", {}, [](const Joint& j, Values& v) { v.push_back(j.break_force); }},

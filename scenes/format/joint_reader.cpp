@@ -28,6 +28,7 @@ struct JointSpec {
   Vec3 anchor = Vec3::Zero(), axis1 = Vec3::UnitZ(), axis2 = Vec3::UnitX();
   std::array<model::AxisLimit, 2> limits;
   std::array<model::AxisMotor, 2> motors;
+  std::array<double, 2> armature{};
   model::Spring suspension;
   double break_force = 0, break_torque = 0;
   int num_copies = 0;  ///< 0: one joint, whose name has no number
@@ -61,9 +62,7 @@ model::AxisLimit read_limit(TableReader& table, const char* key, JointKind kind)
   if (!table.has(key)) return {};
   const auto [low, high] = table.pair(key);
   if (low > high) table.fail(key, "the low limit is above the high one; swap them");
-  // Angles are known only within one turn (ODE manual, "Stops and motor parameters").
   const bool is_angle = !model::traits_of(kind).slides;
-  if (is_angle && (low < -180 || high > 180)) table.fail(key, "limits must lie in -180 to 180 degrees");
   return is_angle ? model::AxisLimit{radians(low), radians(high)} : model::AxisLimit{low, high};
 }
 
@@ -91,6 +90,7 @@ void read_axes(TableReader& table, JointSpec& joint) {
   const model::JointTraits& traits = model::traits_of(joint.kind);
   constexpr const char* limit_keys[] = {"limits", "limits2"};
   constexpr const char* motor_keys[] = {"motor", "motor2"};
+  constexpr const char* armature_keys[] = {"armature", "armature2"};
   if (traits.num_axes > 0) joint.axis1 = table.direction("axis");
   if (traits.num_axes > 1) {
     joint.axis2 = table.direction("axis2");
@@ -99,6 +99,8 @@ void read_axes(TableReader& table, JointSpec& joint) {
   for (std::size_t axis = 0; axis < traits.axes.size(); ++axis) {
     if (traits.axes[axis].has_limit) joint.limits[axis] = read_limit(table, limit_keys[axis], joint.kind);
     if (traits.axes[axis].has_motor) joint.motors[axis] = read_motor(table, motor_keys[axis]);
+    if (traits.axes[axis].has_motor)
+      joint.armature[axis] = table.number(armature_keys[axis], Sign::non_negative, 0.0);
   }
   if (traits.has_suspension()) {
     joint.suspension.stiffness = table.number("stiffness", Sign::non_negative, 0.0);
@@ -151,6 +153,7 @@ void build_one(const JointSpec& spec, model::Model& model) {
   model::Joint joint = join(model, spec.name, spec.kind, a, b, spec.anchor, spec.axis1, spec.axis2);
   joint.limits = spec.limits;
   joint.motors = spec.motors;
+  joint.armature = spec.armature;
   joint.suspension = spec.suspension;
   joint.break_force = spec.break_force;
   joint.break_torque = spec.break_torque;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <set>
 
 #include "core/error.h"
@@ -64,30 +63,12 @@ std::vector<model::AxisMotor> motors_of(const ChainPiece& piece, double dt_s, xm
   return motors;
 }
 
-/// Larger angles from the start cannot be told apart (ODE manual, "Stops and motor parameters").
-model::AxisLimit limit_of(const LinkJoint& joint, xml::Notes& notes) {
-  model::AxisLimit limit = joint.limit;
-  if (joint.motion != Motion::hinge) return limit;
-  constexpr double half_turn = std::numbers::pi;
-  const bool has_far = (std::isfinite(limit.low) && limit.low < -half_turn) ||
-                       (std::isfinite(limit.high) && limit.high > half_turn);
-  if (has_far) notes.add(joint.where, "a limit of more than half a turn from the start is left out");
-  if (limit.low < -half_turn) limit.low = -model::infinity;
-  if (limit.high > half_turn) limit.high = model::infinity;
-  return limit;
-}
-
 void note_joint(const LinkJoint& joint, xml::Notes& notes) {
-  limit_of(joint, notes);
   constexpr double rounding = 1e-6;  // [rad] or [m] of a user's digits
   if (joint.limit.low > rounding || joint.limit.high < -rounding)
     notes.add(joint.where,
               "the joint starts outside of its limits, which push it back ('joints' of a TOML scene "
               "gives it another start)");
-  if (!(joint.armature > 0)) return;
-  notes.add(joint.where, joint.motion == Motion::slide
-                             ? "its armature is left out: the slide moves as if it were lighter"
-                             : "its armature becomes inertia of the body that it turns, about its axis");
 }
 
 }  // namespace
@@ -244,11 +225,13 @@ class Assembly::Builder {
                               frame.point_to_outer(inner.anchor), axis1, has_two ? axis2 : Vec3::UnitX());
     xml::Notes told_before;
     const std::vector<model::AxisMotor> motors = motors_of(piece, assembly_.dt_s_, told_before);
-    joint.limits[0] = limit_of(inner, told_before);
+    joint.limits[0] = inner.limit;
     joint.motors[0] = motors.back();
+    joint.armature[0] = inner.armature;
     if (has_two) {
-      joint.limits[1] = limit_of(outer, told_before);
+      joint.limits[1] = outer.limit;
       joint.motors[1] = motors.front();
+      joint.armature[1] = outer.armature;
     }
     model_.joints.push_back(std::move(joint));
   }

@@ -70,17 +70,6 @@ void split_evenly(std::size_t count, JointChain& chain) {
   chain.rest.inertia *= rest;
 }
 
-/// A rotor's inertia is added to the body that its joint turns.
-void add_armatures(JointChain& chain) {
-  for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
-    MassProperties& turned = i < chain.between.size() ? chain.between[i] : chain.rest;
-    for (const LinkJoint& joint : chain.pieces[i].joints) {
-      if (joint.motion == Motion::hinge)
-        turned.inertia += joint.armature * joint.axis * joint.axis.transpose();
-    }
-  }
-}
-
 }  // namespace
 
 JointChain chain_of(const Rigid& rigid) {
@@ -95,7 +84,6 @@ JointChain chain_of(const Rigid& rigid) {
         rigid.joints, [&](const LinkJoint& joint) { return turn_about_one_point(first, joint); });
     chain.is_gimbal ? split_about(first.anchor, num_between, chain) : split_evenly(num_between, chain);
   }
-  add_armatures(chain);
   return chain;
 }
 

@@ -41,7 +41,8 @@ double* put_row(const ContactForce& force, double* to) {
 double* put_row(const JointForce& force, double* to) {
   to = std::copy_n(force.force.data(), 3, to);
   to = std::copy_n(force.torque.data(), 3, to);
-  return std::copy_n(force.control, 2, to);
+  for (const double* pair : {force.control, force.rotor, force.angle}) to = std::copy_n(pair, 2, to);
+  return to;
 }
 
 double* put_row(const Rest& rest, double* to) {
@@ -68,8 +69,11 @@ const double* take_row(const double* from, ContactForce& force) {
 const double* take_row(const double* from, JointForce& force) {
   from = take(from, force.force);
   from = take(from, force.torque);
-  std::copy_n(from, 2, force.control);
-  return from + 2;
+  for (double* pair : {force.control, force.rotor, force.angle}) {
+    std::copy_n(from, 2, pair);
+    from += 2;
+  }
+  return from;
 }
 
 const double* take_row(const double* from, Rest& rest) {

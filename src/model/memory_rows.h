@@ -27,8 +27,8 @@ inline constexpr std::array<RowPart, 5> contact_force_parts = {{{"geoms", "", 2,
                                                                 {"arm", "m", 3},
                                                                 {"normal", "N", 1},
                                                                 {"friction", "N", 3}}};
-inline constexpr std::array<RowPart, 3> joint_force_parts = {
-    {{"force", "N", 3}, {"torque", "N m", 3}, {"control", "", 2}}};
+inline constexpr std::array<RowPart, 5> joint_force_parts = {
+    {{"force", "N", 3}, {"torque", "N m", 3}, {"control", "", 2}, {"rotor", "", 2}, {"angle", "", 2}}};
 inline constexpr std::array<RowPart, 11> rest_parts = {{{"position", "m", 3},
                                                         {"orientation", "", 4},
                                                         {"idle_steps", "", 1, true},

@@ -117,9 +117,13 @@ struct Joint {
   Vec3 axis2_b = Vec3::UnitX();  ///< unit, frame of b: universal, hinge2
   std::array<AxisLimit, 2> limits;  ///< of axes 1 and 2 (hinge2: axis 1 only)
   std::array<AxisMotor, 2> motors;  ///< of axis 1 and 2
-  Spring suspension;                ///< hinge2 only
-  double break_force = 0;           ///< [N] above which it breaks (effects/breakage.h); 0 = never
-  double break_torque = 0;          ///< [N m] likewise, about the anchor; slider: about its bodies' midpoint
+  /// [kg m^2] or, along a slider's axis, [kg]: inertia that moves with the coordinate of axis 1 or 2 alone,
+  /// as that of a motor's rotor behind a gear; its kinetic energy is half of it times the coordinate's speed
+  /// squared.
+  std::array<double, 2> armature{};
+  Spring suspension;        ///< hinge2 only
+  double break_force = 0;   ///< [N] above which it breaks (effects/breakage.h); 0 = never
+  double break_torque = 0;  ///< [N m] likewise, about the anchor; slider: about its bodies' midpoint
 
   bool breakable() const { return break_force > 0 || break_torque > 0; }
 };

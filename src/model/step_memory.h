@@ -18,11 +18,14 @@ struct ContactForce {
   Vec3 friction = Vec3::Zero();      ///< [N] on body a, world frame
 };
 
-/// The forces with which a joint ended a step, on its first body, world frame.
+/// The forces with which a joint ended a step, on its first body, world frame; and what its pose does not
+/// tell of its place.
 struct JointForce {
   Vec3 force = Vec3::Zero();   ///< [N] exerted by the rows along lines
   Vec3 torque = Vec3::Zero();  ///< [N m] exerted by the rows about axes
   double control[2] = {};      ///< [N] or [N m] of the limits and motors of the joint's axes
+  double rotor[2] = {};        ///< [N] or [N m] by which the armatures of the axes resist
+  double angle[2] = {};        ///< [rad] about the axes since the start, where limits need turns counted
 };
 
 /// Forces from which the next step's solver starts. They are forces, not impulses, so that they stay valid

@@ -163,6 +163,11 @@ class Writer {
                                                         : "slide";
     text_ += "<joint" + attribute("name", axis_name(body, k)) + attribute("type", type) +
              attribute("pos", numbers(link.anchor_child)) + attribute("axis", numbers(axis.direction));
+    const double armature =
+        link.hold.joint < 0 || axis.is_suspension
+            ? 0
+            : parts_.model.joints[link.hold.joint].armature[static_cast<std::size_t>(axis.axis)];
+    if (armature > 0) text_ += attribute("armature", numbers({armature}));
     if (axis.is_suspension) text_ += suspension(parts_.model.joints[link.hold.joint].suspension);
     text_ += "/>";
   }

@@ -41,8 +41,9 @@ enum class Friction { pyramid, cone, patch };
 
 /// Which articulations the sor stepper solves exactly in a sweep, except for limits, motors and the joints
 /// that close loops; it solves the joints of the others one after the other. `hanging`: articulations that
-/// joints hold to something static, and that have neither limits nor motors. An articulation that stands on
-/// contacts gains nothing from exact joints alone: its contacts see the foot and not the body.
+/// joints hold to something static, that have armatures, or whose joints sweeps hardly hold, as long as
+/// nothing touches these. An articulation that stands on contacts gains nothing from exact joints alone: its
+/// contacts see the foot and not the body.
 enum class JointSolver { sweeps, hanging, tree };
 
 /// MuJoCo's solver for its convex constraint problem: Newton's method, projected Gauss-Seidel on the dual, or

@@ -197,7 +197,7 @@ class Run:
                    b - first_body if b >= 0 else -1]
             row += [points[f"arm_{axis}"][i] for axis in "xyz"] + [points["normal_force"][i]]
             words += bits(row + [points[f"friction_{axis}"][i] for axis in "xyz"])
-        parts = [self.file[f"observables/joint/{name}"][frame][joints] for name in ("force", "torque", "control")]
+        parts = [self.file[f"observables/joint/{name}"][frame][joints] for name in ("force", "torque", "control", "rotor", "angle")]
         for local, row in enumerate(np.concatenate(parts, axis=1)):
             words += [local] + bits(row) if any(bits(row)) else []
         return words

@@ -20,7 +20,8 @@ StepMemory sample() {
   memory.contacts = {{{0, 3}, 2, no_body, {0.1, -0.0, 1e-300}, 7, {0.5, 0.25, 1e300}},
                      {{2, 3}, 1, 2, {0.3, 0.2, 0.1}, 1.0 / 3, {1, 2, 3}},
                      {{2, 3}, 1, 2, {0.4, 0.2, 0.1}, 0, {0, 0, 0}}};
-  memory.joints = {{{1, 2, 3}, {4, 5, 6}, {7, 8}}, {{0, -1, 0}, {0, 0, 1.0 / 7}, {0, 9}}};
+  memory.joints = {{{1, 2, 3}, {4, 5, 6}, {7, 8}, {9, 10}, {11, 12}},
+                   {{0, -1, 0}, {0, 0, 1.0 / 7}, {0, 9}, {-0.0, 0}, {7.5, 0}}};
   return memory;
 }
 
@@ -65,7 +66,7 @@ TEST(MemoryRows, have_their_parts_in_the_order_of_the_tables) {
   EXPECT_EQ(contact, (std::array<double, 11>{2, 3, 1, 2, 0.3, 0.2, 0.1, 1.0 / 3, 1, 2, 3}));
   std::array<double, numbers_of_joint_force> joint;
   put_row(sample().joints[0], joint.data());
-  EXPECT_EQ(joint, (std::array<double, 8>{1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(joint, (std::array<double, 12>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
   std::array<double, numbers_of_rest> rest;
   put_row(resting(), rest.data());
   EXPECT_EQ(rest[7], -8);

@@ -249,15 +249,15 @@ TEST(GuardedStepper, steps_a_world_again_with_the_targets_of_its_motors) {
   for (const OnBlowup on_blowup : {OnBlowup::freeze, OnBlowup::refine}) {
     const auto stepper = make_breaking(on_blowup, 1, 7);
     stepper->set_motor_velocity(1, driven_joint(), 0, aimed_velocity);
-    run_frames(*stepper, 6);
+    run_frames(*stepper, 4);
     model::State found = stepper->state(1);
     found.guard = {};
     const model::State after = aimed_crash(shorter, before, 14, 2);
     EXPECT_EQ(model::hash(found),
-              model::hash(on_blowup == OnBlowup::freeze ? before : aimed_crash(settings, after, 8, 10)));
-    stepper->set_state(1, start, 18);
+              model::hash(on_blowup == OnBlowup::freeze ? before : aimed_crash(settings, after, 8, 4)));
+    stepper->set_state(1, start, 12);
     run_frames(*stepper, 2);
-    EXPECT_EQ(model::hash(stepper->state(1)), model::hash(aimed_crash(settings, start, 18, 6)))
+    EXPECT_EQ(model::hash(stepper->state(1)), model::hash(aimed_crash(settings, start, 12, 6)))
         << "the target is still there";
   }
 }

@@ -191,8 +191,9 @@ void FrameReport::take_contacts(const stepping::StepContacts& part) {
   all.joints = earlier.joints.empty() ? part.joints : earlier.joints;
   for (std::size_t joint = 0; joint < part.joints.size(); ++joint) {
     const model::JointForce& force = part.joints[joint];
-    const bool acts = force.force != model::Vec3::Zero() || force.torque != model::Vec3::Zero() ||
-                      force.control[0] != 0 || force.control[1] != 0;
+    std::array<double, model::numbers_of_joint_force> row;
+    model::put_row(force, row.data());
+    const bool acts = std::ranges::any_of(row, [](double number) { return number != 0; });
     if (acts) all.joints[joint] = force;
   }
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "effects/effects.h"
+#include "model/mechanics.h"
 
 namespace pbmpi::bullet {
 namespace {
@@ -40,14 +41,15 @@ bool is_finite(const btVector3& v) {
 
 Bodies::Bodies(const model::Model& model) : no_shape_(std::make_unique<btEmptyShape>()) {
   const bool gyroscopic = !effects::is_left_out(model, effects::EffectId::gyroscopic_torque);
-  for (const model::Body& body : model.bodies) {
-    const Principal principal = principal_of(body.inertia);
-    bodies_.push_back(make_body(body.mass_kg, principal.moments, *no_shape_));
+  const std::vector<model::Mat3> inertias = model::inertias_with_armatures(model);
+  for (std::size_t body = 0; body < inertias.size(); ++body) {
+    const Principal principal = principal_of(inertias[body]);
+    bodies_.push_back(make_body(model.bodies[body].mass_kg, principal.moments, *no_shape_));
     bodies_.back()->setFlags(gyroscopic ? BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY : 0);
     bodies_.back()->forceActivationState(DISABLE_DEACTIVATION);
     const Eigen::Quaterniond& axes = principal.axes;
     principal_.emplace_back(axes.x(), axes.y(), axes.z(), axes.w());
-    is_turned_.push_back(is_diagonal(body.inertia) ? 0 : 1);
+    is_turned_.push_back(is_diagonal(inertias[body]) ? 0 : 1);
   }
   orientation_.resize(bodies_.size());
   ground_ = make_body(0, model::Vec3::Zero(), *no_shape_);

@@ -3,15 +3,15 @@
 #include <algorithm>
 
 #include "effects/effects.h"
+#include "model/mechanics.h"
 #include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 namespace {
 
-dMass mass_of(const model::Body& body) {
-  const model::Mat3& inertia = body.inertia;
+dMass mass_of(double mass_kg, const model::Mat3& inertia) {
   dMass mass;
-  dMassSetParameters(&mass, body.mass_kg, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1),
+  dMassSetParameters(&mass, mass_kg, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1),
                      inertia(0, 2), inertia(1, 2));
   return mass;
 }
@@ -31,9 +31,10 @@ std::vector<dBodyID> make_bodies(dWorldID world, const model::Model& model) {
   const bool gyroscopic = !effects::is_left_out(model, effects::EffectId::gyroscopic_torque);
   std::vector<dBodyID> bodies;
   bodies.reserve(model.bodies.size());
-  for (const model::Body& body : model.bodies) {
+  const std::vector<model::Mat3> inertias = model::inertias_with_armatures(model);
+  for (std::size_t body = 0; body < inertias.size(); ++body) {
     const dBodyID id = dBodyCreate(world);
-    const dMass mass = mass_of(body);
+    const dMass mass = mass_of(model.bodies[body].mass_kg, inertias[body]);
     dBodySetMass(id, &mass);
     dBodySetGyroscopicMode(id, gyroscopic ? 1 : 0);
     dBodySetAutoDisableFlag(id, 0);

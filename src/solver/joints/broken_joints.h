@@ -1,4 +1,4 @@
-/// Which joints of a pack's worlds are broken (see also broken_lanes.h).
+/// Which joints of a pack's worlds are broken.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,9 @@
 /// Builds the rows of limits and motors from the poses of a joint's bodies.
 #pragma once
 
+#include <limits>
+#include <numbers>
+
 #include "core/elementary.h"
 #include "solver/joints/joint_controls.h"
 #include "solver/joints/row_builder.h"
@@ -22,11 +25,10 @@ class ControlBuilder {
   using L3 = Vec3L<V>;
   using Pair = JointBodies<V>;
 
-  ControlBuilder(const ControlRules<T>& rules, const RowBuilder<T>& rows, bool goes_on)
-      : rules_(rules), rows_(rows), goes_on_(goes_on) {}
+  ControlBuilder(const ControlRules<T>& rules, const RowBuilder<T>& rows) : rules_(rules), rows_(rows) {}
 
-  /// Sets the row of a limit or motor about `axis`; half_angle(): the axis's current half angle, called only
-  /// where it matters. Returns whether any lane has a row.
+  /// Sets the row of a limit, motor or rotor about `axis`; half_angle(): the axis's current half angle,
+  /// called only where it matters. Returns whether any lane has a limit or motor that acts.
   template <class GetHalfAngle>
   bool set_axis_control(AxisControl<V>& control, const L3& axis, const GetHalfAngle& half_angle,
                         const Pair& pair, Bounded<AxisRow<V>, V>& row) const;
@@ -36,18 +38,32 @@ class ControlBuilder {
                           JointRows<T, model::JointKind::slider>& rows) const;
 
  private:
-  /// 1 in the lanes whose axis is at or past a limit; the angle where it matters.
+  /// 1 in the lanes whose axis is at or past a limit; the coordinate where it matters.
   struct AxisPlace {
     V at_low, at_high, angle;
   };
   template <class GetHalfAngle>
   AxisPlace locate(AxisControl<V>& control, const GetHalfAngle& half_angle) const;
-  bool set_row(const AxisControl<V>& control, const L3& axis, const AxisPlace& place, const Pair& pair,
-               Bounded<AxisRow<V>, V>& row) const;
+  /// A driven axis meets its limit only when it is there.
+  void set_limits(const AxisControl<V>& control, AxisPlace& place) const {
+    const V zero = T::broadcast(0), one = T::broadcast(1);
+    const V margin = control.max_force > zero ? zero : T::broadcast(rules_.margin());
+    place.at_low = place.angle <= control.low + margin ? one : zero;
+    place.at_high = place.at_low > zero ? zero : (place.angle >= control.high - margin ? one : zero);
+  }
+  /// Puts lanes right whose turns are counted.
+  void count_turns(AxisControl<V>& control, const HalfAngle<V>& now, AxisPlace& place) const;
+  static bool has_row(const AxisControl<V>& control, const AxisPlace& place) {
+    return control.has_motor || T::any(place.at_low + place.at_high);
+  }
+  template <class Row>
+  void set_bounds(const AxisControl<V>& control, const AxisPlace& place, Row& row) const {
+    row.rotor.inertia = control.armature;
+    row.set(rules_.decide(control, place.at_low, place.at_high, place.angle));
+  }
 
   ControlRules<T> rules_;
   RowBuilder<T> rows_;
-  bool goes_on_;
 };
 
 template <class T>
@@ -55,16 +71,19 @@ template <class GetHalfAngle>
 bool ControlBuilder<T>::set_axis_control(AxisControl<V>& control, const L3& axis,
                                          const GetHalfAngle& half_angle, const Pair& pair,
                                          Bounded<AxisRow<V>, V>& row) const {
-  return set_row(control, axis, locate(control, half_angle), pair, row);
+  AxisPlace place{T::broadcast(0), T::broadcast(0), T::broadcast(0)};
+  if (control.has_limit || control.has_hold) place = locate(control, half_angle);
+  const bool is_on = has_row(control, place);
+  if (!is_on && !control.has_rotor) return false;
+  rows_.set_axis(axis, T::broadcast(0), pair, row.row);
+  set_bounds(control, place, row);
+  return is_on;
 }
 
 /// The angle is that of ODE's getHingeAngle: from the quaternion of b relative to a, relative to the start.
 template <class T>
 void ControlBuilder<T>::set_hinge_control(JointLane<V>& joint, const Pair& pair,
                                           JointRows<T, model::JointKind::hinge>& rows) const {
-  AxisControl<V>& control = joint.controls[0];
-  rows.control_on[0] = control.any();
-  if (!control.any()) return;
   const auto half_angle = [&]() -> HalfAngle<V> {
     const RelativeRotation<V> turn = relative_rotation(joint.terms, pair);
     const V zero = T::broadcast(0);
@@ -73,60 +92,59 @@ void ControlBuilder<T>::set_hinge_control(JointLane<V>& joint, const Pair& pair,
     const V s = along >= zero ? -length : length;  // the angle of a relative to b
     return {turn.w < zero ? -s : s, T::abs(turn.w)};
   };
-  rows.control_on[0] = set_axis_control(control, pair.a.rotation * joint.terms.axis1_a, half_angle, pair,
-                                        rows.axis_controls[0]);
+  rows.control_on[0] = set_axis_control(joint.controls[0], pair.a.rotation * joint.terms.axis1_a, half_angle,
+                                        pair, rows.axis_controls[0]);
 }
 
+/// A range of less than a turn is recognised by the angle from its middle. Beyond a limit the angle so
+/// belongs to the nearer one.
 template <class T>
 template <class GetHalfAngle>
 typename ControlBuilder<T>::AxisPlace ControlBuilder<T>::locate(AxisControl<V>& control,
                                                                 const GetHalfAngle& half_angle) const {
-  const V zero = T::broadcast(0), one = T::broadcast(1);
+  const V zero = T::broadcast(0);
   AxisPlace place{zero, zero, zero};
-  if (!control.has_limit && !control.has_hold) return place;
   const HalfAngle<V> now = half_angle();
-  if (control.has_limit) {
-    place.at_low = now.s * control.cos_low <= now.c * control.sin_low ? one : zero;
-    place.at_high = now.s * control.cos_high >= now.c * control.sin_high ? one : zero;
-    place.at_high = place.at_low > zero ? zero : place.at_high;
-  }
-  if (control.has_hold || goes_on_ || T::any(place.at_low + place.at_high)) {
-    place.angle = 2 * core::angle_of_right_half<T>(now.s, now.c);
-    if (goes_on_) control.place = place.angle;
-  }
+  const V s = now.s * control.cos_middle - now.c * control.sin_middle;
+  const V c = now.c * control.cos_middle + now.s * control.sin_middle;
+  const HalfAngle<V> away{c < zero ? -s : s, T::abs(c)};
+  place.angle = control.middle + 2 * core::angle_of_right_half<T>(away.s, away.c);
+  if (control.counts_turns) count_turns(control, now, place);
+  set_limits(control, place);
   return place;
 }
 
+/// The angle so far tells which turn it is, as an axis turns by less than half of one from look to look.
+/// Adding and subtracting 1.5 / epsilon rounds to whole numbers.
 template <class T>
-bool ControlBuilder<T>::set_row(const AxisControl<V>& control, const L3& axis, const AxisPlace& place,
-                                const Pair& pair, Bounded<AxisRow<V>, V>& row) const {
-  const auto& [at_low, at_high, angle] = place;
-  const bool is_on = control.has_motor || T::any(at_low + at_high);
-  if (!is_on && !goes_on_) return false;
-  const auto state = rules_.decide(control, at_low, at_high, angle);
-  rows_.set_axis(axis, state.rhs, pair, row.row);
-  set_bounds(state, row);
-  return is_on;
+void ControlBuilder<T>::count_turns(AxisControl<V>& control, const HalfAngle<V>& now,
+                                    AxisPlace& place) const {
+  const V zero = T::broadcast(0);
+  constexpr Scalar turn = 2 * std::numbers::pi_v<Scalar>,
+                   rounding = Scalar{1.5} / std::numeric_limits<Scalar>::epsilon();
+  const V angle = 2 * core::angle_of_right_half<T>(now.s, now.c);
+  const V turns =
+      ((control.angle - angle) * T::broadcast(1 / turn) + T::broadcast(rounding)) - T::broadcast(rounding);
+  const auto counts = control.counts > zero;
+  control.angle = counts ? angle + T::broadcast(turn) * turns : zero;
+  place.angle = counts ? control.angle : place.angle;
 }
 
 template <class T>
 void ControlBuilder<T>::set_slider_control(JointLane<V>& joint, const Pair& pair,
                                            JointRows<T, model::JointKind::slider>& rows) const {
-  AxisControl<V>& control = joint.controls[0];
-  const V zero = T::broadcast(0), one = T::broadcast(1);
+  const AxisControl<V>& control = joint.controls[0];
+  const V zero = T::broadcast(0);
   const L3 axis = pair.a.rotation * joint.terms.axis1_a;
   const L3 apart = pair.b.position - pair.a.position;
-  const V place = -dot(axis, apart + pair.b.rotation * joint.terms.anchor_b);
-  const V at_low = place <= control.low ? one : zero;
-  const V at_high = at_low > zero ? zero : (place >= control.high ? one : zero);
-  if (goes_on_) control.place = place;
+  const V along = -dot(axis, apart + pair.b.rotation * joint.terms.anchor_b);
+  AxisPlace place{zero, zero, along};
+  set_limits(control, place);
   auto& row = rows.line_controls[0];
-  rows.control_on[0] = control.has_motor || T::any(at_low + at_high);
-  if (!rows.control_on[0] && !goes_on_) return;
-  const auto state = rules_.decide(control, at_low, at_high, place);
   const L3 moment = cross(slider_arm<T>(pair, apart), axis);
-  rows_.set_line(axis, moment, moment, state.rhs, T::broadcast(rows_.cfm()), pair, row.row);
-  set_bounds(state, row);
+  rows_.set_line(axis, moment, moment, zero, T::broadcast(rows_.cfm()), pair, row.row);
+  set_bounds(control, place, row);
+  rows.control_on[0] = has_row(control, place);
 }
 
 }  // namespace pbmpi::solver

@@ -10,10 +10,9 @@
 #include <vector>
 
 #include "core/random.h"
-#include "solver/joints/broken_lanes.h"
-#include "solver/joints/joint_advancer.h"
 #include "solver/joints/joint_builder.h"
 #include "solver/joints/joint_memory.h"
+#include "solver/joints/joint_solver.h"
 
 namespace pbmpi::solver {
 
@@ -41,6 +40,7 @@ class JointBatches {
   struct Batch {
     std::size_t shape = 0, index = 0;
     int first_slot = 0, end_slot = 0;
+    bool has_joints = false;
   };
   /// Calls visit(batch) for each active batch, in the order of their slots.
   template <class Visit>
@@ -49,28 +49,60 @@ class JointBatches {
       const Shape& shape = shapes_[s];
       for (std::size_t i = 0; i < shape.active.size(); ++i) {
         const int first_slot = shape.first_slot + static_cast<int>(i) * shape.num_bodies;
-        if (shape.active[i]) visit(Batch{s, i, first_slot, first_slot + shape.num_bodies});
+        if (shape.active[i])
+          visit(Batch{s, i, first_slot, first_slot + shape.num_bodies, shape.num_joints > 0});
       }
     }
   }
 
-  /// A joint has broken in this lane.
-  void set_broken(int shape, int joint, int lane) { broken_.add(shape, joint, lane); }
-  /// Builds the rows of a step's first substep.
-  void build(const Batch& batch, const JointBuilder<T>& builder, const BodyLanes<T>& bodies) {
-    for_each_rows(batch, [&](auto& joint, auto& rows) { builder.build(joint, bodies, rows); });
+  /// A joint has broken in this lane: from now on it exerts nothing.
+  void set_broken(int shape, int joint, int lane) {
+    T::set(joints(shape)[static_cast<std::size_t>(joint)].holds, lane, 0);
   }
-  /// Sets the impulses with which the rows start: the forces that the joints remember, times `h`.
-  void recall(const Batch& batch, const V& h) {
-    for_each_rows(batch, [&](auto& joint, auto& rows) { recall_forces<T>(joint.memory, h, rows); });
+  /// Builds the rows of a step's first substep, with the forces that the joints remember, times `h`.
+  /// `exact`: see JointBuilder::build().
+  void start(const Batch& batch, const JointBuilder<T>& builder, const V& exact, const V& h,
+             const BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) {
+      for (int axis = 0; axis < 2; ++axis) joint.controls[axis].angle = joint.memory.angle[axis];
+      const JointForceLane<V> forces{joint.memory.force * h, joint.memory.torque * h};
+      builder.build(joint, exact, forces, bodies, rows);
+      recall_forces<T>(joint.memory, h, rows);
+    });
+  }
+  /// Builds the rows anew after the bodies have moved, with the same forces.
+  void rebuild(const Batch& batch, const JointBuilder<T>& builder, const V& exact,
+               const BodyLanes<T>& bodies) {
+    const V one = T::broadcast(1);
+    for_each_rows(batch, [&](auto& joint, auto& rows) {
+      JointForceLane<V> forces;
+      set_forces<T>(rows, one, forces);
+      builder.build(joint, exact, forces, bodies, rows);
+      recall_forces<T>(forces, one, rows);
+    });
+  }
+  /// Reduces the impulses to a share.
+  void carry(const Batch& batch, const V& share) {
+    for_each_rows(batch, [&](auto&, auto& rows) {
+      JointForceLane<V> forces;
+      set_forces<T>(rows, T::broadcast(1), forces);
+      recall_forces<T>(forces, share, rows);
+    });
   }
   /// Remembers the forces with which the rows ended, except where keeps(slot of a joint's first body) says
   /// so: null, or 1 in the lanes whose memory stays as it is.
   template <class Keeps>
   void remember(const Batch& batch, const V& per_h, const Keeps& keeps) {
-    for_each_rows(batch, [&](auto& joint, auto& rows) {
-      remember_forces<T>(rows, per_h, keeps(joint.slot_a), joint.memory);
-    });
+    for_each_rows(
+        batch, [&](auto& joint, auto& rows) { remember_forces<T>(rows, per_h, keeps(joint.slot_a), joint); });
+  }
+  /// Lets rotors begin a substep, before anything acts on the bodies.
+  void start_rotors(const Batch& batch, const BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto&, auto& rows) { JointSolver<T>::start_rotors(rows, bodies); });
+  }
+  /// See JointBuilder::look_ahead().
+  void look_ahead(const Batch& batch, const JointBuilder<T>& builder, const BodyLanes<T>& bodies) {
+    for_each_rows(batch, [&](auto& joint, auto& rows) { builder.look_ahead(joint, bodies, rows); });
   }
   /// At the start of a substep, applies what acts on the bodies before the sweeps: motors at their limits,
   /// and, if `carries`, the impulses with which the rows start.
@@ -80,26 +112,16 @@ class JointBatches {
       if (carries) JointSolver<T>::push_carried(rows, bodies);
     });
   }
-  /// After build(), in all active batches: makes broken joints exert nothing throughout the step.
-  void stop_broken_joints();
-  /// Before and after the bodies move, and at the start of the next substep.
-  void advance(const Batch& batch, const JointAdvancer<T>& advancer, const BodyLanes<T>& bodies) {
-    for_each_rows(batch, [&](auto& joint, auto& rows) { advancer.advance(joint, bodies, rows); });
-  }
-  void rebuild(const Batch& batch, const JointAdvancer<T>& advancer, const BodyLanes<T>& bodies) {
-    for_each_rows(batch, [&](auto& joint, auto& rows) { advancer.rebuild(joint, bodies, rows); });
-  }
-  void restart(const Batch& batch, const JointAdvancer<T>& advancer) {
-    for_each_rows(batch, [&](auto& joint, auto& rows) { advancer.restart(joint, rows); });
-  }
   /// Fisher-Yates with keyed numbers: the order is the same in every batch of a shape, and hence in every
   /// world.
   void shuffle(std::uint64_t key);
   /// Sweeps the joints in the order of the model.
   void order_as_given();
-  /// Sweeps the shapes for which passes_over(shape) is false. `places_last`: see JointSolver::solve().
-  template <bool places_last, class PassesOver>
-  void sweep(const JointSolver<T>& solver, const PassesOver& passes_over, BodyLanes<T>& bodies);
+  /// swept_lanes(shape, batch, joint, rows): 1 in the lanes to be swept, else 0. `as_given`: in the order of
+  /// the model, whatever the present one is.
+  template <class SweptLanes>
+  void sweep(const JointSolver<T>& solver, const SweptLanes& swept_lanes, bool as_given,
+             BodyLanes<T>& bodies);
 
   /// The order of the joints of a shape in this sweep.
   std::span<const std::size_t> order(std::size_t shape) const { return shapes_[shape].order; }
@@ -170,7 +192,6 @@ class JointBatches {
   void for_each_rows(const Batch& batch, Visit visit);
 
   std::vector<Shape> shapes_;
-  BrokenLanes<T> broken_;
   std::tuple<RowsOf<Kind::ball>, RowsOf<Kind::hinge>, RowsOf<Kind::slider>, RowsOf<Kind::universal>,
              RowsOf<Kind::fixed>, RowsOf<Kind::hinge2>>
       rows_;
@@ -190,6 +211,7 @@ int JointBatches<T>::add_shape(const ArticulationShape& shape, int first_slot, i
     for (const JointLink& link : shape.joints) {
       JointLane<V>& joint = batches.joints.emplace_back();
       joint.sprung = link.sprung;
+      joint.holds = T::broadcast(1);
       joint.slot_a = first + link.body_a;
       joint.slot_b = link.body_b == shape.num_bodies ? static_slot : first + link.body_b;
       const int index = with_kind(link.kind, [this](auto kind) {
@@ -227,18 +249,6 @@ void JointBatches<T>::for_each_rows(const Batch& batch, Visit visit) {
 }
 
 template <class T>
-void JointBatches<T>::stop_broken_joints() {
-  broken_.for_each([&](int shape, int joint, const V& holds) {
-    const Shape& batches = shapes_[static_cast<std::size_t>(shape)];
-    const RowsAt at = batches.rows[static_cast<std::size_t>(joint)];
-    if (!batches.active[static_cast<std::size_t>(joint) / batches.num_joints]) return;
-    with_kind(at.kind, [&](auto kind) {
-      stop_broken(rows_of<kind.value>()[static_cast<std::size_t>(at.index)], holds);
-    });
-  });
-}
-
-template <class T>
 void JointBatches<T>::order_as_given() {
   for (Shape& shape : shapes_) std::iota(shape.order.begin(), shape.order.end(), std::size_t{0});
 }
@@ -256,18 +266,20 @@ void JointBatches<T>::shuffle(std::uint64_t key) {
 /// Goes joint by joint, each in all batches in turn: batches share no body, so that the processor works on
 /// several at once.
 template <class T>
-template <bool places_last, class PassesOver>
-void JointBatches<T>::sweep(const JointSolver<T>& solver, const PassesOver& passes_over,
+template <class SweptLanes>
+void JointBatches<T>::sweep(const JointSolver<T>& solver, const SweptLanes& swept_lanes, bool as_given,
                             BodyLanes<T>& bodies) {
-  for (const Shape& shape : shapes_) {
-    if (passes_over(static_cast<std::size_t>(&shape - shapes_.data()))) continue;
-    for (const std::size_t joint : shape.order) {
-      for (std::size_t i = joint; i < shape.rows.size(); i += shape.num_joints) {
-        if (!shape.active[i / shape.num_joints]) continue;
-        const RowsAt at = shape.rows[i];
+  for (std::size_t s = 0; s < shapes_.size(); ++s) {
+    const Shape& shape = shapes_[s];
+    for (std::size_t next = 0; next < shape.num_joints; ++next) {
+      const std::size_t joint = as_given ? next : shape.order[next];
+      for (std::size_t batch = 0; batch < shape.active.size(); ++batch) {
+        if (!shape.active[batch]) continue;
+        const RowsAt at = shape.rows[batch * shape.num_joints + joint];
         with_kind(at.kind, [&](auto kind) {
-          solver.template solve<places_last>(rows_of<kind.value>()[static_cast<std::size_t>(at.index)],
-                                             bodies);
+          auto& rows = rows_of<kind.value>()[static_cast<std::size_t>(at.index)];
+          const V swept = swept_lanes(s, batch, joint, rows);
+          if (T::any(swept)) solver.solve(rows, swept, bodies);
         });
       }
     }
@@ -280,13 +292,9 @@ int JointBatches<T>::num_rows(int shape, int joint, int lane) const {
   return with_kind(at.kind, [&](auto kind) {
     const auto& rows = rows_of<kind.value>()[static_cast<std::size_t>(at.index)];
     int count = model::traits_of(kind.value).held_rows();
-    const auto add = [&](const auto& controls) {
-      for (std::size_t i = 0; i < controls.size(); ++i) {
-        if (rows.control_on[i] && T::get(controls[i].low, lane) < T::get(controls[i].high, lane)) ++count;
-      }
-    };
-    add(rows.axis_controls);
-    add(rows.line_controls);
+    for_each_control(rows, [&](const auto& control, std::size_t i) {
+      if (rows.control_on[i] && T::get(control.low, lane) < T::get(control.high, lane)) ++count;
+    });
     return count;
   });
 }

@@ -1,14 +1,32 @@
 /// Builds the rows of a joint from the poses of its bodies.
 #pragma once
 
+#include <limits>
+
 #include "solver/joints/control_builder.h"
 #include "solver/joints/joint_points.h"
+#include "solver/joints/joint_solver.h"
 #include "solver/lanes/plane_space.h"
 
 namespace pbmpi::solver {
 
-/// Holds what is uniform in a step's first substep, and builds the rows with it. JointAdvancer advances the
-/// rows through the later substeps.
+/// Holds what is uniform in a substep, and builds the rows with it.
+///
+/// The bodies move in a substep with the velocities that the rows leave at its start, turning under their own
+/// inertia, and relaxing sweeps hold their velocities at its end. A place is to stay over the whole substep,
+/// up to errors of third order in the bodies' rotation. Rows see to that in one of two ways, or in between
+/// (JointRows::reversible).
+///
+/// In the first they stand as the bodies will have turned in the middle. The joint's impulse then acts at the
+/// start alone, as the next substep recalls it, and takes energy of first order in the substep. Sweeps need
+/// this, which find an impulse over many substeps.
+///
+/// In the second they stand as at the start, and leave a speed `ahead`: minus what it will have gained in the
+/// middle. Either end of the substep then takes half of the impulse. This is the scheme of RATTLE (H. C.
+/// Andersen, J. Comput. Phys. 52, 1983): it is reversible, and lets energy swing but not drift. It needs rows
+/// that are solved exactly. Where the impulses turn a body by a large share of what it turns anyway, as in a
+/// whip, the first way takes over: it bears and damps what the substep does not resolve. (The lines of hinge2
+/// have nothing ahead.)
 template <class T>
 class JointBuilder {
  public:
@@ -16,18 +34,25 @@ class JointBuilder {
   using Scalar = typename T::Scalar;
   using L3 = Vec3L<V>;
 
-  /// `ahead_s`: see build_point(). `goes_on`: substeps follow this one, so the values from which they start
-  /// are built too.
-  JointBuilder(Scalar h, const JointErp<Scalar>& erp, Scalar cfm, Scalar sor_factor, Scalar ahead_s,
-               bool goes_on)
+  /// `ahead_s` [s]: half of the substep, or 0 for rows that have nothing ahead. `fastest` [m/s] or [rad/s]:
+  /// at which joints close their errors.
+  JointBuilder(Scalar h, const JointErp<Scalar>& erp, Scalar cfm, Scalar ahead_s, Scalar fastest)
       : ahead_s_(ahead_s),
-        rules_(h, erp.turns),
-        rows_(erp.places / h, erp.turns / h, cfm / h, sor_factor),
-        controls_(rules_, rows_, goes_on) {}
+        fastest_(fastest),
+        rules_(h, erp.turns, fastest),
+        rows_(erp.places / h, erp.turns / h, cfm / h),
+        controls_(rules_, rows_) {}
 
-  /// Builds the rows from the poses, without impulses.
+  /// Builds the rows from the poses, with nothing ahead. Their impulses stay as they are, though directions
+  /// may have turned. `exact`: 1 in the lanes in which the rows are solved exactly, else 0. `carried`:
+  /// the impulses with which they will start.
   template <model::JointKind kind>
-  void build(JointLane<V>& joint, const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
+  void build(JointLane<V>& joint, const V& exact, const JointForceLane<V>& carried,
+             const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
+  /// Sets what rows have ahead in the lanes in which they are solved exactly, from the velocities with which
+  /// the bodies are expected to move.
+  template <model::JointKind kind>
+  void look_ahead(const JointLane<V>& joint, const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const;
 
  private:
   using Pair = JointBodies<V>;
@@ -36,10 +61,24 @@ class JointBuilder {
   void set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair, LineRow<V>* rows) const;
   void set_parallel_axes(const JointTermsLane<V>& terms, const Pair& pair, AxisRow<V>* rows) const;
   void set_orientation(const JointTermsLane<V>& terms, const Pair& pair, AxisRow<V>* rows) const;
+  V ahead_of_line(const LineRow<V>& row, const Pair& pair, const BodyLanes<T>& bodies,
+                  const JointLane<V>& joint) const;
+  /// The square of the share of a body's angular velocity that the carried impulses change.
+  V unrest(const BodyLanes<T>& bodies, int slot, const L3& anchor, const JointForceLane<V>& carried) const {
+    const BodyLane<V>& body = bodies.bodies[slot];
+    const L3 change = body.inv_inertia * (cross(body.rotation * anchor, carried.force) + carried.torque);
+    const L3& turning = bodies.twists[slot].angular;
+    const V square = dot(change, change);
+    return square / (square + dot(turning, turning) + T::broadcast(std::numeric_limits<Scalar>::min()));
+  }
+  /// What an axis that turns with a body gains, times `speed`: that about it.
+  L3 gain_of_axis(const L3& axis, const L3& angular, const V& speed) const {
+    return (middle_of_turn<T>(axis, angular * T::broadcast(ahead_s_)) - axis) * speed;
+  }
   template <model::JointKind kind>
   void set_crossed_axes(JointLane<V>& joint, const Pair& pair, JointRows<T, kind>& rows) const;
 
-  Scalar ahead_s_;
+  Scalar ahead_s_, fastest_;
   ControlRules<T> rules_;
   RowBuilder<T> rows_;
   ControlBuilder<T> controls_;
@@ -47,7 +86,8 @@ class JointBuilder {
 
 template <class T>
 template <model::JointKind kind>
-void JointBuilder<T>::build(JointLane<V>& joint, const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const {
+void JointBuilder<T>::build(JointLane<V>& joint, const V& exact, const JointForceLane<V>& carried,
+                            const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const {
   using model::JointKind;
   const Pair pair{bodies.bodies[joint.slot_a], bodies.bodies[joint.slot_b]};
   rows.sprung = kind == JointKind::hinge2 && joint.sprung;
@@ -55,11 +95,16 @@ void JointBuilder<T>::build(JointLane<V>& joint, const BodyLanes<T>& bodies, Joi
   rows.slot_b = joint.slot_b;
   rows.inv_mass_a = pair.a.inv_mass;
   rows.inv_mass_b = pair.b.inv_mass;
-  for (PointRows<V>& point : rows.points) {
-    build_point<T>(joint.terms, bodies, joint.slot_a, joint.slot_b, rows_.place_k(), ahead_s_, point,
-                   [&](const V& diagonal, const V&) { return rows_.factor() / (diagonal + rows_.cfm()); });
-    point.impulse = {T::broadcast(0), T::broadcast(0), T::broadcast(0)};
-  }
+  rows.holds = joint.holds;
+  rows.has_block = false;
+  rows.has_rotors = joint.controls[0].has_rotor || joint.controls[1].has_rotor;
+  // Both ways have equal shares where an impulse changes a body's turning by 5 %.
+  rows.reversible =
+      exact / (1 + T::broadcast(400) * (unrest(bodies, joint.slot_a, joint.terms.anchor_a, carried) +
+                                        unrest(bodies, joint.slot_b, joint.terms.anchor_b, carried)));
+  for (PointRows<V>& point : rows.points)
+    build_point<T>(joint.terms, bodies, joint.slot_a, joint.slot_b, rows_.place_k(), ahead_s_,
+                   rows.reversible, fastest_, point);
   if constexpr (kind == JointKind::hinge) {
     set_parallel_axes(joint.terms, pair, rows.axes.data());
     controls_.set_hinge_control(joint, pair, rows);
@@ -75,6 +120,56 @@ void JointBuilder<T>::build(JointLane<V>& joint, const BodyLanes<T>& bodies, Joi
     set_slider_lines(joint.terms, pair, rows.lines.data());
     controls_.set_slider_control(joint, pair, rows);
   }
+}
+
+template <class T>
+template <model::JointKind kind>
+void JointBuilder<T>::look_ahead(const JointLane<V>& joint, const BodyLanes<T>& bodies,
+                                 JointRows<T, kind>& rows) const {
+  using model::JointKind;
+  if (!(ahead_s_ > 0)) return;
+  const BodyLane<V>&a = bodies.bodies[joint.slot_a], &b = bodies.bodies[joint.slot_b];
+  const L3 &turn_a = bodies.expected[joint.slot_a].angular, &turn_b = bodies.expected[joint.slot_b].angular;
+  const L3 &more_a = bodies.half_turnings[joint.slot_a], &more_b = bodies.half_turnings[joint.slot_b];
+  const auto is_wanted = rows.reversible > T::broadcast(0);
+  const auto set = [&](V& ahead, const V& value) { ahead = is_wanted ? value * rows.reversible : ahead; };
+  for (PointRows<V>& point : rows.points) {
+    const L3 ahead = gain_of_arm<T>(point.arm_b, turn_b, more_b, ahead_s_) -
+                     gain_of_arm<T>(point.arm_a, turn_a, more_a, ahead_s_);
+    set(point.ahead.x, ahead.x);
+    set(point.ahead.y, ahead.y);
+    set(point.ahead.z, ahead.z);
+  }
+  L3 gain = more_b - more_a;
+  if constexpr (kind == JointKind::hinge) {
+    const L3 axis = a.rotation * joint.terms.axis1_a;
+    gain = gain + gain_of_axis(axis, turn_a, dot(axis, turn_a - turn_b));
+  } else if constexpr (kind == JointKind::universal || kind == JointKind::hinge2) {
+    const L3 axis1 = a.rotation * joint.terms.axis1_a, axis2 = b.rotation * joint.terms.axis2_b;
+    const V cosine = dot(axis1, axis2), per = 1 / (1 - cosine * cosine);
+    const V along1 = dot(axis1, turn_a - turn_b), along2 = dot(axis2, turn_a - turn_b);
+    gain = gain + gain_of_axis(axis1, turn_a, (along1 - cosine * along2) * per) +
+           gain_of_axis(axis2, turn_b, (along2 - cosine * along1) * per);
+  }
+  for (AxisRow<V>& row : rows.axes) set(row.ahead, dot(row.axis, gain));
+  if constexpr (kind == JointKind::slider) {
+    const Pair pair{a, b};
+    for (LineRow<V>& row : rows.lines) set(row.ahead, ahead_of_line(row, pair, bodies, joint));
+  }
+}
+
+/// slider: the lines turn with a, and their arms grow as the bodies slide.
+template <class T>
+typename T::V JointBuilder<T>::ahead_of_line(const LineRow<V>& row, const Pair& pair,
+                                             const BodyLanes<T>& bodies, const JointLane<V>& joint) const {
+  const Twist<V>&a = bodies.expected[joint.slot_a], &b = bodies.expected[joint.slot_b];
+  const L3 arm = slider_arm<T>(pair, pair.b.position - pair.a.position);
+  const L3 apart = b.linear - a.linear, growth = slider_arm<T>(pair, apart);
+  const L3 more = bodies.half_turnings[joint.slot_a] + bodies.half_turnings[joint.slot_b];
+  const L3 turn = cross(a.angular, row.direction);
+  const V gain =
+      dot(cross(growth, row.direction) + cross(arm, turn), a.angular + b.angular) - dot(turn, apart);
+  return -(gain * T::broadcast(ahead_s_)) - dot(row.moment_a, more);
 }
 
 /// hinge2: holds the point along axis 1 (softly, if sprung) and across it.
@@ -159,8 +254,6 @@ void JointBuilder<T>::set_crossed_axes(JointLane<V>& joint, const Pair& pair,
   rows_.set_axis(crossed * (1 / sine), rhs, pair, rows.axes[0]);
   for (int i = 0; i < 2; ++i) {
     AxisControl<V>& control = joint.controls[i];
-    rows.control_on[i] = control.any();
-    if (!control.any()) continue;
     // Angle 1: where a sees axis 2 turned about its axis 1. Angle 2: where b sees axis 1 turned about its
     // axis 2.
     const L3& axis = i == 0 ? axis1 : axis2;

@@ -6,28 +6,23 @@
 
 namespace pbmpi::solver {
 
-/// What an axis does in a substep: it is at a limit (with its error), driven, or free.
-template <class V>
-struct alignas(sizeof(V)) ControlState {
-  V rhs, low, high;  ///< of the row
-  V relaxed_rhs;     ///< of the row in sweeps that correct no position error
-  V push;            ///< of a motor at its limit: see Bounded
-  V at_limit;        ///< 1: a limit holds; 0: a motor drives
-};
-
 template <class T>
 class ControlRules {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  /// `h` [s]: length of the substep; `erp`: the share of a limit's error that it removes.
-  ControlRules(Scalar h, Scalar erp) : h_(h), k_(erp / h) {}
+  /// `h` [s]: length of the substep; `erp`: the share of a limit's error that it removes, no faster than
+  /// `fastest` [rad/s] or [m/s].
+  ControlRules(Scalar h, Scalar erp, Scalar fastest) : h_(h), k_(erp / h), fastest_(fastest) {}
 
   Scalar h() const { return h_; }
+  /// [rad] or [m] How far off a limit already acts: it lets the axis approach until it is there.
+  Scalar margin() const { return fastest_ < static_cast<Scalar>(huge_bound) ? fastest_ * h_ : 0; }
 
-  /// `at_low_flag`, `at_high_flag`: 1 where the coordinate is at or past the limit, else 0. `place`: the
-  /// coordinate [rad] or [m]; may be 0 where there is no limit and no pose to hold.
+  /// `at_low_flag`, `at_high_flag`: 1 where the coordinate is at or past the limit, or not farther off than
+  /// margin(), else 0. `place`: the coordinate [rad] or [m]; may be 0 where there is no limit and no pose to
+  /// hold.
   PBMPI_LANES ControlState<V> decide(const AxisControl<V>& control, const V& at_low_flag,
                                      const V& at_high_flag, const V& place) const {
     const V zero = T::broadcast(0);
@@ -40,8 +35,13 @@ class ControlRules {
     const auto at_high = at_high_flag != zero;
     const auto locked = control.low == control.high;
     const V error = place - (at_low ? control.low : control.high);
-    state.rhs = at_low ? -k_ * error : (at_high ? -k_ * error : velocity);
-    state.relaxed_rhs = at_low ? zero : (at_high ? zero : velocity);
+    const V most = T::broadcast(fastest_), back = T::min(T::max(-k_ * error, -most), most);
+    const auto is_off = at_low ? error > zero : error < zero;
+    const V ahead = locked ? back : -error / h_;
+    const V limited = is_off ? ahead : back;
+    state.rhs = at_low ? limited : (at_high ? limited : velocity);
+    const V relaxed = locked ? zero : (is_off ? ahead : zero);
+    state.relaxed_rhs = at_low ? relaxed : (at_high ? relaxed : velocity);
     state.low = at_low ? (locked ? -bound : zero) : (at_high ? -bound : -force);
     state.high = at_low ? bound : (at_high ? (locked ? bound : zero) : force);
     // A motor at its limit is a constant torque, into the limit unless the motor turns away from it.
@@ -60,16 +60,7 @@ class ControlRules {
     return control.velocity - (control.hold_rate > fastest ? fastest : control.hold_rate) * place;
   }
 
-  Scalar h_, k_;
+  Scalar h_, k_, fastest_;
 };
-
-template <class Row, class V>
-PBMPI_LANES void set_bounds(const ControlState<V>& state, Bounded<Row, V>& row) {
-  row.low = state.low;
-  row.high = state.high;
-  row.relaxed_rhs = state.relaxed_rhs;
-  row.push = state.push;
-  row.at_limit = state.at_limit;
-}
 
 }  // namespace pbmpi::solver

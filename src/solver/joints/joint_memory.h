@@ -8,56 +8,56 @@
 
 namespace pbmpi::solver {
 
-/// Sets the impulses of rows that have just been built: the components of the remembered forces along their
+/// Sets the impulses of rows that have just been built: the components of these forces along their
 /// directions, times `h`, the length of a substep or a share of it. Limits and motors stay within their
 /// bounds.
 template <class T, model::JointKind kind>
 PBMPI_LANES void recall_forces(const JointForceLane<typename T::V>& memory, const typename T::V& h,
                                JointRows<T, kind>& rows) {
-  for (auto& row : rows.points) row.impulse = memory.force * h;
-  for (auto& row : rows.lines) row.impulse = dot(row.direction, memory.force) * h;
-  for (auto& row : rows.axes) row.impulse = dot(row.axis, memory.torque) * h;
-  const auto recall_control = [&](auto& controls) {
-    for (std::size_t i = 0; i < controls.size(); ++i) {
-      if (!rows.control_on[i]) continue;
-      auto& control = controls[i];
-      control.row.impulse = T::min(T::max(memory.control[i] * h, control.low), control.high);
-    }
-  };
-  recall_control(rows.axis_controls);
-  recall_control(rows.line_controls);
+  using V = typename T::V;
+  const V zero = T::broadcast(0), share = h * rows.holds;
+  for (auto& row : rows.points) row.impulse = memory.force * share;
+  for (auto& row : rows.lines) row.impulse = dot(row.direction, memory.force) * share;
+  for (auto& row : rows.axes) row.impulse = dot(row.axis, memory.torque) * share;
+  for_each_control(rows, [&](auto& control, std::size_t i) {
+    control.row.impulse =
+        rows.control_on[i] ? T::min(T::max(memory.control[i] * share, control.low), control.high) : zero;
+    control.rotor.impulse = memory.rotor[i] * share;
+  });
 }
 
-/// Remembers the forces of rows as last solved; `per_h`: 1 / h. `keeps`: null, or 1 in the lanes whose memory
-/// stays as it is. A row that no lane has leaves +0, as in a lane without that row.
+/// Sets the forces of rows as last solved; `per_h`: 1 / h. A row that no lane has leaves +0, as in a lane
+/// without that row.
 template <class T, model::JointKind kind>
-PBMPI_LANES void remember_forces(const JointRows<T, kind>& rows, const typename T::V& per_h,
-                                 const typename T::V* keeps, JointForceLane<typename T::V>& memory) {
+PBMPI_LANES void set_forces(const JointRows<T, kind>& rows, const typename T::V& per_h,
+                            JointForceLane<typename T::V>& now) {
   using V = typename T::V;
   const V zero = T::broadcast(0);
-  JointForceLane<V> now;
   for (const auto& row : rows.points) now.force = row.impulse;
   for (const auto& row : rows.lines) now.force = now.force + row.direction * row.impulse;
   for (const auto& row : rows.axes) now.torque = now.torque + row.axis * row.impulse;
-  const auto remember_control = [&](const auto& controls) {
-    for (std::size_t i = 0; i < controls.size(); ++i) {
-      if (rows.control_on[i]) now.control[i] = controls[i].row.impulse + zero;
-    }
-  };
-  remember_control(rows.axis_controls);
-  remember_control(rows.line_controls);
-  const auto put = [&](const V& value, V& to) {
-    const V force = value * per_h;
-    to = keeps == nullptr ? force : (*keeps > zero ? to : force);
-  };
-  put(now.force.x, memory.force.x);
-  put(now.force.y, memory.force.y);
-  put(now.force.z, memory.force.z);
-  put(now.torque.x, memory.torque.x);
-  put(now.torque.y, memory.torque.y);
-  put(now.torque.z, memory.torque.z);
-  put(now.control[0], memory.control[0]);
-  put(now.control[1], memory.control[1]);
+  now.force = now.force * per_h;
+  now.torque = now.torque * per_h;
+  for_each_control(rows, [&](const auto& control, std::size_t i) {
+    if (rows.control_on[i]) now.control[i] = (control.row.impulse + zero) * per_h;
+    if (rows.has_rotors) now.rotor[i] = (control.rotor.impulse + zero) * per_h;
+  });
+}
+
+/// Remembers the forces of rows as last solved, and the angles of a joint's axes. `keeps`: null, or 1 in the
+/// lanes whose memory stays as it is.
+template <class T, model::JointKind kind>
+PBMPI_LANES void remember_forces(const JointRows<T, kind>& rows, const typename T::V& per_h,
+                                 const typename T::V* keeps, JointLane<typename T::V>& joint) {
+  using V = typename T::V;
+  const V zero = T::broadcast(0);
+  JointForceLane<V> now;
+  set_forces<T>(rows, per_h, now);
+  for (int axis = 0; axis < 2; ++axis) now.angle[axis] = joint.controls[axis].angle;
+  const auto* from = reinterpret_cast<const V*>(&now);
+  auto* to = reinterpret_cast<V*>(&joint.memory);
+  for (std::size_t i = 0; i < sizeof now / sizeof(V); ++i)
+    to[i] = keeps == nullptr ? from[i] : (*keeps > zero ? to[i] : from[i]);
 }
 
 }  // namespace pbmpi::solver

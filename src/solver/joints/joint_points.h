@@ -32,35 +32,50 @@ PBMPI_LANES Vec3L<typename T::V> middle_of_turn(const Vec3L<typename T::V>& arm,
   return (arm + cross(half_turn, arm) + half_turn * dot(half_turn, arm)) * share;
 }
 
-/// Sets all except the impulse. `k` [1/s]: the rate at which the gap is to close. `ahead_s` [s]: the row acts
-/// at the arms as the bodies' rotations will have turned them after this time; its gap is the current one.
-/// With half a substep the row holds over the whole substep up to errors of third order in the bodies'
-/// rotation (the midpoint rule); with 0, as in ODE, the ends leave their circles by half the square of that
-/// rotation. scale_of(diagonal, before): the scale of a row, from its J M^-1 J^T and its last scale.
-template <class T, class ScaleOf>
+/// A velocity [m/s] that is no faster than `fastest`.
+template <class T>
+PBMPI_LANES Vec3L<typename T::V> slowed(const Vec3L<typename T::V>& velocity, typename T::Scalar fastest) {
+  using V = typename T::V;
+  const V square = dot(velocity, velocity), one = T::broadcast(1), zero = T::broadcast(0);
+  const auto is_fast = square > T::broadcast(fastest * fastest);
+  if (!T::any(is_fast ? one : zero)) return velocity;
+  return velocity * (is_fast ? T::broadcast(fastest) / T::sqrt(square) : one);
+}
+
+/// [m/s] What the end of an arm gains in half a substep on the speed that it has at its start, as its body
+/// turns.
+template <class T>
+PBMPI_LANES Vec3L<typename T::V> gain_of_arm(const Vec3L<typename T::V>& arm,
+                                             const Vec3L<typename T::V>& angular,
+                                             const Vec3L<typename T::V>& change, typename T::Scalar half_s) {
+  return cross(angular, middle_of_turn<T>(arm, angular * T::broadcast(half_s)) - arm) + cross(change, arm);
+}
+
+/// Sets all except the impulse, with nothing ahead; `ahead_s` and `reversible`: see JointBuilder. `k` [1/s]:
+/// the rate at which the gap is to close, no faster than `fastest` [m/s].
+template <class T>
 PBMPI_LANES void build_point(const JointTermsLane<typename T::V>& terms, const BodyLanes<T>& bodies,
                              int slot_a, int slot_b, typename T::Scalar k, typename T::Scalar ahead_s,
-                             PointRows<typename T::V>& row, const ScaleOf& scale_of) {
+                             const typename T::V& reversible, typename T::Scalar fastest,
+                             PointRows<typename T::V>& row) {
   using V = typename T::V;
   const BodyLane<V>&a = bodies.bodies[slot_a], &b = bodies.bodies[slot_b];
   row.arm_a = a.rotation * terms.anchor_a;
   row.arm_b = b.rotation * terms.anchor_b;
-  row.rhs = (b.position + row.arm_b - a.position - row.arm_a) * T::broadcast(k);
+  row.ahead = {T::broadcast(0), T::broadcast(0), T::broadcast(0)};
+  row.rhs = slowed<T>((b.position + row.arm_b - a.position - row.arm_a) * T::broadcast(k), fastest);
   if (ahead_s > 0) {
-    row.arm_a = middle_of_turn<T>(row.arm_a, bodies.twists[slot_a].angular * T::broadcast(ahead_s));
-    row.arm_b = middle_of_turn<T>(row.arm_b, bodies.twists[slot_b].angular * T::broadcast(ahead_s));
+    const V half = T::broadcast(ahead_s), rest = 1 - reversible;
+    const auto turned = [&](const Vec3L<V>& arm, int slot) {
+      return arm + (middle_of_turn<T>(arm, bodies.twists[slot].angular * half) - arm) * rest;
+    };
+    row.arm_a = turned(row.arm_a, slot_a);
+    row.arm_b = turned(row.arm_b, slot_b);
   }
-  const V masses = a.inv_mass + b.inv_mass;
-  const auto set_row = [&](int axis, V& scale) {
+  for (int axis = 0; axis < 3; ++axis) {
     row.turn_a[axis] = turn_of(a.inv_inertia, row.arm_a, axis);
     row.turn_b[axis] = turn_of(b.inv_inertia, row.arm_b, axis);
-    scale = scale_of(
-        masses + turning(row.turn_a[axis], row.arm_a, axis) + turning(row.turn_b[axis], row.arm_b, axis),
-        scale);
-  };
-  set_row(0, row.scale.x);
-  set_row(1, row.scale.y);
-  set_row(2, row.scale.z);
+  }
 }
 
 }  // namespace pbmpi::solver

@@ -9,15 +9,15 @@ namespace pbmpi::solver {
 /// Limit and motor of one axis: they may differ from lane to lane and change by events.
 template <class V>
 struct alignas(sizeof(V)) AxisControl {
-  V low, high;                             ///< [rad] or [m]; +-huge = none
-  V sin_low, cos_low, sin_high, cos_high;  ///< sines and cosines of half the limit angles
+  V low, high;               ///< [rad] or [m]; +-huge = none
+  V sin_middle, cos_middle;  ///< of half the angle in the middle of the range
+  V middle;                  ///< [rad]
+  V counts;  ///< 1 where turns are counted: the range alone does not tell which of them it is, else 0
   V velocity, max_force, hold_rate;
-  V place{};  ///< [rad] or [m] the joint's coordinate along this axis, updated each substep
+  V armature;  ///< [kg m^2] or [kg]
+  V angle{};   ///< [rad] with its turns, where they are counted
   bool has_motor = false, has_limit = false, has_hold = false;  ///< in any lane
-
-  bool any() const { return has_motor || has_limit; }
-  /// Does a limit or a motor need `place`?
-  bool is_placed() const { return has_limit || has_hold; }
+  bool has_rotor = false, counts_turns = false;                 ///< likewise
 };
 
 template <class V>
@@ -31,7 +31,7 @@ struct alignas(sizeof(V)) JointTermsLane {
 template <class V>
 struct alignas(sizeof(V)) JointForceLane {
   Vec3L<V> force{}, torque{};
-  V control[2]{};
+  V control[2]{}, rotor[2]{}, angle[2]{};
 };
 
 /// One joint of a batch.
@@ -39,6 +39,7 @@ template <class V>
 struct alignas(sizeof(V)) JointLane {
   int slot_a = 0, slot_b = 0;
   bool sprung = false;  ///< hinge2 with a suspension spring
+  V holds;              ///< 1, or 0 in the lanes whose joint is broken
   JointTermsLane<V> terms;
   AxisControl<V> controls[2];
   JointForceLane<V> memory;  ///< forces with which the last step ended

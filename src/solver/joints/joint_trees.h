@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -12,65 +13,142 @@
 
 namespace pbmpi::solver {
 
+/// Exact are the articulations that hang or have rotors, and in each step those strained ones that nothing
+/// touches: a contact would see only the body that it touches.
 template <class T>
 class JointTrees {
  public:
+  using V = typename T::V;
   using Scalar = typename T::Scalar;
   using Batch = typename JointBatches<T>::Batch;
 
-  /// Takes these shapes, in the order in which they were added to `joints`, which is borrowed.
-  /// `only_hanging`: solves only the shapes that hang.
-  JointTrees(const std::vector<LanePlaces::ShapePlace>& shapes, bool only_hanging, JointBatches<T>& joints)
+  /// Takes these shapes, in the order in which they were added to `joints`, which is borrowed. `all`:
+  /// whatever touches them.
+  JointTrees(const std::vector<LanePlaces::ShapePlace>& shapes, bool all, JointBatches<T>& joints)
       : joints_(joints) {
     for (const LanePlaces::ShapePlace& at : shapes) {
       Shape& shape = shapes_.emplace_back(at.shape);
-      if (!at.shape.joints.empty() && (at.shape.hangs() || !only_hanging))
-        shape.trees.assign(static_cast<std::size_t>(at.num_batches), TreeSolver<T>(at.shape.num_bodies));
+      shape.first_slot = at.first_slot;
+      shape.always = all || at.shape.hangs() || at.shape.has_rotors();
+      shape.may_be_exact = !at.shape.joints.empty() && (shape.always || at.shape.is_strained);
+      shape.exact.assign(static_cast<std::size_t>(at.num_batches), {T::broadcast(0)});
+      shape.limited = shape.exact;
     }
   }
 
-  bool solves_any() const {
-    return std::ranges::any_of(shapes_, [](const Shape& shape) { return !shape.trees.empty(); });
+  /// Begins a step, with nothing touched so far.
+  void start_step() {
+    for (Shape& shape : shapes_) {
+      std::ranges::fill(shape.limited, LaneFlags{T::broadcast(0)});
+      if (shape.may_be_exact) std::ranges::fill(shape.exact, LaneFlags{T::broadcast(1)});
+    }
   }
-  bool solves(std::size_t shape) const { return !shapes_[shape].trees.empty(); }
+  /// A contact touches the body at this place.
+  void touch(LanePlace at) {
+    for (Shape& shape : shapes_) {
+      const int batch = (at.slot - shape.first_slot) / shape.num_bodies;
+      if (at.slot < shape.first_slot || batch >= static_cast<int>(shape.exact.size())) continue;
+      if (!shape.always) T::set(shape.exact[static_cast<std::size_t>(batch)].flags, at.lane, 0);
+    }
+  }
+  /// 1 in the lanes in which a sweep has to solve this joint of a shape's batch, else 0: all that are not
+  /// exact, and of exact ones without limits (find_limited()) the joints that close loops or are driven.
+  template <class Rows>
+  PBMPI_LANES V swept_lanes(std::size_t shape_index, std::size_t batch, std::size_t joint,
+                            const Rows& rows) const {
+    const Shape& shape = shapes_[shape_index];
+    const V zero = T::broadcast(0);
+    const V swept = shape.exact[batch].flags > zero ? bounded_lanes(shape, joint, rows) : T::broadcast(1);
+    return shape.limited[batch].flags > zero ? zero : swept;
+  }
+  /// 1 in the lanes in which limits are swept and this joint takes part, else 0.
+  template <class Rows>
+  PBMPI_LANES V limited_lanes(std::size_t shape_index, std::size_t batch, std::size_t joint,
+                              const Rows& rows) const {
+    const Shape& shape = shapes_[shape_index];
+    return shape.limited[batch].flags * bounded_lanes(shape, joint, rows);
+  }
   /// Prepares for the current rows, in all active batches. `cfm` [s/kg]: the joints' CFM divided by the step.
   void factor(Scalar cfm, const BodyLanes<T>& bodies);
-  /// Solves limits, motors and the joints that close loops by a sweep, then all other rows exactly.
+  /// 1 in the lanes in which all joints of a batch are solved exactly, limits and motors aside, else 0.
+  V exact_lanes(const Batch& batch) const {
+    const Shape& shape = shapes_[batch.shape];
+    return shape.may_be_exact && !shape.has_loops ? shape.exact[batch.index].flags : T::broadcast(0);
+  }
+  /// Solves all rows but those of limits and motors, after a sweep over the joints of swept_lanes().
   void solve(const JointSolver<T>& solver, BodyLanes<T>& bodies);
+  /// Finds the exact articulations with a joint at a limit, which the tree cannot hold.
+  void find_limited();
+  /// solve() where find_limited() has found limits.
+  void solve_limited(const JointSolver<T>& solver, BodyLanes<T>& bodies);
+  bool has_limited() const {
+    return std::ranges::any_of(shapes_, [](const Shape& shape) {
+      return std::ranges::any_of(shape.limited, [](const LaneFlags& lanes) { return T::any(lanes.flags); });
+    });
+  }
 
  private:
+  /// 1 or 0 lane by lane.
+  struct alignas(sizeof(V)) LaneFlags {
+    V flags;
+  };
   struct Shape {
     explicit Shape(const ArticulationShape& shape)
         : num_bodies(shape.num_bodies), num_joints(shape.joints.size()), in_loop(num_joints, 0) {
       ArticulationTree tree(shape);
       for (const int joint : tree.loops) in_loop[static_cast<std::size_t>(joint)] = 1;
+      has_loops = !tree.loops.empty();
       nodes = std::move(tree.nodes);
     }
-    int num_bodies;
+    int num_bodies, first_slot = 0;
     std::size_t num_joints;
+    bool always = false;  ///< exact, whatever touches it?
+    bool may_be_exact = false, has_loops = false;
     std::vector<TreeNode> nodes;
     std::vector<char> in_loop;         ///< [num_joints]
-    std::vector<TreeSolver<T>> trees;  ///< [num_batches], empty if the shape is not solved here
+    std::vector<LaneFlags> exact;      ///< [num_batches] in this step
+    std::vector<LaneFlags> limited;    ///< [num_batches] exact, and a joint is at a limit
+    std::vector<TreeSolver<T>> trees;  ///< [num_batches], empty as long as no lane was exact
 
     int parent_of(const TreeNode& node) const { return node.parent == num_bodies ? -1 : node.parent; }
   };
 
-  /// Calls visit(shape, tree, batch) for each active batch that is solved here.
+  /// 1 in the lanes in which the tree leaves a joint to sweeps: it closes a loop, is at a limit or driven.
+  template <class Rows>
+  PBMPI_LANES static V bounded_lanes(const Shape& shape, std::size_t joint, const Rows& rows) {
+    const V zero = T::broadcast(0), one = T::broadcast(1);
+    V bounded = shape.in_loop[joint] != 0 ? one : zero;
+    for_each_control(rows, [&](const auto& control, std::size_t axis) {
+      if (rows.control_on[axis]) bounded = control.low < control.high ? one : bounded;
+    });
+    return bounded;
+  }
+  /// Calls visit(shape, tree, batch) for each active batch with an exact lane.
   template <class Visit>
   void for_each_tree(Visit visit) {
     joints_.for_each_active_batch([&](const Batch& batch) {
       Shape& shape = shapes_[batch.shape];
-      if (!shape.trees.empty()) visit(shape, shape.trees[batch.index], batch);
+      if (!T::any(shape.exact[batch.index].flags)) return;
+      if (shape.trees.empty()) shape.trees.assign(shape.exact.size(), TreeSolver<T>(shape.num_bodies));
+      visit(shape, shape.trees[batch.index], batch);
     });
   }
+  /// Calls visit(rows, number of rows to be solved exactly, as a constant).
   template <class Visit>
-  void with_rows(const Batch& batch, const Shape& shape, std::size_t joint, Visit visit) {
-    joints_.change_rows(batch.shape, batch.index * shape.num_joints + joint, visit);
+  void with_rows(const Batch& batch, const Shape& shape, int joint, Visit visit) {
+    const std::size_t index = batch.index * shape.num_joints + static_cast<std::size_t>(joint);
+    joints_.change_rows(batch.shape, index, [&](auto& rows) {
+      constexpr RowCounts counts = std::remove_reference_t<decltype(rows)>::counts;
+      if (rows.has_rotors) {
+        visit(rows, std::integral_constant<int, counts.all()>{});
+      } else {
+        visit(rows, std::integral_constant<int, counts.held()>{});
+      }
+    });
   }
-  void sweep_others(const JointSolver<T>& solver, const Shape& shape, const Batch& batch,
-                    BodyLanes<T>& bodies);
-  void solve_tree(Scalar bias, const Shape& shape, TreeSolver<T>& tree, const Batch& batch,
-                  BodyLanes<T>& bodies);
+  /// `where`: 1 in the lanes that take the solution, else 0.
+  void solve_tree(const JointSolver<T>& solver, const Shape& shape, TreeSolver<T>& tree, const Batch& batch,
+                  const V& where, BodyLanes<T>& bodies);
 
   JointBatches<T>& joints_;
   std::vector<Shape> shapes_;
@@ -85,8 +163,8 @@ void JointTrees<T>::factor(Scalar cfm, const BodyLanes<T>& bodies) {
       if (node->joint < 0) {
         tree.close_root(node->body);
       } else {
-        with_rows(batch, shape, static_cast<std::size_t>(node->joint), [&](const auto& rows) {
-          tree.eliminate(node->body, shape.parent_of(*node), node->is_first, cfm, rows);
+        with_rows(batch, shape, node->joint, [&](const auto& rows, auto count) {
+          tree.template eliminate<count.value>(node->body, shape.parent_of(*node), node->is_first, cfm, rows);
         });
       }
     }
@@ -94,43 +172,53 @@ void JointTrees<T>::factor(Scalar cfm, const BodyLanes<T>& bodies) {
 }
 
 template <class T>
-void JointTrees<T>::sweep_others(const JointSolver<T>& solver, const Shape& shape, const Batch& batch,
-                                 BodyLanes<T>& bodies) {
-  for (const std::size_t joint : joints_.order(batch.shape)) {
-    with_rows(batch, shape, joint, [&](auto& rows) {
-      if (shape.in_loop[joint]) {
-        solver.template solve<true>(rows, bodies);
-      } else {
-        solver.solve_controls(rows, bodies);
-      }
-    });
-  }
-}
-
-template <class T>
 void JointTrees<T>::solve(const JointSolver<T>& solver, BodyLanes<T>& bodies) {
   for_each_tree([&](const Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
-    sweep_others(solver, shape, batch, bodies);
-    solve_tree(solver.exact_bias(), shape, tree, batch, bodies);
+    solve_tree(solver, shape, tree, batch, shape.exact[batch.index].flags, bodies);
   });
 }
 
 template <class T>
-void JointTrees<T>::solve_tree(Scalar bias, const Shape& shape, TreeSolver<T>& tree, const Batch& batch,
-                               BodyLanes<T>& bodies) {
-  tree.start_solve();
+void JointTrees<T>::solve_limited(const JointSolver<T>& solver, BodyLanes<T>& bodies) {
+  for_each_tree([&](const Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
+    const V& limited = shape.limited[batch.index].flags;
+    if (T::any(limited)) solve_tree(solver, shape, tree, batch, limited, bodies);
+  });
+}
+
+template <class T>
+void JointTrees<T>::find_limited() {
+  for_each_tree([&](Shape& shape, TreeSolver<T>&, const Batch& batch) {
+    const V zero = T::broadcast(0);
+    V limited = zero;
+    for (std::size_t joint = 0; joint < shape.num_joints; ++joint) {
+      joints_.change_rows(batch.shape, batch.index * shape.num_joints + joint, [&](const auto& rows) {
+        for_each_control(rows, [&](const auto& control, std::size_t axis) {
+          if (rows.control_on[axis]) limited = limited + control.at_limit;
+        });
+      });
+    }
+    shape.limited[batch.index].flags = limited > zero ? shape.exact[batch.index].flags : zero;
+  });
+}
+
+template <class T>
+void JointTrees<T>::solve_tree(const JointSolver<T>& solver, const Shape& shape, TreeSolver<T>& tree,
+                               const Batch& batch, const V& where, BodyLanes<T>& bodies) {
+  tree.start_solve(where);
   for (auto node = shape.nodes.rbegin(); node != shape.nodes.rend(); ++node) {
     if (node->joint < 0) continue;
-    with_rows(batch, shape, static_cast<std::size_t>(node->joint), [&](auto& rows) {
-      tree.up(node->body, shape.parent_of(*node), node->is_first, bias, bodies, rows);
+    with_rows(batch, shape, node->joint, [&](auto& rows, auto count) {
+      tree.template up<count.value>(node->body, shape.parent_of(*node), node->is_first, solver, bodies, rows);
     });
   }
   for (const TreeNode& node : shape.nodes) {
     if (node.joint < 0) {
       tree.root(node.body, bodies.twists[batch.first_slot + node.body]);
     } else {
-      with_rows(batch, shape, static_cast<std::size_t>(node.joint), [&](auto& rows) {
-        tree.down(node.body, shape.parent_of(node), node.is_first, bodies, rows);
+      with_rows(batch, shape, node.joint, [&](auto& rows, auto count) {
+        tree.template down<count.value>(node.body, shape.parent_of(node), node.is_first, solver, bodies,
+                                        rows);
       });
     }
   }

@@ -43,21 +43,19 @@ class RowBuilder {
   using Pair = JointBodies<V>;
 
   /// `place_k`, `turn_k` [1/s]: the rates at which errors are to be removed; `cfm`: divided by the step.
-  RowBuilder(Scalar place_k, Scalar turn_k, Scalar cfm, Scalar sor_factor)
-      : place_k_(place_k), turn_k_(turn_k), cfm_(cfm), factor_(sor_factor) {}
+  RowBuilder(Scalar place_k, Scalar turn_k, Scalar cfm) : place_k_(place_k), turn_k_(turn_k), cfm_(cfm) {}
 
   Scalar place_k() const { return place_k_; }
   Scalar turn_k() const { return turn_k_; }
   Scalar cfm() const { return cfm_; }
-  Scalar factor() const { return factor_; }
 
-  /// Impulses start at 0.
+  /// Leave the impulse as it is.
   PBMPI_LANES void set_axis(const L3& axis, const V& rhs, const Pair& pair, AxisRow<V>& row) const;
   PBMPI_LANES void set_line(const L3& direction, const L3& moment_a, const L3& moment_b, const V& rhs,
                             const V& cfm, const Pair& pair, LineRow<V>& row) const;
 
  private:
-  Scalar place_k_, turn_k_, cfm_, factor_;
+  Scalar place_k_, turn_k_, cfm_;
 };
 
 /// From the centre of a to where a slider's lines act: the midpoint of its two bodies, whose centres are
@@ -77,8 +75,7 @@ PBMPI_LANES void RowBuilder<T>::set_axis(const L3& axis, const V& rhs, const Pai
   row.turn_a = pair.a.inv_inertia * axis;
   row.turn_b = pair.b.inv_inertia * axis;
   row.rhs = rhs;
-  row.scale = factor_ / (dot(axis, row.turn_a) + dot(axis, row.turn_b) + cfm_);
-  row.impulse = T::broadcast(0);
+  row.ahead = T::broadcast(0);
 }
 
 template <class T>
@@ -91,10 +88,8 @@ PBMPI_LANES void RowBuilder<T>::set_line(const L3& direction, const L3& moment_a
   row.turn_a = pair.a.inv_inertia * moment_a;
   row.turn_b = pair.b.inv_inertia * moment_b;
   row.rhs = rhs;
+  row.ahead = T::broadcast(0);
   row.cfm = cfm;
-  row.scale = factor_ / (pair.a.inv_mass + pair.b.inv_mass + dot(moment_a, row.turn_a) +
-                         dot(moment_b, row.turn_b) + cfm);
-  row.impulse = T::broadcast(0);
 }
 
 }  // namespace pbmpi::solver

@@ -8,16 +8,19 @@
 
 #include "solver/joints/articulation_tree.h"
 #include "solver/joints/joint_jacobian.h"
+#include "solver/joints/joint_solver.h"
 #include "solver/lanes/symmetric_factor.h"
 
 namespace pbmpi::solver {
 
 /// Solves one batch. The bodies' changes of twist u and the rows' impulses p satisfy
 ///   M u = J^T p,  J u + C p = r,  r = rhs - J v - C p_before.
+/// A rotor of inertia I is a row with rhs = its speed at the start and C = 1 / I.
 /// With its subtree eliminated a body c below a joint to its parent has the mass M_c' and the force f_c; the
 /// joint has S = J_c M_c'^-1 J_c^T + C, and adds J_p^T S^-1 J_p to the parent's mass.
+/// Computes in double precision: a light body between heavy ones leaves little of what is subtracted.
 template <class T>
-class TreeSolver {
+class alignas(sizeof(typename T::Wide::V)) TreeSolver {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
@@ -26,61 +29,70 @@ class TreeSolver {
 
   /// Body by body, children before parents.
   void start_body(int node, const BodyLane<V>& body);
-  template <model::JointKind kind>
+  /// For all of these: `n`: the joint's held rows, or all rows if it has rotors.
+  template <int n, model::JointKind kind>
   void eliminate(int node, int parent, bool is_first, Scalar cfm, const JointRows<T, kind>& rows);
   void close_root(int node) {
     Node& own = nodes_[static_cast<std::size_t>(node)];
     own.mass.factor(own.sum);
   }
 
-  // A solve: start_solve(); up() children before parents; root(); down() parents before children. `bias`:
-  // scales the right-hand sides; 0 leaves position errors as they are.
-  void start_solve() {
+  // A solve: start_solve(); up() children before parents; root(); down() parents before children.
+  /// `exact`: 1 in the lanes that take the solution, else 0.
+  void start_solve(const V& exact) {
+    exact_ = exact;
     for (Node& node : nodes_) {
-      for (V& f : node.force) f = T::broadcast(0);
+      for (W& f : node.force) f = Wide::broadcast(0);
     }
   }
-  template <model::JointKind kind>
-  void up(int node, int parent, bool is_first, Scalar bias, const BodyLanes<T>& bodies,
+  template <int n, model::JointKind kind>
+  void up(int node, int parent, bool is_first, const JointSolver<T>& solver, const BodyLanes<T>& bodies,
           JointRows<T, kind>& rows);
   void root(int node, Twist<V>& twist);
-  template <model::JointKind kind>
-  void down(int node, int parent, bool is_first, BodyLanes<T>& bodies, JointRows<T, kind>& rows);
+  template <int n, model::JointKind kind>
+  void down(int node, int parent, bool is_first, const JointSolver<T>& solver, BodyLanes<T>& bodies,
+            JointRows<T, kind>& rows);
 
  private:
-  struct alignas(sizeof(V)) Node {
-    SymmetricFactor<T, 6> mass;
-    V sum[6][6];                ///< mass plus what the children have added: lower triangle
-    V force[6];                 ///< force from the children; then the change of the twist
+  using Wide = typename T::Wide;
+  using W = typename Wide::V;
+  struct alignas(sizeof(W)) Node {
+    SymmetricFactor<Wide, 6> mass;
+    W sum[6][6];                ///< mass plus what the children have added: lower triangle
+    W force[6];                 ///< force from the children; then the change of the twist
     JointJacobian<T> jacobian;  ///< of the joint to the parent
-    SymmetricFactor<T, 6> schur;
-    V error[6];
+    SymmetricFactor<Wide, 6> schur;
+    W error[6];
   };
-  static const V (*child_of(const Node& node, bool is_first))[6] {
+  static const W (*child_of(const Node& node, bool is_first))[6] {
     return is_first ? node.jacobian.a : node.jacobian.b;
   }
-  static const V (*parent_of(const Node& node, bool is_first))[6] {
+  static const W (*parent_of(const Node& node, bool is_first))[6] {
     return is_first ? node.jacobian.b : node.jacobian.a;
   }
-  static void add(const V* u, Twist<V>& twist) {
-    twist.linear = twist.linear + Vec3L<V>{u[0], u[1], u[2]};
-    twist.angular = twist.angular + Vec3L<V>{u[3], u[4], u[5]};
+  /// Lanes that do not take the solution keep their bits.
+  void add(const W* u, Twist<V>& twist) const {
+    const auto is_exact = exact_ > T::broadcast(0);
+    for (V* part : {&twist.linear.x, &twist.linear.y, &twist.linear.z, &twist.angular.x, &twist.angular.y,
+                    &twist.angular.z})
+      *part = is_exact ? *part + T::narrow(*u++) : *part;
   }
 
   std::vector<Node> nodes_;
+  V exact_ = T::broadcast(1);
 };
 
 template <class T>
 void TreeSolver<T>::start_body(int node, const BodyLane<V>& body) {
   Node& own = nodes_[static_cast<std::size_t>(node)];
   for (auto& row : own.sum) {
-    for (V& number : row) number = T::broadcast(0);
+    for (W& number : row) number = Wide::broadcast(0);
   }
-  const V mass = 1 / body.inv_mass;
+  const W mass = 1 / T::widen(body.inv_mass);
   own.sum[0][0] = own.sum[1][1] = own.sum[2][2] = mass;
-  // The inertia at the step's start, which contacts, limits and carried impulses also use, and not that of
-  // the current pose: solving with two inertias in turn gains energy.
-  const Sym3L<V> inertia = inverse(body.inv_inertia);
+  const Sym3L<V>& inv = body.inv_inertia;
+  const Sym3L<W> inertia = inverse(Sym3L<W>{T::widen(inv.xx), T::widen(inv.xy), T::widen(inv.xz),
+                                            T::widen(inv.yy), T::widen(inv.yz), T::widen(inv.zz)});
   own.sum[3][3] = inertia.xx;
   own.sum[4][3] = inertia.xy;
   own.sum[4][4] = inertia.yy;
@@ -90,21 +102,20 @@ void TreeSolver<T>::start_body(int node, const BodyLane<V>& body) {
 }
 
 template <class T>
-template <model::JointKind kind>
+template <int n, model::JointKind kind>
 void TreeSolver<T>::eliminate(int node, int parent, bool is_first, Scalar cfm,
                               const JointRows<T, kind>& rows) {
-  constexpr int n = num_held_rows(kind);
   Node& own = nodes_[static_cast<std::size_t>(node)];
   own.mass.factor(own.sum);
   set_jacobian(rows, cfm, own.jacobian);
   const auto* child = child_of(own, is_first);
-  V s[6][6];
+  W s[6][6];
   for (int row = 0; row < n; ++row) {
-    V w[6];
+    W w[6];
     for (int i = 0; i < 6; ++i) w[i] = child[row][i];
     own.mass.solve(w);
     for (int other = row; other < n; ++other) {
-      V sum = child[other][0] * w[0];
+      W sum = child[other][0] * w[0];
       for (int i = 1; i < 6; ++i) sum += child[other][i] * w[i];
       s[other][row] = sum;
     }
@@ -115,11 +126,11 @@ void TreeSolver<T>::eliminate(int node, int parent, bool is_first, Scalar cfm,
   Node& above = nodes_[static_cast<std::size_t>(parent)];
   const auto* held = parent_of(own, is_first);
   for (int column = 0; column < 6; ++column) {
-    V b[6];
+    W b[6];
     for (int row = 0; row < n; ++row) b[row] = held[row][column];
     own.schur.template solve<n>(b);
     for (int i = column; i < 6; ++i) {
-      V sum = above.sum[i][column];
+      W sum = above.sum[i][column];
       for (int row = 0; row < n; ++row) sum += held[row][i] * b[row];
       above.sum[i][column] = sum;
     }
@@ -127,32 +138,49 @@ void TreeSolver<T>::eliminate(int node, int parent, bool is_first, Scalar cfm,
 }
 
 template <class T>
-template <model::JointKind kind>
-void TreeSolver<T>::up(int node, int parent, bool is_first, Scalar bias, const BodyLanes<T>& bodies,
-                       JointRows<T, kind>& rows) {
-  constexpr int n = num_held_rows(kind);
+template <int n, model::JointKind kind>
+void TreeSolver<T>::up(int node, int parent, bool is_first, const JointSolver<T>& solver,
+                       const BodyLanes<T>& bodies, JointRows<T, kind>& rows) {
   Node& own = nodes_[static_cast<std::size_t>(node)];
   const Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
-  const V va[6] = {a.linear.x, a.linear.y, a.linear.z, a.angular.x, a.angular.y, a.angular.z};
-  const V vb[6] = {b.linear.x, b.linear.y, b.linear.z, b.angular.x, b.angular.y, b.angular.z};
-  V y[6];
+  const auto wide = [](const Twist<V>& twist, W* to) {
+    const auto& [v, w] = twist;
+    for (const V* part : {&v.x, &v.y, &v.z, &w.x, &w.y, &w.z}) *to++ = T::widen(*part);
+  };
+  W va[6], vb[6];
+  wide(a, va);
+  wide(b, vb);
+  W y[6];
   for (int i = 0; i < 6; ++i) y[i] = own.force[i];
   own.mass.solve(y);
   const auto* child = child_of(own, is_first);
-  for_each_held_row(rows, bias, [&](int row, const V& rhs, const V& impulse) {
-    V error = (rhs - own.jacobian.cfm[row] * impulse) * own.jacobian.holds[row];
+  const auto set_error = [&](int row, const V& right, const V& impulse) {
+    W error = (T::widen(right) - own.jacobian.cfm[row] * T::widen(impulse)) * own.jacobian.holds[row];
     for (int i = 0; i < 6; ++i)
       error -= own.jacobian.a[row][i] * va[i] + own.jacobian.b[row][i] * vb[i] + child[row][i] * y[i];
     own.error[row] = error;
-  });
+  };
+  const V bias = T::broadcast(solver.laws().exact_bias);
+  int next = 0;
+  for_each_held_row(
+      rows, solver.laws(), solver.cfm(),
+      [&](int, const V& rhs, const V& ahead, const V&, const V& impulse, const RowLaw<Scalar>& law) {
+        const bool springs = rows.sprung && next == 0;
+        set_error(next++, springs ? rhs : rhs * bias + ahead * T::broadcast(law.bias), impulse);
+      });
+  if (rows.has_rotors) {
+    for_each_control(rows, [&](const auto& control, std::size_t) {
+      set_error(next++, control.rotor.start, control.rotor.impulse);
+    });
+  }
   if (parent < 0) return;
-  V z[6];
+  W z[6];
   for (int row = 0; row < n; ++row) z[row] = own.error[row];
   own.schur.template solve<n>(z);
   Node& above = nodes_[static_cast<std::size_t>(parent)];
   const auto* held = parent_of(own, is_first);
   for (int i = 0; i < 6; ++i) {
-    V sum = above.force[i];
+    W sum = above.force[i];
     for (int row = 0; row < n; ++row) sum += held[row][i] * z[row];
     above.force[i] = sum;
   }
@@ -166,12 +194,11 @@ void TreeSolver<T>::root(int node, Twist<V>& twist) {
 }
 
 template <class T>
-template <model::JointKind kind>
-void TreeSolver<T>::down(int node, int parent, bool is_first, BodyLanes<T>& bodies,
-                         JointRows<T, kind>& rows) {
-  constexpr int n = num_held_rows(kind);
+template <int n, model::JointKind kind>
+void TreeSolver<T>::down(int node, int parent, bool is_first, const JointSolver<T>& solver,
+                         BodyLanes<T>& bodies, JointRows<T, kind>& rows) {
   Node& own = nodes_[static_cast<std::size_t>(node)];
-  V change[6];
+  W change[6];
   for (int row = 0; row < n; ++row) change[row] = own.error[row];
   if (parent >= 0) {
     const Node& above = nodes_[static_cast<std::size_t>(parent)];
@@ -187,7 +214,17 @@ void TreeSolver<T>::down(int node, int parent, bool is_first, BodyLanes<T>& bodi
   }
   own.mass.solve(own.force);
   add(own.force, bodies.twists[is_first ? rows.slot_a : rows.slot_b]);
-  for_each_held_row(rows, Scalar{1}, [&](int row, const V&, V& impulse) { impulse += change[row]; });
+  for_each_held_row(rows, solver.laws(), solver.cfm(),
+                    [&](int row, const V&, const V&, const V&, V& impulse, const RowLaw<Scalar>&) {
+                      impulse = exact_ > T::broadcast(0) ? impulse + T::narrow(change[row]) : impulse;
+                    });
+  if (rows.has_rotors) {
+    for_each_control(rows, [&](auto& control, std::size_t i) {
+      V& impulse = control.rotor.impulse;
+      const V added = T::narrow(change[JointRows<T, kind>::counts.held() + static_cast<int>(i)]);
+      impulse = exact_ > T::broadcast(0) ? impulse + added : impulse;
+    });
+  }
 }
 
 }  // namespace pbmpi::solver

@@ -104,6 +104,23 @@ struct LaneTraits {
 #endif
     }
   }
+  /// The same number of lanes in double precision, for what single precision does not bear; and there and
+  /// back.
+  using Wide = LaneTraits<double, num_lanes_>;
+  PBMPI_LANES static typename Wide::V widen(const V& v) {
+    if constexpr (num_lanes == 1) {
+      return v;
+    } else {
+      return __builtin_convertvector(v, typename Wide::V);
+    }
+  }
+  PBMPI_LANES static V narrow(const typename Wide::V& v) {
+    if constexpr (num_lanes == 1) {
+      return static_cast<Scalar>(v);
+    } else {
+      return __builtin_convertvector(v, V);
+    }
+  }
   /// base[index[lane]] for each lane.
   PBMPI_LANES static V gather(const Scalar* base, const std::int32_t* index) {
     if constexpr (num_lanes == 1) {

@@ -1,5 +1,5 @@
-/// Rows of the constraint system, in typed blocks. At velocity level, for a row with Jacobian J:
-///   change = (rhs - J v - cfm p) scale,  p += change (clamped),  v += M^-1 J^T change,
+/// Rows of the constraint system, in typed blocks. At velocity level, for rows with Jacobian J:
+///   change = (J M^-1 J^T + cfm)^-1 (rhs - J v - cfm p),  p += change (clamped),  v += M^-1 J^T change,
 /// with impulses p = h lambda. Its fixed point is that of ODE's (J M^-1 J^T + cfm/h) lambda = c/h - J (v/h +
 /// M^-1 f) (ODE manual, "Joint error and the ERP"; ode/src/quickstep.cpp).
 #pragma once
@@ -19,14 +19,14 @@ template <class V>
 struct alignas(sizeof(V)) PointRows {
   Vec3L<V> arm_a, arm_b;          ///< from the centres to the points
   Vec3L<V> turn_a[3], turn_b[3];  ///< I^-1 (arm x e_k)
-  Vec3L<V> rhs, scale, impulse;
+  Vec3L<V> rhs, ahead, impulse;   ///< ahead: see JointBuilder
 };
 
 /// A row on the relative angular velocity along an axis.
 template <class V>
 struct alignas(sizeof(V)) AxisRow {
   Vec3L<V> axis, turn_a, turn_b;  ///< turn: I^-1 axis
-  V rhs, scale, impulse;
+  V rhs, ahead, impulse;          ///< ahead: see JointBuilder
 };
 
 /// A row along a direction through a point: contacts, suspension, slider. It has its own CFM.
@@ -34,7 +34,7 @@ template <class V>
 struct alignas(sizeof(V)) LineRow {
   Vec3L<V> direction, moment_a, moment_b;  ///< moments: the angular parts of J; b's includes its sign
   Vec3L<V> turn_a, turn_b;                 ///< I^-1 moment
-  V rhs, scale, cfm, impulse;
+  V rhs, ahead, cfm, impulse;              ///< ahead: see JointBuilder
 };
 
 template <class V>

@@ -1,5 +1,6 @@
 #include "solver/layout/articulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -62,6 +63,25 @@ JointTerms make_terms(const Model& model, const Joint& joint) {
   return terms;
 }
 
+/// How many times as easily a force moves a body at this arm [m, its frame] as at its centre.
+double leverage(const model::Body& body, const Vec3& arm) {
+  model::Mat3 turned;
+  turned << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+  const model::Mat3 response = turned.transpose() * body.inertia.inverse() * turned;
+  return 1 + body.mass_kg * response.norm();
+}
+
+/// See ArticulationShape::is_strained.
+bool strains(const Model& model, const Joint& joint, const JointTerms& terms) {
+  constexpr double most_leverage = 11, greatest_ratio = 100;
+  const model::Body& a = model.bodies[static_cast<std::size_t>(joint.body_a)];
+  if (leverage(a, terms.anchor_a) > most_leverage) return true;
+  if (joint.body_b == model::no_body) return false;
+  const model::Body& b = model.bodies[static_cast<std::size_t>(joint.body_b)];
+  const double ratio = a.mass_kg / b.mass_kg;
+  return leverage(b, terms.anchor_b) > most_leverage || std::max(ratio, 1 / ratio) > greatest_ratio;
+}
+
 }  // namespace
 
 std::vector<Articulation> find_articulations(const Model& model) {
@@ -82,8 +102,10 @@ std::vector<Articulation> find_articulations(const Model& model) {
     Articulation& articulation = articulations[static_cast<std::size_t>(islands.of_body[body_a])];
     const int body_b = joint.body_b == model::no_body ? articulation.shape.num_bodies
                                                       : local[static_cast<std::size_t>(joint.body_b)];
-    articulation.shape.joints.push_back({joint.kind, local[body_a], body_b, joint.suspension.stiffness > 0});
+    articulation.shape.joints.push_back({joint.kind, local[body_a], body_b, joint.suspension.stiffness > 0,
+                                         joint.armature[0] > 0 || joint.armature[1] > 0});
     articulation.terms.push_back(make_terms(model, joint));
+    articulation.shape.is_strained |= strains(model, joint, articulation.terms.back());
     articulation.joints.push_back(static_cast<int>(index));
   }
   return articulations;

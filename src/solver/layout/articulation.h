@@ -29,6 +29,7 @@ struct JointLink {
   int body_a = 0;
   int body_b = 0;       ///< num_bodies = the static body
   bool sprung = false;  ///< hinge2 with a suspension spring
+  bool rotor = false;   ///< an axis has an armature
   bool operator==(const JointLink&) const = default;
   auto operator<=>(const JointLink&) const = default;
 };
@@ -38,10 +39,16 @@ struct JointLink {
 struct ArticulationShape {
   int num_bodies = 0;
   std::vector<JointLink> joints;
+  /// Does a joint act at the end of an arm so long, or join masses so different, that sweeps hardly contract
+  /// its error? Single sweeps with a memory held each of 360 random trees of up to 8 bodies with arms up to 3
+  /// radii of gyration and masses up to 30 to 1, and not all with 10 and 10,000. Humans have up to 10.5 times
+  /// a centre's mobility at a joint, cars 60 times a wheel's mass.
+  bool is_strained = false;
   /// Does a joint hold the articulation to the static body?
   bool hangs() const {
     return std::ranges::any_of(joints, [this](const JointLink& link) { return link.body_b == num_bodies; });
   }
+  bool has_rotors() const { return std::ranges::any_of(joints, &JointLink::rotor); }
   bool operator==(const ArticulationShape&) const = default;
   auto operator<=>(const ArticulationShape&) const = default;
 };

@@ -31,7 +31,11 @@ class BodyLanes {
   using Scalar = typename T::Scalar;
 
   explicit BodyLanes(int num_slots)
-      : static_slot(num_slots), twists(num_slots + 1), bodies(num_slots + 1), contact_twists(num_slots + 1) {
+      : static_slot(num_slots),
+        twists(num_slots + 1),
+        bodies(num_slots + 1),
+        half_turnings(num_slots + 1, {T::broadcast(0), T::broadcast(0), T::broadcast(0)}),
+        contact_twists(num_slots + 1) {
     const V zero = T::broadcast(0), one = T::broadcast(1);
     for (BodyLane<V>& body : bodies) {
       body = BodyLane<V>{};
@@ -39,6 +43,7 @@ class BodyLanes {
       body.rotation.row0.x = body.rotation.row1.y = body.rotation.row2.z = one;
     }
     for (Twist<V>& twist : twists) twist = {{zero, zero, zero}, {zero, zero, zero}};
+    expected = twists;
   }
 
   /// Where lane `lane` of a slot's twist begins, in scalars; component c is c num_lanes farther on.
@@ -63,6 +68,10 @@ class BodyLanes {
   int static_slot;
   std::vector<Twist<V>> twists;
   std::vector<BodyLane<V>> bodies;
+  /// Of bodies in joints: the twists with which they are expected to move in this substep, and by how much
+  /// their angular velocities will have changed [rad/s] in its middle, as they turn under their own inertia.
+  std::vector<Twist<V>> expected;
+  std::vector<Vec3L<V>> half_turnings;
   TwistRows<T> contact_twists;  ///< twists of the slots in contact, while contacts are swept
 };
 
@@ -163,27 +172,13 @@ PBMPI_LANES void integrate(Body& body, const Twist<typename T::V>& twist, typena
   body.qz *= inverse;
 }
 
-/// integrate() for a body that turns under its own inertia alone: conserves its angular momentum up to
-/// rounding, and its energy to third order in the angle of a substep (midpoint rule for the angular velocity
-/// that belongs to the momentum). Lanes where `has_torque` is 0 keep their velocity to the bit. Also sets the
-/// rotation.
-template <class T, bool last>
-PBMPI_LANES void integrate_turning(BodyLane<typename T::V>& body, const typename T::V& has_torque,
-                                   Twist<typename T::V>& twist, typename T::Scalar h) {
-  using V = typename T::V;
-  const auto has = has_torque > T::broadcast(0);
-  const Vec3L<V> w = twist.angular;
-  const Vec3L<V> momentum = body.rotation * (body.inertia_body * body.rotation.transposed_times(w));
-  const auto velocity_in = [&](const Mat3L<V>& rotation) -> Vec3L<V> {
-    const Vec3L<V> turned = rotation * (body.inv_inertia_body * rotation.transposed_times(momentum));
-    return {has ? turned.x : w.x, has ? turned.y : w.y, has ? turned.z : w.z};
-  };
-  PoseLane<V> half{body.position, body.position_low, body.qw, body.qx, body.qy, body.qz};
-  integrate<T, false>(half, twist, h / 2);
-  twist.angular = velocity_in(to_matrix(half.qw, half.qx, half.qy, half.qz));
-  integrate<T, last>(body, twist, h);
-  body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
-  twist.angular = velocity_in(body.rotation);
+/// See BodyLanes::half_turnings; `has_torque`: as above. Bounded, however fast the body turns.
+template <class T>
+Vec3L<typename T::V> half_turning(const BodyLane<typename T::V>& body, const typename T::V& has_torque,
+                                  const Vec3L<typename T::V>& angular, typename T::Scalar half_s) {
+  const Vec3L<typename T::V> half = angular * T::broadcast(half_s);
+  const Vec3L<typename T::V> momentum = rotated(body.rotation, body.inertia_body) * angular;
+  return body.inv_inertia * cross(momentum, half) * (has_torque / (1 + dot(half, half)));
 }
 
 /// The implicit gyroscopic torque of ODE 0.16 (Lacoursiere, "Stabilizing gyroscopic forces in rigid multibody

@@ -21,6 +21,9 @@ class BodyMotion {
 
   void apply_gyroscopic_torques(const Batch& batch, Scalar dt, const GyroscopicSlot<V>*& next);
   void apply_gravity(const Batch& batch, Scalar h);
+  /// Expects the bodies to move with their present twists: sets BodyLanes::expected and half_turnings.
+  /// `next`: as above, or null where bodies turn without the torque.
+  void look_ahead(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next);
   /// `last`: the step ends here. `next`: as above, or null where bodies turn without the torque.
   template <bool last>
   void move(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next);
@@ -52,15 +55,27 @@ void BodyMotion<T>::apply_gravity(const Batch& batch, Scalar h) {
   }
 }
 
-/// Between two substeps the inertia in the world frame stays that of the step's start, as in a step without
-/// substeps.
+template <class T>
+void BodyMotion<T>::look_ahead(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next) {
+  if (!batch.has_joints) return;
+  BodyLanes<T>& bodies = worlds_.bodies;
+  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot)
+    bodies.expected[slot] = bodies.twists[slot];
+  if (next == nullptr) return;
+  const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
+  while (next != end && next->slot < batch.first_slot) ++next;
+  for (; next != end && next->slot < batch.end_slot; ++next)
+    bodies.half_turnings[next->slot] = half_turning<T>(bodies.bodies[next->slot], next->has_torque,
+                                                       bodies.expected[next->slot].angular, h / 2);
+}
+
 template <class T>
 template <bool last>
 void BodyMotion<T>::move(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next) {
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
     BodyLane<V>& body = worlds_.bodies.bodies[slot];
     move_slot<last>(slot, h, next, body, worlds_.bodies.twists[slot]);
-    if constexpr (last) refresh_inertia(body);
+    refresh_inertia(body);
   }
 }
 
@@ -71,7 +86,7 @@ void BodyMotion<T>::move_slot(int slot, Scalar h, const GyroscopicSlot<V>*& next
   const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
   while (next != nullptr && next != end && next->slot < slot) ++next;
   if (next != nullptr && next != end && next->slot == slot) {
-    integrate_turning<T, last>(body, next->has_torque, twist, h);
+    integrate_turning<T, last>(next->inertia, h, next->has_torque, body, twist);
   } else {
     integrate<T, last>(body, twist, h);
     body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);

@@ -24,9 +24,11 @@ void fill_idle_lanes(const LanePlaces& places, BodyLanes<T>& bodies, JointBatche
     for (JointLane<V>& joint : joints.joints(shape)) {
       const int from = places.num_used(joint.slot_a);
       repeat(joint.terms, from);
+      repeat(joint.holds, from);
       for (AxisControl<V>& control : joint.controls) {
-        for (V* v : {&control.low, &control.high, &control.sin_low, &control.cos_low, &control.sin_high,
-                     &control.cos_high, &control.velocity, &control.max_force, &control.hold_rate}) {
+        for (V* v : {&control.low, &control.high, &control.sin_middle, &control.cos_middle, &control.middle,
+                     &control.counts, &control.velocity, &control.max_force, &control.hold_rate,
+                     &control.armature}) {
           repeat(*v, from);
         }
       }

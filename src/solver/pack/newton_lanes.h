@@ -54,8 +54,8 @@ class NewtonLanes {
   template <model::JointKind kind>
   void add_joint(JointRows<T, kind>& rows, int lane);
   void add(const Touch& touch);
-  /// Adds a held row; a row without scale is a broken joint's, and left out.
-  void hold(SystemRow row, const V& scale, V& impulse, int lane);
+  /// Adds a held row, unless its joint is broken.
+  void hold(SystemRow row, const V& holds, V& impulse, int lane);
   template <class Row>
   void bound(const Bounded<Row, V>& bounded, SystemRow row, V& impulse, int lane);
 
@@ -204,7 +204,7 @@ void NewtonLanes<T>::solve_world(WorldLanes<T>& worlds, int world) {
 template <class T>
 template <class Rows_>
 SystemRow NewtonLanes<T>::line_row(const Rows_& rows, const LineRow<V>& line, int lane) const {
-  SystemRow row = row_of(rows, lane, line.rhs, line.impulse, T::get(line.cfm, lane));
+  SystemRow row = row_of(rows, lane, line.rhs + line.ahead, line.impulse, T::get(line.cfm, lane));
   row.jacobian_a = six(line.direction, line.moment_a, lane);
   row.jacobian_b = six(line.direction, line.moment_b, lane, -1);
   row.response_a = six(line.direction, line.turn_a, lane, T::get(rows.inv_mass_a, lane));
@@ -216,7 +216,7 @@ template <class T>
 template <class Rows_>
 SystemRow NewtonLanes<T>::axis_row(const Rows_& rows, const AxisRow<V>& axis, int lane) const {
   const Vec3L<V> none{};
-  SystemRow row = row_of(rows, lane, axis.rhs, axis.impulse, cfm_);
+  SystemRow row = row_of(rows, lane, axis.rhs + axis.ahead, axis.impulse, cfm_);
   row.jacobian_a = six(none, axis.axis, lane);
   row.jacobian_b = six(none, axis.axis, lane, 1, -1);
   row.response_a = six(none, axis.turn_a, lane);
@@ -230,20 +230,19 @@ void NewtonLanes<T>::add_joint(JointRows<T, kind>& rows, int lane) {
   const V zero = T::broadcast(0), one = T::broadcast(1);
   const Vec3L<V> units[3] = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
   for (PointRows<V>& point : rows.points) {
-    const V* const rhs[3] = {&point.rhs.x, &point.rhs.y, &point.rhs.z};
-    const V* const scale[3] = {&point.scale.x, &point.scale.y, &point.scale.z};
+    const V rhs[3] = {point.rhs.x + point.ahead.x, point.rhs.y + point.ahead.y, point.rhs.z + point.ahead.z};
     V* const impulse[3] = {&point.impulse.x, &point.impulse.y, &point.impulse.z};
     for (int k = 0; k < 3; ++k) {
-      SystemRow row = row_of(rows, lane, *rhs[k], *impulse[k], cfm_);
+      SystemRow row = row_of(rows, lane, rhs[k], *impulse[k], cfm_);
       row.jacobian_a = six(units[k], cross(point.arm_a, units[k]), lane);
       row.jacobian_b = six(units[k], cross(point.arm_b, units[k]), lane, -1, -1);
       row.response_a = six(units[k], point.turn_a[k], lane, T::get(rows.inv_mass_a, lane));
       row.response_b = six(units[k], point.turn_b[k], lane, -T::get(rows.inv_mass_b, lane), -1);
-      hold(row, *scale[k], *impulse[k], lane);
+      hold(row, rows.holds, *impulse[k], lane);
     }
   }
-  for (LineRow<V>& line : rows.lines) hold(line_row(rows, line, lane), line.scale, line.impulse, lane);
-  for (AxisRow<V>& axis : rows.axes) hold(axis_row(rows, axis, lane), axis.scale, axis.impulse, lane);
+  for (LineRow<V>& line : rows.lines) hold(line_row(rows, line, lane), rows.holds, line.impulse, lane);
+  for (AxisRow<V>& axis : rows.axes) hold(axis_row(rows, axis, lane), rows.holds, axis.impulse, lane);
   for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
     auto& control = rows.axis_controls[i];
     if (rows.control_on[i]) bound(control, axis_row(rows, control.row, lane), control.row.impulse, lane);
@@ -255,8 +254,8 @@ void NewtonLanes<T>::add_joint(JointRows<T, kind>& rows, int lane) {
 }
 
 template <class T>
-void NewtonLanes<T>::hold(SystemRow row, const V& scale, V& impulse, int lane) {
-  if (!(T::get(scale, lane) > 0)) return;
+void NewtonLanes<T>::hold(SystemRow row, const V& holds, V& impulse, int lane) {
+  if (!(T::get(holds, lane) > 0)) return;
   homes_.push_back({&impulse, lane, system_.add_held(row)});
 }
 
@@ -265,7 +264,7 @@ template <class T>
 template <class Row>
 void NewtonLanes<T>::bound(const Bounded<Row, V>& bounded, SystemRow row, V& impulse, int lane) {
   const double low = T::get(bounded.low, lane), high = T::get(bounded.high, lane);
-  if (!(low < high) || !(T::get(bounded.row.scale, lane) > 0)) return;
+  if (!(low < high)) return;
   homes_.push_back({&impulse, lane, system_.add_bounded(row, low, high)});
 }
 

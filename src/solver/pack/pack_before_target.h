@@ -28,6 +28,7 @@
 #include "core/random.h"
 #include "effects/breakage.h"
 #include "geometry/geometry.h"
+#include "geometry/principal_axes.h"
 #include "geometry/seams.h"
 #include "model/joint_traits.h"
 #include "model/shape_traits.h"

@@ -28,18 +28,15 @@ class ResidualMeter {
     const Twist<V>&a = bodies.twists[rows.slot_a], &b = bodies.twists[rows.slot_b];
     for (const PointRows<V>& row : rows.points) {
       const Vec3L<V> speed = a.linear + cross(a.angular, row.arm_a) - b.linear - cross(b.angular, row.arm_b);
-      add_free(line_, error(speed.x, row.rhs.x, cfm_, row.impulse.x, lane));
-      add_free(line_, error(speed.y, row.rhs.y, cfm_, row.impulse.y, lane));
-      add_free(line_, error(speed.z, row.rhs.z, cfm_, row.impulse.z, lane));
+      add_free(line_, error(speed.x, row.rhs.x + row.ahead.x, cfm_, row.impulse.x, lane));
+      add_free(line_, error(speed.y, row.rhs.y + row.ahead.y, cfm_, row.impulse.y, lane));
+      add_free(line_, error(speed.z, row.rhs.z + row.ahead.z, cfm_, row.impulse.z, lane));
     }
     for (const LineRow<V>& row : rows.lines) add_free(line_, error(row, a, b, lane));
     for (const AxisRow<V>& row : rows.axes) add_free(axis_, error(row, a, b, lane));
-    for (std::size_t i = 0; i < rows.axis_controls.size(); ++i) {
-      if (rows.control_on[i]) add_bounded(axis_, rows.axis_controls[i], a, b, lane);
-    }
-    for (std::size_t i = 0; i < rows.line_controls.size(); ++i) {
-      if (rows.control_on[i]) add_bounded(line_, rows.line_controls[i], a, b, lane);
-    }
+    for_each_control(rows, [&](const auto& control, std::size_t i) {
+      if (rows.control_on[i]) add_bounded(rows, control, a, b, lane);
+    });
   }
 
   /// Adds the contacts of a slot for which is_wanted(lane, point).
@@ -75,10 +72,10 @@ class ResidualMeter {
     return T::get(rhs, lane) - T::get(speed, lane) - cfm * T::get(impulse, lane);
   }
   double error(const LineRow<V>& row, const Twist<V>& a, const Twist<V>& b, int lane) const {
-    return error(relative_speed(row, a, b), row.rhs, T::get(row.cfm, lane), row.impulse, lane);
+    return error(relative_speed(row, a, b), row.rhs + row.ahead, T::get(row.cfm, lane), row.impulse, lane);
   }
   double error(const AxisRow<V>& row, const Twist<V>& a, const Twist<V>& b, int lane) const {
-    return error(dot(row.axis, a.angular - b.angular), row.rhs, cfm_, row.impulse, lane);
+    return error(dot(row.axis, a.angular - b.angular), row.rhs + row.ahead, cfm_, row.impulse, lane);
   }
 
   /// A NaN stays: it is not a small residual.
@@ -94,14 +91,25 @@ class ResidualMeter {
     const double per_d = scale / contacts_.sor_factor;
     return (std::clamp(impulse + error * per_d, low, high) - impulse) / per_d;
   }
-  template <class Row>
-  void add_bounded(Largest& largest, const Bounded<Row, V>& bounded, const Twist<V>& a, const Twist<V>& b,
-                   int lane) const {
+  template <class Rows, class Row>
+  void add_bounded(const Rows& rows, const Bounded<Row, V>& bounded, const Twist<V>& a, const Twist<V>& b,
+                   int lane) {
     const double low = T::get(bounded.low, lane), high = T::get(bounded.high, lane);
     if (!(low < high)) return;  // no row in this lane
-    const Row& row = bounded.row;
+    Largest& largest = std::is_same_v<Row, AxisRow<V>> ? axis_ : line_;
+    const double per_d = contacts_.sor_factor / T::get(diagonal(rows, bounded.row), lane);
     raise(largest.natural,
-          natural(error(row, a, b, lane), T::get(row.impulse, lane), low, high, T::get(row.scale, lane)));
+          natural(error(bounded.row, a, b, lane), T::get(bounded.row.impulse, lane), low, high, per_d));
+  }
+  /// J M^-1 J^T + cfm.
+  template <class Rows>
+  V diagonal(const Rows&, const AxisRow<V>& row) const {
+    return dot(row.axis, row.turn_a + row.turn_b) + cfm_;
+  }
+  template <class Rows>
+  V diagonal(const Rows& rows, const LineRow<V>& row) const {
+    return rows.inv_mass_a + rows.inv_mass_b + dot(row.moment_a, row.turn_a) + dot(row.moment_b, row.turn_b) +
+           row.cfm;
   }
   template <class Solver>
   void add_contact(const typename Solver::Point& point, const typename Solver::Motion& a,

@@ -1,6 +1,8 @@
 /// Writes plain numbers into one lane of a pack's data.
 #pragma once
 
+#include <numbers>
+
 #include "core/elementary.h"
 #include "geometry/geometry.h"
 #include "model/step_memory.h"
@@ -59,8 +61,11 @@ struct SetLanes {
   static void set(JointForceLane<V>& to, int lane, const model::JointForce& force) {
     set(to.force, lane, force.force);
     set(to.torque, lane, force.torque);
-    set(to.control[0], lane, force.control[0]);
-    set(to.control[1], lane, force.control[1]);
+    for (int axis = 0; axis < 2; ++axis) {
+      set(to.control[axis], lane, force.control[axis]);
+      set(to.rotor[axis], lane, force.rotor[axis]);
+      set(to.angle[axis], lane, force.angle[axis]);
+    }
   }
   static void set(AxisControl<V>& control, int lane, const model::AxisMotor& motor) {
     set(control.velocity, lane, motor.velocity);
@@ -69,17 +74,26 @@ struct SetLanes {
     control.has_motor = control.has_motor || motor.active();
     control.has_hold = control.has_hold || (motor.active() && motor.hold_rate > 0);
   }
-  /// A missing stop is a stop that no angle reaches: s cos <= c sin with sin = -1, cos = 0 holds for no c >
-  /// 0.
+  /// A range of nearly a whole turn, or with one limit only, does not tell by an angle on which side of it a
+  /// joint is: turns are counted. `half_a_radian` is more than any limit gives.
   static void set(AxisControl<V>& control, int lane, const model::AxisLimit& limit) {
+    constexpr double half_a_radian = 0.5;
     const bool low = limit.low > -model::infinity, high = limit.high < model::infinity;
+    const bool counts = limit.active() && !(limit.high - limit.low < 2 * (std::numbers::pi - half_a_radian));
+    const bool has_middle = limit.active() && !counts;
+    const double middle = has_middle ? (limit.low + limit.high) / 2 : 0;
     set(control.low, lane, low ? limit.low : -huge_bound);
     set(control.high, lane, high ? limit.high : huge_bound);
-    set(control.sin_low, lane, low ? core::sine(limit.low / 2) : -1);
-    set(control.cos_low, lane, low ? core::cosine(limit.low / 2) : 0);
-    set(control.sin_high, lane, high ? core::sine(limit.high / 2) : 1);
-    set(control.cos_high, lane, high ? core::cosine(limit.high / 2) : 0);
-    control.has_limit = control.has_limit || low || high;
+    set(control.middle, lane, middle);
+    set(control.sin_middle, lane, core::sine(middle / 2));
+    set(control.cos_middle, lane, core::cosine(middle / 2));
+    set(control.counts, lane, counts ? 1 : 0);
+    control.has_limit = control.has_limit || limit.active();
+    control.counts_turns = control.counts_turns || counts;
+  }
+  static void set_armature(AxisControl<V>& control, int lane, double armature) {
+    set(control.armature, lane, armature);
+    control.has_rotor = control.has_rotor || armature > 0;
   }
 };
 

@@ -47,6 +47,7 @@ class StepLanes {
 
   void sort_contacts(Contacts contacts, Forces forces);
 
+  void touch_trees(int world, std::span<const model::Contact> contacts);
   void damp(const Batch& batch) {
     if (passes_.damping) motion_.damp(batch, parameters_.substep_s());
   }
@@ -55,9 +56,12 @@ class StepLanes {
   bool hands_out_forces() const { return remembers() || parameters_.show_forces; }
   void start_step();
   void start_substep();
+  V exact_lanes(const Batch& batch) const { return trees_ ? trees_->exact_lanes(batch) : T::broadcast(0); }
+  void look_ahead();
   void push_carried();
   void sweep();
   void sweep_joints(const JointLaws<Scalar>& laws);
+  void sweep_limits(const JointSolver<T>& solver);
   void sweep_contacts(const RowLaw<Scalar>& law, int iteration);
   /// The key for the order of rows in an iteration, relaxing ones included.
   std::uint64_t order_key(int iteration) const {
@@ -104,6 +108,7 @@ template <class T>
 void StepLanes<T>::sort_contacts(Contacts contacts, Forces forces) {
   contacts_.clear(parameters_.friction == stepping::Friction::patch ? ContactKind::patched
                                                                     : ContactKind::rough);
+  if (trees_) trees_->start_step();
   for (int world = 0; world < worlds_.num_worlds(); ++world) {
     const auto w = static_cast<std::size_t>(world);
     contacts_.add_world(
@@ -111,6 +116,16 @@ void StepLanes<T>::sort_contacts(Contacts contacts, Forces forces) {
         hands_out_forces() && !forces.empty() ? forces[w] : std::span<model::ContactForce>(),
         [&](int body) { return worlds_.moves(world, body); },
         [&](int body) { return worlds_.places.body(world, body); });
+    if (trees_) touch_trees(world, contacts[w]);
+  }
+}
+
+template <class T>
+void StepLanes<T>::touch_trees(int world, std::span<const model::Contact> contacts) {
+  for (const model::Contact& contact : contacts) {
+    if (!worlds_.moves(world, contact.body_a)) continue;
+    trees_->touch(worlds_.places.body(world, contact.body_a));
+    if (contact.body_b != model::no_body) trees_->touch(worlds_.places.body(world, contact.body_b));
   }
 }
 
@@ -118,28 +133,30 @@ void StepLanes<T>::sort_contacts(Contacts contacts, Forces forces) {
 template <class T>
 void StepLanes<T>::start_step() {
   contacts_.build(worlds_.bodies, laws_.contacts());
-  const JointBuilder<T> builder = laws_.joint_builder();
+  const JointBuilder<T> builder = laws_.joint_builder(true);
   const GyroscopicSlot<V>* next_turning = worlds_.gyroscopic.data();
   const V recalled = T::broadcast(laws_.h() * laws_.contacts().warm_start);
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
+    worlds_.joints.start(batch, builder, exact_lanes(batch), recalled, worlds_.bodies);
+    worlds_.joints.start_rotors(batch, worlds_.bodies);
     if (!relaxes())
       motion_.apply_gyroscopic_torques(batch, static_cast<Scalar>(parameters_.dt_s), next_turning);
     if (passes_.gravity) motion_.apply_gravity(batch, laws_.h());
-    worlds_.joints.build(batch, builder, worlds_.bodies);
-    if (remembers()) worlds_.joints.recall(batch, recalled);
   });
-  worlds_.joints.stop_broken_joints();
+  look_ahead();
   factor_joints();
   push_carried();
 }
 
 template <class T>
 void StepLanes<T>::start_substep() {
-  if (parameters_.warm_start != 1) contacts_.carry(laws_.contacts());
-  const JointAdvancer<T> advancer = laws_.joint_advancer(false);
+  const bool reduces = parameters_.warm_start != 1;
+  if (reduces) contacts_.carry(laws_.contacts());
+  look_ahead();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
+    worlds_.joints.start_rotors(batch, worlds_.bodies);
     if (passes_.gravity) motion_.apply_gravity(batch, laws_.h());
-    worlds_.joints.restart(batch, advancer);
+    if (reduces) worlds_.joints.carry(batch, T::broadcast(laws_.contacts().warm_start));
   });
   push_carried();
 }
@@ -186,20 +203,56 @@ void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, int iteration) {
   twists_.changed_rows();
 }
 
-/// With substeps the rows of a joint that hold a place come after those that hold its angles, which would
-/// reopen the gap.
 template <class T>
 void StepLanes<T>::sweep_joints(const JointLaws<Scalar>& laws) {
   twists_.need_slots(worlds_.bodies);
   const JointSolver<T> solver = laws_.joint_solver(laws);
-  const auto has_tree = [&](std::size_t shape) { return trees_ && trees_->solves(shape); };
-  if (trees_) trees_->solve(solver, worlds_.bodies);
-  if (parameters_.substeps > 1) {
-    worlds_.joints.template sweep<true>(solver, has_tree, worlds_.bodies);
-  } else {
-    worlds_.joints.template sweep<false>(solver, has_tree, worlds_.bodies);
+  if (trees_) trees_->find_limited();
+  worlds_.joints.sweep(
+      solver,
+      [&](std::size_t shape, std::size_t batch, std::size_t joint, const auto& rows) {
+        return trees_ ? trees_->swept_lanes(shape, batch, joint, rows) : T::broadcast(1);
+      },
+      false, worlds_.bodies);
+  if (trees_) {
+    trees_->solve(solver, worlds_.bodies);
+    if (laws.places.bias > 0 && iteration_ == 0) {
+      // Only now is it known with which velocities the bodies move.
+      look_ahead();
+      trees_->solve(solver, worlds_.bodies);
+    }
+    if (trees_->has_limited()) sweep_limits(solver);
   }
   twists_.changed_slots();
+}
+
+/// Limits of exact joints get several rounds, as what one leaves of them would be remembered as if it were
+/// right; and always in the same order, as in a random one they would tremble at rest.
+template <class T>
+void StepLanes<T>::sweep_limits(const JointSolver<T>& solver) {
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
+    worlds_.joints.sweep(
+        solver,
+        [&](std::size_t shape, std::size_t batch, std::size_t joint, const auto& rows) {
+          return trees_->limited_lanes(shape, batch, joint, rows);
+        },
+        true, worlds_.bodies);
+    trees_->solve_limited(solver, worlds_.bodies);
+  }
+}
+
+/// Sets what the rows of exact joints have ahead if the bodies move with their present twists.
+template <class T>
+void StepLanes<T>::look_ahead() {
+  if (!trees_) return;
+  const JointBuilder<T> builder = laws_.joint_builder(true);
+  const GyroscopicSlot<V>* turning = first_turning();
+  worlds_.joints.for_each_active_batch([&](const Batch& batch) {
+    if (!T::any(exact_lanes(batch))) return;
+    motion_.look_ahead(batch, laws_.h(), turning);
+    worlds_.joints.look_ahead(batch, builder, worlds_.bodies);
+  });
 }
 
 /// Removes the speed that corrected position errors.
@@ -216,12 +269,11 @@ template <class T>
 template <bool last>
 void StepLanes<T>::end_substep() {
   if (!last || relaxes()) contacts_.advance(worlds_.bodies, laws_.contacts());
-  const JointAdvancer<T> advancer = laws_.joint_advancer(last);
+  const JointBuilder<T> builder = laws_.joint_builder(!last);
   const GyroscopicSlot<V>* turning = first_turning();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
-    if (!last) worlds_.joints.advance(batch, advancer, worlds_.bodies);
     motion_.template move<last>(batch, laws_.h(), turning);
-    if (!last || relaxes()) worlds_.joints.rebuild(batch, advancer, worlds_.bodies);
+    if (!last || relaxes()) worlds_.joints.rebuild(batch, builder, exact_lanes(batch), worlds_.bodies);
     if (!relaxes()) damp(batch);
   });
   if (!last || relaxes()) factor_joints();
@@ -261,8 +313,7 @@ void StepLanes<T>::choose_trees(stepping::JointSolver solver) {
   if (solver == parameters_.joint_solver) return;
   trees_.reset();
   if (solver == stepping::JointSolver::sweeps) return;
-  trees_.emplace(worlds_.places.shapes(), solver == stepping::JointSolver::hanging, worlds_.joints);
-  if (!trees_->solves_any()) trees_.reset();
+  trees_.emplace(worlds_.places.shapes(), solver == stepping::JointSolver::tree, worlds_.joints);
 }
 
 template <class T>

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "solver/contacts/contact_rows.h"
-#include "solver/joints/joint_advancer.h"
 #include "solver/joints/joint_builder.h"
+#include "solver/joints/joint_solver.h"
 #include "solver/layout/pack_laws.h"
 #include "solver/layout/passes.h"
 #include "solver/pack/pack.h"
@@ -13,7 +13,7 @@
 namespace pbmpi::solver {
 
 /// [m/s] With relaxing sweeps no contact pushes its bodies apart faster than this, however deep it is (as in
-/// Box2D v3).
+/// Box2D v3); no joint closes its gap, and no limit is returned to, any faster either [m/s or rad/s].
 inline constexpr double fastest_push = 3;
 
 /// The laws common to the worlds of a pack and the choices of a run, combined for a step.
@@ -27,8 +27,7 @@ class StepLaws {
         joint_erp_{scalar(laws.erp), scalar(laws.erp)},
         joint_cfm_(static_cast<Scalar>(laws.cfm)),
         sor_factor_(static_cast<Scalar>(step.sor_factor)),
-        warm_start_(static_cast<Scalar>(step.warm_start)),
-        several_(step.substeps > 1) {
+        warm_start_(static_cast<Scalar>(step.warm_start)) {
     set_joints(step);
     set_contacts(laws, passes, step);
     if (!step.pushes) contact_law_ = RowLaw<Scalar>::relaxing();
@@ -40,15 +39,14 @@ class StepLaws {
   const RowLaw<Scalar>& contact_law() const { return contact_law_; }
   const JointLaws<Scalar>& joint_laws() const { return joint_laws_; }
 
-  JointBuilder<T> joint_builder() const {
-    return {h_, joint_erp_, joint_cfm_, sor_factor_, joints_ahead_s_, several_};
-  }
-  /// `last`: no substep follows this one.
-  JointAdvancer<T> joint_advancer(bool last) const {
-    return {h_, joint_erp_, joint_cfm_, sor_factor_, warm_start_, last ? 0 : joints_ahead_s_};
+  /// `moves`: do bodies move with the speeds that the rows leave?
+  JointBuilder<T> joint_builder(bool moves) const {
+    return {h_, joint_erp_, joint_cfm_, moves ? joints_ahead_s_ : 0, contacts_.push_limit};
   }
   Scalar joint_cfm() const { return joint_cfm_ / h_; }  ///< divided by the step
-  JointSolver<T> joint_solver(const JointLaws<Scalar>& laws) const { return {joint_cfm(), laws}; }
+  JointSolver<T> joint_solver(const JointLaws<Scalar>& laws) const {
+    return {joint_cfm(), sor_factor_, laws};
+  }
 
  private:
   static Scalar scalar(double value) { return static_cast<Scalar>(value); }
@@ -93,8 +91,7 @@ class StepLaws {
   Scalar h_;
   JointErp<Scalar> joint_erp_;
   Scalar joint_cfm_, sor_factor_, warm_start_;
-  Scalar joints_ahead_s_ = 0;  ///< at which joints that are springs hold a place: see build_point()
-  bool several_;               ///< are there several substeps?
+  Scalar joints_ahead_s_ = 0;  ///< of joints that are springs: see JointBuilder
   JointLaws<Scalar> joint_laws_;
   RowLaw<Scalar> contact_law_;
   ContactParameters<Scalar> contacts_;

@@ -199,6 +199,8 @@ void WorldLanes<T>::set_joint(int world, const Articulation& articulation, std::
     const auto a = static_cast<std::size_t>(axis);
     set_limit(world, joint, axis, model(world).joints[joint].limits[a]);
     set_motor(world, joint, axis, model(world).joints[joint].motors[a]);
+    Set::set_armature(joint_at(world, joint).controls[axis], places.joint(world, joint).lane,
+                      model(world).joints[joint].armature[a]);
   }
 }
 
@@ -265,7 +267,11 @@ void WorldLanes<T>::store_body(int world, int body, const Poses* poses, model::S
     model::JointForce& force = state.memory.joints[static_cast<std::size_t>(joint)];
     force.force = vector_of(memory.force, lane);
     force.torque = vector_of(memory.torque, lane);
-    for (std::size_t axis = 0; axis < 2; ++axis) force.control[axis] = T::get(memory.control[axis], lane);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      force.control[axis] = T::get(memory.control[axis], lane);
+      force.rotor[axis] = T::get(memory.rotor[axis], lane);
+      force.angle[axis] = T::get(memory.angle[axis], lane);
+    }
   }
 }
 

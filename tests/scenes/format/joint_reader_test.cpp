@@ -45,12 +45,13 @@ TEST(JointReader, turns_world_anchors_and_axes_into_those_of_the_bodies) {
 TEST(JointReader, reads_limits_in_degrees_and_motors) {
   const auto model =
       build(with_joint("kind = \"hinge\"\nbodies = [\"a\", \"world\"]\nanchor = [0, 0, 0]\naxis = [0, 0, "
-                       "1]\nlimits = [-90, 45]\n"
+                       "1]\nlimits = [-90, 765]\narmature = 0.25\n"
                        "motor = { velocity = 2, max_force = 30, hold_rate = 8 }\n"));
   const model::Joint& j = joint(*model, "j");
   EXPECT_EQ(j.body_b, model::no_body);
   EXPECT_DOUBLE_EQ(j.limits[0].low, -std::numbers::pi / 2);
-  EXPECT_DOUBLE_EQ(j.limits[0].high, std::numbers::pi / 4);
+  EXPECT_DOUBLE_EQ(j.limits[0].high, 4.25 * std::numbers::pi) << "more than two turns";
+  EXPECT_EQ(j.armature, (std::array<double, 2>{0.25, 0}));
   EXPECT_EQ(j.motors[0].velocity, 2);
   EXPECT_EQ(j.motors[0].max_force, 30);
   EXPECT_EQ(j.motors[0].hold_rate, 8);
@@ -124,8 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"limits_of_a_ball", ball + "bodies = [\"a\", \"b\"]\nanchor = [0, 0, 0]\nlimits = [0, 1]\n",
                 "19:1", "unknown key 'limits'"},
         Mistake{"swapped_limits", hinge + "axis = [0, 0, 1]\nlimits = [10, -10]\n", "20:10", "swap them"},
-        Mistake{"limits_beyond_a_turn", hinge + "axis = [0, 0, 1]\nlimits = [-200, 0]\n", "20:10",
-                "180 degrees"},
+        Mistake{"negative_armature", hinge + "axis = [0, 0, 1]\narmature = -1\n", "20:12", "at least 0"},
         Mistake{"zero_axis", hinge + "axis = [0, 0, 0]\n", "19:8", "no direction"},
         Mistake{"weak_motor", hinge + "axis = [0, 0, 1]\nmotor = { velocity = 1, max_force = -1 }\n", "20:37",
                 "at least 0"}),
