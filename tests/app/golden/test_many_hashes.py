@@ -7,10 +7,11 @@ import concurrent.futures
 import json
 import os
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import COLD, EFFECT_SCENES, SCENES, ProgramTest  # noqa: E402
+from harness import AT_ONCE, COLD, EFFECT_SCENES, SCENES, ProgramTest  # noqa: E402
 
 SOR = {
     "default": (),
@@ -48,7 +49,9 @@ class ManyHashes(ProgramTest):
         self.runs = 0
 
     def hash_of(self, ranks, args):
-        result = self.pbmpi(ranks, *args, *FEW)
+        # Two runs that begin at once would make the same folder for their sessions, and one would fail.
+        with tempfile.TemporaryDirectory(dir=self.folder) as session:
+            result = self.pbmpi(ranks, *args, *FEW, env={**os.environ, **AT_ONCE, "OMPI_MCA_orte_tmpdir_base": session})
         self.runs += 1
         if result.returncode == 2 and "lacks the instruction set" in result.stderr:
             return None
