@@ -9,7 +9,7 @@ if [[ $# -eq 0 ]]; then
   set -- -LE slow
 fi
 # Many tests wait more than they compute, for mpirun, Chromium and Slurm.
-ctest --preset release --parallel "$(($(nproc) + 1))" "$@" && exit
+ctest --preset release --parallel "$(($(nproc) + 2))" "$@" && exit
 code=$?
 # What a failed test said stands among the output of thousands: once more, at the end.
 awk '/^[0-9]+\/[0-9]+ Test: / { text = "" } { text = text $0 "\n" } /^Test Failed\./ { printf "%s", text }' \
