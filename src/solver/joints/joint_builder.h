@@ -98,10 +98,13 @@ void JointBuilder<T>::build(JointLane<V>& joint, const V& exact, const JointForc
   rows.holds = joint.holds;
   rows.has_block = false;
   rows.has_rotors = joint.controls[0].has_rotor || joint.controls[1].has_rotor;
-  // Both ways have equal shares where an impulse changes a body's turning by 5 %.
-  rows.reversible =
-      exact / (1 + T::broadcast(400) * (unrest(bodies, joint.slot_a, joint.terms.anchor_a, carried) +
-                                        unrest(bodies, joint.slot_b, joint.terms.anchor_b, carried)));
+  rows.reversible = exact;
+  if (T::any(exact)) {
+    // Both ways have equal shares where an impulse changes a body's turning by 5 %.
+    rows.reversible =
+        exact / (1 + T::broadcast(400) * (unrest(bodies, joint.slot_a, joint.terms.anchor_a, carried) +
+                                          unrest(bodies, joint.slot_b, joint.terms.anchor_b, carried)));
+  }
   for (PointRows<V>& point : rows.points)
     build_point<T>(joint.terms, bodies, joint.slot_a, joint.slot_b, rows_.place_k(), ahead_s_,
                    rows.reversible, fastest_, point);

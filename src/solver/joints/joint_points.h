@@ -16,13 +16,6 @@ PBMPI_LANES Vec3L<V> turn_of(const Sym3L<V>& s, const Vec3L<V>& arm, int k) {
   return {s.xx * y - s.xy * x, s.xy * y - s.yy * x, s.xz * y - s.yz * x};
 }
 
-/// (arm x e_k) . turn
-template <class V>
-PBMPI_LANES V turning(const Vec3L<V>& turn, const Vec3L<V>& arm, int k) {
-  if (k == 0) return arm.z * turn.y - arm.y * turn.z;
-  return k == 1 ? arm.x * turn.z - arm.z * turn.x : arm.y * turn.x - arm.x * turn.y;
-}
-
 /// The arm in the middle of a rotation by 2 `half_turn` [rad]: the mean of the arm before and after, by
 /// Cayley's formula for the rotation, which moves its end by 2 half_turn x middle. No longer than the arm.
 template <class T>

@@ -11,7 +11,6 @@
 
 #include <array>
 #include <cstddef>
-#include <type_traits>
 
 #include "model/joint_traits.h"
 #include "solver/lanes/symmetric_factor.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <type_traits>
 
 #include "solver/joints/joint_block.h"
 #include "solver/joints/joint_rows.h"
@@ -168,6 +167,8 @@ class JointSolver {
     a.angular = a.angular + row.turn_a[0] * change.x + row.turn_a[1] * change.y + row.turn_a[2] * change.z;
     b.angular = b.angular - row.turn_b[0] * change.x - row.turn_b[1] * change.y - row.turn_b[2] * change.z;
   }
+
+ private:
   /// A motor keeps its target velocity in all sweeps.
   template <class Row>
   PBMPI_LANES V rhs_of(const Bounded<Row, V>& control) const {
@@ -175,8 +176,6 @@ class JointSolver {
   }
   PBMPI_LANES V cfm_of(const AxisRow<V>&) const { return T::broadcast(cfm_); }
   PBMPI_LANES V cfm_of(const LineRow<V>& row) const { return row.cfm; }
-
- private:
   /// sum + change, or the same sum to the bit, -0 included, where an impulse is 0: a lane in which nothing
   /// acts is not to notice that something does in another.
   PBMPI_LANES static V after(const V& sum, const V& change, const V& impulse) {

@@ -52,7 +52,7 @@ class JointTrees {
     }
   }
   /// 1 in the lanes in which a sweep has to solve this joint of a shape's batch, else 0: all that are not
-  /// exact, and of exact ones without limits (find_limited()) the joints that close loops or are driven.
+  /// exact, and of exact ones without limits (factor()) the joints that close loops or are driven.
   template <class Rows>
   PBMPI_LANES V swept_lanes(std::size_t shape_index, std::size_t batch, std::size_t joint,
                             const Rows& rows) const {
@@ -68,7 +68,8 @@ class JointTrees {
     const Shape& shape = shapes_[shape_index];
     return shape.limited[batch].flags * bounded_lanes(shape, joint, rows);
   }
-  /// Prepares for the current rows, in all active batches. `cfm` [s/kg]: the joints' CFM divided by the step.
+  /// Prepares for the current rows, in all active batches, and finds the exact articulations with a joint at
+  /// a limit, which the tree cannot hold. `cfm` [s/kg]: the joints' CFM divided by the step.
   void factor(Scalar cfm, const BodyLanes<T>& bodies);
   /// 1 in the lanes in which all joints of a batch are solved exactly, limits and motors aside, else 0.
   V exact_lanes(const Batch& batch) const {
@@ -77,9 +78,7 @@ class JointTrees {
   }
   /// Solves all rows but those of limits and motors, after a sweep over the joints of swept_lanes().
   void solve(const JointSolver<T>& solver, BodyLanes<T>& bodies);
-  /// Finds the exact articulations with a joint at a limit, which the tree cannot hold.
-  void find_limited();
-  /// solve() where find_limited() has found limits.
+  /// solve() where factor() has found limits.
   void solve_limited(const JointSolver<T>& solver, BodyLanes<T>& bodies);
   bool has_limited() const {
     return std::ranges::any_of(shapes_, [](const Shape& shape) {
@@ -146,6 +145,8 @@ class JointTrees {
       }
     });
   }
+  /// 1 in the lanes that are exact and have a joint at a limit, else 0.
+  V find_limited(const Shape& shape, const Batch& batch);
   /// `where`: 1 in the lanes that take the solution, else 0.
   void solve_tree(const JointSolver<T>& solver, const Shape& shape, TreeSolver<T>& tree, const Batch& batch,
                   const V& where, BodyLanes<T>& bodies);
@@ -156,7 +157,8 @@ class JointTrees {
 
 template <class T>
 void JointTrees<T>::factor(Scalar cfm, const BodyLanes<T>& bodies) {
-  for_each_tree([&](const Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
+  for_each_tree([&](Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
+    shape.limited[batch.index].flags = find_limited(shape, batch);
     for (const TreeNode& node : shape.nodes)
       tree.start_body(node.body, bodies.bodies[batch.first_slot + node.body]);
     for (auto node = shape.nodes.rbegin(); node != shape.nodes.rend(); ++node) {
@@ -187,19 +189,17 @@ void JointTrees<T>::solve_limited(const JointSolver<T>& solver, BodyLanes<T>& bo
 }
 
 template <class T>
-void JointTrees<T>::find_limited() {
-  for_each_tree([&](Shape& shape, TreeSolver<T>&, const Batch& batch) {
-    const V zero = T::broadcast(0);
-    V limited = zero;
-    for (std::size_t joint = 0; joint < shape.num_joints; ++joint) {
-      joints_.change_rows(batch.shape, batch.index * shape.num_joints + joint, [&](const auto& rows) {
-        for_each_control(rows, [&](const auto& control, std::size_t axis) {
-          if (rows.control_on[axis]) limited = limited + control.at_limit;
-        });
+typename T::V JointTrees<T>::find_limited(const Shape& shape, const Batch& batch) {
+  const V zero = T::broadcast(0);
+  V limited = zero;
+  for (std::size_t joint = 0; joint < shape.num_joints; ++joint) {
+    joints_.change_rows(batch.shape, batch.index * shape.num_joints + joint, [&](const auto& rows) {
+      for_each_control(rows, [&](const auto& control, std::size_t axis) {
+        if (rows.control_on[axis]) limited = limited + control.at_limit;
       });
-    }
-    shape.limited[batch.index].flags = limited > zero ? shape.exact[batch.index].flags : zero;
-  });
+    });
+  }
+  return limited > zero ? shape.exact[batch.index].flags : zero;
 }
 
 template <class T>

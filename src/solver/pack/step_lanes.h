@@ -207,7 +207,6 @@ template <class T>
 void StepLanes<T>::sweep_joints(const JointLaws<Scalar>& laws) {
   twists_.need_slots(worlds_.bodies);
   const JointSolver<T> solver = laws_.joint_solver(laws);
-  if (trees_) trees_->find_limited();
   worlds_.joints.sweep(
       solver,
       [&](std::size_t shape, std::size_t batch, std::size_t joint, const auto& rows) {
