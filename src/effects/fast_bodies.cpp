@@ -149,7 +149,8 @@ bool FastBodies::is_covered(const model::State& state, int geom, const core::Vec
 
 /// The contact acts somewhere between the point where the path meets the surface and the point below the fast
 /// geom's centre: the lever arm of an oblique hit would turn a body instead of stopping it, so the arm is
-/// divided by how easily the two bodies turn, with less for the one that turns more easily.
+/// divided by how easily the two bodies turn, with less for the one that turns more easily. Between the two
+/// surfaces it lies half way; where they overlap, which no depth says, nearer to that of this body.
 void FastBodies::meet(const model::State& state, const Fast& fast, const core::Vec3& way, int other) {
   const core::Vec3 centre(fast.pose.position);
   const model::Geom& geom = model_->geoms[fast.geom];
@@ -168,9 +169,16 @@ void FastBodies::meet(const model::State& state, const Fast& fast, const core::V
   contact.body_a = fast_is_a ? geom.body : other_body;
   contact.body_b = fast_is_a ? other_body : geom.body;
   contact.normal = fast_is_a ? entry->normal : core::Vec3(-entry->normal);
+  const double own_share = own_ease / (own_ease + other_ease);
+  const double overlap = geometry::half_extent(geom, fast.pose.rotation, entry->normal) - height;
+  const double to_between = overlap < 0 ? 0.5 * overlap : own_share * overlap;
+  contact.depth = std::min(0.0, overlap);
   contact.position =
-      (own_ease * (centre - height * entry->normal) + other_ease * hit) / (own_ease + other_ease);
-  contact.depth = std::min(0.0, geometry::half_extent(geom, fast.pose.rotation, entry->normal) - height);
+      own_share * (centre - height * entry->normal) + (1 - own_share) * hit - to_between * entry->normal;
+  const model::Material material =
+      model::pair_material(*model_, contact.geoms, geom.material, model_->geoms[other].material);
+  contact.mu = material.mu;
+  contact.restitution = material.restitution;
   found_.push_back(contact);
 }
 

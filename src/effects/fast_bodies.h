@@ -34,8 +34,8 @@ std::vector<SlowBound> slow_bounds(const model::Model& model);
 ///
 /// The path of its centre in the step, extended by that half extent, is cast against each geom that it may
 /// touch, relative to that geom if it is fast itself. Where the path enters the geom, a contact with a gap
-/// (negative depth) keeps the two from coming closer than touching. This contact has neither friction nor
-/// restitution, which belong to touching surfaces: the next step's contact has them. A pair that already
+/// (negative depth) keeps the two from coming closer than touching, with the friction and restitution of an
+/// impact: none of its speed is left for a contact of the next step. A pair that already
 /// touches gets one too, since a contact at the end of a rod turns the rod and lets its middle through. There
 /// is none where a neighbour covers the surface (geometry::Seams), which the path has then entered first. A
 /// pair's contact depends on nothing but the two geoms, so that a world cut into spaces finds the same

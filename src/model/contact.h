@@ -30,9 +30,9 @@ struct GeomPair {
 struct Contact {
   int body_a = 0;
   int body_b = no_body;  ///< no_body: a is in contact with the static environment
-  Vec3 position;         ///< [m] world frame
-  Vec3 normal;           ///< unit, world frame
-  double depth = 0;      ///< [m]; below 0: a gap that may close in this step (effects/fast_bodies.h)
+  Vec3 position;     ///< [m] world frame; half way between the surfaces (ODE's collider: on one or the other)
+  Vec3 normal;       ///< unit, world frame
+  double depth = 0;  ///< [m]; below 0: a gap that may close in this step (effects/fast_bodies.h)
   double mu = 0;
   double restitution = 0;
   GeomPair geoms;  ///< the two that touch; canonical order of contacts is sorted by them

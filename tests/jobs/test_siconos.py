@@ -85,8 +85,8 @@ class Siconos(ProgramTest):
         self.record(self.write("ball.toml", BALL), 1)
         problem = self.problem()
         W, q = problem.condensed()
-        # 1/m + r^2 / (2/5 m r^2) across: the friction at the surface turns the ball as well.
-        arm = RADIUS
+        # 1/m + arm^2 / (2/5 m r^2) across: friction turns the ball as well. The contact lies half way between the surfaces.
+        arm = RADIUS - DEPTH / 2
         across = 1 / MASS + arm**2 / (0.4 * MASS * RADIUS**2) + CFM / STEP
         self.assertLess(np.abs(W - np.diag([1 / MASS + SOFT / STEP, across, across])).max(), 1e-14)
         push = ERP / STEP * DEPTH

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <numbers>
 
 #include "core/clock.h"
@@ -16,6 +14,7 @@
 #include "model/joint_traits.h"
 #include "model/mechanics.h"
 #include "model/validate.h"
+#include "number_option.h"
 #include "ode/objects/engine.h"
 #include "random_model.h"
 #include "stepping/step_options.h"
@@ -111,17 +110,10 @@ Outcome run(const Model& model, stepping::Precision precision, double seconds) {
   return worst;
 }
 
-double option(int argc, char** argv, const char* name, double otherwise) {
-  for (int i = 1; i + 1 < argc; ++i) {
-    if (std::strcmp(argv[i], name) == 0) return std::strtod(argv[i + 1], nullptr);
-  }
-  return otherwise;
-}
-
 int run(int argc, char** argv) {
-  const int count = static_cast<int>(option(argc, argv, "--count", 25));
-  const int first = static_cast<int>(option(argc, argv, "--seed", 1));
-  const double seconds = option(argc, argv, "--seconds", 5);
+  const int count = static_cast<int>(number_option(argc, argv, "--count", 25));
+  const int first = static_cast<int>(number_option(argc, argv, "--seed", 1));
+  const double seconds = number_option(argc, argv, "--seconds", 5);
   const ode::Engine engine;
   int failed = 0;
   for (int seed = first; seed < first + count; ++seed) {

@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "guarded_run.h"
 #include "model/validate.h"
+#include "number_option.h"
 #include "ode/objects/engine.h"
 #include "random_model.h"
 #include "scenes/scene.h"
@@ -142,15 +143,9 @@ void run_seed(std::uint64_t seed, Tally& tally) {
   alarm(0);
 }
 
-std::uint64_t option(int argc, char** argv, const char* name, std::uint64_t otherwise) {
-  for (int i = 1; i + 1 < argc; ++i) {
-    if (std::strcmp(argv[i], name) == 0) return std::strtoull(argv[i + 1], nullptr, 10);
-  }
-  return otherwise;
-}
-
 int run(int argc, char** argv) {
-  const std::uint64_t count = option(argc, argv, "--count", 25), first = option(argc, argv, "--seed", 1);
+  const auto count = static_cast<std::uint64_t>(number_option(argc, argv, "--count", 25));
+  const auto first = static_cast<std::uint64_t>(number_option(argc, argv, "--seed", 1));
   const ode::Engine engine;
   std::signal(SIGALRM, on_hang);
   Tally tally;

@@ -147,12 +147,13 @@ model::Material Contacts::surface_of(const model::GeomPair& pair) const {
   return material;
 }
 
-/// A point with a positive distance lets its bodies close that distance in a step, and no more.
+/// A point with a positive distance lets its bodies close that distance in a step, and no more. It has
+/// neither friction nor restitution.
 void Contacts::make_ahead(const std::vector<model::Contact>& contacts) {
   for (const model::Contact& contact : contacts) {
     btRigidBody &a = bodies_->get(contact.body_a), &b = bodies_->get(contact.body_b);
-    const btVector3 on_b = to_bullet(contact.position), normal = to_bullet(contact.normal);
-    const btVector3 on_a = on_b - contact.depth * normal;
+    const btVector3 between = to_bullet(contact.position), normal = to_bullet(contact.normal);
+    const btVector3 to_b = 0.5 * contact.depth * normal, on_b = between + to_b, on_a = between - to_b;
     btManifoldPoint point(a.getWorldTransform().invXform(on_a), b.getWorldTransform().invXform(on_b), normal,
                           -contact.depth);
     point.m_positionWorldOnA = on_a;
@@ -160,7 +161,7 @@ void Contacts::make_ahead(const std::vector<model::Contact>& contacts) {
     btPersistentManifold& manifold = *collider_->dispatcher().getNewManifold(&a, &b);
     manifold.addManifoldPoint(point);
     touches_.push_back({contact.body_a, contact.body_b, 1, 1});
-    made_.push_back({&manifold, contact.geoms, {contact.mu, contact.restitution}});
+    made_.push_back({&manifold, contact.geoms, {0, 0}});
   }
 }
 

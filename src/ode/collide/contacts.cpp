@@ -102,11 +102,12 @@ int Contacts::correct_at_seams(const GeomPair& pair, int num_contacts) {
 }
 
 /// ODE takes no negative depth; instead the motion along the normal sets the lowest speed at which the bodies
-/// separate.
+/// separate. There is neither friction nor restitution: ODE would let the bodies bounce before they touch.
 void Contacts::make_ahead(dWorldID world, const std::vector<model::Contact>& contacts, double dt_s) {
   contact_.surface.mode = dContactSoftERP | dContactSoftCFM | dContactMotionN;
   contact_.surface.mu = 0;
-  for (const model::Contact& contact : contacts) {
+  for (model::Contact contact : contacts) {
+    contact.mu = contact.restitution = 0;
     contact_.surface.motionN = contact.depth / dt_s;
     std::copy_n(contact.position.data(), 3, contact_.geom.pos);
     std::copy_n(contact.normal.data(), 3, contact_.geom.normal);

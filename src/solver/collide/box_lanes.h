@@ -263,7 +263,7 @@ int BoxManifold<T>::clip_face(const Box& reference, const Box& incident, int fac
   const int kept = choose(second, deep, chosen);
   for (int i = 0; i < kept; ++i) {
     const Corner& corner = second[chosen[i]];
-    const Scalar height = side * (reference.half[face] - corner.depth);
+    const Scalar height = side * (reference.half[face] - Scalar(0.5) * corner.depth);
     for (int k = 0; k < 3; ++k) {
       points[i].position[k] = reference.centre[k] + corner.u * reference.axis[u][k] +
                               corner.v * reference.axis[v][k] + height * reference.axis[face][k];

@@ -20,6 +20,10 @@ class PlaneKernels {
   static void cylinder_plane(const Side& a, const Side& b, Found<V>& found);
 
  private:
+  /// Half way from a point of the solid to the plane.
+  PBMPI_LANES static L3 between(const L3& point, const L3& normal, const V& depth) {
+    return point + normal * (T::broadcast(Scalar(0.5)) * depth);
+  }
   PBMPI_LANES static FoundPoint<V> sphere_on_plane(const L3& centre, const V& radius, const L3& origin,
                                                    const L3& normal, const V& least_depth);
 };
@@ -29,7 +33,8 @@ PBMPI_LANES FoundPoint<typename T::V> PlaneKernels<T>::sphere_on_plane(const L3&
                                                                        const L3& origin, const L3& normal,
                                                                        const V& least_depth) {
   const V depth = radius - dot(centre - origin, normal);
-  return {flag<T>(depth >= least_depth), centre - normal * radius, normal, depth};
+  const V way = radius - T::broadcast(Scalar(0.5)) * depth;
+  return {flag<T>(depth >= least_depth), centre - normal * way, normal, depth};
 }
 
 template <class T>
@@ -85,7 +90,7 @@ void PlaneKernels<T>::box_plane(const Side& a, const Side& b, Found<V>& found) {
   for (int i = 0; i < 4; ++i) {
     const V touching =
         i < 3 ? (depths[i] >= least_depth ? before : zero) : (depths[i] > least_depth ? before : zero);
-    found.points[i] = {touching, corners[i], normal, depths[i]};
+    found.points[i] = {touching, between(corners[i], normal, depths[i]), normal, depths[i]};
     before = touching;
   }
   found.num_points = 4;
@@ -115,20 +120,21 @@ void PlaneKernels<T>::cylinder_plane(const Side& a, const Side& b, Found<V>& fou
   V rest = T::broadcast(0);
   for (int i = 0; i < 5; ++i) {
     const V depth = -dot(points[i] - origin, normal);
+    const L3 place = between(points[i], normal, depth);
     const V touching = flag<T>(depth >= least_depth);
     if (i ==
         4) {  // replaces the upper rim's point, which is off the plane when the whole lower disc is on it
       const auto instead = touching * (one - rest) > zero;
       const auto pick = [&](const V& x, const V& otherwise) { return instead ? x : otherwise; };
       FoundPoint<V>& point = found.points[1];
-      point = {pick(touching, point.touching),
-               {pick(points[i].x, point.position.x), pick(points[i].y, point.position.y),
-                pick(points[i].z, point.position.z)},
-               normal,
-               pick(depth, point.depth)};
+      point = {
+          pick(touching, point.touching),
+          {pick(place.x, point.position.x), pick(place.y, point.position.y), pick(place.z, point.position.z)},
+          normal,
+          pick(depth, point.depth)};
       break;
     }
-    found.points[i] = {touching, points[i], normal, depth};
+    found.points[i] = {touching, place, normal, depth};
     if (i == 1) rest = touching;
   }
   found.num_points = 4;

@@ -80,11 +80,10 @@ void RoundKernels<T>::sphere_box(const Side& a, const Side& b, Found<V>& found) 
   const V distance = T::sqrt(dot(gap, gap));
   const V inverse = one / (distance > zero ? distance : one);
   const V depth = within ? least + radius : radius - distance;
-  found.points[0] = {flag<T>(depth >= a.least_depth()),
-                     {within ? pa.x : nearest.x, within ? pa.y : nearest.y, within ? pa.z : nearest.z},
-                     {within ? outward.x : gap.x * inverse, within ? outward.y : gap.y * inverse,
-                      within ? outward.z : gap.z * inverse},
-                     depth};
+  const L3 normal{within ? outward.x : gap.x * inverse, within ? outward.y : gap.y * inverse,
+                  within ? outward.z : gap.z * inverse};
+  const V way = radius - T::broadcast(Scalar(0.5)) * depth;
+  found.points[0] = {flag<T>(depth >= a.least_depth()), pa - normal * way, normal, depth};
   found.num_points = 1;
 }
 

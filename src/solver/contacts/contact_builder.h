@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 #include "solver/contacts/contact_solver.h"
 #include "solver/contacts/manifold_order.h"
@@ -51,7 +52,8 @@ class ContactBuilder {
     L3 friction_force;
   };
 
-  /// From the centres of the bodies to a point.
+  /// From the centres of the bodies to a point, or to where their own surfaces are there: friction between
+  /// the surfaces would slow down a ball that rolls, the more the deeper it is. ODE has it at the point.
   struct Arms {
     L3 a, b;
   };
@@ -59,8 +61,15 @@ class ContactBuilder {
   BodyPair gather(const Manifold* manifolds, ContactSlot<T>& slot) const;
   Given read(const Manifold* manifolds, int point) const;
   PBMPI_LANES Arms arms_of(const BodyPair& pair, const Given& given) const;
-  template <bool bounces>
-  void build_point(const ContactSlot<T>& slot, const BodyPair& pair, const Given& given, Point& point) const;
+  /// [m^2/s^2] The square of the speed along the surface; 0 in lanes without the point.
+  PBMPI_LANES static V slip_square(const BodyPair& pair, const Given& given, const Arms& arms,
+                                   const V& outgoing) {
+    L3 speed = pair.motion_a.linear + cross(pair.motion_a.angular, arms.a);
+    if constexpr (two_bodies) speed = speed - (pair.motion_b.linear + cross(pair.motion_b.angular, arms.b));
+    const V zero = T::broadcast(0);
+    return given.factor > zero ? dot(speed, speed) - outgoing * outgoing : zero;
+  }
+  void build_point(ContactSlot<T>& slot, const BodyPair& pair, const Given& given, Point& point) const;
   /// Where depths are kept: a point that carries force lets its bodies come no closer, even if it has opened
   /// a little.
   PBMPI_LANES void keep_depth(Point& point) const {
@@ -114,11 +123,7 @@ void ContactBuilder<T, two_bodies, kind>::build(const Manifold* manifolds, Slot&
   [[maybe_unused]] PatchPart parts[ManifoldOrder::most_points];
   for (int i = 0; i < slot.num_points; ++i) {
     const Given given = read(manifolds, i);
-    if (parameters_.restitution) {
-      build_point<true>(slot, pair, given, points[i]);
-    } else {
-      build_point<false>(slot, pair, given, points[i]);
-    }
+    build_point(slot, pair, given, points[i]);
     if constexpr (Solver::patched)
       parts[i] = {arms_of(pair, given), given.friction_force, given.normal_force,
                   given.factor > T::broadcast(0) ? T::broadcast(1) : T::broadcast(0)};
@@ -144,10 +149,9 @@ typename ContactBuilder<T, two_bodies, kind>::BodyPair ContactBuilder<T, two_bod
   BodyPair pair{};
   slot.inv_mass_a = bodies_->gather_member(inv_mass, body_a);
   slot.inv_mass_b = two_bodies ? bodies_->gather_member(inv_mass, body_b) : T::broadcast(0);
-  if (parameters_.restitution) {
-    pair.motion_a = gather_motion(twist_a);
-    if constexpr (two_bodies) pair.motion_b = gather_motion(twist_b);
-  }
+  slot.impact = slot.slides = T::broadcast(0);
+  pair.motion_a = gather_motion(twist_a);
+  if constexpr (two_bodies) pair.motion_b = gather_motion(twist_b);
   if constexpr (!Solver::central) {
     pair.centre_a = gather_vector(centre, body_a);
     pair.inv_inertia_a = gather_inertia(body_a);
@@ -198,28 +202,34 @@ PBMPI_LANES typename ContactBuilder<T, two_bodies, kind>::Arms ContactBuilder<T,
   const V zero = T::broadcast(0);
   Arms arms{{zero, zero, zero}, {zero, zero, zero}};
   if (!parameters_.turning) return arms;
-  arms.a = given.position - pair.centre_a;
-  if constexpr (two_bodies) arms.b = given.position - pair.centre_b;
+  const Scalar share = parameters_.relaxes ? Scalar(0.5) : Scalar(0);
+  const L3 to_surface = given.normal * (given.depth * T::broadcast(share));
+  arms.a = given.position - to_surface - pair.centre_a;
+  if constexpr (two_bodies) arms.b = given.position + to_surface - pair.centre_b;
   return arms;
 }
 
 template <class T, bool two_bodies, ContactKind kind>
-template <bool bounces>
-void ContactBuilder<T, two_bodies, kind>::build_point(const ContactSlot<T>& slot, const BodyPair& pair,
+void ContactBuilder<T, two_bodies, kind>::build_point(ContactSlot<T>& slot, const BodyPair& pair,
                                                       const Given& given, Point& point) const {
   const V zero = T::broadcast(0);
   const Arms arms = arms_of(pair, given);
   build_row(slot, pair, given.normal, arms, parameters_.soft_cfm / parameters_.h, given.factor, point.normal);
   const V carried = T::broadcast(parameters_.h * parameters_.warm_start);
   point.normal.impulse = given.normal_force * carried;
-  V bounce = zero;
-  if constexpr (bounces) {
-    const V outgoing = Solver::speed(point.normal, pair.motion_a, pair.motion_b);
-    bounce = outgoing < T::broadcast(-parameters_.bounce_velocity) ? -given.restitution * outgoing : zero;
+  const V outgoing = Solver::speed(point.normal, pair.motion_a, pair.motion_b);
+  const V returns = parameters_.restitution ? given.restitution : zero;
+  const V bounce = outgoing < T::broadcast(-parameters_.bounce_velocity) ? -returns * outgoing : zero;
+  const V push = T::min(parameters_.push_rate * given.depth, T::broadcast(parameters_.push_limit));
+  const V fastest = given.factor > zero ? T::max(-outgoing, push) : zero;
+  slot.impact = fastest > T::broadcast(parameters_.impact_velocity) ? T::broadcast(1) : slot.impact;
+  if constexpr (Solver::patched) {
+    const V square = slip_square(pair, given, arms, outgoing);
+    const Scalar least = parameters_.slip_velocity;
+    slot.slides = square > T::broadcast(least * least) ? T::broadcast(1) : slot.slides;
   }
   point.bounce = bounce;
   point.peak = zero;
-  const V push = T::min(parameters_.push_rate * given.depth, T::broadcast(parameters_.push_limit));
   // A gap (negative depth) lets the bodies approach until they touch.
   point.rhs =
       given.depth < zero ? given.depth / parameters_.h : (parameters_.relaxes ? push : T::max(push, bounce));
@@ -270,7 +280,9 @@ void ContactBuilder<T, two_bodies, kind>::build_patch(const BodyPair& pair, cons
     force = force + parts[i].friction_force;
     torque = torque + cross(lever, parts[i].friction_force);
   }
-  slot.least_distance = farthest * T::broadcast(static_cast<Scalar>(1e-4));
+  const V size = T::sqrt(dot(first.position, first.position)) + T::sqrt(dot(middle.a, middle.a));
+  slot.least_distance = farthest * T::broadcast(static_cast<Scalar>(1e-4)) +
+                        size * T::broadcast(8 * std::numeric_limits<Scalar>::epsilon());
   build_friction(slot, pair, first, middle, force, slot.friction);
   slot.turn_a = pair.inv_inertia_a * slot.normal;
   V diagonal = dot(slot.normal, slot.turn_a);
@@ -368,7 +380,6 @@ void ContactBuilder<T, two_bodies, kind>::advance(const Slot& slot, Point* point
     point.rhs =
         parameters_.relaxes ? T::min(push, T::broadcast(parameters_.push_limit)) : push + excess * per_h;
     keep_depth(point);
-    point.peak = T::max(point.peak, point.normal.impulse);
   }
 }
 

@@ -46,9 +46,17 @@ class ContactList {
     for (std::size_t i = 0; i < slots_.size(); ++i)
       memory.remember(slots_[i], points_of(slots_[i]), order.dealt().data() + i * T::num_lanes);
   }
+  void note_touches() {
+    for (const Slot& slot : slots_) {
+      for (int i = 0; i < slot.num_points; ++i) {
+        Point& point = points_of(slot)[i];
+        point.peak = T::max(point.peak, point.normal.impulse);
+      }
+    }
+  }
   void bounce(TwistRows<T>& twists, const Parameters& parameters) {
     const ContactSolver<T, two_bodies, kind> solver(parameters, {});
-    for (const Slot& slot : slots_) solver.bounce(twists, slot, points_of(slot));
+    for (Slot& slot : slots_) solver.bounce(twists, slot, points_of(slot));
   }
   void push_carried(TwistRows<T>& twists) {
     for (const Slot& slot : slots_)
@@ -66,15 +74,15 @@ class ContactList {
     for (std::size_t i = 0; i < slots_.size(); ++i)
       visit(slots_[i], points_of(slots_[i]), order.dealt().data() + i * T::num_lanes);
   }
-  /// Solves the contacts of one colour.
+  /// Solves the contacts of one colour. `last`: see ContactSolver::solve().
   void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<Scalar>& law, int color,
-             const SweepOrder::Points& points) {
+             const SweepOrder::Points& points, bool last) {
     const ManifoldOrder::SlotRange range = order.slots_of(color);
     if (range.first == range.end) return;
     const ContactSolver<T, two_bodies, kind> solver(parameters, law);
     for (int i = range.first; i < range.end; ++i) {
       Slot& slot = slots_[static_cast<std::size_t>(i)];
-      solver.solve(twists, slot, points_of(slot), points);
+      solver.solve(twists, slot, points_of(slot), points, last);
     }
   }
 
@@ -149,6 +157,10 @@ class ContactLists {
   void remember(const Parameters& parameters) {
     for_each([&](auto& list) { list.remember(parameters); });
   }
+  /// Notes which points bear something at the end of a substep: they have touched, and may bounce.
+  void note_touches() {
+    for_each([](auto& list) { list.note_touches(); });
+  }
   void bounce(TwistRows<T>& twists, const Parameters& parameters) {
     for_each([&](auto& list) { list.bounce(twists, parameters); });
   }
@@ -166,16 +178,17 @@ class ContactLists {
   void change_slots(Visit visit) {
     for_each([&](auto& list) { list.change_slots(visit); });
   }
-  /// Sweeps colour by colour, in an order that the key gives; in ascending order without a key.
+  /// Sweeps colour by colour, in an order that the key gives; in ascending order without a key. `last`: is it
+  /// the substep's last sweep?
   void sweep(TwistRows<T>& twists, const Parameters& parameters, const RowLaw<typename T::Scalar>& law,
-             std::optional<std::uint64_t> key) {
+             std::optional<std::uint64_t> key, bool last) {
     if (key) {
       order_.shuffle(num_colors_, *key);
     } else {
       order_.sort(num_colors_);
     }
     for (const int color : order_.colors())
-      for_each([&](auto& list) { list.sweep(twists, parameters, law, color, order_.points()); });
+      for_each([&](auto& list) { list.sweep(twists, parameters, law, color, order_.points(), last); });
   }
   /// Calls visit(slot) for the slots of bodies in contact, for some of them more than once.
   template <class Visit>

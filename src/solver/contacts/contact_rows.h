@@ -16,9 +16,11 @@ namespace pbmpi::solver {
 /// its frequency and damping (layout/row_law.h). With the scene's ERP it is the ERP over the length of the
 /// whole step: over the length of a substep it would push as many times faster as there are substeps, and
 /// without relaxing sweeps nothing takes away the speed that a push gives.
+/// impact_velocity [m/s]: the slowest approach, and the slowest push, that counts as an impact.
+/// slip_velocity [m/s]: the slowest motion along the surface that counts as sliding.
 template <class Scalar>
 struct ContactParameters {
-  Scalar h, push_rate, push_limit, soft_cfm, cfm, bounce_velocity, sor_factor;
+  Scalar h, push_rate, push_limit, soft_cfm, cfm, bounce_velocity, impact_velocity, slip_velocity, sor_factor;
   Scalar warm_start;  ///< share of the impulses that a step and a substep take over from the one before
   bool restitution;   ///< may a contact bounce?
   bool turning;       ///< may a contact turn a body? If not, rows of no kind do.
@@ -69,7 +71,7 @@ struct alignas(sizeof(V)) ContactPoint {
   V depth;
   V planned;  ///< [m] the depth that should be left by now
   V bounce;   ///< [m/s] the speed at which the bodies are to part after the relaxing sweeps; 0: none
-  V peak;     ///< [N s] the largest normal impulse of a substep so far
+  V peak;     ///< [N s] the largest normal impulse that a substep has left so far
 };
 template <class V, bool two_bodies>
 struct alignas(sizeof(V)) ContactPoint<V, two_bodies, ContactKind::rough>
@@ -90,6 +92,8 @@ template <class T>
 struct alignas(sizeof(typename T::V)) ContactSlot {
   std::int32_t row_a[T::num_lanes], row_b[T::num_lanes];  ///< in BodyLanes::contact_twists
   typename T::V inv_mass_a, inv_mass_b;
+  typename T::V slides;  ///< 1 in lanes whose surfaces slide on each other, else 0
+  typename T::V impact;  ///< 1 in lanes whose bodies approach, or are pushed apart, as in an impact; else 0
   int first_point = 0, num_points = 0;
 };
 
@@ -100,7 +104,8 @@ struct alignas(sizeof(typename T::V)) PatchSlot : ContactSlot<T> {
   using V = typename T::V;
   FrictionRows<V, two_bodies> friction;
   Vec3L<V> normal;
-  V least_distance;         ///< [m] a load that lies closer to the middle on average cannot twist
+  V least_distance;         ///< [m] a load that lies closer to the middle on average cannot twist: it may be
+                            ///< rounding
   Vec3L<V> turn_a, turn_b;  ///< I^-1 normal
   V twist_scale, twist;     ///< impulse [N m s] on a, against which b is turned
   // With K the 2 x 2 block of the force, k what each of its rows makes of a twist, and c = 1 / twist_scale:

@@ -199,7 +199,8 @@ void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, int iteration) {
   twists_.need_rows(worlds_.bodies);
   std::optional<std::uint64_t> key;
   if (parameters_.shuffled) key = order_key(iteration);
-  contacts_.sweep(worlds_.bodies.contact_twists, laws_.contacts(), law, key);
+  const bool last = iteration + 1 == parameters_.iterations + parameters_.relax;
+  contacts_.sweep(worlds_.bodies.contact_twists, laws_.contacts(), law, key, last);
   twists_.changed_rows();
 }
 
@@ -279,6 +280,7 @@ void StepLanes<T>::end_substep() {
   if (!relaxes()) return;
   twists_.start(worlds_.bodies);
   relax();
+  if (passes_.restitution) contacts_.note_touches();
   if (last) {
     remember();
     bounce();

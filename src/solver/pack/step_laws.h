@@ -16,6 +16,10 @@ namespace pbmpi::solver {
 /// Box2D v3); no joint closes its gap, and no limit is returned to, any faster either [m/s or rad/s].
 inline constexpr double fastest_push = 3;
 
+/// [m/s] With relaxing sweeps bodies that approach, or are pushed apart, faster are solved as in an impact;
+/// patches whose surfaces move along each other faster slide.
+inline constexpr double slowest_impact = 0.2, slowest_slip = 0.1;
+
 /// The laws common to the worlds of a pack and the choices of a run, combined for a step.
 template <class T>
 class StepLaws {
@@ -74,6 +78,8 @@ class StepLaws {
                  .soft_cfm = scalar(laws.contact_cfm),
                  .cfm = scalar(laws.cfm),
                  .bounce_velocity = scalar(laws.bounce_velocity),
+                 .impact_velocity = scalar(step.relax > 0 ? slowest_impact : huge_bound),
+                 .slip_velocity = scalar(step.relax > 0 ? slowest_slip : huge_bound),
                  .sor_factor = sor_factor_,
                  .warm_start = warm_start_,
                  .restitution = passes.restitution,

@@ -67,10 +67,15 @@ double deepest(const std::vector<Contact>& contacts) {
   return depth;
 }
 
-/// Distance from a point to the nearest contact of a set.
-double distance_to(const Vec3& point, const std::vector<Contact>& contacts) {
+/// Distance from a contact, which lies half way between the surfaces, to the nearest of ODE's, which lie
+/// somewhere between them.
+double distance_to(const Contact& own, const std::vector<Contact>& contacts) {
   double distance = 1e9;
-  for (const Contact& contact : contacts) distance = std::min(distance, (contact.position - point).norm());
+  for (const Contact& contact : contacts) {
+    const Vec3 apart = contact.position - own.position;
+    const double between = std::clamp(apart.dot(own.normal), -0.5 * own.depth, 0.5 * own.depth);
+    distance = std::min(distance, (apart - between * own.normal).norm());
+  }
   return distance;
 }
 
@@ -122,8 +127,7 @@ TEST_P(NarrowOracle, agrees_with_dcollide) {
       }
       ASSERT_EQ(own.size(), oracle.size()) << "world " << world << " round " << round;
       for (const Contact& contact : own) {
-        ASSERT_LT(distance_to(contact.position, oracle), depth_tolerance_m)
-            << "world " << world << " round " << round;
+        ASSERT_LT(distance_to(contact, oracle), depth_tolerance_m) << "world " << world << " round " << round;
       }
     }
   }
