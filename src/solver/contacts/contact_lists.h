@@ -46,6 +46,11 @@ class ContactList {
     for (std::size_t i = 0; i < slots_.size(); ++i)
       memory.remember(slots_[i], points_of(slots_[i]), order.dealt().data() + i * T::num_lanes);
   }
+  void forget_open(const TwistRows<T>& twists, const Parameters& parameters) {
+    for (Slot& slot : slots_)
+      ContactSolver<T, two_bodies, kind>::forget_open(twists, parameters.slip_velocity, slot,
+                                                      points_of(slot));
+  }
   void note_touches() {
     for (const Slot& slot : slots_) {
       for (int i = 0; i < slot.num_points; ++i) {
@@ -156,6 +161,10 @@ class ContactLists {
   }
   void remember(const Parameters& parameters) {
     for_each([&](auto& list) { list.remember(parameters); });
+  }
+  /// See ContactSolver.
+  void forget_open(const TwistRows<T>& twists, const Parameters& parameters) {
+    for_each([&](auto& list) { list.forget_open(twists, parameters); });
   }
   /// Notes which points bear something at the end of a substep: they have touched, and may bounce.
   void note_touches() {

@@ -17,7 +17,8 @@ namespace pbmpi::solver {
 /// whole step: over the length of a substep it would push as many times faster as there are substeps, and
 /// without relaxing sweeps nothing takes away the speed that a push gives.
 /// impact_velocity [m/s]: the slowest approach, and the slowest push, that counts as an impact.
-/// slip_velocity [m/s]: the slowest motion along the surface that counts as sliding.
+/// slip_velocity [m/s]: the slowest motion along the surface that counts as sliding, and the slowest one
+/// apart that counts as opening.
 template <class Scalar>
 struct ContactParameters {
   Scalar h, push_rate, push_limit, soft_cfm, cfm, bounce_velocity, impact_velocity, slip_velocity, sor_factor;

@@ -78,6 +78,32 @@ class ContactSolver {
     });
   }
 
+  /// At the end of a substep: a contact of an impact that opens faster than `least` [m/s] hands no force on.
+  /// Where it bears more than its two bodies, as below a leg with armatures, it finds its force late, and the
+  /// force would go on and throw them.
+  PBMPI_LANES static void forget_open(const TwistRows<T>& twists, Scalar least, Slot& slot, Point* points) {
+    if (!T::any(slot.impact)) return;
+    const V zero = T::broadcast(0);
+    const Motion a = gather(twists, slot.row_a), b = two_bodies ? gather(twists, slot.row_b) : Motion{};
+    V held = zero;
+    for (int i = 0; i < slot.num_points; ++i) {
+      const V opening = slot.impact > zero ? speed(points[i].normal, a, b) : zero;
+      const auto opens = opening > T::broadcast(least);
+      V& impulse = points[i].normal.impulse;
+      impulse = opens ? zero : impulse;
+      held += impulse;
+      if constexpr (friction) {
+        for (auto& row : points[i].friction.rows) row.impulse = opens ? zero : row.impulse;
+      }
+    }
+    if constexpr (patched) {
+      held = slot.impact > zero ? held : T::broadcast(1);
+      const auto rubs = held > zero;
+      for (auto& row : slot.friction.rows) row.impulse = rubs ? row.impulse : zero;
+      slot.twist = rubs ? slot.twist : zero;
+    }
+  }
+
   /// After the relaxing sweeps: gives the points that have touched their separation speed, and the friction
   /// that goes with it. Rounds, since friction changes the speeds of normals that do not go through a body's
   /// centre.

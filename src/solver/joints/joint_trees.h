@@ -29,7 +29,8 @@ class JointTrees {
     for (const LanePlaces::ShapePlace& at : shapes) {
       Shape& shape = shapes_.emplace_back(at.shape);
       shape.first_slot = at.first_slot;
-      shape.always = all || at.shape.hangs() || at.shape.has_rotors();
+      shape.has_rotors = at.shape.has_rotors();
+      shape.always = all || at.shape.hangs() || shape.has_rotors;
       shape.may_be_exact = !at.shape.joints.empty() && (shape.always || at.shape.is_strained);
       shape.exact.assign(static_cast<std::size_t>(at.num_batches), {T::broadcast(0)});
       shape.limited = shape.exact;
@@ -61,11 +62,13 @@ class JointTrees {
     const V swept = shape.exact[batch].flags > zero ? bounded_lanes(shape, joint, rows) : T::broadcast(1);
     return shape.limited[batch].flags > zero ? zero : swept;
   }
+  enum class Which { all, with_rotors };
   /// 1 in the lanes in which limits are swept and this joint takes part, else 0.
   template <class Rows>
-  PBMPI_LANES V limited_lanes(std::size_t shape_index, std::size_t batch, std::size_t joint,
+  PBMPI_LANES V limited_lanes(Which which, std::size_t shape_index, std::size_t batch, std::size_t joint,
                               const Rows& rows) const {
     const Shape& shape = shapes_[shape_index];
+    if (!shape.belongs_to(which)) return T::broadcast(0);
     return shape.limited[batch].flags * bounded_lanes(shape, joint, rows);
   }
   /// Prepares for the current rows, in all active batches, and finds the exact articulations with a joint at
@@ -77,9 +80,12 @@ class JointTrees {
     return shape.may_be_exact && !shape.has_loops ? shape.exact[batch.index].flags : T::broadcast(0);
   }
   /// Solves all rows but those of limits and motors, after a sweep over the joints of swept_lanes().
-  void solve(const JointSolver<T>& solver, BodyLanes<T>& bodies);
+  void solve(Which which, const JointSolver<T>& solver, BodyLanes<T>& bodies);
   /// solve() where factor() has found limits.
-  void solve_limited(const JointSolver<T>& solver, BodyLanes<T>& bodies);
+  void solve_limited(Which which, const JointSolver<T>& solver, BodyLanes<T>& bodies);
+  bool has_rotors() const {
+    return std::ranges::any_of(shapes_, [](const Shape& shape) { return shape.has_rotors; });
+  }
   bool has_limited() const {
     return std::ranges::any_of(shapes_, [](const Shape& shape) {
       return std::ranges::any_of(shape.limited, [](const LaneFlags& lanes) { return T::any(lanes.flags); });
@@ -102,13 +108,14 @@ class JointTrees {
     int num_bodies, first_slot = 0;
     std::size_t num_joints;
     bool always = false;  ///< exact, whatever touches it?
-    bool may_be_exact = false, has_loops = false;
+    bool may_be_exact = false, has_loops = false, has_rotors = false;
     std::vector<TreeNode> nodes;
     std::vector<char> in_loop;         ///< [num_joints]
     std::vector<LaneFlags> exact;      ///< [num_batches] in this step
     std::vector<LaneFlags> limited;    ///< [num_batches] exact, and a joint is at a limit
     std::vector<TreeSolver<T>> trees;  ///< [num_batches], empty as long as no lane was exact
 
+    bool belongs_to(Which which) const { return which == Which::all || has_rotors; }
     int parent_of(const TreeNode& node) const { return node.parent == num_bodies ? -1 : node.parent; }
   };
 
@@ -174,15 +181,17 @@ void JointTrees<T>::factor(Scalar cfm, const BodyLanes<T>& bodies) {
 }
 
 template <class T>
-void JointTrees<T>::solve(const JointSolver<T>& solver, BodyLanes<T>& bodies) {
+void JointTrees<T>::solve(Which which, const JointSolver<T>& solver, BodyLanes<T>& bodies) {
   for_each_tree([&](const Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
+    if (!shape.belongs_to(which)) return;
     solve_tree(solver, shape, tree, batch, shape.exact[batch.index].flags, bodies);
   });
 }
 
 template <class T>
-void JointTrees<T>::solve_limited(const JointSolver<T>& solver, BodyLanes<T>& bodies) {
+void JointTrees<T>::solve_limited(Which which, const JointSolver<T>& solver, BodyLanes<T>& bodies) {
   for_each_tree([&](const Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
+    if (!shape.belongs_to(which)) return;
     const V& limited = shape.limited[batch.index].flags;
     if (T::any(limited)) solve_tree(solver, shape, tree, batch, limited, bodies);
   });

@@ -61,7 +61,8 @@ class StepLanes {
   void push_carried();
   void sweep();
   void sweep_joints(const JointLaws<Scalar>& laws);
-  void sweep_limits(const JointSolver<T>& solver);
+  using Trees = typename JointTrees<T>::Which;
+  void solve_trees(Trees which, const JointSolver<T>& solver);
   void sweep_contacts(const RowLaw<Scalar>& law, int iteration);
   /// The key for the order of rows in an iteration, relaxing ones included.
   std::uint64_t order_key(int iteration) const {
@@ -215,13 +216,12 @@ void StepLanes<T>::sweep_joints(const JointLaws<Scalar>& laws) {
       },
       false, worlds_.bodies);
   if (trees_) {
-    trees_->solve(solver, worlds_.bodies);
     if (laws.places.bias > 0 && iteration_ == 0) {
-      // Only now is it known with which velocities the bodies move.
+      // Only after it is known with which velocities the bodies move.
+      trees_->solve(Trees::all, solver, worlds_.bodies);
       look_ahead();
-      trees_->solve(solver, worlds_.bodies);
     }
-    if (trees_->has_limited()) sweep_limits(solver);
+    solve_trees(Trees::all, solver);
   }
   twists_.changed_slots();
 }
@@ -229,16 +229,18 @@ void StepLanes<T>::sweep_joints(const JointLaws<Scalar>& laws) {
 /// Limits of exact joints get several rounds, as what one leaves of them would be remembered as if it were
 /// right; and always in the same order, as in a random one they would tremble at rest.
 template <class T>
-void StepLanes<T>::sweep_limits(const JointSolver<T>& solver) {
+void StepLanes<T>::solve_trees(Trees which, const JointSolver<T>& solver) {
+  trees_->solve(which, solver, worlds_.bodies);
+  if (!trees_->has_limited()) return;
   constexpr int rounds = 4;
   for (int round = 0; round < rounds; ++round) {
     worlds_.joints.sweep(
         solver,
         [&](std::size_t shape, std::size_t batch, std::size_t joint, const auto& rows) {
-          return trees_->limited_lanes(shape, batch, joint, rows);
+          return trees_->limited_lanes(which, shape, batch, joint, rows);
         },
         true, worlds_.bodies);
-    trees_->solve_limited(solver, worlds_.bodies);
+    trees_->solve_limited(which, solver, worlds_.bodies);
   }
 }
 
@@ -255,13 +257,18 @@ void StepLanes<T>::look_ahead() {
   });
 }
 
-/// Removes the speed that corrected position errors.
+/// Removes the speed that corrected position errors. Contacts do not see rotors, which therefore come once
+/// more: the speeds that contacts gave them would count in the next substep as if rotors had no inertia.
 template <class T>
 void StepLanes<T>::relax() {
   for (int i = 0; i < parameters_.relax; ++i) {
     sweep_joints(JointLaws<Scalar>::relaxing());
     sweep_contacts(RowLaw<Scalar>::relaxing(), parameters_.iterations + i);
   }
+  if (!trees_ || !trees_->has_rotors()) return;
+  twists_.need_slots(worlds_.bodies);
+  solve_trees(Trees::with_rotors, laws_.joint_solver(JointLaws<Scalar>::relaxing()));
+  twists_.changed_slots();
 }
 
 /// Works batch by batch, so that a batch's bodies and joints stay in the cache from pass to pass.
@@ -281,6 +288,8 @@ void StepLanes<T>::end_substep() {
   twists_.start(worlds_.bodies);
   relax();
   if (passes_.restitution) contacts_.note_touches();
+  twists_.need_rows(worlds_.bodies);
+  contacts_.forget_open(worlds_.bodies.contact_twists, laws_.contacts());
   if (last) {
     remember();
     bounce();
