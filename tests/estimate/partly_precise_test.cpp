@@ -112,7 +112,7 @@ TEST(UntilDue, sends_the_precise_result_where_there_is_time_and_motion_without_f
                alone = frames_of(stepping::StepperKind::sor, 20);
     UntilDue due(*precise, std::make_unique<ShortRun>(stepper_of(stepping::StepperKind::sor, 1)), deadline_s,
                  0.01);
-    for (std::int64_t step = 0; step < 15; step += steps_per_frame) {
+    for (std::int64_t step = 0; step < 12; step += steps_per_frame) {
       model::State glided = precise->state(1);
       stepping::glide(0.03, glided);
       due.estimate(views(*precise), step, steps_per_frame, times);
