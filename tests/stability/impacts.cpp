@@ -14,6 +14,7 @@
 #include "core/clock.h"
 #include "guarded_run.h"
 #include "model/mechanics.h"
+#include "model/names.h"
 #include "model/validate.h"
 #include "number_option.h"
 #include "ode/objects/engine.h"
@@ -130,13 +131,14 @@ Impact random_impact(std::uint64_t seed) {
 }
 
 std::string text_of(const Impact& impact) {
-  constexpr const char* shapes[] = {"sphere", "box", "capsule", "cylinder", "plane"};
-  const auto shape = [&](const model::Geom& geom) { return shapes[static_cast<int>(geom.shape)]; };
+  const auto shape = [&](int geom) {
+    return std::string(name_of(impact.model.geoms[static_cast<std::size_t>(geom)].shape));
+  };
   char text[200];
   std::snprintf(text, sizeof(text), "%s at %.3g m/s, %.3g along, on %s%s, mu %.2f, e %.2f, dt %.3g, %s",
-                shape(impact.model.geoms[0]), impact.across_speed, impact.along_speed,
-                impact.model.num_bodies() > 1 ? "free " : "", shape(impact.model.geoms[1]), impact.mu,
-                impact.restitution, impact.settings.dt_s,
+                shape(0).c_str(), impact.across_speed, impact.along_speed,
+                impact.model.num_bodies() > 1 ? "free " : "", shape(1).c_str(), impact.mu, impact.restitution,
+                impact.settings.dt_s,
                 impact.settings.friction == stepping::Friction::cone ? "cone" : "patch");
   return text;
 }
