@@ -150,8 +150,10 @@ typename ContactBuilder<T, two_bodies, kind>::BodyPair ContactBuilder<T, two_bod
   slot.inv_mass_a = bodies_->gather_member(inv_mass, body_a);
   slot.inv_mass_b = two_bodies ? bodies_->gather_member(inv_mass, body_b) : T::broadcast(0);
   slot.impact = slot.slides = T::broadcast(0);
-  pair.motion_a = gather_motion(twist_a);
-  if constexpr (two_bodies) pair.motion_b = gather_motion(twist_b);
+  if (parameters_.restitution || parameters_.relaxes) {
+    pair.motion_a = gather_motion(twist_a);
+    if constexpr (two_bodies) pair.motion_b = gather_motion(twist_b);
+  }
   if constexpr (!Solver::central) {
     pair.centre_a = gather_vector(centre, body_a);
     pair.inv_inertia_a = gather_inertia(body_a);
