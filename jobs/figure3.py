@@ -1,6 +1,6 @@
 """Turns callgrind's dumps, one a frame, into instructions a frame and their mix.
 
-Usage: figure3.py FOLDER TABLE.json, with FOLDER/SCENE-STEPPER.callgrind.FRAME made by figure3.sh; for pbreport figure3.
+Usage: figure3.py FOLDER TABLE.json, with FOLDER/SCENE-STEPPER.callgrind.FRAME made by figure3.sh; for `paper/paper.py figure3`.
 
 An instruction counts as what it computes; its access to memory counts besides as a load or a store, as in a processor
 that splits them into micro-operations. A plain move is only its load or store; between registers it is an integer or a

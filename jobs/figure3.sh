@@ -6,8 +6,8 @@ usage() {
   cat <<'TEXT'
 Usage: jobs/figure3.sh [--quick-look] [--long] [--runs DIR] [OUTDIR [SCENE ...]]
 
-Writes OUTDIR/figure3.html and OUTDIR/figure3.json (default: ./figure3). Needs valgrind and objdump. Up to 10 minutes
-for all nine scenes.
+Writes OUTDIR/figure3.html and OUTDIR/figure3.json (default: ./figure3). Needs valgrind, objdump and
+python3-h5py. Up to 10 minutes for all nine scenes.
 
   --quick-look   2-Cars and CrashSk only
   --long         direct of 100CrSk, Battle and CrashWa, too, however long it takes: hours
@@ -50,6 +50,7 @@ for tool in valgrind objdump python3; do
   command -v "$tool" >/dev/null || { echo "figure3.sh: no $tool found; install it (jobs/install_packages.sh --tests)" >&2; exit 2; }
 done
 [[ -x $bin/pbmpi ]] || { echo "figure3.sh: $bin/pbmpi is missing; build it with jobs/build.sh release" >&2; exit 2; }
+python3 -c 'import h5py' 2>/dev/null || { echo "figure3.sh: python3 has no h5py; install python3-h5py (jobs/install_packages.sh)" >&2; exit 2; }
 mkdir -p "$out"
 
 # One dump a frame: callgrind writes what it has counted after each call of the stepper's advance().
@@ -81,5 +82,5 @@ if [[ -z $runs ]]; then
 fi
 files=()
 for scene in "${quick[@]}"; do files+=("$runs/$scene.h5"); done
-"$bin/pbreport" figure3 "$out/figure3.json" "${files[@]}" --html "$out/figure3.html"
+PBMPI_BIN=$bin python3 "$jobs/paper/paper.py" figure3 "$out/figure3.json" "${files[@]}" --html "$out/figure3.html"
 echo "$out/figure3.html"

@@ -6,7 +6,8 @@ usage() {
   cat <<'TEXT'
 Usage: jobs/figure6.sh [--quick-look] [--no-stills] [--gallery DIR] [OUTDIR [SCENE ...]]
 
-Writes OUTDIR/figure6.html and the runs' files (default: ./figure6). Needs chromium for the stills. Minutes.
+Writes OUTDIR/figure6.html and the runs' files (default: ./figure6). Needs python3-h5py, and chromium for the
+stills. Minutes.
 
   --quick-look   CrashSk and Fight only
   --no-stills    no pictures of the scenes, and no need of chromium
@@ -38,6 +39,7 @@ jobs=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$jobs/mpi_environment.sh"
 bin=${PBMPI_BIN:-$jobs/../build/release/bin}
 [[ -x $bin/pbmpi ]] || { echo "figure6.sh: $bin/pbmpi is missing; build it with jobs/build.sh release" >&2; exit 2; }
+python3 -c 'import h5py' 2>/dev/null || { echo "figure6.sh: python3 has no h5py; install python3-h5py (jobs/install_packages.sh)" >&2; exit 2; }
 mkdir -p "$out/stills" ${gallery:+"$gallery"}
 
 files=()
@@ -58,5 +60,6 @@ done
 pictures=()
 [[ $stills == no ]] || pictures=(--stills "$out/stills")
 "$bin/pbreport" islands "${files[@]}"
-"$bin/pbreport" cores "${files[@]}"
-"$bin/pbreport" figure6 "${files[@]}" ${pictures[@]+"${pictures[@]}"} --html "$out/figure6.html"
+export PBMPI_BIN=$bin
+python3 "$jobs/paper/paper.py" cores "${files[@]}"
+python3 "$jobs/paper/paper.py" figure6 "${files[@]}" ${pictures[@]+"${pictures[@]}"} --html "$out/figure6.html"

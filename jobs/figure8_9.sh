@@ -2,17 +2,20 @@
 # Figures 8 and 9 of the paper: `jobs/figure8_9.sh [OUTDIR [scene ...]]`, default ./figure8_9 and all nine scenes.
 # Records each scene on RANKS ranks (2) by quick with 20, 19 and 1 iterations and with FEEC (the paper's estimate of one
 # iteration, and one of 5 by a cold step of sor in single precision), REPEATS times each (5; the time of a frame is the least of them), and
-# with SEEDS other solver seeds (8; the noise floor). Writes OUTDIR/figure8_9.html and .txt. Takes minutes on 2 cores.
+# with SEEDS other solver seeds (8; the noise floor). Writes OUTDIR/figure8_9.html and .txt. Needs python3-h5py. Takes minutes
+# on 2 cores.
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 . "$source_dir/jobs/mpi_environment.sh"
-PATH=${PBMPI_BIN:-$source_dir/build/release/bin}:$PATH
+export PBMPI_BIN=${PBMPI_BIN:-$source_dir/build/release/bin}
+PATH=$PBMPI_BIN:$PATH
 out=${1:-figure8_9}
 shift || true
 scenes=("$@")
 if [[ ${#scenes[@]} -eq 0 ]]; then
   mapfile -t scenes < <(pbmpi --list-scenes | awk '/:$/ { exit } { print $1 }')
 fi
+python3 -c 'import h5py' 2>/dev/null || { echo "figure8_9.sh: python3 has no h5py; install python3-h5py (jobs/install_packages.sh)" >&2; exit 2; }
 mkdir -p "$out"
 
 files=()
@@ -40,4 +43,4 @@ for scene in "${scenes[@]}"; do
     record "$name.seed$seed" "${setting[@]}" --solver-seed "$seed"
   done
 done
-pbreport figures "${files[@]}" --html "$out/figure8_9.html" | tee "$out/figure8_9.txt"
+python3 "$source_dir/jobs/paper/paper.py" figures "${files[@]}" --html "$out/figure8_9.html" | tee "$out/figure8_9.txt"

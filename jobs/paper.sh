@@ -6,8 +6,8 @@ usage() {
   cat <<'TEXT'
 Usage: jobs/paper.sh [--quick-look] [--without-clock] [--prediction] [--long] [OUTDIR]
 
-Writes OUTDIR/paper.html, .txt, .md and .json (default: ./paper), and in OUTDIR/files what they come from. Needs valgrind and
-objdump. Up to 10 minutes on 2 cores; times need a machine that does nothing else.
+Writes OUTDIR/paper.html, .txt, .md and .json (default: ./paper), and in OUTDIR/files what they come from. Needs python3-h5py,
+valgrind and objdump. Up to 10 minutes on 2 cores; times need a machine that does nothing else.
 
   --quick-look   2-Cars and Fight only, a minute: what is about all nine scenes stays undecided
   --without-clock
@@ -45,6 +45,7 @@ jobs=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$jobs/mpi_environment.sh"
 bin=${PBMPI_BIN:-$jobs/../build/release/bin}
 [[ -x $bin/pbreport ]] || { echo "paper.sh: $bin/pbreport is missing; build it with jobs/build.sh release" >&2; exit 2; }
+python3 -c 'import h5py' 2>/dev/null || { echo "paper.sh: python3 has no h5py; install python3-h5py (jobs/install_packages.sh)" >&2; exit 2; }
 export PBMPI_BIN=$bin PATH=$bin:$PATH
 files=$out/files
 rm -rf "$files"  # those of an earlier call would be taken for this one's
@@ -63,7 +64,7 @@ record() {
 echo "Figure 6, Tables 1 and 2"
 "$jobs/figure6.sh" --no-stills "$files/figure6" "${scenes[@]}" >/dev/null
 
-# What else runs on the machine makes some times longer; pbreport takes the least.
+# What else runs on the machine makes some times longer; the least is taken.
 for ((repeat = 2; repeat <= repeats; ++repeat)); do
   for scene in "${scenes[@]}"; do record "repeats/$scene.$repeat.h5" --scene "$scene" --stepper quick --record-islands; done
 done
@@ -117,7 +118,8 @@ fi
 
 data=("$files")
 [[ ! -e $out/prediction.h5 ]] || data+=("$out/prediction.h5")
-pbreport paper "${data[@]}" --json >"$out/paper.json"
-pbreport paper "${data[@]}" --markdown >"$out/paper.md"
-pbreport paper "${data[@]}" --html "$out/paper.html" | tee "$out/paper.txt"
+report() { python3 "$jobs/paper/paper.py" paper "${data[@]}" "$@"; }
+report --json >"$out/paper.json"
+report --markdown >"$out/paper.md"
+report --html "$out/paper.html" | tee "$out/paper.txt"
 echo "$out/paper.html"

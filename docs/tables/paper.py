@@ -11,10 +11,10 @@ FOLDER = "PBMPI_PAPER"
 
 @functools.cache
 def statements(*options):
-    """Every statement, as `pbreport paper --json` has them, of a call of the script with these options."""
+    """Every statement, as `jobs/paper/paper.py paper --json` has them, of a call of the script with these options."""
     given = os.environ.get(FOLDER)
     if given and "--without-clock" not in options:
-        return json.loads(programs.pbreport("paper", given, "--json"))["statements"]
+        return json.loads(programs.paper("paper", given, "--json"))["statements"]
     with programs.Folder() as folder:
         programs.run([programs.SOURCE / "jobs/paper.sh", *options, folder])
         return json.loads((folder / "paper.json").read_text(encoding="utf-8"))["statements"]

@@ -12,13 +12,13 @@ STUDY = "PBMPI_PREDICTION_STUDY"
 
 @functools.cache
 def default_form():
-    """What `pbreport --json` says of the default form."""
+    """What `jobs/paper/paper.py prediction --json` says of the default form."""
     with programs.Folder() as folder:
         given = os.environ.get(STUDY)
         path = pathlib.Path(given) if given else folder / "prediction.h5"
         if not given:
             programs.run(["mpirun", "-n", "2", programs.BIN / "pbstudy", "prediction", "--progress", "never", "--quiet", "-o", path])
-        return json.loads(programs.pbreport(path, "--json"))
+        return json.loads(programs.paper("prediction", path, "--json"))
 
 
 def per_cent(share, count=1):
@@ -74,7 +74,7 @@ def small():
     """Hits of 2-Cars by threshold: the same in each run."""
     with programs.Folder() as folder:
         path = programs.study("prediction", folder, ["2-Cars"], "--detail-scene", "none")
-        scene = json.loads(programs.pbreport(path, "--json"))["scenes"][0]
+        scene = json.loads(programs.paper("prediction", path, "--json"))["scenes"][0]
     rows = []
     for run in scene["cases"]:
         if run["stepper"] != "quick" or run["precision"] != "double" or "FEEC" in run["name"]:

@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -49,6 +50,11 @@ def summary(*options):
 
 def pbreport(*options):
     return run([BIN / "pbreport", *options])
+
+
+def paper(*options):
+    """What jobs/paper/paper.py prints of the built programs' files."""
+    return run([sys.executable, SOURCE / "jobs/paper/paper.py", *options])
 
 
 def study(kind, folder, scenes, *options):

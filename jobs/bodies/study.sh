@@ -21,8 +21,10 @@ read -r -a mpi_options <<<"${PBMPI_MPIRUN_OPTIONS:-}"
 code=0
 run_until_stopped mpirun "${host_options[@]}" "${mpi_options[@]}" "$(command -v pbstudy)" "$study" "${options[@]}" "${limit[@]}" \
   --output "$output" --resume || code=$?
+report=(pbreport)
+[[ $study != prediction ]] || report=(python3 "$source_dir/jobs/paper/paper.py" prediction)  # of a checkout, with python3-h5py
 if [[ $code -eq 0 ]]; then
-  pbreport "$output" --html "${output%.h5}.html" --quiet >/dev/null || code=$?
+  "${report[@]}" "$output" --html "${output%.h5}.html" --quiet >/dev/null || code=$?
 elif [[ $code -eq 75 && ${PBMPI_REQUEUE:-} == yes ]]; then
   echo "the time is up: back into the queue, to go on with the cases that are left"
   requeue_job "${arguments[@]}"

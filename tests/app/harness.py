@@ -5,6 +5,7 @@ import shutil
 import signal
 import struct
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -13,6 +14,10 @@ BIN = os.environ["PBMPI_BIN"]
 PBMPI = os.path.join(BIN, "pbmpi")
 PBREPORT = os.path.join(BIN, "pbreport")
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+# The paper's figures, tables and statements, in Python; a command and files follow.
+PAPER = [sys.executable, os.path.join(SOURCE, "jobs", "paper", "paper.py")]
+# Job scripts start python3: the one that runs the tests.
+PATH = os.pathsep.join((BIN, os.path.dirname(sys.executable), os.environ["PATH"]))
 # Once a rank has failed mpirun gives the others a second to end by themselves. What ends in good order does not need it.
 AT_ONCE = {"OMPI_MCA_odls_base_sigkill_timeout": "0"}
 # The nine scenes of the paper.

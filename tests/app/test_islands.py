@@ -1,17 +1,18 @@
-"""--record-islands, --spaces, and the tables that pbreport makes of them."""
+"""--record-islands, --spaces, and the tables that are made of them."""
 import json
 import unittest
 
 import h5py
 
-from harness import PBREPORT, ProgramTest
+from harness import PAPER, PBREPORT, ProgramTest
 
 RECORDED = ("--stepper", "quick", "--record-islands")
 
 
 class Islands(ProgramTest):
     def report(self, *args):
-        result = self.run_command([PBREPORT, *args, "--json"])
+        program = PAPER if args[0] == "cores" else [PBREPORT]
+        result = self.run_command([*program, *args, "--json"])
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads(result.stdout)
 
@@ -74,11 +75,11 @@ class Islands(ProgramTest):
             for word in words:
                 self.assertIn(word, result.stderr)
         self.summary(1, "--scene", "CrashSk")
-        result = self.run_command([PBREPORT, "cores", self.path("CrashSk.h5")])
+        result = self.run_command([*PAPER, "cores", self.path("CrashSk.h5")])
         self.assertEqual(result.returncode, 2)
         self.assertIn("--record-islands", result.stderr)
         self.summary(2, "--scene", "CrashSk", "--replicas", 2, *RECORDED)
-        result = self.run_command([PBREPORT, "cores", self.path("CrashSk.h5")])
+        result = self.run_command([*PAPER, "cores", self.path("CrashSk.h5")])
         self.assertEqual(result.returncode, 2)
         self.assertIn("2 ranks", result.stderr)
 

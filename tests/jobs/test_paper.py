@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -13,6 +14,12 @@ import h5py
 import numpy as np
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path[:0] = [os.path.join(SOURCE, "tests", "app"), os.path.join(SOURCE, "jobs", "paper")]
+
+from harness import PAPER, PATH, PBMPI, PBREPORT  # noqa: E402
+from statements.engine import HELD_ROWS  # noqa: E402
+from suite import PAPER as PAPER_ROWS  # noqa: E402
+
 SCRIPT = os.path.join(SOURCE, "jobs", "paper.sh")
 VERDICTS = ("confirmed", "refuted", "not decidable here")
 SCENES = ("2-Cars", "Fight")
@@ -79,7 +86,7 @@ class Paper(unittest.TestCase):
         cls.folder = tempfile.mkdtemp(prefix="pbmpi-test-")
         cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
         cls.result = subprocess.run([SCRIPT, "--quick-look", "out"], cwd=cls.folder, capture_output=True, text=True, timeout=280,
-                                    check=False)
+                                    check=False, env={**os.environ, "PATH": PATH})
         assert cls.result.returncode == 0, cls.result.stderr
         with open(cls.path("paper.md"), encoding="utf-8") as file:
             cls.markdown = file.read()
@@ -192,24 +199,74 @@ class Paper(unittest.TestCase):
             with h5py.File(path) as run:
                 times.append([time_of(run, phase) for phase in STEP])
         rate = 1 / np.min(times, axis=0).sum(axis=0).mean()
-        text = subprocess.run([os.path.join(os.environ["PBMPI_BIN"], "pbreport"), "paper", *files], capture_output=True, text=True,
-                              check=True).stdout
+        text = subprocess.run([*PAPER, "paper", *files], capture_output=True, text=True, check=True).stdout
         self.assertIn(f"ours: 2-Cars {rate:.0f} Hz", text)
 
     def test_what_is_of_no_use_is_refused(self):
-        report = os.path.join(os.environ["PBMPI_BIN"], "pbreport")
         suite = self.path("files", "figure6", "2-Cars.h5")
         other = self.path("other.h5")
         subprocess.run([os.path.join(os.environ["PBMPI_BIN"], "pbmpi"), "--scene", "2-Cars", "--stepper", "quick", "--record-islands",
                         "--frames", "1", "--quiet", "--output", other], check=True)
         for args, message in (([suite, other], "different runs"), ([], "no file given"), ([self.path("paper.json")], "no counts"),
-                              ([suite, "--json", "--markdown"], "one of the two"), ([self.path("files", "no")], "no")):
-            result = subprocess.run([report, "paper", *args], capture_output=True, text=True, check=False)
+                              ([suite, "--json", "--markdown"], "not allowed with"), ([self.path("files", "no")], "no")):
+            result = subprocess.run([*PAPER, "paper", *args], capture_output=True, text=True, check=False)
             self.assertEqual(result.returncode, 2, args)
             self.assertIn(message, result.stderr)
         result = subprocess.run([SCRIPT, "--fast"], capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 2)
         self.assertIn("--fast", result.stderr)
+
+
+JOINT = """title = "two boxes and a joint"
+gravity = [0, 0, 0]
+[[actor]]
+name = "a"
+type = "box"
+size = [0.2, 0.2, 0.2]
+mass = 1
+position = [0, 0, 0]
+[[actor]]
+name = "b"
+type = "box"
+size = [0.2, 0.2, 0.2]
+mass = 1
+position = [1, 0, 0]
+[[joint]]
+name = "joint"
+bodies = ["a", "b"]
+"""
+PLACES = {"ball": "anchor = [0.5, 0, 0]", "hinge": "anchor = [0.5, 0, 0]\naxis = [0, 0, 1]", "slider": "axis = [1, 0, 0]", "fixed": "",
+          "universal": "anchor = [0.5, 0, 0]\naxis = [0, 0, 1]\naxis2 = [0, 1, 0]",
+          "hinge2": "anchor = [0.5, 0, 0]\naxis = [0, 0, 1]\naxis2 = [0, 1, 0]"}
+
+
+class Tables(unittest.TestCase):
+    def test_pbreport_has_the_same_table_1_of_the_paper(self):
+        with tempfile.TemporaryDirectory(prefix="pbmpi-test-") as folder:
+            files = [os.path.join(folder, f"{row.scene}.h5") for row in PAPER_ROWS]
+            for row, path in zip(PAPER_ROWS, files):
+                subprocess.run([PBMPI, "--scene", row.scene, "--warmup", "0", "--frames", "1", "--steps-per-frame", "1", "--quiet",
+                                "--output", path], check=True, cwd=folder)
+            text = subprocess.run([PBREPORT, "islands", *files, "--json"], capture_output=True, text=True, check=True).stdout
+        for row, found in zip(PAPER_ROWS, json.loads(text)):
+            names = ("max", "min", "mean", "stddev", "spaces", "traffic")
+            self.assertEqual([found["paper"][name] for name in names],
+                             [row.most, row.least, row.mean, row.deviation, row.spaces, row.traffic], row.scene)
+
+
+class Joints(unittest.TestCase):
+    def test_degrees_of_freedom_are_the_rows_that_the_solver_has(self):
+        self.assertEqual(HELD_ROWS.keys(), PLACES.keys())
+        with tempfile.TemporaryDirectory(prefix="pbmpi-test-") as folder:
+            scene, run = os.path.join(folder, "joint.toml"), os.path.join(folder, "joint.h5")
+            for kind, place in PLACES.items():
+                with open(scene, "w", encoding="utf-8") as file:
+                    file.write(f'{JOINT}kind = "{kind}"\n{place}\n')
+                subprocess.run([PBMPI, "--scene", scene, "--stepper", "quick", "--frames", "1", "--quiet", "--output", run],
+                               check=True, cwd=folder)
+                with h5py.File(run) as file:
+                    self.assertEqual(set(file["observables/world/rows"][:].flat), {HELD_ROWS[kind]}, kind)
+                    self.assertEqual(file["observables/world/contacts"][:].max(), 0)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ SPACK = {"g++": "cxx", "cmake": "cmake", "ninja-build": None, "pkg-config": "pkg
          "libode-dev": "open-dynamics-engine", "libeigen3-dev": "eigen", "libboost-program-options-dev": "boost",
          "libtomlplusplus-dev": "tomlplusplus", "libpugixml-dev": "pugixml", "nlohmann-json3-dev": "nlohmann-json", "libjs-three": None,
          "libjs-chart.js": None, "pybind11-dev": "py-pybind11", "python3-dev": None, "python3-numpy": "py-numpy",
-         "libpython3-dev": None, "python3": None}
+         "python3-h5py": None, "libpython3-dev": None, "python3": None}
 
 
 def debian_packages():

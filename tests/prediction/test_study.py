@@ -6,7 +6,8 @@ import unittest
 
 import h5py
 
-from pbvalue import BIN, ToolTest
+from pbvalue import BIN, ToolTest  # which adds the folder of harness
+from harness import PAPER  # noqa: E402
 
 PBSTUDY, PBREPORT = os.path.join(BIN, "pbstudy"), os.path.join(BIN, "pbreport")
 HAS_SINGLE = os.path.exists(os.path.join(BIN, "pbmpi_ode_single"))
@@ -18,7 +19,7 @@ class Study(ToolTest):
         return subprocess.run([str(word) for word in words], cwd=self.folder, capture_output=True, text=True, timeout=limit_s, check=False)
 
     def report(self, *options):
-        result = self.command(PBREPORT, "prediction.h5", *options)
+        result = self.command(*PAPER, "prediction", "prediction.h5", *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         return result.stdout
 
@@ -109,6 +110,9 @@ class Study(ToolTest):
         with open(self.path("cases.csv"), encoding="utf-8") as csv:
             self.assertEqual(len(csv.readlines()), 12 if HAS_SINGLE else 10)
         self.assertIn("| 2-Cars |", self.report("--markdown"))
+        refused = self.command(PBREPORT, "prediction.h5")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("jobs/paper/paper.py prediction", refused.stderr)
 
     def test_a_run_that_blows_up_has_its_step(self):
         # A threshold as large as the scene: nothing that is predicted has to do with what is computed.

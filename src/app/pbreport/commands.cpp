@@ -14,11 +14,7 @@
 #include "app/pbreport/engines/engines.h"
 #include "app/pbreport/ensemble/ensemble.h"
 #include "app/pbreport/ensemble/ensemble_options.h"
-#include "app/pbreport/figures/figures.h"
-#include "app/pbreport/instructions/figure3.h"
 #include "app/pbreport/join/join.h"
-#include "app/pbreport/paper/paper.h"
-#include "app/pbreport/prediction/prediction.h"
 #include "app/pbreport/repair/repair.h"
 #include "app/pbreport/run/options.h"
 #include "app/pbreport/run/report.h"
@@ -26,7 +22,7 @@
 #include "app/pbreport/scaling/scaling_options.h"
 #include "app/pbreport/stability/stability.h"
 #include "app/pbreport/study/study_file.h"
-#include "app/pbreport/suite/suite_commands.h"
+#include "app/pbreport/suite/islands.h"
 
 namespace pbmpi::app {
 namespace {
@@ -39,6 +35,11 @@ core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostr
   return core::ExitCode::done;
 }
 
+/// Names the script that shows a study of prediction.
+core::ExitCode refuse_prediction(const std::vector<std::string>&, std::ostream&) {
+  throw core::InputError("a study of prediction: jobs/paper/paper.py prediction FILE shows it");
+}
+
 using Run = core::ExitCode (*)(const std::vector<std::string>& args, std::ostream& out);
 
 /// The command for the kind of the files named in the arguments.
@@ -46,7 +47,7 @@ Run command_for_the_files_of(const std::vector<std::string>& args) {
   const std::string study = study_named_in(args);
   if (study == "calibrate") return run_calibrate_report;
   if (study == "effects") return run_effects_report;
-  if (study == "prediction") return run_prediction_report;
+  if (study == "prediction") return refuse_prediction;
   if (study == "stability") return run_stability_report;
   return study.empty() ? report_commands().front().run : run_study;
 }
@@ -58,14 +59,7 @@ const std::vector<ReportCommand>& report_commands() {
       {"report", "the summary of one run, its HTML page, its ParaView sidecar (the default)",
        run_first_command, pbreport_manual},
       {"islands", "the paper's Table 1 from runs", run_islands, islands_manual},
-      {"cores", "the paper's Table 2 and Figure 6 from runs with --record-islands", run_cores, cores_manual},
-      {"figure3", "the paper's Figure 3 from the instructions that jobs/figure3.sh counts", run_figure3,
-       figure3_manual},
-      {"figure6", "one page of both, from such runs", run_figure6, figure6_manual},
       {"diff", "how far two recorded runs of the same bodies are apart", run_diff, diff_manual},
-      {"figures", "figures 8 and 9 of the paper from recorded runs", run_figures, figures_manual},
-      {"paper", "every statement of the paper beside what jobs/paper.sh has measured", run_paper,
-       paper_manual},
       {"study", "what accuracy costs in time: the file of pbstudy, and the setting for a budget", run_study,
        study_manual},
       {"effects", "what effects cost: the file of pbstudy effects", run_effects_report,
@@ -74,8 +68,6 @@ const std::vector<ReportCommand>& report_commands() {
        stability_report_manual},
       {"engines", "engines side by side: files of pbstudy accuracy and pbstudy stability", run_engines,
        engines_manual},
-      {"prediction", "what value prediction gains and changes: the file of pbstudy prediction",
-       run_prediction_report, prediction_report_manual},
       {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ...", run_csv,
        csv_manual},
       {"ensemble", "mean, spread and quantiles over runs that differ in their seeds", run_ensemble,

@@ -58,7 +58,7 @@ Manual pbstudy_manual() {
                 .title = "Studies (pbstudy STUDY --help shows their options)",
                 .options = options,
                 .exit_codes = common_exit_codes(),
-                .files = {{"STUDY.h5", "the study, in HDF5; pbreport shows it"},
+                .files = {{"STUDY.h5", "the study, in HDF5; pbreport shows it (prediction: jobs/paper)"},
                           {"STUDY.h5.cases-RANK", "cases that are done, until the study is complete"}},
                 .examples = {"mpirun -n 2 pbstudy accuracy --scene CrashWa"}};
   manual.exit_codes.push_back({"75", "stopped early on request; --resume goes on"});

@@ -13,7 +13,7 @@ import unittest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import browser  # noqa: E402
-from harness import BIN, PBMPI, SOURCE  # noqa: E402
+from harness import BIN, PAPER, PBMPI, SOURCE  # noqa: E402
 
 SKIPPED = 77
 TIMEOUT_S = 280  # a hang, not a slow run
@@ -59,6 +59,11 @@ class Files:
         self.run("pbreport", *args, "--html", name + ".html")
         self.pages[name] = self.path(name + ".html")
 
+    def paper_page(self, name, *args):
+        """`args`: of jobs/paper/paper.py, without the page."""
+        self.run(PAPER[0], PAPER[1], *args, "--quiet", "--html", name + ".html")
+        self.pages[name] = self.path(name + ".html")
+
     def make(self):
         self.run("pbmpi", "--scene", "100CrSk", "--replicas", 4, "--frames", 6, "--output", "many.h5", "--quiet")
         self.page("run of many worlds", "many.h5", "--quiet")
@@ -91,12 +96,12 @@ class Files:
             file.write(BALL)
         self.run("pbstudy", "prediction", "--scene", "ball.toml", "--frames", 1, "--warmup", 0, "--threshold", 1e-6, "--detail-scene", "none",
                  "--output", "prediction.h5", "--quiet")
-        self.page("prediction", "prediction.h5", "--quiet")
+        self.paper_page("prediction", "prediction", "prediction.h5")
 
     def figures(self):
         for name, *options in (["iter20"], ["iter1", "--iterations", 1], ["feec", "--feec"], ["seed", "--solver-seed", 5]):
             self.run("pbmpi", "--scene", "CrashSk", "--stepper", "quick", *options, "--output", name + ".h5", "--quiet")
-        self.page("figures 8 and 9", "figures", "iter20.h5", "iter1.h5", "feec.h5", "seed.h5", "--quiet")
+        self.paper_page("figures 8 and 9", "figures", "iter20.h5", "iter1.h5", "feec.h5", "seed.h5")
         scenes = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "Fight")
         for scene in scenes:
             self.run("pbmpi", "--scene", scene, "--stepper", "quick", "--record-islands", "--output", scene + ".h5", "--quiet")
@@ -106,10 +111,10 @@ class Files:
             json.dump({"filetype": "pbmpi-instructions",
                        "scenes": {"CrashSk": {"quick": counts, "direct": {**counts, "instructions_per_frame": 3e7}},
                                   "Environ": {"quick": {**counts, "instructions_per_frame": 2e7}}}}, file)
-        self.page("figure 3", "figure3", "figure3.json", "CrashSk.h5", "Environ.h5")
-        self.page("figures of the paper", "paper", "figure3.json", "iter20.h5", "iter1.h5", "feec.h5", "seed.h5",
-                  *(scene + ".h5" for scene in scenes))
-        self.page("figure 6", "figure6", *(scene + ".h5" for scene in scenes), "--stills", os.path.join(SOURCE, "scenes", "gallery"))
+        self.paper_page("figure 3", "figure3", "figure3.json", "CrashSk.h5", "Environ.h5")
+        self.paper_page("figures of the paper", "paper", "figure3.json", "iter20.h5", "iter1.h5", "feec.h5", "seed.h5",
+                        *(scene + ".h5" for scene in scenes))
+        self.paper_page("figure 6", "figure6", *(scene + ".h5" for scene in scenes), "--stills", os.path.join(SOURCE, "scenes", "gallery"))
 
 
 class Pages(unittest.TestCase):
@@ -217,7 +222,7 @@ class Pages(unittest.TestCase):
             self.open(name)
             foot = self.js("const place = document.getElementById('provenance');"
                            "place.querySelectorAll('details').forEach((one) => { one.open = true; }); return place.innerText")
-            self.assertIn("page by pbreport", foot, name)
+            self.assertRegex(foot, r"page by (pbreport|jobs/paper/paper\.py)", name)
             whole = foot + self.js("document.querySelectorAll('details').forEach((one) => { one.open = true; });"
                                    "return document.body.innerText")
             self.assertRegex(whole, r"pbmpi \d+\.\d+", name)
@@ -247,13 +252,16 @@ class Pages(unittest.TestCase):
                         min(radius for label, _, radius in shapes if "20 iterations)" in label))
 
     def test_bars_lie_where_their_names_have_no_room_on_the_same_axis(self):
-        for width, values in (("desk", "y"), ("phone", "x")):
-            self.open("figure 6", width)
-            kind, low, high = self.js("const axis = Object.values(Chart.instances)[0].scales[arguments[0]];"
-                                      "return [axis.type, axis.min, axis.max]", values)
-            self.assertEqual(kind, "logarithmic", width)
-            rates = self.js("return Object.values(Chart.instances)[0].data.datasets.flatMap((one) => one.data)")
-            self.assertTrue(all(low < rate < high for rate in rates))
+        for width in browser.WIDTHS:
+            self.open("effects", width)
+            lies, low, high, errors = self.js(
+                "const chart = Object.values(Chart.instances).find((one) => Object.values(one.scales).some((axis) => axis.type === 'logarithmic'));"
+                "const lies = chart.options.indexAxis === 'y', axis = chart.scales[lies ? 'x' : 'y'];"
+                "const values = chart.data.datasets.flatMap((one) => one.data.map((point) => point[lies ? 'x' : 'y'] ?? point));"
+                "return [axis.type === 'logarithmic' && lies, axis.min, axis.max, values.filter((value) => value > 0)]")
+            self.assertTrue(lies or width == "desk", width)
+            self.assertGreater(len(errors), 0)
+            self.assertTrue(all(low < error < high for error in errors), errors)
 
     def test_the_keyboard_reads_a_chart_off_and_hides_its_sets(self):
         from selenium.webdriver.common.keys import Keys

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import ProgramTest, SOURCE  # noqa: E402
+from harness import PAPER, ProgramTest, SOURCE  # noqa: E402
 
 PHASES = ("collide", "islands", "rows", "solve", "integrate", "cross_space", "ship", "gather", "wait", "output")
 
@@ -90,7 +90,7 @@ class Scaling(ProgramTest):
         point = self.rows(self.scaling("r1.h5", "r2.h5", "islands.h5")["points"])[1]
         self.assertAlmostEqual(point["island_bound"], run["spaces"]["island_bound"], places=9)
         self.assertAlmostEqual(point["root_share"], run["spaces"]["serial_share"], places=9)
-        cores = self.json(self.report("cores", "islands.h5", "--json"))[0]
+        cores = self.json(self.run_command([*PAPER, "cores", "islands.h5", "--json"]))[0]
         serial = cores["serial"]["harmonic_mean_hz"]
         self.assertEqual(point["figure6_islands"], cores["islands_parallel"]["harmonic_mean_hz"] / serial)
         self.assertEqual(point["figure6_spaces"], cores["spaces_parallel"]["harmonic_mean_hz"] / serial)

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import BIN, SOURCE, ProgramTest  # noqa: E402
+from harness import BIN, PAPER, PATH, SOURCE, ProgramTest  # noqa: E402
 
 UNCHECKED = ["--reference-iterations", 80, "--reference-residual", 0, "--reference-check", 0, "--own-iterations", 0]
 FAST = ["--frames", 3, "--repeats", 2, *UNCHECKED, "--floor-seeds", 2, "--rest-seconds", 0]
@@ -234,7 +234,7 @@ class Accuracy(ProgramTest):
 class Figures(ProgramTest):
     def test_one_command_draws_both_figures(self):
         result = self.run_command([f"{SOURCE}/jobs/figure8_9.sh", self.path("out"), "CrashSk"],
-                                  env={**os.environ, "PATH": BIN + ":" + os.environ["PATH"], "REPEATS": "1", "SEEDS": "2"})
+                                  env={**os.environ, "PATH": PATH, "REPEATS": "1", "SEEDS": "2"})
         self.assertEqual(result.returncode, 0, result.stderr)
         methods = [line.split()[1] for line in result.stdout.splitlines() if line.startswith("CrashSk")]
         self.assertEqual(methods, ["Iter20", "Iter19", "Iter1", "FEEC", "FEEC", "another", "another"])
@@ -246,10 +246,10 @@ class Figures(ProgramTest):
 
     def test_a_scene_without_its_reference_is_refused(self):
         self.summary(1, "--scene", "CrashSk", "--iterations", 19, "--output", "run.h5")
-        result = self.report("figures", "run.h5")
+        result = self.run_command([*PAPER, "figures", "run.h5"])
         self.assertEqual(result.returncode, 2)
         self.assertIn("20 iterations", result.stderr)
-        self.assertEqual(self.report("figures").returncode, 2)
+        self.assertEqual(self.run_command([*PAPER, "figures"]).returncode, 2)
 
 
 if __name__ == "__main__":

@@ -118,10 +118,8 @@ ScalingRun read_scaling_run(const std::string& path) {
 }
 
 Figure6Bars read_figure6_bars(const ScalingRun& run) {
-  const CoreSummary cores = summarize_cores(io::read_run(run.path), run.path);
-  const double serial_hz = cores.serial.harmonic_mean_hz;
-  return {run.stepper, cores.islands_parallel.harmonic_mean_hz / serial_hz,
-          cores.spaces_parallel.harmonic_mean_hz / serial_hz};
+  const ParallelRates rates = parallel_rates(io::read_run(run.path), run.path);
+  return {run.stepper, rates.islands_hz / rates.serial_hz, rates.spaces_hz / rates.serial_hz};
 }
 
 }  // namespace pbmpi::app

@@ -70,6 +70,7 @@ core::ExitCode run_prediction(const mpi::Communicator& comm, const std::vector<s
       content.note =
           format("no runs of quick in single precision: this build has no %s (jobs/ode_single.sh)\n",
                  ode_single_program);
+    content.report = "jobs/paper/paper.py prediction";
     content.next = " --html prediction.html";
     return content;
   });

@@ -54,7 +54,7 @@ Manual prediction_manual() {
       .options = options_description(),
       .notes = {"The cases are dealt out over the ranks; a rank works on one at a time."},
       .examples = {"mpirun -n 2 pbstudy prediction --scene CrashSk",
-                   "pbreport prediction.h5 --html prediction.html"}};
+                   "jobs/paper/paper.py prediction prediction.h5 --html prediction.html"}};
 }
 
 PredictionOptions parse_prediction_options(const std::vector<std::string>& args) {

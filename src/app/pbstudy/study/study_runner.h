@@ -31,7 +31,8 @@ struct StudyContent {
   std::vector<io::TableColumn> cases;                          ///< one row per case
   std::map<std::string, std::vector<io::TableColumn>> tables;  ///< other tables, by name
   std::string note;                                            ///< lines printed at the end of the run
-  std::string next;                                            ///< options of pbreport for the next look
+  std::string report = "pbreport";                             ///< shows the file
+  std::string next;                                            ///< its options for the next look
 };
 
 /// Thrown on all ranks when a study was stopped before all its cases were done: it is incomplete, and can go

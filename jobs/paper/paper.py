@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""What the paper says beside what was measured: its statements with their verdicts, its figures and its tables.
+
+"Enabling Real-Time Physics Simulation in Future Interactive Entertainment", Yeh, Faloutsos, Reinman 2006. Needs h5py and numpy, and
+the built pbreport (PBMPI_BIN, default build/release/bin)."""
+import argparse
+import os
+import pathlib
+import sys
+
+import data
+import figures
+import instructions
+import page
+import pages
+import prediction
+import report
+import runs
+import statements
+import suite
+
+
+def show(options, text, make_page):
+    """Writes the page that was asked for, and prints the text."""
+    if options.html:
+        page.write(options.html, make_page())
+    if not options.quiet:
+        sys.stdout.write(text)
+
+
+def in_form(options, as_text, as_json, as_markdown):
+    """What is printed; a form that was asked for is printed even with --quiet."""
+    form = as_json if options.json else as_markdown if options.markdown else as_text
+    options.quiet = options.quiet and form is as_text
+    return form
+
+
+def run_paper(options):
+    found = data.read(options.file)
+    chapters = statements.judged(found)
+    form = in_form(options, report.paper_text, report.paper_json, report.paper_markdown)
+    show(options, form(chapters), lambda: pages.paper_page(chapters, found))
+
+
+def run_figures(options):
+    recorded = [runs.Run(path) for path in options.file]
+    scenes = figures.scenes_of(recorded)
+    show(options, figures.figures_text(scenes), lambda: pages.figure8_9_page(scenes, [(run.path, run.attributes) for run in recorded]))
+
+
+def run_figure3(options):
+    counts, recorded = instructions.read_counts(options.file[0]), [runs.Run(path) for path in options.file[1:]]
+    works = [suite.work_of(run) for run in recorded]
+    files = [(options.file[0], {"command_line": "jobs/figure3.sh"}), *((run.path, run.attributes) for run in recorded)]
+    show(options, instructions.figure3_text(counts, works), lambda: pages.figure3_page(counts, works, files))
+
+
+def pictures_of(folder, scenes):
+    """[(scene, PNG)] of a folder with SCENE.png."""
+    try:
+        return [(one.scene, pathlib.Path(folder, f"{one.scene}.png").read_bytes()) for one in scenes]
+    except OSError as error:
+        raise runs.BadInput(f"{error.filename}: {error.strerror}; make it with jobs/stills.sh, or leave --stills out") from None
+
+
+def run_figure6(options):
+    runs.require(options.html, "--html is missing; name the page to write")
+    recorded = [runs.Run(path) for path in options.file]
+    scenes = [suite.suite_of(run) for run in recorded]
+    pictures = pictures_of(options.stills, scenes) if options.stills else []
+    islands = runs.pbreport("islands", *options.file)
+    show(options, f"{options.html}\n", lambda: pages.figure6_page(scenes, islands, pictures, [(run.path, run.attributes) for run in recorded]))
+
+
+def run_cores(options):
+    scenes = [suite.suite_of(runs.Run(path)) for path in options.file]
+    if options.json:
+        sys.stdout.write(report.json_text([suite.cores_json(one) for one in scenes]))
+    else:
+        sys.stdout.write(suite.CORES_HEAD + "".join(map(suite.cores_text, scenes)))
+
+
+def run_prediction(options):
+    runs.require(len(options.file) == 1, f"'{options.file[-1]}' follows '{options.file[0]}': give one study")
+    study = prediction.read_study(options.file[0], options.scene)
+    if options.csv:
+        prediction.write_cases(options.file[0], options.csv)
+    form = in_form(options, report.prediction_text, report.prediction_json, report.prediction_markdown)
+    show(options, form(study), lambda: pages.prediction_page(options.file[0], study))
+
+
+# Name, function, what it shows, files, what the page shows (empty: it has none), has it --json and --markdown?
+COMMANDS = (
+    ("paper", run_paper, "every statement of the paper with its verdict", "files or folders of jobs/paper.sh",
+     "verdicts, and Figures 3, 6, 8 and 9", True),
+    ("figures", run_figures, "Figures 8 and 9: frame rates, satisfied frames, and errors against 20 iterations. Several files of one kind are "
+                             "repeats, and the time of a frame is the least of them", "runs of jobs/figure8_9.sh", "both figures", False),
+    ("figure3", run_figure3, "Figure 3: instructions of a frame. Where direct was not counted it is extrapolated by the rows of the islands of "
+                             "a run of the scene with --record-islands", "figure3.json of jobs/figure3.sh, then runs", "the figure", False),
+    ("figure6", run_figure6, "one page of Figure 6 and Tables 1 and 2", "runs with --record-islands on one rank", "the figure and both tables",
+     False),
+    ("cores", run_cores, "Table 2: the fewest cores on which the islands of a step, longest first, take no longer than the longest of them, "
+                         "and the frame rate (share of frames within 3.33 ms) if islands, then also spaces, had a core each",
+     "runs with --record-islands on one rank", "", False),
+    ("prediction", run_prediction, "what value prediction gains a frame and does to its result", "the file of pbstudy prediction",
+     "the bars of Figure 8, hits, errors, and the verdicts", True),
+)
+
+
+def parser():
+    """Of the command line."""
+    program = argparse.ArgumentParser(prog="paper.py", description=__doc__)
+    commands = program.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, run, shows, files, on_page, has_forms in COMMANDS:
+        command = commands.add_parser(name, help=shows.partition(":")[0], description=f"Shows {shows}.")
+        command.set_defaults(run=run, json=False, markdown=False, quiet=False)
+        command.add_argument("file", nargs="*", metavar="FILE", help=files)
+        forms = command.add_mutually_exclusive_group()
+        if has_forms or name == "cores":
+            forms.add_argument("--json", action="store_true", help="print one JSON document")
+        if has_forms:
+            forms.add_argument("--markdown", action="store_true", help="print tables in Markdown")
+        if on_page:
+            command.add_argument("--html", metavar="OUT", help=f"write one self-contained page: {on_page}")
+            command.add_argument("--quiet", action="store_true", help="print nothing but errors")
+        if name == "figure6":
+            command.add_argument("--stills", metavar="DIR", help="folder with SCENE.png: a picture of each scene for the page")
+        if name == "prediction":
+            command.add_argument("--scene", nargs="+", default=[], metavar="NAME", help="these scenes of the study only")
+            command.add_argument("--csv", metavar="OUT", help="write all cases as comma-separated values")
+    return program
+
+
+def main():
+    options = parser().parse_args()
+    try:
+        runs.require(options.file, f"{options.command}: no file given; see --help")
+        options.run(options)
+    except runs.BadInput as error:
+        print(f"paper.py: {error}", file=sys.stderr)
+        return 2
+    except BrokenPipeError:  # of a reader such as head
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
