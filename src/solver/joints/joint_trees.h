@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/joints/apparent_masses.h"
 #include "solver/joints/joint_batches.h"
 #include "solver/joints/tree_solver.h"
 #include "solver/layout/lane_places.h"
@@ -34,6 +35,8 @@ class JointTrees {
       shape.may_be_exact = !at.shape.joints.empty() && (shape.always || at.shape.is_strained);
       shape.exact.assign(static_cast<std::size_t>(at.num_batches), {T::broadcast(0)});
       shape.limited = shape.exact;
+      if (shape.has_rotors) shape.touched.assign(shape.exact.size() * static_cast<std::size_t>(shape.num_bodies),
+                             LaneFlags{T::broadcast(0)});
     }
   }
 
@@ -41,6 +44,7 @@ class JointTrees {
   void start_step() {
     for (Shape& shape : shapes_) {
       std::ranges::fill(shape.limited, LaneFlags{T::broadcast(0)});
+      std::ranges::fill(shape.touched, LaneFlags{T::broadcast(0)});
       if (shape.may_be_exact) std::ranges::fill(shape.exact, LaneFlags{T::broadcast(1)});
     }
   }
@@ -50,6 +54,8 @@ class JointTrees {
       const int batch = (at.slot - shape.first_slot) / shape.num_bodies;
       if (at.slot < shape.first_slot || batch >= static_cast<int>(shape.exact.size())) continue;
       if (!shape.always) T::set(shape.exact[static_cast<std::size_t>(batch)].flags, at.lane, 0);
+      if (shape.has_rotors)
+        T::set(shape.touched[static_cast<std::size_t>(at.slot - shape.first_slot)].flags, at.lane, 1);
     }
   }
   /// 1 in the lanes in which a sweep has to solve this joint of a shape's batch, else 0: all that are not
@@ -73,7 +79,9 @@ class JointTrees {
   }
   /// Prepares for the current rows, in all active batches, and finds the exact articulations with a joint at
   /// a limit, which the tree cannot hold. `cfm` [s/kg]: the joints' CFM divided by the step.
-  void factor(Scalar cfm, const BodyLanes<T>& bodies);
+  void factor(Which which, Scalar cfm, const BodyLanes<T>& bodies);
+  /// After factor(): tells contacts with which masses bodies of articulations with rotors answer to them.
+  void lend(ApparentMasses<T>& masses, BodyLanes<T>& bodies);
   /// 1 in the lanes in which all joints of a batch are solved exactly, limits and motors aside, else 0.
   V exact_lanes(const Batch& batch) const {
     const Shape& shape = shapes_[batch.shape];
@@ -113,6 +121,7 @@ class JointTrees {
     std::vector<char> in_loop;         ///< [num_joints]
     std::vector<LaneFlags> exact;      ///< [num_batches] in this step
     std::vector<LaneFlags> limited;    ///< [num_batches] exact, and a joint is at a limit
+    std::vector<LaneFlags> touched;    ///< [num_batches * num_bodies] with rotors: in contact in this step
     std::vector<TreeSolver<T>> trees;  ///< [num_batches], empty as long as no lane was exact
 
     bool belongs_to(Which which) const { return which == Which::all || has_rotors; }
@@ -163,8 +172,9 @@ class JointTrees {
 };
 
 template <class T>
-void JointTrees<T>::factor(Scalar cfm, const BodyLanes<T>& bodies) {
+void JointTrees<T>::factor(Which which, Scalar cfm, const BodyLanes<T>& bodies) {
   for_each_tree([&](Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
+    if (!shape.belongs_to(which)) return;
     shape.limited[batch.index].flags = find_limited(shape, batch);
     for (const TreeNode& node : shape.nodes)
       tree.start_body(node.body, bodies.bodies[batch.first_slot + node.body]);
@@ -176,6 +186,30 @@ void JointTrees<T>::factor(Scalar cfm, const BodyLanes<T>& bodies) {
           tree.template eliminate<count.value>(node->body, shape.parent_of(*node), node->is_first, cfm, rows);
         });
       }
+    }
+  });
+}
+
+template <class T>
+void JointTrees<T>::lend(ApparentMasses<T>& masses, BodyLanes<T>& bodies) {
+  for_each_tree([&](Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
+    if (!shape.has_rotors) return;
+    const LaneFlags* touched = &shape.touched[batch.index * static_cast<std::size_t>(shape.num_bodies)];
+    V num_touched = T::broadcast(0);
+    for (int body = 0; body < shape.num_bodies; ++body) num_touched += touched[body].flags;
+    if (!T::any(num_touched)) return;
+    for (const TreeNode& node : shape.nodes) {
+      if (node.joint < 0) {
+        tree.answer_root(node.body);
+      } else {
+        with_rows(batch, shape, node.joint, [&](const auto&, auto count) {
+          tree.template answer<count.value>(node.body, shape.parent_of(node), node.is_first);
+        });
+      }
+    }
+    for (int body = 0; body < shape.num_bodies; ++body) {
+      if (T::any(touched[body].flags))
+        masses.lend(batch.first_slot + body, tree.answer_of(body), touched[body].flags, num_touched, bodies);
     }
   });
 }

@@ -37,6 +37,15 @@ class alignas(sizeof(typename T::Wide::V)) TreeSolver {
     own.mass.factor(own.sum);
   }
 
+  // What the bodies answer to a wrench, after these: answer_root() and answer(), parents before children.
+  void answer_root(int node);
+  template <int n>
+  void answer(int node, int parent, bool is_first);
+  /// [6][6] Twist of a body under a wrench of 1, with all joints and rotors; linear components first.
+  const typename T::Wide::V (&answer_of(int node) const)[6][6] {
+    return nodes_[static_cast<std::size_t>(node)].answer;
+  }
+
   // A solve: start_solve(); up() children before parents; root(); down() parents before children.
   /// `exact`: 1 in the lanes that take the solution, else 0.
   void start_solve(const V& exact) {
@@ -63,6 +72,7 @@ class alignas(sizeof(typename T::Wide::V)) TreeSolver {
     JointJacobian<T> jacobian;  ///< of the joint to the parent
     SymmetricFactor<Wide, 6> schur;
     W error[6];
+    W answer[6][6];
   };
   static const W (*child_of(const Node& node, bool is_first))[6] {
     return is_first ? node.jacobian.a : node.jacobian.b;
@@ -134,6 +144,61 @@ void TreeSolver<T>::eliminate(int node, int parent, bool is_first, Scalar cfm,
       for (int row = 0; row < n; ++row) sum += held[row][i] * b[row];
       above.sum[i][column] = sum;
     }
+  }
+}
+
+template <class T>
+void TreeSolver<T>::answer_root(int node) {
+  Node& own = nodes_[static_cast<std::size_t>(node)];
+  for (int column = 0; column < 6; ++column) {
+    W x[6];
+    for (int i = 0; i < 6; ++i) x[i] = Wide::broadcast(i == column ? 1 : 0);
+    own.mass.solve(x);
+    for (int i = 0; i < 6; ++i) own.answer[i][column] = x[i];
+  }
+}
+
+/// With f a wrench on the child, x = M_c'^-1 f and q = S^-1 J_c x, the parent moves by u_p = -A_p J_p^T q, the
+/// joint's impulses are p = -q - S^-1 J_p u_p, and the child moves by M_c'^-1 (f + J_c^T p).
+template <class T>
+template <int n>
+void TreeSolver<T>::answer(int node, int parent, bool is_first) {
+  Node& own = nodes_[static_cast<std::size_t>(node)];
+  const auto *child = child_of(own, is_first), *held = parent_of(own, is_first);
+  for (int column = 0; column < 6; ++column) {
+    W x[6], p[6];
+    for (int i = 0; i < 6; ++i) x[i] = Wide::broadcast(i == column ? 1 : 0);
+    own.mass.solve(x);
+    for (int row = 0; row < n; ++row) {
+      p[row] = -(child[row][0] * x[0]);
+      for (int i = 1; i < 6; ++i) p[row] -= child[row][i] * x[i];
+    }
+    own.schur.template solve<n>(p);
+    if (parent >= 0) {
+      const auto& above = nodes_[static_cast<std::size_t>(parent)].answer;
+      W wrench[6], moved[6], q[6];
+      for (int i = 0; i < 6; ++i) {
+        wrench[i] = held[0][i] * p[0];
+        for (int row = 1; row < n; ++row) wrench[i] += held[row][i] * p[row];
+      }
+      for (int i = 0; i < 6; ++i) {
+        moved[i] = above[i][0] * wrench[0];
+        for (int k = 1; k < 6; ++k) moved[i] += above[i][k] * wrench[k];
+      }
+      for (int row = 0; row < n; ++row) {
+        q[row] = held[row][0] * moved[0];
+        for (int i = 1; i < 6; ++i) q[row] += held[row][i] * moved[i];
+      }
+      own.schur.template solve<n>(q);
+      for (int row = 0; row < n; ++row) p[row] -= q[row];
+    }
+    W u[6];
+    for (int i = 0; i < 6; ++i) {
+      u[i] = Wide::broadcast(i == column ? 1 : 0);
+      for (int row = 0; row < n; ++row) u[i] += child[row][i] * p[row];
+    }
+    own.mass.solve(u);
+    for (int i = 0; i < 6; ++i) own.answer[i][column] = u[i];
   }
 }
 

@@ -29,10 +29,8 @@ class ContactTwists {
     write(free_, bodies);
     where_ = Where::slots;
   }
-  void end(BodyLanes<T>& bodies) {
-    read(free_, bodies);
-    need_slots(bodies);
-  }
+  /// After need_slots().
+  void end(BodyLanes<T>& bodies) { read(free_, bodies); }
   /// need_rows() before contacts change the rows, changed_rows() after.
   void need_rows(BodyLanes<T>& bodies) {
     if (where_ != Where::slots) return;
@@ -41,6 +39,7 @@ class ContactTwists {
   }
   void changed_rows() { where_ = Where::rows; }
   /// need_slots() before joints change the slots of jointed bodies, changed_slots() after.
+  bool are_in_rows() const { return where_ == Where::rows; }
   void need_slots(BodyLanes<T>& bodies) {
     if (where_ != Where::rows) return;
     read(jointed_, bodies);

@@ -55,7 +55,13 @@ class StepLanes {
   bool remembers() const { return parameters_.warm_start > 0; }
   bool hands_out_forces() const { return remembers() || parameters_.show_forces; }
   void start_step();
+  void build_contacts();
   void start_substep();
+  void need_slots(const JointLaws<Scalar>& laws);
+  void end_twists(const JointLaws<Scalar>& laws) {
+    need_slots(laws);
+    twists_.end(worlds_.bodies);
+  }
   V exact_lanes(const Batch& batch) const { return trees_ ? trees_->exact_lanes(batch) : T::broadcast(0); }
   void look_ahead();
   void push_carried();
@@ -74,7 +80,7 @@ class StepLanes {
   void choose_trees(stepping::JointSolver solver);
   /// With exact joints: prepares them for the current rows.
   void factor_joints() {
-    if (trees_) trees_->factor(laws_.joint_cfm(), worlds_.bodies);
+    if (trees_) trees_->factor(Trees::all, laws_.joint_cfm(), worlds_.bodies);
   }
   /// From the last sweep with bias to the end of the substep: moves the bodies, and does the relaxing sweeps.
   template <bool last>
@@ -97,6 +103,7 @@ class StepLanes {
   ContactLists<T> contacts_;
   ContactTwists<T> twists_;
   std::optional<JointTrees<T>> trees_;  ///< none in a step that solves no joints exactly
+  ApparentMasses<T> masses_;            ///< of the current step
   StepParameters parameters_;           ///< of the current step
   StepLaws<T> laws_;                    ///< of the current step
   int substep_ = 0, iteration_ = 0;
@@ -130,15 +137,40 @@ void StepLanes<T>::touch_trees(int world, std::span<const model::Contact> contac
   }
 }
 
+template <class T>
+void StepLanes<T>::build_contacts() {
+  masses_.clear();
+  if (trees_ && trees_->has_rotors()) {
+    trees_->factor(Trees::with_rotors, laws_.joint_cfm(), worlds_.bodies);
+    trees_->lend(masses_, worlds_.bodies);
+  }
+  contacts_.build(worlds_.bodies, laws_.contacts());
+  masses_.give_back(worlds_.bodies);
+}
+
+/// Twists in the slots, before joints change them or bodies move. Where contacts have acted on apparent masses
+/// the articulations follow, by these laws.
+template <class T>
+void StepLanes<T>::need_slots(const JointLaws<Scalar>& laws) {
+  const bool settles = masses_.any() && twists_.are_in_rows();
+  if (settles) masses_.settle(worlds_.bodies);
+  twists_.need_slots(worlds_.bodies);
+  if (!settles) return;
+  solve_trees(Trees::with_rotors, laws_.joint_solver(laws));
+  twists_.changed_slots();
+}
+
 /// Builds the rows and applies the forces of a step, up to the first iteration.
 template <class T>
 void StepLanes<T>::start_step() {
-  contacts_.build(worlds_.bodies, laws_.contacts());
   const JointBuilder<T> builder = laws_.joint_builder(true);
-  const GyroscopicSlot<V>* next_turning = worlds_.gyroscopic.data();
   const V recalled = T::broadcast(laws_.h() * laws_.contacts().warm_start);
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     worlds_.joints.start(batch, builder, exact_lanes(batch), recalled, worlds_.bodies);
+  });
+  build_contacts();
+  const GyroscopicSlot<V>* next_turning = worlds_.gyroscopic.data();
+  worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     worlds_.joints.start_rotors(batch, worlds_.bodies);
     if (!relaxes())
       motion_.apply_gyroscopic_torques(batch, static_cast<Scalar>(parameters_.dt_s), next_turning);
@@ -207,7 +239,7 @@ void StepLanes<T>::sweep_contacts(const RowLaw<Scalar>& law, int iteration) {
 
 template <class T>
 void StepLanes<T>::sweep_joints(const JointLaws<Scalar>& laws) {
-  twists_.need_slots(worlds_.bodies);
+  need_slots(laws);
   const JointSolver<T> solver = laws_.joint_solver(laws);
   worlds_.joints.sweep(
       solver,
@@ -257,18 +289,13 @@ void StepLanes<T>::look_ahead() {
   });
 }
 
-/// Removes the speed that corrected position errors. Contacts do not see rotors, which therefore come once
-/// more: the speeds that contacts gave them would count in the next substep as if rotors had no inertia.
+/// Removes the speed that corrected position errors.
 template <class T>
 void StepLanes<T>::relax() {
   for (int i = 0; i < parameters_.relax; ++i) {
     sweep_joints(JointLaws<Scalar>::relaxing());
     sweep_contacts(RowLaw<Scalar>::relaxing(), parameters_.iterations + i);
   }
-  if (!trees_ || !trees_->has_rotors()) return;
-  twists_.need_slots(worlds_.bodies);
-  solve_trees(Trees::with_rotors, laws_.joint_solver(JointLaws<Scalar>::relaxing()));
-  twists_.changed_slots();
 }
 
 /// Works batch by batch, so that a batch's bodies and joints stay in the cache from pass to pass.
@@ -288,13 +315,14 @@ void StepLanes<T>::end_substep() {
   twists_.start(worlds_.bodies);
   relax();
   if (passes_.restitution) contacts_.note_touches();
+  need_slots(JointLaws<Scalar>::relaxing());
   twists_.need_rows(worlds_.bodies);
   contacts_.forget_open(worlds_.bodies.contact_twists, laws_.contacts());
   if (last) {
     remember();
     bounce();
   }
-  twists_.end(worlds_.bodies);
+  end_twists(JointLaws<Scalar>::relaxing());
   worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
 }
 
@@ -360,7 +388,7 @@ void StepLanes<T>::iterate(int iterations, core::PhaseTimes& times) {
 template <class T>
 void StepLanes<T>::end_sweeps() {
   while (iteration_ < parameters_.iterations) sweep();
-  twists_.end(worlds_.bodies);
+  end_twists(laws_.joint_laws());
   if (parameters_.newton) finish_by_newton();
   twists_.need_rows(worlds_.bodies);
 }
@@ -391,7 +419,7 @@ void StepLanes<T>::finish(core::PhaseTimes& times) {
 /// when it ends.
 template <class T>
 void StepLanes<T>::look(std::span<model::State> states) {
-  twists_.end(worlds_.bodies);
+  end_twists(laws_.joint_laws());
   look_poses_.resize(worlds_.gravity.size());
   std::vector<Twist<V>>& twists = worlds_.bodies.twists;
   const bool changes_twists = passes_.damping || relaxes();
