@@ -78,10 +78,9 @@ def joint_springs():
 
 
 def island_shares():
-    """What a tolerance and a sag hold of the hard cases, and the work that they leave where scenes move and have calmed down."""
+    """What a tolerance holds of the hard cases, and the work that it leaves where scenes move and have calmed down."""
     settings = ["sor", *(f"sor tolerance={length}mm" for length in ("0.01", "0.03", "0.1")),
-                *(f"sor sag={length}mm" for length in ("0.2", "0.5", "1")), "sor sag=0.2mm tolerance=0.01mm",
-                "sor sag=0.2mm precision=single", "sor substeps=32", "sor substeps=32 tolerance=0.01mm"]
+                "sor substeps=32", "sor substeps=32 tolerance=0.01mm"]
     scenes = (("100CrSk", "0", ()), ("Environ", "150", ()), ("Battle2", "150", ()), ("Warehouse", "40", ("--effects=-sleeping",)))
     with programs.Folder() as folder:
         found = cases(folder, "--setting", *settings)

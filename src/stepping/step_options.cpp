@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -10,6 +9,7 @@
 #include "core/error.h"
 #include "core/quantity.h"
 #include "stepping/names.h"
+#include "stepping/option_values.h"
 
 namespace pbmpi::stepping {
 namespace {
@@ -26,7 +26,7 @@ bool converges(double factor) { return factor > 0 && factor < 2; }
 bool is_thread_count(double value) { return value >= 1 && value <= 1024; }
 bool is_share(double value) { return value >= 0 && value <= 1; }
 
-constexpr std::array<StepOption, 25> options = {{
+constexpr std::array<StepOption, 24> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
      .placeholder = "sor|quick|direct|bullet|mujoco",
@@ -68,23 +68,12 @@ constexpr std::array<StepOption, 25> options = {{
      .limit = "a tolerance is a length, e.g. 0.1mm, or 0",
      .in_short = "tolerance * m",
      .unit = "m"},
-    {.name = "sag",
-     .member = &Settings::sag_m,
-     .placeholder = "LENGTH",
-     .meaning =
-         "sor: an island of which a contact or joint would give by more than this under the force that it "
-         "carries gets --most-substeps, and springs stiffer by as much, e.g. 0.2mm; 0: none does; default: 0",
-     .needs = &Traits::has_substeps,
-     .allows = is_magnitude,
-     .limit = "a sag is a length, e.g. 0.2mm, or 0",
-     .in_short = "sag * m",
-     .unit = "m"},
     {.name = "most-substeps",
      .member = &Settings::most_substeps,
      .placeholder = "N",
      .meaning =
-         "sor: substeps of an island that would give by more than --sag, and the most of one that is so tall "
-         "that its top would sink by more than a hundredth of a body; default: 32",
+         "sor: the most substeps of an island that is so tall that its top would sink by more than a hundredth "
+         "of a body; default: 32",
      .needs = &Traits::has_substeps,
      .allows = at_least_1,
      .limit = "it must be at least 1"},
@@ -262,11 +251,7 @@ constexpr const auto& names_of(Colliders) { return colliders_names; }
 template <class Enum>
 requires std::is_enum_v<Enum> Enum parse(std::string_view text, const std::string& what, const StepOption&,
                                          Enum) {
-  const auto& names = names_of(Enum{});
-  if (const auto value = model::enum_from_name<Enum>(text, names)) return *value;
-  std::string known;
-  for (const std::string_view name : names) known.append(known.empty() ? "" : ", ").append(name);
-  throw core::InputError(what + " " + std::string(text) + ": it must be one of " + known);
+  return read_word<Enum>(text, what, names_of(Enum{}));
 }
 
 template <class Number>
@@ -275,20 +260,10 @@ requires std::is_arithmetic_v<Number> Number parse(std::string_view text, const 
   if (option.unit == std::string_view("m")) {
     if (const auto length = core::quantity(text, core::lengths())) return static_cast<Number>(*length);
   }
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc{} && end == text.data() + text.size();
-  core::require_input(is_number, what + " " + std::string(text) + ": it must be a " +
-                                     (std::is_integral_v<Number> ? "whole " : "") + "number");
+  const auto value = read_number<Number>(text, what);
   core::require_input(option.allows == nullptr || option.allows(static_cast<double>(value)),
                       what + " " + std::string(text) + ": " + std::string(option.limit));
   return value;
-}
-
-std::string shortest(double value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return std::string(digits.data(), end);
 }
 
 }  // namespace
@@ -301,10 +276,10 @@ const StepOption& step_option(std::string_view name) {
   return *found;
 }
 
-std::string file_name(const StepOption& option) {
-  std::string name(option.name);
-  std::ranges::replace(name, '-', '_');
-  return name;
+std::string file_name(std::string_view name) {
+  std::string in_files(name);
+  std::ranges::replace(in_files, '-', '_');
+  return in_files;
 }
 
 bool fits(const StepOption& option, StepperKind kind) {
@@ -331,10 +306,8 @@ std::string text_of(const StepOption& option, const StepperSettings& settings) {
         const auto value = settings.*member;
         if constexpr (std::is_enum_v<std::remove_const_t<decltype(value)>>)
           return std::string(name_of(value));
-        else if constexpr (std::is_integral_v<std::remove_const_t<decltype(value)>>)
-          return std::to_string(value);
         else
-          return shortest(value);
+          return written(value);
       },
       option.member);
 }

@@ -1,4 +1,4 @@
-/// The options of a step, one row each. Command lines, files, checkpoints, presets and studies follow from
+/// The options of a step, one row each. Command lines, files, checkpoints, and studies follow from
 /// the rows: a new option takes a member of StepperSettings, its row, and the solver's use of it.
 #pragma once
 
@@ -37,7 +37,7 @@ struct StepOption {
   std::string_view limit = {};           ///< what allows() requires, for messages
 
   bool is_physics = true;  ///< affects the bits of a result: a resumed run must keep it
-  bool in_studies = true;  ///< part of pbstudy's settings: a column of the file, a line of a preset
+  bool in_studies = true;  ///< part of pbstudy's settings: a column of the file, a line of a written config
   /// How a setting's short text names a value that is not the default: '*' stands for the value. Empty: the
   /// text treats this option specially, or leaves it out.
   std::string_view in_short = {};
@@ -48,8 +48,9 @@ std::span<const StepOption> step_options();
 /// The row with this name, which must be there.
 const StepOption& step_option(std::string_view name);
 
-/// The option's name in files, with '_' in place of '-'.
-std::string file_name(const StepOption& option);
+/// An option's name in files, with '_' in place of '-'.
+std::string file_name(std::string_view name);
+inline std::string file_name(const StepOption& option) { return file_name(option.name); }
 
 /// Does this kind of stepper use the option?
 bool fits(const StepOption& option, StepperKind kind);

@@ -60,7 +60,6 @@ struct StepperSettings {
   int iterations = 20;      ///< sweeps of an iterative solver, in each substep
   int substeps = 1;         ///< sor: parts of a step without new collision detection
   double tolerance_m = 0;   ///< sor: islands that move less get fewer substeps; 0: all get all of them
-  double sag_m = 0;         ///< sor: islands whose springs give by more get more substeps; 0: none do
   int most_substeps = 32;   ///< sor: substeps of these, and the most for tall islands, if above `substeps`
   double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
   double warm_start = 0;    ///< sor: share of the last step's or substep's forces that is taken over

@@ -1,4 +1,4 @@
-"""--tolerance and --sag: the same bits everywhere, less or more work, what is recorded, and what is refused."""
+"""--tolerance: the same bits everywhere, less or more work, what is recorded, and what is refused."""
 import unittest
 
 import h5py
@@ -8,8 +8,6 @@ from harness import ProgramTest
 
 RUN = ("--scene", "Environ", "--frames", 6, "--warmup", 0)
 TOLERANCE = ("--tolerance", "0.1mm")
-SAG = ("--sag", "0.2mm")
-EACH = (TOLERANCE, SAG, TOLERANCE + SAG)
 
 
 class IslandShares(ProgramTest):
@@ -18,17 +16,15 @@ class IslandShares(ProgramTest):
 
     def test_one_world_has_one_hash_whole_and_cut_for_every_instruction_set(self):
         for precision in ("double", "single"):
-            for options in EACH:
-                run = (*options, "--precision", precision)
-                hashes = {self.hash_of(1, *run, "--decompose", "worlds", "--simd", simd) for simd in ("auto", "off")}
-                hashes |= {self.hash_of(ranks, *run, "--decompose", "spaces") for ranks in (1, 2, 3, 4)}
-                self.assertEqual(len(hashes), 1, run)
-                self.assertNotEqual(hashes, {self.hash_of(1, "--precision", precision)})
+            run = (*TOLERANCE, "--precision", precision)
+            hashes = {self.hash_of(1, *run, "--decompose", "worlds", "--simd", simd) for simd in ("auto", "off")}
+            hashes |= {self.hash_of(ranks, *run, "--decompose", "spaces") for ranks in (1, 2, 3, 4)}
+            self.assertEqual(len(hashes), 1, run)
+            self.assertNotEqual(hashes, {self.hash_of(1, "--precision", precision)})
 
     def test_worlds_have_one_hash_for_1_to_4_ranks(self):
-        for options in EACH:
-            hashes = {self.hash_of(ranks, *options, "--replicas", 4, "--decompose", "worlds") for ranks in (1, 2, 3, 4)}
-            self.assertEqual(len(hashes), 1, options)
+        hashes = {self.hash_of(ranks, *TOLERANCE, "--replicas", 4, "--decompose", "worlds") for ranks in (1, 2, 3, 4)}
+        self.assertEqual(len(hashes), 1)
 
     def test_a_length_has_a_unit_or_is_in_metres(self):
         hashes = {self.hash_of(1, "--tolerance", text) for text in ("0.1mm", "0.0001", "0.01cm", "1e-4m")}
@@ -36,23 +32,15 @@ class IslandShares(ProgramTest):
         self.assertEqual(self.hash_of(1, "--tolerance", "0"), self.hash_of(1))
 
     def test_what_is_no_length_is_refused(self):
-        for option in ("--tolerance", "--sag"):
-            for text in ("-1mm", "1km", "nan", "inf", "much"):
-                result = self.pbmpi(1, *RUN, "--no-output", option, text)
-                self.assertEqual(result.returncode, 2, text)
-                self.assertIn(f"{option} {text}: ", result.stderr)
+        for text in ("-1mm", "1km", "nan", "inf", "much"):
+            result = self.pbmpi(1, *RUN, "--no-output", "--tolerance", text)
+            self.assertEqual(result.returncode, 2, text)
+            self.assertIn(f"--tolerance {text}: ", result.stderr)
 
-    def test_quick_has_no_use_for_them(self):
-        for options in (TOLERANCE, SAG):
-            result = self.pbmpi(1, *RUN, "--no-output", "--stepper", "quick", *options)
-            self.assertEqual(result.returncode, 2)
-            self.assertIn(options[0], result.stderr)
-
-    def test_a_step_without_memory_knows_no_load(self):
-        result = self.pbmpi(1, *RUN, "--no-output", "--warm-start", 0, *SAG)
+    def test_quick_has_no_use_for_it(self):
+        result = self.pbmpi(1, *RUN, "--no-output", "--stepper", "quick", *TOLERANCE)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("--sag", result.stderr)
-        self.assertIn("--warm-start", result.stderr)
+        self.assertIn("--tolerance", result.stderr)
 
     def test_the_file_says_how_much_work_was_done(self):
         sweeps = 14 * (1 + 1)
@@ -70,29 +58,15 @@ class IslandShares(ProgramTest):
             self.assertTrue(np.array_equal(everything["observables/world/row_visits"][:], sweeps * rows))
             self.assertEqual(everything["parameters/tolerance"][()], 0)
 
-    def test_what_carries_much_gets_the_most_substeps_and_gives_less(self):
-        run = ("--scene", "hard/joints/bridge30", "--frames", 100)
-        largest = {}
-        for sag in ("0", "0.2mm"):
-            self.summary(1, *run, "--sag", sag, "--output", f"{sag}.h5")
-            with h5py.File(self.path(f"{sag}.h5")) as file:
-                visits, rows, gap = (file[f"observables/world/{name}"][-20:, 0] for name in ("row_visits", "rows", "joint_gap"))
-                largest[sag] = gap.max()
-                self.assertTrue((visits == (14 if sag == "0" else 32) * (1 + 1) * rows).all())
-                self.assertAlmostEqual(file["parameters/sag"][()], 0 if sag == "0" else 2e-4, 15)
-        self.assertLess(largest["0.2mm"], largest["0"] / 3)
-
     def test_a_resumed_run_goes_on_with_the_same_bits(self):
-        for number, options in enumerate(EACH):
-            run = ("--scene", "Environ", "--warmup", 0, "--decompose", "worlds", *options)
-            whole = self.summary(1, *run, "--frames", 6, "--no-output")["state_hash"]
-            self.summary(2, *run, "--frames", 3, "--output", f"first{number}.h5", "--checkpoint", f"{number}.h5")
-            resumed = self.summary(2, "--resume", f"{number}.h5", "--frames", 6, "--output", f"second{number}.h5")
-            self.assertEqual(resumed["state_hash"], whole)
+        run = ("--scene", "Environ", "--warmup", 0, "--decompose", "worlds", *TOLERANCE)
+        whole = self.summary(1, *run, "--frames", 6, "--no-output")["state_hash"]
+        self.summary(2, *run, "--frames", 3, "--output", "first.h5", "--checkpoint", "checkpoint.h5")
+        resumed = self.summary(2, "--resume", "checkpoint.h5", "--frames", 6, "--output", "second.h5")
+        self.assertEqual(resumed["state_hash"], whole)
 
     def test_an_estimate_leaks_into_nothing(self):
-        for options in EACH:
-            self.assertEqual(self.hash_of(1, *options, "--feec"), self.hash_of(1, *options))
+        self.assertEqual(self.hash_of(1, *TOLERANCE, "--feec"), self.hash_of(1, *TOLERANCE))
 
 
 if __name__ == "__main__":

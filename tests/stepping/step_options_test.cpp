@@ -32,7 +32,6 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.iterations = 7;
   settings.substeps = 3;
   settings.tolerance_m = 1.0 / 17;
-  settings.sag_m = 1.0 / 19;
   settings.most_substeps = 48;
   settings.sor_factor = 1.0 / 3;
   settings.warm_start = 0.3;
@@ -103,7 +102,6 @@ TEST(StepOptions, impossible_values_are_refused_by_name) {
   EXPECT_EQ(refusal("joint-frequency", "nan"), "--joint-frequency nan: a frequency is 0 or more, or inf");
   EXPECT_EQ(refusal("tolerance", "1km"), "--tolerance 1km: it must be a number");
   EXPECT_EQ(refusal("tolerance", "-1"), "--tolerance -1: a tolerance is a length, e.g. 0.1mm, or 0");
-  EXPECT_EQ(refusal("sag", "-1"), "--sag -1: a sag is a length, e.g. 0.2mm, or 0");
   EXPECT_EQ(refusal("precision", "half"), "--precision half: it must be one of double, single");
   EXPECT_EQ(refusal("solver-seed", "-1"), "--solver-seed -1: it must be a whole number");
 }
@@ -112,9 +110,7 @@ TEST(StepOptions, a_length_may_have_a_unit) {
   for (const char* text : {"0.1mm", "0.01cm", "0.0001m", "0.0001", "1e-4"}) {
     StepperSettings settings;
     set(step_option("tolerance"), text, "", settings);
-    set(step_option("sag"), text, "", settings);
     EXPECT_DOUBLE_EQ(settings.tolerance_m, 1e-4) << text;
-    EXPECT_DOUBLE_EQ(settings.sag_m, 1e-4) << text;
   }
 }
 
@@ -131,7 +127,7 @@ TEST(StepOptions, a_frequency_may_be_infinite_as_it_is_by_default) {
 
 TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
   for (const char* name :
-       {"substeps", "tolerance", "sag", "most-substeps", "sor-factor", "warm-start", "relax",
+       {"substeps", "tolerance", "most-substeps", "sor-factor", "warm-start", "relax",
         "contact-frequency", "contact-damping", "contact-margin", "joint-frequency", "joint-damping",
         "joint-solver", "friction", "finish", "row-order", "precision", "simd", "colliders"}) {
     EXPECT_TRUE(fits(step_option(name), StepperKind::sor));

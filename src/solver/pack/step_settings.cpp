@@ -19,10 +19,6 @@ void require_valid(const stepping::StepperSettings& settings) {
   core::require_input(settings.tolerance_m >= 0, "the tolerance of a step is a length, or 0 for none");
   core::require_input(settings.warm_start >= 0 && settings.warm_start <= 1,
                       "warm start: the share of the impulses to take over is 0 to 1");
-  core::require_input(settings.sag_m >= 0, "the sag of a step is a length, or 0 for none");
-  core::require_input(settings.sag_m == 0 || remembers(settings),
-                      "--sag tells by the forces of the last step what an island carries: it needs a "
-                      "--warm-start above 0");
   const bool is_rigid =
       settings.relax == 0 && settings.contact_frequency == 0 && settings.joint_frequency == 0;
   const bool is_cone = settings.friction == stepping::Friction::cone;

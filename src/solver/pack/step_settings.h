@@ -21,8 +21,8 @@ inline bool spares_substeps(const stepping::StepperSettings& settings) {
   return settings.tolerance_m > 0 && settings.substeps > 1;
 }
 
-/// May islands get more substeps than others (loaded_islands.h, tall_islands.h)? Only with a warm start are
-/// stiffer springs of use.
+/// May islands get more substeps than others (tall_islands.h)? Only with a warm start are stiffer springs of
+/// use.
 inline bool adds_substeps(const stepping::StepperSettings& settings) {
   return settings.most_substeps > settings.substeps && remembers(settings);
 }

@@ -9,7 +9,6 @@
 #include "model/contact.h"
 #include "model/model.h"
 #include "model/state.h"
-#include "solver/parts/loaded_islands.h"
 #include "solver/parts/quiet_islands.h"
 #include "solver/parts/step_islands.h"
 #include "solver/parts/tall_islands.h"
@@ -24,25 +23,18 @@ class IslandShares {
                                           const stepping::StepperSettings& settings);
 
   /// Does sort() need poses and velocities?
-  bool wants_state() const { return quiet_ || loaded_; }
-  /// Does sort() need the forces of all joints?
-  bool wants_joints() const { return loaded_.has_value(); }
+  bool wants_state() const { return quiet_.has_value(); }
   /// Can any island get more substeps?
-  bool may_add_substeps() const { return loaded_ || tall_; }
-  /// Sorts these bodies, which are whole islands of joints and contacts. `forces` [contacts]: those with
-  /// which they start; `before`: the state that wants_state() and wants_joints() ask for; `broken_in`:
-  /// State::broken_in.
+  bool may_add_substeps() const { return tall_.has_value(); }
+  /// Sorts these bodies, which are whole islands of joints and contacts. `broken_in`: State::broken_in;
+  /// `before`: the state that wants_state() asks for.
   void sort(std::span<const int> bodies, std::span<const model::Contact> contacts,
-            std::span<const model::ContactForce> forces, std::span<const std::int32_t> broken_in,
-            const model::State& before);
+            std::span<const std::int32_t> broken_in, const model::State& before);
   /// Does any body get more or fewer substeps than the run's number?
-  bool differ() const { return any_loaded_ || any_tall_ || (quiet_ && !quiet_->bodies().empty()); }
+  bool differ() const { return any_tall_ || (quiet_ && !quiet_->bodies().empty()); }
   bool is_quiet(int body) const { return quiet_ && quiet_->contains(body); }
   /// The substeps of a body that is not quiet.
-  int substeps(int body) const {
-    if (any_loaded_ && is_loaded_[static_cast<std::size_t>(body)] != 0) return most_substeps_;
-    return any_tall_ ? tall_->substeps(body) : substeps_;
-  }
+  int substeps(int body) const { return any_tall_ ? tall_->substeps(body) : substeps_; }
   /// The bodies in quiet islands, in the order in which they were given.
   std::span<const int> quiet_bodies() const { return quiet_ ? quiet_->bodies() : std::span<const int>(); }
   /// QuietIslands::judge() for quiet bodies, which are whole islands.
@@ -53,17 +45,12 @@ class IslandShares {
 
  private:
   IslandShares(const model::Model& model, const stepping::StepperSettings& settings);
-  void mark_loaded(std::span<const int> bodies);
 
-  int substeps_, most_substeps_;
+  int substeps_;
   StepIslands islands_;
   std::optional<QuietIslands> quiet_;
-  std::optional<LoadedIslands> loaded_;
   std::optional<TallIslands> tall_;
-  IslandMarks loaded_marks_;     ///< scratch
-  std::vector<int> overloaded_;  ///< a body of each loaded island, in the last sort()
-  std::vector<char> is_loaded_;  ///< [num_bodies]
-  bool any_loaded_ = false, any_tall_ = false;
+  bool any_tall_ = false;
 };
 
 }  // namespace pbmpi::solver

@@ -314,7 +314,7 @@ void SorSpaceStepper::part(std::span<const Contact> contacts, const StepParamete
                        .forces = recall_.forces(),
                        .field = rules_.field()};
   if (shares_) {
-    shares_->sort(active_.bodies(), contacts, recall_.forces(), state().broken_in, state());
+    shares_->sort(active_.bodies(), contacts, state().broken_in, state());
     after_.resize(model_->num_bodies());
     world.shares = &*shares_;
     world.before = &state();

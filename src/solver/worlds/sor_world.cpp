@@ -155,11 +155,11 @@ void SorWorld::sort_islands(const Pack& pack, int index, std::span<const model::
   const std::size_t num_forces = state_.memory.joints.size();
   if (shares_->wants_state()) {
     for (model::State* room : {&before_, &after_}) room->resize(model_->num_bodies());
-    before_.memory.joints.resize(shares_->wants_joints() ? num_forces : 0);
+    before_.memory.joints.clear();
     pack.store(index, rules_.awake(), before_);
   }
-  shares_->sort(rules_.awake(), contacts, recall_.forces(), state_.broken_in, before_);
-  if (!shares_->wants_state() || shares_->wants_joints()) return;
+  shares_->sort(rules_.awake(), contacts, state_.broken_in, before_);
+  if (!shares_->wants_state()) return;
   before_.memory.joints.resize(num_forces);
   pack.store(index, shares_->quiet_bodies(), before_);
 }

@@ -27,7 +27,6 @@ SOR = {
     "ODE's colliders": ("--colliders", "ode"),
     "sleeping": ("--effects", "+sleeping,+drag"),
     "tolerance": ("--tolerance", "0.1mm"),
-    "sag": ("--sag", "0.1mm", "--tolerance", "0.01mm"),
     "field of interest": ("--effects", "+field_of_interest,+restitution"),
 }
 ODE = {"quick": SCENES + EFFECT_SCENES, "direct": ("2-Cars", "CrashSk", "100CrSk")}  # the big matrix of the others takes minutes

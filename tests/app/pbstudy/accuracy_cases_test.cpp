@@ -84,20 +84,6 @@ TEST(AccuracyCases, tolerances_are_those_of_sor_with_a_memory_where_it_has_subst
   EXPECT_EQ(found, (std::multiset<std::pair<int, double>>{{1, 0}, {8, 0}, {8, 1e-5}, {8, 1e-3}}));
 }
 
-TEST(AccuracyCases, sags_are_those_of_sor_with_a_memory_where_there_are_more_substeps) {
-  const auto cases = cases_of(
-      options_of({"--substeps", "8", "64", "--precision", "double", "--dt", "0.01", "--sag", "0", "1mm"}));
-  std::multiset<std::pair<int, double>> found;
-  for (const AccuracyCase& one : cases) {
-    if (one.stepper.relax == 0) {
-      EXPECT_EQ(one.stepper.sag_m, 0);
-    } else if (one.kind == CaseKind::setting) {
-      found.insert({one.stepper.substeps, one.stepper.sag_m});
-    }
-  }
-  EXPECT_EQ(found, (std::multiset<std::pair<int, double>>{{8, 0}, {8, 1e-3}, {64, 0}}));
-}
-
 TEST(AccuracyCases, frames_are_estimated_after_each_number_of_their_steps) {
   const auto cases =
       cases_of(options_of({"--stepper", "quick", "sor", "--estimates", "0", "2", "--precision", "double"}));
@@ -322,14 +308,12 @@ TEST(OwnSolution, is_shared_by_all_settings_that_solve_the_same_equations) {
 TEST(OwnSolution, keeps_what_is_solved_and_not_how) {
   stepping::StepperSettings setting = default_settings(stepping::StepperKind::sor);
   setting.contact_frequency = 60;
-  setting.sag_m = 1e-3;
   setting.tolerance_m = 1e-5;
   setting.precision = stepping::Precision::single;
   setting.sor_factor = 1.7;
   setting.warm_start = 0.5;
   const stepping::StepperSettings own = own_settings(setting, 1400);
   EXPECT_EQ(own.contact_frequency, 60);
-  EXPECT_EQ(own.sag_m, 1e-3) << "stiffer springs are another model";
   EXPECT_EQ(own.substeps, 14);
   EXPECT_EQ(own.iterations, 100) << "14 substeps share them";
   EXPECT_EQ(own.relax, 100);

@@ -56,7 +56,6 @@ std::vector<Setting> every_setting() {
   ode.colliders = stepping::Colliders::ode;
   fixed.row_order = stepping::RowOrder::fixed;
   shares.tolerance_m = 1e-5;
-  shares.sag_m = 2e-4;
   return {{"default", by_default},
           {"single", single},
           {"ode_colliders", ode},

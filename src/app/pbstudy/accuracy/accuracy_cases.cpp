@@ -79,8 +79,8 @@ void add_settings(const AccuracyCase& base, const AccuracyOptions& options,
   });
 }
 
-/// The settings with a memory from step to step, with the study's numbers of substeps, precisions, tolerances
-/// and sags.
+/// The settings with a memory from step to step, with the study's numbers of substeps, precisions and
+/// tolerances.
 void add_remembering(const AccuracyCase& base, const AccuracyOptions& options,
                      std::vector<AccuracyCase>& cases) {
   AccuracyCase one = base;
@@ -89,7 +89,6 @@ void add_remembering(const AccuracyCase& base, const AccuracyOptions& options,
     if (list.option->name == "substeps" || list.option->name == "precision") lists.push_back(list);
   }
   lists.push_back(options.tolerances);
-  lists.push_back(options.sags);
   cross_settings(remembering(base.stepper), lists, [&](const StepperSettings& stepper) {
     one.stepper = stepper;
     if (one.sweeps() <= options.max_sweeps) cases.push_back(one);

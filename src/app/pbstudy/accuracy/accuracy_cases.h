@@ -55,7 +55,7 @@ ReferenceSolve reference_solve(const StudyScene& scene, const AccuracyOptions& o
 /// The settings that solve the equations of `setting` with so many iterations a step. What decides how they
 /// are solved is taken from the stepper's usual settings (over-relaxation, warm start, order, precision, and
 /// no tolerance). What decides which equations are solved stays: the step and, for sor, substeps, springs,
-/// margin, friction, sag, and whether there are relaxing sweeps, which then number as many as the others.
+/// margin, friction, and whether there are relaxing sweeps, which then number as many as the others.
 /// Substeps share the iterations. A stepper without iterations keeps its settings.
 stepping::StepperSettings own_settings(const stepping::StepperSettings& setting, int iterations);
 

@@ -26,9 +26,6 @@ constexpr VariedOption varied_dt = {
 constexpr VariedOption varied_tolerance = {
     "tolerance", "of sor as it is by default: below how long a way an island gets fewer substeps; default: 0",
     "0"};
-constexpr VariedOption varied_sag = {
-    "sag", "of sor as it is by default: beyond how large a give an island gets more substeps; default: 0",
-    "0"};
 
 po::options_description options_description() {
   po::options_description what(
@@ -38,7 +35,6 @@ po::options_description options_description() {
   add_scene_option(what);
   for (const VariedOption& one : varied) add_setting_list(one, what);
   add_setting_list(varied_tolerance, what);
-  add_setting_list(varied_sag, what);
   what.add_options()  //
       ("estimates", list_of<int>(),
        "FEEC cases, not crossed with the others, at the first step of --dt: frames of the scene's own "
@@ -128,7 +124,6 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
       values.count("sor-factor") + values.count("warm-start") + values.count("row-order") == 0;
   options.dts = setting_list(varied_dt, values);
   options.tolerances = setting_list(varied_tolerance, values);
-  options.sags = setting_list(varied_sag, values);
   options.estimates = list<int>(values, "estimates", {1, 5});
   options.max_sweeps = values["max-sweeps"].as<int>();
   options.reference_iterations = values["reference-iterations"].as<int>();

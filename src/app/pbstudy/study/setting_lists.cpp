@@ -25,7 +25,6 @@ std::span<const std::string> useful(const SettingList& list, const stepping::Ste
   if (!fits(*list.option, base.kind)) return {};
   if (list.option->name == "iterations" && !traits_of(base.kind).iterates) return values.first(1);
   if (list.option->name == "tolerance" && base.substeps == 1) return {};
-  if (list.option->name == "sag" && base.substeps >= base.most_substeps) return {};
   return values;
 }
 
