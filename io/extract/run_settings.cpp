@@ -10,8 +10,9 @@ Matters matters_for(std::string_view name) {
   constexpr std::array seeds = {"seed", "solver_seed", "world_range"};
   constexpr std::array nothing = {"ranks",        "threads",         "processors",      "build",
                                   "simd",         "decompose",       "budget",          "frames",
-                                  "record_every", "record_islands",  "record_contacts", "resumed_from",
-                                  "joined_from",  "parameters_file", "rank_groups"};
+                                  "record_every", "record_islands",  "record_contacts", "record_residuals",
+                                  "resumed_from", "joined_from",     "parameters_file", "ranks_per_world",
+                                  "rank_groups",  "on_blowup"};
   if (std::ranges::find(seeds, name) != seeds.end()) return Matters::seed;
   if (name == "feec" || name.starts_with("estimate_")) return Matters::estimate;
   const bool is_free = std::ranges::find(nothing, name) != nothing.end() || name.starts_with("library_") ||

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+
+#include "app/pbmpi/options/run_options.h"
 #include "core/error.h"
 #include "fake_scene.h"
 #include "stepping/step_options.h"
@@ -158,7 +162,7 @@ TEST(Options, feec_estimates_as_the_precise_stepper_does_but_with_one_iteration)
   EXPECT_EQ(spec.estimate->stepper.iterations, 1);
   EXPECT_EQ(spec.estimate->stepper.seed, 7u);
   EXPECT_EQ(spec.stepper.seed, 7u);
-  EXPECT_EQ(spec.scene_seed, 1u);
+  EXPECT_EQ(spec.seed, 1u);
   EXPECT_FALSE(resolve(parse_options({"--scene", "Fake"}), FakeScene({})).estimate.has_value());
 }
 
@@ -204,6 +208,43 @@ TEST(Options, a_frame_may_take_a_tenth_of_one_at_30_Hz_unless_told_otherwise) {
   EXPECT_EQ(budget_s({"--budget", "2ms"}), 0.002);
   EXPECT_NE(refusal({"--scene", "Fake", "--budget", "0"}).find("--budget 0: it must be a number above 0"),
             std::string::npos);
+}
+
+TEST(RunOptions, stand_in_the_file_unless_they_change_neither_it_nor_a_result) {
+  // The scene and its table of parameters have entries of their own; the others say where a run writes, what
+  // it prints, and when it stops.
+  const std::set<std::string_view> others = {"scene",      "parameters", "output",           "no-output",
+                                             "no-xdmf",    "report",     "max-time",         "checkpoint",
+                                             "wait-limit", "resume",     "checkpoint-every"};
+  std::set<std::string_view> left_out;
+  for (const RunOption& option : run_options()) {
+    if (!option.recorded) left_out.insert(option.name);
+  }
+  EXPECT_EQ(left_out, others);
+}
+
+TEST(RunOptions, have_values_that_are_read_back) {
+  const std::map<std::string_view, std::string> texts = {{"world-range", "3:7"}, {"effects", "+drag,-friction"},
+                                                         {"on-blowup", "freeze"}, {"budget", "0.002"},
+                                                         {"seed", "18446744073709551615"}};
+  for (const RunOption& option : run_options()) {
+    const auto text = texts.find(option.name);
+    if (text == texts.end()) continue;
+    RunSpec spec;
+    set(option, text->second, spec);
+    EXPECT_EQ(text_of(option, spec), text->second) << option.name;
+  }
+}
+
+TEST(RunOptions, of_an_estimate_have_a_value_only_where_there_is_one) {
+  RunSpec spec;
+  spec.estimate_after = 1;
+  for (const bool feec : {false, true}) {
+    spec.feec = feec;
+    for (const RunOption& option : run_options()) {
+      if (option.name == "estimate-after") EXPECT_EQ(value_of(option, spec).has_value(), feec);
+    }
+  }
 }
 
 TEST(Options, help_names_every_group_and_exit_code) {

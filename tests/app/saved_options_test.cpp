@@ -10,28 +10,17 @@
 namespace pbmpi::app {
 namespace {
 
-struct Resolved {
-  Options options;
-  RunSpec spec;
-};
-
-Resolved resolved(const std::vector<std::string>& args, const std::string& saved = "",
-                  const ResumePoint& from = {}) {
-  Options options = parse_options(args, saved);
-  RunSpec spec = resolve(options, FakeScene({}), from);
-  return {std::move(options), std::move(spec)};
+RunSpec resolved(const std::vector<std::string>& args, const std::string& saved = "",
+                 const ResumePoint& from = {}) {
+  return resolve(parse_options(args, saved), FakeScene({}), from);
 }
 
-std::string saved(const std::vector<std::string>& args) {
-  const Resolved run = resolved(args);
-  return saved_options(run.spec, run.options.decomposition);
-}
+std::string saved(const std::vector<std::string>& args) { return saved_options(resolved(args)); }
 
 std::string refusal(const std::vector<std::string>& args, const std::string& before) {
   try {
     require_same_stepper("ck.h5", before, parse_options(args, before).step.settings.kind);
-    const Resolved run = resolved(args, before);
-    require_same_physics("ck.h5", before, saved_options(run.spec, run.options.decomposition));
+    require_same_physics("ck.h5", before, saved_options(resolved(args, before)));
   } catch (const core::InputError& error) {
     return error.what();
   }
@@ -50,8 +39,7 @@ TEST(SavedOptions, give_the_same_run_when_they_are_read_again) {
       {"--scene", "Fake", "--feec", "--estimate-precision", "single", "--dt", "0.012345678901234567"}};
   for (const auto& args : runs) {
     const std::string first = saved(args);
-    const Resolved again = resolved({"--scene", "Fake"}, first);
-    EXPECT_EQ(saved_options(again.spec, again.options.decomposition), first);
+    EXPECT_EQ(saved_options(resolved({"--scene", "Fake"}, first)), first);
     EXPECT_EQ(refusal({"--scene", "Fake"}, first), "");
     EXPECT_EQ(refusal(args, first), "") << "the same options may be given again";
   }
@@ -59,9 +47,9 @@ TEST(SavedOptions, give_the_same_run_when_they_are_read_again) {
 
 TEST(SavedOptions, keep_every_bit_of_a_real_number) {
   const double dt_s = 0.1 + 0.2;  // 0.30000000000000004
-  RunSpec spec = resolved({"--scene", "Fake"}).spec;
+  RunSpec spec = resolved({"--scene", "Fake"});
   spec.stepper.dt_s = dt_s;
-  EXPECT_EQ(parse_options({"--scene", "Fake"}, saved_options(spec, Decomposition::automatic)).dt_s(), dt_s);
+  EXPECT_EQ(parse_options({"--scene", "Fake"}, saved_options(spec)).dt_s(), dt_s);
 }
 
 TEST(SavedOptions, each_that_decides_the_bits_is_refused_if_it_changes) {
@@ -105,7 +93,7 @@ TEST(SavedOptions, others_may_change) {
 TEST(Resume, output_goes_to_a_file_of_its_own_beside_the_first) {
   const auto output = [](const ResumePoint& from, std::vector<std::string> args = {}) {
     args.insert(args.end(), {"--scene", "Fake", "--frames", "100"});
-    return resolved(args, "", from).spec.output;
+    return resolved(args, "", from).output;
   };
   EXPECT_EQ(output({"ck.h5", 8, "/data/run.h5"}), "/data/run.from8.h5");
   EXPECT_EQ(output({"ck.h5", 12, "/data/run.from8.h5"}), "/data/run.from12.h5");
@@ -117,16 +105,16 @@ TEST(Resume, output_goes_to_a_file_of_its_own_beside_the_first) {
 }
 
 TEST(Resume, checkpoints_go_on_in_the_same_file) {
-  EXPECT_EQ(resolved({"--scene", "Fake"}).spec.checkpoint.path, "Fake.checkpoint.h5");
-  EXPECT_EQ(resolved({"--scene", "Fake", "--output", "x/run.h5"}).spec.checkpoint.path,
+  EXPECT_EQ(resolved({"--scene", "Fake"}).checkpoint.path, "Fake.checkpoint.h5");
+  EXPECT_EQ(resolved({"--scene", "Fake", "--output", "x/run.h5"}).checkpoint.path,
             "x/run.checkpoint.h5");
-  EXPECT_EQ(resolved({"--resume", "ck.h5", "--frames", "9"}, "", {"ck.h5", 8, "a.h5"}).spec.checkpoint.path,
+  EXPECT_EQ(resolved({"--resume", "ck.h5", "--frames", "9"}, "", {"ck.h5", 8, "a.h5"}).checkpoint.path,
             "ck.h5");
   EXPECT_EQ(
-      resolved({"--resume", "ck.h5", "--checkpoint", "b.h5"}, "", {"ck.h5", 7, "a.h5"}).spec.checkpoint.path,
+      resolved({"--resume", "ck.h5", "--checkpoint", "b.h5"}, "", {"ck.h5", 7, "a.h5"}).checkpoint.path,
       "b.h5");
-  EXPECT_FALSE(resolved({"--scene", "Fake"}).spec.checkpoint.at_end);
-  EXPECT_TRUE(resolved({"--scene", "Fake", "--checkpoint", "b.h5"}).spec.checkpoint.at_end);
+  EXPECT_FALSE(resolved({"--scene", "Fake"}).checkpoint_file.has_value());
+  EXPECT_TRUE(resolved({"--scene", "Fake", "--checkpoint", "b.h5"}).checkpoint_file.has_value());
 }
 
 }  // namespace

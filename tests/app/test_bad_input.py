@@ -162,7 +162,6 @@ class WhatIsRead(Refusals):
         for name, why in (("pipe.toml", "pipe or a device"), ("zero.toml", "pipe or a device"), ("folder.toml", "directory")):
             self.refused(2, ["--scene", name], name, why, "scene file")
             self.refused(2, ["--scene", "CrashSk", "--config", name], name, why, "name = value")
-            self.refused(2, ["--scene", "CrashSk", "--preset", name], name, why, "name = value")
             self.refused(2, ["--resume", name], name, why, "pbmpi has written")
             result = self.report(name)
             self.assertEqual((result.returncode, why in result.stderr), (2, True), result.stderr)

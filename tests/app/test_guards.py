@@ -55,6 +55,12 @@ class Guards(ProgramTest):
             return rows, {kind: int(events.attrs["num_" + kind]) for kind in
                           ("nonfinite", "joint_gap", "energy_gain", "passage", "frozen", "refined")}
 
+    def test_the_file_says_what_was_to_be_done(self):
+        self.summary(1, *RUN, "--frames", 1, "--on-blowup", "freeze", "--record-residuals", "--output", "run.h5")
+        with h5py.File(self.path("run.h5")) as file:
+            self.assertEqual(file["parameters/on_blowup"][()], b"freeze")
+            self.assertEqual(file["parameters/record_residuals"][()], 1)
+
     def test_report_is_the_default_and_says_what_where_and_when(self):
         for stepper in ("quick", "sor"):
             summary = self.summary(2, *WORLDS, "--stepper", stepper, "--output", "drop.h5")

@@ -57,11 +57,10 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
                   .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
                   .run(),
               values);
-    for (const std::string option : {"config", "preset"}) {  // boost keeps the first value stored
-      if (values.count(option) == 0) continue;
-      where = values[option].as<std::string>() + ": ";
-      std::istringstream lines(core::read_input_file(
-          values[option].as<std::string>(), "--" + option + " wants a file of 'name = value' lines"));
+    if (values.count("config") != 0) {  // boost keeps the first value stored
+      const auto file = values["config"].as<std::string>();
+      where = file + ": ";
+      std::istringstream lines(core::read_input_file(file, "--config wants a file of 'name = value' lines"));
       po::store(po::parse_config_file(lines, description), values);
       where = "";
     }
@@ -93,9 +92,9 @@ std::vector<core::NamedPath> named_paths(const po::variables_map& values) {
         paths.push_back({option == "file" ? "the file" : "--" + option, name, written});
     }
   };
-  for (const char* option : {"file", "scene", "config", "preset", "parameters", "floor", "instructions-from"})
+  for (const char* option : {"file", "scene", "config", "parameters", "floor", "instructions-from"})
     add(option, false);
-  for (const char* option : {"output", "checkpoint", "html", "csv", "xdmf", "write-preset"})
+  for (const char* option : {"output", "checkpoint", "html", "csv", "xdmf", "write-config"})
     add(option, true);
   return paths;
 }

@@ -23,8 +23,8 @@ struct CommonOptions {
 /// --help, --version, --config, --quiet, --progress.
 boost::program_options::options_description common_options_description();
 
-/// Parses `args` (without the program's name) and, if given, the files named by --config and --preset. The
-/// command line wins over both, --config over --preset, and all over `last`, lines as in such a file.
+/// Parses `args` (without the program's name) and, if given, the file named by --config. The command line
+/// wins over it, and both over `last`, lines as in such a file.
 /// `positional` names the option that takes the words without a dash; empty = such words are refused. Throws
 /// core::InputError for anything that is not in `description`, with the nearest option, and for a file to be
 /// written that another option also writes or reads.

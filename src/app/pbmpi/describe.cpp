@@ -158,7 +158,7 @@ std::string ensemble_lines(const Work& work) {
   std::string text;
   if (work.spec.range)
     text += "ensemble: worlds " + range_text(work.spec.range->first, work.spec.range->end - 1) + " of " +
-            std::to_string(work.spec.ensemble_worlds) + "\n";
+            std::to_string(work.spec.replicas) + "\n";
   if (work.parameters) {
     text += "parameters: " + work.parameters->file() + ", a world a row:";
     for (const std::string& key : work.parameters->keys()) text += " " + key;
@@ -194,10 +194,7 @@ std::string describe(const Work& work, int num_ranks) {
   out << '\n' << ensemble_lines(work);
   out << "frames: " << spec.warmup << " warm-up + " << spec.frames << " measured, " << spec.steps_per_frame
       << " steps of " << spec.stepper.dt_s << " s\n"
-      << "stepper: " << name_of(spec.stepper.kind) << ", " << spec.stepper.iterations << " iterations";
-  if (traits_of(spec.stepper.kind).has_constraint_solvers)
-    out << " by " << name_of(spec.stepper.constraint_solver);
-  out << ", seed " << spec.stepper.seed << '\n';
+      << "stepper: " << setting_text(spec.stepper) << ", seed " << spec.stepper.seed << '\n';
   if (spec.estimate) {
     const stepping::StepperSettings& stepper = spec.estimate->stepper;
     out << "estimate: " << name_of(stepper.kind) << ", " << stepper.iterations << " iteration"

@@ -89,7 +89,7 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
   summary.simd = simd_text(spec.stepper);
   summary.steps_per_frame = spec.steps_per_frame;
   summary.bodies = num_bodies;
-  summary.seed = spec.scene_seed;
+  summary.seed = spec.seed;
   summary.dt_s = spec.stepper.dt_s;
   summary.budget_s = spec.budget_s;
   summary.first_frame = spec.checkpoint.first_frame;
@@ -155,7 +155,7 @@ void write_sidecar(const mpi::Communicator& comm, const RunSpec& spec) {
 
 void print(const mpi::Communicator& comm, const Options& options, const RunSummary& summary) {
   if (!comm.is_root()) return;
-  if (options.report == ReportFormat::json) {
+  if (options.run.report == ReportFormat::json) {
     std::cout << to_json(summary) << std::flush;
   } else if (!options.common.quiet) {
     std::cout << to_text(summary) << std::flush;
@@ -189,12 +189,12 @@ mpi::WorldRunResult run_to_end(mpi::FrameDriver& driver, io::RunFile* file) {
 
 /// A path for checkpoints that was asked for is tried before the run, not after hours of it. The default path
 /// is reserved where possible.
-void reserve(const mpi::Communicator& comm, const CheckpointSpec& spec, std::int64_t num_bodies,
+void reserve(const mpi::Communicator& comm, const RunSpec& spec, std::int64_t num_bodies,
              CheckpointKeeper& keeper) {
   constexpr std::int64_t about_bytes_each = 1024, about_bytes = std::int64_t{1} << 17;
   mpi::agree_on_errors(comm, [&] {
     if (comm.is_root())
-      keeper.reserve(about_bytes + about_bytes_each * num_bodies, spec.at_end || spec.every_s);
+      keeper.reserve(about_bytes + about_bytes_each * num_bodies, spec.checkpoint_file || spec.checkpoint_every_s);
   });
 }
 
@@ -209,15 +209,15 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   work.states = {};
   mpi::FrameDriver& driver = *simulation.driver;
   driver.set_stop_flag(signals.stop());
-  CheckpointKeeper keeper(spec.checkpoint.path, checkpoint_without_states(work, options.decomposition),
+  CheckpointKeeper keeper(spec.checkpoint.path, checkpoint_without_states(work, options.run.decomposition),
                           std::cerr);
-  reserve(comm, spec.checkpoint, driver.table().num_bodies(), keeper);
+  reserve(comm, spec, driver.table().num_bodies(), keeper);
   mpi::CheckpointPlan plan;
   plan.requests = &signals.saves();
-  plan.every_s = spec.checkpoint.every_s.value_or(plan.every_s);
-  plan.at_end = spec.checkpoint.at_end;
+  plan.every_s = spec.checkpoint_every_s.value_or(plan.every_s);
+  plan.at_end = spec.checkpoint_file.has_value();
   driver.save_to(keeper, plan);
-  if (spec.checkpoint.max_time_s) driver.set_time_limit(start_s + *spec.checkpoint.max_time_s);
+  if (spec.max_time_s) driver.set_time_limit(start_s + *spec.max_time_s);
 
   const Provenance provenance = collect_provenance(comm, options.command_line);
   signals.enter(SignalRequests::Phase::begin_or_end, speaks);
@@ -289,9 +289,9 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
       break;
   }
   const SignalRequests signals;
-  core::set_wait_limit(options.wait_limit_s);
+  core::set_wait_limit(options.run.wait_limit_s);
   std::optional<core::Awaited> awaited("all ranks to read the scene");
-  Work work = options.resume ? resumed_work(comm, args, options) : new_work(comm, options);
+  Work work = options.run.resume ? resumed_work(comm, args, options) : new_work(comm, options);
   Cut cut = decompose(work.spec, mpi::space_costs(model::make_space_map(*work.first_world)), comm.size());
   work.spec.decomposition = cut.decomposition;
   work.spec.groups = std::move(cut.groups);

@@ -9,6 +9,7 @@
 #include "app/common/engine_texts.h"
 #include "app/common/scene_parameter.h"
 #include "app/common/version.h"
+#include "app/pbmpi/options/run_options.h"
 #include "app/summary/rank_groups_text.h"
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
@@ -29,10 +30,13 @@ std::optional<std::string> interest_of(const model::Model& model) {
   return std::nullopt;
 }
 
+Parameter parameter_of(const std::string& name, stepping::StepValue value) {
+  return std::visit([&](auto held) { return Parameter::of(name, std::move(held)); }, std::move(value));
+}
+
 Parameter step_parameter(const std::string& prefix, const stepping::StepOption& option,
                          const stepping::StepperSettings& settings) {
-  return std::visit([&](auto value) { return Parameter::of(prefix + file_name(option), std::move(value)); },
-                    value_of(option, settings));
+  return parameter_of(prefix + file_name(option), value_of(option, settings));
 }
 
 }  // namespace
@@ -79,7 +83,7 @@ std::vector<Parameter> run_attributes(const Work& work, const Provenance& proven
   return {Parameter::of("pbmpi_version", program_version),
           Parameter::of("git_revision", git_revision),
           Parameter::of("created", provenance.created),
-          Parameter::of("seed", static_cast<std::int64_t>(work.spec.scene_seed)),
+          Parameter::of("seed", static_cast<std::int64_t>(work.spec.seed)),
           Parameter::of("scene", work.scene->name()),
           Parameter::of("command_line", provenance.command_line)};
 }
@@ -89,20 +93,7 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
   std::vector<Parameter> parameters = {
       Parameter::of("scene", work.scene->name()),
       Parameter::of("scene_text", work.scene->text()),
-      Parameter::of("replicas", std::int64_t{spec.ensemble_worlds}),
-      Parameter::of("warmup", std::int64_t{spec.warmup}),
-      Parameter::of("frames", std::int64_t{spec.frames}),
-      Parameter::of("steps_per_frame", std::int64_t{spec.steps_per_frame}),
-      Parameter::of("seed", static_cast<std::int64_t>(spec.scene_seed)),
-      Parameter::of("feec", std::int64_t{spec.estimate ? 1 : 0}),
-      Parameter::of("decompose", spec.decomposition == Decomposition::spaces ? "spaces" : "worlds"),
-      Parameter::of("spaces", spec.spaces == scenes::SpacesForm::one ? "one" : "many"),
-      Parameter::of("effects", effects::to_text(spec.effects)),
       Parameter::of("num_spaces", static_cast<std::int64_t>(work.first_world->spaces.size())),
-      Parameter::of("budget", spec.budget_s),
-      Parameter::of("record_every", std::int64_t{spec.record_every}),
-      Parameter::of("record_islands", std::int64_t{spec.record_islands ? 1 : 0}),
-      Parameter::of("record_contacts", std::int64_t{spec.stepper.contacts ? 1 : 0}),
       Parameter::of("ranks", static_cast<std::int64_t>(provenance.hosts.size())),
       Parameter::of("processors", std::int64_t{provenance.processors}),
       Parameter::of("build", build_description),
@@ -117,12 +108,16 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
     parameters.push_back(is_simd ? Parameter::of("simd", simd_text(spec.stepper))
                                  : step_parameter("", option, spec.stepper));
   }
+  for (const RunOption& option : run_options()) {
+    if (!option.recorded) continue;
+    if (auto value = value_of(option, spec))
+      parameters.push_back(parameter_of(stepping::file_name(option.name), *std::move(value)));
+  }
   const scenes::SceneSource scene{work.scene->name(), work.scene->name(), work.scene->text()};
   for (const scenes::SceneSource& base : scenes::bases_of(scene))
     parameters.push_back(Parameter::of(scene_text_parameter(base.name), base.text));
   if (spec.decomposition == Decomposition::spaces && spec.num_worlds > 1)
     parameters.push_back(Parameter::of("rank_groups", to_text(spec.groups)));
-  if (spec.range) parameters.push_back(Parameter::of("world_range", to_text(*spec.range)));
   if (work.parameters) {
     parameters.push_back(Parameter::of("parameters_file", work.parameters->file()));
     parameters.push_back(Parameter::of("parameters_text", work.parameters->text()));
@@ -134,8 +129,6 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
       parameters.push_back(step_parameter("estimate_", stepping::step_option(name), spec.estimate->stepper));
     const auto source = static_cast<std::size_t>(spec.estimate->source);
     parameters.push_back(Parameter::of("estimate_source", std::string(estimate_source_names[source])));
-    parameters.push_back(Parameter::of("estimate_after", std::int64_t{spec.estimate->after}));
-    if (spec.estimate->due_s) parameters.push_back(Parameter::of("estimate_by", *spec.estimate->due_s));
   }
   if (!spec.checkpoint.resumed_from.empty())
     parameters.push_back(Parameter::of("resumed_from", spec.checkpoint.resumed_from));

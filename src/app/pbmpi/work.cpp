@@ -123,7 +123,7 @@ void require_memory(const mpi::Communicator& comm, const Work& work) {
 /// --dt without --steps-per-frame changes the time that a frame stands for, and with it every result per
 /// frame.
 void note_length_of_frame(const mpi::Communicator& comm, const Options& options, const Work& work) {
-  if (!options.dt_s() || options.steps_per_frame || options.common.quiet) return;
+  if (!options.dt_s() || options.given.contains("steps-per-frame") || options.common.quiet) return;
   const scenes::RunDefaults own = scenes::parse_scene(work.source)->defaults();
   const double before_s = own.dt_s * own.steps_per_frame, now_s = *options.dt_s() * work.spec.steps_per_frame;
   if (!comm.is_root() || std::abs(now_s - before_s) <= 1e-9 * before_s) return;
@@ -144,9 +144,9 @@ void tell_notes(const mpi::Communicator& comm, const Options& options, const sce
 
 Work new_work(const mpi::Communicator& comm, const Options& options) {
   Work work;
-  work.source = engines::share_scene(comm, options.scene);
-  work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces, options.effects);
-  if (options.parameters) work.parameters = engines::share_parameters(comm, *options.parameters);
+  work.source = engines::share_scene(comm, *options.run.scene);
+  work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces(), options.run.effects);
+  if (options.run.parameters) work.parameters = engines::share_parameters(comm, *options.run.parameters);
   work.spec = resolve(options, *work.scene, {}, num_rows(work));
   work.first_world = build_anew(work, 0);
   require_memory(comm, work);
@@ -156,16 +156,16 @@ Work new_work(const mpi::Communicator& comm, const Options& options) {
 }
 
 Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>& args, Options& options) {
-  const std::string path = *options.resume;
+  const std::string path = *options.run.resume;
   io::Checkpoint checkpoint = load_checkpoint(comm, path, std::cerr);
   Work work;
-  work.source = scene_of(comm, checkpoint, path, options.scene);
+  work.source = scene_of(comm, checkpoint, path, options.run.scene.value_or(""));
   options = parse_options(args, checkpoint.options);
-  work.parameters = parameters_of(comm, checkpoint, path, options.parameters);
+  work.parameters = parameters_of(comm, checkpoint, path, options.run.parameters);
   require_same_stepper(path, checkpoint.options, options.step.settings.kind);
-  work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces, options.effects);
+  work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces(), options.run.effects);
   work.spec = resolve(options, *work.scene, {path, checkpoint.frames, checkpoint.output}, num_rows(work));
-  require_same_physics(path, checkpoint.options, saved_options(work.spec, options.decomposition));
+  require_same_physics(path, checkpoint.options, saved_options(work.spec));
   core::require_input(checkpoint.steps == checkpoint.frames * work.spec.steps_per_frame,
                       path + ": its numbers of frames and steps do not fit; the file is damaged");
   work.first_world = build_anew(work, 0);
@@ -179,11 +179,13 @@ std::shared_ptr<const model::Model> build_world(const Work& work, int world) {
 
 std::shared_ptr<const model::Model> build_anew(const Work& work, int world) {
   const int number = work.spec.first_world() + world;
-  return work.scene->build(number, work.spec.scene_seed,
+  return work.scene->build(number, work.spec.seed,
                            work.parameters ? work.parameters->of_world(number) : scenes::Overrides());
 }
 
 io::Checkpoint checkpoint_without_states(const Work& work, Decomposition asked) {
+  RunSpec spec = work.spec;
+  spec.decomposition = asked;
   io::Checkpoint checkpoint;
   checkpoint.pbmpi_version = program_version;
   checkpoint.git_revision = git_revision;
@@ -195,7 +197,7 @@ io::Checkpoint checkpoint_without_states(const Work& work, Decomposition asked) 
     checkpoint.parameters_file = work.parameters->file();
     checkpoint.parameters_text = work.parameters->text();
   }
-  checkpoint.options = saved_options(work.spec, asked);
+  checkpoint.options = saved_options(spec);
   if (work.spec.output) checkpoint.output = std::filesystem::absolute(*work.spec.output).string();
   return checkpoint;
 }

@@ -146,7 +146,7 @@ class Engines(ProgramTest):
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("the run in run.ck.h5 has constraint-solver cg", result.stderr)
         described = self.pbmpi(1, "--scene", "CrashSk", "--stepper", "mujoco", "--constraint-solver", "pgs", "--describe")
-        self.assertIn("stepper: mujoco, 100 iterations by pgs, seed 1", described.stdout)
+        self.assertIn("stepper: mujoco, 1 x 100, pgs, seed 1", described.stdout)
         self.assertEqual(hashes["default"], hashes["newton"])
         self.assertEqual(len(set(hashes.values())), 3)
 

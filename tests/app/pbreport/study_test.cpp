@@ -97,14 +97,14 @@ TEST(Study, the_reference_is_known_to_the_worst_of_its_yardsticks_but_for_the_st
 }
 
 TEST(Study, a_setting_becomes_the_options_that_give_it) {
-  const std::string preset = preset_text(setting(1, 10));
+  const std::string config = config_text(setting(1, 10));
   for (const char* line : {"scene = Fake\n", "stepper = sor\n", "substeps = 2\n", "iterations = 3\n",
                            "precision = single\n", "steps-per-frame = 3\n"}) {
-    EXPECT_NE(preset.find(line), std::string::npos) << line;
+    EXPECT_NE(config.find(line), std::string::npos) << line;
   }
   StudyCase quick = setting(1, 10);
   quick.stepper.kind = stepping::StepperKind::quick;
-  EXPECT_EQ(preset_text(quick).find("substeps ="), std::string::npos) << "ODE's steppers refuse it";
+  EXPECT_EQ(config_text(quick).find("substeps ="), std::string::npos) << "ODE's steppers refuse it";
 }
 
 TEST(Study, the_text_of_a_setting_leaves_out_what_all_have_in_common) {
@@ -150,11 +150,11 @@ TEST(StudyOptions, contradictions_are_refused) {
   EXPECT_NE(refusal({}).find("no file"), std::string::npos);
   EXPECT_NE(refusal({"a.h5", "b.h5"}).find("one study"), std::string::npos);
   EXPECT_NE(refusal({"a.h5", "--budget", "1ms", "--tolerance", "1cm"}).find("exclude"), std::string::npos);
-  EXPECT_NE(refusal({"a.h5", "--write-preset", "p"}).find("--budget"), std::string::npos);
+  EXPECT_NE(refusal({"a.h5", "--write-config", "p"}).find("--budget"), std::string::npos);
   EXPECT_NE(refusal({"a.h5", "--measure", "mean"}).find("rms, p99, max or joint"), std::string::npos);
   EXPECT_NE(refusal({"a.h5", "--budget", "3.33"}).find("unit"), std::string::npos);
   EXPECT_NE(refusal({"a.h5", "--html", "a.h5"}).find("to be read"), std::string::npos);
-  EXPECT_EQ(refusal({"a.h5", "--budget", "3.33ms", "--write-preset", "p"}), "");
+  EXPECT_EQ(refusal({"a.h5", "--budget", "3.33ms", "--write-config", "p"}), "");
 }
 
 }  // namespace

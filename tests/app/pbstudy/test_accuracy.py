@@ -126,30 +126,30 @@ class Accuracy(ProgramTest):
         [best] = self.front("study.h5", "--budget", "1s")
         self.assertEqual("to which the reference is known)" in text, best["chosen"]["inside_uncertainty"])
 
-    def test_a_preset_carries_warm_start_and_row_order(self):
+    def test_a_written_config_carries_warm_start_and_row_order(self):
         self.made(2, "study.h5", "--scene", "CrashSk", "--stepper", "sor", "--iterations", 3, "--substeps", 2,
                   "--warm-start", 0.9, "--row-order", "fixed", "--precision", "double", "--estimates", 0, *FAST, *ONE_DT)
-        result = self.report("study.h5", "--tolerance", "1m", "--write-preset", "warm.preset")
+        result = self.report("study.h5", "--tolerance", "1m", "--write-config", "warm.cfg")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("sor double, 2 x 3, factor 1.3, warm 0.9, relax 0, contacts 0 Hz, margin 0, joints 0 Hz, joints by sweeps, pyramid, "
                       "fixed order", result.stdout)
-        with_preset = self.pbmpi(1, "--preset", "warm.preset", "--output", "run.h5")
-        self.assertEqual(with_preset.returncode, 0, with_preset.stderr)
+        configured = self.pbmpi(1, "--config", "warm.cfg", "--output", "run.h5")
+        self.assertEqual(configured.returncode, 0, configured.stderr)
         with h5py.File(self.path("run.h5")) as file:
             self.assertEqual(file["parameters/warm_start"][()], 0.9)
             self.assertEqual(file["parameters/row_order"][()], b"fixed")
 
-    def test_the_preset_of_a_tolerance_runs(self):
+    def test_the_config_of_a_tolerance_runs(self):
         self.made(2, "study.h5", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, "--stepper", "sor", *FAST, *ONE_DT)
-        result = self.report("study.h5", "--tolerance", "1m", "--write-preset", "crash.preset", "--html", "page.html",
+        result = self.report("study.h5", "--tolerance", "1m", "--write-config", "crash.cfg", "--html", "page.html",
                              "--csv", "table.csv")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("run: mpirun -n 1 pbmpi --scene CrashSk --stepper sor", result.stdout)
         self.assertIn("noise floor", result.stdout)
-        run = self.pbmpi(1, "--preset", "crash.preset", "--no-output", "--report", "json")
+        run = self.pbmpi(1, "--config", "crash.cfg", "--no-output", "--report", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual((json.loads(run.stdout)["stepper"], json.loads(run.stdout)["iterations"]), ("sor", 1))
-        wins = self.pbmpi(1, "--preset", "crash.preset", "--iterations", "7", "--no-output", "--report", "json")
+        wins = self.pbmpi(1, "--config", "crash.cfg", "--iterations", "7", "--no-output", "--report", "json")
         self.assertEqual(json.loads(wins.stdout)["iterations"], 7, "the command line wins")
         with open(self.path("table.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
@@ -213,14 +213,14 @@ class Accuracy(ProgramTest):
         program = os.path.join(BIN, "pbstudy")
         self.refused(self.run_command([program]), "pbstudy accuracy")
         self.refused(self.run_command([program, "acuracy"]), "acuracy", "accuracy")
-        self.refused(self.pbmpi(2, "--preset", "absent.preset"), "absent.preset", "--preset")
+        self.refused(self.pbmpi(2, "--config", "absent.cfg"), "absent.cfg", "--config")
         self.assertEqual(set(os.listdir(self.folder)), before)
 
     def test_reports_refuse_what_they_cannot_show(self):
         self.made(1, "study.h5", "--scene", "CrashSk", "--iterations", 1, "--stepper", "quick", *FAST, *ONE_DT)
         self.refused(self.report("study.h5", "--budget", "3.33"), "--budget", "unit")
         self.refused(self.report("study.h5", "--scene", "Fight", "--budget", "1ms"), "Fight", "CrashSk")
-        self.refused(self.report("study.h5", "--budget", "1us", "--write-preset", "p"), "no setting")
+        self.refused(self.report("study.h5", "--budget", "1us", "--write-config", "p"), "no setting")
         self.refused(self.report("study", "absent.h5"), "absent.h5")
         self.refused(self.report("diff", "study.h5", "study.h5"), "study.h5", "not a pbmpi run")
 

@@ -9,7 +9,8 @@ from ._rows import Piece
 
 # Parameters that change no result (io/extract/run_settings.cpp has the same list), and beginnings of such.
 FREE = {"ranks", "processors", "build", "simd", "threads", "decompose", "budget", "frames", "record_every", "record_islands",
-        "record_contacts", "resumed_from", "joined_from", "parameters_file", "rank_groups"}
+        "record_contacts", "record_residuals", "resumed_from", "joined_from", "parameters_file", "ranks_per_world", "rank_groups",
+        "on_blowup"}
 FREE_BEGINNINGS = ("library_", "env_")
 # What must have the same bits where two files have the same frame.
 COMPARED = ("particles/bodies/position/value", "particles/bodies/orientation/value", "particles/bodies/velocity/value",

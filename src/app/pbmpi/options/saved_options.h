@@ -8,9 +8,8 @@
 namespace pbmpi::app {
 
 /// All options except the scene that decide the bits of a run, and those that a resumed run keeps unless told
-/// otherwise: values as resolved, one "name = value" a line, as in a file of --config. `asked`: how the work
-/// was to be cut.
-std::string saved_options(const RunSpec& spec, Decomposition asked);
+/// otherwise: values as resolved, one "name = value" a line, as in a file of --config.
+std::string saved_options(const RunSpec& spec);
 
 /// Throws core::InputError unless `now` is the stepper of `saved`, without which its other options make no
 /// sense. `path`: the checkpoint's.

@@ -11,13 +11,13 @@
 namespace pbmpi::app {
 namespace {
 
-void write_preset(const std::vector<SceneCases>& scenes, const AccuracyReportOptions& options) {
-  core::require_input(scenes.size() == 1, "--write-preset holds one scene, the study has " +
+void write_config(const std::vector<SceneCases>& scenes, const AccuracyReportOptions& options) {
+  core::require_input(scenes.size() == 1, "--write-config holds one scene, the study has " +
                                               std::to_string(scenes.size()) + "; name one with --scene");
   const auto chosen = chosen_setting(scenes.front(), options);
   core::require_input(chosen.has_value(), "no setting of the study keeps what is asked for in " +
                                               scenes.front().name + "; ask for less or study more settings");
-  io::write_file(*options.preset, preset_text(scenes.front().settings[*chosen]));
+  io::write_file(*options.config, config_text(scenes.front().settings[*chosen]));
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out
   }
   const io::TableFile file = read_study(options.file, "accuracy");
   const std::vector<SceneCases> scenes = study_scenes(file, options.scenes);
-  if (options.preset) write_preset(scenes, options);
+  if (options.config) write_config(scenes, options);
   if (options.csv) io::write_file(*options.csv, study_to_csv(file));
   if (options.html) write_study_page(*options.html, file, scenes, options);
   if (options.form == PrintForm::json) {

@@ -10,7 +10,7 @@
 namespace pbmpi::app {
 
 /// Throws core::InputError: bad usage, a file that is no study, an output that cannot be written, a budget or
-/// tolerance that no setting keeps when a preset is asked for.
+/// tolerance that no setting keeps when a file for --config is asked for.
 core::ExitCode run_study(const std::vector<std::string>& args, std::ostream& out);
 
 }  // namespace pbmpi::app

@@ -30,8 +30,8 @@ po::options_description visible_options() {
   po::options_description write("What to write");
   add_output_options("work-precision diagrams, Pareto fronts, categories", write);
   write.add_options()  //
-      ("write-preset", po::value<std::string>()->value_name("OUT"),
-       "the setting chosen for one scene, for pbmpi --preset")  //
+      ("write-config", po::value<std::string>()->value_name("OUT"),
+       "the setting chosen for one scene, for pbmpi --config")  //
       ("json", "print the fronts and the choices as one JSON document");
   po::options_description general("General");
   add_general_options("--json", general);
@@ -50,7 +50,7 @@ Manual study_manual() {
           .usage = "pbreport [study] accuracy.h5 [options]",
           .options = visible_options(),
           .examples = {"pbreport accuracy.h5 --budget 3.33ms",
-                       "pbreport accuracy.h5 --scene CrashWa --tolerance 1cm --write-preset CrashWa.preset"}};
+                       "pbreport accuracy.h5 --scene CrashWa --tolerance 1cm --write-config CrashWa.cfg"}};
 }
 
 AccuracyReportOptions parse_study_options(const std::vector<std::string>& args) {
@@ -67,9 +67,9 @@ AccuracyReportOptions parse_study_options(const std::vector<std::string>& args) 
   if (values.count("tolerance") != 0) {
     options.tolerance_m = parse_length_m(values["tolerance"].as<std::string>(), "--tolerance");
   }
-  options.preset = output_path(values, "write-preset");
-  require_input(!options.preset || options.budget_s || options.tolerance_m,
-                "--write-preset writes the setting that --budget or --tolerance chooses; give one of them");
+  options.config = output_path(values, "write-config");
+  require_input(!options.config || options.budget_s || options.tolerance_m,
+                "--write-config writes the setting that --budget or --tolerance chooses; give one of them");
   require_input(!options.budget_s || !options.tolerance_m,
                 "--budget and --tolerance exclude each other; drop one");
   return options;

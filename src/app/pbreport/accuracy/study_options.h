@@ -17,7 +17,7 @@ struct AccuracyReportOptions : ReportOfStudyOptions {
   ErrorMeasure measure = ErrorMeasure::rms;
   std::optional<double> budget_s;     ///< per frame
   std::optional<double> tolerance_m;  ///< of the error
-  std::optional<std::string> preset;
+  std::optional<std::string> config;
 };
 
 /// Throws core::InputError with one clear message.

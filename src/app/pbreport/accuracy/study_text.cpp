@@ -262,7 +262,7 @@ std::string study_to_json(const std::vector<SceneCases>& scenes, const AccuracyR
   return json_text(json, 2) + "\n";
 }
 
-std::string preset_text(const StudyCase& one) {
+std::string config_text(const StudyCase& one) {
   std::string text =
       format("# %s: frame time %.3f ms, defect rms %.4g mm, max %.4g mm\n", setting_text(one).c_str(),
              1e3 * one.time_s, 1e3 * one.defect.body_position.rms, 1e3 * one.defect.body_position.max);

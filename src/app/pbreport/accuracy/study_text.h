@@ -1,4 +1,4 @@
-/// A study as text, JSON, CSV and preset.
+/// A study as text, JSON, CSV, and lines for --config.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ std::string study_to_text(const io::TableFile& file, const std::vector<SceneCase
 std::string study_to_json(const std::vector<SceneCases>& scenes, const AccuracyReportOptions& options);
 /// "fells 12 bodies at rest, the first after 1.4 s", "at the noise floor"; empty without a remark.
 std::string remarks_text(const StudyCase& one, bool at_floor);
-/// Lines "name = value" for pbmpi --preset.
-std::string preset_text(const StudyCase& one);
+/// Lines "name = value" for pbmpi --config.
+std::string config_text(const StudyCase& one);
 
 }  // namespace pbmpi::app
