@@ -1,8 +1,8 @@
-/// landings [--count N] [--seed S] [--seconds T]: N random legged robots, from the seeds S, S + 1 ..., fall on
-/// a plane: a torso on 2 to 6 legs of 1 to 3 links, whose joints have armatures of up to 1000 times the link's
-/// inertia, and limits; with sor in double and in single precision, in steps of 2 to 17 ms. Nothing drives
-/// them, so that their energy never grows by more than 1 %, and their joints hold. A seed that fails is
-/// printed and fails the program.
+/// landings [--count N] [--seed S] [--seconds T]: N random legged robots, from the seeds S, S + 1 ..., fall
+/// on a plane: a torso on 2 to 6 legs of 1 to 3 links, whose joints have armatures of up to 1000 times the
+/// link's inertia, and limits; with sor in double and in single precision, in steps of 2 to 17 ms. Nothing
+/// drives them, so that their energy never grows by more than 1 %, and their joints hold. A seed that fails
+/// is printed and fails the program.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,9 +33,9 @@ int add_link(Draw& draw, Model& model, int actor, int parent, const Vec3& start,
   const double length = draw.between(0.1, 0.5), width = draw.between(0.02, 0.08);
   const Vec3 centre = start + along * (0.5 * length + width);
   const auto turn = model::Quat::from_eigen(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), along));
-  const int link = support::add_solid(model, actor, "link" + std::to_string(model.num_bodies()),
-                                      model::Shape::box, {length, width, width}, draw.scale(0.02, 1), centre,
-                                      turn);
+  const int link =
+      support::add_solid(model, actor, "link" + std::to_string(model.num_bodies()), model::Shape::box,
+                         {length, width, width}, draw.scale(0.02, 1), centre, turn);
   constexpr std::array kinds = {JointKind::hinge, JointKind::hinge, JointKind::hinge, JointKind::universal,
                                 JointKind::slider};
   const JointKind kind = kinds[static_cast<std::size_t>(draw.below(kinds.size()))];
@@ -49,7 +49,8 @@ int add_link(Draw& draw, Model& model, int actor, int parent, const Vec3& start,
     const double reach = traits_of(kind).slides ? 0.1 : 1;
     if (traits.has_limit && draw.chance(0.7))
       joint.limits[i] = {-reach * draw.between(0, 1), reach * draw.between(0, 1)};
-    const double inertia = traits_of(kind).slides ? model.bodies[link].mass_kg : model.bodies[link].inertia.trace();
+    const double inertia =
+        traits_of(kind).slides ? model.bodies[link].mass_kg : model.bodies[link].inertia.trace();
     if (traits.has_motor && draw.chance(0.8)) joint.armature[i] = inertia * draw.scale(0.1, 1000);
   }
   return link;
@@ -77,8 +78,9 @@ Model random_robot(std::uint64_t seed) {
   }
   double lowest = 0;
   for (const model::Body& body : model.bodies) lowest = std::min(lowest, body.pose.position.z() - 0.35);
-  const Vec3 lift(0, 0, draw.between(0.01, 1) - lowest), speed = Vec3(draw.between(-3, 3), draw.between(-3, 3), 0),
-             turning = draw.direction() * draw.between(0, 3);
+  const Vec3 lift(0, 0, draw.between(0.01, 1) - lowest),
+      speed = Vec3(draw.between(-3, 3), draw.between(-3, 3), 0),
+      turning = draw.direction() * draw.between(0, 3);
   for (model::Body& body : model.bodies) {
     body.velocity = speed + turning.cross(body.pose.position);
     body.angular_velocity = turning;
@@ -131,8 +133,8 @@ int run(int argc, char** argv) {
                   100 * outcome.gain, 1e3 * outcome.gap_m);
     }
   }
-  std::printf("%d robots from seed %d on land, %g s each in both precisions, FAILED %d\n", count, first, seconds,
-              failed);
+  std::printf("%d robots from seed %d on land, %g s each in both precisions, FAILED %d\n", count, first,
+              seconds, failed);
   return failed == 0 ? 0 : 1;
 }
 

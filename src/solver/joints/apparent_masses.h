@@ -10,14 +10,14 @@ namespace pbmpi::solver {
 /// A light leg behind a geared motor resists a contact by far more than its own mass. Contacts that counted
 /// with that alone would find the force which stops it only after many sweeps, and remember it as long after
 /// it has come to rest: it would be thrown up. They are told the mean of the body's own inertia M and of its
-/// share of what the articulation makes it, A^-1 / n, where A is the body's twist under a wrench of 1 with all
-/// joints and rotors, and n the number of bodies of the articulation in contact. Turning and moving are taken
-/// as independent.
+/// share of what the articulation makes it, A^-1 / n, where A is the body's twist under a wrench of 1 with
+/// all joints and rotors, and n the number of bodies of the articulation in contact. Turning and moving are
+/// taken as independent.
 ///
-/// The impulses p = J^T lambda of contacts are the same whatever the mass: as soon as they are known, the body
-/// moves as M says, by M^-1 p, and the articulation is solved anew with that. Sweeps that solve contacts and
-/// articulations in turn contract where the apparent masses B^-1 are so large that no eigenvalue of B^-1 A
-/// over all bodies reaches 2: half of M gives at most a half, half of the shares at most one.
+/// The impulses p = J^T lambda of contacts are the same whatever the mass: as soon as they are known, the
+/// body moves as M says, by M^-1 p, and the articulation is solved anew with that. Sweeps that solve contacts
+/// and articulations in turn contract where the apparent masses B^-1 are so large that no eigenvalue of B^-1
+/// A over all bodies reaches 2: half of M gives at most a half, half of the shares at most one.
 template <class T>
 class ApparentMasses {
  public:
@@ -27,8 +27,8 @@ class ApparentMasses {
 
   bool any() const { return !lent_.empty(); }
 
-  /// Replaces the masses in `bodies` by the apparent ones. `answer` [6][6]: the twist of the slot's body under
-  /// a wrench of 1; `is_touched`: 1 in the lanes in which contacts touch it, else 0; `num_touched`: n.
+  /// Replaces the masses in `bodies` by the apparent ones. `answer` [6][6]: the twist of the slot's body
+  /// under a wrench of 1; `is_touched`: 1 in the lanes in which contacts touch it, else 0; `num_touched`: n.
   void lend(int slot, const W (&answer)[6][6], const V& is_touched, const V& num_touched,
             BodyLanes<T>& bodies) {
     BodyLane<V>& body = bodies.bodies[slot];
@@ -39,10 +39,9 @@ class ApparentMasses {
     }
     // The norm is at least the largest eigenvalue.
     const V share_of_mass = 1 / (num_touched * T::sqrt(T::narrow(square)));
-    const Sym3L<W> share_of_inertia =
-        inverse(Sym3L<W>{answer[3][3] * bodies_touched, answer[4][3] * bodies_touched,
-                         answer[5][3] * bodies_touched, answer[4][4] * bodies_touched,
-                         answer[5][4] * bodies_touched, answer[5][5] * bodies_touched});
+    const Sym3L<W> share_of_inertia = inverse(Sym3L<W>{
+        answer[3][3] * bodies_touched, answer[4][3] * bodies_touched, answer[5][3] * bodies_touched,
+        answer[4][4] * bodies_touched, answer[5][4] * bodies_touched, answer[5][5] * bodies_touched});
     const Sym3L<V> own_inertia = inverse(body.inv_inertia);
     const V half = T::broadcast(0.5F);
     const auto mean = [&](const V& own, const W& share) { return (own + T::narrow(share)) * half; };
@@ -58,8 +57,8 @@ class ApparentMasses {
     const Sym3L<V> inv_inertia = inverse(lent.inertia);
     const auto is_lent = is_touched > T::broadcast(0);
     body.inv_mass = is_lent ? 1 / lent.mass : body.inv_mass;
-    for (V Sym3L<V>::*part : {&Sym3L<V>::xx, &Sym3L<V>::xy, &Sym3L<V>::xz, &Sym3L<V>::yy, &Sym3L<V>::yz,
-                              &Sym3L<V>::zz})
+    for (V Sym3L<V>::*part :
+         {&Sym3L<V>::xx, &Sym3L<V>::xy, &Sym3L<V>::xz, &Sym3L<V>::yy, &Sym3L<V>::yz, &Sym3L<V>::zz})
       body.inv_inertia.*part = is_lent ? inv_inertia.*part : body.inv_inertia.*part;
   }
   /// Puts the bodies' own masses back.
@@ -95,8 +94,8 @@ class ApparentMasses {
     V is_touched;
     V inv_mass;
     Sym3L<V> inv_inertia;
-    V mass;             ///< apparent
-    Sym3L<V> inertia;   ///< apparent, world frame at the step's start
+    V mass;            ///< apparent
+    Sym3L<V> inertia;  ///< apparent, world frame at the step's start
   };
   std::vector<Lent> lent_;
 };

@@ -35,8 +35,10 @@ class JointTrees {
       shape.may_be_exact = !at.shape.joints.empty() && (shape.always || at.shape.is_strained);
       shape.exact.assign(static_cast<std::size_t>(at.num_batches), {T::broadcast(0)});
       shape.limited = shape.exact;
-      if (shape.has_rotors) shape.touched.assign(shape.exact.size() * static_cast<std::size_t>(shape.num_bodies),
-                             LaneFlags{T::broadcast(0)});
+      if (!shape.has_rotors) continue;
+      shape.in_contact = shape.limited;
+      shape.touched.assign(shape.exact.size() * static_cast<std::size_t>(shape.num_bodies),
+                           LaneFlags{T::broadcast(0)});
     }
   }
 
@@ -45,6 +47,7 @@ class JointTrees {
     for (Shape& shape : shapes_) {
       std::ranges::fill(shape.limited, LaneFlags{T::broadcast(0)});
       std::ranges::fill(shape.touched, LaneFlags{T::broadcast(0)});
+      std::ranges::fill(shape.in_contact, LaneFlags{T::broadcast(0)});
       if (shape.may_be_exact) std::ranges::fill(shape.exact, LaneFlags{T::broadcast(1)});
     }
   }
@@ -54,8 +57,9 @@ class JointTrees {
       const int batch = (at.slot - shape.first_slot) / shape.num_bodies;
       if (at.slot < shape.first_slot || batch >= static_cast<int>(shape.exact.size())) continue;
       if (!shape.always) T::set(shape.exact[static_cast<std::size_t>(batch)].flags, at.lane, 0);
-      if (shape.has_rotors)
-        T::set(shape.touched[static_cast<std::size_t>(at.slot - shape.first_slot)].flags, at.lane, 1);
+      if (!shape.has_rotors) continue;
+      T::set(shape.touched[static_cast<std::size_t>(at.slot - shape.first_slot)].flags, at.lane, 1);
+      T::set(shape.in_contact[static_cast<std::size_t>(batch)].flags, at.lane, 1);
     }
   }
   /// 1 in the lanes in which a sweep has to solve this joint of a shape's batch, else 0: all that are not
@@ -68,14 +72,15 @@ class JointTrees {
     const V swept = shape.exact[batch].flags > zero ? bounded_lanes(shape, joint, rows) : T::broadcast(1);
     return shape.limited[batch].flags > zero ? zero : swept;
   }
-  enum class Which { all, with_rotors };
+  /// All, or of those with rotors the articulations that contacts touch in this step.
+  enum class Which { all, touched };
   /// 1 in the lanes in which limits are swept and this joint takes part, else 0.
   template <class Rows>
   PBMPI_LANES V limited_lanes(Which which, std::size_t shape_index, std::size_t batch, std::size_t joint,
                               const Rows& rows) const {
     const Shape& shape = shapes_[shape_index];
     if (!shape.belongs_to(which)) return T::broadcast(0);
-    return shape.limited[batch].flags * bounded_lanes(shape, joint, rows);
+    return shape.among(which, batch, shape.limited) * bounded_lanes(shape, joint, rows);
   }
   /// Prepares for the current rows, in all active batches, and finds the exact articulations with a joint at
   /// a limit, which the tree cannot hold. `cfm` [s/kg]: the joints' CFM divided by the step.
@@ -118,13 +123,19 @@ class JointTrees {
     bool always = false;  ///< exact, whatever touches it?
     bool may_be_exact = false, has_loops = false, has_rotors = false;
     std::vector<TreeNode> nodes;
-    std::vector<char> in_loop;         ///< [num_joints]
-    std::vector<LaneFlags> exact;      ///< [num_batches] in this step
-    std::vector<LaneFlags> limited;    ///< [num_batches] exact, and a joint is at a limit
-    std::vector<LaneFlags> touched;    ///< [num_batches * num_bodies] with rotors: in contact in this step
-    std::vector<TreeSolver<T>> trees;  ///< [num_batches], empty as long as no lane was exact
+    std::vector<char> in_loop;       ///< [num_joints]
+    std::vector<LaneFlags> exact;    ///< [num_batches] in this step
+    std::vector<LaneFlags> limited;  ///< [num_batches] exact, and a joint is at a limit
+    // With rotors:
+    std::vector<LaneFlags> touched;     ///< [num_batches * num_bodies] the body is in contact in this step
+    std::vector<LaneFlags> in_contact;  ///< [num_batches] any of the bodies is
+    std::vector<TreeSolver<T>> trees;   ///< [num_batches], empty as long as no lane was exact
 
     bool belongs_to(Which which) const { return which == Which::all || has_rotors; }
+    /// The lanes of these, of belongs_to(which).
+    V among(Which which, std::size_t batch, const std::vector<LaneFlags>& lanes) const {
+      return which == Which::all ? lanes[batch].flags : lanes[batch].flags * in_contact[batch].flags;
+    }
     int parent_of(const TreeNode& node) const { return node.parent == num_bodies ? -1 : node.parent; }
   };
 
@@ -218,7 +229,8 @@ template <class T>
 void JointTrees<T>::solve(Which which, const JointSolver<T>& solver, BodyLanes<T>& bodies) {
   for_each_tree([&](const Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
     if (!shape.belongs_to(which)) return;
-    solve_tree(solver, shape, tree, batch, shape.exact[batch.index].flags, bodies);
+    const V where = shape.among(which, batch.index, shape.exact);
+    if (T::any(where)) solve_tree(solver, shape, tree, batch, where, bodies);
   });
 }
 
@@ -226,7 +238,7 @@ template <class T>
 void JointTrees<T>::solve_limited(Which which, const JointSolver<T>& solver, BodyLanes<T>& bodies) {
   for_each_tree([&](const Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
     if (!shape.belongs_to(which)) return;
-    const V& limited = shape.limited[batch.index].flags;
+    const V limited = shape.among(which, batch.index, shape.limited);
     if (T::any(limited)) solve_tree(solver, shape, tree, batch, limited, bodies);
   });
 }

@@ -158,8 +158,8 @@ void TreeSolver<T>::answer_root(int node) {
   }
 }
 
-/// With f a wrench on the child, x = M_c'^-1 f and q = S^-1 J_c x, the parent moves by u_p = -A_p J_p^T q, the
-/// joint's impulses are p = -q - S^-1 J_p u_p, and the child moves by M_c'^-1 (f + J_c^T p).
+/// With f a wrench on the child, x = M_c'^-1 f and q = S^-1 J_c x, the parent moves by u_p = -A_p J_p^T q,
+/// the joint's impulses are p = -q - S^-1 J_p u_p, and the child moves by M_c'^-1 (f + J_c^T p).
 template <class T>
 template <int n>
 void TreeSolver<T>::answer(int node, int parent, bool is_first) {

@@ -141,22 +141,22 @@ template <class T>
 void StepLanes<T>::build_contacts() {
   masses_.clear();
   if (trees_ && trees_->has_rotors()) {
-    trees_->factor(Trees::with_rotors, laws_.joint_cfm(), worlds_.bodies);
+    trees_->factor(Trees::touched, laws_.joint_cfm(), worlds_.bodies);
     trees_->lend(masses_, worlds_.bodies);
   }
   contacts_.build(worlds_.bodies, laws_.contacts());
   masses_.give_back(worlds_.bodies);
 }
 
-/// Twists in the slots, before joints change them or bodies move. Where contacts have acted on apparent masses
-/// the articulations follow, by these laws.
+/// Twists in the slots, before joints change them or bodies move. Where contacts have acted on apparent
+/// masses the articulations follow, by these laws.
 template <class T>
 void StepLanes<T>::need_slots(const JointLaws<Scalar>& laws) {
   const bool settles = masses_.any() && twists_.are_in_rows();
   if (settles) masses_.settle(worlds_.bodies);
   twists_.need_slots(worlds_.bodies);
   if (!settles) return;
-  solve_trees(Trees::with_rotors, laws_.joint_solver(laws));
+  solve_trees(Trees::touched, laws_.joint_solver(laws));
   twists_.changed_slots();
 }
 

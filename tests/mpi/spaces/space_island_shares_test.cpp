@@ -28,8 +28,8 @@ stepping::StepperSettings settings_with(double tolerance_m, double contact_hz = 
   return stepper;
 }
 
-const std::array<stepping::StepperSettings, 3> settings_that_differ = {settings_with(1e-4), settings_with(0, 5),
-                                                                       settings_with(1e-4, 5)};
+const std::array<stepping::StepperSettings, 3> settings_that_differ = {
+    settings_with(1e-4), settings_with(0, 5), settings_with(1e-4, 5)};
 
 TEST(SpaceIslandShares, have_the_bits_of_the_whole_world_for_every_ownership) {
   WorldRunSettings settings = space_settings(40);
