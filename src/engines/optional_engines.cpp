@@ -57,6 +57,14 @@ std::string builds_text() {
   return present + (present.empty() ? "" : "; ") + "not in this build: " + absent;
 }
 
+std::vector<std::string> refusals([[maybe_unused]] stepping::StepperKind kind,
+                                  [[maybe_unused]] const model::Model& model) {
+#ifdef PBMPI_HAS_MUJOCO
+  if (kind == stepping::StepperKind::mujoco) return mujoco::refusals(model);
+#endif
+  return {};
+}
+
 std::vector<std::string> inexpressible([[maybe_unused]] stepping::StepperKind kind,
                                        [[maybe_unused]] const model::Model& model) {
 #ifdef PBMPI_HAS_BULLET

@@ -35,6 +35,9 @@ void require_in_build(stepping::StepperKind kind, const std::string& where);
 /// "bullet (Bullet 3.24); not in this build: mujoco (Debian: libmujoco-dev)"
 std::string builds_text();
 
+/// Why the stepper refuses this model, one reason per line; empty if it takes it.
+std::vector<std::string> refusals(stepping::StepperKind kind, const model::Model& model);
+
 /// The features of this model that the stepper cannot express, or expresses differently from ODE, one per
 /// line.
 std::vector<std::string> inexpressible(stepping::StepperKind kind, const model::Model& model);

@@ -162,6 +162,17 @@ class Engines(ProgramTest):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertTrue([line for line in result.stdout.splitlines() if line.startswith(f"{engine}: ")], result.stdout)
 
+    def test_a_study_says_of_which_cases_mujoco_has_no_run(self):
+        if not self.in_build("mujoco"):
+            self.skipTest("this build has no MuJoCo")
+        result = self.run_command([PBSTUDY, "stability", "--scene", "hard/sleep/at_rest", "hard/free/tumbling_box", "--setting", "mujoco",
+                                   "--output", "stability.h5", "--poses", "0", "--progress", "never"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with h5py.File(self.path("stability.h5")) as file:
+            verdicts, reasons = (file[f"cases/{name}"].asstr()[:] for name in ("verdict", "decided_by"))
+            self.assertEqual([verdict == "n/a" for verdict in verdicts], [True, False])
+            self.assertIn("'sleeping'", reasons[0])
+
     def test_studies_vary_the_constraint_solver(self):
         if not self.in_build("mujoco"):
             self.skipTest("this build has no MuJoCo")

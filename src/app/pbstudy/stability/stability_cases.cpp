@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "engines/optional_engines.h"
 #include "model/space_map.h"
 #include "mpi/balance/partition.h"
 #include "stepping/stepper_traits.h"
@@ -21,6 +22,8 @@ std::string why_not(const StabilityCase& one, const HardScene& hard, double most
     return "direct takes time of third order: more than " + std::to_string(most_bodies_of_direct) + " bodies";
   if (one.cut && model::make_space_map(*hard.model).num_units() < 2)
     return "joints hold all bodies together: there is nothing to cut";
+  const std::vector<std::string> refused = engines::refusals(one.stepper.kind, *hard.model);
+  if (!refused.empty()) return refused.front();
   return {};
 }
 

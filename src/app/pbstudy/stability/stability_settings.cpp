@@ -75,9 +75,15 @@ StabilitySetting parse_stability_setting(const std::string& text) {
 
 const std::vector<std::string>& default_stability_settings() {
   static const std::vector<std::string> settings = {
-      "quick",          "direct",   "sor",
-      "sor precision=single", "sor substeps=8", "sor cold",
-      "sor cold iterations=80", "sor cut", "sor estimate=1",
+      "quick",
+      "direct",
+      "sor",
+      "sor precision=single",
+      "sor substeps=8",
+      "sor cold",
+      "sor cold iterations=80",
+      "sor cut",
+      "sor estimate=1",
   };
   return settings;
 }
