@@ -41,7 +41,7 @@ ENTRIES = {
                            ["pbstudy stability --setting sor \"sor iterations=16\" \"sor joint-solver=tree\" ..."]),
     "by_step": Entry("docs/stability.md", stability.by_step, False, ["pbstudy stability --setting quick sor --dt 0.0001 ... 0.05"]),
     "island_shares": Entry("docs/stability.md", stability.island_shares, False,
-                           ["pbstudy stability --setting sor \"sor tolerance=0.01mm\" ...", "pbmpi --scene SCENE --warmup 150 --frames 10 --tolerance 0.01mm"]),
+                           ["pbstudy stability --most-work 300000 --setting sor \"sor tolerance=0.01mm\" ...", "pbmpi --scene SCENE --warmup 150 --frames 10 --tolerance 0.01mm"]),
     "quiet": Entry("docs/stability.md", stability.quiet, True, ["bench_worlds --quiet SCENE SECONDS 10"]),
     "at_equal_time": Entry("docs/stability.md", stability.at_equal_time, True,
                            ["pbstudy stability --most-work 300000 --setting quick \"sor substeps=20\" ..."]),
