@@ -8,10 +8,10 @@ namespace pbmpi::io {
 
 Matters matters_for(std::string_view name) {
   constexpr std::array seeds = {"seed", "solver_seed", "world_range"};
-  constexpr std::array nothing = {"ranks",        "threads",         "processors",      "build",
-                                  "simd",         "decompose",       "budget",          "frames",
-                                  "record_every", "record_islands",  "record_contacts", "record_residuals",
-                                  "resumed_from", "joined_from",     "parameters_file", "ranks_per_world",
+  constexpr std::array nothing = {"ranks",        "threads",        "processors",      "build",
+                                  "simd",         "decompose",      "budget",          "frames",
+                                  "record_every", "record_islands", "record_contacts", "record_residuals",
+                                  "resumed_from", "joined_from",    "parameters_file", "ranks_per_world",
                                   "rank_groups",  "on_blowup"};
   if (std::ranges::find(seeds, name) != seeds.end()) return Matters::seed;
   if (name == "feec" || name.starts_with("estimate_")) return Matters::estimate;

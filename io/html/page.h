@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/run/run_data.h"
-#include "stepping/frame_budget.h"
+#include "stepping/frame.h"
 
 namespace pbmpi::io::html {
 

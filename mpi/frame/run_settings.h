@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mpi/comm/communicator.h"
-#include "stepping/frame_budget.h"
+#include "stepping/frame.h"
 
 namespace pbmpi::mpi {
 

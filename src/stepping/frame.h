@@ -17,6 +17,10 @@
 
 namespace pbmpi::stepping {
 
+/// [s] How long a frame may take, unless a run chooses otherwise: a tenth of one at 30 Hz (paper, section
+/// 4.1).
+inline constexpr double default_frame_budget_s = 0.1 / 30;
+
 /// Where the bodies of each world lie in the global (world, body) order. Known to every rank.
 struct WorldTable {
   std::vector<std::int64_t> body_offset{0};  ///< [num_worlds + 1]; the last entry is the number of bodies

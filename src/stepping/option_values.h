@@ -1,4 +1,5 @@
-/// Values of options as text: read with one clear message, and written so that they are read back bit for bit.
+/// Values of options as text: read with one clear message, and written so that they are read back bit for
+/// bit.
 #pragma once
 
 #include <array>

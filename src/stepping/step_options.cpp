@@ -71,9 +71,9 @@ constexpr std::array<StepOption, 24> options = {{
     {.name = "most-substeps",
      .member = &Settings::most_substeps,
      .placeholder = "N",
-     .meaning =
-         "sor: the most substeps of an island that is so tall that its top would sink by more than a hundredth "
-         "of a body; default: 32",
+     .meaning = "sor: the most substeps of an island that is so tall that its top would sink by more than a "
+                "hundredth "
+                "of a body; default: 32",
      .needs = &Traits::has_substeps,
      .allows = at_least_1,
      .limit = "it must be at least 1"},

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -213,8 +214,8 @@ TEST(Options, a_frame_may_take_a_tenth_of_one_at_30_Hz_unless_told_otherwise) {
 TEST(RunOptions, stand_in_the_file_unless_they_change_neither_it_nor_a_result) {
   // The scene and its table of parameters have entries of their own; the others say where a run writes, what
   // it prints, and when it stops.
-  const std::set<std::string_view> others = {"scene",      "parameters", "output",           "no-output",
-                                             "no-xdmf",    "report",     "max-time",         "checkpoint",
+  const std::set<std::string_view> others = {"scene",      "parameters", "output",          "no-output",
+                                             "no-xdmf",    "report",     "max-time",        "checkpoint",
                                              "wait-limit", "resume",     "checkpoint-every"};
   std::set<std::string_view> left_out;
   for (const RunOption& option : run_options()) {
@@ -224,8 +225,10 @@ TEST(RunOptions, stand_in_the_file_unless_they_change_neither_it_nor_a_result) {
 }
 
 TEST(RunOptions, have_values_that_are_read_back) {
-  const std::map<std::string_view, std::string> texts = {{"world-range", "3:7"}, {"effects", "+drag,-friction"},
-                                                         {"on-blowup", "freeze"}, {"budget", "0.002"},
+  const std::map<std::string_view, std::string> texts = {{"world-range", "3:7"},
+                                                         {"effects", "+drag,-friction"},
+                                                         {"on-blowup", "freeze"},
+                                                         {"budget", "0.002"},
                                                          {"seed", "18446744073709551615"}};
   for (const RunOption& option : run_options()) {
     const auto text = texts.find(option.name);
@@ -241,9 +244,8 @@ TEST(RunOptions, of_an_estimate_have_a_value_only_where_there_is_one) {
   spec.estimate_after = 1;
   for (const bool feec : {false, true}) {
     spec.feec = feec;
-    for (const RunOption& option : run_options()) {
-      if (option.name == "estimate-after") EXPECT_EQ(value_of(option, spec).has_value(), feec);
-    }
+    const auto option = std::ranges::find(run_options(), "estimate-after", &RunOption::name);
+    EXPECT_EQ(value_of(*option, spec).has_value(), feec);
   }
 }
 

@@ -106,13 +106,11 @@ TEST(Resume, output_goes_to_a_file_of_its_own_beside_the_first) {
 
 TEST(Resume, checkpoints_go_on_in_the_same_file) {
   EXPECT_EQ(resolved({"--scene", "Fake"}).checkpoint.path, "Fake.checkpoint.h5");
-  EXPECT_EQ(resolved({"--scene", "Fake", "--output", "x/run.h5"}).checkpoint.path,
-            "x/run.checkpoint.h5");
+  EXPECT_EQ(resolved({"--scene", "Fake", "--output", "x/run.h5"}).checkpoint.path, "x/run.checkpoint.h5");
   EXPECT_EQ(resolved({"--resume", "ck.h5", "--frames", "9"}, "", {"ck.h5", 8, "a.h5"}).checkpoint.path,
             "ck.h5");
-  EXPECT_EQ(
-      resolved({"--resume", "ck.h5", "--checkpoint", "b.h5"}, "", {"ck.h5", 7, "a.h5"}).checkpoint.path,
-      "b.h5");
+  EXPECT_EQ(resolved({"--resume", "ck.h5", "--checkpoint", "b.h5"}, "", {"ck.h5", 7, "a.h5"}).checkpoint.path,
+            "b.h5");
   EXPECT_FALSE(resolved({"--scene", "Fake"}).checkpoint_file.has_value());
   EXPECT_TRUE(resolved({"--scene", "Fake", "--checkpoint", "b.h5"}).checkpoint_file.has_value());
 }

@@ -56,7 +56,7 @@ class Guards(ProgramTest):
                           ("nonfinite", "joint_gap", "energy_gain", "passage", "frozen", "refined")}
 
     def test_the_file_says_what_was_to_be_done(self):
-        self.summary(1, *RUN, "--frames", 1, "--on-blowup", "freeze", "--record-residuals", "--output", "run.h5")
+        self.summary(1, "--scene", "drop.toml", "--frames", 1, "--on-blowup", "freeze", "--record-residuals", "--output", "run.h5")
         with h5py.File(self.path("run.h5")) as file:
             self.assertEqual(file["parameters/on_blowup"][()], b"freeze")
             self.assertEqual(file["parameters/record_residuals"][()], 1)

@@ -127,9 +127,9 @@ TEST(StepOptions, a_frequency_may_be_infinite_as_it_is_by_default) {
 
 TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
   for (const char* name :
-       {"substeps", "tolerance", "most-substeps", "sor-factor", "warm-start", "relax",
-        "contact-frequency", "contact-damping", "contact-margin", "joint-frequency", "joint-damping",
-        "joint-solver", "friction", "finish", "row-order", "precision", "simd", "colliders"}) {
+       {"substeps", "tolerance", "most-substeps", "sor-factor", "warm-start", "relax", "contact-frequency",
+        "contact-damping", "contact-margin", "joint-frequency", "joint-damping", "joint-solver", "friction",
+        "finish", "row-order", "precision", "simd", "colliders"}) {
     EXPECT_TRUE(fits(step_option(name), StepperKind::sor));
     EXPECT_FALSE(fits(step_option(name), StepperKind::quick));
     EXPECT_FALSE(fits(step_option(name), StepperKind::direct));

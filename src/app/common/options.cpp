@@ -1,5 +1,6 @@
 #include "app/common/options.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -76,6 +77,14 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
   }
   core::require_separate(named_paths(values));
   return values;
+}
+
+std::string place_of(const std::string& option, const std::vector<std::string>& args,
+                     const po::variables_map& values) {
+  const std::string word = "--" + option;
+  const bool is_given = std::ranges::any_of(
+      args, [&](const std::string& arg) { return arg == word || arg.starts_with(word + "="); });
+  return is_given || values.count("config") == 0 ? "" : values["config"].as<std::string>() + ": ";
 }
 
 std::vector<core::NamedPath> named_paths(const po::variables_map& values) {

@@ -33,6 +33,11 @@ boost::program_options::variables_map parse_command_line(
     const boost::program_options::positional_options_description& positional = {},
     const std::string& last = "");
 
+/// Opens a message about an option's value: with the file of --config, if the value comes from there and not
+/// from `args`.
+std::string place_of(const std::string& option, const std::vector<std::string>& args,
+                     const boost::program_options::variables_map& values);
+
 /// parse_command_line() for a command whose words without a dash are files to read: given_files().
 boost::program_options::variables_map parse_with_files(
     const std::vector<std::string>& args, boost::program_options::options_description description);

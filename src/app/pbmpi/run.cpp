@@ -194,7 +194,8 @@ void reserve(const mpi::Communicator& comm, const RunSpec& spec, std::int64_t nu
   constexpr std::int64_t about_bytes_each = 1024, about_bytes = std::int64_t{1} << 17;
   mpi::agree_on_errors(comm, [&] {
     if (comm.is_root())
-      keeper.reserve(about_bytes + about_bytes_each * num_bodies, spec.checkpoint_file || spec.checkpoint_every_s);
+      keeper.reserve(about_bytes + about_bytes_each * num_bodies,
+                     spec.checkpoint_file || spec.checkpoint_every_s);
   });
 }
 

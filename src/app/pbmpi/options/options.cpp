@@ -56,8 +56,9 @@ Action action_of(const po::variables_map& values) {
 /// Options that only say how another one works are refused without it.
 void require_needs(const Options& options) {
   for (const RunOption& option : run_options()) {
-    require_input(option.needs == nullptr || options.run.*option.needs || !options.given.contains(option.name),
-                  "--" + std::string(option.name) + " says how --feec estimates; give --feec too");
+    require_input(
+        option.needs == nullptr || options.run.*option.needs || !options.given.contains(option.name),
+        "--" + std::string(option.name) + " says how --feec estimates; give --feec too");
   }
   for (const auto& [name, text] : options.estimate)
     require_input(options.run.feec, "--estimate-" + name + " says how --feec estimates; give --feec too");
@@ -99,7 +100,11 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   for (const RunOption& option : run_options()) {
     const std::string name(option.name);
     if (values.count(name) == 0 || values[name].defaulted()) continue;
-    set(option, option.placeholder.empty() ? "" : values[name].as<std::string>(), options.run);
+    try {
+      set(option, option.placeholder.empty() ? "" : values[name].as<std::string>(), options.run);
+    } catch (const core::InputError& error) {
+      throw core::InputError(place_of(name, args, values) + error.what());
+    }
     options.given.insert(name);
   }
   for (const std::string_view name : estimate_options) {

@@ -23,7 +23,7 @@ enum class Action { run, help, version, list_scenes, describe };
 /// The command line as given.
 struct Options {
   Action action = Action::run;
-  RunSpec run;                              ///< members of options that are not `given` are left to the scene
+  RunSpec run;  ///< members of options that are not `given` are left to the scene
   std::set<std::string, std::less<>> given;  ///< names in run_options()
   stepping::StepChoices step;
   std::map<std::string, std::string, std::less<>> estimate;  ///< step options of the estimate, as given

@@ -91,9 +91,10 @@ std::vector<RunOption> scene_rows() {
        .member = &RunSpec::effects,
        .group = group,
        .placeholder = "+NAME,-NAME",
-       .meaning = "for an experiment: + demands an effect that the scene does not call for, - leaves one out; "
-                  "they are " +
-                  effect_list(),
+       .meaning =
+           "for an experiment: + demands an effect that the scene does not call for, - leaves one out; "
+           "they are " +
+           effect_list(),
        .saved = Saved::physics,
        .recorded = true},
   };
@@ -115,11 +116,12 @@ std::vector<RunOption> step_rows() {
        .member = &RunSpec::on_blowup,
        .group = group,
        .placeholder = "report|stop|freeze|refine",
-       .meaning = "what to do about a world that blows up: a number that is not finite, energy gained without "
-                  "a cause, a joint that gapes, a body that went through something. report: the run goes on "
-                  "(not with a number that is not finite); stop: the run ends after the frame; freeze: that "
-                  "world stands still from the start of the step on; refine: the step is done again as 2, 4, "
-                  "8 or 16 finer ones, and if these blow up too the world stands still",
+       .meaning =
+           "what to do about a world that blows up: a number that is not finite, energy gained without "
+           "a cause, a joint that gapes, a body that went through something. report: the run goes on "
+           "(not with a number that is not finite); stop: the run ends after the frame; freeze: that "
+           "world stands still from the start of the step on; refine: the step is done again as 2, 4, "
+           "8 or 16 finer ones, and if these blow up too the world stands still",
        .shows_default = true,
        .saved = Saved::value,
        .recorded = true},
@@ -152,10 +154,11 @@ std::vector<RunOption> estimate_rows() {
        .member = &RunSpec::estimate_by_s,
        .group = group,
        .placeholder = "SECONDS",
-       .meaning = "send the best estimate that is there so long after the start of the frame (3.33ms, or a "
-                  "number of seconds): precise steps while there is time, then coarse ones; if not even these "
-                  "fit, bodies move on at their velocities. It follows the clock: estimates, not the precise "
-                  "frames, differ from run to run",
+       .meaning =
+           "send the best estimate that is there so long after the start of the frame (3.33ms, or a "
+           "number of seconds): precise steps while there is time, then coarse ones; if not even these "
+           "fit, bodies move on at their velocities. It follows the clock: estimates, not the precise "
+           "frames, differ from run to run",
        .saved = Saved::value,
        .recorded = true,
        .needs = &RunSpec::feec},
@@ -169,11 +172,12 @@ std::vector<RunOption> cut_rows() {
        .member = &RunSpec::decomposition,
        .group = group,
        .placeholder = "auto|worlds|spaces",
-       .meaning = "worlds: each rank owns whole worlds; spaces: a world is cut at its collision spaces, of "
-                  "which each rank owns some (sor only), one world over all ranks, several worlds each over a "
-                  "group of them; auto: with sor spaces for one world of several spaces on several ranks, and "
-                  "for more worlds where there are more ranks than worlds and groups are predicted to be "
-                  "faster; else worlds",
+       .meaning =
+           "worlds: each rank owns whole worlds; spaces: a world is cut at its collision spaces, of "
+           "which each rank owns some (sor only), one world over all ranks, several worlds each over a "
+           "group of them; auto: with sor spaces for one world of several spaces on several ranks, and "
+           "for more worlds where there are more ranks than worlds and groups are predicted to be "
+           "faster; else worlds",
        .shows_default = true,
        .saved = Saved::value,
        .recorded = true},
@@ -183,7 +187,8 @@ std::vector<RunOption> cut_rows() {
        .placeholder = "N",
        .meaning = "spaces: groups of at most N ranks, as equal as can be, of which each cuts worlds of its "
                   "own; default: as few as make the busiest group's worlds cost least, counted in rows of "
-                  "joints and bodies; one world: all ranks"},
+                  "joints and bodies; one world: all ranks",
+       .recorded = true},
       {.name = "spaces",
        .member = &RunSpec::spaces,
        .group = group,
@@ -264,8 +269,9 @@ std::vector<RunOption> stop_rows() {
        .member = &RunSpec::checkpoint_file,
        .group = group,
        .placeholder = "FILE",
-       .meaning = "where the run is saved: on USR1, when it stops early, and after the last frame too if this "
-                  "option is given; default: <output without .h5>.checkpoint.h5, or the file of --resume"},
+       .meaning =
+           "where the run is saved: on USR1, when it stops early, and after the last frame too if this "
+           "option is given; default: <output without .h5>.checkpoint.h5, or the file of --resume"},
       {.name = "checkpoint-every",
        .member = &RunSpec::checkpoint_every_s,
        .group = group,
@@ -282,10 +288,11 @@ std::vector<RunOption> stop_rows() {
        .member = &RunSpec::resume,
        .group = group,
        .placeholder = "FILE",
-       .meaning = "go on from a checkpoint, with any number of ranks and the same bits. Scene and physics are "
-                  "the checkpoint's; options that would change them are refused. --frames and --warmup count "
-                  "from the start of the first run. What follows goes to a file of its own; default: <first "
-                  "output>.from<frame>.h5"},
+       .meaning =
+           "go on from a checkpoint, with any number of ranks and the same bits. Scene and physics are "
+           "the checkpoint's; options that would change them are refused. --frames and --warmup count "
+           "from the start of the first run. What follows goes to a file of its own; default: <first "
+           "output>.from<frame>.h5"},
   };
 }
 

@@ -45,9 +45,9 @@ struct RunOption {
   std::string meaning = {};           ///< for --help
   bool shows_default = false;         ///< --help shows the value of RunSpec{}
   Saved saved = Saved::no;
-  bool recorded = false;                               ///< has a value in /parameters
-  int scenes::RunDefaults::*of_scene = nullptr;        ///< what the scene proposes
-  bool RunSpec::*needs = nullptr;                      ///< the option says how this one works
+  bool recorded = false;                                  ///< has a value in /parameters
+  int scenes::RunDefaults::*of_scene = nullptr;           ///< what the scene proposes
+  bool RunSpec::*needs = nullptr;                         ///< the option says how this one works
   int least = 1, most = std::numeric_limits<int>::max();  ///< of whole numbers
 };
 

@@ -12,7 +12,7 @@
 #include "mpi/spaces/plan/rank_groups.h"
 #include "scenes/scene.h"
 #include "stability/on_blowup.h"
-#include "stepping/frame_budget.h"
+#include "stepping/frame.h"
 #include "stepping/stepper.h"
 
 namespace pbmpi::app {
@@ -39,8 +39,8 @@ struct CheckpointSpec {
   std::int64_t first_frame = 0;  ///< frames done before this run
 };
 
-/// Members up to `resume` are those of run_options(): as given on a command line, or once resolve() has filled
-/// in what the scene proposes.
+/// Members up to `resume` are those of run_options(): as given on a command line, or once resolve() has
+/// filled in what the scene proposes.
 struct RunSpec {
   std::optional<std::string> scene;
   int replicas = 1;  ///< worlds of the ensemble
@@ -80,7 +80,7 @@ struct RunSpec {
   stepping::StepperSettings stepper;
   std::optional<EstimateSpec> estimate;  ///< FEEC: how each frame is estimated first
   std::optional<std::string> sidecar;    ///< path of ParaView's sidecar
-  mpi::RankGroups groups;                ///< with spaces: which ranks cut which worlds; decided by decompose()
+  mpi::RankGroups groups;  ///< with spaces: which ranks cut which worlds; decided by decompose()
   CheckpointSpec checkpoint;
 
   /// The ensemble number of the run's first world.

@@ -7,7 +7,7 @@
 #include "app/common/quantities.h"
 #include "app/pbreport/calibrate/calibrate_report.h"
 #include "core/error.h"
-#include "stepping/frame_budget.h"
+#include "stepping/frame.h"
 
 namespace pbmpi::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/text.h"
 #include "effects/effect_choices.h"
 #include "scenes/scene.h"
-#include "stepping/frame_budget.h"
+#include "stepping/frame.h"
 #include "stepping/run_event.h"
 
 namespace pbmpi::app {
