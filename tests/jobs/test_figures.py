@@ -48,8 +48,9 @@ class Figures(unittest.TestCase):
         self.assertEqual(crash["paper"], "3")
         self.assertGreater(float(crash["islands parallel [Hz]"]), float(crash["serial [Hz]"]), "one core an island leaves less to do")
         self.assertEqual(re.findall(r'<img src="data:image/png;base64,iVBOR[^"]*" alt="(.*?)">', page), ["CrashSk", "Fight"])
+        bars = [float(number) for number in re.findall(r"<rect [^>]*><title>CrashSk, [a-z ]+: (.*?)</title>", page)]
         for rate in (crash["serial [Hz]"], crash["islands parallel [Hz]"], crash["and spaces [Hz]"]):
-            self.assertRegex(page, f"<rect [^>]*><title>CrashSk, [a-z ]+: {float(rate):.4g}</title>")
+            self.assertTrue([bar for bar in bars if abs(bar - float(rate)) <= 1e-3 * bar], f"{rate} is no bar of {bars}")
         self.assertNotRegex(page, "<script|http://|https://", "it loads nothing")
 
     @unittest.skipUnless(shutil.which("valgrind") and shutil.which("objdump"), "no valgrind or objdump")
