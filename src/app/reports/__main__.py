@@ -1,0 +1,45 @@
+"""python3 reports COMMAND FILE [options]: pbreport's reports on studies and on several runs. pbreport calls it, once it has checked the
+seals of the files."""
+import importlib
+import os
+import pathlib
+import sys
+
+if __package__ in (None, ""):
+    sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])
+
+try:
+    from reports.files import BadInput
+except ImportError as error:
+    print(f"pbreport: this report needs Python's {error.name}, which is not there; install it (Debian: python3-{error.name})", file=sys.stderr)
+    sys.exit(1)
+
+# By command; a module has run(words), which prints.
+MODULES = {"study": "accuracy", "effects": "effects", "stability": "stability", "engines": "engines", "scaling": "scaling",
+           "ensemble": "ensemble", "calibrate": "calibrate", "islands": "islands"}
+
+
+def fail(message, code):
+    print(f"pbreport: {message}", file=sys.stderr)
+    return code
+
+
+def main(words):
+    try:
+        importlib.import_module(f"reports.{MODULES[words[0]]}").run(words[1:])
+        sys.stdout.flush()
+    except BadInput as error:
+        return fail(error, 2)
+    except MemoryError:
+        return fail("there is not enough memory for what is to be read", 1)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or the interpreter complains as it ends
+        return fail("the report cannot be written to standard output: the reader has gone", 1)
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return fail(f"the report cannot be written ({error.strerror}); is the disk full?", 1)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

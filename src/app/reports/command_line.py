@@ -1,0 +1,125 @@
+"""Command lines of the reports: one Command a report, with the options that all share."""
+import argparse
+import dataclasses
+import difflib
+import os
+import re
+
+from reports.files import BadInput, require
+
+UNITS = {"time": {"us": 1e-6, "ms": 1e-3, "s": 1.0}, "length": {"mm": 1e-3, "cm": 1e-2, "m": 1.0}}
+WRITTEN = ("html", "csv", "output", "write_config")  # options that name a file to write
+
+
+@dataclasses.dataclass
+class Command:
+    """`usage`: what follows the command's name; `printed`: what is printed despite --quiet; `add_options(group)` adds the command's own."""
+    name: str
+    about: str
+    usage: str
+    page: str = ""  # what --html writes
+    markdown: str = ""  # what --markdown prints
+    csv: str = ""  # what --csv writes
+    add_options: object = None
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise BadInput(f"{message}; see --help")
+
+
+def parser_of(command):
+    parser = Parser(prog=f"pbreport {command.name}", usage=f"pbreport {command.name} {command.usage}", description=command.about,
+                    allow_abbrev=False, add_help=False)
+    parser.add_argument("files", nargs="*", metavar="FILE", help=argparse.SUPPRESS)
+    group = parser.add_argument_group("Options")
+    if command.add_options:
+        command.add_options(group)
+    if command.page:
+        group.add_argument("--html", metavar="OUT", help=f"one self-contained page: {command.page}")
+    if command.csv:
+        group.add_argument("--csv", metavar="OUT", help=command.csv)
+    group.add_argument("--json", action="store_true", help="print all as one JSON document")
+    if command.markdown:
+        group.add_argument("--markdown", action="store_true", help=command.markdown)
+    group.add_argument("-h", "--help", action="store_true", help="print this help")
+    group.add_argument("--config", metavar="FILE", help="read options from FILE, one 'name = value' a line; the command line wins")
+    printed = "--json or --markdown asks" if command.markdown else "--json asks"
+    group.add_argument("-q", "--quiet", action="store_true", help=f"print nothing but errors and what {printed} for")
+    return parser
+
+
+def config_words(path):
+    """The lines of a --config file as words of a command line."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            lines = [line.split("#")[0].strip() for line in file]
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadInput(f"{path}: it cannot be read ({error}); --config wants a file of 'name = value' lines") from None
+    words = []
+    for line in filter(None, lines):
+        name, equals, value = (part.strip() for part in line.partition("="))
+        require(equals, f"{path}: '{line}' is no line 'name = value'")
+        words += [f"--{name}"] if value in ("", "true", "1") and name in ("json", "markdown", "quiet", "by-body") else [f"--{name}", value]
+    return words
+
+
+def require_known(words, parser):
+    """argparse names an unknown option late, and without the one that was meant."""
+    known = [name for action in parser._actions for name in action.option_strings]  # pylint: disable=protected-access
+    for word in words:
+        name = word.split("=")[0]
+        if re.match(r"--?[a-zA-Z]", word) and name not in known:
+            near = difflib.get_close_matches(name, known, 1)
+            raise BadInput(f"unknown option '{name}'; " + (f"did you mean {near[0]}?" if near else "see --help"))
+
+
+def parse(command, words):
+    """The options of a command line, or None where it asks for help, which is printed. Raises BadInput with one clear message."""
+    parser = parser_of(command)
+    require_known(words, parser)
+    options = parser.parse_args(words)
+    if options.help:
+        print(parser.format_help())
+        return None
+    if options.config:
+        more = config_words(options.config)
+        require_known(more, parser)
+        options = parser.parse_args(more + words)
+    require(not (options.json and getattr(options, "markdown", False)), "--json and --markdown: print one of the two")
+    require_separate(options)
+    return options
+
+
+def require_separate(options):
+    """A file that is written is neither read nor written a second time."""
+    given = [("the file", name) for name in options.files]
+    given += [(f"--{name.replace('_', '-')}", getattr(options, name)) for name in ("config", *WRITTEN) if getattr(options, name, None) is not None]
+    for place, (option, path) in enumerate(given):
+        require(path != "", f"{option}: the file name is empty; name a file")
+        for other, before in given[:place]:
+            if option[2:].replace("-", "_") in WRITTEN and os.path.isfile(path) and os.path.realpath(path) == os.path.realpath(before):
+                raise BadInput(f"{option} {path}: it is {other} as well; name another file")
+
+
+def one_file(options, what, example):
+    require(options.files, f"no file given; name the file of {what}, e.g. pbreport {example}")
+    require(len(options.files) == 1, f"'{options.files[-1]}' follows '{options.files[0]}': give one study")
+    return options.files[0]
+
+
+def quantity(text, kind, option):
+    """A time [s] or a length [m] with its unit."""
+    units = UNITS[kind]
+    found = re.fullmatch(r"([0-9.]+(?:[eE][-+]?[0-9]+)?)(" + "|".join(units) + ")", text)
+    try:
+        value = float(found[1]) * units[found[2]] if found else 0.0
+    except ValueError:
+        value = 0.0
+    example = "3.33ms" if kind == "time" else "1cm"
+    require(value > 0, f"{option} {text}: it must be a number above 0 and a unit ({', '.join(units)}), e.g. {example}")
+    return value
+
+
+def add_scene_option(group):
+    group.add_argument("--scene", nargs="+", metavar="NAME", help="these scenes of the study only")

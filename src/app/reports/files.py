@@ -1,0 +1,150 @@
+"""Reads the files of pbmpi and pbstudy, and writes what a report leaves behind."""
+import contextlib
+import dataclasses
+import os
+import tempfile
+
+import h5py
+import numpy as np
+
+RUN, STUDY = "pbmpi-run", "pbmpi-study"
+HDF5_MARK = b"\x89HDF\r\n\x1a\n"
+
+
+class BadInput(Exception):
+    """What is wrong, where, and what to do. Ends the program with exit code 2."""
+
+
+def require(holds, message):
+    if not holds:
+        raise BadInput(message)
+
+
+def text_of(value):
+    """An attribute or a parameter as text."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+@contextlib.contextmanager
+def open_file(path, filetype, what):
+    """The HDF5 file, open for reading. `what` a user was to name: "a study of effects"."""
+    require(os.path.exists(path), f"{path}: no such file")
+    try:
+        file = h5py.File(path, "r")
+    except OSError as error:
+        raise BadInput(f"{path}: it cannot be read as HDF5 ({error})") from None
+    with file:
+        found = text_of(file.attrs.get("filetype", b""))
+        require(found == filetype, f"{path}: a file of type '{found}', not {what}")
+        major = int(np.ravel(file.attrs["version"])[0])
+        require(major == 1, f"{path}: its layout has version {major}.x, and this pbmpi reads 1.x; use a pbmpi of the version that wrote it")
+        yield file
+
+
+def column_of(dataset):
+    """A column as a list with one entry a row; rows of several numbers are lists."""
+    values = dataset[()]
+    return [text_of(value) for value in values] if values.dtype.kind in "SO" else values.tolist()
+
+
+class Row:
+    """A row of a table; its columns are attributes. `row.get(name, default)` for those that older files lack."""
+
+    def __init__(self, columns, index):
+        self._columns, self._index = columns, index
+
+    def __getattr__(self, name):
+        if name not in self._columns:
+            raise BadInput(f"the table has no column '{name}'; the file is of another version or damaged")
+        return self._columns[name][self._index]
+
+    def get(self, name, default=None):
+        return getattr(self, name) if name in self._columns else default
+
+
+@dataclasses.dataclass
+class Study:
+    """The file of a study: attributes and parameters as text, tables by name and column."""
+    path: str
+    attributes: dict
+    parameters: dict
+    tables: dict
+
+    def rows(self, table="cases"):
+        columns = self.tables.get(table, {})
+        return [Row(columns, index) for index in range(len(next(iter(columns.values()), [])))]
+
+    def texts(self):
+        """[(name, text)] of all that says what the file was made from."""
+        return [*self.attributes.items(), *self.parameters.items()]
+
+
+def read_study(path, kind):
+    """Raises BadInput for anything but a study of this kind. pbreport has checked the file's seal."""
+    with open_file(path, STUDY, "of a study") as file:
+        found = text_of(file.attrs.get("study", b"accuracy"))  # the first version did not say it
+        other = "study" if found == "accuracy" else found
+        require(found == kind, f"{path}: a study of {found}, not of {kind}; try pbreport {other}")
+        attributes = {name: text_of(value) for name, value in sorted(file.attrs.items())}
+        parameters = {name: text_of(value[()]) for name, value in file.get("parameters", {}).items()}
+        tables = {name: {column: column_of(values) for column, values in group.items()}
+                  for name, group in file.items() if name != "parameters" and isinstance(group, h5py.Group)}
+    return Study(path, attributes, parameters, tables)
+
+
+def in_order_of(names, items, name_of, what="the study"):
+    """The items named, in the order of `names`; all, where none are. Raises BadInput for a name that no item has."""
+    if not names:
+        return items
+    known = ", ".join(dict.fromkeys(map(name_of, items)))
+    for name in names:
+        require(any(name_of(item) == name for item in items), f"--scene {name}: {what} has {known}")
+    return [item for name in names for item in items if name_of(item) == name]
+
+
+def write_file(path, text):
+    """Puts the text under the name `path` in one go, keeping the permissions of an old file, which must not be HDF5: that may be
+    somebody's data. Devices and pipes are written to directly."""
+    data = text.encode("utf-8", "replace")
+    target = os.path.realpath(path)
+    try:
+        if os.path.exists(target) and not os.path.isfile(target):
+            require(not os.path.isdir(target), f"{path}: it is a folder; name a file to write")
+            with open(target, "wb") as stream:
+                stream.write(data)
+            return
+        mode = None
+        if os.path.exists(target):
+            with open(target, "rb") as old:
+                require(old.read(len(HDF5_MARK)) != HDF5_MARK, f"{path}: it is an HDF5 file, which a text does not replace; name another file")
+            require(os.access(target, os.W_OK), f"{path}: it cannot be written: Permission denied")
+            mode = os.stat(target).st_mode & 0o7777
+        replace(target, data, mode)
+    except OSError as error:
+        raise BadInput(f"{path}: it cannot be written: {error.strerror}") from None
+
+
+def replace(target, data, mode):
+    """Writes beside the target and renames, so that a kill leaves the old file or the new one."""
+    if mode is None:
+        mode = 0o666 & ~current_umask()
+    folder, name = os.path.split(target)
+    descriptor, temporary = tempfile.mkstemp(prefix=f".{name}.", dir=folder)
+    try:
+        with open(descriptor, "wb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.chmod(temporary, mode)
+        os.replace(temporary, target)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+def current_umask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

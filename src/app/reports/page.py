@@ -1,0 +1,87 @@
+"""Self-contained HTML pages of charts and tables, from the templates that pbmpi's other pages have (io/html/web)."""
+import html
+import json
+import os
+import pathlib
+import re
+
+from reports import document
+from reports.files import write_file
+
+# Beside the package once installed; in the sources, where the templates and Chart.js are.
+INSTALLED = pathlib.Path(__file__).resolve().parent / "web"
+SOURCES = pathlib.Path(__file__).resolve().parents[3] / "io/html/web"
+CHART_JS = "/usr/share/javascript/chart.js/chart.min.js"
+
+
+def asset(name):
+    """The text of a file of the templates; `name` as a template has it: theme_css."""
+    if name == "chart_js":
+        return pathlib.Path(os.environ.get("PBMPI_CHART_JS", CHART_JS)).read_text(encoding="utf-8")
+    folder = INSTALLED if INSTALLED.is_dir() else SOURCES
+    file = name[::-1].replace("_", ".", 1)[::-1]
+    found = next(path for path in (folder / file, folder / "charts" / file) if path.is_file())
+    return found.read_text(encoding="utf-8")
+
+
+def safe_json(value):
+    """JSON inside of a <script>."""
+    return json.dumps(document.finite(value), ensure_ascii=False).replace("<", "\\u003c")
+
+
+def shown_table(table):
+    return {"title": table.title, "header": table.header, "rows": table.rows}
+
+
+def shown_section(section):
+    charts = [{"title": chart.title, "text": chart.text, "config": chart.config} for chart in section.charts]
+    tables = [shown_table(table) for table in section.tables if document.PAGE in table.shown_in]
+    return {"title": section.title, "text": section.text, "charts": charts, "tables": tables}
+
+
+def fill(template, fields):
+    """The template with each {{name}} replaced by a field, or else by the file of that name."""
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: fields.get(found[1]) or asset(found[1]), asset(template))
+
+
+def page_of(report):
+    sections = [shown_section(section) for section in report.sections if document.PAGE in section.shown_in]
+    return fill("charts_html", fields_of(report) | {"sections": safe_json(sections)})
+
+
+def fields_of(report):
+    """What all templates have: title, subtitle, provenance."""
+    return {"title": html.escape(report.title, quote=True), "subtitle": html.escape(report.subtitle, quote=True) or " ",
+            "provenance": safe_json({"line": report.line, "entries": report.entries})}
+
+
+def write(path, report):
+    write_file(path, page_of(report))
+
+
+def joined(*parts):
+    return " · ".join(filter(None, parts))
+
+
+def version_line():
+    """Of the pbreport that called; it hands its version on."""
+    return os.environ.get("PBREPORT_VERSION", "pbreport")
+
+
+def origin(attributes):
+    version = attributes.get("pbmpi_version", "")
+    return joined(version and f"pbmpi {version}", attributes.get("git_revision", ""), attributes.get("created", ""))
+
+
+def origin_of_study(study):
+    """(line, entries) of a Report on the file of a study."""
+    return joined(origin(study.attributes), f"page by {version_line()}"), [("file", study.path), *study.texts()]
+
+
+def origin_of_runs(runs):
+    """(line, entries) of a Report on runs, which have `path` and `attributes`."""
+    entries = []
+    for run in runs:
+        state = run.attributes.get("state_hash", "")
+        entries.append((run.path, joined(run.attributes.get("command_line", ""), origin(run.attributes), state and f"state {state}")))
+    return joined(f"{len(runs)} {'run' if len(runs) == 1 else 'runs'}", f"page by {version_line()}"), entries

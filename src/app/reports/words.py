@@ -1,0 +1,39 @@
+"""Numbers as words: what cells and sentences have in common."""
+import math
+import statistics
+
+NO_NUMBER = "-"
+
+
+def percent(share):
+    """"12.3 %"; "-" for what is not finite."""
+    if not math.isfinite(share):
+        return NO_NUMBER
+    shown = f"{100 * share:.1f} %"
+    return "0.0 %" if shown == "-0.0 %" else shown
+
+
+def number(value, form, scale=1):
+    """In a form such as ".3g", or "-" for what is not finite or None."""
+    return f"{scale * value:{form}}" if value is not None and math.isfinite(value) else NO_NUMBER
+
+
+def plural(count, noun):
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def short(value):
+    """A number with the fewest digits that read back to it; a text as it is."""
+    if isinstance(value, float):
+        return repr(value).removesuffix(".0")
+    return str(value)
+
+
+def median(values):
+    return statistics.median(values) if values else math.nan
+
+
+def joined(names, most):
+    """The first `most` names, and how many more there are."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more
