@@ -1,11 +1,12 @@
 """Reads the files of pbmpi and pbstudy, and writes what a report leaves behind."""
-import contextlib
 import dataclasses
 import os
 import tempfile
 
 import h5py
 import numpy as np
+
+from reports.words import short
 
 RUN, STUDY = "pbmpi-run", "pbmpi-study"
 HDF5_MARK = b"\x89HDF\r\n\x1a\n"
@@ -21,26 +22,27 @@ def require(holds, message):
 
 
 def text_of(value):
-    """An attribute or a parameter as text."""
+    """An attribute or a parameter as text; several numbers with dots between them, as in a version."""
     if isinstance(value, np.ndarray):
-        value = value.tolist()
-    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+        return ".".join(map(text_of, np.ravel(value).tolist()))
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else short(value)
 
 
-@contextlib.contextmanager
-def open_file(path, filetype, what):
-    """The HDF5 file, open for reading. `what` a user was to name: "a study of effects"."""
-    require(os.path.exists(path), f"{path}: no such file")
+def open_file(path, filetype):
+    """The HDF5 file, open for reading, also while a run still writes it."""
+    for refused, reason in ((not os.path.exists(path), "there is no such file"), (os.path.isdir(path), "it is a directory")):
+        require(not refused, f"{path}: cannot be read: {reason}; give the name of a file that pbmpi has written")
     try:
-        file = h5py.File(path, "r")
+        file = h5py.File(path, "r", locking=False)
     except OSError as error:
-        raise BadInput(f"{path}: it cannot be read as HDF5 ({error})") from None
-    with file:
-        found = text_of(file.attrs.get("filetype", b""))
-        require(found == filetype, f"{path}: a file of type '{found}', not {what}")
-        major = int(np.ravel(file.attrs["version"])[0])
-        require(major == 1, f"{path}: its layout has version {major}.x, and this pbmpi reads 1.x; use a pbmpi of the version that wrote it")
-        yield file
+        raise BadInput(f"{path}: cannot be opened as an HDF5 file ({error}); give a file that pbmpi has written") from None
+    found = f'"{text_of(file.attrs["filetype"])}"' if "filetype" in file.attrs else "missing"
+    name, writer = ("pbmpi run", "pbmpi") if filetype == RUN else (filetype, "pbstudy")
+    require(found == f'"{filetype}"', f"{path}: not a {name} (its attribute filetype is {found}); give a file that {writer} has written")
+    version = text_of(file.attrs.get("version", b"unknown"))
+    require(version.split(".")[0] == "1", f"{path}: its layout has version {version}, this program reads version 1.x; "
+                                          "use the pbmpi that wrote it")
+    return file
 
 
 def column_of(dataset):
@@ -83,7 +85,7 @@ class Study:
 
 def read_study(path, kind):
     """Raises BadInput for anything but a study of this kind. pbreport has checked the file's seal."""
-    with open_file(path, STUDY, "of a study") as file:
+    with open_file(path, STUDY) as file:
         found = text_of(file.attrs.get("study", b"accuracy"))  # the first version did not say it
         other = "study" if found == "accuracy" else found
         require(found == kind, f"{path}: a study of {found}, not of {kind}; try pbreport {other}")

@@ -2,6 +2,8 @@
 import math
 import statistics
 
+import numpy as np
+
 NO_NUMBER = "-"
 
 
@@ -23,10 +25,11 @@ def plural(count, noun):
 
 
 def short(value):
-    """A number with the fewest digits that read back to it; a text as it is."""
-    if isinstance(value, float):
-        return repr(value).removesuffix(".0")
-    return str(value)
+    """A number with the fewest digits that read back to it, in the shorter of its two forms (0.001, 1e-04); a text as it is."""
+    if not isinstance(value, float) or not math.isfinite(value):
+        return str(value)
+    plain, scientific = np.format_float_positional(value, trim="-"), np.format_float_scientific(value, trim="-")
+    return scientific if len(scientific) < len(plain) else plain
 
 
 def median(values):
