@@ -123,3 +123,14 @@ def quantity(text, kind, option):
 
 def add_scene_option(group):
     group.add_argument("--scene", nargs="+", metavar="NAME", help="these scenes of the study only")
+
+
+def add_table_option(group, names, usual):
+    group.add_argument("--table", metavar="NAME", default=usual, help=f"which table --csv writes: {', '.join(names)} (usual: {usual})")
+
+
+def require_table(options, names):
+    """Raises BadInput unless --table names one of these."""
+    near = difflib.get_close_matches(options.table, names, 1)
+    hint = f"did you mean '{near[0]}'?" if near else f"known: {', '.join(map(repr, names))}"
+    require(options.table in names, f"--table {options.table}: there is no such table; {hint}")

@@ -1,6 +1,4 @@
 """Files of runs: their settings, and the rows of committed frames, which a run that was killed has as well."""
-import numpy as np
-
 from reports.files import RUN, BadInput, open_file, require, text_of
 
 PHASES = ("collide", "islands", "rows", "solve", "integrate", "cross_space", "ship", "gather", "wait", "output")  # of a rank, in a frame
@@ -106,12 +104,6 @@ class Run:
     def rank_seconds(self, phase):
         """Array [measured frames][R] of a column of /timings/rank [s]: a phase, useful; or messages, bytes."""
         return self.frames(f"timings/rank/{phase}")[self.measured].astype(float)
-
-
-def total(values):
-    """The sum of numbers one after the other, along the first axis: numpy adds long rows in pairs, which gives other last digits."""
-    values = np.asarray(values, dtype=float)
-    return np.add.accumulate(values)[-1] if len(values) else np.zeros(values.shape[1:])[()]
 
 
 def matters_for(name):
