@@ -8,12 +8,23 @@ import unittest
 import h5py
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import BIN, ProgramTest  # noqa: E402
+from harness import BIN, SOURCE, ProgramTest  # noqa: E402
+
+sys.path.insert(0, os.path.join(SOURCE, "src", "app"))
+from reports.harness import Gather, Load, traffic_of  # noqa: E402
 
 # Of one rank; of root for others that are not there; of two ranks.
 ALONE = {"frame", "bodies"}
 ROOTS = {"unpack", "balance", "move", "table", "hash"}
 BETWEEN = {"message", "send", "receive"}
+BOX = """title = "t"
+[[actor]]
+name = "b"
+type = "box"
+size = [1, 1, 1]
+mass = 1
+position = [0, 0, 5]
+"""
 BYTES_OF_A_WORLD = 8 * (1 + 7 * 37)  # a number, positions and orientations of 37 bodies
 
 
@@ -58,6 +69,26 @@ class Calibrate(ProgramTest):
         self.assertLess(int(tree["messages_into_root"]), int(flat["messages_into_root"]))
         self.assertGreater(int(tree["bytes [B]"]), int(flat["bytes [B]"]), "inner ranks hand on what is not theirs")
         self.assertEqual(rows[2, "tree"]["bytes [B]"], rows[2, "flat"]["bytes [B]"])
+
+    def test_messages_and_bytes_of_a_forecast_are_those_that_ranks_count(self):
+        """In the first frame, before worlds move: the traffic does not depend on the clock, so it is exact."""
+        self.write("box.toml", BOX)
+        for ranks in (1, 2, 3, 4):
+            for worlds in (5, 64, 1000):
+                self.summary(ranks, "--scene", "box.toml", "--replicas", worlds, "--decompose", "worlds", "--frames", 1,
+                             "--output", "run.h5")
+                with h5py.File(self.path("run.h5")) as file:
+                    counted = [file[f"timings/rank/{what}"][0].sum() for what in ("messages", "bytes")]
+                load = Load(ranks, worlds, 1)
+                self.assertEqual(tuple(counted), traffic_of(load, Gather(load)).gather, (ranks, worlds))
+
+    def test_memory_starts_from_what_a_rank_was_measured_to_take(self):
+        study = self.study(1)
+        costs = {row["cost"]: float(row["value"]) for row in self.table(study, "costs")}
+        with h5py.File(study) as file:
+            for cost, parameter in (("memory_rank", "rank_bytes"), ("memory_body", "body_bytes")):
+                self.assertEqual(costs[cost], file[f"parameters/{parameter}"][()])
+                self.assertGreater(costs[cost], 0)
 
     def test_a_cost_is_what_the_cases_say_and_no_wall_is_before_its_ranks(self):
         study = self.study(2)
