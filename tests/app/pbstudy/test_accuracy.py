@@ -101,7 +101,7 @@ class Accuracy(ProgramTest):
         [scene] = self.front("study.h5")
         looks = [row["estimate"] for row in scene["estimates"] if row["estimate"]["source"] == "same_solve"]
         self.assertEqual(looks, [{"iterations": n, "after_steps": 0, "source": "same_solve"} for n in (3, 20, 3, 20)])
-        self.assertIn("estimates (FEEC)", self.report("study.h5").stdout)
+        self.assertIn("Estimates (FEEC)", self.report("study.h5").stdout)
 
     def test_the_reference_is_solved_to_a_residual_and_judged(self):
         study = self.made(2, "study.h5", "--scene", "CrashSk", "--stepper", "sor", "--iterations", 20, 320, "--substeps", 1, "--precision",
@@ -122,7 +122,7 @@ class Accuracy(ProgramTest):
         self.assertEqual(scene["chosen"]["inside_uncertainty"], scene["chosen"]["error_m"] <= scene["uncertainty_m"])
         text = self.report("study.h5", "--budget", "1s").stdout
         self.assertIn("direct", text)
-        self.assertIn("the reference is known to within:", text)
+        self.assertIn("Uncertainty of the reference: ", text)
         [best] = self.front("study.h5", "--budget", "1s")
         self.assertEqual("to which the reference is known)" in text, best["chosen"]["inside_uncertainty"])
 

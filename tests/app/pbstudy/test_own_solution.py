@@ -68,13 +68,13 @@ class OwnSolution(ProgramTest):
         study = self.made(1, "study.h5", "--scene", "2-Cars", "--stepper", "quick", "--iterations", 1, *FAST, "--own-iterations", 0)
         self.assertFalse(np.isin(study["kind"], [b"own", b"own_floor"]).any())
         self.assertTrue((study["own"] == -1).all())
-        self.assertNotIn("own solutions", self.report("study.h5").stdout)
+        self.assertNotIn("Own solutions", self.report("study.h5").stdout)
 
     def test_reports_show_both_errors_apart(self):
         self.made(2, "study.h5", "--scene", "CrashSk", "--stepper", "quick", "sor", "--iterations", 1, 20, "--substeps", 1, "--precision",
                   "double", *FAST, *OWN)
         text = self.report("study.h5").stdout
-        for words in ("own solutions: each stepper's equations", "own mm"):
+        for words in ("Own solutions\neach stepper's equations", "own rms mm"):
             self.assertIn(words, text)
         [study] = self.json(self.report("study.h5", "--json"))["scenes"]
         self.assertEqual([own["stepper"] for own in study["own"]], ["quick", "sor", "sor"])
