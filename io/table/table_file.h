@@ -64,7 +64,7 @@ class TableWriter {
 };
 
 /// Major and minor version of the layout of a study's file.
-inline constexpr std::array<std::int64_t, 2> study_version = {1, 6};
+inline constexpr std::array<std::int64_t, 2> study_version = {1, 7};
 
 /// About as many bytes as a table file has.
 inline constexpr std::int64_t table_bytes = std::int64_t{1} << 20;

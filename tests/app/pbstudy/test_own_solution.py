@@ -20,7 +20,7 @@ class OwnSolution(ProgramTest):
         result = self.run_command(command)
         self.assertEqual(result.returncode, 0, result.stderr)
         with h5py.File(self.path(name)) as file:
-            self.assertEqual(list(file.attrs["version"]), [1, 6])
+            self.assertEqual(list(file.attrs["version"]), [1, 7])
             self.assertIn("library_ode", file["parameters"])
             return {key: column[:] for key, column in file["cases"].items()}
 

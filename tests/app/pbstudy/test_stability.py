@@ -109,6 +109,23 @@ class Stability(ProgramTest):
             self.assertEqual(poses.sum(), 10 * 10, "ten moments of ten boxes")
             self.assertAlmostEqual(study["poses/time"][poses][-1], 10)
 
+    def test_scenes_with_poses_have_their_bodies_and_geoms(self):
+        self.made(1, "study.h5", "--scene", "hard/rest/column10", "hard/free/tumbling_box", "--setting", "sor", "sor cut", "--poses", 100)
+        self.made(1, "none.h5", "--scene", "hard/rest/column10", "--setting", "sor", "--poses", 0)
+        with h5py.File(self.path("study.h5")) as file, h5py.File(self.path("none.h5")) as none:
+            bodies, geoms = ({name: column[:] for name, column in file[table].items()} for table in ("bodies", "geoms"))
+            self.assertEqual(len(none["bodies/scene"]) + len(none["geoms/scene"]), 0)
+            self.assertEqual(set(file["cases/options"].asstr()[0].split()) & {"--stepper", "sor", "--substeps", "14"},
+                             {"--stepper", "sor", "--substeps", "14"})
+            self.assertEqual(len(file["differences/text"]), 0, "sor expresses all")
+        column = bodies["scene"] == b"hard/rest/column10"
+        self.assertEqual((column.sum(), (~column).sum()), (10, 1))
+        self.assertEqual(bodies["pose"].shape, (11, 7))
+        self.assertTrue(np.allclose(sorted(bodies["pose"][column][:, 2]), np.arange(0.25, 5, 0.5)), "boxes on boxes")
+        of_column = geoms["scene"] == b"hard/rest/column10"
+        self.assertEqual(sorted(geoms["body"][of_column]), list(range(-1, 10)), "the ground is static")
+        self.assertEqual(set(geoms["shape"][of_column]), {b"plane", b"box"})
+
     def test_reports_agree(self):
         self.made(2, "study.h5", "--scene", *SCENES, "--setting", "quick", "direct")
         text = self.report("study.h5")

@@ -6,6 +6,7 @@
 #include "app/pbstudy/accuracy/accuracy_table.h"
 #include "app/pbstudy/accuracy/own_solution.h"
 #include "app/pbstudy/accuracy/yardsticks.h"
+#include "app/pbstudy/study/engine_differences.h"
 #include "app/pbstudy/study/study_runner.h"
 
 namespace pbmpi::app {
@@ -55,6 +56,7 @@ StudyContent content(const AccuracyOptions& options, const std::vector<StudyScen
       Parameter::of("own_most_iterations", std::int64_t{options.own_most_iterations}),
       Parameter::of("rest_seconds", options.rest_s)};
   content.cases = case_columns(scenes, cases, results);
+  content.tables["differences"] = engine_differences(scenes, steppers_of(cases));
   content.next = " --budget 3.33ms";
   return content;
 }

@@ -1,8 +1,11 @@
 #include "app/pbstudy/stability/stability.h"
 
 #include <iostream>
+#include <set>
 
+#include "app/pbstudy/stability/replay_tables.h"
 #include "app/pbstudy/stability/stability_table.h"
+#include "app/pbstudy/study/engine_differences.h"
 #include "app/pbstudy/study/study_runner.h"
 
 namespace pbmpi::app {
@@ -36,13 +39,23 @@ core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<st
   runner.open_output();
   const Outcomes measured = run_cases(comm, options, cases, runner);
   runner.write([&] {
+    const std::vector<RecordedPose>& poses = measured.rows_of<RecordedPose>();
+    std::set<std::string> with_poses;
+    for (const RecordedPose& pose : poses)
+      with_poses.insert(runner.scene(cases[static_cast<std::size_t>(pose.case_index)].scene).source.name);
     std::vector<stability::HardCase> hard_cases;
-    for (const StudyScene& scene : runner.scenes())
-      hard_cases.push_back(build_hard_scene(scene, scene.dt_s, options.seed).hard_case);
+    std::vector<ReplayedScene> replayed;
+    for (const StudyScene& scene : runner.scenes()) {
+      HardScene hard = build_hard_scene(scene, scene.dt_s, options.seed);
+      hard_cases.push_back(std::move(hard.hard_case));
+      if (with_poses.contains(scene.source.name)) replayed.push_back({scene.source.name, hard.model});
+    }
     const StabilityRows rows{runner.scenes(), options.settings, hard_cases, cases, measured.results};
     StudyContent content;
     content.cases = stability_columns(rows);
-    content.tables = stability_tables(rows, measured.rows_of<RecordedPose>());
+    content.tables = stability_tables(rows, poses);
+    content.tables.merge(replay_tables(replayed));
+    content.tables["differences"] = engine_differences(runner.scenes(), steppers_of(cases));
     content.note = stability_note(rows);
     content.next = " --html stability.html";
     return content;

@@ -1,6 +1,7 @@
 /// Turns rows of results into columns of a study's file.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <variant>
@@ -31,13 +32,29 @@ io::TableColumn step_column(const stepping::StepOption& option, const std::vecto
   return std::visit(of_type, value_of(option, stepping::StepperSettings{}));
 }
 
+/// "--stepper sor --dt 0.01 ...": the words on pbmpi's command line that give this setting.
+inline std::string options_text(const stepping::StepperSettings& settings) {
+  std::string text;
+  for (const stepping::StepOption& option : stepping::step_options()) {
+    if (option.in_studies && fits(option, settings.kind))
+      text += (text.empty() ? "--" : " --") + std::string(option.name) + " " + text_of(option, settings);
+  }
+  return text;
+}
+
 /// One column for each step option that is part of a setting (and the solver's seed), from the settings of
-/// each case.
+/// each case, then these settings in short, unless there is a column `setting`, and as options of pbmpi.
 template <class Case>
 void add_step_columns(const std::vector<Case>& cases, std::vector<io::TableColumn>& columns) {
   for (const stepping::StepOption& option : stepping::step_options()) {
     if (option.in_studies || option.name == "solver-seed") columns.push_back(step_column(option, cases));
   }
+  const auto is_setting = [](const io::TableColumn& one) { return one.name == "setting"; };
+  if (std::ranges::none_of(columns, is_setting))
+    columns.push_back(column<std::string>(
+        "setting", "", cases, [](const Case& one) { return stepping::setting_text(one.stepper); }));
+  columns.push_back(
+      column<std::string>("options", "", cases, [](const Case& one) { return options_text(one.stepper); }));
 }
 
 /// Columns "PREFIX_body_position_rms" and so on, for the ErrorTable that `table` points to in each result.

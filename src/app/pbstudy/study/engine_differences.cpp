@@ -1,0 +1,30 @@
+#include "app/pbstudy/study/engine_differences.h"
+
+#include <string>
+
+#include "app/pbstudy/study/table_columns.h"
+#include "engines/optional_engines.h"
+#include "stepping/names.h"
+
+namespace pbmpi::app {
+
+std::vector<io::TableColumn> engine_differences(const std::vector<StudyScene>& scenes,
+                                                const std::set<stepping::StepperKind>& kinds) {
+  struct Difference {
+    std::string engine, scene, text;
+  };
+  std::vector<Difference> differences;
+  for (const StudyScene& scene : scenes) {
+    const auto model = scenes::parse_scene(scene.source)->build(0, 1);
+    for (const stepping::StepperKind kind : kinds) {
+      for (const std::string& text : engines::inexpressible(kind, *model))
+        differences.push_back({std::string(name_of(kind)), scene.source.name, text});
+    }
+  }
+  using One = const Difference&;
+  return {column<std::string>("engine", "", differences, [](One one) { return one.engine; }),
+          column<std::string>("scene", "", differences, [](One one) { return one.scene; }),
+          column<std::string>("text", "", differences, [](One one) { return one.text; })};
+}
+
+}  // namespace pbmpi::app
