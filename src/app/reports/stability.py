@@ -1,0 +1,166 @@
+"""pbreport stability: which settings hold the hard cases; the file of pbstudy stability."""
+import dataclasses
+import math
+
+from reports import map_page, page
+from reports.command_line import Command, add_scene_option, one_file, parse
+from reports.document import MARKDOWN, TEXT, Column, Report, Section, Table
+from reports.files import in_order_of, read_study
+from reports.printing import deliver
+from reports.words import number, plural
+
+COMMAND = Command("stability", "Shows which settings hold the hard cases: the file of pbstudy stability. The word stability may be left "
+                  "out.", "stability.h5 [options]", page="a map of cases and settings; a click on a field shows its curves and its replay",
+                  markdown="print the map as a table instead", csv="all cases as comma-separated values", add_options=add_scene_option)
+
+PASS, DEGRADED, BROKEN, NOT_APPLICABLE = VERDICTS = ("pass", "degraded", "broken", "n/a")  # the last: the setting cannot run the case
+# What is measured in every run, in the order of JSON (io/SCHEMA.md).
+METRICS = ("nonfinite", "energy_gain", "energy_change", "linear_momentum", "angular_momentum", "joint_gap", "joint_gap_rms", "penetration",
+           "escaped", "drift", "sink", "creep", "speed")
+DRIFT_BANDS = ("< 1 cm", "1-10 cm", "10-100 cm", "> 100 cm", "inf/NaN")
+
+
+@dataclasses.dataclass
+class Scene:
+    """A hard case. `facts`: a row of /cases, for what all of its rows have in common. `cells`: {index of the row: row}, one for each of the
+    map's settings."""
+    name: str
+    facts: object
+    cells: dict = dataclasses.field(default_factory=dict)
+
+    def results(self):
+        return list(self.cells.values())
+
+
+@dataclasses.dataclass
+class Map:
+    """The hard cases under all settings, in the order of the file."""
+    settings: list
+    scenes: list
+
+    def rows_of(self, place, group=None):
+        """The rows of a setting, of all cases or of a group's."""
+        return [scene.results()[place] for scene in self.scenes if group in (None, scene.facts.group)]
+
+    def counts(self):
+        """How many cases have each verdict, setting by setting."""
+        return [count(self.rows_of(place)) for place in range(len(self.settings))]
+
+
+def count(rows):
+    """{verdict: how many of the rows have it}"""
+    return {verdict: sum(row.verdict == verdict for row in rows) for verdict in VERDICTS}
+
+
+def map_of(study, names=()):
+    scenes, settings = {}, {}
+    for index, row in enumerate(study.rows()):
+        scenes.setdefault(row.scene, Scene(row.scene, row)).cells[index] = row
+        settings[row.setting] = None
+    return Map(list(settings), in_order_of(names, list(scenes.values()), lambda scene: scene.name))
+
+
+def with_unit(value, unit):
+    """"1.2 mm" rather than 0.0012 m."""
+    if unit in ("m", "m/s") and abs(value) < 1:
+        return f"{1e3 * value:.3g} m{unit}"
+    return f"{value:.3g} {unit}".rstrip()
+
+
+def decided_text(row):
+    """"drift 12.3 mm", "sink 1.2 m at 3.1 s" of a broken case; empty where the setting could not run it."""
+    if row.verdict == NOT_APPLICABLE:
+        return ""
+    at = f" at {row.broken_at:.3g} s" if row.verdict == BROKEN and math.isfinite(row.broken_at) else ""
+    return f"{row.decided_by} {with_unit(row.value, row.value_unit)}{at}"
+
+
+RESULT = (Column("setting", lambda row: row.setting), Column("verdict", lambda row: row.verdict),
+          Column("right up to", lambda row: number(row.limit_right, ".3g")),
+          Column("broken beyond", lambda row: number(row.limit_broken, ".3g")),
+          Column("decided by", lambda row: decided_text(row) or row.decided_by))
+
+
+def scene_section(scene):
+    one = scene.facts
+    return Section(f"{scene.name} (row {one.row}, {one.bodies} {'body' if one.bodies == 1 else 'bodies'}, {one.seconds:g} s): {one.oracle}",
+                   tables=[Table.of("", RESULT, scene.results())], shown_in=(TEXT,))
+
+
+def counts_table(found):
+    return Table("", ["setting", *VERDICTS], [[setting, *map(str, one.values())] for setting, one in zip(found.settings, found.counts())])
+
+
+def markdown_cell(row):
+    return {PASS: "ok", DEGRADED: decided_text(row), BROKEN: f"**{decided_text(row)}**", NOT_APPLICABLE: "-"}[row.verdict]
+
+
+def map_table(found):
+    """A case a row and a setting a column; below, how many cases have each verdict."""
+    rows = [[str(scene.facts.row), f"`{scene.name.partition('/')[2] or scene.name}`", *map(markdown_cell, scene.results())]
+            for scene in found.scenes]
+    counts = [["", verdict, *(str(one[verdict]) for one in found.counts())] for verdict in VERDICTS]
+    return Table("", ["row", "case", *found.settings], rows + counts, of_words=True)
+
+
+def cell_json(row):
+    return {"setting": row.setting, "dt_s": row.dt, "verdict": row.verdict, "decided_by": row.decided_by, "value": row.value,
+            "unit": row.value_unit, "right_up_to": row.limit_right, "broken_beyond": row.limit_broken, "broken_at_s": row.broken_at,
+            "simulated_s": row.simulated, "row_visits": row.row_visits, "step_time_s": row.step_time,
+            "drift_category": DRIFT_BANDS[row.drift_band], "metrics": {name: getattr(row, name) for name in METRICS}}
+
+
+def scene_json(scene):
+    one = scene.facts
+    return {"scene": scene.name, "group": one.group, "row": one.row, "oracle": one.oracle, "source": one.source, "bodies": one.bodies,
+            "seconds": one.seconds, "results": list(map(cell_json, scene.results()))}
+
+
+def severity(row):
+    """How dark a field is: 0 for a right number, 1 at a thousand times its limit or more."""
+    if row.verdict in (PASS, NOT_APPLICABLE):
+        return 0.0
+    if not row.limit_right > 0 or not math.isfinite(row.value):
+        return 1.0
+    return min(max(math.log10(row.value / row.limit_right) / 3, 0.0), 1.0)
+
+
+def detail(row):
+    if row.verdict == NOT_APPLICABLE:
+        return row.decided_by
+    return (f"{decided_text(row)}; right up to {row.limit_right:.3g}, broken beyond {row.limit_broken:.3g}. {row.row_visits:.0f} row "
+            f"visits and {1e6 * row.step_time:.3g} us of processor time a step.")
+
+
+def map_json(study, found):
+    """The page's map; a field has what its click opens."""
+    recorded = map_page.Recorded(study)
+    rows = []
+    for scene in found.scenes:
+        still = recorded.still(scene.name)
+        cells = [{"verdict": row.verdict, "label": "" if row.verdict == PASS else decided_text(row), "detail": detail(row),
+                  "severity": severity(row), "curves": recorded.curves(index), "replay": recorded.replay(index, still, row.dt)}
+                 for index, row in scene.cells.items()]
+        one = scene.facts
+        rows.append({"name": scene.name, "group": one.group, "oracle": one.oracle, "source": one.source, "cells": cells})
+    return {"columns": found.settings, "rows": rows}
+
+
+def report_of(study, found):
+    line, entries = page.origin_of_study(study)
+    subtitle = f"{plural(len(found.scenes), 'hard case')}, {plural(len(found.settings), 'setting')}; {study.attributes['command_line']}"
+    sections = [Section(tables=[counts_table(found)], shown_in=(TEXT,)), *map(scene_section, found.scenes),
+                Section(tables=[map_table(found)], shown_in=(MARKDOWN,))]
+    head = f"study: stability; {plural(len(found.scenes), 'case')}, each judged by the bounds in its scene file\n"
+    numbers = {"settings": found.settings, "cases": list(map(scene_json, found.scenes))}
+    return Report("Stability", subtitle, sections, numbers, head, line, entries)
+
+
+def run(words):
+    options = parse(COMMAND, words)
+    if options is None:
+        return
+    study = read_study(one_file(options, "a study of stability", "stability.h5"), "stability")
+    found = map_of(study, options.scene or [])
+    deliver(report_of(study, found), options, study.tables["cases"],
+            lambda report: page.fill("map_html", page.fields_of(report) | {"map": page.safe_json(map_json(study, found))}))
