@@ -6,16 +6,18 @@ USEFUL = PHASES[:6]  # time spent on the simulation itself
 # What a parameter matters for: another value gives other results, another sample of the same case, other estimates, or none of these.
 RESULTS, SEED, ESTIMATE, NOTHING = "results", "seed", "estimate", "nothing"
 SEEDS = ("seed", "solver_seed", "world_range")
-FREE = ("ranks", "threads", "processors", "build", "simd", "decompose", "budget", "frames", "record_every", "record_islands", "record_contacts",
-        "record_residuals", "resumed_from", "joined_from", "parameters_file", "ranks_per_world", "rank_groups", "on_blowup")
+FREE = ("ranks", "threads", "processors", "build", "simd", "decompose", "budget", "frames", "record_every", "record_islands",
+        "record_contacts", "record_residuals", "resumed_from", "joined_from", "parameters_file", "ranks_per_world", "rank_groups",
+        "on_blowup")
 MOST_LETTERS = 60  # of a value in a sentence
 
 
 class Run:
     """A run's file: T committed frames, in P of which bodies were recorded, of W worlds on R ranks.
 
-    path; attributes, parameters: texts by name, in the order of the alphabet; complete; hosts [R]; num_frames T, num_recorded P, num_worlds W,
-    num_ranks R, record_every; first_frame: number of the first frame in the whole run; measured: bool [T], False in a warm-up frame.
+    path; attributes, parameters: texts by name, in the order of the alphabet; complete; hosts [R]; num_frames T, num_recorded P,
+    num_worlds W, num_ranks R, record_every; first_frame: number of the first frame in the whole run; measured: bool [T], False in a warm-up
+    frame.
     The file stays open. Raises BadInput for anything but a sound run."""
 
     def __init__(self, path):
@@ -101,9 +103,9 @@ class Run:
         """In words for a run that was cut off: its file has blanks in the hash's place."""
         return self.attributes.get("state_hash", "").strip() or "none (the run was cut off)"
 
-    def rank_seconds(self, phase):
-        """Array [measured frames][R] of a column of /timings/rank [s]: a phase, useful; or messages, bytes."""
-        return self.frames(f"timings/rank/{phase}")[self.measured].astype(float)
+    def of_ranks(self, name):
+        """Array [measured frames][R] of floats of a column of /timings/rank: a phase, useful [s]; messages, bytes."""
+        return self.frames(f"timings/rank/{name}")[self.measured].astype(float)
 
 
 def matters_for(name):
