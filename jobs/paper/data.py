@@ -2,6 +2,8 @@
 import dataclasses
 import pathlib
 
+from reports.files import RUN, STUDY, BadInput, require
+
 import figures
 import instructions
 import prediction
@@ -21,7 +23,7 @@ class PaperData:
     counts: list = dataclasses.field(default_factory=list)
     prediction: object = None
     stability: dict = None  # as `pbreport stability --json` prints it
-    files: list = dataclasses.field(default_factory=list)  # (path, attributes) of all that were read
+    files: list = dataclasses.field(default_factory=list)  # runs.Source of all that were read
 
     def find(self, scene):
         return next((one for one in self.suite if one.scene == scene), None)
@@ -52,25 +54,24 @@ def files_of(paths):
 
 def add_study(path, is_named, kind, data):
     if kind in ("prediction", "stability"):
-        runs.require(getattr(data, kind) is None, f"{path}: a second study of {kind}; name one")
+        require(getattr(data, kind) is None, f"{path}: a second study of {kind}; name one")
     if kind == "prediction":
         data.prediction = prediction.read_study(path)
     elif kind == "stability":
         data.stability = runs.pbreport("stability", path)
     elif is_named:
-        raise runs.BadInput(f"{path}: a study of {kind}, which decides nothing of the paper")
+        raise BadInput(f"{path}: a study of {kind}, which decides nothing of the paper")
     else:
         return
-    with runs.open_file(path) as file:
-        data.files.append((path, {name: runs.text_of(value) for name, value in file.attrs.items()}))
+    data.files.append(runs.source_of(path))
 
 
 def add_counts(path, is_named, data):
     if not is_named and not instructions.is_of_counts(instructions.document_of(path)):
         return
-    runs.require(not data.counts, f"{path}: second counts of instructions; name one file")
+    require(not data.counts, f"{path}: second counts of instructions; name one file")
     data.counts = instructions.read_counts(path)
-    data.files.append((path, {"command_line": "jobs/figure3.sh"}))
+    data.files.append(instructions.source_of(path))
 
 
 def add_profiled(run, profiled):
@@ -103,18 +104,18 @@ def read(paths):
             add_counts(path, is_named, data)
             continue
         filetype, kind = runs.kind_of(path)
-        if filetype == runs.STUDY:
+        if filetype == STUDY:
             add_study(path, is_named, kind, data)
-        elif is_named or filetype == runs.RUN:
+        elif is_named or filetype == RUN:
             run = runs.Run(path)
-            data.files.append((path, run.attributes))
+            data.files.append(runs.Source(path, run.attributes))
             if "-fast_bodies" in run.parameter("effects"):
                 data.plain.append((run.scene, run.events.get("passage", 0)))
             elif run.profile is None:
                 recorded.append(run)
             else:
                 add_profiled(run, profiled)
-    runs.require(data.files, "paper: no file of jobs/paper.sh found in what is named")
+    require(data.files, "paper: no file of jobs/paper.sh found in what is named")
     for run in profiled.values():
         sort_in(run, data)
     data.figures = figures.scenes_of(recorded)

@@ -5,6 +5,8 @@ import math
 
 import numpy as np
 
+from reports.files import RUN, open_file, require
+
 import runs
 
 REFERENCE, FLOOR, FEEC = "Iter20", "seed", "FEEC quick x 1"
@@ -88,7 +90,7 @@ def scene_of(name, of_scene):
     by_label = {}
     for run in of_scene:
         by_label.setdefault(label_of(run), []).append(run)
-    runs.require(REFERENCE in by_label, f"{name}: no file has a run of quick with 20 iterations, which the others are held against; "
+    require(REFERENCE in by_label, f"{name}: no file has a run of quick with 20 iterations, which the others are held against; "
                                         "record one")
     reference = by_label[REFERENCE][0]
     floor = [runs.pbreport("diff", run.path, reference.path)["drift"] for run in by_label.pop(FLOOR, [])]
@@ -146,17 +148,16 @@ def human_segments(file):
 def stretch_of(run, is_estimate):
     """|distance / length - 1| of the joints of each human segment, as its neighbours have them, in all measured frames that were
     recorded; NaN if it is not finite. Segments of broken joints are left out."""
-    with runs.open_file(run.path) as file:
+    with open_file(run.path, RUN) as file:
         lengths, ends = human_segments(file)
         if len(lengths) == 0:
             return []
         poses = file["estimate" if is_estimate else "particles/bodies"]
         broken_in = file["joints/broken_in"][:] if "joints/broken_in" in file else np.full(len(file["joints/kind"]), -1)
         steps = file["particles/bodies/position/step"]
-        record_every = int(run.attributes["record_every"])
         stretch = []
-        for row in range(run.frames // record_every):
-            if (row + 1) * record_every - 1 not in run.measured:
+        for row in range(run.num_recorded):
+            if not run.measured[(row + 1) * run.record_every - 1]:
                 continue
             position, orientation = poses["position/value"][row], poses["orientation/value"][row]
             places = [position[bodies] + rotated(orientation[bodies], anchors) for _, bodies, anchors in ends]

@@ -3,7 +3,10 @@ import dataclasses
 import json
 import math
 
-import runs
+from reports.files import BadInput, require
+from reports.words import percent
+
+from runs import Source
 
 FILETYPE = "pbmpi-instructions"
 MIX = ("floating point", "integer", "branch", "store", "load")
@@ -35,9 +38,14 @@ def document_of(path):
         with open(path, encoding="utf-8") as file:
             return json.load(file)
     except OSError as error:
-        raise runs.BadInput(f"{path}: {error.strerror}; name the figure3.json of jobs/figure3.sh") from None
+        raise BadInput(f"{path}: {error.strerror}; name the figure3.json of jobs/figure3.sh") from None
     except ValueError:
         return None
+
+
+def source_of(path):
+    """For the foot of a page."""
+    return Source(path, {"command_line": "jobs/figure3.sh"})
 
 
 def is_of_counts(document):
@@ -47,13 +55,13 @@ def is_of_counts(document):
 def read_counts(path):
     """[CountedScene] in the order of the file."""
     document = document_of(path)
-    runs.require(is_of_counts(document), f"{path}: no counts of instructions; name the figure3.json of jobs/figure3.sh")
+    require(is_of_counts(document), f"{path}: no counts of instructions; name the figure3.json of jobs/figure3.sh")
     try:
         scenes = [CountedScene(name, *(counts_of(scene.get(stepper)) for stepper in ("quick", "direct")))
                   for name, scene in document["scenes"].items()]
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise runs.BadInput(f"{path}: it lacks what jobs/figure3.py writes ({error}); count again") from None
-    runs.require(scenes, f"{path}: it has no scene; count again")
+        raise BadInput(f"{path}: it lacks what jobs/figure3.py writes ({error}); count again") from None
+    require(scenes, f"{path}: it has no scene; count again")
     return scenes
 
 
@@ -115,10 +123,6 @@ def mean_mix(mixes):
     return tuple(sum(mix[i] / len(mixes) for mix in mixes) for i in range(len(MIX)))
 
 
-def percent(share):
-    return f"{100 * share:.0f} %"
-
-
 def millions(instructions):
     return f"{instructions / 1e6:.4g}"
 
@@ -142,8 +146,8 @@ def law_text(cost):
 
 
 def line_of(scene, stepper, counts):
-    mix = ",".join(f" {name} {percent(share)}" for name, share in zip(MIX, counts.mix))
-    return f"{scene:<8} {stepper:<6} {counts.per_frame / 1e6:10.2f} M a frame;{mix}; collision {percent(counts.collision_share)}\n"
+    mix = ",".join(f" {name} {percent(share, 0)}" for name, share in zip(MIX, counts.mix))
+    return f"{scene:<8} {stepper:<6} {counts.per_frame / 1e6:10.2f} M a frame;{mix}; collision {percent(counts.collision_share, 0)}\n"
 
 
 def figure3_text(scenes, works):

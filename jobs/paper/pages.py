@@ -1,22 +1,49 @@
-"""The pages of the paper's figures, of its statements, and of a study of value prediction."""
+"""The reports on the paper's figures, on its statements, and on a study of value prediction: what their pages show, and what is printed."""
 import math
+
+from reports import charts, islands, page
+from reports.charts import BLACK, BLUE, GREEN, ORANGE, PINK, RED, SKY, YELLOW
+from reports.document import MARKDOWN, PAGE, Chart, Report, Section, Table
+from reports.words import NO_NUMBER, number, percent
 
 import figures
 import instructions
 import prediction
 import report
-import suite
-from page import Page, Section, Table, provenance_of_runs, provenance_of_study
 from statements.prediction import judge_study
 from statements.statement import FINDINGS
-from svg import Bars, Chart
 
 PAPER = "Yeh, Faloutsos, Reinman 2006"
-# Okabe and Ito, "Color Universal Design" (2008).
-METHOD_COLOURS = ("#3d4650", "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#cc79a7", "#d55e00")
-BAND_COLOURS = ("#009e73", "#f0e442", "#e69f00", "#d55e00", "#000000")
-FINDING_COLOURS = ("#009e73", "#d55e00", "#8a949e")
-PREDICTION_COLOURS = ("#0072b2", "#56b4e9", "#e69f00", "#d55e00", "#009e73", "#cc79a7")
+MAKER = "jobs/paper/paper.py"
+METHOD_COLOURS = ("#3d4650", BLUE, SKY, GREEN, ORANGE, PINK, RED)
+BAND_COLOURS = (GREEN, YELLOW, ORANGE, RED, BLACK)
+FINDING_COLOURS = (GREEN, RED, "#8a949e")
+PREDICTION_COLOURS = (BLUE, SKY, ORANGE, RED, GREEN, PINK)
+
+
+def report_of(title, subtitle, sections, origin, text, numbers=None, markdown=""):
+    """The sections are those of the page; the text and the Markdown are as they are printed."""
+    for section in sections:
+        section.shown_in = (PAGE,)
+    return Report(title, subtitle, [*sections, Section(text=markdown, shown_in=(MARKDOWN,))], numbers, text, *origin)
+
+
+def bars_of(label, names, values, colour, **others):
+    """A bar, or part of a stack, over each name; none where there is no value."""
+    pairs = [(name, value) for name, value in zip(names, values) if value is not None and math.isfinite(value)]
+    return charts.bars(label, [charts.point(name, value, f"{label}: {value:.4g}") for name, value in pairs], colour, **others)
+
+
+def bar_chart(title, text, names, sets, axis, **marks):
+    """`marks`: bands, and a key instead of the sets' own."""
+    config = charts.chart("bar", sets, {"y": axis}, names, **marks)
+    if "key" in marks:
+        config["options"]["plugins"]["legend"] = {"display": False}
+    return Chart(title, text, config)
+
+
+def share_axis(text="%"):
+    return charts.axis(text, max=100)
 
 
 def figure3_section(counts, works):
@@ -27,12 +54,13 @@ def figure3_section(counts, works):
     def millions(is_counted):
         return [one.middle / 1e6 if one and one.is_counted == is_counted else None for one in direct]
 
-    bars = [Bars("quick", [scene.quick.per_frame / 1e6 if scene.quick else None for scene in counts], "#0072b2"),
-            Bars("direct", millions(True), "#d55e00")]
+    names = [scene.name for scene in counts]
+    sets = [bars_of("quick", names, [scene.quick.per_frame / 1e6 if scene.quick else None for scene in counts], BLUE),
+            bars_of("direct", names, millions(True), RED)]
     if any(value is not None for value in millions(False)):
-        bars.append(Bars("direct, extrapolated", millions(False), "#e69f00"))
-    chart = Chart("Instructions of a frame", "Millions, logarithmic; mean of the measured frames.", [scene.name for scene in counts], bars,
-                  "million instructions", is_logarithmic=True)
+        sets.append(bars_of("direct, extrapolated", names, millions(False), ORANGE))
+    chart = bar_chart("Instructions of a frame", "Millions, logarithmic; mean of the measured frames.", names, sets,
+                      charts.axis("million instructions", "logarithmic"))
     text = ("Inside the stepper, counted by callgrind. An instruction counts as what it computes, its access to memory besides as a load or "
             "a store. The paper prints the figure without numbers; its text says that quick takes far fewer instructions than direct. It "
             f"counts single-precision code of 2006, this is double precision.\n\n{instructions.law_text(cost)}")
@@ -40,11 +68,11 @@ def figure3_section(counts, works):
 
 
 def mix_table(counts, direct):
-    def row(scene, stepper, number, mix, collision):
-        return [scene, stepper, number, *map(instructions.percent, mix), collision]
+    def row(scene, stepper, millions, mix, collision):
+        return [scene, stepper, millions, *(percent(share, 0) for share in mix), collision]
 
     def counted(scene, stepper, one):
-        return row(scene, stepper, instructions.millions(one.per_frame), one.mix, instructions.percent(one.collision_share))
+        return row(scene, stepper, instructions.millions(one.per_frame), one.mix, percent(one.collision_share, 0))
 
     rows, quick = [], [scene.quick for scene in counts if scene.quick]
     for scene, cost in zip(counts, direct):
@@ -55,63 +83,59 @@ def mix_table(counts, direct):
         else:
             rows.append([scene.name, "direct", instructions.direct_text(cost), *[""] * (len(instructions.MIX) + 1)])
     share = sum(one.collision_share for one in quick) / len(quick) if quick else 0
-    rows.append(row("all", "quick", "", instructions.mean_mix([one.mix for one in quick]), instructions.percent(share)))
+    rows.append(row("all", "quick", "", instructions.mean_mix([one.mix for one in quick]), percent(share, 0)))
     rows.append(row("paper", "", "", instructions.PAPER_MIX, "7 % (2 to 20 %)"))
     return Table("Numbers", ["scene", "stepper", "millions", *instructions.MIX, "collision"], rows)
 
 
 def figure3_page(counts, works, files):
-    return Page("Instructions of a frame", f"Figure 3 of {PAPER}", [figure3_section(counts, works)], *provenance_of_runs(files))
+    return report_of("Instructions of a frame", f"Figure 3 of {PAPER}", [figure3_section(counts, works)], page.origin_of_runs(files, MAKER),
+                     instructions.figure3_text(counts, works))
+
+
+FORMS = (("serial", "serial", charts.INK), ("islands parallel", "islands_parallel", BLUE),
+         ("islands and spaces parallel", "spaces_parallel", ORANGE))
+
+
+def forms_chart(scenes, title, text, value, axis, **marks):
+    """Figure 6: value(rate) of the serial rate, and of the rate with a core for each island, then also for each space."""
+    names = [one.scene for one in scenes]
+    sets = [bars_of(label, names, [value(getattr(one, form)) for one in scenes], colour) for label, form, colour in FORMS]
+    return bar_chart(title, text, names, sets, axis, **marks)
 
 
 def rates_chart(scenes, text):
-    """Figure 6: serial rate, and the rate with a core for each island, then also for each space."""
-    bars = [Bars(label, [getattr(one, kind).hz for one in scenes], colour)
-            for label, kind, colour in (("serial", "serial", "#7a8490"), ("islands parallel", "islands_parallel", "#0072b2"),
-                                        ("islands and spaces parallel", "spaces_parallel", "#e69f00"))]
-    levels = [(30, "line at 30 Hz", "#d55e00"), (300, "line at 300 Hz, the budget", "#009e73")]
-    return Chart("Frame rate", text, [one.scene for one in scenes], bars, "Hz", is_logarithmic=True, levels=levels)
+    levels = [charts.band(hz, hz, label, colour, dash=[6, 4], showValue=False)
+              for hz, label, colour in ((30, "line at 30 Hz", RED), (300, "line at 300 Hz, the budget", GREEN))]
+    return forms_chart(scenes, "Frame rate", text, lambda rate: rate.hz, charts.axis("Hz", "logarithmic"), bands=levels)
 
 
 def satisfied_chart(scenes):
-    bars = [Bars(bars.label, [100 * getattr(one, kind).satisfied for one in scenes], bars.colour)
-            for bars, kind in zip(rates_chart(scenes, "").bars, ("serial", "islands_parallel", "spaces_parallel"))]
-    return Chart("Satisfied frames", "Share of the measured frames within 3.33 ms [%].", [one.scene for one in scenes], bars, "%", most=100)
+    return forms_chart(scenes, "Satisfied frames", "Share of the measured frames within 3.33 ms [%].", lambda rate: 100 * rate.satisfied,
+                       share_axis())
 
 
-def islands_table(rows):
-    """Table 1; rows as `pbreport islands --json` prints them."""
-    def difference(value):
-        return "–" if value is None else f"{100 * value:+.0f} %"
-
-    cells = []
-    for row in rows:
-        ours, crossing = row["islands"], row["cross_space_contacts_per_step"]
-        cells.append([row["scene"], "here", f"{ours['max']:.0f}", f"{ours['min']:.0f}", f"{ours['mean']:.1f}", f"{ours['stddev']:.2f}",
-                      row["spaces"], "–" if crossing is None else f"{crossing:.1f}"])
-        if row["paper"] is None:
-            continue
-        paper, apart = row["paper"], row["relative_difference"]
-        names = ("max", "min", "mean", "stddev")
-        cells.append(["", "paper", *(f"{paper[name]:g}" for name in names), paper["spaces"], paper["traffic"]])
-        cells.append(["", "difference", *(difference(apart[name]) for name in names), "", ""])
-    return Table("Islands", ["scene", "", "max", "min", "mean", "deviation", "spaces", "contacts across spaces"], cells)
+def islands_table(scenes):
+    """Table 1."""
+    table = islands.report_of(scenes).sections[0].tables[0]
+    table.title = "Islands"
+    return table
 
 
 def cores_table(scenes):
     """Table 2."""
     rows = []
     for one in scenes:
-        paper = suite.paper_row(one.scene)
-        rows.append([one.scene, one.cores, f"{one.cores_mean:.1f}", paper.cores if paper else "–", f"{100 * one.longest_share:.0f} %",
-                     *(f"{rate.hz:.1f}" for rate in (one.serial, one.islands_parallel, one.spaces_parallel)),
-                     f"{100 * one.collide_share_serial:.0f} %", f"{100 * one.collide_share_parallel:.0f} %"])
+        paper = islands.PAPER.get(one.scene)
+        rows.append([one.scene, str(one.cores), f"{one.cores_mean:.1f}", str(paper.cores) if paper else NO_NUMBER,
+                     percent(one.longest_share, 0), *(f"{rate.hz:.1f}" for rate in (one.serial, one.islands_parallel, one.spaces_parallel)),
+                     percent(one.collide_share_serial, 0), percent(one.collide_share_parallel, 0)])
     return Table("Cores", ["scene", "cores", "mean", "paper", "longest island of all islands' time", "serial [Hz]", "islands parallel [Hz]",
                            "and spaces [Hz]", "collision, serial", "collision, islands parallel"], rows)
 
 
-def figure6_page(scenes, islands, pictures, files):
-    """`islands`: the rows of `pbreport islands --json`."""
+def figure6_page(scenes, pictures, files):
+    """`pictures`: [(scene, PNG)]."""
     rates = ("Harmonic mean over the measured frames [Hz], logarithmic. Serial is measured. Islands parallel: the solver takes as long as its "
              "longest island. Islands and spaces parallel: collision detection, too, takes as long as its longest space and what lies between "
              "spaces. Both assume a core each and no cost of communication, as the paper does. Of each frame the last step is taken apart, and "
@@ -122,7 +146,7 @@ def figure6_page(scenes, islands, pictures, files):
         Section("Figure 6: frame rate", rates, [rates_chart(scenes, "Lines: 30 Hz, and 300 Hz, the budget of a tenth of a frame.")]),
         Section("Figure 6: satisfied frames", "", [satisfied_chart(scenes)]),
         Section("Table 1: islands", "At the end of each measured frame, over all worlds. Contacts across spaces: contact points between bodies "
-                                    "of different spaces, mean of the measured frames' last steps.", tables=[islands_table(islands)]),
+                                    "of different spaces, mean of the measured frames' last steps.", tables=[islands_table(scenes)]),
         Section("Table 2: cores for full parallelism",
                 "Fewest cores on which the islands of a step, longest first, end at most 5 % after the longest island alone; in the worst "
                 "measured frame. The share of collision detection is of the frame's serial time, then of the time with islands in parallel "
@@ -130,15 +154,18 @@ def figure6_page(scenes, islands, pictures, files):
                 "parallel).", tables=[cores_table(scenes)])]
     if pictures:
         sections.append(Section("The scenes", "Each from the replay of its run.", pictures=pictures))
-    return Page("PhysicsBench", "The paper's Figure 6 and Tables 1 and 2 beside this machine's, stepper quick.", sections,
-                *provenance_of_runs(files))
+    return report_of("PhysicsBench", "The paper's Figure 6 and Tables 1 and 2 beside this machine's, stepper quick.", sections,
+                     page.origin_of_runs(files, MAKER), "")
 
 
-def methods_chart(scenes, title, text, axis, number, is_logarithmic=False):
+def methods_chart(scenes, title, text, axis, value):
     """One bar a scene and method."""
-    bars = [Bars(label, [number(scene.find(label)) if scene.find(label) else None for scene in scenes], METHOD_COLOURS[i % len(METHOD_COLOURS)])
-            for i, label in enumerate(figures.labels_of(scenes))]
-    return Chart(title, text, [scene.name for scene in scenes], bars, axis, is_logarithmic, None if is_logarithmic else 100)
+    names = [scene.name for scene in scenes]
+    sets = []
+    for place, label in enumerate(figures.labels_of(scenes)):
+        methods = [scene.find(label) for scene in scenes]
+        sets.append(bars_of(label, names, [value(one) if one else None for one in methods], METHOD_COLOURS[place % len(METHOD_COLOURS)]))
+    return bar_chart(title, text, names, sets, axis)
 
 
 def share(errors, band):
@@ -149,6 +176,7 @@ def share(errors, band):
 def errors_chart(scenes, title, key, bands):
     """One stack of five categories a method and scene. Iter20 is left out: it is the reference."""
     labels = [label for label in figures.labels_of(scenes) if label != figures.REFERENCE]
+    names = [scene.name for scene in scenes]
 
     def of_method(scene, label, band):
         method = scene.find(label)
@@ -157,23 +185,25 @@ def errors_chart(scenes, title, key, bands):
     def of_floor(scene, band):
         return sum(share(errors[key], band) for errors in scene.floor) / len(scene.floor) if scene.floor else 0
 
-    stacks = []
+    sets = []
     for band, name in enumerate(bands):
-        stacks += [Bars(f"{label}: {name}", [of_method(scene, label, band) for scene in scenes], BAND_COLOURS[band], label) for label in labels]
-        stacks.append(Bars(f"noise floor: {name}", [of_floor(scene, band) for scene in scenes], BAND_COLOURS[band], "noise floor"))
-    return Chart(title, f"Bars of a scene, in this order: {', '.join([*labels, 'noise floor'])}.", [scene.name for scene in scenes], stacks,
-                 "% of entries", most=100, key=list(zip(bands, BAND_COLOURS)))
+        stacks = {label: [of_method(scene, label, band) for scene in scenes] for label in labels}
+        stacks["noise floor"] = [of_floor(scene, band) for scene in scenes]
+        sets += [bars_of(f"{label}: {name}", names, values, BAND_COLOURS[band], stack=label) for label, values in stacks.items()]
+    key = [{"label": name, "shape": "bar", "colour": colour} for name, colour in zip(bands, BAND_COLOURS)]
+    return bar_chart(title, f"Bars of a scene, in this order: {', '.join([*labels, 'noise floor'])}.", names, sets,
+                     share_axis("% of entries"), key=key)
 
 
 def method_rows(scenes):
     return [[scene.name, method.label, f"{method.rate_hz:.1f}", f"{100 * method.satisfied:.0f}", f"{1e3 * method.frame_s:.3f}",
-             f"{scene.ratio(method):.2f}" if method.is_estimate else "", "equal to Iter20's" if method.same_hash else "another", method.num_runs]
-            for scene in scenes for method in scene.methods]
+             f"{scene.ratio(method):.2f}" if method.is_estimate else "", "equal to Iter20's" if method.same_hash else "another",
+             str(method.num_runs)] for scene in scenes for method in scene.methods]
 
 
 def errors_table(scenes, title, key, unit, bands):
     def row(scene, label, errors):
-        return [scene.name, label, *(f"{errors[name]:.3g}" for name in ("rms", "p99", "max")), *errors["bands"]]
+        return [scene.name, label, *(f"{errors[name]:.3g}" for name in ("rms", "p99", "max")), *map(str, errors["bands"])]
 
     rows = []
     for scene in scenes:
@@ -190,8 +220,10 @@ def figure8_9_sections(scenes):
         "Mean over the scenes of the time of an Iter20 frame over the time until its estimate is delivered: "
         f"{ratio_text} The paper: +220 %, i.e. 3.2.\n\nThe rate of an estimate is that of its deliveries: what consumers see. The precise "
         "result follows later in the same frame.",
-        [methods_chart(scenes, "Frame rate", "Harmonic mean of the measured frames [Hz], logarithmic.", "Hz", lambda one: one.rate_hz, True),
-         methods_chart(scenes, "Satisfied", "Frames, or deliveries, within the budget [%].", "%", lambda one: 100 * one.satisfied)],
+        [methods_chart(scenes, "Frame rate", "Harmonic mean of the measured frames [Hz], logarithmic.", charts.axis("Hz", "logarithmic"),
+                       lambda one: one.rate_hz),
+         methods_chart(scenes, "Satisfied", "Frames, or deliveries, within the budget [%].", share_axis(),
+                       lambda one: 100 * one.satisfied)],
         [Table("Numbers", ["scene", "method", "frame rate Hz", "satisfied %", "ms", "Iter20 / delivery", "precise state", "runs"],
                method_rows(scenes))])
     errors = Section(
@@ -206,15 +238,16 @@ def figure8_9_sections(scenes):
 
 
 def figure8_9_page(scenes, files):
-    return Page("Fast estimation with error control", f"Figures 8 and 9 of {PAPER}", figure8_9_sections(scenes), *provenance_of_runs(files))
+    return report_of("Fast estimation with error control", f"Figures 8 and 9 of {PAPER}", figure8_9_sections(scenes),
+                     page.origin_of_runs(files, MAKER), figures.figures_text(scenes))
 
 
 def overview(chapters):
     counts = [report.count_findings(chapter.entries) for chapter in chapters]
-    bars = [Bars(finding, [count[i] for count in counts], colour, "statements")
-            for i, (finding, colour) in enumerate(zip(FINDINGS, FINDING_COLOURS))]
-    chart = Chart("Verdicts", "Statements of each part of the paper.", [chapter.name for chapter in chapters], bars, "statements",
-                  most=5 * math.ceil(max(map(sum, counts)) / 5))
+    names = [chapter.name for chapter in chapters]
+    sets = [bars_of(finding, names, values, colour, stack="statements")
+            for finding, values, colour in zip(FINDINGS, zip(*counts), FINDING_COLOURS)]
+    chart = bar_chart("Verdicts", "Statements of each part of the paper.", names, sets, charts.axis("statements"))
     text = ("Each statement of the paper with the rule by which it counts as confirmed, which was set before the number was known, and what "
             "was measured. What rests on a clock is of the machine and the day in the foot of this page; what rests on counts is the same in "
             "each run.\n\nThe scenes are built to the paper's description, which has no parameters, and their islands to its Table 1: that "
@@ -236,15 +269,18 @@ def paper_page(chapters, data):
                                 [rates_chart(data.suite, "Harmonic mean of the measured frames [Hz], logarithmic.")]))
     if data.figures:
         sections += figure8_9_sections(data.figures)
-    return Page("The paper, statement by statement",
-                "Yeh, Faloutsos, Reinman: Enabling Real-Time Physics Simulation in Future Interactive Entertainment, 2006", sections,
-                *provenance_of_runs(data.files))
+    return report_of("The paper, statement by statement",
+                     "Yeh, Faloutsos, Reinman: Enabling Real-Time Physics Simulation in Future Interactive Entertainment, 2006", sections,
+                     page.origin_of_runs(data.files, MAKER), report.paper_text(chapters), report.paper_json(chapters),
+                     report.paper_markdown(chapters))
 
 
-def prediction_chart(study, title, axis, number, is_logarithmic):
-    by_scene = [prediction.figure_8(scene, study.fvp) for scene in study.scenes]
-    bars = [Bars(bar.name, [number(of_scene[i].rate) for of_scene in by_scene], PREDICTION_COLOURS[i]) for i, bar in enumerate(by_scene[0])]
-    return Chart(title, "", [scene.name for scene in study.scenes], bars, axis, is_logarithmic, None if is_logarithmic else 100)
+def prediction_chart(study, title, axis, value):
+    names = [scene.name for scene in study.scenes]
+    by_bar = zip(*(prediction.figure_8(scene, study.fvp) for scene in study.scenes))
+    sets = [bars_of(of_scenes[0].name, names, [value(bar.rate) for bar in of_scenes], colour)
+            for of_scenes, colour in zip(by_bar, PREDICTION_COLOURS)]
+    return bar_chart(title, "", names, sets, axis)
 
 
 def cases_section(scene):
@@ -252,16 +288,16 @@ def cases_section(scene):
     rows = []
     for case in scene.cases:
         hits = case.hits()
-        rows.append([case.name, report.percent_or_dash(hits.coverage()), report.percent_or_dash(hits.hit_rate()),
-                     report.number_or_dash(hits.mean_error(), ".2g"), f"{hits.error_max:.2g}" if hits.fuzzy > 0 else "-",
-                     *report.errors_cells(case), report.number_or_dash(case.islands, ".1f"), case.fate()])
+        rows.append([case.name, percent(hits.coverage()), percent(hits.hit_rate()), number(hits.mean_error(), ".2g"),
+                     f"{hits.error_max:.2g}" if hits.fuzzy > 0 else "-",
+                     *report.errors_cells(case), number(case.islands, ".1f"), case.fate()])
     head = ["case", "coverage", "hit rate", "mean accepted error", "largest", "drift [mm]", "defect [mm]",
             "< 1 cm/1-10/10-100/> 100 cm/inf or NaN", "islands", ""]
     return Section(scene.name, f"{report.plural_worlds(scene)}. Errors of positions against the unpredicted run; noise floor (another solver "
                                f"seed): {1e3 * rms:.3g} mm, {report.bands_text(bands)}.", tables=[Table("Cases", head, rows)])
 
 
-def prediction_page(path, study):
+def prediction_page(study):
     tables = [Table("The paper's statements", ["statement", "finding", "number", "confirmed if"],
                     [[one.statement.text, one.finding, one.ours, one.statement.rule] for one in judge_study(study)]),
               Table(f"Hits of floating-point results by engine, exact and {study.fvp}", report.ENGINE_HEAD, report.engine_rows(study))]
@@ -271,7 +307,8 @@ def prediction_page(path, study):
         tables.append(Table("What other processors would change", ["scene", "case", "processor", "cycles", "with prediction", "gain"], rows))
     first = Section("Figure 8 on the modelled processor",
                     f"Table 3 at 3 GHz; a frame is satisfied within {1e3 * study.budget_s:.3g} ms. A bar is missing where no measured frame was "
-                    "left.", [prediction_chart(study, "Frame rate", "Hz", lambda rate: rate.hz, True),
-                              prediction_chart(study, "Frames satisfied", "%", lambda rate: 100 * rate.satisfied, False)], tables)
-    return Page("Value prediction", study.attributes["command_line"], [first, *map(cases_section, study.scenes)],
-                *provenance_of_study(path, study.attributes, study.parameters))
+                    "left.", [prediction_chart(study, "Frame rate", charts.axis("Hz", "logarithmic"), lambda rate: rate.hz),
+                              prediction_chart(study, "Frames satisfied", share_axis(), lambda rate: 100 * rate.satisfied)], tables)
+    return report_of("Value prediction", study.file.attributes["command_line"], [first, *map(cases_section, study.scenes)],
+                     page.origin_of_study(study.file, MAKER), report.prediction_text(study), report.prediction_json(study),
+                     report.prediction_markdown(study).removesuffix("\n"))

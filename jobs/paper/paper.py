@@ -8,51 +8,36 @@ import os
 import pathlib
 import sys
 
-import data
-import figures
-import instructions
-import page
-import pages
-import prediction
-import report
-import runs
-import statements
-import suite
+sys.path.insert(1, str(pathlib.Path(__file__).resolve().parents[2] / "src/app"))  # the package reports
 
+from reports.document import Report  # noqa: E402
+from reports.files import BadInput, require  # noqa: E402
+from reports.printing import deliver  # noqa: E402
 
-def show(options, text, make_page):
-    """Writes the page that was asked for, and prints the text."""
-    if options.html:
-        page.write(options.html, make_page())
-    if not options.quiet:
-        sys.stdout.write(text)
-
-
-def in_form(options, as_text, as_json, as_markdown):
-    """What is printed; a form that was asked for is printed even with --quiet."""
-    form = as_json if options.json else as_markdown if options.markdown else as_text
-    options.quiet = options.quiet and form is as_text
-    return form
+import data  # noqa: E402
+import figures  # noqa: E402
+import instructions  # noqa: E402
+import pages  # noqa: E402
+import prediction  # noqa: E402
+import runs  # noqa: E402
+import statements  # noqa: E402
+import suite  # noqa: E402
 
 
 def run_paper(options):
     found = data.read(options.file)
-    chapters = statements.judged(found)
-    form = in_form(options, report.paper_text, report.paper_json, report.paper_markdown)
-    show(options, form(chapters), lambda: pages.paper_page(chapters, found))
+    deliver(pages.paper_page(statements.judged(found), found), options)
 
 
 def run_figures(options):
     recorded = [runs.Run(path) for path in options.file]
-    scenes = figures.scenes_of(recorded)
-    show(options, figures.figures_text(scenes), lambda: pages.figure8_9_page(scenes, [(run.path, run.attributes) for run in recorded]))
+    deliver(pages.figure8_9_page(figures.scenes_of(recorded), recorded), options)
 
 
 def run_figure3(options):
     counts, recorded = instructions.read_counts(options.file[0]), [runs.Run(path) for path in options.file[1:]]
     works = [suite.work_of(run) for run in recorded]
-    files = [(options.file[0], {"command_line": "jobs/figure3.sh"}), *((run.path, run.attributes) for run in recorded)]
-    show(options, instructions.figure3_text(counts, works), lambda: pages.figure3_page(counts, works, files))
+    deliver(pages.figure3_page(counts, works, [instructions.source_of(options.file[0]), *recorded]), options)
 
 
 def pictures_of(folder, scenes):
@@ -60,33 +45,28 @@ def pictures_of(folder, scenes):
     try:
         return [(one.scene, pathlib.Path(folder, f"{one.scene}.png").read_bytes()) for one in scenes]
     except OSError as error:
-        raise runs.BadInput(f"{error.filename}: {error.strerror}; make it with jobs/stills.sh, or leave --stills out") from None
+        raise BadInput(f"{error.filename}: {error.strerror}; make it with jobs/stills.sh, or leave --stills out") from None
 
 
 def run_figure6(options):
-    runs.require(options.html, "--html is missing; name the page to write")
+    require(options.html, "--html is missing; name the page to write")
     recorded = [runs.Run(path) for path in options.file]
     scenes = [suite.suite_of(run) for run in recorded]
-    pictures = pictures_of(options.stills, scenes) if options.stills else []
-    islands = runs.pbreport("islands", *options.file)
-    show(options, f"{options.html}\n", lambda: pages.figure6_page(scenes, islands, pictures, [(run.path, run.attributes) for run in recorded]))
+    report = pages.figure6_page(scenes, pictures_of(options.stills, scenes) if options.stills else [], recorded)
+    report.head = f"{options.html}\n"
+    deliver(report, options)
 
 
 def run_cores(options):
     scenes = [suite.suite_of(runs.Run(path)) for path in options.file]
-    if options.json:
-        sys.stdout.write(report.json_text([suite.cores_json(one) for one in scenes]))
-    else:
-        sys.stdout.write(suite.CORES_HEAD + "".join(map(suite.cores_text, scenes)))
+    text = suite.CORES_HEAD + "".join(map(suite.cores_text, scenes))
+    deliver(Report("", "", [], [suite.cores_json(one) for one in scenes], text), options)
 
 
 def run_prediction(options):
-    runs.require(len(options.file) == 1, f"'{options.file[-1]}' follows '{options.file[0]}': give one study")
+    require(len(options.file) == 1, f"'{options.file[-1]}' follows '{options.file[0]}': give one study")
     study = prediction.read_study(options.file[0], options.scene)
-    if options.csv:
-        prediction.write_cases(options.file[0], options.csv)
-    form = in_form(options, report.prediction_text, report.prediction_json, report.prediction_markdown)
-    show(options, form(study), lambda: pages.prediction_page(options.file[0], study))
+    deliver(pages.prediction_page(study), options, study.file.tables["cases"])
 
 
 # Name, function, what it shows, files, what the page shows (empty: it has none), has it --json and --markdown?
@@ -134,13 +114,16 @@ def parser():
 def main():
     options = parser().parse_args()
     try:
-        runs.require(options.file, f"{options.command}: no file given; see --help")
+        require(options.file, f"{options.command}: no file given; see --help")
         options.run(options)
-    except runs.BadInput as error:
+    except BadInput as error:
         print(f"paper.py: {error}", file=sys.stderr)
         return 2
     except BrokenPipeError:  # of a reader such as head
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        print(f"paper.py: {error.strerror or error}", file=sys.stderr)
+        return 1
     return 0
 
 

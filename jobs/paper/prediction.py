@@ -1,9 +1,10 @@
 """A study of value prediction, the file of `pbstudy prediction`: hits, frame rates of the modelled processor, and errors."""
-import csv
 import dataclasses
 import math
 
 import numpy as np
+
+from reports import files
 
 import runs
 from instructions import MIX
@@ -144,16 +145,10 @@ class Study:
     fvp: str = ""  # "FVP6": the threshold of Figure 8
     scenes: list = dataclasses.field(default_factory=list)
     sensitivity: list = dataclasses.field(default_factory=list)
-    attributes: dict = dataclasses.field(default_factory=dict)
-    parameters: dict = dataclasses.field(default_factory=dict)
+    file: files.Study = None
 
     def find(self, name):
         return next((scene for scene in self.scenes if scene.name == name), None)
-
-
-def columns_of(group):
-    """Name -> array of the rows; text as str."""
-    return {name: column.asstr()[:] if column.dtype.kind in "SO" else column[:] for name, column in group.items()}
 
 
 def hits_of(frames, rows, value_class):
@@ -182,72 +177,39 @@ def count_instructions(case, frames, rows):
     case.collision_share = ratio(int(frames["collision_instructions"][rows].sum()), instructions)
 
 
-def errors_of(cases, i):
-    names = {kind: f"{kind}_body_position_" for kind in ("defect", "drift", "floor")}
-    return {kind: (float(cases[name + "rms"][i]), cases[name + "bands"][i].tolist()) for kind, name in names.items()}
+def errors_of(row):
+    names = {kind: f"{kind}_body_position" for kind in ("defect", "drift", "floor")}
+    return {kind: (getattr(row, f"{name}_rms"), getattr(row, f"{name}_bands")) for kind, name in names.items()}
 
 
-def read_case(cases, frames, i, budget_s):
-    def whole(name):
-        return int(cases[name][i])
-
-    rows = np.flatnonzero((frames["case"] == i) & (frames["frame"] >= whole("warmup")) & ((frames["is_estimate"] != 0) == bool(whole("feec"))))
-    case = Case(cases["name"][i], cases["stepper"][i], cases["precision"][i] if "precision" in cases else "double", cases["scope"][i],
-                float(cases["threshold"][i]), *(bool(whole(name)) for name in ("ended", "same_hash", "errors_known")),
-                whole("exit_code"), whole("frames_done"), len(rows), whole("nonfinite_step"), whole("nonfinite_frame"),
-                float(cases["islands_mean"][i]), float(cases["base_islands_mean"][i]), errors=errors_of(cases, i))
+def read_case(row, place, frames, budget_s):
+    """`row`: the one at this place of the table of cases; `frames`: {name: array} of all cases."""
+    rows = np.flatnonzero((frames["case"] == place) & (frames["frame"] >= row.warmup) & ((frames["is_estimate"] != 0) == bool(row.feec)))
+    case = Case(row.name, row.stepper, row.get("precision", "double"), row.scope, row.threshold, bool(row.ended), bool(row.same_hash),
+                bool(row.errors_known), row.exit_code, row.frames_done, len(rows), row.nonfinite_step, row.nonfinite_frame,
+                row.islands_mean, row.base_islands_mean, errors=errors_of(row))
     count_instructions(case, frames, rows)
     case.loads, case.operations = hits_of(frames, rows, "fp_load"), hits_of(frames, rows, "fp_operation")
     case.unpredicted, case.predicted = (rate_of(frames[name][rows], budget_s) for name in ("cycles", "predicted_cycles"))
     return case
 
 
-def chosen(scenes, names):
-    """The scenes in the order of the names; without names all."""
-    for name in names:
-        known = ", ".join(dict.fromkeys(scene.name for scene in scenes))
-        runs.require(any(scene.name == name for scene in scenes), f"--scene {name}: the study has {known}")
-    return [scene for name in names for scene in scenes if scene.name == name] or scenes
-
-
 def read_study(path, names=()):
     """The study, of these scenes only if there are any names."""
-    filetype, kind = runs.kind_of(path)
-    runs.require(filetype == runs.STUDY, f"{path}: no study; name the file of pbstudy prediction")
-    runs.require(kind == "prediction", f"{path}: a study of {kind}, not of prediction; try pbreport {path}")
-    with runs.open_file(path) as file:
-        cases, frames, sensitivity = (columns_of(file[name]) for name in ("cases", "frames", "sensitivity"))
-        study = Study(attributes={name: runs.text_of(value) for name, value in file.attrs.items()},
-                      parameters={name: runs.text_of(value[()]) for name, value in file["parameters"].items()})
-    runs.require("budget_s" in study.parameters, "the study has no parameter budget_s; make it anew with this version")
-    study.budget_s = float(study.parameters["budget_s"])
-    for i, name in enumerate(cases["scene"]):
-        scene = study.find(name)
-        if scene is None:
-            scene = PredictionScene(name, *(int(cases[column][i]) for column in ("worlds", "warmup", "frames")))
-            study.scenes.append(scene)
-        scene.cases.append(read_case(cases, frames, i, study.budget_s))
-        if not study.fvp and scene.cases[-1].name.startswith("FEEC+"):
-            study.fvp = scene.cases[-1].name.removeprefix("FEEC+")
-    study.scenes = chosen(study.scenes, names)
-    study.sensitivity = [Sensitivity(cases["scene"][case], cases["name"][case], variant, float(cycles), float(predicted))
-                         for case, variant, cycles, predicted in zip(*(sensitivity[name] for name in
-                                                                       ("case", "variant", "cycles", "predicted_cycles")))
-                         if not names or cases["scene"][case] in names]
+    file = files.read_study(path, "prediction")
+    files.require("budget_s" in file.parameters, "the study has no parameter budget_s; make it anew with this version")
+    frames = {name: np.array(column) for name, column in file.tables["frames"].items()}
+    cases, scenes = file.rows(), {}
+    study = Study(float(file.parameters["budget_s"]), file=file)
+    for place, row in enumerate(cases):
+        scene = scenes.setdefault(row.scene, PredictionScene(row.scene, row.worlds, row.warmup, row.frames))
+        scene.cases.append(read_case(row, place, frames, study.budget_s))
+        if not study.fvp and row.name.startswith("FEEC+"):
+            study.fvp = row.name.removeprefix("FEEC+")
+    study.scenes = files.in_order_of(names, list(scenes.values()), lambda scene: scene.name)
+    study.sensitivity = [Sensitivity(case.scene, case.name, row.variant, float(row.cycles), float(row.predicted_cycles))
+                         for row, case in ((row, cases[row.case]) for row in file.rows("sensitivity")) if not names or case.scene in names]
     return study
-
-
-def write_cases(path, out):
-    """All cases as comma-separated values; a column with several values becomes several."""
-    with runs.open_file(path) as file:
-        cases = columns_of(file["cases"])
-    flat = {}
-    for name, column in cases.items():
-        flat.update({name: column} if column.ndim == 1 else {f"{name}_{k}": column[:, k] for k in range(column.shape[1])})
-    with open(out, "w", encoding="utf-8", newline="") as file:
-        rows = csv.writer(file, lineterminator="\n")
-        rows.writerow(flat)
-        rows.writerows(zip(*([str(value).removesuffix(".0") for value in column.tolist()] for column in flat.values())))
 
 
 def engines_of(scene, fvp):

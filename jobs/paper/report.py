@@ -1,6 +1,6 @@
 """Verdicts as text, Markdown and JSON, and the study of value prediction likewise."""
-import json
-import math
+from reports import document
+from reports.words import number, percent, plural
 
 import prediction
 from instructions import MIX
@@ -40,38 +40,22 @@ def paper_text(chapters):
     return f"{text}statements: {counts_text(chapters)}\n"
 
 
-def markdown_row(cells):
-    return "|" + "".join(f" {cell or '-'} |" for cell in cells) + "\n"
-
-
 def markdown_table(head, rows):
-    return "".join(map(markdown_row, (head, ["---"] * len(head), *rows)))
+    return document.markdown_table([head, *([cell or "-" for cell in row] for row in rows)], rule="|" + " --- |" * len(head))
 
 
 def paper_markdown(chapters):
     """One table a chapter, under its title."""
     tables = [f"## {chapter.title}\n\n{markdown_table(HEADER, map(cells_of, chapter.entries))}\n" for chapter in chapters]
-    return "".join(tables) + counts_text(chapters) + "\n"
-
-
-def json_text(document):
-    return json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+    return "".join(tables) + counts_text(chapters)
 
 
 def paper_json(chapters):
-    return json_text({"statements": [
+    return {"statements": [
         {"chapter": chapter.title, "section": verdict.statement.section, "statement": verdict.statement.text,
          "paper": verdict.statement.papers, "rule": verdict.statement.rule, "ours": verdict.ours, "finding": verdict.finding,
          "rests_on": verdict.statement.basis, "measured_by": verdict.statement.command, "remark": verdict.remark}
-        for chapter in chapters for verdict in chapter.entries]})
-
-
-def number_or_dash(value, form, scale=1):
-    return f"{scale * value:{form}}" if math.isfinite(value) else "-"
-
-
-def percent_or_dash(value):
-    return f"{100 * value:.1f} %" if math.isfinite(value) else "-"
+        for chapter in chapters for verdict in chapter.entries]}
 
 
 def bands_text(bands):
@@ -79,15 +63,14 @@ def bands_text(bands):
 
 
 def plural_worlds(scene):
-    return f"{scene.worlds} {'world' if scene.worlds == 1 else 'worlds'}, {scene.warmup} + {scene.frames} frames"
+    return f"{plural(scene.worlds, 'world')}, {scene.warmup} + {scene.frames} frames"
 
 
 def bars_text(scene, fvp):
     text = f"  {'Figure 8':<12} {'Hz':>12} {'satisfied':>10}\n"
     for bar in prediction.figure_8(scene, fvp):
-        satisfied = f"{100 * bar.rate.satisfied:.0f} %" if math.isfinite(bar.rate.satisfied) else "-"
         fate = f"  {bar.case.fate()}" if bar.case and bar.case.fate() else ""
-        text += f"  {bar.name:<12} {number_or_dash(bar.rate.hz, '.1f'):>12} {satisfied:>10}{fate}\n"
+        text += f"  {bar.name:<12} {number(bar.rate.hz, '.1f'):>12} {percent(bar.rate.satisfied, 0):>10}{fate}\n"
     return text
 
 
@@ -102,7 +85,7 @@ def cases_text(scene):
     text = f"  {'case':<16} {'coverage':>9} {'hit rate':>9} {'drift [mm]':>11} {'defect [mm]':>11}  {'drift < 1 cm ... NaN':<22} \n"
     for case in scene.cases:
         hits, (drift, defect, bands) = case.hits(), errors_cells(case)
-        text += (f"  {case.name:<16} {percent_or_dash(hits.coverage()):>9} {percent_or_dash(hits.hit_rate()):>9} {drift:>11} {defect:>11}  "
+        text += (f"  {case.name:<16} {percent(hits.coverage()):>9} {percent(hits.hit_rate()):>9} {drift:>11} {defect:>11}  "
                  f"{bands:<22} {case.fate()}\n")
     rms, bands = scene.base.errors["floor"]
     return text + f"  {'noise floor':<16} {'':>9} {'':>9} {1e3 * rms:11.3g} {'':>11}  {bands_text(bands)}\n"
@@ -116,8 +99,8 @@ def engine_rows(study):
     rows = []
     for scene in study.scenes:
         for engine, (exact, fuzzy) in prediction.engines_of(scene, study.fvp).items():
-            rates = [percent_or_dash(share) for hits in (exact, fuzzy) for share in (hits.coverage(), hits.hit_rate())]
-            rows.append([scene.name, engine, *rates, number_or_dash(fuzzy.mean_error(), ".1e")])
+            rates = [percent(share) for hits in (exact, fuzzy) for share in (hits.coverage(), hits.hit_rate())]
+            rows.append([scene.name, engine, *rates, number(fuzzy.mean_error(), ".1e")])
     return rows
 
 
@@ -151,41 +134,36 @@ def prediction_text(study):
 def prediction_markdown(study):
     """Frame rates, hits and verdicts as tables."""
     names = [bar.name for bar in prediction.figure_8(study.scenes[0], study.fvp)]
-    rates = [[scene.name, *(number_or_dash(bar.rate.hz, ".0f") for bar in prediction.figure_8(scene, study.fvp))] for scene in study.scenes]
+    rates = [[scene.name, *(number(bar.rate.hz, ".0f") for bar in prediction.figure_8(scene, study.fvp))] for scene in study.scenes]
     verdicts = [[verdict.statement.text, verdict.finding, verdict.ours] for verdict in judge_study(study)]
     return "\n".join((markdown_table(["scene", *names], rates), markdown_table(ENGINE_HEAD, engine_rows(study)),
                       markdown_table(["statement", "finding", "number"], verdicts)))
 
 
-def finite(value):
-    """None for what is not."""
-    return value if math.isfinite(value) else None
-
-
 def hits_json(hits):
-    return {"executed": hits.executed, "exact": hits.exact, "fuzzy": hits.fuzzy, "wrong": hits.wrong, "coverage": finite(hits.coverage()),
-            "hit_rate": finite(hits.hit_rate()), "mean_accepted_error": finite(hits.mean_error()), "max_accepted_error": hits.error_max}
+    return {"executed": hits.executed, "exact": hits.exact, "fuzzy": hits.fuzzy, "wrong": hits.wrong, "coverage": hits.coverage(),
+            "hit_rate": hits.hit_rate(), "mean_accepted_error": hits.mean_error(), "max_accepted_error": hits.error_max}
 
 
 def rate_json(rate):
-    return {"hz": finite(rate.hz), "satisfied": finite(rate.satisfied)}
+    return {"hz": rate.hz, "satisfied": rate.satisfied}
 
 
 def case_json(case):
-    errors = {f"{name}_m": {"rms": finite(case.errors[kind][0]), "bands": case.errors[kind][1]}
+    errors = {f"{name}_m": {"rms": case.errors[kind][0], "bands": case.errors[kind][1]}
               for name, kind in (("defect", "defect"), ("drift", "drift"), ("noise_floor", "floor"))}
     first_bad = {name: value if value >= 0 else None
                  for name, value in (("nonfinite_step", case.nonfinite_step), ("nonfinite_frame", case.nonfinite_frame))}
     return {"name": case.name, "stepper": case.stepper, "precision": case.precision, "scope": case.scope, "threshold": case.threshold,
             "ended": case.ended, "frames_done": case.frames_done, "measured_frames": case.measured, "same_state_hash": case.same_hash,
-            **first_bad, "islands_mean": finite(case.islands), "unpredicted_islands_mean": finite(case.base_islands),
-            "instructions_per_frame": finite(case.instructions), "loads": hits_json(case.loads), "operations": hits_json(case.operations),
+            **first_bad, "islands_mean": case.islands, "unpredicted_islands_mean": case.base_islands,
+            "instructions_per_frame": case.instructions, "loads": hits_json(case.loads), "operations": hits_json(case.operations),
             "unpredicted": rate_json(case.unpredicted), "predicted": rate_json(case.predicted), **errors}
 
 
 def scene_json(scene, fvp):
     return {"scene": scene.name, "worlds": scene.worlds, "warmup": scene.warmup, "frames": scene.frames,
-            "collision_share": finite(scene.base.collision_share), "mix": {name: finite(share) for name, share in zip(MIX, scene.base.mix)},
+            "collision_share": scene.base.collision_share, "mix": dict(zip(MIX, scene.base.mix)),
             "figure_8": {bar.name: rate_json(bar.rate) for bar in prediction.figure_8(scene, fvp)},
             "engines": {engine: {"exact": hits_json(exact), "fuzzy": hits_json(fuzzy)}
                         for engine, (exact, fuzzy) in prediction.engines_of(scene, fvp).items()},
@@ -193,10 +171,10 @@ def scene_json(scene, fvp):
 
 
 def prediction_json(study):
-    return json_text({
+    return {
         "budget_s": study.budget_s, "processor_hz": prediction.PROCESSOR_HZ,
         "scenes": [scene_json(scene, study.fvp) for scene in study.scenes],
         "sensitivity": [{"scene": row.scene, "case": row.case, "variant": row.variant, "cycles": row.cycles,
                          "predicted_cycles": row.predicted_cycles} for row in study.sensitivity],
         "statements": [{"statement": verdict.statement.text, "finding": verdict.finding, "number": verdict.ours,
-                        "rule": verdict.statement.rule} for verdict in judge_study(study)]})
+                        "rule": verdict.statement.rule} for verdict in judge_study(study)]}

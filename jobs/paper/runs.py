@@ -3,43 +3,39 @@ import json
 import os
 import pathlib
 import subprocess
+from typing import NamedTuple
 
 import h5py
 import numpy as np
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-BIN = pathlib.Path(os.environ.get("PBMPI_BIN", SOURCE / "build/release/bin"))
-RUN, STUDY = "pbmpi-run", "pbmpi-study"
-PHASES = ("collide", "islands", "rows", "solve", "integrate")  # of a serial step
+from reports import runs
+from reports.files import STUDY, BadInput, open_file, require, text_of
+from reports.samples import total
+
+BIN = pathlib.Path(os.environ.get("PBMPI_BIN", pathlib.Path(__file__).resolve().parents[2] / "build/release/bin"))
+PHASES = runs.PHASES[:5]  # of a serial step
 BUDGET_S = 1 / 30 / 10  # a tenth of a frame
 COUNT = "num_"  # before the name of an event's kind
 
 
-class BadInput(Exception):
-    """What is wrong, where, and what to do."""
+class Source(NamedTuple):
+    """A file that was read, for the foot of a page."""
+    path: str
+    attributes: dict
 
 
-def require(holds, message):
-    if not holds:
-        raise BadInput(message)
-
-
-def text_of(value):
-    """An attribute or a parameter as text."""
-    return value.decode() if isinstance(value, bytes) else str(value)
-
-
-def total(values):
-    """The sum, in order: one that adds up in pairs has other last digits."""
-    return sum(np.asarray(values, dtype=float).tolist())
+def source_of(path):
+    """Of a study."""
+    with open_file(path, STUDY) as file:
+        return Source(path, {name: text_of(value) for name, value in file.attrs.items()})
 
 
 def mean(values):
-    return total(values) / len(values)
+    return float(total(values)) / len(values)
 
 
 def harmonic_mean_hz(seconds):
-    return len(seconds) / total(seconds)
+    return len(seconds) / float(total(seconds))
 
 
 def satisfied_fraction(seconds):
@@ -47,18 +43,10 @@ def satisfied_fraction(seconds):
     return sum(one <= BUDGET_S for one in seconds) / len(seconds)
 
 
-def open_file(path):
-    """The HDF5 file; the user has one message if it cannot be read."""
-    try:
-        return h5py.File(path, "r")
-    except OSError as error:
-        raise BadInput(f"{path}: it cannot be read as HDF5 ({error}); name a file of pbmpi or pbstudy") from None
-
-
 def kind_of(path):
     """(file type, study) as the file's root names them; empty where it names none, or is no HDF5."""
     try:
-        with h5py.File(path, "r") as file:
+        with h5py.File(path, "r", locking=False) as file:
             return text_of(file.attrs.get("filetype", b"")), text_of(file.attrs.get("study", b""))
     except OSError:
         return "", ""
@@ -75,57 +63,39 @@ def pbreport(*args):
     return json.loads(result.stdout)
 
 
-class Run:
-    """A run's committed frames: T of them, of which those at the indices `measured` count."""
+class Run(runs.Run):
+    """A run's committed frames, T of them, with what the statements need in memory; the file is closed. `measured_frames`: indices."""
 
     def __init__(self, path):
-        self.path = str(path)
-        with open_file(path) as file:
-            require(text_of(file.attrs.get("filetype", b"")) == RUN, f"{path}: not a pbmpi run; name the HDF5 files of runs")
-            self.attributes = {name: text_of(value) for name, value in file.attrs.items()}
-            self.parameters = {name: text_of(value[()]) for name, value in file["parameters"].items()}
-            self.num_worlds = len(file["worlds/id"])
-            self.frames = int(file.attrs["frames_committed"])
-            self.measured = np.flatnonzero(file["timings/frame/measured"][:self.frames])
-            self.wall_s = file["timings/frame/wall"][:self.frames]
-            self.islands = file["observables/world/islands"][:self.frames].sum(axis=1)  # [T] over all worlds
-            self.phase_s = {phase: file[f"timings/rank/{phase}"][:self.frames].sum(axis=1) for phase in PHASES}
-            self.delivered_s = file["estimate/delivered"][:self.frames] if "estimate" in file else None
-            self.events = {name.removeprefix(COUNT): int(value) for name, value in file["events"].attrs.items() if name.startswith(COUNT)}
-            self.actor_bodies = count_actor_bodies(file["particles/bodies"])
-            self.num_bodies = len(file["particles/bodies/id"])
-            self.profile = read_profile(file, self.frames)
+        super().__init__(str(path))
+        with self.file:
+            self.measured_frames = np.flatnonzero(self.measured).tolist()
+            self.wall_s = self.frames("timings/frame/wall")
+            self.islands = self.frames("observables/world/islands").sum(axis=1)  # [T] over all worlds
+            self.phase_s = {phase: self.frames(f"timings/rank/{phase}").sum(axis=1) for phase in PHASES}
+            self.delivered_s = self.frames("estimate/delivered") if self.has("estimate") else None
+            events = self.file["events"].attrs
+            self.events = {name.removeprefix(COUNT): int(value) for name, value in events.items() if name.startswith(COUNT)}
+            self.actor_bodies = self.count_actor_bodies()
+            self.num_bodies = len(self.column("particles/bodies/id"))
+            self.profile = self.read_profile()
 
-    def parameter(self, name):
-        return self.parameters.get(name, "")
+    def count_actor_bodies(self):
+        """Kind of actor -> the numbers of bodies that its actors have."""
+        counts = {}
+        for actor in zip(*(self.column(f"particles/bodies/{name}") for name in ("kind", "world", "actor"))):
+            counts[actor] = counts.get(actor, 0) + 1
+        found = {}
+        for (kind, _, _), number in counts.items():
+            found.setdefault(kind, set()).add(number)
+        return {kind: sorted(numbers) for kind, numbers in found.items()}
 
-    @property
-    def scene(self):
-        return self.parameter("scene")
-
-    @property
-    def state_hash(self):
-        return self.attributes["state_hash"]
-
-
-def count_actor_bodies(bodies):
-    """Kind of actor -> the numbers of bodies that its actors have."""
-    columns = (bodies["kind"].asstr()[:], bodies["world"][:], bodies["actor"].asstr()[:])
-    counts = {}
-    for actor in zip(*columns):
-        counts[actor] = counts.get(actor, 0) + 1
-    found = {}
-    for (kind, _, _), number in counts.items():
-        found.setdefault(kind, set()).add(number)
-    return {kind: sorted(numbers) for kind, numbers in found.items()}
-
-
-def read_profile(file, frames):
-    """The islands [T][N], each at its lowest body, and the spaces [T][W] of each frame's last step; None unless they were recorded."""
-    if "timings/island" not in file or frames == 0:
-        return None
-    names = ("island/bodies", "island/rows", "island/solve", "space/collide", "space/collide_spaces", "space/cross_contacts")
-    return {name: file[f"timings/{name}"][:frames] for name in names}
+    def read_profile(self):
+        """The islands [T][N], each at its lowest body, and the spaces [T][W] of each frame's last step; None unless they were recorded."""
+        if not self.has("timings/island") or self.num_frames == 0:
+            return None
+        names = ("island/bodies", "island/rows", "island/solve", "space/collide", "space/collide_spaces", "space/cross_contacts")
+        return {name: self.frames(f"timings/{name}") for name in names}
 
 
 def require_profile(run):
@@ -134,7 +104,7 @@ def require_profile(run):
 
 def keep_least(run, repeat):
     """Keeps the lesser of each two times of the same run: other programs on the machine only add time."""
-    frames = min(run.frames, repeat.frames)
+    frames = min(run.num_frames, repeat.num_frames)
 
     def least(mine, other):
         mine[:frames] = np.minimum(mine[:frames], other[:frames])

@@ -1,63 +1,20 @@
 """Tables 1 and 2 and Figure 6 of the paper: islands, cores and frame rates of its nine scenes, from runs with --record-islands."""
 import dataclasses
 import heapq
-import math
+
+from reports.files import require
+from reports.islands import PAPER
+from reports.samples import Summary, summarize, total
 
 import runs
 
 TOLERANCE = 0.05  # how much later than the longest island a schedule may end: the repeatability of its time on a quiet machine
-
-
-@dataclasses.dataclass(frozen=True)
-class PaperRow:
-    """The paper's numbers of a scene: Table 1, and the cores of Table 2."""
-    scene: str
-    most: float
-    least: float
-    mean: float
-    deviation: float
-    spaces: str
-    traffic: str
-    cores: int
-
-
-PAPER = (
-    PaperRow("2-Cars", 2, 2, 2, 0, "1", "none", 2),
-    PaperRow("10-Cars", 10, 10, 10, 0, "1", "none", 9),
-    PaperRow("CrashSk", 3, 1, 2, 0.65, "1", "none", 3),
-    PaperRow("CrashWa", 105, 99, 101, 1.4, "1, 3", "none to high", 3),
-    PaperRow("Environ", 337, 196, 245, 46, "1, 10", "high", 4),
-    PaperRow("100CrSk", 300, 100, 220, 64, "100", "none", 100),
-    PaperRow("Battle", 120, 2, 93, 18, "1, 3", "none", 19),
-    PaperRow("Fight", 10, 7, 8, 1.1, "1, 10", "moderate", 4),
-    PaperRow("Battle2", 156, 113, 134, 18, "1, 15", "high", 3),
-)
-SCENES = [row.scene for row in PAPER]
+SCENES = list(PAPER)
 
 
 def place_of(scene):
     """For sorting in the order of Table 1; other scenes come last."""
     return SCENES.index(scene) if scene in SCENES else len(SCENES)
-
-
-def paper_row(scene):
-    """None for a scene that is not in the paper."""
-    return next((row for row in PAPER if row.scene == scene), None)
-
-
-@dataclasses.dataclass
-class Summary:
-    """Over some frames; the deviation is the population's."""
-    most: float
-    least: float
-    mean: float
-    deviation: float
-
-
-def summary(values):
-    values = [float(value) for value in values]
-    mean = runs.mean(values)
-    return Summary(max(values), min(values), mean, math.sqrt(sum((value - mean) ** 2 for value in values) / len(values)))
 
 
 @dataclasses.dataclass
@@ -104,8 +61,8 @@ def islands_of(run, frame):
 def work_of(run):
     runs.require_profile(run)
     numbers = (int(run.parameter(name) or 0) for name in ("iterations", "steps_per_frame"))
-    frames = run.measured
-    return Work(run.scene, *numbers, runs.mean(run.wall_s[frames]) if len(frames) else 0, [islands_of(run, frame) for frame in frames])
+    frames = run.measured_frames
+    return Work(run.scene, *numbers, runs.mean(run.wall_s[frames]) if frames else 0, [islands_of(run, frame) for frame in frames])
 
 
 @dataclasses.dataclass
@@ -114,7 +71,7 @@ class Suite:
     scene: str
     islands: Summary
     spaces: int  # over all worlds
-    cross_contacts: float  # contact points between spaces a step, mean
+    crossing: float  # contact points between spaces a step, mean
     islands_by_frame: list
     cores: int = 0  # the fewest for full parallelism in every measured frame
     cores_mean: float = 0
@@ -148,7 +105,7 @@ def fewest_cores(lengths):
     if longest <= 0:
         return 0
     most = longest * (1 + TOLERANCE)
-    cores = max(1, int(runs.total(lengths) / most * (1 - 1e-9)))  # no schedule is shorter than the mean load
+    cores = max(1, int(float(total(lengths)) / most * (1 - 1e-9)))  # no schedule is shorter than the mean load
     while makespan(lengths, cores) > most:
         cores += 1
     return cores
@@ -157,7 +114,7 @@ def fewest_cores(lengths):
 def shares_of(run, frame):
     """(longest island over all islands, collision detection with a core for each space over that in one piece) of the profiled step."""
     times = [seconds for _, seconds in islands_of(run, frame)]
-    solve_s, serial_s = runs.total(times), runs.total(run.profile["space/collide"][frame])
+    solve_s, serial_s = total(times), total(run.profile["space/collide"][frame])
     # One core a space: nothing crosses between worlds, so collision detection takes as long as the longest of all worlds.
     spaces = float(run.profile["space/collide_spaces"][frame].max()) / serial_s if serial_s > 0 else 1
     return max(times) / solve_s if solve_s > 0 else 1, spaces
@@ -167,11 +124,11 @@ def suite_of(run):
     """The run's numbers. Its frame has to be a serial time: one rank."""
     runs.require_profile(run)
     ranks = int(run.parameter("ranks"))
-    runs.require(ranks == 1, f"{run.path}: it was run on {ranks} ranks, whose times share the machine; use one rank")
-    frames = run.measured.tolist()
-    runs.require(frames, f"{run.path}: the run ended in its warm-up; nothing was measured")
+    require(ranks == 1, f"{run.path}: it was run on {ranks} ranks, whose times share the machine; use one rank")
+    frames = run.measured_frames
+    require(frames, f"{run.path}: the run ended in its warm-up; nothing was measured")
     crossing = [int(run.profile["space/cross_contacts"][frame].sum()) for frame in frames]
-    found = Suite(run.attributes["scene"], summary(run.islands[frames]), run.num_worlds * max(1, int(run.parameter("num_spaces") or 0)),
+    found = Suite(run.scene, summarize(run.islands[frames]), run.num_worlds * max(1, int(run.number("num_spaces", 0))),
                   runs.mean(crossing), run.islands[frames].tolist(), work=work_of(run), events=run.events,
                   actor_bodies=run.actor_bodies, bodies=run.num_bodies)
     take_cores(run, frames, found)
@@ -198,7 +155,7 @@ def take_cores(run, frames, found):
 
 def cores_json(suite):
     """The row of a scene, as `paper.py cores --json` prints it."""
-    row = paper_row(suite.scene)
+    row = PAPER.get(suite.scene)
     rates = {name: {"harmonic_mean_hz": rate.hz, "satisfied_fraction": rate.satisfied}
              for name, rate in (("serial", suite.serial), ("islands_parallel", suite.islands_parallel),
                                 ("spaces_parallel", suite.spaces_parallel))}
@@ -214,7 +171,7 @@ CORES_HEAD = ("cores: fewest in the worst measured frame and mean, makespan at m
 
 def cores_text(suite):
     """The row of a scene under CORES_HEAD."""
-    row = paper_row(suite.scene)
+    row = PAPER.get(suite.scene)
     rates = "  ".join(f"{rate.hz:9.1f} Hz {100 * rate.satisfied:4.0f} %"
                       for rate in (suite.serial, suite.islands_parallel, suite.spaces_parallel))
     return (f"{suite.scene:<8}  {suite.cores:5d} {suite.cores_mean:7.1f}  {row.cores if row else '-':>5}   "

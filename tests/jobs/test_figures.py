@@ -16,10 +16,9 @@ import figure3
 from harness import PATH
 
 
-def tables(page):
-    """Title -> rows of cells, of the tables of a page."""
-    found = re.findall(r'<h3 class="table-title">(.*?)</h3>.*?<table>(.*?)</table>', page, re.DOTALL)
-    return {title: [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in re.findall(r"<tr>(.*?)</tr>", body)] for title, body in found}
+def sections(page):
+    """What the page shows: charts, tables and pictures, by section."""
+    return json.loads(re.search(r'id="sections-data">(.*?)</script>', page, re.DOTALL)[1])
 
 
 class Figures(unittest.TestCase):
@@ -40,18 +39,21 @@ class Figures(unittest.TestCase):
         result = self.run_script("figure6.sh", "--quick-look", "out")
         self.assertEqual(result.returncode, 0, result.stderr)
         page = self.read("out/figure6.html")
-        found = tables(page)
-        islands, cores = found["Islands"], found["Cores"]
-        self.assertEqual([row[0] for row in cores[1:]], ["CrashSk", "Fight"])
-        self.assertEqual(islands[1][:3], ["CrashSk", "here", "3"], "CrashSk: 3 islands before the crash")
-        crash = dict(zip(cores[0], cores[1]))
+        self.assertNotIn("src=\"http", page, "it loads nothing")
+        shown = sections(page)
+        tables = {table["title"]: table for section in shown for table in section["tables"]}
+        cores = tables["Cores"]
+        self.assertEqual([row[0] for row in cores["rows"]], ["CrashSk", "Fight"])
+        self.assertEqual(tables["Islands"]["rows"][0][:3], ["CrashSk", "ours", "3"], "CrashSk: 3 islands before the crash")
+        crash = dict(zip(cores["header"], cores["rows"][0]))
         self.assertEqual(crash["paper"], "3")
         self.assertGreater(float(crash["islands parallel [Hz]"]), float(crash["serial [Hz]"]), "one core an island leaves less to do")
-        self.assertEqual(re.findall(r'<img src="data:image/png;base64,iVBOR[^"]*" alt="(.*?)">', page), ["CrashSk", "Fight"])
-        bars = [float(number) for number in re.findall(r"<rect [^>]*><title>CrashSk, [a-z ]+: (.*?)</title>", page)]
-        for rate in (crash["serial [Hz]"], crash["islands parallel [Hz]"], crash["and spaces [Hz]"]):
-            self.assertTrue([bar for bar in bars if abs(bar - float(rate)) <= 1e-3 * bar], f"{rate} is no bar of {bars}")
-        self.assertNotRegex(page, "<script|http://|https://", "it loads nothing")
+        self.assertEqual([picture["name"] for picture in shown[-1]["pictures"]], ["CrashSk", "Fight"])
+        self.assertTrue(all(picture["png"].startswith("iVBOR") for picture in shown[-1]["pictures"]))
+        bars = [bar["data"][0] for bar in shown[0]["charts"][0]["config"]["data"]["datasets"]]
+        self.assertEqual([bar["x"] for bar in bars], ["CrashSk"] * 3)
+        for bar, rate in zip(bars, (crash["serial [Hz]"], crash["islands parallel [Hz]"], crash["and spaces [Hz]"])):
+            self.assertAlmostEqual(bar["y"], float(rate), delta=0.051, msg="the table is rounded")
 
     @unittest.skipUnless(shutil.which("valgrind") and shutil.which("objdump"), "no valgrind or objdump")
     def test_figure3_counts_both_steppers(self):

@@ -2,8 +2,10 @@
 import dataclasses
 import math
 
+from reports.words import percent
+
 from instructions import LEADING_ROWS
-from statements.statement import ALL, CLOCK, COUNTS, FIGURE_6, NUM_SCENES, Answer, Statements, joined, over_scenes, percent
+from statements.statement import ALL, CLOCK, COUNTS, FIGURE_6, NUM_SCENES, Answer, Statements, joined, over_scenes
 
 STATEMENTS = Statements()
 PASS = "pass"  # a verdict of `pbreport stability`
@@ -39,13 +41,13 @@ def penetration(data):
 def number_of_spaces(data):
     several = [one for one in data.suite if one.spaces >= 2]
     faster = sum(one.spaces_share <= 0.75 for one in several)
-    return over_scenes([(one.scene, percent(one.spaces_share)) for one in several], 2 * faster > len(several), 6, "left of its time: ")
+    return over_scenes([(one.scene, percent(one.spaces_share, 0)) for one in several], 2 * faster > len(several), 6, "left of its time: ")
 
 
 @STATEMENTS.judged_by("2.3.2", "the forward step is the most expensive part", "more than half of the time in every scene", CLOCK, FIGURE_6)
 def expensive_step(data):
     shares = [(one.scene, 1 - one.collide_share_serial) for one in data.suite]
-    return over_scenes([(scene, percent(share)) for scene, share in shares], all(share > 0.5 for _, share in shares), NUM_SCENES)
+    return over_scenes([(scene, percent(share, 0)) for scene, share in shares], all(share > 0.5 for _, share in shares), NUM_SCENES)
 
 
 @dataclasses.dataclass

@@ -1,6 +1,8 @@
 """What few iterations do to the result: sections 5.2.1 and 5.4, Figure 9."""
+from reports.words import percent
+
 from figures import FEEC, SCENES
-from statements.statement import COUNTS, FIGURES_8_9, Answer, Statements, joined, over_scenes, percent
+from statements.statement import COUNTS, FIGURES_8_9, Answer, Statements, joined, over_scenes
 
 STATEMENTS = Statements()
 WORST = -1  # infinite or NaN
@@ -49,8 +51,8 @@ def nineteen_iterations(data):
     for scene in data.scenes_with("Iter19", FEEC):
         feec, nineteen = scene.find(FEEC).positions, scene.find("Iter19").positions
         apart = max(abs(share_of_band(feec, band) - share_of_band(nineteen, band)) for band in range(len(feec["bands"])))
-        floor = percent(mean_of_floor(scene, beyond_1_cm)) if scene.floor else "-"
-        found.append((scene.name, f"{percent(beyond_1_cm(feec))}, {percent(beyond_1_cm(nineteen))}, {floor}"))
+        floor = percent(mean_of_floor(scene, beyond_1_cm), 0) if scene.floor else "-"
+        found.append((scene.name, f"{percent(beyond_1_cm(feec), 0)}, {percent(beyond_1_cm(nineteen), 0)}, {floor}"))
         comparable += apart <= 0.1
     return over_scenes(found, 2 * comparable > len(found), len(SCENES))
 
@@ -73,7 +75,7 @@ def few_blow_ups(data):
     if not scenes:
         return None
     most = max(blown_up(scene.find(label)) for scene in scenes for label in ("Iter19", FEEC))
-    return Answer(f"{percent(most, 1)} at most", most < 0.01, len(scenes), len(SCENES))
+    return Answer(f"{percent(most)} at most", most < 0.01, len(scenes), len(SCENES))
 
 
 @STATEMENTS.judged_by("5.4", "one iteration has a substantial number of the highest class of errors",
@@ -82,7 +84,7 @@ def few_blow_ups(data):
 def one_iteration(data):
     scenes = [(scene.name, scene.find("Iter1")) for scene in data.scenes_with("Iter1")]
     substantial = sum(blown_up(method) >= 0.01 for _, method in scenes)
-    return over_scenes([(name, "; ".join(percent(share_of_band(method.positions, band), 1) for band in (WORST, WORST - 1)))
+    return over_scenes([(name, "; ".join(percent(share_of_band(method.positions, band)) for band in (WORST, WORST - 1)))
                         for name, method in scenes], 2 * substantial > len(scenes), len(SCENES))
 
 

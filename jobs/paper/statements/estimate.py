@@ -1,6 +1,8 @@
 """FEEC: section 5.2, Figure 8."""
+from reports.words import percent
+
 from figures import FEEC, SCENES, count_stretch
-from statements.statement import ALL, CLOCK, COUNTS, FIGURES_8_9, NUM_SCENES, Answer, Statements, joined, over_scenes, percent, rate
+from statements.statement import ALL, CLOCK, COUNTS, FIGURES_8_9, NUM_SCENES, Answer, Statements, joined, over_scenes, rate
 
 STATEMENTS = Statements()
 
@@ -22,7 +24,7 @@ def correction(data):
                       papers="< 2.7 %", remark="share of segments and frames beyond, and the longest; images are not judged")
 def imperceptible_errors(data):
     counts = [(scene.name, count_stretch(feec.stretch)) for scene, feec in with_feec(data) if feec.stretch]
-    return over_scenes([(name, f"{percent(count.perhaps_seen / count.num, 1)} up to {percent(count.most, 1)}") for name, count in counts],
+    return over_scenes([(name, f"{percent(count.perhaps_seen / count.num)} up to {percent(count.most)}") for name, count in counts],
                        all(count.perhaps_seen == 0 for _, count in counts), 5)
 
 
@@ -66,7 +68,7 @@ def satisfied_estimates(data):
     if not scenes:
         return None
     shares = [(scene.name, scene.methods[0].satisfied, scene.find(FEEC).satisfied) for scene in scenes]
-    text = joined([(name, f"{percent(before)} to {percent(after)}") for name, before, after in shares])
+    text = joined([(name, f"{percent(before, 0)} to {percent(after, 0)}") for name, before, after in shares])
     if len(shares) == 3 and all(before == 1 for _, before, _ in shares):
         return Answer(text, note="20 iterations leave no room")
     return Answer(text, all(after == 1 for _, _, after in shares), len(shares), 3)

@@ -1,6 +1,8 @@
 """Sections 1 to 2.2: what such simulations demand of a machine."""
+from reports.words import percent
+
 from figures import count_stretch
-from statements.statement import ALL, CLOCK, COUNTS, FIGURE_6, FIGURES_8_9, NUM_SCENES, Answer, Statements, joined, over_scenes, percent
+from statements.statement import ALL, CLOCK, COUNTS, FIGURE_6, FIGURES_8_9, NUM_SCENES, Answer, Statements, joined, over_scenes
 
 STATEMENTS = Statements()
 
@@ -12,7 +14,7 @@ def satisfied_suite(data):
     if not data.one_iteration:
         return None
     shares = [(one.scene, one.spaces_parallel.satisfied) for one in data.one_iteration]
-    not_satisfied = [(scene, percent(share)) for scene, share in shares if share < 1]
+    not_satisfied = [(scene, percent(share, 0)) for scene, share in shares if share < 1]
     satisfied = len(shares) - len(not_satisfied)
     text = f"{satisfied} of {len(shares)} scenes" + (f"; not all frames: {joined(not_satisfied)}" if not_satisfied else "")
     return Answer(text, satisfied >= 8, len(shares), NUM_SCENES)
@@ -25,8 +27,8 @@ STATEMENTS.undecidable("2.2", "a tenth of the frame is for physics", "3.33 ms", 
 
 def stretch_text(stretch):
     count = count_stretch(stretch)
-    return (f"{percent((count.num - count.perhaps_seen) / count.num, 1)} unseen, {percent(count.seen / count.num, 1)} seen, "
-            f"most {percent(count.most, 1)}")
+    return (f"{percent((count.num - count.perhaps_seen) / count.num)} unseen, {percent(count.seen / count.num)} seen, "
+            f"most {percent(count.most)}")
 
 
 @STATEMENTS.judged_by("2.2", "changes of length below 2.7 % cannot be perceived, beyond 20 % they always are", "observers would have to tell",
@@ -47,7 +49,7 @@ def perception(data):
                       "the longest island takes less than half of all islands' time in most scenes", CLOCK, FIGURE_6)
 def distributed_load(data):
     distributed = sum(one.longest_share < 0.5 for one in data.suite)
-    return over_scenes([(one.scene, percent(one.longest_share)) for one in data.suite], 2 * distributed > len(data.suite), NUM_SCENES,
+    return over_scenes([(one.scene, percent(one.longest_share, 0)) for one in data.suite], 2 * distributed > len(data.suite), NUM_SCENES,
                        "the longest island: ")
 
 
@@ -56,7 +58,7 @@ def distributed_load(data):
 def sparse_load(data):
     shares = [(one.scene, 2 / one.bodies) for one in data.suite]
     sparse = sum(share < 0.1 for _, share in shares)
-    return over_scenes([(scene, percent(share, 1)) for scene, share in shares], 2 * sparse > len(shares), NUM_SCENES,
+    return over_scenes([(scene, percent(share)) for scene, share in shares], 2 * sparse > len(shares), NUM_SCENES,
                        "blocks of the Jacobian that may differ from zero: ")
 
 

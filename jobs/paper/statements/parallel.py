@@ -1,6 +1,8 @@
 """Section 4.2, and what sections 5 and 6 say about it: Figure 6, parallel islands and spaces."""
+from reports.words import percent
+
 import figures
-from statements.statement import CLOCK, FIGURE_6, NUM_SCENES, Answer, Statements, joined, over_scenes, percent, rate
+from statements.statement import CLOCK, FIGURE_6, NUM_SCENES, Answer, Statements, joined, over_scenes, rate
 
 STATEMENTS = Statements()
 BENEFIT = 1.5  # at this gain or above parallel islands count as a benefit, below as little improvement
@@ -25,7 +27,7 @@ def by_failures(data, kind, scenes, satisfied_at_most, needed):
     if not meant:
         return None
     failing = sum(share <= satisfied_at_most for _, share in meant)
-    text = f"satisfied: {joined([(scene, percent(share)) for scene, share in meant])}"
+    text = f"satisfied: {joined([(scene, percent(share, 0)) for scene, share in meant])}"
     if len(meant) >= needed and failing < needed:
         return Answer(text, note=CANNOT_TELL)
     return Answer(text, failing == needed, len(meant), needed)
@@ -79,7 +81,7 @@ def gains_of_the_rest(data):
                       "the longest island is more than half of the parallel frame in CrashWa", CLOCK, FIGURE_6, remark="its wall")
 def one_large_island(data):
     one = data.find("CrashWa")
-    return one and Answer(percent(one.longest_share_parallel), one.longest_share_parallel > 0.5)
+    return one and Answer(percent(one.longest_share_parallel, 0), one.longest_share_parallel > 0.5)
 
 
 @STATEMENTS.judged_by("5", "even in parallel CrashWa, Environ, Battle, Fight and Battle2 are not satisfied",

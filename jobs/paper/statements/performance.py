@@ -1,17 +1,19 @@
 """Section 4: Figure 3, shares of the time, Table 2."""
+from reports.islands import PAPER
+from reports.words import percent
+
 from instructions import counted_cost, direct_cost
-from statements.statement import CLOCK, COUNTS, FIGURE_3, FIGURE_6, INSTRUCTIONS, NUM_SCENES, Answer, Statements, is_near, joined, percent
-from suite import PAPER
+from statements.statement import CLOCK, COUNTS, FIGURE_3, FIGURE_6, INSTRUCTIONS, NUM_SCENES, Answer, Statements, is_near, joined
 
 STATEMENTS = Statements()
 
 
-def add_instructions(paper):
+def add_instructions(name):
     """The statement of a scene's bars in Figure 3."""
-    @STATEMENTS.judged_by("4.1", f"Figure 3, {paper.scene}: quick takes significantly fewer instructions",
+    @STATEMENTS.judged_by("4.1", f"Figure 3, {name}: quick takes significantly fewer instructions",
                           "half of direct's or fewer; of an extrapolation its least", INSTRUCTIONS, FIGURE_3, papers="printed without numbers")
     def instructions(data):
-        scene = next((one for one in data.counts if one.name == paper.scene), None)
+        scene = next((one for one in data.counts if one.name == name), None)
         if scene is None or not scene.quick:
             return None
         works = data.works()
@@ -26,12 +28,12 @@ def add_instructions(paper):
                       note="" if direct.is_counted else "direct extrapolated with the cubed rows of the islands")
 
 
-for row_of_table in PAPER:
-    add_instructions(row_of_table)
+for scene_of_paper in PAPER:
+    add_instructions(scene_of_paper)
 
 
 def shares_text(data, share):
-    return joined([(one.scene, percent(getattr(one, share))) for one in data.suite])
+    return joined([(one.scene, percent(getattr(one, share), 0)) for one in data.suite])
 
 
 def mean_share(data, share):
@@ -44,7 +46,7 @@ def physics_share(data):
     if not data.suite:
         return None
     physics = 1 - mean_share(data, "collide_share_serial")
-    return Answer(f"{percent(physics)}; collision: {shares_text(data, 'collide_share_serial')}", 0.84 <= physics <= 0.96,
+    return Answer(f"{percent(physics, 0)}; collision: {shares_text(data, 'collide_share_serial')}", 0.84 <= physics <= 0.96,
                   len(data.suite), NUM_SCENES)
 
 
@@ -54,7 +56,7 @@ def parallel_collision(data):
     if not data.suite:
         return None
     mean = mean_share(data, "collide_share_parallel")
-    return Answer(f"{percent(mean)}: {shares_text(data, 'collide_share_parallel')}", 0.1 <= mean <= 0.4, len(data.suite), NUM_SCENES)
+    return Answer(f"{percent(mean, 0)}: {shares_text(data, 'collide_share_parallel')}", 0.1 <= mean <= 0.4, len(data.suite), NUM_SCENES)
 
 
 @STATEMENTS.judged_by("4.1.1", "with parallel islands collision detection takes 55 % at most",
@@ -63,31 +65,32 @@ def largest_collision(data):
     if not data.suite:
         return None
     most = max(data.suite, key=lambda one: one.collide_share_parallel)
-    return Answer(f"{percent(most.collide_share_parallel)}, {most.scene}", most.collide_share_parallel >= 0.275, len(data.suite), NUM_SCENES)
+    return Answer(f"{percent(most.collide_share_parallel, 0)}, {most.scene}", most.collide_share_parallel >= 0.275,
+                  len(data.suite), NUM_SCENES)
 
 
 @STATEMENTS.judged_by("4.2", "the maximum island count in the suite is 337", "within 10 %", COUNTS, FIGURE_6, papers="337")
 def most_islands(data):
     if not data.suite:
         return None
-    most = max(data.suite, key=lambda one: one.islands.most)
-    return Answer(f"{most.islands.most:.0f}, {most.scene}", is_near(most.islands.most, 337), len(data.suite), NUM_SCENES)
+    most = max(data.suite, key=lambda one: one.islands.max)
+    return Answer(f"{most.islands.max:.0f}, {most.scene}", is_near(most.islands.max, 337), len(data.suite), NUM_SCENES)
 
 
-def add_cores(paper):
+def add_cores(scene, papers):
     """The statement of one row of Table 2."""
-    @STATEMENTS.judged_by("4.2", f"Table 2, {paper.scene}: cores for full parallelization", "within one core or 10 %", CLOCK, FIGURE_6,
-                          papers=str(paper.cores))
+    @STATEMENTS.judged_by("4.2", f"Table 2, {scene}: cores for full parallelization", "within one core or 10 %", CLOCK, FIGURE_6,
+                          papers=str(papers))
     def cores(data):
-        one = data.find(paper.scene)
+        one = data.find(scene)
         if one is None:
             return None
-        return Answer(str(one.cores), abs(one.cores - paper.cores) <= max(1, 0.1 * paper.cores),
+        return Answer(str(one.cores), abs(one.cores - papers) <= max(1, 0.1 * papers),
                       note=f"the worst frame, 5 % above the longest island; mean {one.cores_mean:.1f}")
 
 
-for row_of_table in PAPER:
-    add_cores(row_of_table)
+for scene_of_paper, row_of_paper in PAPER.items():
+    add_cores(scene_of_paper, row_of_paper.cores)
 
 
 @STATEMENTS.judged_by("4.2", "most scenes of many islands are satisfied with less than five cores",

@@ -85,9 +85,5 @@ def is_near(ours, papers):
     return abs(ours - papers) <= 0.1 * papers
 
 
-def percent(share, decimals=0):
-    return f"{100 * share:.{decimals}f} %"
-
-
 def rate(hz):
     return f"{hz:.3g} Hz" if hz < 100 else f"{hz:.0f} Hz"

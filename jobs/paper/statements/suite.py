@@ -1,9 +1,10 @@
 """Section 3: the scenes, Table 1, and the mix of instructions."""
 import math
 
+from reports.islands import PAPER
+
 from instructions import MIX, PAPER_MIX, mean_mix
 from statements.statement import COUNTS, FIGURE_3, FIGURE_6, INSTRUCTIONS, NUM_SCENES, Answer, Statements, is_near, joined, over_scenes
-from suite import PAPER
 
 STATEMENTS = Statements()
 
@@ -22,47 +23,49 @@ def actors(data):
     return Answer("; ".join(" or ".join(map(str, numbers)) for numbers in (humans, cars)), humans == [16] and cars == [5])
 
 
-def islands_text(row):
-    """Of the paper's row, or of a summary of ours."""
-    return f"{row.most:g}, {row.least:g}, {row.mean:.4g}, {row.deviation:.3g}"
+def of_the_paper(data):
+    """The suite's scenes that are in Table 1, in its order."""
+    return list(filter(None, map(data.find, PAPER)))
 
 
-def add_islands(paper):
+def islands_text(islands):
+    return f"{islands.max:g}, {islands.min:g}, {islands.mean:.4g}, {islands.stddev:.3g}"
+
+
+def add_islands(scene, papers):
     """The statement of one row of Table 1."""
-    @STATEMENTS.judged_by("3.2", f"Table 1, {paper.scene}: islands (max, min, avg, dev)",
+    @STATEMENTS.judged_by("3.2", f"Table 1, {scene}: islands (max, min, avg, dev)",
                           "max, min and avg within 10 %; none deviates where the paper's do not", COUNTS, FIGURE_6,
-                          papers=islands_text(paper))
+                          papers=islands_text(papers))
     def islands(data):
-        one = data.find(paper.scene)
+        one = data.find(scene)
         if one is None:
             return None
         ours = one.islands
-        near = all(is_near(getattr(ours, name), getattr(paper, name)) for name in ("most", "least", "mean"))
-        note = "no five frames with a least number of 2 and a mean of 93 deviate by less than 45" if paper.scene == "Battle" else ""
-        return Answer(islands_text(ours), near and (paper.deviation > 0 or ours.deviation == 0), note=note)
+        near = all(is_near(getattr(ours, name), getattr(papers, name)) for name in ("max", "min", "mean"))
+        note = "no five frames with a least number of 2 and a mean of 93 deviate by less than 45" if scene == "Battle" else ""
+        return Answer(islands_text(ours), near and (papers.stddev > 0 or ours.stddev == 0), note=note)
 
 
-for row_of_table in PAPER:
-    add_islands(row_of_table)
+for scene_of_paper, row_of_paper in PAPER.items():
+    add_islands(scene_of_paper, row_of_paper.islands)
 
 
 @STATEMENTS.judged_by("3.2", "Table 1: number of spaces", "the same, the larger where it has two", COUNTS, FIGURE_6,
-                      papers="; ".join(f"{row.scene} {row.spaces}" for row in PAPER), remark="--spaces one takes them as one")
+                      papers="; ".join(f"{scene} {row.spaces}" for scene, row in PAPER.items()), remark="--spaces one takes them as one")
 def number_of_spaces(data):
-    pairs = [(row, data.find(row.scene)) for row in PAPER]
-    ours = [(row, one.spaces) for row, one in pairs if one]
-    return over_scenes([(row.scene, str(spaces)) for row, spaces in ours],
-                       all(str(spaces) == row.spaces.rpartition(" ")[2] for row, spaces in ours), NUM_SCENES)
+    ours = of_the_paper(data)
+    return over_scenes([(one.scene, str(one.spaces)) for one in ours],
+                       all(str(one.spaces) == PAPER[one.scene].spaces.rpartition(" ")[2] for one in ours), NUM_SCENES)
 
 
 @STATEMENTS.judged_by("3.2", "Table 1: communication between spaces", "contacts across spaces where the paper has more than none, and only there",
-                      COUNTS, FIGURE_6, papers="; ".join(f"{row.scene} {row.traffic}" for row in PAPER),
+                      COUNTS, FIGURE_6, papers="; ".join(f"{scene} {row.traffic}" for scene, row in PAPER.items()),
                       remark="contact points a step, of a frame's last steps")
 def traffic(data):
-    pairs = [(row, data.find(row.scene)) for row in PAPER]
-    ours = [(row, one.cross_contacts) for row, one in pairs if one]
-    return over_scenes([(row.scene, f"{contacts:.3g}") for row, contacts in ours],
-                       all((row.traffic == "none") == (contacts == 0) for row, contacts in ours), NUM_SCENES)
+    ours = of_the_paper(data)
+    return over_scenes([(one.scene, f"{one.crossing:.3g}") for one in ours],
+                       all((PAPER[one.scene].traffic == "none") == (one.crossing == 0) for one in ours), NUM_SCENES)
 
 
 @STATEMENTS.judged_by("3.2", "Table 1: temporal behaviour",
@@ -82,21 +85,22 @@ def temporal_behaviour(data):
     return over_scenes(found, is_same, 4, "frames with another number: ")
 
 
-def fewest_frames(row):
+def fewest_frames(islands):
     """The fewest frames that allow a row's least, or largest, number with its mean and deviation: one frame has that number, and the
     others lie together on the other side of the mean. All numbers are taken as rounded in favour of fewer."""
-    if row.deviation == 0:
+    if islands.stddev == 0:
         return 1
-    rounded = 0.5 if row.deviation == math.floor(row.deviation) else 0.05
-    away = max(row.mean - row.least, row.most - row.mean) - 0.5
-    return math.ceil(1 + (away / (row.deviation + rounded)) ** 2)
+    rounded = 0.5 if islands.stddev == math.floor(islands.stddev) else 0.05
+    away = max(islands.mean - islands.min, islands.max - islands.mean) - 0.5
+    return math.ceil(1 + (away / (islands.stddev + rounded)) ** 2)
 
 
 @STATEMENTS.judged_by("4.1", "Table 1 is of the five frames that are measured",
                       "five numbers can have the extremes, mean and deviation of every row", COUNTS, papers="5 frames",
                       remark="arithmetic on the paper's own numbers: deviation^2 (n - 1) >= (mean - min)^2 and (max - mean)^2")
 def frames_of_table_1(_):
-    too_few = [(row.scene, f"at least {fewest_frames(row)}") for row in PAPER if fewest_frames(row) > 5]
+    fewest = {scene: fewest_frames(row.islands) for scene, row in PAPER.items()}
+    too_few = [(scene, f"at least {frames}") for scene, frames in fewest.items() if frames > 5]
     return Answer(f"frames needed: {joined(too_few)}" if too_few else "all rows can", not too_few)
 
 

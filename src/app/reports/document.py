@@ -9,6 +9,8 @@ import io
 import json as json_module
 import math
 
+from reports.words import short
+
 TEXT, MARKDOWN, PAGE = "text", "markdown", "page"
 EVERYWHERE = (TEXT, MARKDOWN, PAGE)
 
@@ -49,12 +51,13 @@ class Chart:
 
 @dataclasses.dataclass
 class Section:
-    """A heading with its text, in paragraphs, its charts and its tables."""
+    """A heading with its text, in paragraphs, its charts, its tables and its pictures: [(name, PNG)], which pages alone show."""
     title: str = ""
     text: str = ""
     charts: list = dataclasses.field(default_factory=list)
     tables: list = dataclasses.field(default_factory=list)
     shown_in: tuple = EVERYWHERE
+    pictures: list = dataclasses.field(default_factory=list)
 
 
 @dataclasses.dataclass
@@ -80,9 +83,9 @@ def aligned(rows):
     return "\n".join(lines) + "\n"
 
 
-def markdown_table(rows, of_words=False):
-    """The first row is the header."""
-    rule = "|" + ("---|" if of_words else "--:|") * (len(rows[0]) - 1) + "---|"
+def markdown_table(rows, of_words=False, rule=""):
+    """The first row is the header; `rule`: the line below it, if not the usual one."""
+    rule = rule or "|" + ("---|" if of_words else "--:|") * (len(rows[0]) - 1) + "---|"
     lines = ["|" + "".join(f" {cell} |" if cell else " |" for cell in row) for row in rows]
     return "\n".join([lines[0], rule, *lines[1:]]) + "\n"
 
@@ -138,5 +141,5 @@ def csv(columns):
     stream = io.StringIO()
     writer = csv_module.writer(stream, lineterminator="\n")
     writer.writerow(flat)
-    writer.writerows(zip(*flat.values()))
+    writer.writerows(map(short, row) for row in zip(*flat.values()))
     return stream.getvalue()

@@ -1,4 +1,5 @@
 """Self-contained HTML pages of charts and tables, from the templates that pbmpi's other pages have (io/html/web)."""
+import base64
 import html
 import json
 import os
@@ -36,7 +37,8 @@ def shown_table(table):
 def shown_section(section):
     charts = [{"title": chart.title, "text": chart.text, "config": chart.config} for chart in section.charts]
     tables = [shown_table(table) for table in section.tables if document.PAGE in table.shown_in]
-    return {"title": section.title, "text": section.text, "charts": charts, "tables": tables}
+    pictures = [{"name": name, "png": base64.b64encode(png).decode()} for name, png in section.pictures]
+    return {"title": section.title, "text": section.text, "charts": charts, "tables": tables} | ({"pictures": pictures} if pictures else {})
 
 
 def fill(template, fields):
@@ -73,15 +75,15 @@ def origin(attributes):
     return joined(version and f"pbmpi {version}", attributes.get("git_revision", ""), attributes.get("created", ""))
 
 
-def origin_of_study(study):
-    """(line, entries) of a Report on the file of a study."""
-    return joined(origin(study.attributes), f"page by {version_line()}"), [("file", study.path), *study.texts()]
+def origin_of_study(study, maker=""):
+    """(line, entries) of a Report on the file of a study. `maker` of the page: pbreport, if none is named."""
+    return joined(origin(study.attributes), f"page by {maker or version_line()}"), [("file", study.path), *study.texts()]
 
 
-def origin_of_runs(runs):
+def origin_of_runs(runs, maker=""):
     """(line, entries) of a Report on runs, which have `path` and `attributes`."""
     entries = []
     for run in runs:
         state = run.attributes.get("state_hash", "")
         entries.append((run.path, joined(run.attributes.get("command_line", ""), origin(run.attributes), state and f"state {state}")))
-    return joined(f"{len(runs)} {'run' if len(runs) == 1 else 'runs'}", f"page by {version_line()}"), entries
+    return joined(f"{len(runs)} {'run' if len(runs) == 1 else 'runs'}", f"page by {maker or version_line()}"), entries

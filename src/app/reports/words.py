@@ -7,12 +7,11 @@ import numpy as np
 NO_NUMBER = "-"
 
 
-def percent(share):
+def percent(share, decimals=1):
     """"12.3 %"; "-" for what is not finite."""
     if not math.isfinite(share):
         return NO_NUMBER
-    shown = f"{100 * share:.1f} %"
-    return "0.0 %" if shown == "-0.0 %" else shown
+    return f"{100 * share:z.{decimals}f} %"  # z: no minus before a zero
 
 
 def number(value, form, scale=1):

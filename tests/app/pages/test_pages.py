@@ -307,6 +307,11 @@ class Pages(unittest.TestCase):
             self.browser.driver.switch_to.active_element.send_keys(key)
             self.assertEqual(self.js("return document.activeElement.id"), place)
 
+    def test_the_page_of_figure_6_shows_pictures_of_its_scenes(self):
+        self.open("figure 6")
+        pictures = self.js("return [...document.querySelectorAll('.pictures img')].map((one) => [one.alt, one.naturalWidth > 100])")
+        self.assertEqual(pictures, [[scene, True] for scene in ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "Fight")])
+
     def test_frames_of_replay_and_plots_have_the_same_numbers(self):
         self.open("run of one world", address="#frame=2")
         self.assertIn("frame 6 of 9", self.js("return document.getElementById('frame-label').innerText"),

@@ -1,9 +1,12 @@
 """Measurements that nobody made: those of a machine and programs that reproduce the paper's results."""
+import dataclasses
 import os
 import sys
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-sys.path.insert(0, os.path.join(SOURCE, "jobs", "paper"))
+sys.path[:0] = [os.path.join(SOURCE, "jobs", "paper"), os.path.join(SOURCE, "src", "app")]
+
+from reports.islands import PAPER  # noqa: E402
 
 import figures  # noqa: E402
 import instructions  # noqa: E402
@@ -36,18 +39,18 @@ def parallel_hz(scene, serial_hz):
     return serial_hz * gain.get(scene, 1.1)
 
 
-def suite_of(row):
+def suite_of(scene):
     """A run with the paper's numbers or, where it gives none, with numbers that match its words."""
-    serial_hz = 400 if row.scene in SIMPLE else 28
-    parallel = parallel_hz(row.scene, serial_hz)
-    work = work_of(row.scene, 20, linear)
+    row, serial_hz = PAPER[scene], 400 if scene in SIMPLE else 28
+    parallel = parallel_hz(scene, serial_hz)
+    work = work_of(scene, 20, linear)
     work.frame_s = 1e-3
     return suite.Suite(
-        row.scene, suite.Summary(row.most, row.least, row.mean, row.deviation), int(row.spaces.rpartition(" ")[2]),
-        0 if row.traffic == "none" else 3, [2] * 5 if row.scene == "2-Cars" else [9, 8, 7, 7, 6], row.cores,
-        longest_share=0.9 if row.scene == "CrashWa" else 0.2, longest_share_parallel=0.8, spaces_share=0.5, serial=rate(serial_hz),
+        scene, dataclasses.replace(row.islands), int(row.spaces.rpartition(" ")[2]),
+        0 if row.traffic == "none" else 3, [2] * 5 if scene == "2-Cars" else [9, 8, 7, 7, 6], row.cores,
+        longest_share=0.9 if scene == "CrashWa" else 0.2, longest_share_parallel=0.8, spaces_share=0.5, serial=rate(serial_hz),
         islands_parallel=rate(parallel), spaces_parallel=rate(parallel), collide_share_serial=0.08,
-        collide_share_parallel=0.55 if row.scene == "100CrSk" else 0.2, work=work, actor_bodies={"human": [16], "car": [5]}, bodies=100)
+        collide_share_parallel=0.55 if scene == "100CrSk" else 0.2, work=work, actor_bodies={"human": [16], "car": [5]}, bodies=100)
 
 
 def errors_of(bands, rms_m):
@@ -90,11 +93,11 @@ def as_in_the_paper():
     """PaperData of such a machine."""
     data = PaperData(more_iterations=[work_of("CrashWa", 40, linear), work_of("CrashWa", 80, linear)],
                      plain=[("CrashWa", 0), ("hard/contact/bullets_50", 0)], stability=stability_as_in_the_manual())
-    for row in suite.PAPER:
-        data.suite.append(suite_of(row))
-        data.one_iteration.append(suite_of(row))
-        data.one_iteration[-1].spaces_parallel = rate(100 if row.scene == "Battle2" else 400)
-        data.direct.append(work_of(row.scene, 0, cubic))
-        data.counts.append(counted(row.scene))
-        data.figures.append(figure_of(row.scene))
+    for scene in PAPER:
+        data.suite.append(suite_of(scene))
+        data.one_iteration.append(suite_of(scene))
+        data.one_iteration[-1].spaces_parallel = rate(100 if scene == "Battle2" else 400)
+        data.direct.append(work_of(scene, 0, cubic))
+        data.counts.append(counted(scene))
+        data.figures.append(figure_of(scene))
     return data

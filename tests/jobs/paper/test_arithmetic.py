@@ -8,9 +8,10 @@ import unittest
 
 import made_up  # noqa: F401  which adds the folder of what is tested
 
+from reports.files import BadInput
+
 import figures
 import instructions
-import runs
 from instructions import CountedScene, Counts
 from statements.engine import growth_of
 from suite import Work, fewest_cores, makespan
@@ -123,7 +124,7 @@ class CountsFiles(unittest.TestCase):
         for document in (None, [1], {}, {"filetype": "x", "scenes": {}}, {"filetype": "pbmpi-instructions", "scenes": {}},
                          {"filetype": "pbmpi-instructions", "scenes": {"Fight": {"quick": lacking}}}):
             path = self.written("" if document is None else json.dumps(document))
-            with self.assertRaises(runs.BadInput, msg=document):
+            with self.assertRaises(BadInput, msg=document):
                 instructions.read_counts(path)
 
 

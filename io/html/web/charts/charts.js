@@ -1,10 +1,11 @@
 'use strict';
 // A page of charts and tables, from JSON.
 
+// Returns what draws the chart into its place.
 pb.addChart = (parent, chart) => {
   const area = pb.element('div', {className: 'area'});
   parent.append(pb.element('article', {className: 'chart'}, pb.element('h3', {}, chart.title), pb.element('p', {}, chart.text), area));
-  pb.draw(area, `${chart.title}: ${chart.text}`, () => structuredClone(chart.config), pb.readByKeyboard);
+  return () => pb.draw(area, `${chart.title}: ${chart.text}`, () => structuredClone(chart.config), pb.readByKeyboard);
 };
 
 // A column is one of numbers if all its cells are short; such cells do not wrap.
@@ -19,6 +20,12 @@ pb.addTable = (parent, table) => {
       table.title));
 };
 
+pb.addPictures = (parent, pictures) => {
+  const shown = pictures.map(({name, png}) => pb.element('figure', {}, pb.element('img', {alt: name, src: `data:image/png;base64,${png}`}),
+                                                         pb.element('figcaption', {}, name)));
+  parent.append(pb.element('div', {className: 'pictures'}, ...shown));
+};
+
 for (const section of pb.json('sections-data')) {
   const card = pb.element('section', {className: 'card section'}, pb.element('h2', {}, section.title));
   for (const text of section.text.split('\n\n')) {
@@ -27,8 +34,10 @@ for (const section of pb.json('sections-data')) {
   document.getElementById('sections').append(card);
   const grid = pb.element('div', {className: 'chart-grid'});
   card.append(grid);
-  for (const chart of section.charts) pb.addChart(grid, chart);
+  const places = section.charts.map((chart) => pb.addChart(grid, chart));
+  for (const draw of places) draw();  // only now are they as wide as they stay
   for (const table of section.tables) pb.addTable(card, table);
+  if (section.pictures) pb.addPictures(card, section.pictures);
 }
 pb.showProvenance();
 document.body.dataset.ready = 'yes';

@@ -44,6 +44,7 @@ pb.textWidth = (text) => {
 
 // Bars whose names do not fit beside each other lie, with their names at the left.
 pb.layDown = (config, area) => {
+  area.style.height = '';  // of bars that lay before the window became wider
   const {labels, datasets} = config.data;
   const widest = Math.max(0, ...labels.map(pb.textWidth));
   if ((widest + 10) * labels.length < area.clientWidth - 70) return;
