@@ -238,15 +238,21 @@ RunData read_all(hid_t file) {
   return run;
 }
 
-}  // namespace
-
-RunData read_run(const std::string& path) {
+/// read(file) of the run's file, with a message that names it.
+template <class Read>
+auto read_from(const std::string& path, Read read) {
   const File file = open_run(path);
   try {
-    return read_all(file.id());
+    return read(file.id());
   } catch (const core::RunError& error) {
     throw core::InputError(path + ": " + error.what() + "; the file is damaged or incomplete");
   }
 }
+
+}  // namespace
+
+RunData read_run(const std::string& path) { return read_from(path, read_all); }
+
+void require_sound_run(const std::string& path) { read_from(path, check_run); }
 
 }  // namespace pbmpi::io

@@ -91,6 +91,8 @@ struct RunData {
 /// Reads the committed frames of a pbmpi-run file (also one that was cut off by a kill). Throws
 /// core::InputError if the file is missing, not HDF5, of another file type, or of a newer major version.
 RunData read_run(const std::string& path);
+/// Throws core::InputError as read_run() does, also if what is committed does not match its checksums.
+void require_sound_run(const std::string& path);
 
 /// A contact of the last step of a frame, in the world frame.
 struct ContactRow {

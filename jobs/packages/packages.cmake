@@ -40,7 +40,7 @@ MPI ranks, and measures what accuracy costs in time. A run has the same bits
 on any number of ranks, and writes one HDF5 file that survives a kill.
 .
 This package has the programs pbmpi, pbstudy and pbreport.")
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS openmpi-bin)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "openmpi-bin, python3, python3-numpy, python3-h5py")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "slurm-client, valgrind, paraview, python3-pbmpi")
 
 if(TARGET pbmpi_shared)

@@ -6,7 +6,7 @@ import pathlib
 import sys
 
 if __package__ in (None, ""):
-    sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])
+    sys.path[0] = str(pathlib.Path(__file__).absolute().parents[1])
 
 try:
     from reports.files import BadInput

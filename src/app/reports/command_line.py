@@ -91,6 +91,11 @@ def parse(command, words):
     return options
 
 
+def is_device(path):
+    """A device or a pipe may be written to twice."""
+    return os.path.exists(path) and not os.path.isfile(path)
+
+
 def require_separate(options):
     """A file that is written is neither read nor written a second time."""
     given = [("the file", name) for name in options.files]
@@ -98,7 +103,8 @@ def require_separate(options):
     for place, (option, path) in enumerate(given):
         require(path != "", f"{option}: the file name is empty; name a file")
         for other, before in given[:place]:
-            if option[2:].replace("-", "_") in WRITTEN and os.path.isfile(path) and os.path.realpath(path) == os.path.realpath(before):
+            replaced = os.path.isfile(path) or not os.path.exists(path)  # several may go to a device or a pipe
+            if option[2:].replace("-", "_") in WRITTEN and replaced and os.path.realpath(path) == os.path.realpath(before):
                 raise BadInput(f"{option} {path}: it is {other} as well; name another file")
 
 
