@@ -24,13 +24,15 @@ class Column:
 
 @dataclasses.dataclass
 class Table:
-    """Rows of cells under a header. `shown_in`: the printers that show it. `of_words`: Markdown aligns its cells to the left."""
+    """Rows of cells under a header. `shown_in`: the printers that show it. `of_words`: Markdown aligns its cells to the left; `rule`: its
+    line below the header, if neither suits."""
     title: str
     header: list
     rows: list
     text: str = ""
     shown_in: tuple = EVERYWHERE
     of_words: bool = False
+    rule: str = ""
 
     @classmethod
     def of(cls, title, columns, rows, **others):
@@ -113,7 +115,7 @@ def markdown(report):
                 if MARKDOWN in table.shown_in:
                     parts += [f"### {table.title}\n"] if table.title else []
                     parts += [table.text + "\n"] if table.text else []
-                    parts.append(markdown_table(table.lines(), table.of_words))
+                    parts.append(markdown_table(table.lines(), table.of_words, table.rule))
     return "\n".join(parts)
 
 

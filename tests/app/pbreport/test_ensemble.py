@@ -135,7 +135,7 @@ class Ensemble(ProgramTest):
             self.assertEqual(file["positions/distance_rms"].attrs["unit"], b"m")
         text = self.report("ensemble", *names).stdout
         self.assertIn("state_hashes: 3 different in 3 runs", text)
-        self.assertIn("energy: mean ", text)
+        self.assertRegex(text, r"\n +energy +J +[0-9]")
         markdown = self.report("ensemble", *names, "--markdown").stdout.splitlines()
         self.assertEqual(len({line.count("|") for line in markdown if line.startswith("|")}), 1)
         self.assertEqual(self.report("ensemble", *names, "-o", names[0]).returncode, 2, "no input is replaced")
