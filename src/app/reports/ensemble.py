@@ -39,8 +39,8 @@ def add_options(group):
 
 
 COMMAND = Command("ensemble", "Compares runs of one scene that differ in --seed or --solver-seed: mean, spread and quantiles of "
-                  "observables and positions frame by frame, contacts and times of each world. Runs that differ in what decides over their results are "
-                  "refused.",
+                  "observables and positions frame by frame, contacts and times of each world. Runs that differ in what decides over their "
+                  "results are refused.",
                   "RUN.h5... [options]", markdown="print the summary as a table in Markdown", csv="one table as comma-separated values",
                   add_options=add_options)
 
