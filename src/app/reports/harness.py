@@ -179,7 +179,7 @@ class Gather:
         return known[tree]
 
     def received(self, tree, size, costs, known):
-        """(when the first rank has taken all [s], when its first piece was full [s] or None, bytes that it then has). `size`: its own bytes;
+        """(when the first rank has taken all [s], when its first piece was full [s] or None, bytes that it then has). `size`: its own;
         `known`: streams of subtrees."""
         now, full = 0.0, 0.0 if size >= self.piece_bytes else None
         for count, child in self.children(tree):
