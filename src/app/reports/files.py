@@ -59,7 +59,7 @@ class Row:
 
     def __getattr__(self, name):
         if name not in self._columns:
-            raise BadInput(f"the table has no column '{name}'; the file is of another version or damaged")
+            raise BadInput(f"the file has no column '{name}', as files of older versions; use the pbreport of the version that wrote it, or run it again")
         return self._columns[name][self._index]
 
     def get(self, name, default=None):

@@ -1,5 +1,6 @@
 """Self-contained HTML pages of charts and tables, from the templates that pbmpi's other pages have (io/html/web)."""
 import base64
+import errno
 import html
 import json
 import os
@@ -9,20 +10,21 @@ import re
 from reports import document
 from reports.files import write_file
 
-# Beside the package once installed; in the sources, where the templates and Chart.js are.
-INSTALLED = pathlib.Path(__file__).resolve().parent / "web"
-SOURCES = pathlib.Path(__file__).resolve().parents[3] / "io/html/web"
-CHART_JS = "/usr/share/javascript/chart.js/chart.min.js"
+# Beside the package in a build and once installed; in the sources, where the templates and Debian's JavaScript are.
+PACKAGE = pathlib.Path(__file__).absolute().parent
+WEB = [PACKAGE / "web", PACKAGE.parents[2] / "io/html/web"]
+JAVASCRIPT = [PACKAGE / "javascript", *(pathlib.Path("/usr/share/javascript") / name for name in ("chart.js", "three/build", "three/examples/js/controls"))]
+LIBRARIES = {"chart_js": "chart.min.js", "three_js": "three.min.js", "orbit_controls_js": "OrbitControls.js"}
 
 
 def asset(name):
     """The text of a file of the templates; `name` as a template has it: theme_css."""
-    if name == "chart_js":
-        return pathlib.Path(os.environ.get("PBMPI_CHART_JS", CHART_JS)).read_text(encoding="utf-8")
-    folder = INSTALLED if INSTALLED.is_dir() else SOURCES
-    file = name[::-1].replace("_", ".", 1)[::-1]
-    found = next(path for path in (folder / file, folder / "charts" / file) if path.is_file())
-    return found.read_text(encoding="utf-8")
+    folders = JAVASCRIPT if name in LIBRARIES else [folder / below for folder in WEB for below in ("", "charts")]
+    file = LIBRARIES.get(name) or name[::-1].replace("_", ".", 1)[::-1]
+    for folder in folders:
+        if (folder / file).is_file():
+            return (folder / file).read_text(encoding="utf-8")
+    raise FileNotFoundError(errno.ENOENT, f"{file}, a part of pages, is missing beside the reports", file)
 
 
 def safe_json(value):
