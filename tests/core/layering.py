@@ -73,7 +73,7 @@ STANDS_ON = {
     "src/api/include/pbmpi": [],
     "src/api": ["src/api/include/pbmpi", "src/engines", "mpi/frame", "mpi/balance"],
     "src/api/python": ["src/api/include/pbmpi"],
-    "src/app/manual": [],
+    "src/app/manual": ["src/core"],
     "src/app/manual/pages": ["src/app/pbmpi/options", "src/app/pbreport", "src/app/pbstudy"],
     "src/app/common": ["src/app/manual", "mpi/worlds", "mpi/spaces", "src/estimate", "src/engines"],
     "src/app/summary": ["src/app/common", "src/analysis"],

@@ -31,7 +31,7 @@ namespace {
 core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostream& out) {
   const ReportOptions options = parse_report_options(args);
   if (options.action != ReportAction::help) return run_report(options, out);
-  out << help_of(pbreport_manual());
+  out << help_of(pbreport_manual(), args);
   return core::ExitCode::done;
 }
 
@@ -89,6 +89,7 @@ Manual pbreport_manual() {
                 .usage = "pbreport [COMMAND] FILE [options]",
                 .title = "Commands (pbreport COMMAND --help shows their options)",
                 .options = report_options_description(),
+                .basic = {"json", "html", "xdmf", "config", "quiet"},
                 .exit_codes = common_exit_codes(),
                 .examples = {"pbreport 100CrSk.h5", "pbreport 100CrSk.h5 --html 100CrSk.html",
                              "pbreport 100CrSk.h5 --json | jq .frame_rate"}};

@@ -73,7 +73,8 @@ core::ExitCode run_pbstudy(const mpi::Communicator& comm, const std::vector<std:
     return core::ExitCode::done;
   };
   core::require_input(!args.empty(), "no study is named; name one, e.g. pbstudy accuracy (see --help)");
-  if (args.front() == "--help" || args.front() == "-h") return say(help_of(pbstudy_manual()));
+  const std::string first = help_arguments(args).args.front();
+  if (first == "--help" || first == "-h") return say(help_of(pbstudy_manual(), args));
   if (args.front() == "--version") return say(version_line("pbstudy") + "\n");
   for (const StudyCommand& command : study_commands()) {
     if (command.name != args.front()) continue;
