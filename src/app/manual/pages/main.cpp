@@ -1,12 +1,11 @@
-/// pbmpi_manual FOLDER: writes the manual pages and the shell completions of the programs below FOLDER. Part
-/// of the build, not installed.
+/// pbmpi_manual FOLDER: writes the manual pages of the programs below FOLDER. Part of the build, not
+/// installed.
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
 
-#include "app/manual/pages/completion.h"
 #include "app/manual/pages/roff.h"
 
 namespace {
@@ -26,9 +25,6 @@ void write_manuals(const std::filesystem::path& folder) {
     write(folder / "man1" / (name + ".1"), roff_page(program.program, program));
     for (const Manual& command : program.commands)
       write(folder / "man1" / (page_name(command) + ".1"), roff_page(command, program));
-    write(folder / "bash" / name, bash_completion(program));
-    write(folder / "zsh" / ("_" + name), zsh_completion(program));
-    write(folder / "fish" / (name + ".fish"), fish_completion(program));
   }
 }
 
