@@ -74,7 +74,6 @@ STANDS_ON = {
     "src/api": ["src/api/include/pbmpi", "src/engines", "mpi/frame", "mpi/balance"],
     "src/api/python": ["src/api/include/pbmpi"],
     "src/app/manual": ["src/core"],
-    "src/app/manual/pages": ["src/app/pbmpi/options", "src/app/pbreport", "src/app/pbstudy"],
     "src/app/common": ["src/app/manual", "mpi/worlds", "mpi/spaces", "src/estimate", "src/engines"],
     "src/app/summary": ["src/app/common", "src/analysis"],
     "src/app/pbmpi/options": ["src/app/common"],

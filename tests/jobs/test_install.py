@@ -40,7 +40,6 @@ class Install(unittest.TestCase):
         self.assertTrue((share / "zsh/vendor-completions/_pbmpi").is_file())
         pages = {path.name for path in (SOURCE / "docs").glob("*.md")}
         self.assertEqual({path.name for path in (share / "doc/pbmpi/docs").iterdir()}, pages)
-        self.assertFalse((self.prefix / "bin/pbmpi_manual").exists())
 
     def test_no_file_names_the_checkout_or_the_build(self):
         for path in self.files():

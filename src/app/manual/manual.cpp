@@ -48,13 +48,12 @@ std::string exit_codes_of(const Manual& manual) {
 
 std::string examples_of(const Manual& manual) {
   std::string text = manual.examples.empty() ? "" : "Examples:\n";
-  for (const std::string& example : manual.examples) text += "  " + example + "\n";
+  for (const std::string& example : manual.examples) text += "  $ " + example + "\n";  // help2man's mark
   return text;
 }
 
 /// "-o, --output FILE" where Boost prints "-o [ --output ] FILE", and two blanks before the meaning where it
-/// prints one after a long default: what other
-/// programs read.
+/// prints one after a long default: what help2man and completions read.
 std::string in_usual_form(const std::string& printed) {
   static const std::regex both_names(R"((-\w) \[ (--[\w-]+) \]((?: \S+)*))");
   static const std::regex one_blank(R"(( \(=\S+\)) (?=\S))");
@@ -117,6 +116,7 @@ std::string help_of(const Manual& manual, const std::vector<std::string>& args) 
   text += table_of(manual.title, manual.commands);
   if (!manual.basic.empty() && !help_arguments(args).all)
     return text + basic_options(manual) + "\n" + exit_codes_of(manual) + examples_of(manual);
+  // Ahead of the options, as help2man takes what follows them for a part of theirs.
   text += exit_codes_of(manual);
   for (const std::string& note : manual.notes) text += wrapped(note) + "\n";
   return text + all_options(manual) + "\n" + table_of("Files", manual.files) + examples_of(manual);

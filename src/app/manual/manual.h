@@ -1,4 +1,4 @@
-/// The text of --help and of the manual page of a program, or of one of its commands: both are made from it.
+/// The text of --help of a program, or of one of its commands. Manual pages and completions are made from it.
 #pragma once
 
 #include <string>
@@ -15,11 +15,10 @@ struct ManualEntry {
 };
 
 struct Manual {
-  std::string name;          ///< "pbmpi", "pbreport csv"
-  std::string meaning = {};  ///< one line; for a command, its line in the program's list
-  std::string about = {};    ///< a paragraph
-  std::string usage = {};    ///< a command line
-  std::string title = {};    ///< title of the list of commands
+  std::string name;        ///< "pbmpi", "pbreport csv"
+  std::string about = {};  ///< a paragraph
+  std::string usage = {};  ///< a command line
+  std::string title = {};  ///< title of the list of commands
   std::vector<ManualEntry> commands = {};
   boost::program_options::options_description options;
   std::vector<std::string> basic = {};       ///< options that --help shows, in this order; empty: all

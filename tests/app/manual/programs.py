@@ -5,7 +5,6 @@ import re
 import subprocess
 
 BIN = os.environ["PBMPI_BIN"]
-MANUAL = os.path.join(os.path.dirname(BIN), "manual")
 PROGRAMS = ("pbmpi", "pbstudy", "pbreport")
 # MPI starts without a daemon.
 ENVIRONMENT = {**os.environ, "OMPI_MCA_ess_singleton_isolated": "1", "PATH": os.pathsep.join((BIN, os.environ["PATH"]))}

@@ -8,7 +8,7 @@ class Help(unittest.TestCase):
     def test_help_fits_on_a_screen_and_shows_options_that_are_there(self):
         for command in all_commands():
             text = run(*command, "--help").stdout
-            self.assertLessEqual(len(text.splitlines()), 42, command)
+            self.assertLessEqual(len(text.splitlines()), 40, command)
             self.assertLessEqual(max(map(len, text.splitlines())), 110, command)
             self.assertLessEqual(len(options_in(text)), 15, command)
             self.assertLessEqual(options_in(text), options_of(*command), command)

@@ -69,7 +69,6 @@ void require_needs(const Options& options) {
 Manual pbmpi_manual() {
   return {
       .name = "pbmpi",
-      .meaning = "simulates many rigid-body worlds over MPI ranks",
       .about = "pbmpi simulates many rigid-body worlds over MPI ranks and shows what accuracy costs in time.",
       .usage = "mpirun -n RANKS pbmpi --scene NAME [options]",
       .options = options_description(),

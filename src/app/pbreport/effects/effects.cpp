@@ -15,8 +15,6 @@ const StudyReport effects_report{
 
 }  // namespace
 
-Manual effects_report_manual() { return manual_of(effects_report); }
-
 core::ExitCode run_effects_report(const std::vector<std::string>& args, std::ostream& out) {
   return run_study_report(effects_report, args, out,
                           [](const io::TableFile& file, const ReportOfStudyOptions& options) {

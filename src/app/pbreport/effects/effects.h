@@ -5,13 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "app/manual/manual.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
 
 /// Throws core::InputError: bad usage, a file that is no study of effects, an output that cannot be written.
 core::ExitCode run_effects_report(const std::vector<std::string>& args, std::ostream& out);
-Manual effects_report_manual();
 
 }  // namespace pbmpi::app

@@ -14,8 +14,6 @@ const StudyReport stability_report{
 
 }  // namespace
 
-Manual stability_report_manual() { return manual_of(stability_report); }
-
 core::ExitCode run_stability_report(const std::vector<std::string>& args, std::ostream& out) {
   return run_study_report(stability_report, args, out,
                           [](const io::TableFile& file, const ReportOfStudyOptions& options) {

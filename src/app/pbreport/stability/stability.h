@@ -5,13 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "app/manual/manual.h"
 #include "core/error.h"
 
 namespace pbmpi::app {
 
 /// Throws core::InputError and core::RunError.
 core::ExitCode run_stability_report(const std::vector<std::string>& args, std::ostream& out);
-Manual stability_report_manual();
 
 }  // namespace pbmpi::app
