@@ -9,11 +9,11 @@ packages=(g++ cmake ninja-build pkg-config git ca-certificates
   openmpi-bin libopenmpi-dev openssh-client libhdf5-openmpi-dev libode-dev libeigen3-dev
   libboost-program-options-dev libtomlplusplus-dev libpugixml-dev nlohmann-json3-dev libjs-three libjs-chart.js
   pybind11-dev python3-dev python3-numpy python3-h5py)
-package_packages=(dpkg-dev file gzip valgrind)
+package_packages=(dpkg-dev file gzip help2man valgrind)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libbullet-dev libmujoco-dev python3 python3-pandas python3-mpi4py
   python3-matplotlib python3-selenium
-  chromium chromium-driver hdf5-tools slurm-wlm munge procps shellcheck binutils doxygen qemu-user-static groff man-db fish zsh
-  debootstrap)
+  chromium chromium-driver hdf5-tools slurm-wlm munge procps shellcheck binutils doxygen qemu-user-static groff man-db
+  bash-completion fish zsh debootstrap)
 
 gate_packages=(clang clang-format clang-tidy libclang-rt-14-dev g++-aarch64-linux-gnu)
 

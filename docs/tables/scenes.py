@@ -32,7 +32,7 @@ def plan_of(scene):
 
 def effect_names():
     """All effects, in the order of the registry."""
-    text = programs.pbmpi("--help").split("--effects", 1)[1].split("\n  --", 1)[0].split("\n\n", 1)[0]
+    text = programs.pbmpi("--help", "all").split("--effects", 1)[1].split("\n  --", 1)[0].split("\n\n", 1)[0]
     words = re.sub(r"\s+", " ", text).split("they are ", 1)[1]
     return re.findall(r"\w+", words)
 

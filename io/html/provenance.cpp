@@ -28,14 +28,6 @@ std::string page_by(const std::string& maker) { return maker.empty() ? "" : "pag
 
 }  // namespace
 
-Provenance provenance_of(const std::string& path, const TableFile& file, const std::string& maker) {
-  Provenance provenance{joined({origin(file.attributes), page_by(maker)}), {{"file", path}}};
-  for (const auto& [name, text] : file.attributes) provenance.entries.emplace_back(name, text);
-  for (const Parameter& parameter : file.parameters)
-    provenance.entries.emplace_back(parameter.name, parameter.text);
-  return provenance;
-}
-
 Provenance provenance_of(const RunData& run, const std::string& maker) {
   return {joined({origin(run.attributes), page_by(maker)}), {}};
 }

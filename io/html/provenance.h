@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "io/run/run_data.h"
-#include "io/table/table_file.h"
 
 namespace pbmpi::io::html {
 
@@ -16,11 +15,8 @@ struct Provenance {
   std::vector<std::pair<std::string, std::string>> entries;  ///< name and text, folded out on demand
 };
 
-/// The provenance of a file of tables: its name, attributes and parameters. `maker`: the program that makes
-/// the page, with its version.
-Provenance provenance_of(const std::string& path, const TableFile& file, const std::string& maker);
-
-/// The provenance of a run. Its page shows its attributes and parameters elsewhere.
+/// The provenance of a run. `maker`: the program that makes the page, with its version. Its page shows its
+/// attributes and parameters elsewhere.
 Provenance provenance_of(const RunData& run, const std::string& maker);
 
 /// The attributes of a file's root, by the file's name.

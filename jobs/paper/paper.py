@@ -12,7 +12,7 @@ sys.path.insert(1, str(pathlib.Path(__file__).resolve().parents[2] / "src/app"))
 
 from reports.document import Report  # noqa: E402
 from reports.files import BadInput, require  # noqa: E402
-from reports.printing import deliver  # noqa: E402
+from reports.command_line import deliver  # noqa: E402
 
 import data  # noqa: E402
 import figures  # noqa: E402

@@ -26,25 +26,6 @@ double quantile(std::vector<double> values, double q) {
   return values[low] + (place - static_cast<double>(low)) * (values[high] - values[low]);
 }
 
-Interval median_interval(std::vector<double> values, double confidence) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  double probability = 1;  // of exactly k heads, over 2^exponent: undivided it may be below every double
-  int exponent = -static_cast<int>(n);
-  Interval found;
-  double outside = 0;  // the median is below the k-th value from the bottom, or above the k-th from the top
-  for (std::size_t k = 0; 2 * k < n; ++k) {
-    outside += 2 * std::ldexp(probability, exponent);
-    if (k > 0 && 1 - outside < confidence) break;
-    found = {values[k], values[n - 1 - k], std::max(0.0, 1 - outside)};
-    int raised = 0;
-    probability = std::frexp(probability * static_cast<double>(n - k) / static_cast<double>(k + 1), &raised);
-    exponent += raised;
-  }
-  return found;
-}
-
 double harmonic_mean(std::span<const double> values) {
   double inverse_sum = 0;
   for (double v : values) {

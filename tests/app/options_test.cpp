@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "app/common/quantities.h"
 #include "app/pbmpi/options/run_options.h"
 #include "core/error.h"
 #include "fake_scene.h"
@@ -250,7 +251,7 @@ TEST(RunOptions, of_an_estimate_have_a_value_only_where_there_is_one) {
 }
 
 TEST(Options, help_names_every_group_and_exit_code) {
-  const std::string help = help_of(pbmpi_manual());
+  const std::string help = help_of(pbmpi_manual(), {"--help", "all"});
   for (const char* words :
        {"What to simulate", "How to step", "How to cut the work", "What to write", "General", "75"}) {
     EXPECT_NE(help.find(words), std::string::npos) << words;
@@ -350,6 +351,17 @@ TEST(Options, refuse_ranks_for_worlds_that_are_to_stay_whole) {
     ADD_FAILURE() << "they exclude each other";
   } catch (const core::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("leave it out, or give --decompose spaces"), std::string::npos);
+  }
+}
+
+TEST(Quantities, times_and_lengths_have_units) {
+  EXPECT_DOUBLE_EQ(parse_time_s("3.33ms", "--budget"), 3.33e-3);  // one rounding of the product
+  EXPECT_DOUBLE_EQ(parse_time_s("500us", "--budget"), 5e-4);
+  EXPECT_EQ(parse_time_s("2s", "--budget"), 2);
+  EXPECT_EQ(parse_time_or_seconds("2", "--budget"), 2);
+  EXPECT_DOUBLE_EQ(parse_length_m("1cm", "--tolerance"), 0.01);
+  for (const char* text : {"", "3", "ms", "-1ms", "0ms", "3.33 ms", "3mss", "nanms", "infms"}) {
+    EXPECT_THROW(parse_time_s(text, "--budget"), core::InputError) << text;
   }
 }
 

@@ -1,7 +1,6 @@
 #include "core/statistics.h"
 
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -32,32 +31,6 @@ TEST(Quantile, interpolates_between_order_statistics) {
   EXPECT_DOUBLE_EQ(quantile(values, 0.9), 37);
   EXPECT_EQ(quantile({7}, 0.99), 7);
   EXPECT_EQ(quantile({}, 0.5), 0);
-}
-
-TEST(MedianInterval, is_the_narrowest_that_is_sure_enough) {
-  // Probability of at most k heads in n tosses, n = 5: 1, 6; n = 6: 1, 7; n = 9: 1, 10, 46 of 2^n.
-  const auto expect = [](const Interval& found, double low, double high, double confidence) {
-    EXPECT_EQ(found.low, low);
-    EXPECT_EQ(found.high, high);
-    EXPECT_DOUBLE_EQ(found.confidence, confidence);
-  };
-  expect(median_interval({5, 3, 1, 2, 4}, 0.95), 1, 5, 1 - 2. / 32);
-  expect(median_interval({5, 3, 1, 2, 4}, 0.5), 2, 4, 1 - 12. / 32);
-  expect(median_interval({6, 5, 3, 1, 2, 4}, 0.95), 1, 6, 1 - 2. / 64);
-  expect(median_interval({9, 8, 7, 6, 5, 4, 3, 2, 1}, 0.95), 2, 8, 1 - 20. / 512);
-  expect(median_interval({9, 8, 7, 6, 5, 4, 3, 2, 1}, 0.8), 3, 7, 1 - 92. / 512);
-  expect(median_interval({7}, 0.95), 7, 7, 0);
-  expect(median_interval({}, 0.95), 0, 0, 0);
-}
-
-/// Computed with fractions of whole numbers; 2^-2000 is below every double.
-TEST(MedianInterval, is_that_of_long_samples_too) {
-  std::vector<double> values(2000);
-  std::iota(values.begin(), values.end(), 0);
-  const Interval found = median_interval(values, 0.95);
-  EXPECT_EQ(found.low, 955);
-  EXPECT_EQ(found.high, 1044);
-  EXPECT_NEAR(found.confidence, 0.9534471795082162, 1e-12);
 }
 
 TEST(HarmonicMean, is_the_rate_over_equal_work) {

@@ -63,10 +63,10 @@ done
 # shellcheck disable=SC2016  # expanded by the inner shell
 bash -c '. /usr/share/bash-completion/bash_completion
   _completion_loader pbmpi
-  COMP_WORDS=(pbmpi --scene Crash) COMP_CWORD=2
-  _pbmpi
+  COMP_WORDS=(pbmpi --scene Crash) COMP_CWORD=2 COMP_LINE="pbmpi --scene Crash" COMP_POINT=19
+  _pbmpi pbmpi
   [[ " ${COMPREPLY[*]} " == *" CrashWa "* ]]' || fail "bash completes no scene"
-fish -c 'complete -C "pbmpi --scene CrashS"' | cut -f 1 | grep -qx CrashSk || fail "fish completes no scene"
+fish -c 'complete -C "pbmpi --sce"' | cut -f 1 | grep -qx -e --scene || fail "fish completes no option"
 
 say "find_package" cmake -S "$source_dir/tests/api/example" -B example
 say "find_package" cmake --build example

@@ -1,7 +1,6 @@
 /// JSON documents as text, valid whatever bytes their texts and whatever numbers they have.
 #pragma once
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -12,11 +11,6 @@ namespace pbmpi::app {
 template <class Json>
 std::string json_text(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
-/// JSON has no word for numbers that are not finite.
-inline nlohmann::ordered_json finite_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
 }  // namespace pbmpi::app

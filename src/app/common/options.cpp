@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/common/version.h"
+#include "app/manual/manual.h"
 #include "core/error.h"
 #include "core/system/input_file.h"
 #include "core/text.h"
@@ -52,7 +53,7 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
   po::variables_map values;
   std::string where;  // the file being read, with ": "; empty for the command line
   try {
-    po::store(po::command_line_parser(args)
+    po::store(po::command_line_parser(help_arguments(args).args)
                   .options(description)
                   .positional(positional)
                   .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)

@@ -280,7 +280,7 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
   };
   switch (options.action) {
     case Action::help:
-      return say(help_of(pbmpi_manual()));
+      return say(help_of(pbmpi_manual(), args));
     case Action::version:
       return say(version_line("pbmpi") + "\n");
     case Action::list_scenes:

@@ -20,7 +20,7 @@ namespace {
 core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostream& out) {
   const ReportOptions options = parse_report_options(args);
   if (options.action != ReportAction::help) return run_report(options, out);
-  out << help_of(pbreport_manual());
+  out << help_of(pbreport_manual(), args);
   return core::ExitCode::done;
 }
 
@@ -29,31 +29,31 @@ core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostr
 const std::vector<ReportCommand>& report_commands() {
   static const std::vector<ReportCommand> commands = {
       {"report", "the summary of one run, its HTML page, its ParaView sidecar (the default)",
-       run_first_command, pbreport_manual},
+       run_first_command},
       {"islands", "the paper's Table 1 from runs"},
-      {"diff", "how far two recorded runs of the same bodies are apart", run_diff, diff_manual},
+      {"diff", "how far two recorded runs of the same bodies are apart", run_diff},
       {"study", "what accuracy costs in time: the file of pbstudy, and the setting for a budget"},
       {"effects", "what effects cost: the file of pbstudy effects"},
       {"stability", "which settings hold the hard cases: the file of pbstudy stability"},
       {"engines", "engines side by side: files of pbstudy accuracy and pbstudy stability"},
-      {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ...", run_csv,
-       csv_manual},
+      {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ...",
+       run_csv},
       {"ensemble", "mean, spread and quantiles over runs that differ in their seeds"},
       {"scaling", "what more ranks bring: runs of the same work on different numbers of ranks"},
       {"calibrate", "what the harness costs, forecast for more ranks: the file of pbstudy calibrate"},
-      {"join", "a run and what went on from its checkpoints as one file", run_join, join_manual},
-      {"repair", "gives back the disk space that a killed run keeps", run_repair, repair_manual},
+      {"join", "a run and what went on from its checkpoints as one file", run_join},
+      {"repair", "gives back the disk space that a killed run keeps", run_repair},
   };
   return commands;
 }
 
 Manual pbreport_manual() {
   Manual manual{.name = "pbreport",
-                .meaning = "shows what runs of pbmpi and studies of pbstudy amount to",
                 .about = "pbreport shows what a run of pbmpi amounts to.",
                 .usage = "pbreport [COMMAND] FILE [options]",
                 .title = "Commands (pbreport COMMAND --help shows their options)",
                 .options = report_options_description(),
+                .basic = {"json", "html", "xdmf", "config", "quiet"},
                 .exit_codes = common_exit_codes(),
                 .examples = {"pbreport 100CrSk.h5", "pbreport 100CrSk.h5 --html 100CrSk.html",
                              "pbreport 100CrSk.h5 --json | jq .frame_rate"}};

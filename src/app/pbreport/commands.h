@@ -16,7 +16,6 @@ struct ReportCommand {
   std::string_view name;
   std::string_view meaning;  ///< one line for --help
   core::ExitCode (*run)(const std::vector<std::string>& args, std::ostream& out) = nullptr;  ///< none: Python
-  Manual (*manual)() = nullptr;  ///< none: Python prints its own help
 };
 
 /// The first one runs when the first argument names no command.

@@ -51,7 +51,8 @@ std::string report_of_study_in(const std::vector<std::string>& args) {
 core::ExitCode run_python_report(const std::string& command, const std::vector<std::string>& args) {
   require_sound_files(args);
   const char* chosen = std::getenv("PBMPI_PYTHON");
-  std::vector<std::string> words = {chosen != nullptr ? chosen : PBMPI_PYTHON, "-B", package_folder(), command};
+  std::vector<std::string> words = {chosen != nullptr ? chosen : PBMPI_PYTHON, "-B", package_folder(),
+                                    command};
   words.insert(words.end(), args.begin(), args.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());

@@ -1,4 +1,5 @@
-/// Reports on studies and on sets of runs: the Python package src/app/reports, which h5py and numpy serve better than C++.
+/// Reports on studies and on sets of runs: the Python package src/app/reports, which h5py and numpy serve
+/// better than C++.
 #pragma once
 
 #include <string>

@@ -32,16 +32,12 @@ std::string unknown_study(const std::string& word) {
 
 const std::vector<StudyCommand>& study_commands() {
   static const std::vector<StudyCommand> commands = {
-      {"accuracy", "what accuracy costs in time: errors and times of many settings", run_accuracy,
-       accuracy_manual},
-      {"calibrate", "what the harness costs beside the physics, for forecasts of more ranks", run_calibrate,
-       calibrate_manual},
-      {"effects", "what each effect costs, and what leaving it out does to the result", run_effects,
-       effects_manual},
+      {"accuracy", "what accuracy costs in time: errors and times of many settings", run_accuracy},
+      {"calibrate", "what the harness costs beside the physics, for forecasts of more ranks", run_calibrate},
+      {"effects", "what each effect costs, and what leaving it out does to the result", run_effects},
       {"prediction", "what value prediction gains a frame, and what it does to the result (Valgrind)",
-       run_prediction, prediction_manual},
-      {"stability", "which settings hold the cases that are known to be hard", run_stability,
-       stability_manual},
+       run_prediction},
+      {"stability", "which settings hold the cases that are known to be hard", run_stability},
   };
   return commands;
 }
@@ -50,7 +46,6 @@ Manual pbstudy_manual() {
   boost::program_options::options_description options("Options");
   options.add_options()("help,h", "print this help")("version", "print the version");
   Manual manual{.name = "pbstudy",
-                .meaning = "measures what settings of pbmpi cost, and how good their results are",
                 .about =
                     "pbstudy runs a matrix of cases over the MPI ranks, each case a world of its own, and "
                     "writes one HDF5 file.",
@@ -73,7 +68,8 @@ core::ExitCode run_pbstudy(const mpi::Communicator& comm, const std::vector<std:
     return core::ExitCode::done;
   };
   core::require_input(!args.empty(), "no study is named; name one, e.g. pbstudy accuracy (see --help)");
-  if (args.front() == "--help" || args.front() == "-h") return say(help_of(pbstudy_manual()));
+  const std::string first = help_arguments(args).args.front();
+  if (first == "--help" || first == "-h") return say(help_of(pbstudy_manual(), args));
   if (args.front() == "--version") return say(version_line("pbstudy") + "\n");
   for (const StudyCommand& command : study_commands()) {
     if (command.name != args.front()) continue;

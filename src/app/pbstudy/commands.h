@@ -16,7 +16,6 @@ struct StudyCommand {
   std::string_view name;
   std::string_view meaning;  ///< one line for --help
   core::ExitCode (*run)(const mpi::Communicator& comm, const std::vector<std::string>& args);
-  Manual (*manual)();
 };
 
 const std::vector<StudyCommand>& study_commands();

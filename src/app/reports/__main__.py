@@ -1,7 +1,6 @@
 """python3 reports COMMAND FILE [options]: pbreport's reports on studies and on several runs. pbreport calls it, once it has checked the
 seals of the files."""
 import importlib
-import os
 import pathlib
 import sys
 
@@ -10,6 +9,7 @@ if __package__ in (None, ""):
 
 try:
     from reports.files import BadInput
+    from reports.command_line import PrintError
 except ImportError as error:
     print(f"pbreport: this report needs Python's {error.name}, which is not there; install it (Debian: python3-{error.name})", file=sys.stderr)
     sys.exit(1)
@@ -26,18 +26,16 @@ def fail(message, code):
 
 def main(words):
     try:
-        importlib.import_module(f"reports.{MODULES[words[0]]}").run(words[1:])
-        sys.stdout.flush()
+        report = importlib.import_module(f"reports.{MODULES[words[0]]}")
+        report.run(words[1:])
     except BadInput as error:
         return fail(error, 2)
+    except PrintError as error:
+        return fail(error, 1)
     except MemoryError:
         return fail("there is not enough memory for what is to be read", 1)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or the interpreter complains as it ends
-        return fail("the report cannot be written to standard output: the reader has gone", 1)
-    except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return fail(f"the report cannot be written ({error.strerror}); is the disk full?", 1)
+    except (OSError, RuntimeError) as error:  # h5py's, of a file whose inside is damaged
+        return fail(f"a file cannot be read ({error}); it is damaged or incomplete", 2)
     return 0
 
 

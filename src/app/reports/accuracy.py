@@ -3,10 +3,9 @@ import dataclasses
 import math
 
 from reports import diagrams, errors, page
-from reports.command_line import Command, add_scene_option, one_file, parse, quantity
+from reports.command_line import Command, add_scene_option, deliver, one_file, parse, quantity
 from reports.document import PAGE, TEXT, Column, Report, Section, Table
 from reports.files import in_order_of, read_study, require, write_file
-from reports.printing import deliver
 from reports.words import number, plural
 
 

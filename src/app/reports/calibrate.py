@@ -4,10 +4,9 @@ import dataclasses
 import math
 
 from reports import harness, tables
-from reports.command_line import Command, add_table_option, one_file, parse, quantity, require_table
+from reports.command_line import Command, add_table_option, deliver, one_file, parse, quantity, require_table
 from reports.document import Column, Report, Section, Table
 from reports.files import read_study, require
-from reports.printing import deliver
 
 TABLES = ("costs", "forecasts", "walls", "checks")
 LOAD = ("ranks", "worlds", "bodies", "steps")  # what a case of frames differs in

@@ -1,11 +1,14 @@
-"""Command lines of the reports: one Command a report, with the options that all share."""
+"""What each report begins and ends with: its command line, with the options that all share, and what is printed and written."""
 import argparse
 import dataclasses
 import difflib
 import os
 import re
+import sys
+import textwrap
 
-from reports.files import BadInput, require
+from reports import document, page
+from reports.files import BadInput, require, write_file
 
 UNITS = {"time": {"us": 1e-6, "ms": 1e-3, "s": 1.0}, "length": {"mm": 1e-3, "cm": 1e-2, "m": 1.0}}
 WRITTEN = ("html", "csv", "output", "write_config")  # options that name a file to write
@@ -42,7 +45,7 @@ def parser_of(command):
     group.add_argument("--json", action="store_true", help="print all as one JSON document")
     if command.markdown:
         group.add_argument("--markdown", action="store_true", help=command.markdown)
-    group.add_argument("-h", "--help", action="store_true", help="print this help")
+    group.add_argument("-h", "--help", nargs="?", const="all", metavar="all", help="print this help")
     group.add_argument("--config", metavar="FILE", help="read options from FILE, one 'name = value' a line; the command line wins")
     printed = "--json or --markdown asks" if command.markdown else "--json asks"
     group.add_argument("-q", "--quiet", action="store_true", help=f"print nothing but errors and what {printed} for")
@@ -74,13 +77,21 @@ def require_known(words, parser):
             raise BadInput(f"unknown option '{name}'; " + (f"did you mean {near[0]}?" if near else "see --help"))
 
 
+def help_text(command, parser):
+    """In the layout of the other programs' help."""
+    options = parser.format_help().replace("-h [all], --help [all]", "-h, --help")
+    about = f"pbreport {command.name} {command.about[0].lower()}{command.about[1:]}"
+    return f"{textwrap.fill(about, 80)}\n\nUsage: pbreport {command.name} {command.usage}\n\n{options[options.index('Options:'):]}"
+
+
 def parse(command, words):
     """The options of a command line, or None where it asks for help, which is printed. Raises BadInput with one clear message."""
     parser = parser_of(command)
     require_known(words, parser)
     options = parser.parse_args(words)
-    if options.help:
-        print(parser.format_help())
+    if options.help is not None:
+        require(options.help == "all", f"--help {options.help}: write --help for the basic options, or --help all for all")
+        put(help_text(command, parser))
         return None
     if options.config:
         more = config_words(options.config)
@@ -140,3 +151,31 @@ def require_table(options, names):
     near = difflib.get_close_matches(options.table, names, 1)
     hint = f"did you mean '{near[0]}'?" if near else f"known: {', '.join(map(repr, names))}"
     require(options.table in names, f"--table {options.table}: there is no such table; {hint}")
+
+
+class PrintError(Exception):
+    """Standard output takes no more. Ends the program with exit code 1."""
+
+
+def put(text):
+    """Prints all of it, or raises PrintError."""
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or the interpreter complains as it ends
+        raise PrintError(f"the report cannot be written to standard output ({error.strerror}); is the disk full?") from None
+
+
+def deliver(report, options, csv_columns=None, page_of=page.page_of):
+    """As the options ask: the page, which page_of(report) makes, the CSV, and on standard output JSON, Markdown or text."""
+    if csv_columns is not None and options.csv:
+        write_file(options.csv, document.csv(csv_columns))
+    if getattr(options, "html", None):
+        write_file(options.html, page_of(report))
+    if options.json:
+        put(document.json(report))
+    elif getattr(options, "markdown", False):
+        put(document.markdown(report))
+    elif not options.quiet:
+        put(document.text(report))

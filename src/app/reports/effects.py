@@ -3,10 +3,9 @@ import dataclasses
 import math
 
 from reports import charts, errors, page
-from reports.command_line import Command, add_scene_option, one_file, parse
+from reports.command_line import Command, add_scene_option, deliver, one_file, parse
 from reports.document import MARKDOWN, PAGE, TEXT, Chart, Column, Report, Section, Table
 from reports.files import in_order_of, read_study
-from reports.printing import deliver
 from reports.words import NO_NUMBER, percent, plural
 
 COMMAND = Command("effects", "Shows what each effect costs: the file of pbstudy effects. The word effects may be left out.",

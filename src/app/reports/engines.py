@@ -5,10 +5,9 @@ import math
 import h5py
 
 from reports import accuracy, charts, files, page, stability
-from reports.command_line import Command, add_scene_option, parse
+from reports.command_line import Command, add_scene_option, deliver, parse
 from reports.document import MARKDOWN, PAGE, TEXT, Chart, Column, Report, Section, Table
 from reports.files import require
-from reports.printing import deliver
 from reports.words import joined, number, plural
 
 COMMAND = Command("engines", "Shows engines side by side: of pbstudy accuracy each engine's front of error against time, by the common "

@@ -6,10 +6,9 @@ import numpy as np
 
 from reports import runs as run_files
 from reports import page, tables
-from reports.command_line import Command, add_table_option, parse, require_table
+from reports.command_line import Command, add_table_option, deliver, parse, require_table
 from reports.document import MARKDOWN, TEXT, Report, Section, Table
 from reports.files import require
-from reports.printing import deliver
 from reports.runs import Run, difference_text, differences
 from reports.samples import quantile, total
 from reports.tables import Values

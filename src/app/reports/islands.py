@@ -1,10 +1,9 @@
 """pbreport islands: the islands of scenes beside the paper's Table 1, from files of runs."""
 import dataclasses
 
-from reports.command_line import Command, parse
+from reports.command_line import Command, deliver, parse
 from reports.document import Report, Section, Table
 from reports.files import require
-from reports.printing import deliver
 from reports.runs import Run
 from reports.samples import Summary, summarize
 

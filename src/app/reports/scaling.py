@@ -1,9 +1,8 @@
 """pbreport scaling: what more ranks bring, from files of runs that do the same work on different numbers of ranks."""
 from reports import charts, page
-from reports.command_line import Command, add_table_option, parse, require_table
+from reports.command_line import Command, add_table_option, deliver, parse, require_table
 from reports.document import MARKDOWN, PAGE, TEXT, Chart, Column, Report, Section, Table
 from reports.files import require
-from reports.printing import deliver
 from reports.runs import PHASES
 from reports.scaling_curves import Figure6, Rules, curves_of, files_without_curve, read_scaling_run
 from reports.tables import Values, csv_of, json_of

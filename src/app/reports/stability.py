@@ -3,10 +3,9 @@ import dataclasses
 import math
 
 from reports import map_page, page
-from reports.command_line import Command, add_scene_option, one_file, parse
+from reports.command_line import Command, add_scene_option, deliver, one_file, parse
 from reports.document import MARKDOWN, TEXT, Column, Report, Section, Table
 from reports.files import in_order_of, read_study
-from reports.printing import deliver
 from reports.words import number, plural
 
 COMMAND = Command("stability", "Shows which settings hold the hard cases: the file of pbstudy stability. The word stability may be left "

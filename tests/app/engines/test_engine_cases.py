@@ -31,7 +31,7 @@ class Cases(harness.ProgramTest):
         return every if ALL else SOME
 
     def steppers(self):
-        text = " ".join(self.pbmpi(1, "--help").stdout.split())
+        text = " ".join(self.pbmpi(1, "--help", "all").stdout.split())
         present = text.split("Steppers of other engines: ")[1].split("not in this build: ")[0]
         steppers = [words for words in STEPPERS if f"{words[0]} (" in present]
         if not steppers:

@@ -20,8 +20,8 @@ PBSTUDY = os.path.join(BIN, "pbstudy")
 
 class Engines(ProgramTest):
     def in_build(self, engine):
-        """Does --help name the engine before what it says is not in this build?"""
-        text = " ".join(self.pbmpi(1, "--help").stdout.split())
+        """Does --help all name the engine before what it says is not in this build?"""
+        text = " ".join(self.pbmpi(1, "--help", "all").stdout.split())
         self.assertIn("Steppers of other engines: ", text)
         present = text.split("Steppers of other engines: ")[1].split("not in this build: ")[0]
         return f"{engine} (" in present

@@ -5,20 +5,30 @@ import re
 import subprocess
 
 BIN = os.environ["PBMPI_BIN"]
-MANUAL = os.path.join(os.path.dirname(BIN), "manual")
 PROGRAMS = ("pbmpi", "pbstudy", "pbreport")
+# MPI starts without a daemon.
+ENVIRONMENT = {**os.environ, "OMPI_MCA_ess_singleton_isolated": "1", "PATH": os.pathsep.join((BIN, os.environ["PATH"]))}
 
 
 @functools.lru_cache(maxsize=None)
+def run(*command):
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, env=ENVIRONMENT)
+
+
 def help_of(*command):
-    """The text of --help, e.g. of "pbreport", "csv"."""
-    return subprocess.run([os.path.join(BIN, command[0]), *command[1:], "--help"], check=True, capture_output=True, text=True,
-                          timeout=60).stdout
+    """The text of --help all, e.g. of "pbreport", "csv"."""
+    result = run(*command, "--help", "all")
+    result.check_returncode()
+    return result.stdout
+
+
+def options_in(text):
+    """The long options, with their dashes."""
+    return set(re.findall(r"^  (?:-\w, )?(--[\w-]+)", text, re.MULTILINE))
 
 
 def options_of(*command):
-    """The long options, with their dashes."""
-    return set(re.findall(r"^  (?:-\w \[ )?(--[\w-]+)", help_of(*command), re.MULTILINE))
+    return options_in(help_of(*command))
 
 
 def commands_of(program):
@@ -31,4 +41,3 @@ def all_commands():
     """("pbmpi",), ("pbstudy",), ("pbstudy", "accuracy") ..."""
     return [command for program in PROGRAMS
             for command in [(program,), *((program, word) for word in commands_of(program))]]
-

@@ -82,7 +82,7 @@ class Engines(ProgramTest):
         self.assertGreater(found["hard_cases"][1]["all"]["pass"], found["hard_cases"][0]["all"]["pass"], "sor holds more than quick")
 
     def test_what_an_engine_takes_otherwise_is_what_describe_says(self):
-        if "not in this build" in " ".join(self.pbmpi(1, "--help").stdout.split()):
+        if "not in this build" in " ".join(self.pbmpi(1, "--help", "all").stdout.split()):
             self.skipTest("this build lacks an engine")
         accuracy = ["--scene", "CrashSk", "--stepper", "bullet", "mujoco", *ACCURACY[ACCURACY.index("--iterations"):]]
         self.study("accuracy", "a.h5", *accuracy)

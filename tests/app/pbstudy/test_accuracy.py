@@ -225,7 +225,7 @@ class Accuracy(ProgramTest):
         self.refused(self.report("diff", "study.h5", "study.h5"), "study.h5", "not a pbmpi run")
 
     def test_help_names_every_option(self):
-        result = self.study(1, "--help")
+        result = self.study(1, "--help", "all")
         self.assertEqual(result.returncode, 0)
         for option in ("--scene", "--iterations", "--substeps", "--floor-seeds", "--reference-iterations", "--repeats"):
             self.assertIn(option, result.stdout)

@@ -142,7 +142,7 @@ class Effects(ProgramTest):
             self.refused(result, "instructions_with")
 
     def test_help_names_every_option(self):
-        result = self.study(1, "--help")
+        result = self.study(1, "--help", "all")
         self.assertEqual(result.returncode, 0)
         for option in ("--scene", "--effect", "--stepper", "--repeats", "--floor-seeds", "--instructions-from"):
             self.assertIn(option, result.stdout)

@@ -177,7 +177,7 @@ class Stability(ProgramTest):
         self.assertEqual(set(os.listdir(self.folder)), before)
 
     def test_help_names_every_option(self):
-        result = self.study(1, "--help")
+        result = self.study(1, "--help", "all")
         self.assertEqual(result.returncode, 0)
         for option in ("--scene", "--setting", "--dt", "--most-work", "--poses", "--seed", "--output"):
             self.assertIn(option, result.stdout)

@@ -17,7 +17,7 @@ PBMPI = pathlib.Path(os.environ["PBMPI_BIN"]) / "pbmpi"
 
 
 def has(engine):
-    text = " ".join(subprocess.run([PBMPI, "--help"], capture_output=True, text=True, check=True).stdout.split())
+    text = " ".join(subprocess.run([PBMPI, "--help", "all"], capture_output=True, text=True, check=True).stdout.split())
     return f"{engine} (" in text.split("Steppers of other engines: ")[1].split("not in this build: ")[0]
 
 

@@ -18,17 +18,6 @@ bool has(const Provenance& provenance, const std::string& name, const std::strin
   return std::ranges::count(provenance.entries, std::pair(name, text)) == 1;
 }
 
-TEST(Provenance, of_a_study_names_file_program_maker_and_parameters) {
-  TableFile file;
-  file.attributes = attributes;
-  file.parameters = {Parameter::of("build", "release")};
-  const Provenance provenance = provenance_of("a/b.h5", file, "pbreport 1.3");
-  EXPECT_EQ(provenance.line, "pbmpi 1.2 · abc · today · page by pbreport 1.3");
-  EXPECT_TRUE(has(provenance, "file", "a/b.h5"));
-  EXPECT_TRUE(has(provenance, "command_line", "pbstudy effects"));
-  EXPECT_TRUE(has(provenance, "build", "release"));
-}
-
 TEST(Provenance, of_several_runs_has_a_line_for_each) {
   const Provenance provenance = provenance_of({{"one.h5", attributes}, {"two.h5", {}}}, "pbreport 1.3");
   EXPECT_EQ(provenance.line, "2 runs · page by pbreport 1.3");

@@ -69,10 +69,11 @@ void require_needs(const Options& options) {
 Manual pbmpi_manual() {
   return {
       .name = "pbmpi",
-      .meaning = "simulates many rigid-body worlds over MPI ranks",
       .about = "pbmpi simulates many rigid-body worlds over MPI ranks and shows what accuracy costs in time.",
       .usage = "mpirun -n RANKS pbmpi --scene NAME [options]",
       .options = options_description(),
+      .basic = {"scene", "replicas", "frames", "stepper", "dt", "substeps", "iterations", "precision",
+                "effects", "feec", "output", "record-every", "report", "resume", "config"},
       .exit_codes = {{"0", "done"},
                      {"1", "the simulation failed (what was written is readable)"},
                      {"2", "bad usage or bad input"},

@@ -107,6 +107,8 @@ Manual accuracy_manual() {
               "many iterations of its own stepper.",
           .usage = "mpirun -n RANKS pbstudy accuracy [--scene NAME...] [options]",
           .options = options_description(),
+          .basic = {"scene", "stepper", "iterations", "substeps", "precision", "dt", "estimates", "replicas",
+                    "frames", "repeats", "floor-seeds", "output", "max-time", "resume"},
           .notes =
               {"The cases are dealt out over the ranks; a rank works on one at a time. More ranks than cores "
                "spoil the times."},

@@ -20,22 +20,21 @@
 namespace pbmpi::app {
 namespace {
 
-using analysis::TimedCase;
 using io::Parameter;
 
 /// The seconds of each round, case by case; on root.
 using CaseTimes = std::vector<std::vector<double>>;
 
 double time_case(const mpi::Communicator& comm, const TimedCase& one) {
-  if (one.part == analysis::TimedPart::frame && one.ranks == 1) return time_frame(mpi::Communicator(), one);
-  if (one.part == analysis::TimedPart::frame) return time_frame(comm, one);
+  if (one.part == TimedPart::frame && one.ranks == 1) return time_frame(mpi::Communicator(), one);
+  if (one.part == TimedPart::frame) return time_frame(comm, one);
   return is_collective(one) ? time_message(comm, one) : time_root(one);
 }
 
 /// Does this rank take part in a case?
 bool takes_part(const mpi::Communicator& comm, const TimedCase& one) {
   if (!is_collective(one)) return comm.is_root();
-  return one.part == analysis::TimedPart::frame || comm.rank() < 2;
+  return one.part == TimedPart::frame || comm.rank() < 2;
 }
 
 /// Ranks that take no part in a case wait in a barrier, so that they take no time from those that do.
@@ -70,8 +69,7 @@ std::vector<io::TableColumn> case_columns(const std::vector<TimedCase>& cases, c
   };
   return {column<std::string>("part", "", cases,
                               [](const TimedCase& one) {
-                                return std::string(
-                                    analysis::timed_part_names[static_cast<std::size_t>(one.part)]);
+                                return std::string(timed_part_names[static_cast<std::size_t>(one.part)]);
                               }),
           integers("ranks", "", &TimedCase::ranks),
           integers("worlds", "", &TimedCase::worlds),

@@ -7,9 +7,6 @@
 
 namespace pbmpi::app {
 
-using analysis::TimedCase;
-using analysis::TimedPart;
-
 std::vector<TimedCase> make_calibrate_cases(int num_ranks, int largest_ranks) {
   std::vector<TimedCase> cases;
   const auto add_frames = [&](std::int64_t ranks) {

@@ -7,7 +7,7 @@
 
 namespace pbmpi::app {
 
-double time_frame(const mpi::Communicator& comm, const analysis::TimedCase& one) {
+double time_frame(const mpi::Communicator& comm, const TimedCase& one) {
   synthetic::FixedCostStepper stepper(0);
   auto model = synthetic::make_model(static_cast<int>(one.bodies));
   mpi::WorldRunSettings settings;

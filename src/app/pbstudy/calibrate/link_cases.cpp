@@ -58,9 +58,9 @@ double time_burst(const mpi::Communicator& comm, std::int64_t bytes, bool root_s
 
 }  // namespace
 
-double time_message(const mpi::Communicator& comm, const analysis::TimedCase& one) {
-  if (one.part == analysis::TimedPart::message) return time_there_and_back(comm, one.bytes);
-  return time_burst(comm, one.bytes, one.part == analysis::TimedPart::send);
+double time_message(const mpi::Communicator& comm, const TimedCase& one) {
+  if (one.part == TimedPart::message) return time_there_and_back(comm, one.bytes);
+  return time_burst(comm, one.bytes, one.part == TimedPart::send);
 }
 
 }  // namespace pbmpi::app

@@ -11,9 +11,6 @@
 namespace pbmpi::app {
 namespace {
 
-using analysis::TimedCase;
-using analysis::TimedPart;
-
 template <class Work>
 double seconds_of(Work&& work) {
   const double start_s = core::now_s();

@@ -66,7 +66,7 @@ StudyContent content(const std::vector<StudyScene>& scenes, const std::vector<Ef
 core::ExitCode run_effects(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   const EffectsOptions options = parse_effects_options(args);
   if (options.help) {
-    if (comm.is_root()) std::cout << help_of(effects_manual()) << std::flush;
+    if (comm.is_root()) std::cout << help_of(effects_manual(), args) << std::flush;
     return core::ExitCode::done;
   }
   StudyRunner runner(comm, "effects", options);

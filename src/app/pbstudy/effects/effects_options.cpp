@@ -63,6 +63,8 @@ Manual effects_manual() {
           "bit changes.",
       .usage = "mpirun -n RANKS pbstudy effects [--scene NAME...] [options]",
       .options = options_description(),
+      .basic = {"scene", "effect", "stepper", "precision", "replicas", "frames", "repeats", "floor-seeds",
+                "output", "max-time", "resume"},
       .notes =
           {"The cases are dealt out over the ranks; a rank works on one at a time. More ranks than cores "
            "spoil the times. Instructions are counted by the processor's counter where Linux gives it "

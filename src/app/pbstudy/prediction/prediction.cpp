@@ -48,7 +48,7 @@ std::vector<StudyScene> in_their_form(std::vector<StudyScene> scenes, const Pred
 core::ExitCode run_prediction(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   PredictionOptions options = parse_prediction_options(args);
   if (options.help) {
-    if (comm.is_root()) std::cout << help_of(prediction_manual()) << std::flush;
+    if (comm.is_root()) std::cout << help_of(prediction_manual(), args) << std::flush;
     return core::ExitCode::done;
   }
   require_tool();

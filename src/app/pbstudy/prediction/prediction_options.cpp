@@ -52,6 +52,8 @@ Manual prediction_manual() {
           "processor, and compares the result with the unpredicted run.",
       .usage = "mpirun -n RANKS pbstudy prediction [--scene NAME...] [options]",
       .options = options_description(),
+      .basic = {"scene", "threshold", "full", "replicas", "frames", "budget", "time-limit", "output",
+                "max-time", "resume"},
       .notes = {"The cases are dealt out over the ranks; a rank works on one at a time."},
       .examples = {"mpirun -n 2 pbstudy prediction --scene CrashSk",
                    "jobs/paper/paper.py prediction prediction.h5 --html prediction.html"}};

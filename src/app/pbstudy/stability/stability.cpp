@@ -31,7 +31,7 @@ Outcomes run_cases(const mpi::Communicator& comm, const StabilityOptions& option
 core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   const StabilityOptions options = parse_stability_options(args);
   if (options.help) {
-    if (comm.is_root()) std::cout << help_of(stability_manual()) << std::flush;
+    if (comm.is_root()) std::cout << help_of(stability_manual(), args) << std::flush;
     return core::ExitCode::done;
   }
   StudyRunner runner(comm, "stability", options);

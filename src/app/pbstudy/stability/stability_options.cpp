@@ -72,6 +72,7 @@ Manual stability_manual() {
               "them is degraded or broken.",
           .usage = "mpirun -n RANKS pbstudy stability [--scene NAME...] [--setting TEXT...] [options]",
           .options = options_description(),
+          .basic = {"scene", "setting", "dt", "most-work", "seed", "output", "max-time", "resume"},
           .notes = {"The cases are dealt out over the ranks; a rank works on one at a time."},
           .examples = {"mpirun -n 2 pbstudy stability --setting sor quick",
                        "pbreport stability.h5 --html stability.html"}};

@@ -27,7 +27,7 @@ void set_option(const std::string& text, const std::string& name, const std::str
   }
   const auto option = std::ranges::find(stepping::step_options(), name, &stepping::StepOption::name);
   require_input(option != stepping::step_options().end(),
-                where + ": there is no such option of a step (pbmpi --help)");
+                where + ": there is no such option of a step (pbmpi --help all)");
   require_input(
       fits(*option, setting.stepper.kind),
       where + ": the stepper " + std::string(name_of(setting.stepper.kind)) + " has no such option");

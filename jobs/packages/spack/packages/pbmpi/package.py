@@ -18,6 +18,7 @@ class Pbmpi(CMakePackage):
     depends_on("cmake@3.25:", type="build")
     depends_on("pkgconfig", type="build")
     depends_on("gzip", type="build")
+    depends_on("help2man", type="build")
     depends_on("mpi")
     depends_on("hdf5@1.10: +mpi")
     depends_on("boost@1.74: +program_options")
