@@ -57,8 +57,10 @@ class JointBuilder {
  private:
   using Pair = JointBodies<V>;
 
-  void set_suspended_point(const JointLane<V>& joint, const Pair& pair, LineRow<V>* rows) const;
-  void set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair, LineRow<V>* rows) const;
+  void set_suspended_point(const JointLane<V>& joint, const Pair& pair, const V& exact,
+                           LineRow<V>* rows) const;
+  void set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair, const V& exact,
+                        LineRow<V>* rows) const;
   void set_parallel_axes(const JointTermsLane<V>& terms, const Pair& pair, AxisRow<V>* rows) const;
   void set_orientation(const JointTermsLane<V>& terms, const Pair& pair, AxisRow<V>* rows) const;
   V ahead_of_line(const LineRow<V>& row, const Pair& pair, const BodyLanes<T>& bodies,
@@ -116,11 +118,11 @@ void JointBuilder<T>::build(JointLane<V>& joint, const V& exact, const JointForc
   } else if constexpr (kind == JointKind::universal) {
     set_crossed_axes(joint, pair, rows);
   } else if constexpr (kind == JointKind::hinge2) {
-    set_suspended_point(joint, pair, rows.lines.data());
+    set_suspended_point(joint, pair, rows.reversible, rows.lines.data());
     set_crossed_axes(joint, pair, rows);
   } else if constexpr (kind == JointKind::slider) {
     set_orientation(joint.terms, pair, rows.axes.data());
-    set_slider_lines(joint.terms, pair, rows.lines.data());
+    set_slider_lines(joint.terms, pair, rows.reversible, rows.lines.data());
     controls_.set_slider_control(joint, pair, rows);
   }
 }
@@ -177,11 +179,11 @@ typename T::V JointBuilder<T>::ahead_of_line(const LineRow<V>& row, const Pair& 
 
 /// hinge2: holds the point along axis 1 (softly, if sprung) and across it.
 template <class T>
-void JointBuilder<T>::set_suspended_point(const JointLane<V>& joint, const Pair& pair,
+void JointBuilder<T>::set_suspended_point(const JointLane<V>& joint, const Pair& pair, const V& exact,
                                           LineRow<V>* rows) const {
   const JointTermsLane<V>& terms = joint.terms;
   const L3 arm_a = pair.a.rotation * terms.anchor_a, arm_b = pair.b.rotation * terms.anchor_b;
-  const L3 error = pair.b.position + arm_b - pair.a.position - arm_a;
+  const L3 error = ends_apart<T>(pair.a, arm_a, pair.b, arm_b, exact);
   L3 directions[3];
   directions[0] = pair.a.rotation * terms.axis1_a;
   plane_space<T>(directions[0], directions[1], directions[2]);
@@ -198,10 +200,10 @@ void JointBuilder<T>::set_suspended_point(const JointLane<V>& joint, const Pair&
 }
 
 template <class T>
-void JointBuilder<T>::set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair,
+void JointBuilder<T>::set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair, const V& exact,
                                        LineRow<V>* rows) const {
   const L3 axis = pair.a.rotation * terms.axis1_a;
-  const L3 apart = pair.b.position - pair.a.position;
+  const L3 apart = centres_apart<T>(pair.a, pair.b, exact);
   const L3 error = apart + pair.b.rotation * terms.anchor_b;
   L3 directions[2];
   plane_space<T>(axis, directions[0], directions[1]);
