@@ -25,8 +25,9 @@ namespace pbmpi::solver {
 /// middle. Either end of the substep then takes half of the impulse. This is the scheme of RATTLE (H. C.
 /// Andersen, J. Comput. Phys. 52, 1983): it is reversible, and lets energy swing but not drift. It needs rows
 /// that are solved exactly. Where the impulses turn a body by a large share of what it turns anyway, as in a
-/// whip, the first way takes over: it bears and damps what the substep does not resolve. (The lines of hinge2
-/// have nothing ahead.)
+/// whip, the first way takes over: it bears and damps what the substep does not resolve. What the bodies gain
+/// because they turn under their own inertia is ahead of exact rows in both ways: no impulse has a part in
+/// it. (The lines of hinge2 have nothing ahead.)
 template <class T>
 class JointBuilder {
  public:
@@ -137,44 +138,50 @@ void JointBuilder<T>::look_ahead(const JointLane<V>& joint, const BodyLanes<T>& 
   const L3 &turn_a = bodies.expected[joint.slot_a].angular, &turn_b = bodies.expected[joint.slot_b].angular;
   const L3 &more_a = bodies.half_turnings[joint.slot_a], &more_b = bodies.half_turnings[joint.slot_b];
   const auto is_wanted = rows.reversible > T::broadcast(0);
-  const auto set = [&](V& ahead, const V& value) { ahead = is_wanted ? value * rows.reversible : ahead; };
+  // `own`: what the bodies gain under their own inertia; `turned`: what turned arms and axes gain.
+  const auto set = [&](V& ahead, const V& own, const V& turned) {
+    ahead = is_wanted ? own + turned * rows.reversible : ahead;
+  };
   for (PointRows<V>& point : rows.points) {
-    const L3 ahead = gain_of_arm<T>(point.arm_b, turn_b, more_b, ahead_s_) -
-                     gain_of_arm<T>(point.arm_a, turn_a, more_a, ahead_s_);
-    set(point.ahead.x, ahead.x);
-    set(point.ahead.y, ahead.y);
-    set(point.ahead.z, ahead.z);
+    const L3 own = cross(more_b, point.arm_b) - cross(more_a, point.arm_a);
+    const L3 turned =
+        gain_of_arm<T>(point.arm_b, turn_b, ahead_s_) - gain_of_arm<T>(point.arm_a, turn_a, ahead_s_);
+    set(point.ahead.x, own.x, turned.x);
+    set(point.ahead.y, own.y, turned.y);
+    set(point.ahead.z, own.z, turned.z);
   }
-  L3 gain = more_b - more_a;
+  const V zero = T::broadcast(0);
+  L3 turned{zero, zero, zero};
   if constexpr (kind == JointKind::hinge) {
     const L3 axis = a.rotation * joint.terms.axis1_a;
-    gain = gain + gain_of_axis(axis, turn_a, dot(axis, turn_a - turn_b));
+    turned = gain_of_axis(axis, turn_a, dot(axis, turn_a - turn_b));
   } else if constexpr (kind == JointKind::universal || kind == JointKind::hinge2) {
     const L3 axis1 = a.rotation * joint.terms.axis1_a, axis2 = b.rotation * joint.terms.axis2_b;
     const V cosine = dot(axis1, axis2), per = 1 / (1 - cosine * cosine);
     const V along1 = dot(axis1, turn_a - turn_b), along2 = dot(axis2, turn_a - turn_b);
-    gain = gain + gain_of_axis(axis1, turn_a, (along1 - cosine * along2) * per) +
-           gain_of_axis(axis2, turn_b, (along2 - cosine * along1) * per);
+    turned = gain_of_axis(axis1, turn_a, (along1 - cosine * along2) * per) +
+             gain_of_axis(axis2, turn_b, (along2 - cosine * along1) * per);
   }
-  for (AxisRow<V>& row : rows.axes) set(row.ahead, dot(row.axis, gain));
+  for (AxisRow<V>& row : rows.axes) set(row.ahead, dot(row.axis, more_b - more_a), dot(row.axis, turned));
   if constexpr (kind == JointKind::slider) {
     const Pair pair{a, b};
-    for (LineRow<V>& row : rows.lines) set(row.ahead, ahead_of_line(row, pair, bodies, joint));
+    for (LineRow<V>& row : rows.lines)
+      set(row.ahead, -dot(row.moment_a, more_a + more_b), ahead_of_line(row, pair, bodies, joint));
   }
 }
 
-/// slider: the lines turn with a, and their arms grow as the bodies slide.
+/// slider: the lines turn with a, and their arms grow as the bodies slide. Without what the bodies gain under
+/// their own inertia.
 template <class T>
 typename T::V JointBuilder<T>::ahead_of_line(const LineRow<V>& row, const Pair& pair,
                                              const BodyLanes<T>& bodies, const JointLane<V>& joint) const {
   const Twist<V>&a = bodies.expected[joint.slot_a], &b = bodies.expected[joint.slot_b];
   const L3 arm = slider_arm<T>(pair, pair.b.position - pair.a.position);
   const L3 apart = b.linear - a.linear, growth = slider_arm<T>(pair, apart);
-  const L3 more = bodies.half_turnings[joint.slot_a] + bodies.half_turnings[joint.slot_b];
   const L3 turn = cross(a.angular, row.direction);
   const V gain =
       dot(cross(growth, row.direction) + cross(arm, turn), a.angular + b.angular) - dot(turn, apart);
-  return -(gain * T::broadcast(ahead_s_)) - dot(row.moment_a, more);
+  return -(gain * T::broadcast(ahead_s_));
 }
 
 /// hinge2: holds the point along axis 1 (softly, if sprung) and across it.

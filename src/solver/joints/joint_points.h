@@ -36,12 +36,11 @@ PBMPI_LANES Vec3L<typename T::V> slowed(const Vec3L<typename T::V>& velocity, ty
 }
 
 /// [m/s] What the end of an arm gains in half a substep on the speed that it has at its start, as its body
-/// turns.
+/// turns on at the same angular velocity.
 template <class T>
 PBMPI_LANES Vec3L<typename T::V> gain_of_arm(const Vec3L<typename T::V>& arm,
-                                             const Vec3L<typename T::V>& angular,
-                                             const Vec3L<typename T::V>& change, typename T::Scalar half_s) {
-  return cross(angular, middle_of_turn<T>(arm, angular * T::broadcast(half_s)) - arm) + cross(change, arm);
+                                             const Vec3L<typename T::V>& angular, typename T::Scalar half_s) {
+  return cross(angular, middle_of_turn<T>(arm, angular * T::broadcast(half_s)) - arm);
 }
 
 /// [m] From the centre of a to that of b. `exact`: above 0 in the lanes whose joints are solved exactly.
