@@ -44,6 +44,24 @@ TEST(Articulation, hangs_where_a_joint_holds_it_to_the_world) {
   for (const Articulation& part : find_articulations(support::crash())) EXPECT_FALSE(part.shape.hangs());
 }
 
+// A stop at one end alone leaves the other open.
+TEST(Articulation, is_strained_where_a_slider_has_no_end) {
+  const auto is_strained = [](double low, double high) {
+    model::Model model;
+    const int actor = support::add_actor(model, "cart");
+    for (const double x : {0.0, 0.2})
+      support::add_solid(model, actor, "box", model::Shape::box, {0.3, 0.3, 0.3}, 1, {x, 0, 0});
+    support::add_joint(model, model::JointKind::slider, 1, 0, {0.1, 0, 0}, model::Vec3::UnitX());
+    model.joints[0].limits[0] = {low, high};
+    return find_articulations(model)[0].shape.is_strained;
+  };
+  const double none = model::infinity;
+  EXPECT_TRUE(is_strained(-none, none));
+  EXPECT_TRUE(is_strained(-0.1, none));
+  EXPECT_TRUE(is_strained(-none, 0.1));
+  EXPECT_FALSE(is_strained(-0.1, 0.1));
+}
+
 TEST(ArticulationTree, holds_each_body_once_parents_first_and_names_the_loops) {
   ArticulationShape shape;
   shape.num_bodies = 4;

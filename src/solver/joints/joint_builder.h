@@ -25,8 +25,9 @@ namespace pbmpi::solver {
 /// middle. Either end of the substep then takes half of the impulse. This is the scheme of RATTLE (H. C.
 /// Andersen, J. Comput. Phys. 52, 1983): it is reversible, and lets energy swing but not drift. It needs rows
 /// that are solved exactly. Where the impulses turn a body by a large share of what it turns anyway, as in a
-/// whip, the first way takes over: it bears and damps what the substep does not resolve. (The lines of hinge2
-/// have nothing ahead.)
+/// whip, the first way takes over: it bears and damps what the substep does not resolve. What the bodies gain
+/// because they turn under their own inertia is ahead of exact rows in both ways: no impulse has a part in
+/// it. (The lines of hinge2 have nothing ahead.)
 template <class T>
 class JointBuilder {
  public:
@@ -57,8 +58,10 @@ class JointBuilder {
  private:
   using Pair = JointBodies<V>;
 
-  void set_suspended_point(const JointLane<V>& joint, const Pair& pair, LineRow<V>* rows) const;
-  void set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair, LineRow<V>* rows) const;
+  void set_suspended_point(const JointLane<V>& joint, const Pair& pair, const V& exact,
+                           LineRow<V>* rows) const;
+  void set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair, const V& exact,
+                        LineRow<V>* rows) const;
   void set_parallel_axes(const JointTermsLane<V>& terms, const Pair& pair, AxisRow<V>* rows) const;
   void set_orientation(const JointTermsLane<V>& terms, const Pair& pair, AxisRow<V>* rows) const;
   V ahead_of_line(const LineRow<V>& row, const Pair& pair, const BodyLanes<T>& bodies,
@@ -116,11 +119,11 @@ void JointBuilder<T>::build(JointLane<V>& joint, const V& exact, const JointForc
   } else if constexpr (kind == JointKind::universal) {
     set_crossed_axes(joint, pair, rows);
   } else if constexpr (kind == JointKind::hinge2) {
-    set_suspended_point(joint, pair, rows.lines.data());
+    set_suspended_point(joint, pair, rows.reversible, rows.lines.data());
     set_crossed_axes(joint, pair, rows);
   } else if constexpr (kind == JointKind::slider) {
     set_orientation(joint.terms, pair, rows.axes.data());
-    set_slider_lines(joint.terms, pair, rows.lines.data());
+    set_slider_lines(joint.terms, pair, rows.reversible, rows.lines.data());
     controls_.set_slider_control(joint, pair, rows);
   }
 }
@@ -135,53 +138,59 @@ void JointBuilder<T>::look_ahead(const JointLane<V>& joint, const BodyLanes<T>& 
   const L3 &turn_a = bodies.expected[joint.slot_a].angular, &turn_b = bodies.expected[joint.slot_b].angular;
   const L3 &more_a = bodies.half_turnings[joint.slot_a], &more_b = bodies.half_turnings[joint.slot_b];
   const auto is_wanted = rows.reversible > T::broadcast(0);
-  const auto set = [&](V& ahead, const V& value) { ahead = is_wanted ? value * rows.reversible : ahead; };
+  // `own`: what the bodies gain under their own inertia; `turned`: what turned arms and axes gain.
+  const auto set = [&](V& ahead, const V& own, const V& turned) {
+    ahead = is_wanted ? own + turned * rows.reversible : ahead;
+  };
   for (PointRows<V>& point : rows.points) {
-    const L3 ahead = gain_of_arm<T>(point.arm_b, turn_b, more_b, ahead_s_) -
-                     gain_of_arm<T>(point.arm_a, turn_a, more_a, ahead_s_);
-    set(point.ahead.x, ahead.x);
-    set(point.ahead.y, ahead.y);
-    set(point.ahead.z, ahead.z);
+    const L3 own = cross(more_b, point.arm_b) - cross(more_a, point.arm_a);
+    const L3 turned =
+        gain_of_arm<T>(point.arm_b, turn_b, ahead_s_) - gain_of_arm<T>(point.arm_a, turn_a, ahead_s_);
+    set(point.ahead.x, own.x, turned.x);
+    set(point.ahead.y, own.y, turned.y);
+    set(point.ahead.z, own.z, turned.z);
   }
-  L3 gain = more_b - more_a;
+  const V zero = T::broadcast(0);
+  L3 turned{zero, zero, zero};
   if constexpr (kind == JointKind::hinge) {
     const L3 axis = a.rotation * joint.terms.axis1_a;
-    gain = gain + gain_of_axis(axis, turn_a, dot(axis, turn_a - turn_b));
+    turned = gain_of_axis(axis, turn_a, dot(axis, turn_a - turn_b));
   } else if constexpr (kind == JointKind::universal || kind == JointKind::hinge2) {
     const L3 axis1 = a.rotation * joint.terms.axis1_a, axis2 = b.rotation * joint.terms.axis2_b;
     const V cosine = dot(axis1, axis2), per = 1 / (1 - cosine * cosine);
     const V along1 = dot(axis1, turn_a - turn_b), along2 = dot(axis2, turn_a - turn_b);
-    gain = gain + gain_of_axis(axis1, turn_a, (along1 - cosine * along2) * per) +
-           gain_of_axis(axis2, turn_b, (along2 - cosine * along1) * per);
+    turned = gain_of_axis(axis1, turn_a, (along1 - cosine * along2) * per) +
+             gain_of_axis(axis2, turn_b, (along2 - cosine * along1) * per);
   }
-  for (AxisRow<V>& row : rows.axes) set(row.ahead, dot(row.axis, gain));
+  for (AxisRow<V>& row : rows.axes) set(row.ahead, dot(row.axis, more_b - more_a), dot(row.axis, turned));
   if constexpr (kind == JointKind::slider) {
     const Pair pair{a, b};
-    for (LineRow<V>& row : rows.lines) set(row.ahead, ahead_of_line(row, pair, bodies, joint));
+    for (LineRow<V>& row : rows.lines)
+      set(row.ahead, -dot(row.moment_a, more_a + more_b), ahead_of_line(row, pair, bodies, joint));
   }
 }
 
-/// slider: the lines turn with a, and their arms grow as the bodies slide.
+/// slider: the lines turn with a, and their arms grow as the bodies slide. Without what the bodies gain under
+/// their own inertia.
 template <class T>
 typename T::V JointBuilder<T>::ahead_of_line(const LineRow<V>& row, const Pair& pair,
                                              const BodyLanes<T>& bodies, const JointLane<V>& joint) const {
   const Twist<V>&a = bodies.expected[joint.slot_a], &b = bodies.expected[joint.slot_b];
   const L3 arm = slider_arm<T>(pair, pair.b.position - pair.a.position);
   const L3 apart = b.linear - a.linear, growth = slider_arm<T>(pair, apart);
-  const L3 more = bodies.half_turnings[joint.slot_a] + bodies.half_turnings[joint.slot_b];
   const L3 turn = cross(a.angular, row.direction);
   const V gain =
       dot(cross(growth, row.direction) + cross(arm, turn), a.angular + b.angular) - dot(turn, apart);
-  return -(gain * T::broadcast(ahead_s_)) - dot(row.moment_a, more);
+  return -(gain * T::broadcast(ahead_s_));
 }
 
 /// hinge2: holds the point along axis 1 (softly, if sprung) and across it.
 template <class T>
-void JointBuilder<T>::set_suspended_point(const JointLane<V>& joint, const Pair& pair,
+void JointBuilder<T>::set_suspended_point(const JointLane<V>& joint, const Pair& pair, const V& exact,
                                           LineRow<V>* rows) const {
   const JointTermsLane<V>& terms = joint.terms;
   const L3 arm_a = pair.a.rotation * terms.anchor_a, arm_b = pair.b.rotation * terms.anchor_b;
-  const L3 error = pair.b.position + arm_b - pair.a.position - arm_a;
+  const L3 error = ends_apart<T>(pair.a, arm_a, pair.b, arm_b, exact);
   L3 directions[3];
   directions[0] = pair.a.rotation * terms.axis1_a;
   plane_space<T>(directions[0], directions[1], directions[2]);
@@ -198,10 +207,10 @@ void JointBuilder<T>::set_suspended_point(const JointLane<V>& joint, const Pair&
 }
 
 template <class T>
-void JointBuilder<T>::set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair,
+void JointBuilder<T>::set_slider_lines(const JointTermsLane<V>& terms, const Pair& pair, const V& exact,
                                        LineRow<V>* rows) const {
   const L3 axis = pair.a.rotation * terms.axis1_a;
-  const L3 apart = pair.b.position - pair.a.position;
+  const L3 apart = centres_apart<T>(pair.a, pair.b, exact);
   const L3 error = apart + pair.b.rotation * terms.anchor_b;
   L3 directions[2];
   plane_space<T>(axis, directions[0], directions[1]);

@@ -36,12 +36,33 @@ PBMPI_LANES Vec3L<typename T::V> slowed(const Vec3L<typename T::V>& velocity, ty
 }
 
 /// [m/s] What the end of an arm gains in half a substep on the speed that it has at its start, as its body
-/// turns.
+/// turns on at the same angular velocity.
 template <class T>
 PBMPI_LANES Vec3L<typename T::V> gain_of_arm(const Vec3L<typename T::V>& arm,
-                                             const Vec3L<typename T::V>& angular,
-                                             const Vec3L<typename T::V>& change, typename T::Scalar half_s) {
-  return cross(angular, middle_of_turn<T>(arm, angular * T::broadcast(half_s)) - arm) + cross(change, arm);
+                                             const Vec3L<typename T::V>& angular, typename T::Scalar half_s) {
+  return cross(angular, middle_of_turn<T>(arm, angular * T::broadcast(half_s)) - arm);
+}
+
+/// [m] From the centre of a to that of b. `exact`: above 0 in the lanes whose joints are solved exactly.
+/// There the rounding of one number to a coordinate would shake bodies that are far from the origin, and
+/// nothing takes the energy.
+template <class T>
+PBMPI_LANES Vec3L<typename T::V> centres_apart(const BodyLane<typename T::V>& a,
+                                               const BodyLane<typename T::V>& b, const typename T::V& exact) {
+  const auto apart = b.position - a.position;
+  if (sizeof(typename T::Scalar) == sizeof(double) || !T::any(exact)) return apart;
+  return chosen(exact > T::broadcast(0), apart + (b.position_low - a.position_low), apart);
+}
+
+/// [m] From the end of an arm of a to the end of an arm of b; `exact`: likewise.
+template <class T>
+PBMPI_LANES Vec3L<typename T::V> ends_apart(const BodyLane<typename T::V>& a,
+                                            const Vec3L<typename T::V>& arm_a,
+                                            const BodyLane<typename T::V>& b,
+                                            const Vec3L<typename T::V>& arm_b, const typename T::V& exact) {
+  const auto apart = b.position + arm_b - a.position - arm_a;
+  if (sizeof(typename T::Scalar) == sizeof(double) || !T::any(exact)) return apart;
+  return chosen(exact > T::broadcast(0), centres_apart<T>(a, b, exact) + (arm_b - arm_a), apart);
 }
 
 /// Sets all except the impulse, with nothing ahead; `ahead_s` and `reversible`: see JointBuilder. `k` [1/s]:
@@ -56,7 +77,7 @@ PBMPI_LANES void build_point(const JointTermsLane<typename T::V>& terms, const B
   row.arm_a = a.rotation * terms.anchor_a;
   row.arm_b = b.rotation * terms.anchor_b;
   row.ahead = {T::broadcast(0), T::broadcast(0), T::broadcast(0)};
-  row.rhs = slowed<T>((b.position + row.arm_b - a.position - row.arm_a) * T::broadcast(k), fastest);
+  row.rhs = slowed<T>(ends_apart<T>(a, row.arm_a, b, row.arm_b, reversible) * T::broadcast(k), fastest);
   if (ahead_s > 0) {
     const V half = T::broadcast(ahead_s), rest = 1 - reversible;
     const auto turned = [&](const Vec3L<V>& arm, int slot) {

@@ -202,6 +202,12 @@ PBMPI_LANES Vec3L<V> cross(const Vec3L<V>& a, const Vec3L<V>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// a in the lanes where a comparison holds, else b.
+template <class Mask, class V>
+PBMPI_LANES Vec3L<V> chosen(const Mask& first, const Vec3L<V>& a, const Vec3L<V>& b) {
+  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+}
+
 /// Symmetric 3x3.
 template <class V>
 struct alignas(sizeof(V)) Sym3L {

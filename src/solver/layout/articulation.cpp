@@ -71,9 +71,17 @@ double leverage(const model::Body& body, const Vec3& arm) {
   return 1 + body.mass_kg * response.norm();
 }
 
+/// Do the bodies slide apart until something else stops them?
+bool slides_without_end(const Joint& joint) {
+  const model::AxisLimit& limit = joint.limits[0];
+  return model::traits_of(joint.kind).slides &&
+         !(limit.low > -model::infinity && limit.high < model::infinity);
+}
+
 /// See ArticulationShape::is_strained.
 bool strains(const Model& model, const Joint& joint, const JointTerms& terms) {
   constexpr double most_leverage = 11, greatest_ratio = 100;
+  if (slides_without_end(joint)) return true;
   const model::Body& a = model.bodies[static_cast<std::size_t>(joint.body_a)];
   if (leverage(a, terms.anchor_a) > most_leverage) return true;
   if (joint.body_b == model::no_body) return false;

@@ -42,7 +42,8 @@ struct ArticulationShape {
   /// Does a joint act at the end of an arm so long, or join masses so different, that sweeps hardly contract
   /// its error? Single sweeps with a memory held each of 360 random trees of up to 8 bodies with arms up to 3
   /// radii of gyration and masses up to 30 to 1, and not all with 10 and 10,000. Humans have up to 10.5 times
-  /// a centre's mobility at a joint, cars 60 times a wheel's mass.
+  /// a centre's mobility at a joint, cars 60 times a wheel's mass. A slider without a stop at either end has
+  /// arms that grow without bound.
   bool is_strained = false;
   /// Does a joint hold the articulation to the static body?
   bool hangs() const {

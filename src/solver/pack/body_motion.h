@@ -24,12 +24,14 @@ class BodyMotion {
   /// Expects the bodies to move with their present twists: sets BodyLanes::expected and half_turnings.
   /// `next`: as above, or null where bodies turn without the torque.
   void look_ahead(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next);
-  /// `last`: the step ends here. `next`: as above, or null where bodies turn without the torque.
+  /// `last`: the step ends here. `exact`: 1 in the lanes whose joints are solved exactly, else 0. `next`: as
+  /// above, or null where bodies turn without the torque.
   template <bool last>
-  void move(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next);
+  void move(const Batch& batch, Scalar h, const V& exact, const GyroscopicSlot<V>*& next);
   /// move() for one slot: its pose and rotation.
   template <bool last>
-  void move_slot(int slot, Scalar h, const GyroscopicSlot<V>*& next, BodyLane<V>& body, Twist<V>& twist);
+  void move_slot(int slot, Scalar h, const V& exact, const GyroscopicSlot<V>*& next, BodyLane<V>& body,
+                 Twist<V>& twist);
   void damp(const Batch& batch, double h);
 
  private:
@@ -71,22 +73,22 @@ void BodyMotion<T>::look_ahead(const Batch& batch, Scalar h, const GyroscopicSlo
 
 template <class T>
 template <bool last>
-void BodyMotion<T>::move(const Batch& batch, Scalar h, const GyroscopicSlot<V>*& next) {
+void BodyMotion<T>::move(const Batch& batch, Scalar h, const V& exact, const GyroscopicSlot<V>*& next) {
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
     BodyLane<V>& body = worlds_.bodies.bodies[slot];
-    move_slot<last>(slot, h, next, body, worlds_.bodies.twists[slot]);
+    move_slot<last>(slot, h, exact, next, body, worlds_.bodies.twists[slot]);
     refresh_inertia(body);
   }
 }
 
 template <class T>
 template <bool last>
-void BodyMotion<T>::move_slot(int slot, Scalar h, const GyroscopicSlot<V>*& next, BodyLane<V>& body,
-                              Twist<V>& twist) {
+void BodyMotion<T>::move_slot(int slot, Scalar h, const V& exact, const GyroscopicSlot<V>*& next,
+                              BodyLane<V>& body, Twist<V>& twist) {
   const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
   while (next != nullptr && next != end && next->slot < slot) ++next;
   if (next != nullptr && next != end && next->slot == slot) {
-    integrate_turning<T, last>(next->inertia, h, next->has_torque, body, twist);
+    integrate_turning<T, last>(next->inertia, h, next->has_torque, exact, body, twist);
   } else {
     integrate<T, last>(body, twist, h);
     body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);

@@ -306,8 +306,9 @@ void StepLanes<T>::end_substep() {
   const JointBuilder<T> builder = laws_.joint_builder(!last);
   const GyroscopicSlot<V>* turning = first_turning();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
-    motion_.template move<last>(batch, laws_.h(), turning);
-    if (!last || relaxes()) worlds_.joints.rebuild(batch, builder, exact_lanes(batch), worlds_.bodies);
+    const V exact = exact_lanes(batch);
+    motion_.template move<last>(batch, laws_.h(), exact, turning);
+    if (!last || relaxes()) worlds_.joints.rebuild(batch, builder, exact, worlds_.bodies);
     if (!relaxes()) damp(batch);
   });
   if (!last || relaxes()) factor_joints();
@@ -425,11 +426,14 @@ void StepLanes<T>::look(std::span<model::State> states) {
   const bool changes_twists = passes_.damping || relaxes();
   if (changes_twists) kept_twists_ = twists;
   const GyroscopicSlot<V>* turning = first_turning();
-  worlds_.for_each_active_slot([&](int slot) {
-    BodyLane<V> body = worlds_.bodies.bodies[slot];
-    motion_.template move_slot<true>(slot, laws_.h(), turning, body, twists[slot]);
-    look_poses_[static_cast<std::size_t>(slot)] = {body.position, body.position_low, body.qw,
-                                                   body.qx,       body.qy,           body.qz};
+  worlds_.joints.for_each_active_batch([&](const Batch& batch) {
+    const V exact = exact_lanes(batch);
+    for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
+      BodyLane<V> body = worlds_.bodies.bodies[slot];
+      motion_.template move_slot<true>(slot, laws_.h(), exact, turning, body, twists[slot]);
+      look_poses_[static_cast<std::size_t>(slot)] = {body.position, body.position_low, body.qw,
+                                                     body.qx,       body.qy,           body.qz};
+    }
   });
   worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
   for (std::size_t world = 0; world < states.size(); ++world)
