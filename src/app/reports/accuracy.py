@@ -372,7 +372,7 @@ def limit_of(options):
 
 def report_of(study, scenes, limit):
     head = (f"study: accuracy; defect after one frame from the reference's state, ranked by the {MEASURES[limit.measure].words}\n"
-            f"reference: sor double, cold, from {study.parameters.get('reference_iterations', '?')} iterations a step on, solver seed "
+            f"reference: sor double, law ode, from {study.parameters.get('reference_iterations', '?')} iterations a step on, solver seed "
             f"{study.parameters.get('seed', '?')}\n")
     line, entries = page.origin_of_study(study)
     return Report("What accuracy costs in time", study.path, [scene_section(scene, limit) for scene in scenes],

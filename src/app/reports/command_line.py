@@ -16,7 +16,7 @@ WRITTEN = ("html", "csv", "output", "write_config")  # options that name a file 
 
 @dataclasses.dataclass
 class Command:
-    """`usage`: what follows the command's name; `printed`: what is printed despite --quiet; `add_options(group)` adds the command's own."""
+    """`usage`: what follows the command's name; `add_options(group)` adds the command's own options."""
     name: str
     about: str
     usage: str
@@ -52,8 +52,9 @@ def parser_of(command):
     return parser
 
 
-def config_words(path):
+def config_words(path, parser):
     """The lines of a --config file as words of a command line."""
+    flags = [name for action in parser._actions if action.nargs == 0 for name in action.option_strings]  # pylint: disable=protected-access
     try:
         with open(path, encoding="utf-8") as file:
             lines = [line.split("#")[0].strip() for line in file]
@@ -63,7 +64,7 @@ def config_words(path):
     for line in filter(None, lines):
         name, equals, value = (part.strip() for part in line.partition("="))
         require(equals, f"{path}: '{line}' is no line 'name = value'")
-        words += [f"--{name}"] if value in ("", "true", "1") and name in ("json", "markdown", "quiet", "by-body") else [f"--{name}", value]
+        words += [f"--{name}"] if f"--{name}" in flags and value in ("", "true", "1") else [f"--{name}", value]
     return words
 
 
@@ -94,17 +95,12 @@ def parse(command, words):
         put(help_text(command, parser))
         return None
     if options.config:
-        more = config_words(options.config)
+        more = config_words(options.config, parser)
         require_known(more, parser)
         options = parser.parse_args(more + words)
     require(not (options.json and getattr(options, "markdown", False)), "--json and --markdown: print one of the two")
     require_separate(options)
     return options
-
-
-def is_device(path):
-    """A device or a pipe may be written to twice."""
-    return os.path.exists(path) and not os.path.isfile(path)
 
 
 def require_separate(options):

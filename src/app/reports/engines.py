@@ -19,7 +19,7 @@ COMMAND = Command("engines", "Shows engines side by side: of pbstudy accuracy ea
 MOST_NAMES = 4  # scenes listed in a cell
 NOT_COMPARABLE = (  # differences that no setting removes
     "Contacts: each engine finds them by its own collision detection, so that points, numbers and depths differ before a solver begins. "
-    "The common reference is a cold sor with the contacts of sor: its error flatters sor, and is what an engine loses by its solver and "
+    "The common reference is sor with ODE's law and the contacts of sor: its error flatters sor, and is what an engine loses by its solver and "
     "by its contacts together. The own solution has the engine's contacts.",
     "Laws: MuJoCo's contacts are soft by a law of its own, and its joints are coordinates of a tree that cannot open; the others have "
     "rows for joints, which open by what the solver leaves. A joint gap of nothing is no merit of MuJoCo's solver, as contacts that "
