@@ -97,7 +97,7 @@ def parse(command, words):
     if options.config:
         more = config_words(options.config, parser)
         require_known(more, parser)
-        options = parser.parse_args(more + words)
+        options = parser.parse_args(words, parser.parse_args(more))
     require(not (options.json and getattr(options, "markdown", False)), "--json and --markdown: print one of the two")
     require_separate(options)
     return options
