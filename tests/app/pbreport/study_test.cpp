@@ -113,16 +113,13 @@ TEST(Study, the_text_of_a_setting_leaves_out_what_all_have_in_common) {
   one.stepper.precision = stepping::Precision::single;
   EXPECT_EQ(setting_text(one), "sor single, 14 x 1, dt 0.01 s");
   one.stepper.iterations = 3;
-  one.stepper.sor_factor = 1.5;
-  one.stepper.warm_start = 0.9;
-  one.stepper.row_order = stepping::RowOrder::fixed;
+  one.stepper.law = stepping::ode_law();
   one.estimate_iterations = 2;
-  EXPECT_EQ(setting_text(one), "sor single, 14 x 3, factor 1.5, warm 0.9, fixed order, 2 a step, dt 0.01 s");
+  EXPECT_EQ(setting_text(one), "sor single, 14 x 3, law ode, 2 a step, dt 0.01 s");
   one.is_look = true;
   one.estimate_after = 1;
-  EXPECT_EQ(setting_text(one),
-            "sor single, 14 x 3, factor 1.5, warm 0.9, fixed order, look at 2 after 1 step, dt 0.01 s");
-  one.stepper = {.kind = stepping::StepperKind::direct, .dt_s = 0.01};
+  EXPECT_EQ(setting_text(one), "sor single, 14 x 3, law ode, look at 2 after 1 step, dt 0.01 s");
+  one.stepper = default_settings(stepping::StepperKind::direct);
   one.estimate_iterations = 0;
   EXPECT_EQ(setting_text(one), "direct, dt 0.01 s");
 }

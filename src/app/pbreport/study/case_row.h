@@ -28,7 +28,10 @@ class CaseRow {
   }
   /// The settings of a step, as far as the file has columns for them.
   stepping::StepperSettings step_settings() const {
-    stepping::StepperSettings settings;
+    // Files without a law have its parts, of which relaxing sweeps tell the two laws apart; files of the
+    // first versions had neither, and steps of ODE's equations only.
+    stepping::StepperSettings settings = default_settings(stepping::StepperKind::quick);
+    if (has("relax") && integer("relax") > 0) settings.law = {};
     for (const stepping::StepOption& option : stepping::step_options()) {
       const std::string name = file_name(option);
       if (!has(name)) continue;
