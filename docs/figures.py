@@ -38,7 +38,7 @@ ENTRIES = {
     "hard_map": Entry("docs/stability.md", stability.hard_map, False, ["pbstudy stability",
                                                                        "pbreport stability.h5 --markdown"]),
     "joint_springs": Entry("docs/stability.md", stability.joint_springs, False,
-                           ["pbstudy stability --setting sor \"sor iterations=16\" \"sor joint-solver=tree\" ..."]),
+                           ["pbstudy stability --setting sor \"sor iterations=16\" \"sor substeps=8\" ..."]),
     "by_step": Entry("docs/stability.md", stability.by_step, False, ["pbstudy stability --setting quick sor --dt 0.0001 ... 0.05"]),
     "island_shares": Entry("docs/stability.md", stability.island_shares, False,
                            ["pbstudy stability --most-work 300000 --setting sor \"sor tolerance=0.01mm\" ...", "pbmpi --scene SCENE --warmup 150 --frames 10 --tolerance 0.01mm"]),

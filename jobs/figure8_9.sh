@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Figures 8 and 9 of the paper: `jobs/figure8_9.sh [OUTDIR [scene ...]]`, default ./figure8_9 and all nine scenes.
 # Records each scene on RANKS ranks (2) by quick with 20, 19 and 1 iterations and with FEEC (the paper's estimate of one
-# iteration, and one of 5 by a cold step of sor in single precision), REPEATS times each (5; the time of a frame is the least of them), and
+# iteration, and one of 5 by sor with ODE's law in single precision), REPEATS times each (5; the time of a frame is the least of them), and
 # with SEEDS other solver seeds (8; the noise floor). Writes OUTDIR/figure8_9.html and .txt. Needs python3-h5py. Takes minutes
 # on 2 cores.
 set -euo pipefail

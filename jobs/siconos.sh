@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Contact problems of recorded steps in the form of FCLIB, solved again by Siconos: who has which residual.
+# Contact problems of recorded steps of the reference in the form of FCLIB, solved again by Siconos: who has which residual.
 set -euo pipefail
 
 usage() {
@@ -53,13 +53,13 @@ fi
 
 # What all three have: a frame is a step, so that a step stands between two states of the file.
 common=(--steps-per-frame 1 --warmup 0 --record-contacts --no-xdmf --quiet --progress never)
-# Rigid rows with the scene's ERP and CFM, one solve a step: the problem that docs/siconos.md writes down.
-cold=(--stepper sor --substeps 1 --relax 0 --contact-frequency 0 --joint-frequency 0 --contact-margin 0 --friction cone)
+# Rigid rows with the scene's ERP and CFM, cones of friction, one solve a step: the problem that docs/siconos.md writes down.
+reference=(--law ode --iterations "$sweeps" --finish newton)
 
-# record KIND SCENE SECONDS option...
+# record SCENE SECONDS option...
 record() {
-  local file=$out/runs/$1/${2//\//.}.h5 scene=$2 seconds=$3 status=0
-  shift 3
+  local file=$out/runs/reference/${1//\//.}.h5 scene=$1 seconds=$2 status=0
+  shift 2
   [[ ! -e $file ]] || return 0
   # A step that never ends is killed; its file is as good as that of a run that stopped.
   timeout -s KILL $((2 * seconds + 4)) "$bin/pbmpi" --scene "$scene" "${common[@]}" --frames "$steps" --max-time "$seconds" \
@@ -71,25 +71,17 @@ record() {
 
 [[ $keep == yes ]] || rm -rf "$out/runs"
 rm -rf "$out/problems"
-mkdir -p "$out"/runs/{default,20_sweeps,1000_sweeps,reference} "$out/problems"
+mkdir -p "$out/runs/reference" "$out/problems"
 for scene in "${scenes[@]}" "${cases[@]}"; do
   seconds=$time
   [[ $scene != hard/rest/* || $left_out != *" ${scene##*/} "* ]] || continue
   [[ $scene != hard/* ]] || seconds=$((time / 12))
   more=()
   [[ $scene != 100CrSk ]] || more=(--replicas 16)
-  record default "$scene" "$seconds" --friction cone ${more[@]+"${more[@]}"}
-  for few in 20 1000; do
-    record "${few}_sweeps" "$scene" "$seconds" "${cold[@]}" --warm-start 0 --iterations "$few" ${more[@]+"${more[@]}"}
-  done
-  record reference "$scene" "$seconds" "${cold[@]}" --warm-start 1 --joint-solver tree --iterations "$sweeps" --finish newton ${more[@]+"${more[@]}"}
+  record "$scene" "$seconds" "${reference[@]}" ${more[@]+"${more[@]}"}
 done
 
-kinds=(default 20_sweeps 1000_sweeps reference)
-for kind in "${kinds[@]}"; do
-  each=(--each 40 --each-hard 12)
-  [[ $kind != reference ]] || each=(--each 60 --each-hard 20)
-  "$python" "$jobs/siconos/fclib_export.py" --most-contacts 100 "${each[@]}" --output "$out/problems/$kind" "$out/runs/$kind"/*.h5
-done
-"$python" "$jobs/siconos/solve.py" --output "$out/siconos" "${kinds[@]/#/$out/problems/}"
+"$python" "$jobs/siconos/fclib_export.py" --most-contacts 100 --each 60 --each-hard 20 --output "$out/problems/reference" \
+  "$out/runs/reference"/*.h5
+"$python" "$jobs/siconos/solve.py" --output "$out/siconos" "$out/problems/reference"
 echo "$out/siconos.md"

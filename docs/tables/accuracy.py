@@ -22,7 +22,7 @@ def crashwa():
         cases, _ = programs.accuracy_cases(folder, ["CrashWa"], "--precision", "double", "--iterations", "1", "20", "80",
                                            "--substeps", "1", "3", "7", "14", "28", "--max-sweeps", "80", *ONLY_SETTINGS,
                                            *QUICK_TO_MEASURE)
-    found = {(case["stepper"], programs.is_cold(case), case["substeps"], case["iterations"]): case for case in cases
+    found = {(case["stepper"], programs.has_ode_law(case), case["substeps"], case["iterations"]): case for case in cases
              if case["kind"] == "setting" and case["dt"] == 0.01}
     rows = [[programs.setting_name(found[key]), f"{found[key]['row_visits'] / 1000:,.0f}", *defect(found[key]),
              programs.millimetres(found[key]["joint_gap"])] for key in wanted]
@@ -71,7 +71,7 @@ def estimates():
 
 def frame_visits(case):
     """Row visits of the whole frame of an estimate's setting."""
-    return case["rows"] * (case["iterations"] + case["relax"]) * case["substeps"] * case["steps_per_frame"]
+    return case["rows"] * (case["iterations"] + (case["law"] == "soft")) * case["substeps"] * case["steps_per_frame"]
 
 
 def least_defect():
@@ -92,9 +92,9 @@ def least_defects(cases):
     found = {"`quick`, 1 x 1": programs.millimetres(quick["defect_body_position_rms"])}
     for precision in ("double", "single"):
         of_sor = [case for case in in_time if case["stepper"] == "sor" and case["precision"] == precision]
-        for name, fits in ((f"`sor` cold {precision}, 1 x N", lambda case: programs.is_cold(case) and case["substeps"] == 1),
-                           (f"`sor` cold {precision}, M x N", lambda case: programs.is_cold(case) and case["substeps"] > 1),
-                           (f"`sor` {precision}, M x 1", lambda case: not programs.is_cold(case))):
+        for name, fits in ((f"`sor` {precision}, 1 x N, law ode", lambda case: programs.has_ode_law(case) and case["substeps"] == 1),
+                           (f"`sor` {precision}, M x N, law ode", lambda case: programs.has_ode_law(case) and case["substeps"] > 1),
+                           (f"`sor` {precision}, M x 1", lambda case: not programs.has_ode_law(case))):
             fitting = [case["defect_body_position_rms"] for case in of_sor if fits(case)]
             found[name] = programs.millimetres(min(fitting)) if fitting else "-"
     return found

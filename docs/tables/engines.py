@@ -50,7 +50,7 @@ def fronts():
     rows = []
     for scene, engine in engines_of_scenes():
         for point in engine["common_front"]:
-            rows.append([scene["scene"], f"`{engine['engine']}`", programs.short_setting(point["setting"]).replace(", dt 0.01 s", ""),
+            rows.append([scene["scene"], f"`{engine['engine']}`", point["setting"].replace(", dt 0.01 s", ""),
                          programs.digits(1e3 * point["frame_time_s"]["worst"]), *(millimetres(point[name]) for name in
                                                                                ("common_error_m", "own_error_m", "joint_gap_m"))])
     return programs.table(["scene", "engine", "setting", "worst frame [ms]", "error: common reference [mm]", "error: own solution [mm]", "joint gap [mm]"], rows)
@@ -73,7 +73,7 @@ def hard_map():
     rows = []
     for one in settings:
         counts = [one["groups"][group] for group in groups] + [one["all"]]
-        rows.append([programs.short_setting(one["setting"]), *(" / ".join(str(count[verdict]) for verdict in stability.VERDICTS) for count in counts)])
+        rows.append([one["setting"], *(" / ".join(str(count[verdict]) for verdict in stability.VERDICTS) for count in counts)])
     return programs.table(["pass / degraded / broken", *groups, "all"], rows)
 
 

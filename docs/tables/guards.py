@@ -4,7 +4,7 @@ import h5py
 from tables import programs, stability
 
 SETTINGS = (("`quick`", "--stepper quick"), ("`sor` double, 14 x 1", "--stepper sor"),
-            ("`sor` cold double, 1 x 20", f"--stepper sor {programs.COLD}"))
+            ("`sor` double, 1 x 20, law ode", "--stepper sor --law ode"))
 MOST_WORK = 300_000  # bodies x steps; larger cases are left out
 STEPS_A_FRAME = 3
 

@@ -100,26 +100,14 @@ def millimetres(metres, count=2):
     return digits(1e3 * metres, count) if abs(metres) >= 1e-6 else "< 0.001"
 
 
-# The step of `sor` without memory, as options of pbmpi; how pbmpi's texts tell it from the default.
-COLD = ("--substeps 1 --iterations 20 --relax 0 --warm-start 0 --sor-factor 1.3 --contact-frequency 0 --joint-frequency 0 "
-        "--contact-margin 0 --friction pyramid")
-COLD_IN_TEXT = (", factor 1.3, warm 0, relax 0, contacts 0 Hz, margin 0, joints 0 Hz, joints by sweeps, "
-                "pyramid")
-
-
-def is_cold(case):
-    return case["stepper"] == "sor" and case["warm_start"] == 0 and case["relax"] == 0
+def has_ode_law(case):
+    return case["stepper"] == "sor" and case["law"] == "ode"
 
 
 def setting_name(case):
-    """As the pages call a setting: `quick` 1 x 20, `sor` single 14 x 1, `sor` cold single 1 x 20."""
-    kind = "`quick`" if case["stepper"] == "quick" else f"`sor` {'cold ' if is_cold(case) else ''}{case['precision']}"
-    return f"{kind}, {case['substeps']:.0f} x {case['iterations']:.0f}"
-
-
-def short_setting(text):
-    """A setting as the programs write it, with "cold" for all that makes a step cold."""
-    return text.replace("sor ", "sor cold ", 1).replace(COLD_IN_TEXT, "") if COLD_IN_TEXT in text else text
+    """As the pages call a setting: `quick`, 1 x 20; `sor` single, 14 x 1; `sor` single, 1 x 20, law ode."""
+    kind = "`quick`" if case["stepper"] == "quick" else f"`sor` {case['precision']}"
+    return f"{kind}, {case['substeps']:.0f} x {case['iterations']:.0f}{', law ode' if has_ode_law(case) else ''}"
 
 
 def revision():

@@ -6,7 +6,7 @@ import sys
 from tables import programs
 
 SCENES = ("CrashWa", "100CrSk")
-# stepper, cold?, precision, substeps, iterations
+# stepper, with ODE's law?, precision, substeps, iterations
 SETTINGS = (("quick", False, "double", 1, 20), ("sor", False, "double", 14, 1), ("sor", False, "single", 14, 1),
             ("sor", True, "double", 1, 80), ("sor", True, "single", 1, 80))
 REST_S = 5
@@ -24,7 +24,7 @@ def settings_of(scenes, *options):
         cases, _ = programs.accuracy_cases(folder, scenes, "--precision", "double", "single", "--iterations", "20", "80",
                                            "--substeps", "1", "14", "--max-sweeps", "80", "--estimates", "0", "--floor-seeds", "1",
                                            "--dt", "0.01", *options)
-    return [(case["scene"], (case["stepper"], programs.is_cold(case), case["precision"], case["substeps"], case["iterations"]), case)
+    return [(case["scene"], (case["stepper"], programs.has_ode_law(case), case["precision"], case["substeps"], case["iterations"]), case)
             for case in cases if case["kind"] == "setting"]
 
 

@@ -165,15 +165,12 @@ class Steps:
             raise ValueError(f"{path}: its contacts or states are not all there; record it with --record-contacts, from the start")
         if self.frames and file["timings/frame/step"][0] != 1:
             raise ValueError(f"{path}: a frame has several steps; record it with --steps-per-frame 1")
-        if parameter("stepper") != b"sor" or parameter("friction") != b"cone":
-            raise ValueError(f"{path}: its friction is no cone; record it with --stepper sor --friction cone")
+        if "law" not in file["parameters"] or parameter("stepper") != b"sor" or parameter("finish") != b"newton":
+            raise ValueError(f"{path}: its friction is no cone; record it with --law ode --finish newton")
         self.dt = float(parameter("dt"))
         self.h = self.dt / int(parameter("substeps"))
-        self.relaxes = int(parameter("relax")) > 0
-        if self.relaxes != (parameter("contact_frequency") > 0) or self.relaxes != (parameter("joint_frequency") > 0):
-            raise ValueError(f"{path}: springs need relaxing sweeps here, and ERP and CFM none")
-        if not self.relaxes and self.h != self.dt:
-            raise ValueError(f"{path}: cold substeps are not in the file; record it with --substeps 1")
+        if self.h != self.dt:
+            raise ValueError(f"{path}: its substeps are not in the file; record it with --substeps 1")
         bodies = file["particles/bodies"]
         self.world = bodies["world"][:]
         self.mass, self.inertia = bodies["mass"][:], bodies["inertia"][:]
@@ -276,12 +273,7 @@ class Steps:
             approach = H[:, 3 * c] @ v_old.ravel()
             bounce = -self.bounces(points, i) * approach if approach < -law["bounce_velocity"] else 0
             bouncing |= bounce > 0
-            if self.relaxes:
-                C[3 * c] = 0
-                left = depth - self.moved(a, b, normal, at, old, new)
-                w[3 * c] = max(-left, 0) / h
-            else:
-                w[3 * c] = -(depth / h if depth < 0 else max(law["contact_erp"] / self.dt * depth, bounce))
+            w[3 * c] = -(depth / h if depth < 0 else max(law["contact_erp"] / self.dt * depth, bounce))
         G, D, s, held, controls, pushes = [], [], [], np.zeros(6 * n), np.zeros(6 * n), []
         forces = self.forces(frame, joints) if joints else ([], [], [])
         for j, force, torque, control in zip(joints, *forces):
@@ -305,11 +297,6 @@ class Steps:
                     pushes.append(h * self.joints.table["motor_max_force"][j][k] * spread(axis))
         problem = Problem(world, frame, bodies, inverse_mass, H, C, w, mu, np.array(G).T.reshape(6 * n, -1), np.array(D), np.array(s),
                           0 * v, v, r, np.nan)
-        if self.relaxes:  # its joints stand elsewhere by the last sweep: what they did is taken as known
-            if bouncing:
-                return "something bounced after the last sweep"
-            problem.G, problem.D, problem.s = np.zeros((6 * n, 0)), np.zeros(0), np.zeros(0)
-            held = 0 * v
         problem.v_free = v - problem.times_inverse_mass((H @ r + held)[:, None])[:, 0]
         if forward is not None:
             apart = problem.v_free - forward - problem.times_inverse_mass(controls[:, None])[:, 0]
@@ -322,23 +309,10 @@ class Steps:
             return "something bounces in a step whose start is not in the file"
         return problem
 
-    def moved(self, a, b, normal, at, old, new):
-        """How far the bodies have parted at a contact within the step; turns as rotation vectors."""
-        total = 0
-        for body, sign in ((a, 1), (b, -1)):
-            if body < 0:
-                continue
-            turn = times(new["orientation"][body], inverse(old["orientation"][body]))
-            turn = turn if turn[0] >= 0 else -turn
-            size = np.linalg.norm(turn[1:])
-            vector = turn[1:] * (2 * np.arctan2(size, turn[0]) / size if size > 0 else 2)
-            total += sign * normal @ (new["position"][body] - old["position"][body] + np.cross(vector, at - old["position"][body]))
-        return total
-
     def forward(self, law, v_old, inertia, shape):
         """[6 n] velocities before any impulse, from the state before the step: gravity, and the implicit gyroscopic torque. None
-        where springs (several substeps) or air make them others."""
-        if self.relaxes or law["air_density"] > 0:
+        where air makes them others."""
+        if law["air_density"] > 0:
             return None
         v = v_old.copy()
         momentum = np.einsum("bij,bj->bi", inertia, v[:, 3:])

@@ -13,12 +13,14 @@
 #include "effects/effect_choices.h"
 #include "engines/shared_scene.h"
 #include "mpi/comm/agreement.h"
+#include "stepping/names.h"
+#include "stepping/option_values.h"
 
 namespace pbmpi::api {
 namespace {
 
-/// The name of the one setting that is not an option of a step.
-constexpr std::string_view effects_name = "effects";
+/// The names of the settings that are not options of a step.
+constexpr std::string_view effects_name = "effects", row_order_name = "row-order";
 
 /// Throws core::InputError on every rank unless `given` is the same on all of them.
 void require_same(const mpi::Communicator& comm, std::uint64_t given) {
@@ -52,10 +54,18 @@ model::EffectChoices effects_of(const BatchOptions& options) {
   }
 }
 
+/// Batches alone choose the order of the rows: a learner resets worlds one by one, and worlds at different
+/// steps share lanes only in a fixed order.
 stepping::StepChoices choices_of(const BatchOptions& options) {
   std::map<std::string, std::string> texts = options.settings;
   texts.erase(std::string(effects_name));
-  return stepping::choose_step(texts, "");
+  const auto order = texts.extract(std::string(row_order_name));
+  stepping::StepChoices choices = stepping::choose_step(texts, "");
+  if (order.empty()) return choices;
+  core::require_input(traits_of(choices.settings.kind).has_laws, "row-order is a setting of stepper sor");
+  choices.settings.law.row_order = stepping::read_word<stepping::RowOrder>(
+      order.mapped(), std::string(row_order_name), stepping::row_order_names);
+  return choices;
 }
 
 void add_text(core::Checksum& checksum, std::string_view text) {
@@ -107,7 +117,7 @@ stepping::StepperSettings Recipe::settings(std::uint64_t seed) const {
 
 std::uint64_t Recipe::solver_seed(std::uint64_t seed) const {
   const stepping::StepperSettings all = settings(seed);
-  const bool draws = !traits_of(all.kind).tunes_sweeps || all.row_order == stepping::RowOrder::shuffled;
+  const bool draws = !traits_of(all.kind).has_laws || all.law.row_order == stepping::RowOrder::shuffled;
   return draws ? all.seed : 0;
 }
 
@@ -133,6 +143,7 @@ std::uint64_t Recipe::settings_checksum() const {
   for (const stepping::StepOption& option : stepping::step_options()) {
     if (option.is_physics) add_text(checksum, text_of(option, all));
   }
+  add_text(checksum, name_of(all.law.row_order));
   add_text(checksum, choices_.has("solver-seed") ? "one solver seed" : "a solver seed a world");
   add_text(checksum, effects::to_text(scene_->defaults().effects));
   return checksum.value();

@@ -19,7 +19,7 @@ void require_known(const std::map<std::string, std::string>& texts, const std::s
   }
 }
 
-/// Makes a list such as "--substeps, --simd and --colliders".
+/// Makes a list such as "--substeps, --simd and --threads".
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -60,22 +60,17 @@ void require_fitting(const StepperSettings& settings, const std::string& dashes)
 StepChoices choose_step(const std::map<std::string, std::string>& texts, const std::string& dashes) {
   require_known(texts, dashes);
   StepChoices choices;
-  const auto text_of_option = [&](const StepOption& option) {
-    const auto text = texts.find(std::string(option.name));
-    return text == texts.end() ? std::string(option.shown_default) : text->second;
-  };
-  const StepOption& stepper = step_option("stepper");
-  set(stepper, text_of_option(stepper), dashes + "stepper", choices.settings);
-  choices.settings = default_settings(choices.settings.kind);
-  for (const StepOption& option : step_options()) {
+  const auto choose = [&](const StepOption& option) {
     const std::string name(option.name);
-    if (!texts.contains(name) && option.shown_default.empty()) continue;
-    set(option, text_of_option(option), dashes + name, choices.settings);
+    const auto text = texts.find(name);
+    if (text == texts.end() && option.shown_default.empty()) return;
+    set(option, text == texts.end() ? option.shown_default : text->second, dashes + name, choices.settings);
     choices.given.insert(name);
-  }
-  // Newton's method solves cones of friction, so they are its default.
-  if (choices.settings.finish == Finish::newton && !choices.has("friction"))
-    choices.settings.friction = Friction::cone;
+  };
+  choose(step_option("stepper"));
+  choose(step_option("law"));
+  choices.settings = default_settings(choices.settings.kind, choices.settings.law.name);
+  for (const StepOption& option : step_options()) choose(option);
   return choices;
 }
 
@@ -84,11 +79,14 @@ StepperSettings settle_step(const StepChoices& choices, const StepProposal& prop
   StepperSettings settings = choices.settings;
   if (!choices.has("dt")) settings.dt_s = proposal.dt_s;
   if (!choices.has("iterations"))
-    settings.iterations = default_iterations(settings.kind, proposal.iterations);
+    settings.iterations = default_iterations(settings.kind, settings.law.name, proposal.iterations);
   core::require_input(settings.iterations >= 1, dashes + "iterations " + std::to_string(settings.iterations) +
                                                     ": it must be at least 1");
   if (!choices.has("solver-seed")) settings.seed = proposal.seed;
   require_fitting(settings, dashes);
+  core::require_input(settings.finish == Finish::none || settings.law.name == Law::ode,
+                      dashes + "finish " + std::string(name_of(settings.finish)) +
+                          ": it solves the rigid rows of " + dashes + "law ode; give that law, too");
   return settings;
 }
 

@@ -16,16 +16,15 @@ namespace pbmpi::stepping {
 /// The member of StepperSettings that an option sets.
 using StepMember =
     std::variant<int StepperSettings::*, double StepperSettings::*, std::uint64_t StepperSettings::*,
-                 StepperKind StepperSettings::*, RowOrder StepperSettings::*, Friction StepperSettings::*,
-                 JointSolver StepperSettings::*, ConstraintSolver StepperSettings::*,
-                 Finish StepperSettings::*, Precision StepperSettings::*, Simd StepperSettings::*,
-                 Colliders StepperSettings::*>;
+                 StepperKind StepperSettings::*, SorLaw StepperSettings::*,
+                 ConstraintSolver StepperSettings::*, Finish StepperSettings::*, Precision StepperSettings::*,
+                 Simd StepperSettings::*>;
 
 /// A value as HDF5 files store it.
 using StepValue = std::variant<std::int64_t, double, std::string>;
 
 struct StepOption {
-  std::string_view name = {};  ///< on the command line, e.g. "warm-start"
+  std::string_view name = {};  ///< on the command line, e.g. "solver-seed"
   StepMember member = &StepperSettings::iterations;
   std::string_view placeholder = {};  ///< for --help: "N", "double|single"
   std::string_view meaning = {};      ///< for --help
@@ -58,18 +57,12 @@ bool fits(const StepOption& option, StepperKind kind);
 /// The value as text that set() reads back bit for bit.
 std::string text_of(const StepOption& option, const StepperSettings& settings);
 StepValue value_of(const StepOption& option, const StepperSettings& settings);
-/// The settings with which a kind of stepper is meant to be used: for `sor` those that keep most of
-/// scenes/hard stable at least cost (docs/stability.md), for the others the initial values of
-/// StepperSettings.
-StepperSettings default_settings(StepperKind kind);
-/// The iterations of a stepper in a scene that asks for `scene_iterations`: the scene counts QuickStep's
-/// iterations, and other steppers have their own number.
-int default_iterations(StepperKind kind, int scene_iterations);
-/// Does the option have the value of default_settings()?
+/// Does the option have the value of default_settings() of this stepper and law? That of the law itself is
+/// Law::soft.
 bool is_default(const StepOption& option, const StepperSettings& settings);
 
-/// Sets the value that `text` names. Throws core::InputError, opening with `what` (e.g. "--warm-start"), if
-/// there is no such value.
+/// Sets the value that `text` names. Throws core::InputError, opening with `what` (e.g. "--precision"), if
+/// there is no such value. A law brings none of its default_settings() but itself.
 void set(const StepOption& option, std::string_view text, const std::string& what, StepperSettings& settings);
 
 /// Inverse of value_of(). Throws core::InputError for a name that no enumerator has.
@@ -78,7 +71,7 @@ void restore(const StepOption& option, const StepValue& value, StepperSettings& 
 /// The stepper's name, and its precision where it has a choice: "quick", "sor single".
 std::string stepper_text(const StepperSettings& settings);
 
-/// "sor single, 2 x 3, warm 0.5": the stepper, substeps x iterations, and what differs from
+/// "sor single, 2 x 3, tolerance 0.001 m": the stepper, substeps x iterations, and what differs from
 /// default_settings().
 std::string setting_text(const StepperSettings& settings);
 

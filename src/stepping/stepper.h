@@ -53,32 +53,60 @@ enum class ConstraintSolver { newton, pgs, cg };
 /// What ends the sweeps of the sor stepper over rigid rows: nothing, or Newton's method on each island.
 enum class Finish { none, newton };
 
-/// What a run chooses about the step; the rest is in the Model.
-struct StepperSettings {
-  StepperKind kind = StepperKind::quick;
-  double dt_s = 0.01;
-  int iterations = 20;      ///< sweeps of an iterative solver, in each substep
-  int substeps = 1;         ///< sor: parts of a step without new collision detection
-  double tolerance_m = 0;   ///< sor: islands that move less get fewer substeps; 0: all get all of them
-  int most_substeps = 32;   ///< sor: substeps of these, and the most for tall islands, if above `substeps`
-  double sor_factor = 1.3;  ///< sor: over-relaxation (ODE's default, which quick has built in)
-  double warm_start = 0;    ///< sor: share of the last step's or substep's forces that is taken over
-  int relax = 0;            ///< sor: sweeps at the end of a substep that push nothing out
-  /// [Hz] sor: frequency of contacts as springs; infinite: as stiff as a substep bears; 0: the scene's ERP
-  /// and CFM.
-  double contact_frequency = 0;
-  double contact_damping = 20;                     ///< sor: damping ratio of contacts as springs
-  double joint_frequency = 0;                      ///< [Hz] sor: frequency of joints as springs, likewise
-  double joint_damping = 3;                        ///< sor: damping ratio of joints as springs
-  JointSolver joint_solver = JointSolver::sweeps;  ///< sor
-  ConstraintSolver constraint_solver = ConstraintSolver::newton;  ///< mujoco
-  double contact_margin = 0;              ///< sor: contacts are found up to so many g dt^2 apart
-  Friction friction = Friction::pyramid;  ///< sor
-  Finish finish = Finish::none;           ///< sor
+/// Which equations the sor stepper solves: those of soft constraints, or ODE's.
+enum class Law { soft, ode };
+
+/// The equations of the sor stepper, and how its sweeps solve them: by default, those of `Law::soft`. A run
+/// chooses one of the two laws; their parts can be chosen one by one in C++ only.
+struct SorLaw {
+  Law name = Law::soft;
+  double sor_factor = 1;  ///< over-relaxation, above 0 and below 2
+  double warm_start = 1;  ///< share of the last step's or substep's forces that is taken over, 0 to 1
+  int relax = 1;          ///< sweeps at the end of a substep that push nothing out
+  /// [Hz] Frequency of contacts as springs; infinite: as stiff as a substep bears; 0: the scene's ERP and
+  /// CFM.
+  double contact_frequency = model::infinity;
+  double contact_damping = 20;               ///< damping ratio of contacts as springs
+  double joint_frequency = model::infinity;  ///< [Hz] frequency of joints as springs, likewise
+  double joint_damping = 3;                  ///< damping ratio of joints as springs
+  double contact_margin = 1;                 ///< contacts are found up to so many g dt^2 apart
+  Friction friction = Friction::patch;       ///< with Finish::newton it is a cone
+  JointSolver joint_solver = JointSolver::hanging;
+  int most_substeps = 32;  ///< the most for tall islands, if above StepperSettings::substeps
   RowOrder row_order = RowOrder::shuffled;
+  Colliders colliders = Colliders::lanes;
+
+  bool operator==(const SorLaw&) const = default;
+};
+
+/// ODE's equations: rigid rows with the scene's ERP and CFM, friction in pyramids, and no memory, so that
+/// each step begins from nothing, like those of dWorldQuickStep.
+constexpr SorLaw ode_law() {
+  return {.name = Law::ode,
+          .sor_factor = 1.3,  // built into QuickStep
+          .warm_start = 0,
+          .relax = 0,
+          .contact_frequency = 0,
+          .joint_frequency = 0,
+          .contact_margin = 0,
+          .friction = Friction::pyramid,
+          .joint_solver = JointSolver::sweeps};
+}
+constexpr SorLaw law_named(Law name) { return name == Law::soft ? SorLaw{} : ode_law(); }
+
+/// What a run chooses about the step; the rest is in the Model. By default that of sor with its soft law;
+/// default_settings() has those of the other steppers.
+struct StepperSettings {
+  StepperKind kind = StepperKind::sor;
+  double dt_s = 0.01;
+  int iterations = 1;            ///< sweeps of an iterative solver, in each substep
+  int substeps = 14;             ///< sor: parts of a step without new collision detection
+  double tolerance_m = 0;        ///< sor: islands that move less get fewer substeps; 0: all get all of them
+  SorLaw law = {};               ///< sor; the others have ode_law()
+  Finish finish = Finish::none;  ///< sor
+  ConstraintSolver constraint_solver = ConstraintSolver::newton;  ///< mujoco
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;
-  Colliders colliders = Colliders::lanes;
   int threads = 1;         ///< sor: that step packs of worlds at the same time; moves no bit
   bool profile = false;    ///< ODE's: keep what profile_last_step() needs
   bool residuals = false;  ///< sor: measure Observables::residuals
@@ -88,7 +116,7 @@ struct StepperSettings {
 
 /// Sweeps in a step, relaxing ones included.
 constexpr int sweeps_of(const StepperSettings& settings) {
-  return (settings.iterations + settings.relax) * settings.substeps;
+  return (settings.iterations + settings.law.relax) * settings.substeps;
 }
 
 /// [s] Length of a substep.

@@ -9,12 +9,13 @@ namespace pbmpi::stepping {
 
 struct StepperTraits {
   bool iterates = false;                ///< StepperSettings::iterations counts
-  int own_iterations = 0;               ///< by default; 0: those of the scene, which are meant for quick
+  int own_iterations = 0;               ///< by default; 0: those of the scene, which are meant for quick and
+                                        ///< for sor with ODE's law
   bool has_field = false;               ///< gives islands outside of a field of interest fewer iterations
-  bool tunes_sweeps = false;            ///< factor, order and warm start of the sweeps can be chosen
+  bool has_laws = false;                ///< StepperSettings::law can be chosen
   bool has_substeps = false;            ///< can share one collision detection among parts of a step
   bool has_precision = false;           ///< can compute in another number type than double
-  bool has_lanes = false;               ///< works in vector lanes: instructions and colliders can be chosen
+  bool has_lanes = false;               ///< works in vector lanes: instructions can be chosen
   bool has_constraint_solvers = false;  ///< ConstraintSolver can be chosen
   bool is_anytime = false;              ///< an AnytimeStepper: can be looked at in mid-solve
   bool cuts_spaces = false;             ///< has a SpaceStepper: one world can be cut over ranks
@@ -29,9 +30,8 @@ inline constexpr std::array<StepperTraits, 5> stepper_traits = {{
     {.iterates = true, .has_field = true, .profiles_islands = true, .relative_cost = 5},
     {.profiles_islands = true, .relative_cost = 5},
     {.iterates = true,
-     .own_iterations = 1,
      .has_field = true,
-     .tunes_sweeps = true,
+     .has_laws = true,
      .has_substeps = true,
      .has_precision = true,
      .has_lanes = true,
@@ -47,6 +47,25 @@ inline constexpr std::array<StepperTraits, 5> stepper_traits = {{
 
 constexpr const StepperTraits& traits_of(StepperKind kind) {
   return stepper_traits[static_cast<std::size_t>(kind)];
+}
+
+/// The iterations of a stepper in a scene that asks for `scene_iterations`: the scene counts QuickStep's
+/// iterations, and other steppers have their own number.
+constexpr int default_iterations(StepperKind kind, Law law, int scene_iterations) {
+  if (traits_of(kind).has_laws && law == Law::soft) return StepperSettings{}.iterations;
+  const int own = traits_of(kind).own_iterations;
+  return own > 0 ? own : scene_iterations;
+}
+
+/// The settings with which a kind of stepper is meant to be used, and `sor` with each of its laws: the soft
+/// one keeps most of scenes/hard stable at least cost (docs/stability.md).
+constexpr StepperSettings default_settings(StepperKind kind, Law law = Law::soft) {
+  constexpr int iterations_of_quick = 20;  // ODE's default, and the scenes'
+  StepperSettings settings{.kind = kind, .iterations = default_iterations(kind, law, iterations_of_quick)};
+  if (traits_of(kind).has_laws && law == Law::soft) return settings;
+  settings.law = ode_law();
+  settings.substeps = 1;
+  return settings;
 }
 
 }  // namespace pbmpi::stepping

@@ -48,7 +48,7 @@ TEST(Batch, seed_and_settings_decide_its_bits) {
   EXPECT_EQ(hashes(stepped(small_options(), 40)), reference);
   EXPECT_NE(hashes(stepped(small_options(5, 2), 40)), reference);
   BatchOptions options = small_options();
-  options.settings = {{"friction", "pyramid"}, {"substeps", "4"}};
+  options.settings = {{"law", "ode"}, {"substeps", "4"}};
   EXPECT_NE(hashes(stepped(options, 40)), reference);
   options.settings = {{"effects", "-gravity"}};
   EXPECT_NE(hashes(stepped(options, 40)), reference);
@@ -145,7 +145,7 @@ TEST(Batch, what_it_did_not_save_is_refused_and_nothing_changes) {
   refuses({saved.begin(), saved.end() - 1}, "damaged");
   refuses(Batch(small_options(4)).save(), "4 saved worlds");
   BatchOptions other = small_options();
-  other.settings = {{"warm-start", "0.5"}};
+  other.settings = {{"law", "ode"}};
   refuses(Batch(other).save(), "other settings");
   other = small_options();
   other.settings = {{"solver-seed", "0"}};

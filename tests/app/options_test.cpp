@@ -77,38 +77,20 @@ TEST(Options, those_of_sor_are_refused_with_another_stepper) {
   EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--precision", "single"}).find("--stepper sor"),
             std::string::npos);
   EXPECT_EQ(refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", "2", "--precision", "single"}), "");
-  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--sor-factor", "1"}).find("--stepper sor"),
-            std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "sor", "--sor-factor", "2"}).find("below 2"),
-            std::string::npos);
-  EXPECT_EQ(refusal({"--scene", "Fake", "--stepper", "sor", "--sor-factor", "1.9"}), "");
   EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "sor", "--substeps", "0"}).find("at least 1"),
             std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--warm-start", "0.5"}).find("--stepper sor"),
-            std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--row-order", "fixed"}).find("--stepper sor"),
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--law", "soft"}).find("--stepper sor"),
             std::string::npos);
   EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--record-residuals"}).find("--stepper sor"),
             std::string::npos);
 }
 
-TEST(Options, those_of_the_sweeps_are_refused_outside_of_their_range) {
-  const auto with = [](const char* option, const char* value) {
-    return refusal({"--scene", "Fake", "--stepper", "sor", option, value});
-  };
-  for (const char* share : {"0", "0.9", "1"}) EXPECT_EQ(with("--warm-start", share), "");
-  for (const char* share : {"1.01", "nan"})
-    EXPECT_NE(with("--warm-start", share).find("0 to 1"), std::string::npos);
-  EXPECT_EQ(with("--relax", "0"), "");
-  EXPECT_NE(with("--relax", "-1").find("at least 0"), std::string::npos);
-  for (const char* kind : {"--contact", "--joint"}) {
-    const std::string frequency = std::string(kind) + "-frequency", damping = std::string(kind) + "-damping";
-    for (const char* possible : {"0", "30", "inf"}) EXPECT_EQ(with(frequency.c_str(), possible), "");
-    for (const char* impossible : {"-1", "nan"})
-      EXPECT_NE(with(frequency.c_str(), impossible).find("0 or more"), std::string::npos);
-    EXPECT_NE(with(damping.c_str(), "0").find("above 0"), std::string::npos);
-  }
-  EXPECT_NE(with("--friction", "ball").find("pyramid, cone, patch"), std::string::npos);
+TEST(Options, parts_of_a_law_cannot_be_chosen) {
+  for (const char* part : {"--sor-factor", "--warm-start", "--relax", "--contact-frequency", "--joint-solver",
+                           "--friction", "--row-order", "--colliders"})
+    EXPECT_NE(refusal({"--scene", "Fake", part, "1"}).find("unknown option"), std::string::npos) << part;
+  EXPECT_NE(refusal({"--scene", "Fake", "--law", "hard"}).find("--law hard: it must be one of soft, ode"),
+            std::string::npos);
 }
 
 TEST(Options, sor_starts_with_the_step_that_has_a_memory) {
@@ -122,7 +104,7 @@ TEST(Options, sor_starts_with_the_step_that_has_a_memory) {
     EXPECT_TRUE(is_default(option, quick)) << option.name;
   }
   EXPECT_EQ(sor.substeps, 14);
-  EXPECT_EQ(sor.warm_start, 1);
+  EXPECT_EQ(sor.law.warm_start, 1);
   EXPECT_EQ(quick.substeps, 1);
 }
 

@@ -31,8 +31,8 @@ TEST(SavedOptions, give_the_same_run_when_they_are_read_again) {
   const std::vector<std::vector<std::string>> runs = {
       {"--scene", "Fake"},
       {"--scene", "Fake", "--stepper", "quick", "--dt", "0.1", "--replicas", "7"},
-      {"--scene", "Fake", "--substeps", "4", "--warm-start", "0.3", "--row-order", "fixed", "--precision",
-       "single", "--simd", "sse2", "--decompose", "worlds", "--spaces", "one"},
+      {"--scene", "Fake", "--substeps", "4", "--law", "ode", "--finish", "newton", "--precision", "single",
+       "--simd", "sse2", "--decompose", "worlds", "--spaces", "one"},
       {"--scene", "Fake", "--seed", "18446744073709551615", "--solver-seed", "3", "--record-every", "5",
        "--budget", "2ms"},
       {"--scene", "Fake", "--feec", "--estimate-stepper", "quick", "--estimate-iterations", "3"},
@@ -54,27 +54,10 @@ TEST(SavedOptions, keep_every_bit_of_a_real_number) {
 
 TEST(SavedOptions, each_that_decides_the_bits_is_refused_if_it_changes) {
   const std::string before = saved({"--scene", "Fake", "--substeps", "2"});
-  const std::vector<std::pair<std::string, std::string>> changes = {{"stepper", "quick"},
-                                                                    {"precision", "single"},
-                                                                    {"replicas", "9"},
-                                                                    {"dt", "0.5"},
-                                                                    {"seed", "2"},
-                                                                    {"substeps", "3"},
-                                                                    {"iterations", "7"},
-                                                                    {"steps-per-frame", "9"},
-                                                                    {"warm-start", "0.5"},
-                                                                    {"row-order", "fixed"},
-                                                                    {"colliders", "ode"},
-                                                                    {"sor-factor", "1.3"},
-                                                                    {"relax", "2"},
-                                                                    {"contact-frequency", "60"},
-                                                                    {"contact-damping", "5"},
-                                                                    {"contact-margin", "0"},
-                                                                    {"joint-frequency", "0"},
-                                                                    {"joint-damping", "1"},
-                                                                    {"joint-solver", "tree"},
-                                                                    {"friction", "pyramid"},
-                                                                    {"solver-seed", "5"}};
+  const std::vector<std::pair<std::string, std::string>> changes = {
+      {"stepper", "quick"}, {"precision", "single"}, {"replicas", "9"},   {"dt", "0.5"},
+      {"seed", "2"},        {"substeps", "3"},       {"iterations", "7"}, {"steps-per-frame", "9"},
+      {"law", "ode"},       {"solver-seed", "5"}};
   for (const auto& [name, value] : changes) {
     const std::string message = refusal({"--" + name, value, "--scene", "Fake"}, before);
     EXPECT_TRUE(message.starts_with("--" + name + " " + value + ": the run in ck.h5 has " + name)) << message;

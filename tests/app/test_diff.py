@@ -4,7 +4,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness import COLD, ProgramTest
+from harness import ODE_LAW, ProgramTest
 
 # Two boxes on a ball joint that starts at ANCHOR, and a third on a hinge with AXIS at HINGE: the loads are unequal
 # enough that few iterations leave gaps.
@@ -124,7 +124,7 @@ class Diff(ProgramTest):
 
     def test_joints_against_the_recomputation(self):
         scene = self.write("three.toml", SCENE)
-        few, many = (self.record(f"{n}.h5", "--scene", scene, *COLD, "--iterations", n) for n in (1, 50))
+        few, many = (self.record(f"{n}.h5", "--scene", scene, *ODE_LAW, "--iterations", n) for n in (1, 50))
         drift = self.diff(few, many)["drift"]
         a, b = Run(few), Run(many)
         self.assert_bodies(drift, a, b)

@@ -4,7 +4,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness import COLD, ProgramTest
+from harness import ODE_LAW, ProgramTest
 
 
 class Feec(ProgramTest):
@@ -64,7 +64,7 @@ class Feec(ProgramTest):
             self.assertEqual(self.summary(2, *args, *options)["decomposition"], "worlds")
 
     def test_an_estimate_after_precise_steps_is_nearer_and_leaves_the_run_alone(self):
-        for stepper in (["--stepper", "quick"], [], COLD):
+        for stepper in (["--stepper", "quick"], [], ODE_LAW):
             args = ["--scene", "CrashSk", "--replicas", 3, *stepper, "--iterations", 20]
             alone = self.summary(1, *args, "--no-output")["state_hash"]
             defects = []
@@ -82,7 +82,7 @@ class Feec(ProgramTest):
             self.assertEqual(defects, sorted(defects, reverse=True))
             self.assertLess(defects[2], defects[0])
             source = summary["estimate"]["source"]
-            self.assertEqual(source, "same_solve" if stepper == COLD else "short_run")
+            self.assertEqual(source, "same_solve" if stepper == ODE_LAW else "short_run")
 
     def test_an_estimate_is_there_when_it_is_due_and_leaves_the_run_alone(self):
         for ranks, scene in ((1, "CrashSk"), (3, "CrashSk"), (2, "Fight")):
@@ -110,13 +110,13 @@ class Feec(ProgramTest):
         self.assertIn("exclude each other", both.stderr)
 
     def test_as_many_iterations_as_the_precise_run_leave_no_defect(self):
-        for setting in (["--stepper", "quick"], [*COLD, "--iterations", 20], ["--substeps", 1, "--iterations", 20]):
+        for setting in (["--stepper", "quick"], [*ODE_LAW, "--iterations", 20], ["--substeps", 1, "--iterations", 20]):
             summary = self.summary(3, "--scene", "CrashSk", *setting, "--feec", "--estimate-iterations", 20, "--no-output")
             self.assertEqual(summary["estimate"]["position_defect_m"]["max"], 0)
 
     def test_with_one_step_a_frame_sor_estimates_from_the_same_solve(self):
-        cold = ["--scene", "CrashSk", "--replicas", 7, *COLD, "--steps-per-frame", 1, "--frames", 16]
-        args = [*cold, "--iterations", 20]
+        ode_law = ["--scene", "CrashSk", "--replicas", 7, *ODE_LAW, "--steps-per-frame", 1, "--frames", 16]
+        args = [*ode_law, "--iterations", 20]
         alone = self.summary(1, *args, "--no-output")["state_hash"]
         for ranks in (1, 2, 3, 4):
             summary = self.summary(ranks, *args, "--feec", "--estimate-iterations", 3, "--output", f"run{ranks}.h5")
@@ -130,7 +130,7 @@ class Feec(ProgramTest):
             for column in ("position/value", "orientation/value"):
                 self.assertEqual(one["estimate"][column][:].tobytes(), four["estimate"][column][:].tobytes())
             # The first frame starts where a run of three iterations does, and so is its first frame.
-            self.summary(1, *cold, "--iterations", 3, "--output", "short.h5")
+            self.summary(1, *ode_law, "--iterations", 3, "--output", "short.h5")
             with h5py.File(self.path("short.h5")) as short:
                 self.assertEqual(one["estimate/position/value"][0].tobytes(),
                                  short["particles/bodies/position/value"][0].tobytes())

@@ -7,7 +7,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness import COLD, PBMPI, ProgramTest, SOURCE, seal
+from harness import ODE_LAW, PBMPI, ProgramTest, SOURCE, seal
 from small_scenes import SIGN, STACKS
 
 WARMUP = 3
@@ -36,8 +36,8 @@ class Resume(ProgramTest):
             self.check("100CrSk", 4, 12, ["--replicas", 7, *args])
 
     def test_substeps_the_direct_stepper_estimates_and_other_effects_go_on_too(self):
-        self.check("CrashSk", 3, 9, ["--substeps", 4, "--warm-start", 0.9, "--iterations", 5], [(1, 2)])
-        self.check("CrashSk", 3, 9, [*COLD, "--iterations", 20], [(2, 1)])
+        self.check("CrashSk", 3, 9, ["--substeps", 4, "--iterations", 5], [(1, 2)])
+        self.check("CrashSk", 3, 9, [*ODE_LAW, "--iterations", 20], [(2, 1)])
         self.check("CrashSk", 3, 6, ["--stepper", "direct"], [(1, 1)])
         self.check("CrashSk", 3, 9, ["--feec"], [(1, 1)])
         self.check("CrashSk", 3, 9, ["--feec", "--steps-per-frame", 1], [(1, 2)])
@@ -189,7 +189,7 @@ class Refused(ProgramTest):
         self.assertEqual(result.stderr.count("warning: other.h5 was written by another build"), 1, result.stderr)
 
     def test_options_that_would_make_it_another_run(self):
-        for name, value, had in (("dt", "0.02", "0.01"), ("iterations", "5", "1"), ("stepper", "quick", "sor"),
+        for name, value, had in (("dt", "0.02", "0.01"), ("iterations", "5", "1"), ("law", "ode", "soft"), ("stepper", "quick", "sor"),
                                  ("replicas", "2", "1"), ("seed", "2", "1"), ("precision", "single", "double"),
                                  ("steps-per-frame", "1", "3"), ("effects", "-gravity", "none")):
             self.check([f"--{name} {value}", f"has {name} {had}", "leave the option out"], "--resume", "run.ck.h5",

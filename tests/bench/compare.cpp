@@ -179,10 +179,9 @@ stepping::StepperSettings sor_settings(stepping::Precision precision, stepping::
   return settings;
 }
 
-/// One step without memory, with the subject's iterations.
-stepping::StepperSettings cold_settings(const Subject& subject) {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
+/// ODE's law, with the subject's iterations.
+stepping::StepperSettings ode_law_settings(const Subject& subject) {
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   settings.precision = stepping::Precision::single;
   settings.iterations = subject.iterations;
   return settings;
@@ -193,7 +192,7 @@ std::vector<std::unique_ptr<Side>> make_sides(const Subject& subject) {
   using stepping::Precision;
   using stepping::Simd;
   const auto quick = [&] {
-    stepping::StepperSettings settings;
+    stepping::StepperSettings settings = default_settings(stepping::StepperKind::quick);
     settings.dt_s = subject.dt_s;
     settings.iterations = subject.iterations;
     return ode::make_ode_stepper(settings);
@@ -202,7 +201,7 @@ std::vector<std::unique_ptr<Side>> make_sides(const Subject& subject) {
       (std::filesystem::temp_directory_path() / ("bench_worlds." + std::to_string(::getpid()) + ".h5"))
           .string();
   stepping::StepperSettings with_ode = sor_settings(Precision::single, Simd::automatic);
-  with_ode.colliders = stepping::Colliders::ode;
+  with_ode.law.colliders = stepping::Colliders::ode;
   std::vector<std::unique_ptr<Side>> sides;
   sides.push_back(std::make_unique<Bare>(subject));
   sides.push_back(std::make_unique<Ours>(subject, "quick", quick(), ""));
@@ -211,7 +210,7 @@ std::vector<std::unique_ptr<Side>> make_sides(const Subject& subject) {
   sides.push_back(sor_side(subject, "sor double, widest", sor_settings(Precision::double_, Simd::automatic)));
   sides.push_back(sor_side(subject, "sor single, widest", sor_settings(Precision::single, Simd::automatic)));
   sides.push_back(sor_side(subject, "sor single, dCollide", with_ode));
-  sides.push_back(sor_side(subject, "sor single, cold", cold_settings(subject)));
+  sides.push_back(sor_side(subject, "sor single, law ode", ode_law_settings(subject)));
   return sides;
 }
 
@@ -256,7 +255,7 @@ void compare(const Subject& subject, int frames, int rounds) {
   std::vector<Result> results;
   for (int round = 0; round < rounds; ++round) run_round(subject, frames, results);
   std::printf(
-      "%s: %zu worlds, %d bodies, dt %g s, ODE and cold with %d iterations, %d x %d frames of %d steps;\n"
+      "%s: %zu worlds, %d bodies, dt %g s, ODE and law ode with %d iterations, %d x %d frames of %d steps;\n"
       "time and speed are medians of the frames' CPU time ratios to the bare ODE loop of the same round\n",
       subject.name.c_str(), subject.models.size(), subject.num_bodies(), subject.dt_s, subject.iterations,
       rounds, frames, subject.steps_per_frame);

@@ -18,24 +18,27 @@ namespace {
 
 struct Setting {
   const char* name;
-  bool cold;  ///< starts with the settings of StepperSettings, not with sor's defaults
+  stepping::Law law;
   int substeps, iterations;
   double warm_start;
 };
 constexpr int num_rounds = 5;
-constexpr Setting settings[] = {
-    {"cold 1 x 20", true, 1, 20, 0}, {"cold 5 x 3", true, 5, 3, 0}, {"1 x 1", false, 1, 1, 1},
-    {"2 x 1", false, 2, 1, 1},       {"4 x 1", false, 4, 1, 1},     {"8 x 1", false, 8, 1, 1},
-    {"14 x 1", false, 14, 1, 1},     {"16 x 1", false, 16, 1, 1},   {"14 x 1, no memory", false, 14, 1, 0}};
+constexpr Setting settings[] = {{"1 x 20, law ode", stepping::Law::ode, 1, 20, 0},
+                                {"5 x 3, law ode", stepping::Law::ode, 5, 3, 0},
+                                {"1 x 1", stepping::Law::soft, 1, 1, 1},
+                                {"2 x 1", stepping::Law::soft, 2, 1, 1},
+                                {"4 x 1", stepping::Law::soft, 4, 1, 1},
+                                {"8 x 1", stepping::Law::soft, 8, 1, 1},
+                                {"14 x 1", stepping::Law::soft, 14, 1, 1},
+                                {"16 x 1", stepping::Law::soft, 16, 1, 1},
+                                {"14 x 1, no memory", stepping::Law::soft, 14, 1, 0}};
 
 stepping::StepperSettings settings_of(const Setting& setting, stepping::Precision precision) {
-  stepping::StepperSettings stepper;
-  if (!setting.cold) stepper = default_settings(stepping::StepperKind::sor);
-  stepper.kind = stepping::StepperKind::sor;
+  stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor, setting.law);
   stepper.precision = precision;
   stepper.substeps = setting.substeps;
   stepper.iterations = setting.iterations;
-  stepper.warm_start = setting.warm_start;
+  stepper.law.warm_start = setting.warm_start;
   return stepper;
 }
 

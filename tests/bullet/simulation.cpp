@@ -2,11 +2,15 @@
 
 #include "bullet/bullet_stepper.h"
 #include "model/validate.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::bullet {
 
 stepping::StepperSettings settings_of(double dt_s, int iterations) {
-  return {.kind = stepping::StepperKind::bullet, .dt_s = dt_s, .iterations = iterations};
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::bullet);
+  settings.dt_s = dt_s;
+  settings.iterations = iterations;
+  return settings;
 }
 
 Simulation::Simulation(const model::Model& model, const stepping::StepperSettings& settings)

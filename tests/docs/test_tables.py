@@ -18,16 +18,11 @@ class Tables(unittest.TestCase):
         self.assertEqual(programs.millimetres(0.0169), "17")
 
     def test_a_setting_names_what_is_not_the_default(self):
-        case = {"stepper": "sor", "precision": "single", "substeps": 12.0, "iterations": 1.0, "warm_start": 1.0, "relax": 1.0}
+        case = {"stepper": "sor", "precision": "single", "substeps": 12.0, "iterations": 1.0, "law": "soft"}
         self.assertEqual(programs.setting_name(case), "`sor` single, 12 x 1")
-        case = {**case, "substeps": 1.0, "iterations": 20.0, "warm_start": 0.0, "relax": 0.0}
-        self.assertEqual(programs.setting_name(case), "`sor` cold single, 1 x 20")
+        case = {**case, "substeps": 1.0, "iterations": 20.0, "law": "ode"}
+        self.assertEqual(programs.setting_name(case), "`sor` single, 1 x 20, law ode")
         self.assertEqual(programs.setting_name({**case, "stepper": "quick"}), "`quick`, 1 x 20")
-
-    def test_what_makes_a_step_cold_is_one_word(self):
-        cold = "sor double, 1 x 80" + programs.COLD_IN_TEXT
-        self.assertEqual(programs.short_setting(cold), "sor cold double, 1 x 80")
-        self.assertEqual(programs.short_setting("sor double, 12 x 1, in two spaces"), "sor double, 12 x 1, in two spaces")
 
     def test_the_largest_step_is_that_up_to_which_all_shorter_ones_hold(self):
         verdicts = dict.fromkeys(stability.STEPS_S, "pass")

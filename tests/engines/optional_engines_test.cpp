@@ -55,9 +55,9 @@ TEST(OptionalEngines, step_if_they_are_in_the_build_and_are_refused_if_not) {
 }
 
 TEST(OptionalEngines, have_iterations_of_their_own) {
-  EXPECT_EQ(stepping::default_iterations(StepperKind::quick, 33), 33);
-  EXPECT_EQ(stepping::default_iterations(StepperKind::bullet, 33), 10);
-  EXPECT_EQ(stepping::default_iterations(StepperKind::mujoco, 33), 100);
+  EXPECT_EQ(stepping::default_iterations(StepperKind::quick, stepping::Law::ode, 33), 33);
+  EXPECT_EQ(stepping::default_iterations(StepperKind::bullet, stepping::Law::ode, 33), 10);
+  EXPECT_EQ(stepping::default_iterations(StepperKind::mujoco, stepping::Law::ode, 33), 100);
   EXPECT_EQ(default_settings(StepperKind::bullet).iterations, 10);
 }
 

@@ -10,6 +10,7 @@
 #include "solver/worlds/sor_stepper.h"
 #include "stability/guarded_stepper.h"
 #include "stepping/glide.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::estimate {
@@ -18,8 +19,7 @@ namespace {
 constexpr int steps_per_frame = 3;
 
 stepping::StepperSettings settings_of(stepping::StepperKind kind, int iterations) {
-  stepping::StepperSettings settings;
-  settings.kind = kind;
+  stepping::StepperSettings settings = default_settings(kind, stepping::Law::ode);
   settings.iterations = iterations;
   return settings;
 }

@@ -5,14 +5,14 @@
 #include "estimate/short_run.h"
 #include "ode/collide/narrow_phase.h"
 #include "solver/worlds/sor_stepper.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::estimate {
 namespace {
 
 std::unique_ptr<stepping::AnytimeStepper> sor(int iterations) {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   settings.iterations = iterations;
   return solver::make_sor_stepper(settings, ode::make_narrow_phase);
 }

@@ -8,6 +8,7 @@
 #include "ode/ode_stepper.h"
 #include "solver/worlds/sor_stepper.h"
 #include "stepping/names.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::estimate {
@@ -16,8 +17,7 @@ namespace {
 using stepping::StepperKind;
 
 std::unique_ptr<stepping::WorldStepper> make(StepperKind kind, int iterations) {
-  stepping::StepperSettings settings;
-  settings.kind = kind;
+  stepping::StepperSettings settings = default_settings(kind, stepping::Law::ode);
   settings.iterations = iterations;
   if (kind == StepperKind::sor) return solver::make_sor_stepper(settings, ode::make_narrow_phase);
   return ode::make_ode_stepper(settings, [](const std::string&) {});

@@ -173,7 +173,7 @@ class Run:
 
     def state_hash(self):
         file, frame, row = self.file, self.frames - 1, self.rows - 1
-        warm = file["parameters/stepper"][()] == b"sor" and file["parameters/warm_start"][()] > 0
+        warm = file["parameters/stepper"][()] == b"sor" and file["parameters/law"][()] == b"soft"
         broken = self.broken_in(frame)
         geom_world = file["geoms/world"][:]
         frozen = {w: s for w, s, kind in zip(file["events/world"], file["events/step"], file["events/kind"]) if kind == b"frozen"}

@@ -3,13 +3,13 @@
 #include "model/validate.h"
 #include "mujoco/mujoco_stepper.h"
 #include "ode/ode_stepper.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::mujoco {
 
 stepping::StepperSettings settings_with(double dt_s) {
-  stepping::StepperSettings settings;
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::mujoco);
   settings.dt_s = dt_s;
-  settings.iterations = 100;
   return settings;
 }
 

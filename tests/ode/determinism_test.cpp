@@ -5,6 +5,7 @@
 
 #include "ode/ode_stepper.h"
 #include "simulation.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::ode {
@@ -36,7 +37,7 @@ std::string kind_name(const testing::TestParamInfo<StepperKind>& kind) {
 
 class Determinism : public testing::TestWithParam<StepperKind> {
  protected:
-  StepperSettings settings_{GetParam(), 0.01, 20, 42};
+  StepperSettings settings_ = default_settings(GetParam());
   static constexpr int num_steps = 150;
 
   std::uint64_t alone(int world, const Model& model) const {
@@ -173,7 +174,7 @@ TEST_P(Determinism, holds_for_two_steppers_in_one_process) {
 
 TEST(QuickStepsShuffle, depends_on_seed_world_and_step) {
   const Model model = support::crash();
-  StepperSettings settings{StepperKind::quick, 0.01, 20, 1};
+  StepperSettings settings = default_settings(StepperKind::quick);
   const std::uint64_t one = hash_after(model, settings, 0, 60);
   EXPECT_NE(hash_after(model, settings, 1, 60), one);
   settings.seed = 2;

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "ode/ode_stepper.h"
 #include "simulation.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::ode {
@@ -19,7 +20,12 @@ using model::Model;
 using model::Shape;
 using model::Vec3;
 
-const stepping::StepperSettings fine = {stepping::StepperKind::quick, 0.002, 100, 1};
+const stepping::StepperSettings fine = [] {
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::quick);
+  settings.dt_s = 0.002;
+  settings.iterations = 100;
+  return settings;
+}();
 
 Event event_at(std::int64_t step, EventKind kind) {
   Event event;

@@ -11,6 +11,7 @@
 #include "model/joint_gap.h"
 #include "ode/ode_stepper.h"
 #include "simulation.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::ode {
@@ -22,7 +23,12 @@ using model::Shape;
 using model::Vec3;
 using stepping::StepperKind;
 
-const stepping::StepperSettings fine = {StepperKind::quick, 0.002, 100, 1};
+const stepping::StepperSettings fine = [] {
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::quick);
+  settings.dt_s = 0.002;
+  settings.iterations = 100;
+  return settings;
+}();
 
 /// A heavy box a and a light box b beside it, free of gravity, joined in the middle between them.
 Model joined(JointKind kind, const Vec3& axis1, const Vec3& axis2) {

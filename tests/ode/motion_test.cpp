@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::ode {
@@ -24,7 +25,10 @@ std::string kind_name(const testing::TestParamInfo<StepperKind>& kind) {
 class Motion : public testing::TestWithParam<StepperKind> {
  protected:
   StepperSettings settings(double dt_s, int iterations = 20) const {
-    return {GetParam(), dt_s, iterations, 1};
+    StepperSettings settings = default_settings(GetParam());
+    settings.dt_s = dt_s;
+    settings.iterations = iterations;
+    return settings;
   }
 };
 

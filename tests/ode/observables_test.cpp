@@ -3,6 +3,7 @@
 
 #include "model/mechanics.h"
 #include "simulation.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::ode {
@@ -12,7 +13,7 @@ using model::Model;
 using model::Shape;
 using model::Vec3;
 
-const stepping::StepperSettings plain;
+const stepping::StepperSettings plain = default_settings(stepping::StepperKind::quick);
 
 TEST(Observables, count_each_body_without_contact_as_an_island) {
   Model model;

@@ -5,14 +5,14 @@
 
 #include "ode/ode_stepper.h"
 #include "simulation.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::ode {
 namespace {
 
 stepping::StepperSettings profiling(stepping::StepperKind kind) {
-  stepping::StepperSettings settings;
-  settings.kind = kind;
+  stepping::StepperSettings settings = default_settings(kind);
   settings.profile = true;
   return settings;
 }

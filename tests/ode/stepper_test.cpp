@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "ode/ode_stepper.h"
 #include "simulation.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 // The memory that SolverResources::abandon() leaks is not a leak that a change here could fix.
@@ -35,7 +36,7 @@ TEST(OdeStepper, refuses_settings_that_step_nothing) {
 }
 
 TEST(OdeStepper, knows_a_world_from_its_adding_to_its_removal) {
-  const auto stepper = make_ode_stepper({}, fail_on_warning);
+  const auto stepper = make_ode_stepper(default_settings(stepping::StepperKind::quick), fail_on_warning);
   EXPECT_THROW(stepper->state(3), std::logic_error);
   const Model model = support::free_box();
   add(*stepper, 3, model);
@@ -49,7 +50,7 @@ TEST(OdeStepper, knows_a_world_from_its_adding_to_its_removal) {
 }
 
 TEST(OdeStepper, drops_what_another_stepper_remembered) {
-  const auto stepper = make_ode_stepper({}, fail_on_warning);
+  const auto stepper = make_ode_stepper(default_settings(stepping::StepperKind::quick), fail_on_warning);
   const auto model = std::make_shared<const Model>(support::box_over_ground(0.1));
   model::State remembering = model::initial_state(*model);
   remembering.memory.contacts.push_back({{0, 1}, 0, model::no_body, {0, 0, -0.5}, 98});
@@ -62,7 +63,7 @@ TEST(OdeStepper, drops_what_another_stepper_remembered) {
 }
 
 TEST(OdeStepper, tells_where_the_time_went) {
-  const auto stepper = make_ode_stepper({}, fail_on_warning);
+  const auto stepper = make_ode_stepper(default_settings(stepping::StepperKind::quick), fail_on_warning);
   add(*stepper, 0, support::crash());
   add(*stepper, 1, support::free_box());
   core::PhaseTimes times;
@@ -79,7 +80,7 @@ TEST(OdeStepper, tells_where_the_time_went) {
 }
 
 TEST(OdeStepper, spends_no_time_on_collisions_that_the_model_has_not) {
-  const auto stepper = make_ode_stepper({}, fail_on_warning);
+  const auto stepper = make_ode_stepper(default_settings(stepping::StepperKind::quick), fail_on_warning);
   add(*stepper, 0, support::free_box());
   core::PhaseTimes times;
   stepper->advance(10, times);
@@ -88,7 +89,7 @@ TEST(OdeStepper, spends_no_time_on_collisions_that_the_model_has_not) {
 }
 
 TEST(OdeStepper, steps_nothing_in_no_steps) {
-  const auto stepper = make_ode_stepper({}, fail_on_warning);
+  const auto stepper = make_ode_stepper(default_settings(stepping::StepperKind::quick), fail_on_warning);
   const Model model = support::free_box();
   add(*stepper, 0, model);
   core::PhaseTimes times;
@@ -101,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(OdeStepper, Nan,
                          testing::Values(stepping::StepperKind::quick, stepping::StepperKind::direct));
 
 TEST_P(Nan, in_one_world_is_shown_and_leaves_the_others_alone) {
-  const stepping::StepperSettings settings{GetParam(), 0.01, 20, 1};
+  const stepping::StepperSettings settings = default_settings(GetParam());
   std::vector<std::string> lines;
   const auto stepper = make_ode_stepper(settings, [&](const std::string& line) { lines.push_back(line); });
   const Model model = support::crash();

@@ -15,7 +15,7 @@ ARRAYS = {"position": 3, "orientation": 4, "velocity": 3, "angular_velocity": 3}
 
 class Bits(PackageTest):
     def test_the_hash_is_that_of_the_program(self):
-        for settings in ({}, {"precision": "single"}, {"substeps": 3, "warm_start": 0.5, "effects": {"friction": False}},
+        for settings in ({}, {"precision": "single"}, {"substeps": 3, "effects": {"friction": False}},
                          {"stepper": "quick"}):
             options = ["--effects=-friction" if name == "effects" else f"--{name.replace('_', '-')}={value}"
                        for name, value in settings.items()]

@@ -33,8 +33,8 @@ class Toml(unittest.TestCase):
 
 class Settings(unittest.TestCase):
     def test_options_have_pbmpis_names_and_texts(self):
-        self.assertEqual(settings_text({"warm_start": 0.5, "stepper": "sor", "substeps": np.int64(4), "dt": 1e-5}),
-                         {"warm-start": "0.5", "stepper": "sor", "substeps": "4", "dt": "1e-05"})
+        self.assertEqual(settings_text({"solver_seed": 5, "stepper": "sor", "substeps": np.int64(4), "dt": 1e-5}),
+                         {"solver-seed": "5", "stepper": "sor", "substeps": "4", "dt": "1e-05"})
         self.assertEqual(option_text("effects", {"friction": False, "sleeping": True}), "-friction,+sleeping")
 
     def test_values_that_no_option_has(self):

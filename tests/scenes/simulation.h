@@ -9,6 +9,7 @@
 #include "helpers.h"
 #include "ode/ode_stepper.h"
 #include "stepping/stepper.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::scenes {
 
@@ -20,11 +21,10 @@ class Simulation {
       : num_worlds_(num_worlds) {
     const RunDefaults& defaults = scene.defaults();
     steps_per_frame_ = defaults.steps_per_frame;
-    stepping::StepperSettings settings;
+    stepping::StepperSettings settings = default_settings(kind);
     settings.dt_s = defaults.dt_s;
     settings.iterations = defaults.iterations;
     settings.seed = seed;
-    settings.kind = kind;
     stepper_ = ode::make_ode_stepper(settings, [](const std::string&) {});
     for (int world = 0; world < num_worlds; ++world) {
       const auto model = scene.build(world, seed);

@@ -7,6 +7,7 @@
 #include "solver/sor_run.h"
 #include "solver/worlds/sor_stepper.h"
 #include "stepping/names.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -15,8 +16,7 @@ namespace {
 constexpr int num_worlds = 5;  // some lanes idle, whatever the width
 
 stepping::StepperSettings settings_of(stepping::Simd simd, stepping::Precision precision) {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   settings.simd = simd;
   settings.precision = precision;
   return settings;
@@ -113,7 +113,7 @@ TEST_P(Anytime, of_several_steps_and_substeps_the_first_step_was_begun) {
   stepping::StepperSettings substeps = settings();
   substeps.substeps = 3;
   substeps.iterations = 4;
-  substeps.warm_start = 0.5;
+  substeps.law.warm_start = 0.5;
   const Crashes crashes(substeps);
   core::PhaseTimes times;
   const auto alone = crashes.start(substeps), one = crashes.start(substeps), begun = crashes.start(substeps);

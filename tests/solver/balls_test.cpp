@@ -5,6 +5,7 @@
 #include "model/names.h"
 #include "solver/sor_run.h"
 #include "stepping/names.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -14,8 +15,7 @@ constexpr int num_steps = 80;  // the first balls touch the ground after 10 step
 
 stepping::StepperSettings sor_settings(stepping::Precision precision = stepping::Precision::double_,
                                        stepping::Simd simd = stepping::Simd::automatic) {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   settings.precision = precision;
   settings.simd = simd;
   return settings;

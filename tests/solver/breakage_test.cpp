@@ -35,11 +35,10 @@ std::ostream& operator<<(std::ostream& out, const Stepped& by) { return out << b
 /// Enough iterations to give the load of two joints in a row to a tenth of the percent by which the tests
 /// exceed it.
 std::vector<Stepped> all_steppers() {
-  StepperSettings quick;
-  quick.iterations = 400;
-  StepperSettings direct = quick, sor = quick;
-  direct.kind = StepperKind::direct;
-  sor.kind = StepperKind::sor;
+  const StepperSettings direct = default_settings(StepperKind::direct);
+  StepperSettings quick = default_settings(StepperKind::quick);
+  StepperSettings sor = default_settings(StepperKind::sor, stepping::Law::ode);
+  quick.iterations = sor.iterations = 400;
   StepperSettings single = sor, substeps = sor;
   single.precision = stepping::Precision::single;
   substeps.substeps = 4;
@@ -328,8 +327,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryStepper, testing::ValuesIn(all_steppers()),
 // Worlds in one pack that break at different steps, one not at all.
 TEST(Breakage, in_a_lane_leaves_its_neighbours_as_they_are) {
   for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-    StepperSettings settings;
-    settings.kind = StepperKind::sor;
+    StepperSettings settings = default_settings(StepperKind::sor, stepping::Law::ode);
     settings.precision = precision;
     std::vector<Model> worlds;
     std::vector<std::uint64_t> alone;
@@ -351,8 +349,7 @@ TEST(Breakage, in_a_lane_leaves_its_neighbours_as_they_are) {
 
 // A broken joint has no rows, and therefore no residual.
 TEST(Breakage, leaves_no_residual) {
-  StepperSettings settings;
-  settings.kind = StepperKind::sor;
+  StepperSettings settings = default_settings(StepperKind::sor, stepping::Law::ode);
   settings.residuals = true;
   Model model = hanging(JointKind::hinge);
   model.joints[1].break_force = 1;

@@ -9,6 +9,7 @@
 #include "ode/ode_stepper.h"
 #include "solver/sor_run.h"
 #include "solver/worlds/sor_stepper.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -108,8 +109,7 @@ void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 class FieldOfInterest : public testing::TestWithParam<Case> {
  protected:
   StepperSettings settings(int iterations = 20) const {
-    StepperSettings settings;
-    settings.kind = GetParam().kind;
+    StepperSettings settings = default_settings(GetParam().kind, stepping::Law::ode);
     settings.precision = GetParam().precision;
     settings.substeps = GetParam().substeps;
     settings.iterations = iterations;
@@ -227,8 +227,7 @@ TEST(FieldOfInterestInPacks, worlds_have_the_bits_that_each_has_alone_for_every_
       worlds.push_back(yards_with_ball(launched_at, sleeping));
     constexpr int num_steps = 130;
     for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-      StepperSettings settings;
-      settings.kind = StepperKind::sor;
+      StepperSettings settings = default_settings(StepperKind::sor, stepping::Law::ode);
       settings.precision = precision;
       settings.residuals = true;
       std::vector<std::unique_ptr<stepping::WorldStepper>> alone;
@@ -255,8 +254,7 @@ TEST(FieldOfInterestInPacks, worlds_have_the_bits_that_each_has_alone_for_every_
 }
 
 TEST(FieldOfInterestAnytime, a_look_is_the_state_of_a_run_of_so_many_iterations_and_changes_no_bit) {
-  StepperSettings settings;
-  settings.kind = StepperKind::sor;
+  StepperSettings settings = default_settings(StepperKind::sor, stepping::Law::ode);
   const auto model = std::make_shared<const Model>(yards_with_ball(20));
   const auto path = start(settings, *model);
   int at = 0;
@@ -285,8 +283,7 @@ TEST(FieldOfInterestAnytime, a_look_is_the_state_of_a_run_of_so_many_iterations_
 }
 
 TEST(FieldOfInterestDirect, is_idle_where_nothing_iterates) {
-  StepperSettings settings;
-  settings.kind = StepperKind::direct;
+  StepperSettings settings = default_settings(StepperKind::direct);
   Model plain = yards(true, true);
   plain.interest.reset();
   const auto with = start(settings, yards(true, true)), without = start(settings, plain);

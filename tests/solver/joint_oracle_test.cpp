@@ -44,16 +44,14 @@ model::Model linked_boxes(JointKind kind) {
 }
 
 std::unique_ptr<stepping::WorldStepper> reference(const model::Model& model) {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::direct;
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::direct);
   auto stepper = ode::make_ode_stepper(settings, [](const std::string&) {});  // its LCP solver is chatty
   stepper->add(0, std::make_shared<const model::Model>(model), model::initial_state(model), 0);
   return stepper;
 }
 
 stepping::StepperSettings sweeps() {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   settings.iterations = converged;
   return settings;
 }
@@ -62,7 +60,7 @@ stepping::StepperSettings sweeps() {
 stepping::StepperSettings trees() {
   stepping::StepperSettings settings = sweeps();
   settings.iterations = 1;
-  settings.joint_solver = stepping::JointSolver::tree;
+  settings.law.joint_solver = stepping::JointSolver::tree;
   return settings;
 }
 
@@ -247,7 +245,7 @@ TEST(JointTrees, solve_what_closes_a_loop_by_sweeps) {
 // more so with more substeps: what one row takes out, another puts back.
 TEST(JointTrees, throw_nobody_in_a_crash_however_many_substeps_there_are) {
   stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
-  settings.joint_solver = stepping::JointSolver::tree;
+  settings.law.joint_solver = stepping::JointSolver::tree;
   for (const int substeps : {8, 12, 32}) {
     settings.substeps = substeps;
     const auto stepper = make_stepper(settings, {support::crash(0)});
@@ -261,7 +259,7 @@ TEST(JointTrees, throw_nobody_in_a_crash_however_many_substeps_there_are) {
 
 TEST(JointTrees, have_the_same_bits_in_every_width) {
   stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor);
-  settings.joint_solver = stepping::JointSolver::tree;
+  settings.law.joint_solver = stepping::JointSolver::tree;
   for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
     settings.precision = precision;
     settings.simd = stepping::Simd::off;

@@ -33,7 +33,7 @@ double way_of_sliding_box(double heading, Friction friction) {
   const Vec3 direction(std::cos(heading), std::sin(heading), 0);
   model.bodies[0].velocity = 3 * direction;
   stepping::StepperSettings settings = settings_of(Precision::double_);
-  settings.friction = friction;
+  settings.law.friction = friction;
   const auto stepper = make_stepper(settings, {model});
   advance(*stepper, 150);
   const Vec3 way = stepper->state(0).position[0] - model.bodies[0].pose.position;
@@ -47,7 +47,7 @@ TEST(RememberingStep, brakes_a_sliding_box_alike_in_every_direction) {
   for (const Friction friction : {Friction::cone, Friction::patch}) {
     for (const double heading : {0.0, 15.0, 30.0, 45.0, 100.0, 225.0, 340.0})
       EXPECT_NEAR(way_of_sliding_box(heading * degree, friction), expected_m, 0.01 * expected_m)
-          << heading << " " << name_of(friction);
+          << heading << " " << static_cast<int>(friction);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "ode/collide/narrow_phase.h"
 #include "solver/sor_run.h"
+#include "stepping/stepper_traits.h"
 #include "support/body_poses.h"
 #include "support/models.h"
 
@@ -19,10 +20,9 @@ using stepping::Residuals;
 using Vector = Eigen::VectorXd;
 
 stepping::StepperSettings settings_of(int iterations) {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   settings.iterations = iterations;
-  settings.colliders = stepping::Colliders::ode;
+  settings.law.colliders = stepping::Colliders::ode;
   settings.residuals = true;
   return settings;
 }

@@ -75,9 +75,8 @@ void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 class Sleeping : public testing::TestWithParam<Case> {
  protected:
   StepperSettings settings() const {
-    StepperSettings settings;
-    if (GetParam().remembers) settings = default_settings(GetParam().kind);
-    settings.kind = GetParam().kind;
+    const stepping::Law law = GetParam().remembers ? stepping::Law::soft : stepping::Law::ode;
+    StepperSettings settings = default_settings(GetParam().kind, law);
     settings.precision = GetParam().precision;
     return settings;
   }

@@ -11,6 +11,7 @@
 #include "solver/sor_run.h"
 #include "solver/spaces/cross_broad_phase.h"
 #include "solver/spaces/space_bodies.h"
+#include "stepping/stepper_traits.h"
 #include "support/body_poses.h"
 #include "support/models.h"
 
@@ -113,7 +114,7 @@ TEST(SpaceBodies, hold_all_geoms_of_a_space_in_its_box) {
 TEST(SorSpaceStepper, moves_a_subset_of_units_as_the_whole_world_does) {
   const auto model = std::make_shared<const model::Model>(support::crash());
   for (const stepping::Simd simd : machine_simds()) {
-    stepping::StepperSettings settings;
+    stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
     settings.simd = simd;
     const auto whole = make_stepper(settings, {*model});
     const auto world = make_sor_space_stepper(settings, ode::make_narrow_phase, model);
@@ -147,8 +148,9 @@ TEST(SorSpaceStepper, moves_a_subset_of_units_as_the_whole_world_does) {
 
 TEST(SorSpaceStepper, takes_in_bodies_that_moved_elsewhere) {
   const auto model = std::make_shared<const model::Model>(support::crash());
-  const auto here = make_sor_space_stepper({}, ode::make_narrow_phase, model);
-  const auto there = make_sor_space_stepper({}, ode::make_narrow_phase, model);
+  const auto settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
+  const auto here = make_sor_space_stepper(settings, ode::make_narrow_phase, model);
+  const auto there = make_sor_space_stepper(settings, ode::make_narrow_phase, model);
   const std::vector<int> own = {0}, all = {0, 1, 2};
   for (const auto* world : {&here, &there}) (*world)->own(own, model::initial_state(*model), 0);
   std::vector<model::Contact> contacts;
@@ -172,7 +174,7 @@ TEST(SorSpaceStepper, takes_in_bodies_that_moved_elsewhere) {
     }
     other.put_states(bodies, rows);
   }
-  const auto whole = make_stepper({}, {*model});
+  const auto whole = make_stepper(settings, {*model});
   advance(*whole, 40);
   EXPECT_EQ(model::hash(here->state()), model::hash(whole->state(0)));
   EXPECT_EQ(model::hash(there->state()), model::hash(whole->state(0)));

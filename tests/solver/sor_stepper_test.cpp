@@ -5,14 +5,14 @@
 #include "core/error.h"
 #include "ode/ode_stepper.h"
 #include "solver/sor_run.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
 namespace {
 
 stepping::StepperSettings sor_settings() {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   return settings;
 }
 
@@ -71,7 +71,7 @@ TEST(SorStepper, from_a_common_state_it_differs_from_quickstep_no_more_than_anot
   const auto path = quick(settings, {model});
   settings.iterations = 3000;
   settings.kind = stepping::StepperKind::quick;
-  settings.colliders = stepping::Colliders::ode;  // the same contacts on both sides
+  settings.law.colliders = stepping::Colliders::ode;  // the same contacts on both sides
   int steps_with_impact = 0;
   for (int step = 0; step < 24; ++step) {
     const model::State start = path->state(0);
@@ -124,8 +124,8 @@ TEST(SorStepper, settings_that_make_no_sense_are_refused) {
            [](stepping::StepperSettings& s) { s.dt_s = 0; },
            [](stepping::StepperSettings& s) { s.iterations = 0; },
            [](stepping::StepperSettings& s) { s.substeps = 0; },
-           [](stepping::StepperSettings& s) { s.warm_start = 1.1; },
-           [](stepping::StepperSettings& s) { s.warm_start = -0.1; }}) {
+           [](stepping::StepperSettings& s) { s.law.warm_start = 1.1; },
+           [](stepping::StepperSettings& s) { s.law.warm_start = -0.1; }}) {
     stepping::StepperSettings settings = sor_settings();
     spoil(settings);
     EXPECT_THROW(make_stepper(settings), core::InputError);

@@ -8,6 +8,7 @@
 #include "model/names.h"
 #include "solver/sor_run.h"
 #include "stepping/names.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -17,8 +18,7 @@ using model::JointKind;
 using model::Vec3;
 
 stepping::StepperSettings settings_of(int substeps, int iterations) {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   settings.substeps = substeps;
   settings.iterations = iterations;
   return settings;

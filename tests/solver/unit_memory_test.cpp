@@ -9,6 +9,7 @@
 #include "model/state.h"
 #include "ode/collide/narrow_phase.h"
 #include "solver/spaces/sor_space_stepper.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::solver {
@@ -135,8 +136,8 @@ TEST(SorSpaceStepper, takes_in_what_is_remembered_of_units_only_if_it_remembers)
   model::State state = model::initial_state(*model);
   state.memory = memory_of(10);
   for (const double warm_start : {0.0, 0.5}) {
-    stepping::StepperSettings settings;
-    settings.warm_start = warm_start;
+    stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
+    settings.law.warm_start = warm_start;
     const auto here = make_sor_space_stepper(settings, ode::make_narrow_phase, model);
     const auto there = make_sor_space_stepper(settings, ode::make_narrow_phase, model);
     const std::vector<int> spaces = {0}, units = {0, 1, 2};

@@ -11,11 +11,10 @@ namespace pbmpi::solver {
 namespace {
 
 stepping::StepperSettings settings_of(int substeps, int iterations, double warm_start) {
-  stepping::StepperSettings settings;
-  settings.kind = stepping::StepperKind::sor;
+  stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   settings.substeps = substeps;
   settings.iterations = iterations;
-  settings.warm_start = warm_start;
+  settings.law.warm_start = warm_start;
   return settings;
 }
 
@@ -48,7 +47,7 @@ TEST(WarmStart, gives_the_same_bits_for_every_width_and_for_a_world_alone) {
       EXPECT_EQ(hashes_after(settings, worlds(), 24), expected) << static_cast<int>(simd);
       EXPECT_EQ(hashes_after(settings, {worlds()[3]}, 24).front(), expected[3]) << static_cast<int>(simd);
     }
-    settings.warm_start = 0;
+    settings.law.warm_start = 0;
     EXPECT_NE(hashes_after(settings, worlds(), 24), expected);
   }
 }
@@ -184,7 +183,7 @@ TEST(Substeps, hold_a_pose_as_small_steps_do) {
 TEST(RowOrder, fixed_and_shuffled_orders_agree_once_converged) {
   stepping::StepperSettings settings = settings_of(1, 4000, 0);
   const auto shuffled = make_stepper(settings, {support::chain(6)});
-  settings.row_order = stepping::RowOrder::fixed;
+  settings.law.row_order = stepping::RowOrder::fixed;
   const auto fixed = make_stepper(settings, {support::chain(6)});
   advance(*shuffled, 1);
   advance(*fixed, 1);

@@ -8,6 +8,7 @@
 #include "model/mechanics.h"
 #include "ode/collide/narrow_phase.h"
 #include "solver/worlds/sor_stepper.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::stability {
@@ -32,7 +33,7 @@ using Change = std::function<void(std::int64_t step, State& state)>;
 
 /// The energy that a world gains over some steps, checked every `steps_a_frame` steps.
 double gain_of(const Model& model, int num_steps, int steps_a_frame = 1, const Change& change = {}) {
-  const stepping::StepperSettings settings;
+  const stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   const auto stepper = solver::make_sor_stepper(settings, ode::make_narrow_phase);
   State before = initial_state(model);
   stepper->add(0, std::make_shared<const Model>(model), before, 0);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "guarded_run.h"
+#include "stepping/stepper_traits.h"
 #include "support/hard_models.h"
 #include "support/models.h"
 
@@ -19,11 +20,7 @@ using stepping::RunEvent;
 using stepping::StepperKind;
 using stepping::StepperSettings;
 
-StepperSettings of_kind(StepperKind kind) {
-  StepperSettings settings;
-  settings.kind = kind;
-  return settings;
-}
+StepperSettings of_kind(StepperKind kind) { return default_settings(kind, stepping::Law::ode); }
 
 StepperSettings few_iterations() {
   StepperSettings settings = of_kind(StepperKind::sor);

@@ -126,7 +126,7 @@ Impact random_impact(std::uint64_t seed) {
 
   impact.settings = stepping::default_settings(stepping::StepperKind::sor);
   impact.settings.dt_s = steps_s[draw.below(4)];
-  if (draw.chance(0.3)) impact.settings.friction = stepping::Friction::cone;
+  if (draw.chance(0.3)) impact.settings.law.friction = stepping::Friction::cone;
   return impact;
 }
 
@@ -139,7 +139,7 @@ std::string text_of(const Impact& impact) {
                 shape(0).c_str(), impact.across_speed, impact.along_speed,
                 impact.model.num_bodies() > 1 ? "free " : "", shape(1).c_str(), impact.mu, impact.restitution,
                 impact.settings.dt_s,
-                impact.settings.friction == stepping::Friction::cone ? "cone" : "patch");
+                impact.settings.law.friction == stepping::Friction::cone ? "cone" : "patch");
   return text;
 }
 

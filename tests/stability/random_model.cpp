@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "model/joint_traits.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::stability {
@@ -187,15 +188,14 @@ std::string random_scene(std::uint64_t seed) {
 
 stepping::StepperSettings random_settings(std::uint64_t seed, stepping::StepperKind kind) {
   Draw draw(~seed);
-  stepping::StepperSettings settings;
-  settings.kind = kind;
+  stepping::StepperSettings settings = default_settings(kind, stepping::Law::ode);
   settings.dt_s = draw.chance(0.5) ? 0.01 : draw.scale(1e-3, 0.05);
   settings.iterations = 1 + draw.below(30);
   settings.seed = seed;
   if (kind != stepping::StepperKind::sor) return settings;
   settings.substeps = draw.chance(0.5) ? 1 : 1 + draw.below(8);
   settings.precision = draw.chance(0.5) ? stepping::Precision::single : stepping::Precision::double_;
-  if (settings.substeps > 1 && draw.chance(0.5)) settings.warm_start = draw.between(0, 1);
+  if (settings.substeps > 1 && draw.chance(0.5)) settings.law.warm_start = draw.between(0, 1);
   return settings;
 }
 

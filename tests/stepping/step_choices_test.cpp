@@ -40,11 +40,24 @@ TEST(StepChoices, win_over_what_is_proposed) {
   EXPECT_EQ(settings.seed, 9u);
 }
 
-TEST(StepChoices, take_cones_of_friction_for_newton_unless_another_is_chosen) {
-  EXPECT_EQ(choose_step({}, "").settings.friction, Friction::patch);
-  EXPECT_EQ(choose_step({{"finish", "newton"}}, "").settings.friction, Friction::cone);
-  EXPECT_EQ(choose_step({{"finish", "newton"}, {"friction", "pyramid"}}, "").settings.friction,
-            Friction::pyramid);
+TEST(StepChoices, of_a_law_bring_its_substeps_and_iterations_unless_others_are_chosen) {
+  const auto chosen = [](const std::map<std::string, std::string>& texts) {
+    return settle_step(choose_step(texts, ""), {.iterations = 33}, "");
+  };
+  const StepperSettings ode = chosen({{"law", "ode"}});
+  EXPECT_EQ(ode.law, ode_law());
+  EXPECT_EQ(ode.substeps, 1);
+  EXPECT_EQ(ode.iterations, 33) << "those of the scene, as with quick";
+  EXPECT_EQ(chosen({{"law", "ode"}, {"iterations", "80"}, {"substeps", "2"}}).iterations, 80);
+  EXPECT_EQ(chosen({{"law", "ode"}, {"iterations", "80"}, {"substeps", "2"}}).substeps, 2);
+  EXPECT_EQ(chosen({{"law", "soft"}}).substeps, 14);
+  EXPECT_EQ(chosen({{"stepper", "quick"}}).law, ode_law());
+}
+
+TEST(StepChoices, newton_finishes_the_law_of_ode_alone) {
+  EXPECT_EQ(refusal({{"finish", "newton"}, {"law", "ode"}}), "");
+  EXPECT_EQ(refusal({{"finish", "newton"}}, "--"),
+            "--finish newton: it solves the rigid rows of --law ode; give that law, too");
 }
 
 TEST(StepChoices, that_cannot_be_are_refused_by_name) {

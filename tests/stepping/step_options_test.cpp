@@ -26,40 +26,26 @@ TEST(StepOptions, every_name_stands_once) {
 }
 
 TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
-  StepperSettings settings;
-  settings.kind = StepperKind::direct;
+  StepperSettings settings = default_settings(StepperKind::direct);
   settings.dt_s = 0.1 + 0.2;  // 0.30000000000000004
+  settings.law = SorLaw{};
   settings.iterations = 7;
   settings.substeps = 3;
   settings.tolerance_m = 1.0 / 17;
-  settings.most_substeps = 48;
-  settings.sor_factor = 1.0 / 3;
-  settings.warm_start = 0.3;
-  settings.relax = 2;
-  settings.contact_frequency = 1.0 / 7;
-  settings.contact_damping = 1.0 / 9;
-  settings.contact_margin = 1.0 / 15;
-  settings.joint_frequency = 1.0 / 11;
-  settings.joint_damping = 1.0 / 13;
-  settings.joint_solver = JointSolver::tree;
   settings.constraint_solver = ConstraintSolver::pgs;
-  settings.friction = Friction::cone;
   settings.finish = Finish::newton;
-  settings.row_order = RowOrder::fixed;
   settings.precision = Precision::single;
   settings.simd = Simd::avx2;
-  settings.colliders = Colliders::ode;
   settings.threads = 3;
   settings.seed = 18446744073709551615u;
-  StepperSettings again;
+  StepperSettings again = default_settings(StepperKind::quick);
   for (const StepOption& option : step_options()) {
     EXPECT_EQ(is_default(option, settings), option.name == "stepper") << option.name;
     set(option, text_of(option, settings), "", again);
     EXPECT_EQ(text_of(option, again), text_of(option, settings));
   }
   EXPECT_EQ(again.dt_s, settings.dt_s);
-  EXPECT_EQ(again.sor_factor, settings.sor_factor);
-  EXPECT_EQ(again.joint_frequency, settings.joint_frequency);
+  EXPECT_EQ(again.law, settings.law);
   EXPECT_EQ(again.seed, settings.seed);
 }
 
@@ -71,23 +57,29 @@ TEST(StepOptions, shown_defaults_are_values) {
   }
 }
 
-TEST(StepOptions, of_sor_have_a_memory_by_default_and_a_text_names_what_differs) {
-  StepperSettings sor = default_settings(StepperKind::sor);
-  EXPECT_GT(sor.warm_start, 0);
-  EXPECT_EQ(setting_text(sor), "sor double, 14 x 1");
-  sor.contact_frequency = 60;
-  sor.substeps = 4;
-  EXPECT_EQ(setting_text(sor), "sor double, 4 x 1, contacts 60 Hz");
-  StepperSettings cold;
-  cold.kind = StepperKind::sor;
-  EXPECT_EQ(
-      setting_text(cold),
-      "sor double, 1 x 20, factor 1.3, warm 0, relax 0, contacts 0 Hz, margin 0, joints 0 Hz, joints by "
-      "sweeps, pyramid");
-  for (const StepperKind kind : {StepperKind::quick, StepperKind::direct}) {
-    for (const StepOption& option : step_options())
-      EXPECT_EQ(text_of(option, default_settings(kind)), text_of(option, {.kind = kind})) << option.name;
+TEST(StepOptions, are_by_default_those_of_sor_with_its_soft_law_and_a_text_names_what_differs) {
+  StepperSettings settings;
+  for (const StepOption& option : step_options()) {
+    EXPECT_TRUE(is_default(option, settings)) << option.name;
+    EXPECT_EQ(text_of(option, settings), text_of(option, default_settings(StepperKind::sor))) << option.name;
   }
+  EXPECT_EQ(setting_text(settings), "sor double, 14 x 1");
+  settings.tolerance_m = 0.001;
+  settings.substeps = 4;
+  EXPECT_EQ(setting_text(settings), "sor double, 4 x 1, tolerance 0.001 m");
+  EXPECT_EQ(setting_text(default_settings(StepperKind::sor, Law::ode)), "sor double, 1 x 20, law ode");
+  EXPECT_EQ(setting_text(default_settings(StepperKind::quick)), "quick, 1 x 20");
+}
+
+TEST(StepOptions, a_law_is_set_and_restored_by_its_name) {
+  StepperSettings settings;
+  set(step_option("law"), "ode", "--law", settings);
+  EXPECT_EQ(settings.law, ode_law());
+  EXPECT_FALSE(is_default(step_option("law"), settings));
+  EXPECT_EQ(std::get<std::string>(value_of(step_option("law"), settings)), "ode");
+  restore(step_option("law"), "soft", settings);
+  EXPECT_EQ(settings.law, SorLaw{});
+  EXPECT_EQ(refusal("law", "hard"), "--law hard: it must be one of soft, ode");
 }
 
 TEST(StepOptions, impossible_values_are_refused_by_name) {
@@ -96,10 +88,6 @@ TEST(StepOptions, impossible_values_are_refused_by_name) {
   EXPECT_EQ(refusal("substeps", ""), "--substeps : it must be a whole number");
   EXPECT_EQ(refusal("dt", "nan"), "--dt nan: a step must be finite and above 0 s");
   EXPECT_EQ(refusal("dt", "1e-2x"), "--dt 1e-2x: it must be a number");
-  EXPECT_EQ(refusal("warm-start", "nan"),
-            "--warm-start nan: the share of the impulses to take over is 0 to 1");
-  EXPECT_EQ(refusal("contact-frequency", "-1"), "--contact-frequency -1: a frequency is 0 or more, or inf");
-  EXPECT_EQ(refusal("joint-frequency", "nan"), "--joint-frequency nan: a frequency is 0 or more, or inf");
   EXPECT_EQ(refusal("tolerance", "1km"), "--tolerance 1km: it must be a number");
   EXPECT_EQ(refusal("tolerance", "-1"), "--tolerance -1: a tolerance is a length, e.g. 0.1mm, or 0");
   EXPECT_EQ(refusal("precision", "half"), "--precision half: it must be one of double, single");
@@ -114,22 +102,8 @@ TEST(StepOptions, a_length_may_have_a_unit) {
   }
 }
 
-TEST(StepOptions, a_frequency_may_be_infinite_as_it_is_by_default) {
-  StepperSettings settings = default_settings(StepperKind::sor);
-  for (const char* name : {"contact-frequency", "joint-frequency"}) {
-    EXPECT_EQ(text_of(step_option(name), settings), "inf");
-    set(step_option(name), "30", "", settings);
-    EXPECT_FALSE(is_default(step_option(name), settings));
-    set(step_option(name), "inf", "", settings);
-    EXPECT_TRUE(is_default(step_option(name), settings));
-  }
-}
-
 TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
-  for (const char* name :
-       {"substeps", "tolerance", "most-substeps", "sor-factor", "warm-start", "relax", "contact-frequency",
-        "contact-damping", "contact-margin", "joint-frequency", "joint-damping", "joint-solver", "friction",
-        "finish", "row-order", "precision", "simd", "colliders"}) {
+  for (const char* name : {"law", "substeps", "tolerance", "finish", "precision", "simd", "threads"}) {
     EXPECT_TRUE(fits(step_option(name), StepperKind::sor));
     EXPECT_FALSE(fits(step_option(name), StepperKind::quick));
     EXPECT_FALSE(fits(step_option(name), StepperKind::direct));
@@ -152,20 +126,19 @@ TEST(StepOptions, the_constraint_solver_fits_mujoco_alone_and_stands_in_a_settin
 }
 
 TEST(StepOptions, files_write_names_with_underscores) {
-  EXPECT_EQ(file_name(step_option("warm-start")), "warm_start");
-  EXPECT_EQ(std::get<std::int64_t>(value_of(step_option("iterations"), {})), 20);
-  EXPECT_EQ(std::get<double>(value_of(step_option("sor-factor"), {})), 1.3);
-  EXPECT_EQ(std::get<std::string>(value_of(step_option("row-order"), {})), "shuffled");
+  EXPECT_EQ(file_name(step_option("solver-seed")), "solver_seed");
+  EXPECT_EQ(std::get<std::int64_t>(value_of(step_option("iterations"), {})), 1);
+  EXPECT_EQ(std::get<double>(value_of(step_option("dt"), {})), 0.01);
+  EXPECT_EQ(std::get<std::string>(value_of(step_option("law"), {})), "soft");
 }
 
 TEST(StepperTraits, follow_the_order_of_the_kinds) {
   EXPECT_TRUE(traits_of(StepperKind::sor).is_anytime);
   EXPECT_TRUE(traits_of(StepperKind::quick).iterates);
   EXPECT_FALSE(traits_of(StepperKind::direct).iterates);
-  StepperSettings sor;
-  sor.kind = StepperKind::sor;
+  StepperSettings sor = default_settings(StepperKind::sor, Law::ode);
   EXPECT_EQ(stepper_text(sor), "sor double");
-  EXPECT_EQ(stepper_text({}), "quick");
+  EXPECT_EQ(stepper_text(default_settings(StepperKind::quick)), "quick");
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ StepperSettings default_estimate(const StepperSettings& precise) {
   constexpr int substeps_in_one = 6;
   StepperSettings estimate = precise;
   estimate.iterations = 1;
-  for (int* substeps : {&estimate.substeps, &estimate.most_substeps})
+  for (int* substeps : {&estimate.substeps, &estimate.law.most_substeps})
     *substeps = std::max(1, *substeps / substeps_in_one);
   estimate.residuals = false;
   estimate.contacts = false;

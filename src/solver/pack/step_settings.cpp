@@ -17,14 +17,12 @@ void require_valid(const stepping::StepperSettings& settings) {
   core::require_input(settings.threads >= 1, "the worlds are stepped by at least 1 thread");
   core::require_input(settings.substeps >= 1, "a step has at least 1 substep");
   core::require_input(settings.tolerance_m >= 0, "the tolerance of a step is a length, or 0 for none");
-  core::require_input(settings.warm_start >= 0 && settings.warm_start <= 1,
+  core::require_input(settings.law.warm_start >= 0 && settings.law.warm_start <= 1,
                       "warm start: the share of the impulses to take over is 0 to 1");
-  const bool is_rigid =
-      settings.relax == 0 && settings.contact_frequency == 0 && settings.joint_frequency == 0;
-  const bool is_cone = settings.friction == stepping::Friction::cone;
-  core::require_input(settings.finish == stepping::Finish::none || (is_rigid && is_cone),
-                      "--finish newton solves rigid rows with friction in cones: it needs --relax 0, "
-                      "--contact-frequency 0, --joint-frequency 0 and --friction cone");
+  const stepping::SorLaw& law = settings.law;
+  const bool is_rigid = law.relax == 0 && law.contact_frequency == 0 && law.joint_frequency == 0;
+  core::require_input(settings.finish == stepping::Finish::none || is_rigid,
+                      "--finish newton solves rigid rows: it needs --law ode");
   core::require_input(has_simd(settings.simd),
                       "this machine lacks the instruction set asked for with --simd; use auto");
 }
@@ -38,19 +36,19 @@ void start_memory(bool remembers, const model::Model& model, model::StepMemory& 
 }
 
 double contact_margin_m(const stepping::StepperSettings& settings, const model::Model& model) {
-  return settings.contact_margin * model.gravity.norm() * settings.dt_s * settings.dt_s;
+  return settings.law.contact_margin * model.gravity.norm() * settings.dt_s * settings.dt_s;
 }
 
 Spring contact_spring(const stepping::StepperSettings& settings) {
-  return {settings.contact_frequency, settings.contact_damping, most_contact_periods};
+  return {settings.law.contact_frequency, settings.law.contact_damping, most_contact_periods};
 }
 
 Spring joint_place_spring(const stepping::StepperSettings& settings) {
-  return {settings.joint_frequency, settings.joint_damping, most_place_periods};
+  return {settings.law.joint_frequency, settings.law.joint_damping, most_place_periods};
 }
 
 Spring joint_turn_spring(const stepping::StepperSettings& settings) {
-  return {settings.joint_frequency, settings.joint_damping, most_turn_periods};
+  return {settings.law.joint_frequency, settings.law.joint_damping, most_turn_periods};
 }
 
 StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step) {
@@ -58,18 +56,18 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   parameters.dt_s = settings.dt_s;
   parameters.substeps = parameters.all_substeps = settings.substeps;
   parameters.iterations = settings.iterations;
-  parameters.sor_factor = settings.sor_factor;
-  parameters.warm_start = settings.warm_start;
-  parameters.relax = settings.relax;
+  parameters.sor_factor = settings.law.sor_factor;
+  parameters.warm_start = settings.law.warm_start;
+  parameters.relax = settings.law.relax;
   parameters.contacts = contact_spring(settings);
   parameters.joint_places = joint_place_spring(settings);
   parameters.joint_turns = joint_turn_spring(settings);
-  parameters.joint_solver = settings.joint_solver;
+  parameters.joint_solver = settings.law.joint_solver;
   parameters.newton = settings.finish == stepping::Finish::newton;
-  parameters.friction = settings.friction;
+  parameters.friction = parameters.newton ? stepping::Friction::cone : settings.law.friction;
   parameters.residuals = settings.residuals;
   parameters.show_forces = settings.contacts;
-  parameters.shuffled = settings.row_order == stepping::RowOrder::shuffled;
+  parameters.shuffled = settings.law.row_order == stepping::RowOrder::shuffled;
   parameters.order_key = core::mix_key(settings.seed, static_cast<std::uint64_t>(step), 0);
   return parameters;
 }

@@ -9,12 +9,12 @@
 
 namespace pbmpi::solver {
 
-/// Throws core::InputError for dt <= 0, iterations or substeps < 1, a warm start outside 0 to 1, or an
-/// instruction set that this machine lacks.
+/// Throws core::InputError for dt <= 0, iterations or substeps < 1, a warm start outside 0 to 1, Newton's
+/// method over rows that are not rigid, or an instruction set that this machine lacks.
 void require_valid(const stepping::StepperSettings& settings);
 
 /// Do the steps of a run start from the forces that the last one ended with?
-inline bool remembers(const stepping::StepperSettings& settings) { return settings.warm_start > 0; }
+inline bool remembers(const stepping::StepperSettings& settings) { return settings.law.warm_start > 0; }
 
 /// Do quiet islands get fewer substeps than others (quiet_islands.h)?
 inline bool spares_substeps(const stepping::StepperSettings& settings) {
@@ -24,7 +24,7 @@ inline bool spares_substeps(const stepping::StepperSettings& settings) {
 /// May islands get more substeps than others (tall_islands.h)? Only with a warm start are stiffer springs of
 /// use.
 inline bool adds_substeps(const stepping::StepperSettings& settings) {
-  return settings.most_substeps > settings.substeps && remembers(settings);
+  return settings.law.most_substeps > settings.substeps && remembers(settings);
 }
 
 /// Completes the memory of a state with which a world starts for the steps of a run: zero forces where none

@@ -44,9 +44,9 @@ double TallIslands::sink_m(int levels, double substeps) const {
 
 int TallIslands::substeps_for(int levels, double size_m) const {
   double substeps = settings_.substeps;
-  while (substeps < settings_.most_substeps && sink_m(levels, substeps) > most_sink * size_m)
+  while (substeps < settings_.law.most_substeps && sink_m(levels, substeps) > most_sink * size_m)
     substeps *= more_substeps;
-  return std::min(static_cast<int>(substeps), settings_.most_substeps);
+  return std::min(static_cast<int>(substeps), settings_.law.most_substeps);
 }
 
 /// Passes levels from each unit to those that it touches, forth and back over the contacts until nothing

@@ -134,7 +134,7 @@ SorSpaceStepper::SorSpaceStepper(const stepping::StepperSettings& settings,
 std::vector<PackedWorld> SorSpaceStepper::packed_own_first() const {
   std::vector<PackedWorld> packed = {pack_own_first(*model_, map_, articulations_, is_own_)};
   packed[0].fallback = narrow_phase_.get();
-  packed[0].lanes_collide = settings_.colliders == stepping::Colliders::lanes;
+  packed[0].lanes_collide = settings_.law.colliders == stepping::Colliders::lanes;
   packed[0].in_parts = shares_.has_value();
   packed[0].contact_margin_m = contact_margin_m(settings_, *model_);
   return packed;

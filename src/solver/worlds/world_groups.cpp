@@ -45,7 +45,7 @@ void WorldGroups::dissolve() {
 
 /// Worlds whose rows keep their order may be at different steps.
 void WorldGroups::part_steps() {
-  if (!std::exchange(steps_changed_, false) || settings_->row_order == stepping::RowOrder::fixed) return;
+  if (!std::exchange(steps_changed_, false) || settings_->law.row_order == stepping::RowOrder::fixed) return;
   std::vector<const WorldGroup*> parted;
   for (const auto& group : groups_) {
     if (!group->stands_at_one_step()) parted.push_back(group.get());
@@ -60,7 +60,7 @@ void WorldGroups::complete() {
   std::int64_t bodies_of_all = 0;
   for (auto& [id, member] : members_) {
     SorWorld& world = *member.world;
-    const bool any_step = settings_->row_order == stepping::RowOrder::fixed;
+    const bool any_step = settings_->law.row_order == stepping::RowOrder::fixed;
     std::vector<Kind>& alike = kinds[any_step ? 0 : world.step()];
     auto kind = std::ranges::find_if(alike, [&](const Kind& one) { return *one.laws == world.laws(); });
     if (kind == alike.end()) kind = alike.insert(alike.end(), {&world.laws(), {}, {}, 0, 0});

@@ -119,7 +119,7 @@ class Engines(ProgramTest):
 
     def test_options_of_others_and_cut_worlds_are_refused(self):
         for engine in self.each():
-            for options, word in ((["--substeps", 4], "--substeps"), (["--warm-start", 0.5], "--warm-start"), (["--threads", 2], "--threads"),
+            for options, word in ((["--substeps", 4], "--substeps"), (["--law", "soft"], "--law"), (["--threads", 2], "--threads"),
                                   (["--precision", "single"], "--precision"), (["--decompose", "spaces"], "--decompose"),
                                   (["--record-residuals"], "--record-residuals"), (["--record-islands"], "--record-islands")):
                 result = self.pbmpi(2, "--scene", "Fight", "--stepper", engine, *options)

@@ -21,7 +21,7 @@ CORPUS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "mutants")
 NASTY = [b"0", b"-1", b"1e300", b"-1e-300", b"nan", b"inf", b"-inf", b"2147483647", b"-2147483648", b"9007199254740993",
          b"9223372036854775807", b"18446744073709551616", b"1e9999", b"0x7fffffff", b'""', b'"\xc3\xa9"', b'"\\u0000"', b"true",
          b"[]", b"[0]", b"[[0, 1], [0, 2]]", b"{}", b"1979-05-27", b"'x'", b"", b"1_000", b"0.1.2", b"-0.0", b"1e-9", b"100000"]
-CONFIG = (b"frames = 4\nwarmup = 1\niterations = 3\nsubsteps = 2\nwarm-start = 0.5\nstepper = sor\nseed = 7\nbudget = 3ms\n"
+CONFIG = (b"frames = 4\nwarmup = 1\niterations = 3\nsubsteps = 2\nlaw = soft\nstepper = sor\nseed = 7\nbudget = 3ms\n"
           b"decompose = worlds\neffects = +drag\nprecision = single\nsteps-per-frame = 2\ndt = 0.005\nrecord-every = 2\n")
 BAD_ENDS = re.compile("MPI_ABORT|bad_alloc|what\\(\\)|std::|Segmentation|runtime error|AddressSanitizer")
 

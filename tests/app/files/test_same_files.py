@@ -19,7 +19,7 @@ WAYS = {
     "spaces": ((*CUT, "--replicas", 1, "--frames", 20), None),
     "spaces in single precision": ((*CUT, "--precision", "single", "--replicas", 1, "--frames", 20), "Battle2"),
     "spaces that sleep, with a field of interest": (
-        (*CUT, "--warm-start", 0, "--replicas", 1, "--frames", 40, "--effects", "+sleeping,+field_of_interest,+drag"), "Environ"),
+        (*CUT, "--law", "ode", "--replicas", 1, "--frames", 40, "--effects", "+sleeping,+field_of_interest,+drag"), "Environ"),
     "worlds, estimated": ((*SOR, "--replicas", 5, "--decompose", "worlds", "--feec", "--record-every", 3), "Fight"),
     "worlds that are refined": ((*SOR, *COARSE, "--replicas", 7, "--decompose", "worlds", "--on-blowup", "refine"), "CrashSk"),
     "worlds that are frozen": ((*SOR, *COARSE, "--replicas", 3, "--decompose", "worlds", "--on-blowup", "freeze"), "CrashWa"),

@@ -11,20 +11,18 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import AT_ONCE, COLD, EFFECT_SCENES, SCENES, ProgramTest  # noqa: E402
+from harness import AT_ONCE, ODE_LAW, EFFECT_SCENES, SCENES, ProgramTest  # noqa: E402
 
 SOR = {
     "default": (),
     "single": ("--precision", "single"),
     "seed 2": ("--seed", 2),
     "solver seed 3, single": ("--solver-seed", 3, "--precision", "single"),
-    "cold": COLD,
-    "4 x 2, pyramid": ("--substeps", 4, "--iterations", 2, "--friction", "pyramid"),
-    "patch": ("--friction", "patch"),
-    "tree": ("--joint-solver", "tree"),
-    "joints one by one, no margin": ("--joint-solver", "sweeps", "--contact-margin", 0),
+    "law ode": ODE_LAW,
+    "law ode, 4 x 2, single": (*ODE_LAW, "--substeps", 4, "--iterations", 2, "--precision", "single"),
+    "4 x 2": ("--substeps", 4, "--iterations", 2),
+    "newton": (*ODE_LAW, "--finish", "newton", "--iterations", 2),
     "half the step": ("--dt", 0.005),
-    "ODE's colliders": ("--colliders", "ode"),
     "sleeping": ("--effects", "+sleeping,+drag"),
     "tolerance": ("--tolerance", "0.1mm"),
     "field of interest": ("--effects", "+field_of_interest,+restitution"),
@@ -86,7 +84,7 @@ class ManyHashes(ProgramTest):
     @unittest.skipIf(RANKS, "instruction sets are not asked for")
     def test_instruction_sets_leave_every_hash(self):
         for scene in SCENES:
-            for name in ("default", "single", "cold"):
+            for name in ("default", "single", "law ode"):
                 with self.subTest(scene=scene, setting=name):
                     args = ("--scene", scene, *SOR[name])
                     cuts = ("worlds",) if scene == "100CrSk" else ("worlds", "spaces")

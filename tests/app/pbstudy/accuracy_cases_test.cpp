@@ -39,27 +39,32 @@ std::string refusal(const std::vector<std::string>& args) {
 }
 
 TEST(AccuracyCases, all_settings_are_crossed_and_odes_steppers_have_fewer) {
-  const auto cases =
-      cases_of(options_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20", "--substeps",
-                           "1", "2", "--sor-factor", "1", "1.3", "--precision", "single"}));
-  // quick: 2 iterations; direct: one; sor: 2 iterations x 2 substeps x 2 factors; each with the scene's step
-  // and half of it
-  EXPECT_EQ(count(cases, CaseKind::setting), 2 * (2 + 1 + 8));
+  const auto cases = cases_of(options_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20",
+                                          "--substeps", "1", "2", "--precision", "single"}));
+  // quick: 2 iterations; direct: one; sor: 2 iterations x 2 substeps with ODE's law, 2 substeps with the soft
+  // one; each with the scene's step and half of it
+  EXPECT_EQ(count(cases, CaseKind::setting), 2 * (2 + 1 + 4 + 2));
 }
 
-TEST(AccuracyCases, warm_start_and_row_order_are_crossed_where_there_are_any) {
-  const auto cases = cases_of(
-      options_of({"--iterations", "3", "--substeps", "1", "5", "--precision", "double", "--warm-start", "0",
-                  "0.5", "0.9", "--row-order", "shuffled", "fixed", "--dt", "0.01"}));
-  EXPECT_EQ(count(cases, CaseKind::setting), 1 + 2 * 3 * 2) << "quick; sor";
-  EXPECT_NE(refusal({"--warm-start", "2"}).find("0 to 1"), std::string::npos);
+TEST(AccuracyCases, one_law_may_be_studied_alone) {
+  const auto cases_with = [](const char* law) {
+    return cases_of(options_of({"--stepper", "sor", "--law", law, "--iterations", "3", "--substeps", "1", "5",
+                                "--precision", "double", "--dt", "0.01"}));
+  };
+  for (const AccuracyCase& one : cases_with("ode")) EXPECT_EQ(one.stepper.law, stepping::ode_law());
+  EXPECT_EQ(count(cases_with("ode"), CaseKind::setting), 2);
+  for (const AccuracyCase& one : cases_with("soft")) {
+    const bool is_reference = is_yardstick(one.kind);
+    EXPECT_EQ(one.stepper.law.name, is_reference ? stepping::Law::ode : stepping::Law::soft);
+  }
+  EXPECT_NE(refusal({"--law", "hard"}).find("soft, ode"), std::string::npos);
 }
 
-TEST(AccuracyCases, beside_all_others_sor_is_measured_as_it_is_meant_to_be_used) {
+TEST(AccuracyCases, the_soft_law_is_measured_as_it_is_meant_to_be_used) {
   const auto cases = cases_of(options_of({"--substeps", "2", "4", "--iterations", "9", "--dt", "0.005"}));
   std::set<std::pair<int, stepping::Precision>> found;
   for (const AccuracyCase& one : cases) {
-    if (one.kind != CaseKind::setting || one.stepper.relax == 0) continue;
+    if (one.kind != CaseKind::setting || one.stepper.law.relax == 0) continue;
     EXPECT_EQ(one.stepper.dt_s, 0.005);
     for (const stepping::StepOption& option : stepping::step_options()) {
       const bool is_varied = std::set<std::string_view>{"dt", "substeps", "precision"}.contains(option.name);
@@ -70,12 +75,12 @@ TEST(AccuracyCases, beside_all_others_sor_is_measured_as_it_is_meant_to_be_used)
   EXPECT_EQ(found.size(), 4u);
 }
 
-TEST(AccuracyCases, tolerances_are_those_of_sor_with_a_memory_where_it_has_substeps_to_spare) {
+TEST(AccuracyCases, tolerances_are_those_of_the_soft_law_where_it_has_substeps_to_spare) {
   const auto cases = cases_of(options_of({"--substeps", "1", "8", "--precision", "double", "--dt", "0.01",
                                           "--tolerance", "0", "0.01mm", "1mm"}));
   std::multiset<std::pair<int, double>> found;
   for (const AccuracyCase& one : cases) {
-    if (one.stepper.relax == 0) {
+    if (one.stepper.law.relax == 0) {
       EXPECT_EQ(one.stepper.tolerance_m, 0);
     } else if (one.kind == CaseKind::setting) {
       found.insert({one.stepper.substeps, one.stepper.tolerance_m});
@@ -90,9 +95,9 @@ TEST(AccuracyCases, frames_are_estimated_after_each_number_of_their_steps) {
   std::map<std::tuple<stepping::StepperKind, int, int>, const AccuracyCase*> found;
   for (const AccuracyCase& one : cases) {
     EXPECT_EQ(one.estimate.has_value(), one.kind == CaseKind::estimate);
-    if (one.estimate) found[{one.stepper.kind, one.stepper.relax, one.estimate->after}] = &one;
+    if (one.estimate) found[{one.stepper.kind, one.stepper.law.relax, one.estimate->after}] = &one;
   }
-  EXPECT_EQ(found.size(), 3u * 3u) << "quick, sor cold and with a memory; after none, one and two steps";
+  EXPECT_EQ(found.size(), 3u * 3u) << "quick, sor with both laws; after none, one and two steps";
   const AccuracyCase& look = *found.at({stepping::StepperKind::sor, 0, 2});
   EXPECT_EQ(look.estimate->source, EstimateSource::same_solve) << "one step of one substep is left";
   EXPECT_EQ(look.sweeps_a_frame(), 2 * 20 + 2);
@@ -162,7 +167,6 @@ TEST(AccuracyCases, bad_values_are_named) {
   EXPECT_NE(refusal({"--substeps", "-1"}).find("--substeps"), std::string::npos);
   EXPECT_NE(refusal({"--stepper", "fast"}).find("quick, direct, sor"), std::string::npos);
   EXPECT_NE(refusal({"--precision", "half"}).find("double, single"), std::string::npos);
-  EXPECT_NE(refusal({"--sor-factor", "2"}).find("below 2"), std::string::npos);
   EXPECT_NE(refusal({"--dt", "nan"}).find("--dt"), std::string::npos);
   EXPECT_NE(refusal({"--tolerance", "1km"}).find("--tolerance 1km"), std::string::npos);
   EXPECT_NE(refusal({"--repeats", "0"}).find("--repeats"), std::string::npos);
@@ -209,7 +213,7 @@ TEST(CaseRunner, repeats_change_times_only) {
   const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
   const SolvedReference reference = solve_reference(scene, reference_solve(scene, options));
   const RestRunner no_rest(scene, reference_settings(scene, options), 0);
-  AccuracyCase one{0, CaseKind::setting, {}, 3};
+  AccuracyCase one{0, CaseKind::setting, default_settings(stepping::StepperKind::quick), 3};
   one.stepper.iterations = 5;
   const CaseResult once = run_case(one, scene, reference, no_rest, 1);
   const CaseResult thrice = run_case(one, scene, reference, no_rest, 3);
@@ -288,7 +292,7 @@ TEST(OwnSolution, is_shared_by_all_settings_that_solve_the_same_equations) {
   const auto cases =
       own_cases_of({"--stepper", "quick", "direct", "sor", "--iterations", "1", "20", "--substeps", "1", "14",
                     "--precision", "double", "single", "--floor-seeds", "3"});
-  // At two step lengths: quick, direct, and sor cold and with springs in one and in twelve substeps.
+  // At two step lengths: quick, direct, and sor with both laws in one and in 14 substeps.
   EXPECT_EQ(count(cases, CaseKind::own), 2 * (1 + 1 + 2 * 2));
   EXPECT_EQ(count(cases, CaseKind::own_floor), 3 * 3) << "a kind of stepper has one floor";
   std::set<std::uint64_t> seeds;
@@ -298,7 +302,7 @@ TEST(OwnSolution, is_shared_by_all_settings_that_solve_the_same_equations) {
     EXPECT_EQ(one.stepper.dt_s, 0.01) << "at the scene's step";
     if (one.stepper.kind == stepping::StepperKind::sor) {
       EXPECT_EQ(one.stepper.substeps, 14);
-      EXPECT_GT(one.stepper.relax, 0) << "of sor as it is by default";
+      EXPECT_GT(one.stepper.law.relax, 0) << "of sor as it is by default";
     }
   }
   EXPECT_EQ(seeds, (std::set<std::uint64_t>{2, 3, 4}));
@@ -307,24 +311,19 @@ TEST(OwnSolution, is_shared_by_all_settings_that_solve_the_same_equations) {
 
 TEST(OwnSolution, keeps_what_is_solved_and_not_how) {
   stepping::StepperSettings setting = default_settings(stepping::StepperKind::sor);
-  setting.contact_frequency = 60;
   setting.tolerance_m = 1e-5;
   setting.precision = stepping::Precision::single;
-  setting.sor_factor = 1.7;
-  setting.warm_start = 0.5;
   const stepping::StepperSettings own = own_settings(setting, 1400);
-  EXPECT_EQ(own.contact_frequency, 60);
   EXPECT_EQ(own.substeps, 14);
   EXPECT_EQ(own.iterations, 100) << "14 substeps share them";
-  EXPECT_EQ(own.relax, 100);
+  EXPECT_EQ(own.law.relax, 100);
   EXPECT_EQ(own.tolerance_m, 0) << "fewer substeps save work";
   EXPECT_EQ(own.precision, stepping::Precision::double_);
-  EXPECT_EQ(own.sor_factor, 1);
-  EXPECT_EQ(own.warm_start, 1);
-  setting.relax = 0;
-  EXPECT_EQ(own_settings(setting, 1200).relax, 0) << "cold";
   EXPECT_EQ(own_settings(setting, 3).iterations, 1);
-  const stepping::StepperSettings direct{.kind = stepping::StepperKind::direct, .iterations = 7};
+  const auto ode = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
+  EXPECT_EQ(own_settings(ode, 1200).law, stepping::ode_law());
+  stepping::StepperSettings direct = default_settings(stepping::StepperKind::direct);
+  direct.iterations = 7;
   EXPECT_EQ(own_settings(direct, 800).iterations, 7);
 }
 

@@ -21,12 +21,11 @@ std::vector<StepperSettings> crossed(const std::vector<SettingList>& lists) {
 }
 
 TEST(SettingLists, the_last_list_varies_fastest) {
-  const auto all =
-      crossed({list_of_values("iterations", {"1", "2"}), list_of_values("dt", {"0.01", "0.02"})});
+  const auto all = crossed({list_of_values("substeps", {"1", "2"}), list_of_values("dt", {"0.01", "0.02"})});
   ASSERT_EQ(all.size(), 4u);
-  EXPECT_EQ(all[1].iterations, 1);
+  EXPECT_EQ(all[1].substeps, 1);
   EXPECT_EQ(all[1].dt_s, 0.02);
-  EXPECT_EQ(all[2].iterations, 2);
+  EXPECT_EQ(all[2].substeps, 2);
   EXPECT_EQ(all[2].dt_s, 0.01);
 }
 
@@ -44,13 +43,16 @@ TEST(SettingLists, iterations_are_not_varied_where_nothing_iterates) {
             1u);
 }
 
-TEST(SettingLists, a_warm_start_is_crossed_with_one_substep_too) {
-  const auto all = crossed({list_of_values("stepper", {"sor"}), list_of_values("substeps", {"1", "2"}),
-                            list_of_values("warm-start", {"0.5", "0.9"})});
-  ASSERT_EQ(all.size(), 4u);
-  EXPECT_EQ(all[0].warm_start, 0.5);
-  EXPECT_EQ(all[1].warm_start, 0.9);
-  EXPECT_EQ(all[1].substeps, 1);
+TEST(SettingLists, a_law_brings_its_own_sweeps_and_the_soft_one_keeps_them) {
+  const auto all = crossed({list_of_values("stepper", {"sor"}), list_of_values("law", {"ode", "soft"}),
+                            list_of_values("iterations", {"5", "9"})});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].law, stepping::ode_law());
+  EXPECT_EQ(all[0].substeps, 1);
+  EXPECT_EQ(all[1].iterations, 9);
+  EXPECT_EQ(all[2].law, stepping::SorLaw{});
+  EXPECT_EQ(all[2].substeps, 14);
+  EXPECT_EQ(all[2].iterations, 1);
 }
 
 TEST(SettingLists, a_list_without_values_leaves_the_base_as_it_is) {

@@ -39,25 +39,26 @@ class Accuracy(ProgramTest):
         args = ["--scene", "CrashSk", "--iterations", 1, 5, 20, "--substeps", 1, 2, *FAST, *ONE_DT]
         one, three = self.made(1, "one.h5", *args), self.made(3, "three.h5", *args)
         self.assertEqual(len(one["scene"]), 3 + 3 * 2 * 2 + 2 * 2 + 2 * 3 * (1 + 2 * 2) + 1 + 2 + 1,
-                         "quick; sor with one substep and with two; with a memory; estimates by two numbers of iterations after "
-                         "three numbers of steps, of quick, and of cold and remembering sor in two precisions; the reference, seeds, half the step")
+                         "quick; sor with ODE's law in one substep and in two; with the soft one; estimates by two numbers of iterations after "
+                         "three numbers of steps, of quick, and of sor with both laws in two precisions; the reference, seeds, half the step")
         for name, column in one.items():
             if not name.startswith("frame_time"):
                 self.assertEqual(column.tobytes(), three[name].tobytes(), name)
         self.assertTrue((one["frame_time_worst"] >= one["frame_time_median"]).all())
         self.assertTrue((one["frame_time_median"][one["kind"] != b"reference"] > 0).all())
         setting = one["kind"] == b"setting"
-        visits = one["rows"] * (one["iterations"] + one["relax"]) * one["substeps"] * one["steps_per_frame"]
+        relax = one["law"] == b"soft"  # a sweep that pushes nothing out
+        visits = one["rows"] * (one["iterations"] + relax) * one["substeps"] * one["steps_per_frame"]
         self.assertTrue(np.allclose(one["row_visits"][setting], visits[setting], rtol=1e-14))
         estimate = one["kind"] == b"estimate"
-        sweeps = (one["iterations"] + one["relax"]) * one["substeps"]
+        sweeps = (one["iterations"] + relax) * one["substeps"]
         left = one["steps_per_frame"] - one["estimate_after"]
         coarse = np.where(one["estimate_source"] == b"same_solve", one["estimate_iterations"],
-                          left * np.maximum(1, one["substeps"] // 6) * (one["estimate_iterations"] + one["relax"]))
+                          left * np.maximum(1, one["substeps"] // 6) * (one["estimate_iterations"] + relax))
         before = one["rows"] * (sweeps * one["estimate_after"] + coarse)
         self.assertTrue(np.array_equal(one["row_visits"][estimate], before[estimate]))
-        cold_sor = (one["stepper"] == b"sor") & (one["relax"] == 0)
-        self.assertTrue(np.array_equal(one["estimate_source"] == b"same_solve", estimate & cold_sor & (left == 1)))
+        ode_law = (one["stepper"] == b"sor") & (one["law"] == b"ode")
+        self.assertTrue(np.array_equal(one["estimate_source"] == b"same_solve", estimate & ode_law & (left == 1)))
         bands = one["defect_body_position_bands"]
         self.assertTrue((bands.sum(axis=1) == 3 * 37).all(), "the same number of entries for every method")
         self.assertGreater(one["defect_body_position_rms"][setting].min(), 0)
@@ -85,9 +86,9 @@ class Accuracy(ProgramTest):
         args = ["--scene", "CrashSk", "--stepper", "sor", "--dt", 0.03, "--iterations", 3, 20, "--substeps", 1,
                 "--estimates", 3, 20, *FAST]
         study = self.made(2, "study.h5", *args)
-        rows = {(kind, precision, look or iterations): index for index, (kind, precision, look, iterations, relax) in
-                enumerate(zip(study["kind"], study["precision"], study["estimate_iterations"], study["iterations"], study["relax"]))
-                if relax == 0}
+        rows = {(kind, precision, look or iterations): index for index, (kind, precision, look, iterations, law) in
+                enumerate(zip(study["kind"], study["precision"], study["estimate_iterations"], study["iterations"], study["law"]))
+                if law == b"ode"}
         for precision in (b"double", b"single"):
             for iterations in (3, 20):
                 look, run = (rows[kind, precision, iterations] for kind in (b"estimate", b"setting"))
@@ -126,18 +127,16 @@ class Accuracy(ProgramTest):
         [best] = self.front("study.h5", "--budget", "1s")
         self.assertEqual("to which the reference is known)" in text, best["chosen"]["inside_uncertainty"])
 
-    def test_a_written_config_carries_warm_start_and_row_order(self):
-        self.made(2, "study.h5", "--scene", "CrashSk", "--stepper", "sor", "--iterations", 3, "--substeps", 2,
-                  "--warm-start", 0.9, "--row-order", "fixed", "--precision", "double", "--estimates", 0, *FAST, *ONE_DT)
-        result = self.report("study.h5", "--tolerance", "1m", "--write-config", "warm.cfg")
+    def test_a_written_config_carries_the_law(self):
+        self.made(2, "study.h5", "--scene", "CrashSk", "--stepper", "sor", "--law", "ode", "--iterations", 3, "--substeps", 2,
+                  "--precision", "double", "--estimates", 0, *FAST, *ONE_DT)
+        result = self.report("study.h5", "--tolerance", "1m", "--write-config", "ode.cfg")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("sor double, 2 x 3, factor 1.3, warm 0.9, relax 0, contacts 0 Hz, margin 0, joints 0 Hz, joints by sweeps, pyramid, "
-                      "fixed order", result.stdout)
-        configured = self.pbmpi(1, "--config", "warm.cfg", "--output", "run.h5")
+        self.assertIn("sor double, 2 x 3, law ode, dt 0.01 s", result.stdout)
+        configured = self.pbmpi(1, "--config", "ode.cfg", "--output", "run.h5")
         self.assertEqual(configured.returncode, 0, configured.stderr)
         with h5py.File(self.path("run.h5")) as file:
-            self.assertEqual(file["parameters/warm_start"][()], 0.9)
-            self.assertEqual(file["parameters/row_order"][()], b"fixed")
+            self.assertEqual((file["parameters/law"][()], file["parameters/substeps"][()]), (b"ode", 2))
 
     def test_the_config_of_a_tolerance_runs(self):
         self.made(2, "study.h5", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, "--stepper", "sor", *FAST, *ONE_DT)
@@ -154,7 +153,7 @@ class Accuracy(ProgramTest):
         with open(self.path("table.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), 4 + 2 + 2 * 3 * 2 * 2 + 1 + 2 + 1,
-                         "settings; with a memory; estimates; the reference, seeds, half the step")
+                         "settings; with the soft law; estimates; the reference, seeds, half the step")
         with open(self.path("page.html"), encoding="utf-8") as file:
             page = file.read()
         self.assertIn("Pareto front", page)
@@ -167,7 +166,7 @@ class Accuracy(ProgramTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         page = self.drawn("page.html")
         self.assertEqual(page.count("<canvas"), 4, "rms, p99, max, joint gap")
-        self.assertTrue(re.search(r'<td class="words">sor (double|single), 1 x 20, factor 1.3, warm 0, [^<]*, dt 0.01 s</td>', page),
+        self.assertTrue(re.search(r'<td class="words">sor (double|single), 1 x 20, law ode, dt 0.01 s</td>', page),
                         "which precision is on the front follows the times")
 
     def test_half_the_step_is_part_of_the_matrix(self):
@@ -180,7 +179,7 @@ class Accuracy(ProgramTest):
         args = ["--scene", "CrashSk", "--stepper", "sor", "--precision", "double", "--substeps", 1, "--estimates", 0,
                 "--frames", 3, "--repeats", 1, *UNCHECKED, "--floor-seeds", 1, "--rest-seconds", 2, *ONE_DT]
         study = self.made(2, "study.h5", *args, "--iterations", 1, 80)
-        setting = (study["kind"] == b"setting") & (study["relax"] == 0)  # in one substep a memory holds no human either
+        setting = (study["kind"] == b"setting") & (study["law"] == b"ode")  # in one substep a memory holds no human either
         few, many = study["rest_fallen"][setting]
         self.assertGreater(few, 20, "one iteration carries no human")
         self.assertEqual(many, 0)

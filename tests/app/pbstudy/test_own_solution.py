@@ -33,13 +33,13 @@ class OwnSolution(ProgramTest):
             self.assertEqual(one[name].tobytes(), two[name].tobytes(), name)
         kinds = one["kind"]
         setting, own, floor = (kinds == kind for kind in (b"setting", b"own", b"own_floor"))
-        # quick, direct, and sor cold and with a memory in two substeps: their precisions share a solution.
+        # quick, direct, and sor with both laws in two substeps: their precisions share a solution.
         self.assertEqual((setting.sum(), own.sum(), floor.sum()), (2 * (1 + 1 + 2 + 2), 2 * 4, 2 * 3 * 2))
         self.assertTrue((one["own"][~(setting | own | floor)] == -1).all())
         for index in np.flatnonzero(setting | floor):
             of = one["own"][index]
             self.assertEqual(kinds[of], b"own")
-            for name in ("scene", "stepper", "dt", "substeps", "friction", "contact_frequency"):
+            for name in ("scene", "stepper", "dt", "substeps", "law"):
                 self.assertEqual(one[name][of], one[name][index], name)
         self.assertTrue((one["own"][own] == np.flatnonzero(own)).all())
         entries = one["own_defect_body_position_bands"].sum(axis=1)
@@ -50,9 +50,9 @@ class OwnSolution(ProgramTest):
         # 2-Cars settle on their wheels in each of the frames: all converge.
         study = self.made(1, "study.h5", "--scene", "2-Cars", "--stepper", "quick", "direct", "sor", "--iterations", 1, 4000,
                           "--substeps", 1, "--precision", "double", "--max-sweeps", 10000, *FAST, *OWN)
-        error = {(kind, stepper, iterations): rms for kind, stepper, iterations, relax, rms in
-                 zip(study["kind"], study["stepper"], study["iterations"], study["relax"], study["own_defect_body_position_rms"])
-                 if relax == 0}
+        error = {(kind, stepper, iterations): rms for kind, stepper, iterations, law, rms in
+                 zip(study["kind"], study["stepper"], study["iterations"], study["law"], study["own_defect_body_position_rms"])
+                 if law == b"ode"}
         for stepper in (b"quick", b"sor"):
             solved, crude = (error[b"setting", stepper, iterations] for iterations in (4000, 1))
             self.assertLess(solved, 1e-5, "the residual asked for")

@@ -66,7 +66,7 @@ def solver(name, *counts):
 # The first of each engine is its default.
 SETTINGS = {
     "sor": [Setting("14 x 1"), Setting("single 14 x 1", precision="single"), Setting("8 x 1", substeps=8), Setting("16 x 1", substeps=16),
-            Setting("32 x 1", substeps=32), Setting("14 x 1, joints by tree", joint_solver="tree")],
+            Setting("32 x 1", substeps=32)],
     "quick": iterations(20, 5, 10, 50) + iterations(5, parts=2) + iterations(5, parts=4),
     "bullet": iterations(10, 2, 3, 4, 5, 20, 50) + iterations(5, 20, parts=2) + iterations(5, parts=4),
     "mujoco": solver("newton", 100) + solver("pgs", 100, 10, 3) + solver("cg", 30),

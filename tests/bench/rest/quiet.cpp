@@ -100,7 +100,8 @@ void compare_quiet(const Subject& subject, double from_s, double tolerance_m) {
   if (from > 0) before.advance(from);
   stepping::StepperSettings tolerant = usual, fine = usual;
   tolerant.tolerance_m = tolerance_m;
-  for (int* number : {&fine.substeps, &fine.most_substeps, &fine.iterations, &fine.relax}) *number *= finer;
+  for (int* number : {&fine.substeps, &fine.law.most_substeps, &fine.iterations, &fine.law.relax})
+    *number *= finer;
   Side all(usual, models, before.states(), from), quiet(tolerant, models, before.states(), from),
       reference(fine, models, before.states(), from);
 

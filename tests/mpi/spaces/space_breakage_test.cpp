@@ -8,6 +8,7 @@
 #include "ode/collide/narrow_phase.h"
 #include "solver/worlds/sor_stepper.h"
 #include "space_run.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::mpi {
@@ -82,7 +83,7 @@ TEST_P(SpaceBreakage, has_the_bits_of_the_whole_world_for_every_ownership) {
   WorldRunSettings settings = space_settings(num_frames);
   settings.rebalance_threshold = model::infinity;
   for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-    stepping::StepperSettings stepper;
+    stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
     stepper.precision = precision;
     const std::uint64_t expected = whole_hash(model, settings, stepper);
     for (const Placement& placement : placements_of_four_spaces(world().size(), 37)) {
@@ -97,7 +98,7 @@ TEST_P(SpaceBreakage, has_the_bits_of_the_whole_world_while_spaces_change_their_
   const SharedModel model = falling_rows(GetParam());
   WorldRunSettings settings = space_settings(num_frames);
   settings.rebalance_threshold = 1;
-  EXPECT_EQ(run_spaces(world(), model, settings, {}, Oracle::none).result.state_hash,
+  EXPECT_EQ(run_spaces(world(), model, settings, testing_support::ode_steps, Oracle::none).result.state_hash,
             whole_hash(model, settings));
 }
 
@@ -105,7 +106,8 @@ TEST_P(SpaceBreakage, tells_of_each_joint_once_on_every_rank) {
   const SharedModel model = falling_rows(GetParam());
   WorldRunSettings settings = space_settings(num_frames);
   settings.rebalance_threshold = model::infinity;
-  const auto whole = solver::make_sor_stepper({}, ode::make_narrow_phase);
+  const auto whole = solver::make_sor_stepper(
+      default_settings(stepping::StepperKind::sor, stepping::Law::ode), ode::make_narrow_phase);
   whole->add(0, model, model::initial_state(*model), 0);
   core::PhaseTimes times;
   whole->advance(3 * (num_frames + 2), times);
@@ -115,7 +117,8 @@ TEST_P(SpaceBreakage, tells_of_each_joint_once_on_every_rank) {
     expected.insert("world 0: '" + model->joints[joint].name + "' broke in step " +
                     std::to_string(whole->state(0).broken_in[joint]));
   }
-  for (const stepping::RunEvent& event : run_spaces(world(), model, settings, {}, Oracle::none).events) {
+  for (const stepping::RunEvent& event :
+       run_spaces(world(), model, settings, testing_support::ode_steps, Oracle::none).events) {
     EXPECT_EQ(event.kind, stepping::event_kind::joint_broken);
     told.insert(event.detail);
   }
@@ -125,7 +128,8 @@ TEST_P(SpaceBreakage, tells_of_each_joint_once_on_every_rank) {
 /// Makes sure that the scene tests what it should: joints break in several steps, and some hold.
 TEST_P(SpaceBreakage, is_tried_where_joints_break_at_several_times) {
   const SharedModel model = falling_rows(GetParam());
-  const auto worlds = solver::make_sor_stepper({}, ode::make_narrow_phase);
+  const auto worlds = solver::make_sor_stepper(
+      default_settings(stepping::StepperKind::sor, stepping::Law::ode), ode::make_narrow_phase);
   worlds->add(0, model, model::initial_state(*model), 0);
   core::PhaseTimes times;
   worlds->advance(3 * (num_frames + 2), times);

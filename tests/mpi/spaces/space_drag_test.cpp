@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "space_run.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::mpi {
 namespace {
@@ -28,7 +29,7 @@ TEST(SpaceDrag, has_the_bits_of_the_whole_world_for_every_ownership) {
   settings.rebalance_threshold = model::infinity;
   for (const SharedModel& model : {share(in_thick_air(neighbours())), share(in_thick_air(shoot_out()))}) {
     for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-      stepping::StepperSettings stepper;
+      stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
       stepper.precision = precision;
       const std::uint64_t expected = whole_hash(model, settings, stepper);
       for (const Placement& placement : placements_of_four_spaces(world().size(), 23)) {
@@ -46,7 +47,7 @@ TEST(SpaceDrag, has_the_bits_of_the_whole_world_where_islands_sleep) {
   model.sleep.after_s = 0.2;
   const SharedModel shared = share(model);
   const WorldRunSettings settings = space_settings(60);
-  EXPECT_EQ(run_spaces(world(), shared, settings, {}, Oracle::none).result.state_hash,
+  EXPECT_EQ(run_spaces(world(), shared, settings, testing_support::ode_steps, Oracle::none).result.state_hash,
             whole_hash(shared, settings));
 }
 

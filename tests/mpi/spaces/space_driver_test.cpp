@@ -14,6 +14,7 @@ namespace pbmpi::mpi {
 namespace {
 
 using testing_support::neighbours;
+using testing_support::ode_steps;
 using testing_support::Oracle;
 using testing_support::placements_of_four_spaces;
 using testing_support::run_spaces;
@@ -26,7 +27,7 @@ using testing_support::world;
 
 /// Runs with the oracle and expects the bits of the undecomposed world.
 SpaceRun expect_whole(const SharedModel& model, const WorldRunSettings& settings = space_settings(),
-                      const stepping::StepperSettings& stepper = {}) {
+                      const stepping::StepperSettings& stepper = ode_steps) {
   SpaceRun run = run_spaces(world(), model, settings, stepper);
   EXPECT_EQ(run.result.state_hash, whole_hash(model, settings, stepper));
   EXPECT_EQ(run.result.failure, "");
@@ -56,16 +57,16 @@ TEST(SpaceDriver, has_the_same_bits_for_every_ownership) {
 // Speculative contacts: two balls that would pass through each other are in one space, others are shot at
 // boxes of other spaces, so that with 4 owners both the ranks and root find speculative contacts.
 TEST(SpaceDriver, sees_ahead_of_fast_bodies_across_spaces) {
-  stepping::StepperSettings single;
+  stepping::StepperSettings single = ode_steps;
   single.precision = stepping::Precision::single;
-  for (const stepping::StepperSettings& stepper : {stepping::StepperSettings{}, single}) {
+  for (const stepping::StepperSettings& stepper : {ode_steps, single}) {
     const SpaceRun run = expect_whole(share(testing_support::shoot_out()), space_settings(), stepper);
     EXPECT_TRUE(run.contacts_ahead_checked >= 4 || !world().is_root()) << run.contacts_ahead_checked;
   }
 }
 
 TEST(SpaceDriver, has_the_same_bits_with_one_lane_with_substeps_and_in_single_precision) {
-  stepping::StepperSettings one_lane, substeps, single;
+  stepping::StepperSettings one_lane = ode_steps, substeps = ode_steps, single = ode_steps;
   one_lane.simd = stepping::Simd::off;
   substeps.substeps = 3;
   single.precision = stepping::Precision::single;
@@ -116,7 +117,7 @@ TEST(SpaceDriver, fails_if_spaces_touch_that_are_said_never_to_meet) {
   settings.placement = {0, 0, 0, world().size() - 1};
   std::string message;
   try {
-    run_spaces(world(), share(model), settings, {}, Oracle::none);
+    run_spaces(world(), share(model), settings, testing_support::ode_steps, Oracle::none);
   } catch (const core::RunError& error) {
     message = error.what();
   }
@@ -197,7 +198,8 @@ TEST(SpaceDriver, solves_a_joint_between_bodies_of_two_spaces) {
 TEST(SpaceDriver, ends_on_every_rank_when_a_body_becomes_non_finite) {
   model::Model model = neighbours();
   model.bodies[3].velocity.x() = std::numeric_limits<double>::quiet_NaN();
-  const SpaceRun run = run_spaces(world(), share(model), space_settings(), {}, Oracle::none);
+  const SpaceRun run =
+      run_spaces(world(), share(model), space_settings(), testing_support::ode_steps, Oracle::none);
   EXPECT_NE(run.result.failure.find("world 0 has "), std::string::npos) << run.result.failure;
   EXPECT_NE(run.result.failure.find(" non-finite bod"), std::string::npos) << run.result.failure;
   EXPECT_EQ(run.result.frames_done, 1);

@@ -7,6 +7,7 @@
 #include "ode/collide/narrow_phase.h"
 #include "solver/worlds/sor_stepper.h"
 #include "space_run.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::mpi {
@@ -59,7 +60,7 @@ TEST(SpaceFocus, has_the_bits_of_the_whole_world_for_every_ownership) {
   settings.rebalance_threshold = model::infinity;
   for (const SharedModel& model : {share(followed_ball()), share(watched_place())}) {
     for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-      stepping::StepperSettings stepper;
+      stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
       stepper.precision = precision;
       const std::uint64_t expected = whole_hash(model, settings, stepper);
       for (const Placement& placement : placements_of_four_spaces(world().size(), 23)) {
@@ -87,7 +88,7 @@ TEST(SpaceFocus, has_the_bits_of_the_whole_world_where_islands_sleep) {
   model.sleep.after_s = 0.2;
   const SharedModel shared = share(model);
   const WorldRunSettings settings = space_settings(60);
-  EXPECT_EQ(run_spaces(world(), shared, settings, {}, Oracle::none).result.state_hash,
+  EXPECT_EQ(run_spaces(world(), shared, settings, testing_support::ode_steps, Oracle::none).result.state_hash,
             whole_hash(shared, settings));
 }
 
@@ -111,7 +112,7 @@ TEST(SpaceFocus, has_the_bits_of_the_whole_world_where_spaces_never_meet) {
   model.interest->radius_m = 5;
   const SharedModel shared = share(model);
   const WorldRunSettings settings = space_settings(10);
-  const SpaceRun run = run_spaces(world(), shared, settings, {}, Oracle::none);
+  const SpaceRun run = run_spaces(world(), shared, settings, testing_support::ode_steps, Oracle::none);
   EXPECT_EQ(run.result.failure, "");
   EXPECT_EQ(run.result.state_hash, whole_hash(shared, settings));
 }
@@ -122,7 +123,8 @@ TEST(SpaceFocus, counts_the_bodies_inside_as_the_whole_world_does) {
     if (sleeping) model.effects["sleeping"] = true;
     const SharedModel shared = share(model);
     const WorldRunSettings settings = space_settings(40);
-    const auto worlds = solver::make_sor_stepper({}, ode::make_narrow_phase);
+    const auto worlds = solver::make_sor_stepper(
+        default_settings(stepping::StepperKind::sor, stepping::Law::ode), ode::make_narrow_phase);
     WorldDriver whole(
         Communicator(), *worlds, [&](int) { return shared; }, settings);
     const std::vector<int> expected = inside_of(whole);
@@ -141,7 +143,8 @@ TEST(SpaceFocus, sends_no_message_for_a_center_that_stands) {
   const int last = world().size() - 1;
   settings.placement = {0, last, last, last};
   const auto messages = [&](model::Model model) {
-    const auto run = run_spaces(world(), share(std::move(model)), settings, {}, Oracle::none);
+    const auto run =
+        run_spaces(world(), share(std::move(model)), settings, testing_support::ode_steps, Oracle::none);
     return run.messages;
   };
   model::Model all = neighbours();  // the same bits in all three, hence the same islands that cross

@@ -113,6 +113,7 @@ GroupRun run_whole(const std::vector<SharedModel>& worlds, WorldRunSettings sett
                    const stability::GuardSettings* guards = nullptr) {
   settings.placement.clear();
   stability::GuardSettings none;
+  none.stepper = testing_support::ode_steps;
   none.make_stepper = [](const stepping::StepperSettings& one) {
     return solver::make_sor_stepper(one, ode::make_narrow_phase);
   };
@@ -253,7 +254,7 @@ TEST_P(EveryAction, does_to_one_world_of_a_group_what_it_does_to_the_whole_one) 
   WorldRunSettings settings = group_settings(20, 1);
   settings.stop_at_blowup = GetParam() == OnBlowup::stop;
   const stability::GuardSettings guards{GetParam(),
-                                        {},
+                                        testing_support::ode_steps,
                                         [](const stepping::StepperSettings& one) {
                                           return solver::make_sor_stepper(one, ode::make_narrow_phase);
                                         },

@@ -6,6 +6,7 @@
 #include "solver/worlds/sor_stepper.h"
 #include "space_run.h"
 #include "stability/guarded_stepper.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::mpi {
@@ -82,7 +83,7 @@ TEST_P(EveryAction, does_to_a_world_in_spaces_what_it_does_to_the_whole_one) {
   settings.stop_at_blowup = GetParam() == OnBlowup::stop;
   settings.rebalance_threshold = model::infinity;
   for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-    stepping::StepperSettings stepper;
+    stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
     stepper.precision = precision;
     const stability::GuardSettings guards = guards_of(GetParam(), stepper);
     const GuardedRun whole = run_whole(model, settings, guards);
@@ -102,7 +103,7 @@ TEST_P(EveryAction, has_the_same_bits_while_spaces_change_their_owner) {
   const SharedModel model = collision_course();
   WorldRunSettings settings = space_settings();
   settings.rebalance_threshold = 1;
-  const stability::GuardSettings guards = guards_of(GetParam(), {});
+  const stability::GuardSettings guards = guards_of(GetParam(), testing_support::ode_steps);
   EXPECT_EQ(run_cut(model, settings, guards).result.state_hash,
             run_whole(model, settings, guards).result.state_hash);
 }

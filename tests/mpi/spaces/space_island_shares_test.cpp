@@ -24,7 +24,7 @@ using testing_support::world;
 stepping::StepperSettings settings_with(double tolerance_m, double contact_hz = model::infinity) {
   stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor);
   stepper.tolerance_m = tolerance_m;
-  stepper.contact_frequency = contact_hz;
+  stepper.law.contact_frequency = contact_hz;
   return stepper;
 }
 
@@ -39,9 +39,9 @@ TEST(SpaceIslandShares, have_the_bits_of_the_whole_world_for_every_ownership) {
     for (stepping::StepperSettings stepper : settings_that_differ) {
       stepper.precision = precision;
       const std::uint64_t expected = whole_hash(model, settings, stepper);
-      stepping::StepperSettings same = settings_with(0, stepper.contact_frequency);
+      stepping::StepperSettings same = settings_with(0, stepper.law.contact_frequency);
       same.precision = precision;
-      same.most_substeps = same.substeps;
+      same.law.most_substeps = same.substeps;
       EXPECT_NE(whole_hash(model, settings, same), expected) << "some islands get more or less";
       for (const Placement& placement : placements_of_four_spaces(world().size(), 47)) {
         settings.placement = placement;

@@ -150,8 +150,9 @@ TEST(SpaceMemory, is_there_again_where_a_run_goes_on_from_the_states_of_root) {
 
 TEST(SpaceMemory, of_a_world_that_is_cut_is_that_of_the_whole_one) {
   const SharedModel model = share(neighbours());
-  stepping::StepperSettings hard, single = default_settings(stepping::StepperKind::sor);
-  hard.warm_start = 0.8;
+  stepping::StepperSettings hard = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
+  stepping::StepperSettings single = default_settings(stepping::StepperKind::sor);
+  hard.law.warm_start = 0.8;
   single.precision = stepping::Precision::single;
   for (const stepping::StepperSettings& stepper :
        {hard, default_settings(stepping::StepperKind::sor), single}) {

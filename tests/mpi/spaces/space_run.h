@@ -8,6 +8,7 @@
 #include "mpi/spaces/space_driver.h"
 #include "mpi/worlds/world_driver.h"
 #include "stepping/stepper.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::testing_support {
 
@@ -39,18 +40,22 @@ struct SpaceRun {
 
 enum class Oracle { each_step, none };
 
+/// Settings of sor with ODE's law, whose single substep makes the tests short.
+inline const stepping::StepperSettings ode_steps =
+    default_settings(stepping::StepperKind::sor, stepping::Law::ode);
+
 /// A sor world with ODE's colliders.
-std::unique_ptr<stepping::SpaceStepper> make_space_stepper(const SharedModel& model,
-                                                           const stepping::StepperSettings& stepper = {});
+std::unique_ptr<stepping::SpaceStepper> make_space_stepper(
+    const SharedModel& model, const stepping::StepperSettings& stepper = ode_steps);
 
 /// Runs the world cut into spaces; compares the contacts of each step with the oracle's unless told not to.
 SpaceRun run_spaces(const mpi::Communicator& comm, const SharedModel& model,
                     const mpi::WorldRunSettings& settings = space_settings(),
-                    const stepping::StepperSettings& stepper = {}, Oracle oracle = Oracle::each_step);
+                    const stepping::StepperSettings& stepper = ode_steps, Oracle oracle = Oracle::each_step);
 
 /// State hash of the undecomposed world after the same number of steps on one rank.
 std::uint64_t whole_hash(const SharedModel& model, const mpi::WorldRunSettings& settings = space_settings(),
-                         const stepping::StepperSettings& stepper = {});
+                         const stepping::StepperSettings& stepper = ode_steps);
 
 /// Four spaces in a row, 1 m apart: a pile of boxes, a chain that falls on its neighbours, a pile, and loose
 /// balls that roll from one end to the other and are launched into other spaces.

@@ -6,6 +6,7 @@
 #include "ode/collide/narrow_phase.h"
 #include "solver/worlds/sor_stepper.h"
 #include "space_run.h"
+#include "stepping/stepper_traits.h"
 #include "support/models.h"
 
 namespace pbmpi::mpi {
@@ -69,7 +70,7 @@ TEST(SpaceSleep, has_the_bits_of_the_whole_world_for_every_ownership) {
   WorldRunSettings settings = space_settings(num_frames);
   settings.rebalance_threshold = model::infinity;
   for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-    stepping::StepperSettings stepper;
+    stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
     stepper.precision = precision;
     const std::uint64_t expected = whole_hash(model, settings, stepper);
     for (const Placement& placement : placements_of_four_spaces(world().size(), 37)) {
@@ -84,7 +85,7 @@ TEST(SpaceSleep, has_the_bits_of_the_whole_world_while_spaces_change_their_owner
   const SharedModel model = shared_stacks();
   WorldRunSettings settings = space_settings(num_frames);
   settings.rebalance_threshold = 1;
-  EXPECT_EQ(run_spaces(world(), model, settings, {}, Oracle::none).result.state_hash,
+  EXPECT_EQ(run_spaces(world(), model, settings, testing_support::ode_steps, Oracle::none).result.state_hash,
             whole_hash(model, settings));
 }
 
@@ -95,7 +96,7 @@ TEST(SpaceSleep, sends_nothing_in_the_steps_in_which_all_sleep) {
   settings.rebalance_threshold = model::infinity;
   settings.placement = {0, world().size() - 1, 0, 0};
   const auto shared = std::make_shared<const model::Model>(model);
-  const auto sleeping = run_spaces(world(), shared, settings, {}, Oracle::none);
+  const auto sleeping = run_spaces(world(), shared, settings, testing_support::ode_steps, Oracle::none);
   if (world().size() == 1) return;
   // All bodies sleep after some 65 of 126 steps; then each rank except root sends one message per frame, its
   // account.
@@ -111,7 +112,8 @@ TEST(SpaceSleep, sends_nothing_in_the_steps_in_which_all_sleep) {
 /// awake, and in some the second.
 TEST(SpaceSleep, is_tried_where_islands_sleep_and_wake) {
   const SharedModel model = shared_stacks();
-  const auto worlds = solver::make_sor_stepper({}, ode::make_narrow_phase);
+  const auto worlds = solver::make_sor_stepper(
+      default_settings(stepping::StepperKind::sor, stepping::Law::ode), ode::make_narrow_phase);
   worlds->add(0, model, model::initial_state(*model), 0);
   core::PhaseTimes times;
   const auto asleep = [&](int first, int last) {

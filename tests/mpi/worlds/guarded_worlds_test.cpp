@@ -7,6 +7,7 @@
 #include "ode/ode_stepper.h"
 #include "solver/worlds/sor_stepper.h"
 #include "stability/guarded_stepper.h"
+#include "stepping/stepper_traits.h"
 #include "support/hard_models.h"
 #include "support/models.h"
 
@@ -45,8 +46,7 @@ struct GuardedRun {
 
 GuardedRun run(const Communicator& comm, WorldRunSettings settings, stepping::StepperKind kind,
                OnBlowup on_blowup) {
-  stepping::StepperSettings stepper_settings;
-  stepper_settings.kind = kind;
+  const stepping::StepperSettings stepper_settings = default_settings(kind, stepping::Law::ode);
   settings.frames = 30;
   settings.stop_at_blowup = on_blowup == OnBlowup::stop;
   GuardedStepper stepper(make_stepper(stepper_settings), {on_blowup, stepper_settings, make_stepper, {}});

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "stepped_scene.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::scenes {
 namespace {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "both.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -19,8 +20,7 @@ std::string mjcf(const std::string& world) {
 }
 
 double difference(const std::string& world, double dt_s = small_s) {
-  StepperSettings settings;
-  settings.kind = StepperKind::sor;
+  StepperSettings settings = default_settings(StepperKind::sor, stepping::Law::ode);
   settings.dt_s = dt_s;
   return largest_distance(by_mujoco(mjcf(world), settings.dt_s, seconds),
                           by_pbmpi(mjcf(world), settings, seconds));

@@ -8,6 +8,7 @@
 #include "every_stepper.h"
 #include "scenes/scene.h"
 #include "solver/pack/simd.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -51,8 +52,7 @@ TEST(DragOfSor, has_the_same_bits_with_every_instruction_set) {
       "[[actor]]\nname = \"balls\"\ntype = \"sphere\"\nradius = 0.5\nmass = 2\nposition = [0, 0, 1]\n"
       "velocity = [3, 0, 0]\ncopies = 9\nspacing = [0.3, 0.1, 1.05]\n";
   for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-    stepping::StepperSettings settings;
-    settings.kind = stepping::StepperKind::sor;
+    stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
     settings.precision = precision;
     const std::uint64_t expected = model::hash(state_after(scene, settings, 100));
     for (const stepping::Simd simd :

@@ -12,6 +12,7 @@
 #include "ode/collide/narrow_phase.h"
 #include "ode/ode_stepper.h"
 #include "solver/worlds/sor_stepper.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -49,8 +50,7 @@ constexpr std::array suite = {"2-Cars",  "10-Cars", "CrashSk", "CrashWa", "Envir
                               "100CrSk", "Battle",  "Fight",   "Battle2"};
 
 std::unique_ptr<stepping::WorldStepper> make_stepper(const RunDefaults& defaults, StepperKind kind) {
-  stepping::StepperSettings settings;
-  settings.kind = kind;
+  stepping::StepperSettings settings = default_settings(kind, stepping::Law::ode);
   settings.dt_s = defaults.dt_s;
   settings.iterations = defaults.iterations;
   if (kind == StepperKind::sor) return solver::make_sor_stepper(settings, ode::make_narrow_phase);

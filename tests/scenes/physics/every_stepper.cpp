@@ -12,14 +12,13 @@ using stepping::StepperKind;
 using stepping::StepperSettings;
 
 std::vector<SteppedBy> every_stepper() {
-  StepperSettings quick, direct, sor, single, substeps;
-  direct.kind = StepperKind::direct;
-  sor.kind = single.kind = substeps.kind = StepperKind::sor;
+  const StepperSettings ode_law = default_settings(StepperKind::sor, stepping::Law::ode);
+  StepperSettings single = ode_law, substeps = ode_law;
   single.precision = stepping::Precision::single;
   substeps.substeps = 3;
-  return {{"quick", quick},
-          {"direct", direct},
-          {"sor", sor},
+  return {{"quick", default_settings(StepperKind::quick)},
+          {"direct", default_settings(StepperKind::direct)},
+          {"sor", ode_law},
           {"sor_single", single},
           {"sor_with_substeps", substeps},
           {"sor_with_memory", default_settings(StepperKind::sor)}};

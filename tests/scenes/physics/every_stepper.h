@@ -18,8 +18,8 @@ struct SteppedBy {
 /// Prints the name in a test's name.
 inline std::ostream& operator<<(std::ostream& out, const SteppedBy& by) { return out << by.name; }
 
-/// quick, direct, and sor: cold in double precision, in single precision and with substeps, and as it is
-/// meant to be used.
+/// quick, direct, and sor: with ODE's law in double precision, in single precision and with substeps, and as
+/// it is meant to be used.
 std::vector<SteppedBy> every_stepper();
 
 /// A stepper with these settings, of any kind, without worlds.

@@ -35,7 +35,7 @@ TEST_P(Pairs, have_friction_of_their_own) {
   constexpr double seconds = 1, slide_m = 0.5 * 3.355 * seconds * seconds;
   for (const stepping::Colliders colliders : {stepping::Colliders::lanes, stepping::Colliders::ode}) {
     stepping::StepperSettings settings = GetParam().settings;
-    settings.colliders = colliders;
+    settings.law.colliders = colliders;
     const model::State state = state_after(slope, settings, 100);
     EXPECT_NEAR(state.position[0].x(), slide_m, 0.02 * slide_m) << "steps of 0.01 s are 1 % ahead";
     EXPECT_NEAR(state.position[1].x(), 0, 0.02);

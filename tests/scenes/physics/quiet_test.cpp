@@ -34,12 +34,16 @@ StepperSettings in_single(StepperSettings settings) {
   return settings;
 }
 /// One substep, no memory.
-StepperSettings cold(int iterations) { return {.kind = StepperKind::sor, .iterations = iterations}; }
+StepperSettings ode_law(int iterations) {
+  StepperSettings settings = default_settings(StepperKind::sor, stepping::Law::ode);
+  settings.iterations = iterations;
+  return settings;
+}
 /// The faster of the two settings with a memory.
 StepperSettings four_substeps() {
   StepperSettings settings = default_settings(StepperKind::sor);
   settings.substeps = 4;
-  settings.contact_frequency = 60;
+  settings.law.contact_frequency = 60;
   return settings;
 }
 
@@ -48,9 +52,9 @@ const std::array<Setting, 7> settings = {{
     {"sor", default_settings(StepperKind::sor)},
     {"sor_single", in_single(default_settings(StepperKind::sor))},
     {"sor_4x1_60Hz", four_substeps()},
-    {"sor_cold", cold(20)},
-    {"sor_cold_single", in_single(cold(20))},
-    {"sor_cold_1x80", cold(80)},
+    {"sor_cold", ode_law(20)},
+    {"sor_cold_single", in_single(ode_law(20))},
+    {"sor_cold_1x80", ode_law(80)},
 }};
 
 /// direct solves a dense system for each island: cars and two humans, but no wall and no crowd.

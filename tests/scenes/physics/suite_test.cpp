@@ -6,6 +6,7 @@
 
 #include "../helpers.h"
 #include "../simulation.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -148,7 +149,9 @@ TEST(Projectile, flies_where_it_is_aimed) {
 TEST(Projectile, appears_at_the_muzzle_the_same_after_a_restart_before_or_after_the_launch) {
   const auto scene = parse(gun);
   const std::shared_ptr<const model::Model> model = scene->build(0, 1);
-  const auto make = [] { return ode::make_ode_stepper({}, [](const std::string&) {}); };
+  const auto make = [] {
+    return ode::make_ode_stepper(default_settings(stepping::StepperKind::quick), [](const std::string&) {});
+  };
   core::PhaseTimes times;
   const auto whole = make();
   whole->add(0, model, model::initial_state(*model), 0);

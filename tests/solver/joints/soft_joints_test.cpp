@@ -119,8 +119,8 @@ double share_left_of_a_gap(stepping::JointSolver solver, double damping) {
   model::State state = model::initial_state(model);
   state.position[0].x() += 1e-3;
   stepping::StepperSettings settings = settings_with(1);
-  settings.joint_solver = solver;
-  settings.joint_damping = damping;
+  settings.law.joint_solver = solver;
+  settings.law.joint_damping = damping;
   const auto stepper = make_stepper(settings);
   stepper->add(0, std::make_shared<const Model>(model), state, 0);
   advance(*stepper, 1);
@@ -158,7 +158,7 @@ Model bars_at_their_limits(int num_bars) {
 TEST(SoftJoints, rest_at_their_limits) {
   for (const stepping::JointSolver solver : {stepping::JointSolver::hanging, stepping::JointSolver::tree}) {
     stepping::StepperSettings settings = settings_with(12);
-    settings.joint_solver = solver;
+    settings.law.joint_solver = solver;
     const auto stepper = make_stepper(settings, {bars_at_their_limits(8)});
     advance(*stepper, 1500);
     for (int step = 0; step < 100; ++step) {

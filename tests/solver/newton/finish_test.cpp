@@ -15,12 +15,12 @@ using model::Vec3;
 using stepping::Finish;
 using stepping::StepperSettings;
 
-StepperSettings cold(int iterations, Finish finish) {
-  StepperSettings settings{.kind = stepping::StepperKind::sor};
+StepperSettings ode_law(int iterations, Finish finish) {
+  StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   settings.iterations = iterations;
-  settings.sor_factor = 1;
-  settings.warm_start = 1;
-  settings.friction = stepping::Friction::cone;
+  settings.law.sor_factor = 1;
+  settings.law.warm_start = 1;
+  settings.law.friction = stepping::Friction::cone;
   settings.residuals = true;
   settings.finish = finish;
   return settings;
@@ -53,8 +53,8 @@ double largest_difference(const model::State& a, const model::State& b) {
 
 TEST(Finish, by_newton_is_where_very_many_sweeps_lead) {
   const model::Model model = dragged_box();
-  const auto few = make_stepper(cold(5, Finish::newton), {model});
-  const auto many = make_stepper(cold(40000, Finish::none), {model});
+  const auto few = make_stepper(ode_law(5, Finish::newton), {model});
+  const auto many = make_stepper(ode_law(40000, Finish::none), {model});
   for (int step = 0; step < 12; ++step) {
     advance(*few, 1);
     advance(*many, 1);
@@ -64,8 +64,8 @@ TEST(Finish, by_newton_is_where_very_many_sweeps_lead) {
 }
 
 TEST(Finish, by_newton_leaves_far_smaller_residuals_of_a_crash) {
-  const auto plain = make_stepper(cold(100, Finish::none), {support::crash()});
-  const auto finished = make_stepper(cold(100, Finish::newton), {support::crash()});
+  const auto plain = make_stepper(ode_law(100, Finish::none), {support::crash()});
+  const auto finished = make_stepper(ode_law(100, Finish::newton), {support::crash()});
   double most_plain = 0, most_finished = 0;
   for (int step = 0; step < 20; ++step) {
     advance(*plain, 1);
@@ -83,7 +83,7 @@ TEST(Finish, by_newton_has_the_same_bits_in_any_lanes) {
   for (const auto precision : {stepping::Precision::double_, stepping::Precision::single}) {
     std::vector<std::uint64_t> hashes;
     for (const stepping::Simd simd : machine_simds()) {
-      StepperSettings settings = cold(10, Finish::newton);
+      StepperSettings settings = ode_law(10, Finish::newton);
       settings.precision = precision;
       settings.simd = simd;
       settings.substeps = 2;
@@ -99,16 +99,25 @@ TEST(Finish, by_newton_has_the_same_bits_in_any_lanes) {
   }
 }
 
-TEST(Finish, by_newton_is_of_rigid_rows_with_cones_alone) {
+TEST(Finish, by_newton_is_of_rigid_rows_alone) {
   const auto refused = [](auto change) {
-    StepperSettings settings = cold(10, Finish::newton);
+    StepperSettings settings = ode_law(10, Finish::newton);
     change(settings);
     EXPECT_THROW(make_stepper(settings), core::InputError);
   };
-  refused([](StepperSettings& settings) { settings.relax = 1; });
-  refused([](StepperSettings& settings) { settings.contact_frequency = 60; });
-  refused([](StepperSettings& settings) { settings.joint_frequency = 60; });
-  refused([](StepperSettings& settings) { settings.friction = stepping::Friction::pyramid; });
+  refused([](StepperSettings& settings) { settings.law.relax = 1; });
+  refused([](StepperSettings& settings) { settings.law.contact_frequency = 60; });
+  refused([](StepperSettings& settings) { settings.law.joint_frequency = 60; });
+}
+
+TEST(Finish, by_newton_has_cones_of_friction_whatever_the_law_has) {
+  StepperSettings pyramids = ode_law(10, Finish::newton);
+  pyramids.law.friction = stepping::Friction::pyramid;
+  const auto a = make_stepper(ode_law(10, Finish::newton), {dragged_box()}),
+             b = make_stepper(pyramids, {dragged_box()});
+  advance(*a, 5);
+  advance(*b, 5);
+  EXPECT_EQ(model::hash(a->state(0)), model::hash(b->state(0)));
 }
 
 }  // namespace

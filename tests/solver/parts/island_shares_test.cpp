@@ -6,6 +6,7 @@
 #include "ode/collide/narrow_phase.h"
 #include "solver/parts/yards.h"
 #include "solver/worlds/sor_stepper.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::solver {
 namespace {
@@ -20,7 +21,7 @@ struct Lengths {
   StepperSettings settings() const {
     StepperSettings settings = default_settings(stepping::StepperKind::sor);
     settings.tolerance_m = tolerance_m;
-    settings.contact_frequency = contact_hz;
+    settings.law.contact_frequency = contact_hz;
     return settings;
   }
 };

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "solver/parts/yards.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::solver {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "solver/layout/row_law.h"
 #include "solver/parts/yards.h"
+#include "stepping/stepper_traits.h"
 
 namespace pbmpi::solver {
 namespace {
@@ -92,9 +93,9 @@ TEST(TallIslands, get_so_many_substeps_that_they_sink_by_a_hundredth_of_a_body) 
 TEST(TallIslands, are_none_where_a_run_gives_no_more_substeps_has_no_memory_or_no_springs) {
   const Model model = columns({40});
   StepperSettings none_more = default_sor(), forgets = default_sor(), rigid = default_sor();
-  none_more.most_substeps = none_more.substeps;
-  forgets.warm_start = 0;
-  rigid.contact_frequency = 0;
+  none_more.law.most_substeps = none_more.substeps;
+  forgets.law.warm_start = 0;
+  rigid.law.contact_frequency = 0;
   EXPECT_TRUE(TallIslands(model, default_sor()).can_be());
   for (const StepperSettings& settings : {none_more, forgets, rigid})
     EXPECT_FALSE(TallIslands(model, settings).can_be());
@@ -143,7 +144,7 @@ TEST(TallIslands, what_whole_joints_hold_together_is_one_level) {
 TEST(TallIslands, sink_less_and_leave_the_others_as_they_are) {
   const Model model = columns({20, 5});
   StepperSettings none_more = default_sor();
-  none_more.most_substeps = none_more.substeps;
+  none_more.law.most_substeps = none_more.substeps;
   const auto soft = start(none_more, model), stiff = start(default_sor(), model);
   for (const auto& stepper : {soft.get(), stiff.get()}) advance(*stepper, 300);
   const auto sunk = [&](const auto& stepper, int body) {

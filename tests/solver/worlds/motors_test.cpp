@@ -29,12 +29,13 @@ struct Setting {
 std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out << setting.name; }
 
 std::vector<Setting> every_setting() {
-  StepperSettings quick, direct, cold;
-  direct.kind = StepperKind::direct;
-  cold.kind = StepperKind::sor;
   StepperSettings sor = default_settings(StepperKind::sor), single = sor;
   single.precision = stepping::Precision::single;
-  return {{"quick", quick}, {"direct", direct}, {"sor", sor}, {"sor_single", single}, {"sor_cold", cold}};
+  return {{"quick", default_settings(StepperKind::quick)},
+          {"direct", default_settings(StepperKind::direct)},
+          {"sor", sor},
+          {"sor_single", single},
+          {"sor_ode_law", default_settings(StepperKind::sor, stepping::Law::ode)}};
 }
 
 std::unique_ptr<stepping::WorldStepper> start(const StepperSettings& settings, const Model& model,

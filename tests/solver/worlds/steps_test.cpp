@@ -48,16 +48,15 @@ std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out
 
 std::vector<Setting> every_setting() {
   const StepperSettings by_default = default_settings(stepping::StepperKind::sor);
-  StepperSettings single = by_default, fixed = by_default, cold = {.kind = stepping::StepperKind::sor};
-  StepperSettings newton = cold;
-  newton.friction = stepping::Friction::cone;
+  const StepperSettings ode_law = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
+  StepperSettings single = by_default, fixed = by_default, newton = ode_law;
   newton.finish = stepping::Finish::newton;
   single.precision = stepping::Precision::single;
-  fixed.row_order = stepping::RowOrder::fixed;
+  fixed.law.row_order = stepping::RowOrder::fixed;
   return {{"default", by_default},
           {"single", single},
           {"fixed_order", fixed},
-          {"cold", cold},
+          {"ode_law", ode_law},
           {"newton", newton}};
 }
 

@@ -53,8 +53,8 @@ std::vector<Setting> every_setting() {
   const StepperSettings by_default = default_settings(stepping::StepperKind::sor);
   StepperSettings single = by_default, ode = by_default, fixed = by_default, shares = by_default;
   single.precision = stepping::Precision::single;
-  ode.colliders = stepping::Colliders::ode;
-  fixed.row_order = stepping::RowOrder::fixed;
+  ode.law.colliders = stepping::Colliders::ode;
+  fixed.law.row_order = stepping::RowOrder::fixed;
   shares.tolerance_m = 1e-5;
   return {{"default", by_default},
           {"single", single},
@@ -166,7 +166,7 @@ class Calling final : public model::NarrowPhase {
 Stepper two_groups(const model::MakeNarrowPhase& make_narrow_phase) {
   StepperSettings settings = default_settings(stepping::StepperKind::sor);
   settings.threads = 2;
-  settings.colliders = stepping::Colliders::ode;
+  settings.law.colliders = stepping::Colliders::ode;
   settings.simd = stepping::Simd::off;  // a world is a batch
   auto stepper = make_sor_stepper(settings, make_narrow_phase);
   const Model model = support::box_over_ground(-0.1);

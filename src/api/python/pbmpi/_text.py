@@ -28,7 +28,7 @@ def option_text(name: str, value: Any) -> str:
 
 
 def settings_text(settings: Mapping[str, Any]) -> dict[str, str]:
-    """Options by their names in pbmpi: `warm_start` is its --warm-start."""
+    """Options by their names in pbmpi: `solver_seed` is its --solver-seed."""
     return {name.replace("_", "-"): option_text(name, value) for name, value in settings.items()}
 
 

@@ -23,14 +23,6 @@ int steps_in_frame(const StudyScene& scene, double dt_s) {
   return static_cast<int>(std::round(steps));
 }
 
-/// A stepper of this kind with its usual settings, with a memory if it has one.
-StepperSettings remembering(const StepperSettings& base) {
-  StepperSettings settings = default_settings(base.kind);
-  settings.dt_s = base.dt_s;
-  settings.seed = base.seed;
-  return settings;
-}
-
 /// The frame of one precise setting, estimated by each number of iterations after each number of its steps.
 void add_estimates_of(AccuracyCase precise, const AccuracyOptions& options,
                       std::vector<AccuracyCase>& cases) {
@@ -48,23 +40,26 @@ void add_estimates_of(AccuracyCase precise, const AccuracyOptions& options,
   }
 }
 
-/// Estimates with the scene's own iterations, and with the stepper's usual settings, in each precision of the
-/// study.
+/// The lists of these options among those of the study.
+std::vector<SettingList> lists_of(const AccuracyOptions& options,
+                                  std::initializer_list<std::string_view> names) {
+  std::vector<SettingList> lists;
+  for (const SettingList& list : options.settings) {
+    if (std::ranges::find(names, list.option->name) != names.end()) lists.push_back(list);
+  }
+  return lists;
+}
+
+/// Estimates of frames with the scene's own iterations, and with those of sor's soft law, in each law and
+/// precision of the study.
 void add_estimates(const AccuracyCase& base, const StudyScene& scene, const AccuracyOptions& options,
                    std::vector<AccuracyCase>& cases) {
-  const auto precisions =
-      std::ranges::find(options.settings, &stepping::step_option("precision"), &SettingList::option);
-  const auto add = [&](const StepperSettings& precise) {
-    cross_settings(precise, {precisions, 1}, [&](const StepperSettings& stepper) {
-      AccuracyCase one = base;
-      one.stepper = stepper;
-      add_estimates_of(one, options, cases);
-    });
-  };
-  StepperSettings scenes_own = base.stepper;
-  scenes_own.iterations = scene.iterations;
-  add(scenes_own);
-  if (options.with_default && traits_of(base.stepper.kind).tunes_sweeps) add(remembering(base.stepper));
+  cross_settings(base.stepper, lists_of(options, {"law", "precision"}), [&](const StepperSettings& precise) {
+    AccuracyCase one = base;
+    one.stepper = precise;
+    if (precise.law.name != stepping::Law::soft) one.stepper.iterations = scene.iterations;
+    add_estimates_of(one, options, cases);
+  });
 }
 
 /// All settings of one kind of stepper. `base` has the kind and dt.
@@ -76,22 +71,6 @@ void add_settings(const AccuracyCase& base, const AccuracyOptions& options,
   cross_settings(base.stepper, lists.subspan(1), [&](const StepperSettings& stepper) {
     one.stepper = stepper;
     if (!traits.has_substeps || one.sweeps() <= options.max_sweeps) cases.push_back(one);
-  });
-}
-
-/// The settings with a memory from step to step, with the study's numbers of substeps, precisions and
-/// tolerances.
-void add_remembering(const AccuracyCase& base, const AccuracyOptions& options,
-                     std::vector<AccuracyCase>& cases) {
-  AccuracyCase one = base;
-  std::vector<SettingList> lists;
-  for (const SettingList& list : options.settings) {
-    if (list.option->name == "substeps" || list.option->name == "precision") lists.push_back(list);
-  }
-  lists.push_back(options.tolerances);
-  cross_settings(remembering(base.stepper), lists, [&](const StepperSettings& stepper) {
-    one.stepper = stepper;
-    if (one.sweeps() <= options.max_sweeps) cases.push_back(one);
   });
 }
 
@@ -111,8 +90,6 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
     cross_settings(with_dt, {&options.settings.front(), 1}, [&](const StepperSettings& with_kind) {
       const AccuracyCase first{index, CaseKind::setting, with_kind, steps};
       add_settings(first, options, cases);
-      if (options.with_default && traits_of(with_kind.kind).tunes_sweeps)
-        add_remembering(first, options, cases);
       const bool is_first_step = text_of(*dts.option, with_kind) == dts.values.front();
       if (traits_of(with_kind.kind).iterates && is_first_step) add_estimates(first, scene, options, cases);
     });
@@ -126,11 +103,10 @@ constexpr int most_bodies_for_direct = 60;
 /// check.
 StepperSettings second_method(const StudyScene& scene, const StepperSettings& reference,
                               const AccuracyOptions& options) {
-  StepperSettings second;
   const int num_bodies =
       scenes::parse_scene(scene.source, scene.dt_s)->build(0, reference.seed)->num_bodies();
-  second.kind =
-      num_bodies <= most_bodies_for_direct ? stepping::StepperKind::direct : stepping::StepperKind::quick;
+  StepperSettings second = default_settings(
+      num_bodies <= most_bodies_for_direct ? stepping::StepperKind::direct : stepping::StepperKind::quick);
   second.dt_s = reference.dt_s;
   second.seed = reference.seed;
   if (second.kind == stepping::StepperKind::quick)
@@ -160,9 +136,10 @@ void add_yardsticks(int index, const StudyScene& scene, const AccuracyOptions& o
 }
 
 bool solve_the_same(const StepperSettings& a, const StepperSettings& b) {
-  return std::ranges::all_of(stepping::step_options(), [&](const stepping::StepOption& option) {
-    return value_of(option, a) == value_of(option, b);
-  });
+  return a.law == b.law &&
+         std::ranges::all_of(stepping::step_options(), [&](const stepping::StepOption& option) {
+           return value_of(option, a) == value_of(option, b);
+         });
 }
 
 /// Adds the own solutions of the scene's settings (the cases from `first` on), one for all settings that
@@ -191,7 +168,10 @@ void add_own_floors(std::size_t first, const AccuracyOptions& options, std::vect
     if (cases[i].kind != CaseKind::own) continue;
     const StepperSettings& stepper = cases[i].stepper;
     const std::size_t known = own_of.try_emplace(stepper.kind, i).first->second;
-    const StepperSettings usual = own_settings(remembering(stepper), options.own_iterations);
+    StepperSettings usual = default_settings(stepper.kind);
+    usual.dt_s = stepper.dt_s;
+    usual.seed = stepper.seed;
+    usual = own_settings(usual, options.own_iterations);
     if (cases[known].stepper.dt_s == stepper.dt_s && solve_the_same(stepper, usual)) own_of[stepper.kind] = i;
   }
   for (const auto& [kind, own] : own_of) {
@@ -219,8 +199,7 @@ StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions&
 }
 
 StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options) {
-  StepperSettings reference;
-  reference.kind = stepping::StepperKind::sor;
+  StepperSettings reference = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   reference.dt_s = scene.dt_s;
   reference.iterations = options.reference_iterations;
   reference.seed = options.seed;
@@ -236,14 +215,9 @@ StepperSettings own_settings(const StepperSettings& setting, int iterations) {
   const stepping::StepperTraits& traits = traits_of(setting.kind);
   StepperSettings own = setting;
   if (traits.iterates) own.iterations = std::max(1, iterations / setting.substeps);
-  if (!traits.tunes_sweeps) return own;
-  const StepperSettings usual = setting.relax > 0 ? default_settings(setting.kind) : StepperSettings();
-  own.sor_factor = usual.sor_factor;
-  own.warm_start = usual.warm_start;
-  own.row_order = usual.row_order;
-  own.precision = usual.precision;
-  own.tolerance_m = usual.tolerance_m;
-  if (setting.relax > 0) own.relax = own.iterations;
+  own.precision = StepperSettings{}.precision;
+  own.tolerance_m = StepperSettings{}.tolerance_m;
+  if (own.law.relax > 0) own.law.relax = own.iterations;
   return own;
 }
 

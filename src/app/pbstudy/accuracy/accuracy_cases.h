@@ -48,15 +48,13 @@ struct AccuracyCase {
 
 StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions& options);
 
-/// The reference's setting: a cold sor in double precision, with the iterations that it begins with.
+/// The reference's setting: sor with ODE's law in double precision, with the iterations that it begins with.
 stepping::StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options);
 ReferenceSolve reference_solve(const StudyScene& scene, const AccuracyOptions& options);
 
-/// The settings that solve the equations of `setting` with so many iterations a step. What decides how they
-/// are solved is taken from the stepper's usual settings (over-relaxation, warm start, order, precision, and
-/// no tolerance). What decides which equations are solved stays: the step and, for sor, substeps, springs,
-/// margin, friction, and whether there are relaxing sweeps, which then number as many as the others.
-/// Substeps share the iterations. A stepper without iterations keeps its settings.
+/// The settings that solve the equations of `setting` with so many iterations a step, in double precision and
+/// without a tolerance. Substeps share the iterations; the soft law has as many relaxing sweeps. A stepper
+/// without iterations keeps its settings.
 stepping::StepperSettings own_settings(const stepping::StepperSettings& setting, int iterations);
 
 /// All cases of all scenes, scene by scene. Throws core::InputError for a dt that does not fill a frame.

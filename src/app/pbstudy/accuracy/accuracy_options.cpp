@@ -11,35 +11,29 @@ namespace {
 namespace po = boost::program_options;
 
 /// In the order in which cases are crossed, the last varying fastest.
-constexpr std::array<VariedOption, 8> varied = {{
+constexpr std::array<VariedOption, 7> varied = {{
     {"stepper", "quick, direct, sor, bullet, mujoco; default: quick sor", "quick sor"},
-    {"iterations", "default: 1 2 3 5 10 15 19 20 40 80", "1 2 3 5 10 15 19 20 40 80"},
+    {"law", "sor: ode, soft; default: both", "ode soft"},
+    {"iterations", "but of --law soft, which takes 1; default: 1 2 3 5 10 15 19 20 40 80",
+     "1 2 3 5 10 15 19 20 40 80"},
     {"substeps", "sor; default: 1 3 7 14 28", "1 3 7 14 28"},
     {"precision", "sor: double, single; default: both", "double single"},
-    {"sor-factor", "sor: over-relaxation; default: 1.3", "1.3"},
-    {"warm-start", "sor: share of the forces that a step and a substep take over; default: 0", "0"},
-    {"row-order", "sor: shuffled (drawn anew), fixed; default: shuffled", "shuffled"},
     {"constraint-solver", "mujoco: newton, pgs, cg; default: newton", "newton"},
+    {"tolerance", "--law soft: below how long a way an island gets one substep; default: 0", "0"},
 }};
 constexpr VariedOption varied_dt = {
     "dt", "step [s], a whole number of which fills a frame; default: the scene's and half of it", ""};
-constexpr VariedOption varied_tolerance = {
-    "tolerance", "of sor as it is by default: below how long a way an island gets fewer substeps; default: 0",
-    "0"};
 
 po::options_description options_description() {
-  po::options_description what(
-      "What to vary (lists, separated by blanks; all are crossed, in steps of sor without memory; beside "
-      "them sor as it is by default, in the numbers of substeps and the precisions given, unless "
-      "--sor-factor, --warm-start or --row-order is)");
+  po::options_description what("What to vary (lists, separated by blanks; all are crossed)");
   add_scene_option(what);
   for (const VariedOption& one : varied) add_setting_list(one, what);
-  add_setting_list(varied_tolerance, what);
   what.add_options()  //
       ("estimates", list_of<int>(),
-       "FEEC cases, not crossed with the others, at the first step of --dt: frames of the scene's own "
-       "iterations, and of sor as it is by default, estimated with so many, after none and more of their "
-       "steps; 0: none; default: 1 5");
+       "FEEC cases, not crossed with the others, at the first step of --dt: frames of each stepper and law "
+       "as "
+       "they are by default, estimated with so many iterations, after none and more of their steps; 0: none; "
+       "default: 1 5");
   add_setting_list(varied_dt, what);
   what.add_options()  //
       ("max-sweeps", po::value<int>()->default_value(320)->value_name("N"),
@@ -54,7 +48,8 @@ po::options_description options_description() {
                       "noise floor: the reference with this many other solver seeds", 4});
   how.add_options()  //
       ("reference-iterations", po::value<int>()->default_value(640)->value_name("N"),
-       "the reference is a cold sor in double precision, which solves the scene's own step; each step is "
+       "the reference is sor with --law ode in double precision, which solves the scene's own step; each "
+       "step is "
        "tried "
        "with these iterations first")  //
       ("reference-residual", po::value<std::string>()->default_value("0.01mm")->value_name("LENGTH"),
@@ -121,11 +116,7 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   AccuracyOptions options;
   static_cast<StudyOptions&>(options) = study_options(values, "pbstudy accuracy", args);
   options.settings = setting_lists(varied, values);
-  // Varying an option that only the cold step has asks for the cold step.
-  options.with_default =
-      values.count("sor-factor") + values.count("warm-start") + values.count("row-order") == 0;
   options.dts = setting_list(varied_dt, values);
-  options.tolerances = setting_list(varied_tolerance, values);
   options.estimates = list<int>(values, "estimates", {1, 5});
   options.max_sweeps = values["max-sweeps"].as<int>();
   options.reference_iterations = values["reference-iterations"].as<int>();

@@ -13,9 +13,7 @@ namespace pbmpi::app {
 /// The settings that are crossed, and how each is measured.
 struct AccuracyOptions : StudyOptions {
   std::vector<SettingList> settings;      ///< the stepper first; the last varies fastest
-  bool with_default = true;               ///< also study sor with its usual settings
   SettingList dts;                        ///< empty: the scene's and half of it
-  SettingList tolerances;                 ///< for sor with its usual settings
   std::vector<int> estimates;             ///< numbers of iterations with which frames are estimated (FEEC)
   int max_sweeps = 320;                   ///< iterations x substeps of a case, at most
   int reference_iterations = 640;         ///< first tried for each of its steps

@@ -15,7 +15,7 @@ namespace pbmpi::app {
 /// How far each step of each world is solved.
 struct ReferenceSolve {
   stepping::StepperSettings
-      stepper;  ///< a cold sor; its iterations are those that each step is first tried with
+      stepper;  ///< sor with ODE's law; its iterations are those that each step is first tried with
   /// Required of each step: how far the natural map of its rows (stepping::Residuals) still moves within the
   /// step, as a length [m] and, for rows about axes, as an angle [rad]. 0: no requirement.
   double residual = 0;

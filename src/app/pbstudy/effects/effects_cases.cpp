@@ -68,7 +68,8 @@ std::vector<StepperSettings> steppers_of(const StudyScene& scene, const EffectsO
     StepperSettings one = default_settings(varied.kind);
     one.precision = varied.precision;
     one.dt_s = scene.dt_s;
-    one.iterations = options.iterations.value_or(default_iterations(varied.kind, scene.iterations));
+    one.iterations =
+        options.iterations.value_or(default_iterations(varied.kind, one.law.name, scene.iterations));
     one.seed = options.seed;
     all.push_back(one);
   });

@@ -1,6 +1,7 @@
 #include "app/pbstudy/stability/stability_settings.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -32,6 +33,7 @@ void set_option(const std::string& text, const std::string& name, const std::str
       fits(*option, setting.stepper.kind),
       where + ": the stepper " + std::string(name_of(setting.stepper.kind)) + " has no such option");
   set(*option, value, where, setting.stepper);
+  if (name == "law") setting.stepper = default_settings(setting.stepper.kind, setting.stepper.law.name);
   setting.own_dt = setting.own_dt || name == "dt";
 }
 
@@ -46,19 +48,18 @@ StabilitySetting parse_stability_setting(const std::string& text) {
   set(stepping::step_option("stepper"), word, "--setting '" + text + "': stepper", setting.stepper);
   engines::require_in_build(setting.stepper.kind, "--setting '" + text + "'");
   setting.stepper = default_settings(setting.stepper.kind);
-  while (stream >> word) {
-    const std::size_t equals = word.find('=');
-    if (word == "cut") {
+  std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+  // A law brings its own iterations and substeps, so that it comes before them.
+  std::ranges::stable_partition(words, [](const std::string& one) { return one.starts_with("law="); });
+  for (const std::string& one : words) {
+    const std::size_t equals = one.find('=');
+    if (one == "cut") {
       setting.cut = true;
-    } else if (word == "cold") {
-      const stepping::StepperKind kind = setting.stepper.kind;
-      setting.stepper = {};
-      setting.stepper.kind = kind;
-    } else {
-      require_input(equals != std::string::npos,
-                    "--setting '" + text + "': " + word + ": write name=value, cold, or cut");
-      set_option(text, word.substr(0, equals), word.substr(equals + 1), setting);
+      continue;
     }
+    require_input(equals != std::string::npos,
+                  "--setting '" + text + "': " + one + ": write name=value, or cut");
+    set_option(text, one.substr(0, equals), one.substr(equals + 1), setting);
   }
   const stepping::StepperTraits& traits = traits_of(setting.stepper.kind);
   require_input(!setting.cut || traits.cuts_spaces,
@@ -80,8 +81,8 @@ const std::vector<std::string>& default_stability_settings() {
       "sor",
       "sor precision=single",
       "sor substeps=8",
-      "sor cold",
-      "sor cold iterations=80",
+      "sor law=ode",
+      "sor law=ode iterations=80",
       "sor cut",
       "sor estimate=1",
   };

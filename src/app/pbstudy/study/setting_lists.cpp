@@ -15,16 +15,26 @@ std::vector<std::string> words(std::string_view text) {
   return all;
 }
 
+/// A stepper and a law have their own sweeps and substeps.
 void set_value(const SettingList& list, const std::string& value, stepping::StepperSettings& settings) {
-  set(*list.option, value, "--" + std::string(list.option->name), settings);
+  const std::string name(list.option->name);
+  set(*list.option, value, "--" + name, settings);
+  if (name != "stepper" && name != "law") return;
+  const stepping::StepperSettings given = settings;
+  settings = default_settings(given.kind, given.law.name);
+  settings.dt_s = given.dt_s;
+  settings.seed = given.seed;
 }
+
+bool is_soft(const stepping::StepperSettings& settings) { return settings.law.name == stepping::Law::soft; }
 
 /// The values that make a difference over `base`; none: `base` is left as it is.
 std::span<const std::string> useful(const SettingList& list, const stepping::StepperSettings& base) {
   const std::span<const std::string> values = list.values;
   if (!fits(*list.option, base.kind)) return {};
   if (list.option->name == "iterations" && !traits_of(base.kind).iterates) return values.first(1);
-  if (list.option->name == "tolerance" && base.substeps == 1) return {};
+  if (list.option->name == "iterations" && is_soft(base)) return {};
+  if (list.option->name == "tolerance" && (!is_soft(base) || base.substeps == 1)) return {};
   return values;
 }
 

@@ -34,9 +34,10 @@ SettingList setting_list(const VariedOption& varied, const boost::program_option
 std::vector<SettingList> setting_lists(std::span<const VariedOption> varied,
                                        const boost::program_options::variables_map& values);
 
-/// Takes each combination over `base`, the last list varying fastest. An option that a setting has no use for
-/// (one that its stepper lacks, iterations without sweeps, a tolerance without a second substep, a sag where
-/// all get the most) takes one value only.
+/// Takes each combination over `base`, the last list varying fastest. A stepper or a law brings its
+/// default_settings(), except for the step's length and the seed. An option that a setting has no use for
+/// (one that its stepper lacks, iterations without sweeps, a tolerance without a second substep or a memory)
+/// takes one value only; sor with its soft law keeps its own number of iterations.
 void cross_settings(const stepping::StepperSettings& base, std::span<const SettingList> lists,
                     const std::function<void(const stepping::StepperSettings&)>& take);
 
