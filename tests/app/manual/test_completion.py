@@ -93,7 +93,7 @@ class Completion(unittest.TestCase):
     def test_closed_lists_are_offered_as_values(self):
         for shell in ("bash", "fish"):
             self.assertEqual(self.offered(shell, "pbmpi", "--stepper", ""), {"sor", "quick", "direct", "bullet", "mujoco"})
-            self.assertEqual(self.offered(shell, "pbmpi", "--report", "j"), {"json"})
+            self.assertEqual(self.offered(shell, "pbmpi", "--law", "so"), {"soft"})
             self.assertEqual(self.offered(shell, "pbstudy", "accuracy", "--precision", ""), {"double", "single"})
             self.assertEqual(self.offered(shell, "pbreport", "ensemble", "--over", "w"), {"worlds"})
         self.assertEqual(self.offered("bash", "pbmpi", "--stepper=qu"), {"quick"})

@@ -85,7 +85,7 @@ Manual pbmpi_manual() {
       .files = {{"SCENE.h5", "the run: poses, observables and times, in HDF5"},
                 {"SCENE.xdmf", "the sidecar that opens it in ParaView"},
                 {"SCENE.checkpoint.h5", "what --resume goes on from"}},
-      .examples = {"mpirun -n 2 pbmpi --scene 100CrSk --report json", "pbmpi --scene CrashSk --describe"}};
+      .examples = {"mpirun -n 2 pbmpi --scene 100CrSk --json", "pbmpi --scene CrashSk --describe"}};
 }
 
 Options parse_options(const std::vector<std::string>& args, const std::string& saved) {
