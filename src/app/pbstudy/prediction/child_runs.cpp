@@ -88,8 +88,7 @@ ChildRun ChildRuns::simulate(const std::string& name, const PredictionCase& one,
                                         "--output",
                                         file(name + ".h5"),
                                         "--no-xdmf",
-                                        "--report",
-                                        "json",
+                                        "--json",
                                         "--progress",
                                         "never"};
   child.command.insert(child.command.end(), own.begin(), own.end());
