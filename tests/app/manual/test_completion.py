@@ -90,7 +90,6 @@ class Completion(unittest.TestCase):
             for shell in ("bash", "fish"):
                 self.assertLess({"run.h5", *commands_of(program)}, self.offered(shell, program, ""), (shell, program))
         for shell in ("bash", "fish"):
-<<<<<<< HEAD
             self.assertEqual(self.offered(shell, "pbreport", "diff", "r"), {"run.h5"})
             self.assertEqual(self.offered(shell, "pbstudy", "acc"), {"accuracy"})
 
@@ -98,14 +97,8 @@ class Completion(unittest.TestCase):
         steppers = {"sor", "quick", "direct", "bullet", "mujoco"}
         self.assertEqual(self.offered("bash", "pbmpi", "--stepper", ""), steppers)
         self.assertEqual(self.offered("bash", "pbmpi", "--stepper="), steppers)
-=======
-            self.assertEqual(self.offered(shell, "pbmpi", "--stepper", ""), {"sor", "quick", "direct", "bullet", "mujoco"})
-            self.assertEqual(self.offered(shell, "pbmpi", "--law", "so"), {"soft"})
-            self.assertEqual(self.offered(shell, "pbstudy", "accuracy", "--precision", ""), {"double", "single"})
-            self.assertEqual(self.offered(shell, "pbreport", "ensemble", "--over", "w"), {"worlds"})
->>>>>>> main
         self.assertEqual(self.offered("bash", "pbmpi", "--stepper=qu"), {"quick"})
-        self.assertEqual(self.offered("bash", "pbmpi", "--report", "j"), {"json"})
+        self.assertEqual(self.offered("bash", "pbmpi", "--law", "o"), {"ode"})
         self.assertEqual(self.offered("bash", "pbreport", "ensemble", "--over", "w"), {"worlds"})
 
     def test_bash_offers_scenes_and_files(self):
