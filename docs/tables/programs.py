@@ -44,8 +44,8 @@ def pbmpi(*options):
 
 
 def summary(*options):
-    """The summary of a run, as `pbmpi --json` prints it."""
-    return json.loads(pbmpi(*options, "--no-output", "--json"))
+    """The summary of a run, as `pbmpi --report json` prints it."""
+    return json.loads(pbmpi(*options, "--no-output", "--report", "json"))
 
 
 def pbreport(*options):

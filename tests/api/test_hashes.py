@@ -32,7 +32,7 @@ class HashTest(harness.ProgramTest):
             with self.subTest(scene=scene, options=options):
                 arguments = [text for name, value in options.items() for text in ("--" + name + "=" + value,)]
                 run = self.run_command([harness.PBMPI, "--scene", scene, "--replicas", str(worlds), "--warmup", "0", "--frames",
-                                        str(frames), "--no-output", "--json", *arguments])
+                                        str(frames), "--no-output", "--report", "json", *arguments])
                 self.assertEqual(run.returncode, 0, run.stderr)
                 batch = subprocess.run(
                     [BATCH_HASH, scene, str(worlds), str(3 * frames), *(f"{name}={value}" for name, value in options.items())],

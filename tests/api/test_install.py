@@ -29,7 +29,7 @@ class InstallTest(harness.ProgramTest):
 
     def expect_the_hash_of_pbmpi(self, output):
         run = self.command(harness.PBMPI, "--scene", "CrashSk", "--replicas", "3", "--precision", "single", "--no-output",
-                           "--json")
+                           "--report", "json")
         found = json.loads(run)["state_hash"]
         self.assertIn(f"\nhash: {found}\n", output)
         self.assertIn(f"\nhash after load: {found}\n", output)
@@ -56,7 +56,7 @@ class InstallTest(harness.ProgramTest):
         output = self.build_by_hand(self.write("page.cpp", program))
         run = json.loads(self.command(harness.PBMPI, "--scene", "CrashSk", "--replicas", "16", "--precision", "single", "--dt",
                                       "0.005", "--warmup", "0", "--frames", "1", "--steps-per-frame", "100", "--no-output",
-                                      "--quiet", "--json"))
+                                      "--quiet", "--report", "json"))
         self.assertRegex(output, r"^car.chassis of world 0: x = \d+\.\d{3} m\nhash " + run["state_hash"] + "\\n$")
 
     def test_what_is_installed_names_no_place_of_the_build(self):

@@ -85,7 +85,7 @@ class ProgramTest(unittest.TestCase):
 
     def summary(self, ranks, *args):
         """The JSON summary of a run that must succeed."""
-        result = self.pbmpi(ranks, *args, "--json")
+        result = self.pbmpi(ranks, *args, "--report", "json")
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads(result.stdout)
 

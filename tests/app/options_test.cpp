@@ -198,7 +198,7 @@ TEST(RunOptions, stand_in_the_file_unless_they_change_neither_it_nor_a_result) {
   // The scene and its table of parameters have entries of their own; the others say where a run writes, what
   // it prints, and when it stops.
   const std::set<std::string_view> others = {"scene",      "parameters", "output",          "no-output",
-                                             "no-xdmf",    "json",       "max-time",        "checkpoint",
+                                             "no-xdmf",    "report",     "max-time",        "checkpoint",
                                              "wait-limit", "resume",     "checkpoint-every"};
   std::set<std::string_view> left_out;
   for (const RunOption& option : run_options()) {

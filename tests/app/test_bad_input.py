@@ -214,7 +214,7 @@ class WhatIsSaid(ProgramTest):
     def test_a_full_standard_output_is_a_failure(self):
         self.assertEqual(self.pbmpi(1, "--scene", "CrashSk", "-q").returncode, 0)
         for command in ([PBMPI, "--scene", "CrashSk", "--no-output"], [PBMPI, "--list-scenes"], [PBMPI, "--help"],
-                        [PBMPI, "--scene", "CrashSk", "--describe"], [PBMPI, "--scene", "CrashSk", "--json", "--no-output"],
+                        [PBMPI, "--scene", "CrashSk", "--describe"], [PBMPI, "--scene", "CrashSk", "--report", "json", "--no-output"],
                         [PBREPORT, "CrashSk.h5"], [PBREPORT, "CrashSk.h5", "--json"], [PBSTUDY, "effects", "--help"]):
             with open("/dev/full", "w", encoding="utf-8") as full:
                 result = subprocess.run(command, cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True,

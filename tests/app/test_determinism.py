@@ -40,7 +40,7 @@ class Determinism(ProgramTest):
             args = ["--scene", "100CrSk", "--stepper", "sor", "--precision", precision, "--no-output"]
             hashes = {self.summary(ranks, *args)["state_hash"] for ranks in (1, 2, 3, 4)}
             for simd in ("off", "sse2", "avx2", "avx512"):
-                result = self.pbmpi(1, *args, "--simd", simd, "--json")
+                result = self.pbmpi(1, *args, "--simd", simd, "--report", "json")
                 if result.returncode == 2 and "lacks the instruction set" in result.stderr:
                     continue  # not this machine's
                 self.assertEqual(result.returncode, 0, result.stderr)

@@ -178,7 +178,7 @@ class NothingOverwritten(ProgramTest):
         os.mkdir(self.path("dir.xdmf"))
         self.write("text.xdmf", "notes of my own")
         for name in ("dir", "text"):
-            result = self.pbmpi(1, *SHORT, "--output", f"{name}.h5", "--json")
+            result = self.pbmpi(1, *SHORT, "--output", f"{name}.h5", "--report", "json")
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn("warning: no sidecar", result.stderr)
             self.assertTrue(json.loads(result.stdout)["complete"])

@@ -17,7 +17,7 @@ SCENES = "CrashWa,Environ,Battle,Fight,Battle2"
 
 def run(ranks, scene, decompose, options):
     command = ["mpirun", "-n", str(ranks), os.path.join(BIN, "pbmpi"), "--scene", scene, "--stepper", "sor",
-               "--frames", "40", "--no-output", "--json", "--decompose", decompose, *options]
+               "--frames", "40", "--no-output", "--report", "json", "--decompose", decompose, *options]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 

@@ -15,7 +15,7 @@ BIN = os.environ.get("PBMPI_BIN", os.path.join(os.path.dirname(__file__), "..", 
 def frame_rate(ranks, scene, options):
     """(harmonic-mean frame rate [Hz], state hash) of one run."""
     command = ["mpirun", "-n", str(ranks), os.path.join(BIN, "pbmpi"), "--scene", scene, "--frames", "20", "--no-output",
-               "--json", *options]
+               "--report", "json", *options]
     summary = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
     return summary["frame_rate"]["harmonic_mean_hz"], summary["state_hash"]
 

@@ -17,18 +17,18 @@ sys.path.insert(0, os.path.join(SOURCE, "jobs"))
 import figure3
 
 PBMPI, SINGLE = os.path.join(BIN, "pbmpi"), os.path.join(BIN, "pbmpi_ode_single")
-OPTIONS = ("--scene", "2-Cars", "--stepper", "quick", "--no-output", "--json")
+OPTIONS = ("--scene", "2-Cars", "--stepper", "quick", "--no-output", "--report", "json")
 MIX = {"floating point": "floating_point", "integer": "integer", "branch": "branch", "store": "store", "load": "load"}
 
 
 class Runs(ToolTest):
     def run_scene(self, *options, scene=("2-Cars", "--stepper", "quick")):
         """(report, summary) of a run under the tool."""
-        report, out = self.run_tool([PBMPI, "--scene", *scene, "--no-output", "--json"], *options)
+        report, out = self.run_tool([PBMPI, "--scene", *scene, "--no-output", "--report", "json"], *options)
         return report, json.loads(out)
 
     def native(self, scene=("2-Cars", "--stepper", "quick")):
-        out = subprocess.run([PBMPI, "--scene", *scene, "--no-output", "--json"], capture_output=True, check=True, timeout=60,
+        out = subprocess.run([PBMPI, "--scene", *scene, "--no-output", "--report", "json"], capture_output=True, check=True, timeout=60,
                              env=self.environment)
         return json.loads(out.stdout)
 

@@ -37,4 +37,4 @@ class PackageTest(ProgramTest):
 
     def state_hash(self, *args):
         """What pbmpi prints at the end of a run."""
-        return self.json(self.run_command([PBMPI, *map(str, args), "--no-output", "--json"]))["state_hash"]
+        return self.json(self.run_command([PBMPI, *map(str, args), "--no-output", "--report", "json"]))["state_hash"]

@@ -40,7 +40,7 @@ po::options_description common_options_description() {
       ("version", "print the version")  //
       ("config", po::value<std::string>()->value_name("FILE"),
        "read options from FILE, one 'name = value' a line; the command line wins")  //
-      ("quiet,q", "print nothing but errors and what --json asks for")       //
+      ("quiet,q", "print nothing but errors and what --report json asks for")       //
       ("progress", po::value<std::string>()->default_value("auto")->value_name("auto|always|never"),
        "progress bar on stderr; auto: only on a terminal");
   return common;

@@ -155,7 +155,7 @@ void write_sidecar(const mpi::Communicator& comm, const RunSpec& spec) {
 
 void print(const mpi::Communicator& comm, const Options& options, const RunSummary& summary) {
   if (!comm.is_root()) return;
-  if (options.run.json) {
+  if (options.run.report == ReportFormat::json) {
     std::cout << to_json(summary) << std::flush;
   } else if (!options.common.quiet) {
     std::cout << to_text(summary) << std::flush;

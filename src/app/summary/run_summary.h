@@ -137,7 +137,7 @@ void compute_delivery(const std::vector<double>& delivered_s, const std::vector<
 /// The summary as text, one line a number or group ("state_hash: ...").
 std::string to_text(const RunSummary& summary);
 
-/// The JSON document of --json, with a newline at the end.
+/// The JSON document of --report json, with a newline at the end.
 std::string to_json(const RunSummary& summary);
 
 }  // namespace pbmpi::app

@@ -66,7 +66,7 @@ class Breakage(ProgramTest):
         self.assertEqual(self.summary(1, *same_solve, "--feec")["state_hash"], plain["state_hash"])
         hashes = set()
         for simd in ("auto", "off", "sse2", "avx2", "avx512"):
-            result = self.pbmpi(1, *RUN, "--no-output", "--stepper", "sor", "--simd", simd, "--json")
+            result = self.pbmpi(1, *RUN, "--no-output", "--stepper", "sor", "--simd", simd, "--report", "json")
             if result.returncode == 2 and "lacks the instruction set" in result.stderr:
                 continue  # not this machine's
             hashes.add(self.json(result)["state_hash"])

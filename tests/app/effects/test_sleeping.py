@@ -31,7 +31,7 @@ class Sleeping(ProgramTest):
             hashes = {self.hash_of(1, *sor, "--decompose", "worlds")}
             hashes |= {self.hash_of(ranks, *sor, "--decompose", "spaces") for ranks in (1, 2, 3, 4)}
             for simd in ("off", "sse2", "avx2", "avx512"):
-                result = self.pbmpi(1, *RUN, "--no-output", *sor, "--simd", simd, "--json")
+                result = self.pbmpi(1, *RUN, "--no-output", *sor, "--simd", simd, "--report", "json")
                 if result.returncode == 2 and "lacks the instruction set" in result.stderr:
                     continue  # not this machine's
                 hashes.add(self.json(result)["state_hash"])

@@ -34,7 +34,7 @@ class GoldenHashes(ProgramTest):
     def hash_of(self, scene, precision, simd, before=EMULATOR):
         """`before`: what runs the program. None if its CPU lacks the instruction set."""
         result = self.run_command([*before, PBMPI, "--scene", scene, "--stepper", "sor", "--precision", precision,
-                                   "--simd", simd, "--no-output", "--json"])
+                                   "--simd", simd, "--no-output", "--report", "json"])
         if result.returncode == 2 and "lacks the instruction set" in result.stderr:
             return None
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -30,7 +30,7 @@ SOR = {
 ODE = {"quick": SCENES + EFFECT_SCENES, "direct": ("2-Cars", "CrashSk", "100CrSk")}  # the big matrix of the others takes minutes
 SIMDS = ("off", "sse2", "avx2", "avx512")
 RUNS_AT_ONCE = 3  # a run waits for most of its time until MPI is up
-FEW = ("--frames", 4, "--warmup", 1, "--no-output", "--json")
+FEW = ("--frames", 4, "--warmup", 1, "--no-output", "--report", "json")
 
 
 RANKS = None

@@ -145,10 +145,10 @@ class Accuracy(ProgramTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("run: mpirun -n 1 pbmpi --scene CrashSk --stepper sor", result.stdout)
         self.assertIn("noise floor", result.stdout)
-        run = self.pbmpi(1, "--config", "crash.cfg", "--no-output", "--json")
+        run = self.pbmpi(1, "--config", "crash.cfg", "--no-output", "--report", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual((json.loads(run.stdout)["stepper"], json.loads(run.stdout)["iterations"]), ("sor", 1))
-        wins = self.pbmpi(1, "--config", "crash.cfg", "--iterations", "7", "--no-output", "--json")
+        wins = self.pbmpi(1, "--config", "crash.cfg", "--iterations", "7", "--no-output", "--report", "json")
         self.assertEqual(json.loads(wins.stdout)["iterations"], 7, "the command line wins")
         with open(self.path("table.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))

@@ -48,7 +48,7 @@ class ManyRanks(ProgramTest):
         os.mkdir(folder)
         environment = {**os.environ, **harness.AT_ONCE, **COUNTED, "OMPI_MCA_pml_monitoring_filename": f"{folder}/rank"}
         done = self.run_command(mpirun(ranks, "--scene", "CrashSk", "--replicas", ranks, "--frames", frames, "--warmup", 1, "--no-output",
-                                       "--json"), env=environment)
+                                       "--report", "json"), env=environment)
         self.assertEqual(done.returncode, 0, done.stderr)
         sums = {"E": [0, 0], "I": [0, 0]}
         for name in glob.glob(f"{folder}/rank*"):

@@ -73,7 +73,7 @@ Manual pbmpi_manual() {
       .usage = "mpirun -n RANKS pbmpi --scene NAME [options]",
       .options = options_description(),
       .basic = {"scene", "replicas", "frames", "stepper", "dt", "substeps", "iterations", "precision",
-                "effects", "feec", "output", "record-every", "json", "resume", "config"},
+                "effects", "feec", "output", "record-every", "report", "resume", "config"},
       .exit_codes = {{"0", "done"},
                      {"1", "the simulation failed (what was written is readable)"},
                      {"2", "bad usage or bad input"},
@@ -86,7 +86,7 @@ Manual pbmpi_manual() {
       .files = {{"SCENE.h5", "the run: poses, observables and times, in HDF5"},
                 {"SCENE.xdmf", "the sidecar that opens it in ParaView"},
                 {"SCENE.checkpoint.h5", "what --resume goes on from"}},
-      .examples = {"mpirun -n 2 pbmpi --scene 100CrSk --json", "pbmpi --scene CrashSk --describe"}};
+      .examples = {"mpirun -n 2 pbmpi --scene 100CrSk --report json", "pbmpi --scene CrashSk --describe"}};
 }
 
 Options parse_options(const std::vector<std::string>& args, const std::string& saved) {

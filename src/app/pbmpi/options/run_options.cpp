@@ -240,10 +240,12 @@ std::vector<RunOption> output_rows() {
        .group = group,
        .meaning = "sor: store how far the last step of each frame is from the solution of its constraints",
        .recorded = true},
-      {.name = "json",
-       .member = &RunSpec::json,
+      {.name = "report",
+       .member = &RunSpec::report,
        .group = group,
-       .meaning = "print the summary as exactly one JSON document on stdout"},
+       .placeholder = "text|json",
+       .meaning = "the summary; json: exactly one JSON document on stdout",
+       .shows_default = true},
       {.name = "budget",
        .member = &RunSpec::budget_s,
        .group = group,
@@ -297,6 +299,7 @@ std::vector<RunOption> stop_rows() {
 constexpr const auto& names_of(stability::OnBlowup) { return stability::on_blowup_names; }
 constexpr const auto& names_of(Decomposition) { return decomposition_names; }
 constexpr const auto& names_of(scenes::SpacesForm) { return spaces_names; }
+constexpr const auto& names_of(ReportFormat) { return report_format_names; }
 
 template <class T>
 struct Type {};

@@ -17,7 +17,9 @@
 
 namespace pbmpi::app {
 
+enum class ReportFormat { text, json };
 enum class Decomposition { automatic, worlds, spaces };
+inline constexpr std::array<std::string_view, 2> report_format_names = {"text", "json"};
 inline constexpr std::array<std::string_view, 3> decomposition_names = {"auto", "worlds", "spaces"};
 inline constexpr std::array<std::string_view, 2> spaces_names = {"one", "many"};
 
@@ -64,7 +66,7 @@ struct RunSpec {
   bool no_output = false, no_xdmf = false;
   int record_every = 1;
   bool record_islands = false, record_contacts = false, record_residuals = false;
-  bool json = false;                                   ///< the summary on stdout
+  ReportFormat report = ReportFormat::text;
   double budget_s = stepping::default_frame_budget_s;  ///< per frame; changes no result
 
   std::optional<double> max_time_s;

@@ -11,7 +11,7 @@ using core::require_input;
 po::options_description report_options_description() {
   po::options_description summary("The summary");
   summary.add_options()  //
-      ("json", "print it as one JSON document, with the keys of 'pbmpi --json'");
+      ("json", "print it as one JSON document, with the keys of 'pbmpi --report json'");
 
   po::options_description write("What to write");
   write.add_options()  //

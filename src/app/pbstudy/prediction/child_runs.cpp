@@ -88,7 +88,8 @@ ChildRun ChildRuns::simulate(const std::string& name, const PredictionCase& one,
                                         "--output",
                                         file(name + ".h5"),
                                         "--no-xdmf",
-                                        "--json",
+                                        "--report",
+                                        "json",
                                         "--progress",
                                         "never"};
   child.command.insert(child.command.end(), own.begin(), own.end());
