@@ -2,7 +2,9 @@
 seals of the files."""
 import importlib
 import pathlib
+import signal
 import sys
+import warnings
 
 if __package__ in (None, ""):
     sys.path[0] = str(pathlib.Path(__file__).absolute().parents[1])
@@ -25,6 +27,11 @@ def fail(message, code):
 
 
 def main(words):
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # ends without a word, as other programs do
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+    if sys.stdout is not None:
+        sys.stdout.reconfigure(encoding="utf-8", errors="replace")  # names of files may be no UTF-8
+    warnings.simplefilter("ignore")  # numpy's, about numbers that are not finite
     try:
         report = importlib.import_module(f"reports.{MODULES[words[0]]}")
         report.run(words[1:])
@@ -36,8 +43,11 @@ def main(words):
         return fail("there is not enough memory for what is to be read", 1)
     except (OSError, RuntimeError) as error:  # h5py's, of a file whose inside is damaged
         return fail(f"a file cannot be read ({error}); it is damaged or incomplete", 2)
+    except (LookupError, ArithmeticError, ValueError, TypeError, AttributeError) as error:  # the files are sound, but not as they must be
+        return fail(f"a file lacks something or has an impossible value ({type(error).__name__}: {error}); is it of another version of "
+                    "pbmpi, or damaged?", 2)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main(sys.argv[1:]) if sys.argv[1:2] and sys.argv[1] in MODULES else fail(f"name a report: {', '.join(MODULES)}", 2))

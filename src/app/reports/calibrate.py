@@ -12,15 +12,16 @@ TABLES = ("costs", "forecasts", "walls", "checks")
 LOAD = ("ranks", "worlds", "bodies", "steps")  # what a case of frames differs in
 MOST_RANKS, MOST_WORLDS, MOST_BODIES = 1 << 20, 10**12, 10**6
 LAST_POWER_OF_RANKS = 131072  # for which walls are looked for
+RANKS, WORLDS = (2, 64, 1024, 16384, 131072), (100, 10000, 1000000, 100000000)  # the usual question
 USUAL_FRAMES = 1000  # measured frames of a run whose memory is forecast
 BUDGET_S = 0.1 / 30  # of a frame: default_frame_budget_s of stepping/frame.h
 FLAT, TREE = "flat", "tree"  # messages straight to root and results on every rank, or by a tree of ranks to root alone
 
 
 def add_options(group):
-    group.add_argument("--ranks", nargs="+", type=int, default=[2, 64, 1024, 16384, 131072], metavar="N",
+    group.add_argument("--ranks", nargs="+", action="extend", type=int, metavar="N",
                        help="numbers of ranks; default: 2 64 1024 16384 131072")
-    group.add_argument("--worlds", nargs="+", type=int, default=[100, 10000, 1000000, 100000000], metavar="N",
+    group.add_argument("--worlds", nargs="+", action="extend", type=int, metavar="N",
                        help="numbers of worlds; default: 100 10000 1000000 100000000")
     group.add_argument("--bodies", type=int, default=37, metavar="N", help="bodies of a world; default: 37")
     group.add_argument("--world-step", default="0", metavar="TIME",
@@ -92,13 +93,13 @@ def forecast_of(load, costs, way):
 def forecasts_of(options, costs):
     """Both ways for each number of worlds and of ranks with no fewer worlds than ranks."""
     loads = [harness.Load(ranks, worlds, options.bodies, step_s=options.step_s)
-             for worlds in options.worlds for ranks in options.ranks if ranks <= worlds]
+             for worlds in options.worlds or WORLDS for ranks in options.ranks or RANKS if ranks <= worlds]
     return [forecast_of(load, costs, way) for load in loads for way in (FLAT, TREE)]
 
 
 def walls_of(options, costs):
     walls = []
-    for worlds in options.worlds:
+    for worlds in options.worlds or WORLDS:
         parts = [Wall(worlds, part) for part in harness.FRAME_PARTS[1:]]
         ranks = 2
         while ranks <= min(LAST_POWER_OF_RANKS, worlds):

@@ -2,6 +2,7 @@
 import argparse
 import dataclasses
 import difflib
+import math
 import os
 import re
 import sys
@@ -55,6 +56,7 @@ def parser_of(command):
 def config_words(path, parser):
     """The lines of a --config file as words of a command line."""
     flags = [name for action in parser._actions if action.nargs == 0 for name in action.option_strings]  # pylint: disable=protected-access
+    require(os.path.isfile(path), f"{path}: there is no such file; --config wants a file of 'name = value' lines")
     try:
         with open(path, encoding="utf-8") as file:
             lines = [line.split("#")[0].strip() for line in file]
@@ -64,7 +66,9 @@ def config_words(path, parser):
     for line in filter(None, lines):
         name, equals, value = (part.strip() for part in line.partition("="))
         require(equals, f"{path}: '{line}' is no line 'name = value'")
-        words += [f"--{name}"] if f"--{name}" in flags and value in ("", "true", "1") else [f"--{name}", value]
+        if f"--{name}" in flags:
+            require(value in ("", "true", "1"), f"{path}: '{line}': {name} takes no value; leave out what follows '='")
+        words += [f"--{name}"] if f"--{name}" in flags else [f"--{name}", value]
     return words
 
 
@@ -78,6 +82,13 @@ def require_known(words, parser):
             raise BadInput(f"unknown option '{name}'; " + (f"did you mean {near[0]}?" if near else "see --help"))
 
 
+def require_once(words, parser):
+    """argparse takes the last of several values without a word."""
+    for action in parser._actions:  # pylint: disable=protected-access
+        given = [word.split("=")[0] for word in words if word.split("=")[0] in action.option_strings]
+        require(len(given) < 2 or action.nargs == "+", f"option '{given[0] if given else ''}' cannot be given more than once")
+
+
 def help_text(command, parser):
     """In the layout of the other programs' help."""
     options = parser.format_help().replace("-h [all], --help [all]", "-h, --help")
@@ -89,6 +100,7 @@ def parse(command, words):
     """The options of a command line, or None where it asks for help, which is printed. Raises BadInput with one clear message."""
     parser = parser_of(command)
     require_known(words, parser)
+    require_once(words, parser)
     options = parser.parse_args(words)
     if options.help is not None:
         require(options.help == "all", f"--help {options.help}: write --help for the basic options, or --help all for all")
@@ -130,12 +142,12 @@ def quantity(text, kind, option):
     except ValueError:
         value = 0.0
     example = "3.33ms" if kind == "time" else "1cm"
-    require(value > 0, f"{option} {text}: it must be a number above 0 and a unit ({', '.join(units)}), e.g. {example}")
+    require(0 < value < math.inf, f"{option} {text}: it must be a number above 0 and a unit ({', '.join(units)}), e.g. {example}")
     return value
 
 
 def add_scene_option(group):
-    group.add_argument("--scene", nargs="+", metavar="NAME", help="these scenes of the study only")
+    group.add_argument("--scene", nargs="+", action="extend", metavar="NAME", help="these scenes of the study only")
 
 
 def add_table_option(group, names, usual):
@@ -155,6 +167,8 @@ class PrintError(Exception):
 
 def put(text):
     """Prints all of it, or raises PrintError."""
+    if sys.stdout is None:
+        raise PrintError("the report cannot be written: standard output is closed")
     try:
         sys.stdout.write(text)
         sys.stdout.flush()

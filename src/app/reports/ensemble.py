@@ -22,15 +22,16 @@ OBSERVABLES = {"contacts": "", "rows": "", "islands": "", "max_island_rows": "",
 VECTORS = ("linear_momentum", "angular_momentum")
 LARGEST = ("max_island_rows", "max_penetration", "joint_gap")
 AXES = "xyz"
+QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)  # the usual ones
 RESULTS = ("cost", "nonfinite_step", "row_visits", "survived")  # columns of /world_results that the table worlds takes over
 
 
 def add_options(group):
     group.add_argument("--over", default=RUNS, metavar="runs|worlds",
                        help="what a sample is: a run, its worlds taken together, or each world of each run; default: runs")
-    group.add_argument("--quantiles", nargs="+", type=float, default=[0.05, 0.25, 0.5, 0.75, 0.95], metavar="Q",
+    group.add_argument("--quantiles", nargs="+", action="extend", type=float, metavar="Q",
                        help="from 0 to 1; default: 0.05 0.25 0.5 0.75 0.95")
-    group.add_argument("--allow", nargs="+", default=[], metavar="NAME",
+    group.add_argument("--allow", nargs="+", action="extend", metavar="NAME",
                        help="parameters that may differ beside seed and solver_seed, e.g. iterations")
     group.add_argument("-o", "--output", metavar="OUT", help="all tables as an HDF5 file")
     add_table_option(group, TABLES, "frames")
@@ -123,7 +124,7 @@ def bodies_of_a_world(run):
 
 def require_comparable(first, run, options):
     both = f"{first.path} and {run.path}"
-    apart = [one for one in differences(first, run, run_files.RESULTS) if one[0] not in options.allow]
+    apart = [one for one in differences(first, run, run_files.RESULTS) if one[0] not in (options.allow or [])]
     require(not apart, f"{both} are not of one ensemble: {difference_text(apart[0], first, run) if apart else ''}; leave one out, or allow "
                        f"what differs (--allow {' '.join(name for name, *_ in apart)})")
     # Worlds are compared one by one, so runs may have different numbers of them: parts of an ensemble.
@@ -164,11 +165,11 @@ def ensemble_of(options):
     if options.over == WORLDS:
         for run in runs:
             require_equal_worlds(run)
-    return Ensemble(runs, options.over, sorted(options.quantiles), min(run.num_frames for run in runs), told)
+    return Ensemble(runs, options.over, sorted(set(options.quantiles or QUANTILES)), min(run.num_frames for run in runs), told)
 
 
 def quantile_name(q):
-    return f"q{100 * q:g}"
+    return f"q{100 * q:.12g}"
 
 
 def spread_of(samples, quantiles):
@@ -453,7 +454,7 @@ def require_sense(options):
     require(options.over in (RUNS, WORLDS), f"--over {options.over}: it must be runs or worlds")
     require(len(options.files) >= (2 if options.over == RUNS else 1),
             f"ensemble: {len(options.files)} files are given; name the HDF5 files of two runs or more, or one with --over worlds")
-    for q in options.quantiles:
+    for q in options.quantiles or QUANTILES:
         require(0 <= q <= 1, f"--quantiles: {q:f} is not from 0 to 1")
     require_table(options, TABLES)
     require(options.table != "body_frames" or options.by_body, "--table body_frames: it takes --by-body")

@@ -30,7 +30,8 @@ def text_of(value):
 
 def open_file(path, filetype):
     """The HDF5 file, open for reading, also while a run still writes it."""
-    for refused, reason in ((not os.path.exists(path), "there is no such file"), (os.path.isdir(path), "it is a directory")):
+    for refused, reason in ((not os.path.exists(path), "there is no such file"), (os.path.isdir(path), "it is a directory"),
+                            (not os.path.isfile(path), "it is a pipe or a device")):
         require(not refused, f"{path}: cannot be read: {reason}; give the name of a file that pbmpi has written")
     try:
         file = h5py.File(path, "r", locking=False)
@@ -106,18 +107,29 @@ def in_order_of(names, items, name_of, what="the study"):
     return [item for name in names for item in items if name_of(item) == name]
 
 
+def is_open_output(path):
+    """Whether it is what this program prints to: /dev/stdout, or the file that a shell has opened for it."""
+    def same(number):
+        try:
+            return os.path.samestat(os.stat(path), os.fstat(number))
+        except OSError:
+            return False
+
+    return next((number for number in (1, 2) if same(number)), None)
+
+
 def write_file(path, text):
     """Puts the text under the name `path` in one go, keeping the permissions of an old file, which must not be HDF5: that may be
-    somebody's data. Devices and pipes are written to directly."""
+    somebody's data. Devices, pipes and this program's own output are written to directly."""
     data = text.encode("utf-8", "replace")
-    target = os.path.realpath(path)
     try:
-        if os.path.exists(target) and not os.path.isfile(target):
-            require(not os.path.isdir(target), f"{path}: it is a folder; name a file to write")
-            with open(target, "wb") as stream:
+        require(not os.path.isdir(path) and not path.endswith("/"), f"{path}: it is a folder; name a file to write")
+        number = is_open_output(path)
+        if number is not None or (os.path.exists(path) and not os.path.isfile(path)):
+            with open(path if number is None else number, "wb", closefd=number is None) as stream:
                 stream.write(data)
             return
-        mode = None
+        target, mode = os.path.realpath(path), None
         if os.path.exists(target):
             with open(target, "rb") as old:
                 require(old.read(len(HDF5_MARK)) != HDF5_MARK, f"{path}: it is an HDF5 file, which a text does not replace; name another file")

@@ -121,7 +121,7 @@ def severity(row):
         return 0.0
     if not row.limit_right > 0 or not math.isfinite(row.value):
         return 1.0
-    return min(max(math.log10(row.value / row.limit_right) / 3, 0.0), 1.0)
+    return min(max(math.log10(max(row.value / row.limit_right, 1.0)) / 3, 0.0), 1.0)
 
 
 def detail(row):
