@@ -93,13 +93,13 @@ def forecast_of(load, costs, way):
 def forecasts_of(options, costs):
     """Both ways for each number of worlds and of ranks with no fewer worlds than ranks."""
     loads = [harness.Load(ranks, worlds, options.bodies, step_s=options.step_s)
-             for worlds in options.worlds or WORLDS for ranks in options.ranks or RANKS if ranks <= worlds]
+             for worlds in options.worlds for ranks in options.ranks if ranks <= worlds]
     return [forecast_of(load, costs, way) for load in loads for way in (FLAT, TREE)]
 
 
 def walls_of(options, costs):
     walls = []
-    for worlds in options.worlds or WORLDS:
+    for worlds in options.worlds:
         parts = [Wall(worlds, part) for part in harness.FRAME_PARTS[1:]]
         ranks = 2
         while ranks <= min(LAST_POWER_OF_RANKS, worlds):
@@ -213,6 +213,7 @@ def run(words):
         return
     path = one_file(options, "a study of calibrate", "calibrate.h5")
     require_table(options, TABLES)
+    options.ranks, options.worlds = options.ranks or RANKS, options.worlds or WORLDS
     for name, least, most in (("ranks", 2, MOST_RANKS), ("worlds", 1, MOST_WORLDS)):
         for number in getattr(options, name):
             require(least <= number <= most, f"--{name} {number}: it must be from {least} to {most}")
