@@ -80,7 +80,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(result.stdout, self.read("out/effects.txt") + "\n" + self.read("out/effects.md"))
         self.assertIn("instructions: counted by callgrind", result.stdout)
         for scene in ("2-Cars", "CrashSk"):
-            self.assertIn(f"scene: {scene}, sor double", result.stdout)
+            self.assertIn(f"{scene}, sor double", result.stdout)
         self.assertIn("| `sor double` | 2-Cars | CrashSk |\n", self.read("out/effects.md"))
         self.assertIn("What effects cost", self.read("out/effects.html"))
         self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "out"))),

@@ -135,7 +135,7 @@ class Lsf(SchedulerTest):
         self.assertEqual([code for code, _ in results], [75, 75, 0, 0], results)
         self.assertEqual(len(seen), 2)
         with open(os.path.join(self.work, "out", "scaling.txt"), encoding="utf-8") as report:
-            self.assertEqual(report.read().count("2 of 5 repeats"), 2)
+            self.assertEqual(report.read().count("2 of 5 repeats"), 4, "for each point, in the sentence and in the table")
 
     def test_a_study_goes_on_with_the_cases_that_are_left(self):
         study = "stability --scene hard/free/cradle hard/free/exchange hard/rest/column10 --setting sor quick --dt 0.002 0.001"

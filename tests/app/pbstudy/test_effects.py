@@ -69,7 +69,7 @@ class Effects(ProgramTest):
         table = self.made(1, "study.h5", "--scene", "CrashSk", "--stepper", "sor", *FAST)
         result = self.report("study.h5", "--html", "page.html", "--csv", "table.csv")
         self.assertEqual(result.returncode, 0, result.stderr)
-        for words in ("scene: CrashSk, sor double, 14 x 1, 1 world", "noise floor",
+        for words in ("CrashSk, sor double, 14 x 1, 1 world", "Noise floor",
                       "left out: 39 geoms with mu > 0", "demanded: nothing calls for it; no bit changes",
                       "34 joints hold the bodies"):
             self.assertIn(words, result.stdout)
