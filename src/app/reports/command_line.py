@@ -27,6 +27,17 @@ class Command:
     add_options: object = None
 
 
+class Layout(argparse.HelpFormatter):
+    """Names of options are not broken at their hyphens, and an option's placeholder is said once."""
+
+    def _split_lines(self, text, width):
+        return textwrap.wrap(" ".join(text.split()), width, break_on_hyphens=False)
+
+    def _format_action_invocation(self, action):
+        placeholder = "" if action.nargs in (0, "?") else f" {self._format_args(action, action.metavar)}"
+        return ", ".join(action.option_strings) + placeholder
+
+
 class Parser(argparse.ArgumentParser):
     def error(self, message):
         raise BadInput(f"{message}; see --help")
@@ -34,7 +45,7 @@ class Parser(argparse.ArgumentParser):
 
 def parser_of(command):
     parser = Parser(prog=f"pbreport {command.name}", usage=f"pbreport {command.name} {command.usage}", description=command.about,
-                    allow_abbrev=False, add_help=False)
+                    allow_abbrev=False, add_help=False, formatter_class=Layout)
     parser.add_argument("files", nargs="*", metavar="FILE", help=argparse.SUPPRESS)
     group = parser.add_argument_group("Options")
     if command.add_options:
@@ -91,9 +102,9 @@ def require_once(words, parser):
 
 def help_text(command, parser):
     """In the layout of the other programs' help."""
-    options = parser.format_help().replace("-h [all], --help [all]", "-h, --help")
+    options = parser.format_help()
     about = f"pbreport {command.name} {command.about[0].lower()}{command.about[1:]}"
-    return f"{textwrap.fill(about, 80)}\n\nUsage: pbreport {command.name} {command.usage}\n\n{options[options.index('Options:'):]}"
+    return f"{textwrap.fill(about, 80, break_on_hyphens=False)}\n\nUsage: pbreport {command.name} {command.usage}\n\n{options[options.index('Options:'):]}"
 
 
 def parse(command, words):

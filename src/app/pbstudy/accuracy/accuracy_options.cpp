@@ -19,7 +19,7 @@ constexpr std::array<VariedOption, 7> varied = {{
     {"substeps", "sor; default: 1 3 7 14 28", "1 3 7 14 28"},
     {"precision", "sor: double, single; default: both", "double single"},
     {"constraint-solver", "mujoco: newton, pgs, cg; default: newton", "newton"},
-    {"tolerance", "--law soft: below how long a way an island gets one substep; default: 0", "0"},
+    {"tolerance", "soft law: below how long a way an island gets one substep; default: 0", "0"},
 }};
 constexpr VariedOption varied_dt = {
     "dt", "step [s], a whole number of which fills a frame; default: the scene's and half of it", ""};

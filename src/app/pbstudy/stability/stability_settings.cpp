@@ -50,7 +50,8 @@ StabilitySetting parse_stability_setting(const std::string& text) {
   setting.stepper = default_settings(setting.stepper.kind);
   std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
   // A law brings its own iterations and substeps, so that it comes before them.
-  std::ranges::stable_partition(words, [](const std::string& one) { return one.starts_with("law="); });
+  std::stable_partition(words.begin(), words.end(),
+                        [](const std::string& one) { return one.starts_with("law="); });
   for (const std::string& one : words) {
     const std::size_t equals = one.find('=');
     if (one == "cut") {
