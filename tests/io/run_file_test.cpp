@@ -99,7 +99,7 @@ TEST(RunFile, reads_back_every_number_of_a_complete_run) {
   EXPECT_EQ(run.attributes.at("state_hash"), "0123456789abcdef");
   EXPECT_EQ(run.attributes.at("scene"), "Sample");
   EXPECT_EQ(run.attributes.at("seed"), "7");
-  EXPECT_EQ(run.attributes.at("version"), "1.6");
+  EXPECT_EQ(run.attributes.at("version"), "1.7");
   EXPECT_EQ(run.parameters.at("dt_s"), "0.01");
   EXPECT_EQ(run.parameters.at("scene_text"), "[[actor]]\nkind = \"human\"\n");
   EXPECT_EQ(run.parameters.at("empty"), "");

@@ -194,7 +194,7 @@ class ScalingSweep(JobTest):
         text = self.log_of("out/scaling.txt")
         self.assertIn("CrashSk, 4 worlds, sor double: strong scaling, worlds over ranks", text)
         self.assertIn("Fight, 1 world, sor double: strong scaling, spaces over ranks", text)
-        self.assertEqual(text.count("2 of 5 repeats"), 5, "each point has the runs of both tasks")
+        self.assertEqual(text.count("2 of 5 repeats"), 10, "each point has the runs of both tasks, in the sentence and in the table")
 
 
 class Study(JobTest):
