@@ -4,7 +4,7 @@ import dataclasses
 import math
 
 from reports import harness, tables
-from reports.command_line import Command, add_table_option, deliver, one_file, parse, quantity, require_table
+from reports.command_line import Command, Listed, add_table_option, deliver, one_file, parse, quantity, require_table
 from reports.document import Column, Report, Section, Table
 from reports.files import read_study, require
 
@@ -12,16 +12,15 @@ TABLES = ("costs", "forecasts", "walls", "checks")
 LOAD = ("ranks", "worlds", "bodies", "steps")  # what a case of frames differs in
 MOST_RANKS, MOST_WORLDS, MOST_BODIES = 1 << 20, 10**12, 10**6
 LAST_POWER_OF_RANKS = 131072  # for which walls are looked for
-RANKS, WORLDS = (2, 64, 1024, 16384, 131072), (100, 10000, 1000000, 100000000)  # the usual question
 USUAL_FRAMES = 1000  # measured frames of a run whose memory is forecast
 BUDGET_S = 0.1 / 30  # of a frame: default_frame_budget_s of stepping/frame.h
 FLAT, TREE = "flat", "tree"  # messages straight to root and results on every rank, or by a tree of ranks to root alone
 
 
 def add_options(group):
-    group.add_argument("--ranks", nargs="+", action="extend", type=int, metavar="N",
+    group.add_argument("--ranks", nargs="+", action=Listed, type=int, default=[2, 64, 1024, 16384, 131072], metavar="N",
                        help="numbers of ranks; default: 2 64 1024 16384 131072")
-    group.add_argument("--worlds", nargs="+", action="extend", type=int, metavar="N",
+    group.add_argument("--worlds", nargs="+", action=Listed, type=int, default=[100, 10000, 1000000, 100000000], metavar="N",
                        help="numbers of worlds; default: 100 10000 1000000 100000000")
     group.add_argument("--bodies", type=int, default=37, metavar="N", help="bodies of a world; default: 37")
     group.add_argument("--world-step", default="0", metavar="TIME",
@@ -213,7 +212,6 @@ def run(words):
         return
     path = one_file(options, "a study of calibrate", "calibrate.h5")
     require_table(options, TABLES)
-    options.ranks, options.worlds = options.ranks or RANKS, options.worlds or WORLDS
     for name, least, most in (("ranks", 2, MOST_RANKS), ("worlds", 1, MOST_WORLDS)):
         for number in getattr(options, name):
             require(least <= number <= most, f"--{name} {number}: it must be from {least} to {most}")

@@ -38,6 +38,14 @@ class Layout(argparse.HelpFormatter):
         return ", ".join(action.option_strings) + placeholder
 
 
+class Listed(argparse.Action):
+    """A list, which may be given in parts; the first part replaces the usual one."""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        given = getattr(namespace, self.dest)
+        setattr(namespace, self.dest, [*([] if given is self.default else given), *values])
+
+
 class Parser(argparse.ArgumentParser):
     def error(self, message):
         raise BadInput(f"{message}; see --help")
@@ -64,23 +72,27 @@ def parser_of(command):
     return parser
 
 
-def config_words(path, parser):
-    """The lines of a --config file as words of a command line."""
-    flags = [name for action in parser._actions if action.nargs == 0 for name in action.option_strings]  # pylint: disable=protected-access
+def config_words(path, parser, words):
+    """The lines of a --config file as words of a command line, but for options that `words` have: the command line wins."""
+    actions = parser._actions  # pylint: disable=protected-access
+    flags = [name for action in actions if action.nargs == 0 for name in action.option_strings]
+    given = {word.split("=")[0] for word in words}
+    won = {name for action in actions if given.intersection(action.option_strings) for name in action.option_strings}
     require(os.path.isfile(path), f"{path}: there is no such file; --config wants a file of 'name = value' lines")
     try:
         with open(path, encoding="utf-8") as file:
             lines = [line.split("#")[0].strip() for line in file]
     except (OSError, UnicodeDecodeError) as error:
         raise BadInput(f"{path}: it cannot be read ({error}); --config wants a file of 'name = value' lines") from None
-    words = []
+    found = []
     for line in filter(None, lines):
         name, equals, value = (part.strip() for part in line.partition("="))
         require(equals, f"{path}: '{line}' is no line 'name = value'")
         if f"--{name}" in flags:
             require(value in ("", "true", "1"), f"{path}: '{line}': {name} takes no value; leave out what follows '='")
-        words += [f"--{name}"] if f"--{name}" in flags else [f"--{name}", value]
-    return words
+        if f"--{name}" not in won:
+            found += [f"--{name}"] if f"--{name}" in flags else [f"--{name}", value]
+    return found
 
 
 def require_known(words, parser):
@@ -118,7 +130,7 @@ def parse(command, words):
         put(help_text(command, parser))
         return None
     if options.config:
-        more = config_words(options.config, parser)
+        more = config_words(options.config, parser, words)
         require_known(more, parser)
         options = parser.parse_args(words, parser.parse_args(more))
     require(not (options.json and getattr(options, "markdown", False)), "--json and --markdown: print one of the two")
@@ -158,7 +170,7 @@ def quantity(text, kind, option):
 
 
 def add_scene_option(group):
-    group.add_argument("--scene", nargs="+", action="extend", metavar="NAME", help="these scenes of the study only")
+    group.add_argument("--scene", nargs="+", action=Listed, default=[], metavar="NAME", help="these scenes of the study only")
 
 
 def add_table_option(group, names, usual):

@@ -252,4 +252,4 @@ def run(words):
     if options is None:
         return
     study = read_study(one_file(options, "a study of effects", "effects.h5"), "effects")
-    deliver(report_of(study, options.scene or []), options, study.tables["cases"])
+    deliver(report_of(study, options.scene), options, study.tables["cases"])

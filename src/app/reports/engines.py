@@ -288,4 +288,4 @@ def studies_named(options):
 def run(words):
     options = parse(COMMAND, words)
     if options is not None:
-        deliver(report_of(Engines(studies_named(options), options.scene or [])), options)
+        deliver(report_of(Engines(studies_named(options), options.scene)), options)

@@ -6,7 +6,7 @@ import numpy as np
 
 from reports import runs as run_files
 from reports import page, tables
-from reports.command_line import Command, add_table_option, deliver, parse, require_table
+from reports.command_line import Command, Listed, add_table_option, deliver, parse, require_table
 from reports.document import MARKDOWN, TEXT, Report, Section, Table
 from reports.files import require
 from reports.runs import Run, difference_text, differences
@@ -22,16 +22,15 @@ OBSERVABLES = {"contacts": "", "rows": "", "islands": "", "max_island_rows": "",
 VECTORS = ("linear_momentum", "angular_momentum")
 LARGEST = ("max_island_rows", "max_penetration", "joint_gap")
 AXES = "xyz"
-QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)  # the usual ones
 RESULTS = ("cost", "nonfinite_step", "row_visits", "survived")  # columns of /world_results that the table worlds takes over
 
 
 def add_options(group):
     group.add_argument("--over", default=RUNS, metavar="runs|worlds",
                        help="what a sample is: a run, its worlds taken together, or each world of each run; default: runs")
-    group.add_argument("--quantiles", nargs="+", action="extend", type=float, metavar="Q",
+    group.add_argument("--quantiles", nargs="+", action=Listed, type=float, default=[0.05, 0.25, 0.5, 0.75, 0.95], metavar="Q",
                        help="from 0 to 1; default: 0.05 0.25 0.5 0.75 0.95")
-    group.add_argument("--allow", nargs="+", action="extend", metavar="NAME",
+    group.add_argument("--allow", nargs="+", action=Listed, default=[], metavar="NAME",
                        help="parameters that may differ beside seed and solver_seed, e.g. iterations")
     group.add_argument("-o", "--output", metavar="OUT", help="all tables as an HDF5 file")
     add_table_option(group, TABLES, "frames")
@@ -124,7 +123,7 @@ def bodies_of_a_world(run):
 
 def require_comparable(first, run, options):
     both = f"{first.path} and {run.path}"
-    apart = [one for one in differences(first, run, run_files.RESULTS) if one[0] not in (options.allow or [])]
+    apart = [one for one in differences(first, run, run_files.RESULTS) if one[0] not in options.allow]
     require(not apart, f"{both} are not of one ensemble: {difference_text(apart[0], first, run) if apart else ''}; leave one out, or allow "
                        f"what differs (--allow {' '.join(name for name, *_ in apart)})")
     # Worlds are compared one by one, so runs may have different numbers of them: parts of an ensemble.
@@ -165,7 +164,7 @@ def ensemble_of(options):
     if options.over == WORLDS:
         for run in runs:
             require_equal_worlds(run)
-    return Ensemble(runs, options.over, sorted(set(options.quantiles or QUANTILES)), min(run.num_frames for run in runs), told)
+    return Ensemble(runs, options.over, sorted(set(options.quantiles)), min(run.num_frames for run in runs), told)
 
 
 def quantile_name(q):
@@ -454,7 +453,7 @@ def require_sense(options):
     require(options.over in (RUNS, WORLDS), f"--over {options.over}: it must be runs or worlds")
     require(len(options.files) >= (2 if options.over == RUNS else 1),
             f"ensemble: {len(options.files)} files are given; name the HDF5 files of two runs or more, or one with --over worlds")
-    for q in options.quantiles or QUANTILES:
+    for q in options.quantiles:
         require(0 <= q <= 1, f"--quantiles: {q:f} is not from 0 to 1")
     require_table(options, TABLES)
     require(options.table != "body_frames" or options.by_body, "--table body_frames: it takes --by-body")
