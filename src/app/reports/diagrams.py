@@ -3,7 +3,7 @@ import math
 
 from reports import charts
 from reports.document import Chart
-from reports.words import plural
+from reports.words import plural, stepper_in
 
 SHAPES = ("circle", "triangle", "rect", "rectRot", "star")  # of points, by the number of substeps; what is beyond shares the last
 LINES = {"more_iterations": ("reference with more iterations [mm]", []), "second_method": ("second method: ODE [mm]", [4, 2, 1, 2]),
@@ -60,7 +60,7 @@ def setting_sets(settings, error_mm, sweeps):
     by_stepper = {}
     for one in settings:
         if one.finite():
-            by_stepper.setdefault(one.row.setting.split(",")[0], []).append(one)
+            by_stepper.setdefault(stepper_in(one.row.setting), []).append(one)
     sets = []
     for label, some in sorted(by_stepper.items()):
         sets.append({"label": label, "data": [point(one, error_mm(one)) for one in some],

@@ -6,7 +6,7 @@ from reports import charts, errors, page
 from reports.command_line import Command, add_scene_option, deliver, one_file, parse
 from reports.document import MARKDOWN, PAGE, TEXT, Chart, Column, Report, Section, Table
 from reports.files import in_order_of, read_study
-from reports.words import NO_NUMBER, percent, plural
+from reports.words import NO_NUMBER, percent, plural, stepper_in
 
 COMMAND = Command("effects", "Shows what each effect costs: the file of pbstudy effects. The word effects may be left out.",
                   "effects.h5 [options]", page="share of the step and error if left out, effect by scene",
@@ -78,15 +78,12 @@ class Scene:
         return f"{row.setting}, {plural(row.worlds, 'world')}"
 
 
-def stepper_of(row):
-    return f"{row.stepper} {row.precision}" if row.stepper == "sor" else row.stepper
-
-
 def scenes_of(study, names):
     counted = instructions_by(study) != "none"
     scenes = {}
     for row in study.rows():
-        scene = scenes.setdefault((row.scene, stepper_of(row)), Scene(row.scene, stepper_of(row)))
+        stepper = stepper_in(row.setting)
+        scene = scenes.setdefault((row.scene, stepper), Scene(row.scene, stepper))
         (scene.floor if row.kind == "floor" else scene.effects).append(Effect(row, counted))
     return in_order_of(names, list(scenes.values()), lambda scene: scene.name)
 
@@ -125,12 +122,11 @@ def matrix_cell(scene, effect):
     return f"{share}, {millimetres(one.defect['body_position'].rms)}"
 
 
-def matrix(scenes):
+def matrix(scenes, title=""):
     """An effect a row and a scene a column: what a reader compares."""
     columns = [Column(scene.name, lambda effect, scene=scene: matrix_cell(scene, effect)) for scene in scenes]
     measured = [one.name for one in scenes[0].effects if any(matrix_cell(scene, one.name) for scene in scenes)]
-    table = Table.of("Share of the step [%], defect rms if left out; in brackets what demanding costs where the scene has it not",
-                     [Column(f"`{scenes[0].stepper}`", "`{}`".format), *columns], measured, shown_in=(MARKDOWN, PAGE), of_words=True)
+    table = Table.of(title, [Column(f"`{scenes[0].stepper}`", "`{}`".format), *columns], measured, of_words=True)
     table.rows.append(["noise floor", *(f"{whole_percent(scene.floor_share())}, {millimetres(scene.floor_error('defect'))}" for scene in scenes)])
     return table
 
@@ -203,7 +199,8 @@ def overview(stepper, scenes, counted):
     if counted:
         shown.append(bars("Share of the instructions", "Fewest of all repeats; no clock disturbs them.", "share of the step's instructions [%]",
                           scenes, counted_share))
-    return Section(stepper, text, shown, [matrix(scenes)], shown_in=(PAGE,))
+    title = "Share of the step [%], defect rms if left out; in brackets what demanding costs where the scene has it not"
+    return Section(stepper, text, shown, [matrix(scenes, title)], shown_in=(PAGE,))
 
 
 def spread_json(row, name):
@@ -234,8 +231,6 @@ def report_of(study, names):
         steppers.setdefault(scene.stepper, []).append(scene)
     counted = instructions_by(study) != "none"
     tables = [Section(tables=[matrix(some)], shown_in=(MARKDOWN,)) for some in steppers.values()]
-    for section in tables:
-        section.tables[0].title = ""
     head = ("study: effects; both sides of a case start each frame from the scene's own state, in turn\n"
             "cost: with the effect - without it, median, of the processor time of a step of all worlds\n"
             f"{instructions_text(study)}\n"

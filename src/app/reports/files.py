@@ -107,8 +107,8 @@ def in_order_of(names, items, name_of, what="the study"):
     return [item for name in names for item in items if name_of(item) == name]
 
 
-def is_open_output(path):
-    """Whether it is what this program prints to: /dev/stdout, or the file that a shell has opened for it."""
+def own_output(path):
+    """The descriptor, 1 or 2, if it is what this program prints to: /dev/stdout, or the file that a shell has opened for it; else None."""
     def same(number):
         try:
             return os.path.samestat(os.stat(path), os.fstat(number))
@@ -124,7 +124,7 @@ def write_file(path, text):
     data = text.encode("utf-8", "replace")
     try:
         require(not os.path.isdir(path) and not path.endswith("/"), f"{path}: it is a folder; name a file to write")
-        number = is_open_output(path)
+        number = own_output(path)
         if number is not None or (os.path.exists(path) and not os.path.isfile(path)):
             with open(path if number is None else number, "wb", closefd=number is None) as stream:
                 stream.write(data)

@@ -45,7 +45,7 @@ def shown_section(section):
 
 def fill(template, fields):
     """The template with each {{name}} replaced by a field, or else by the file of that name."""
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: fields.get(found[1]) or asset(found[1]), asset(template))
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: fields[found[1]] if found[1] in fields else asset(found[1]), asset(template))
 
 
 def page_of(report):
@@ -55,7 +55,7 @@ def page_of(report):
 
 def fields_of(report):
     """What all templates have: title, subtitle, provenance."""
-    return {"title": html.escape(report.title, quote=True), "subtitle": html.escape(report.subtitle, quote=True) or " ",
+    return {"title": html.escape(report.title, quote=True), "subtitle": html.escape(report.subtitle, quote=True),
             "provenance": safe_json({"line": report.line, "entries": report.entries})}
 
 

@@ -68,7 +68,7 @@ def image_of(filetype, version, attributes, parameters, tables):
 def require_replaceable(path, filetype):
     """An HDF5 file replaces only one of its own type: any other file may be somebody's data."""
     target = os.path.realpath(path)
-    require(not path.endswith("/") and files.is_open_output(path) is None, f"cannot create {path}: it is not a regular file; give another name")
+    require(not path.endswith("/") and files.own_output(path) is None, f"cannot create {path}: it is not a regular file; give another name")
     if not os.path.exists(target):
         folder = os.path.dirname(target)
         require(os.path.isdir(folder), f"cannot create {path}: there is no directory {folder}; make it first or give another name")

@@ -23,6 +23,11 @@ def plural(count, noun):
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
+def stepper_in(setting):
+    """"sor single" of "sor single, 14 x 1", as studies write a setting in short."""
+    return setting.partition(",")[0]
+
+
 def short(value):
     """A number with the fewest digits that read back to it, in the shorter of its two forms (0.001, 1e-04); a text as it is."""
     if not isinstance(value, float) or not math.isfinite(value):

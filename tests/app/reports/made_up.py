@@ -1,4 +1,8 @@
 """Files that tests make up: runs with the columns that reports read."""
+import pathlib
+import tempfile
+import unittest
+
 import h5py
 import numpy as np
 
@@ -32,3 +36,16 @@ def write_run(path, ranks=1, worlds=2, committed=4, warmup=1, parameters=None, *
         file.attrs.update({name: np.bytes_(value) for name, value in texts.items()})
         file.attrs.update({"version": [1, 6], "frames_committed": committed, "record_every": 1, "complete": 1})
     return str(path)
+
+
+class FilesTest(unittest.TestCase):
+    """A test whose files lie in a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = lambda name: str(pathlib.Path(folder.name) / name)
+
+    def write(self, name, **others):
+        """The path of a run, as write_run() makes it."""
+        return write_run(self.path(name), **others)

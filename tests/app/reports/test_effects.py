@@ -12,7 +12,7 @@ from reports.files import BadInput, Study  # noqa: E402
 
 def row(effect, called_for, same_bits, share, scene="Crash", stepper="quick", kind=None, **others):
     """A row of /cases; `same_bits` None: it was not measured."""
-    found = {"scene": scene, "stepper": stepper, "precision": "double", "setting": f"{stepper}, 1 x 20", "effect": effect,
+    found = {"scene": scene, "setting": f"{stepper}, 1 x 20", "effect": effect,
              "kind": kind or ("left_out" if called_for else "demanded"), "reason": "3 things" if called_for else "nothing calls for it",
              "called_for": int(called_for), "same_bits": -1 if same_bits is None else int(same_bits), "worlds": 1}
     for name in ("time_with", "time_without", "time_cost", "time_share"):
@@ -62,7 +62,7 @@ class Numbers(unittest.TestCase):
 
 class Printed(unittest.TestCase):
     def test_markdown_has_a_table_a_stepper_with_costs_errors_and_the_floor(self):
-        single = {"stepper": "sor", "precision": "single"}
+        single = {"stepper": "sor single"}
         report = report_of(
             row("friction", True, False, 0.154, defect_body_position_rms=0.0441), row("joints", True, None, 0),
             floor(-0.021, defect_body_position_rms=2.3e-4),

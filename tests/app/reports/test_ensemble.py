@@ -2,7 +2,6 @@
 import os
 import pathlib
 import sys
-import tempfile
 import types
 import unittest
 
@@ -47,12 +46,7 @@ class Spreads(unittest.TestCase):
         np.testing.assert_array_equal(ensemble.join_worlds("joint_gap", values), [4, 2])
 
 
-class Files(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = lambda name: str(pathlib.Path(folder.name) / name)
-
+class Files(made_up.FilesTest):
     def write(self, name, seed, parameters=None, **columns):
         """Bodies move along x: body b of a run with this seed is at b + 0.1 t seed."""
         rows = FRAMES + 1

@@ -2,7 +2,6 @@
 import pathlib
 import re
 import sys
-import tempfile
 import unittest
 
 import h5py
@@ -16,15 +15,7 @@ from reports.files import BadInput  # noqa: E402
 from reports.runs import Run  # noqa: E402
 
 
-class Files(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = lambda name: str(pathlib.Path(folder.name) / name)
-
-    def write(self, name, **others):
-        return made_up.write_run(self.path(name), **others)
-
+class Files(made_up.FilesTest):
     def refused(self, words, path):
         with self.assertRaises(BadInput) as caught:
             Run(path)

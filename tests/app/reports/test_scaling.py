@@ -5,7 +5,6 @@ import io
 import json
 import pathlib
 import sys
-import tempfile
 import unittest
 
 import numpy as np
@@ -114,15 +113,7 @@ class PopEfficiencies(unittest.TestCase):
         self.assertEqual(scaling_curves.pop_of([0, 0], [0, 0], 1), Pop(0, 0, 0))
 
 
-class Files(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = lambda name: str(pathlib.Path(folder.name) / name)
-
-    def write(self, name, **others):
-        return made_up.write_run(self.path(name), **others)
-
+class Files(made_up.FilesTest):
     def test_times_are_of_the_measured_frames(self):
         found = scaling_curves.read_scaling_run(self.write("run.h5", ranks=2))
         self.assertEqual((found.frames, found.ranks, found.most_ranks_of_a_host, found.decomposition), (3, 2, 2, "worlds"))
