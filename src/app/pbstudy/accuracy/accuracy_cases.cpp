@@ -168,10 +168,8 @@ void add_own_floors(std::size_t first, const AccuracyOptions& options, std::vect
     if (cases[i].kind != CaseKind::own) continue;
     const StepperSettings& stepper = cases[i].stepper;
     const std::size_t known = own_of.try_emplace(stepper.kind, i).first->second;
-    StepperSettings usual = default_settings(stepper.kind);
-    usual.dt_s = stepper.dt_s;
-    usual.seed = stepper.seed;
-    usual = own_settings(usual, options.own_iterations);
+    const StepperSettings usual =
+        own_settings(usual_settings(stepper, stepping::Law::soft), options.own_iterations);
     if (cases[known].stepper.dt_s == stepper.dt_s && solve_the_same(stepper, usual)) own_of[stepper.kind] = i;
   }
   for (const auto& [kind, own] : own_of) {

@@ -19,11 +19,7 @@ std::vector<std::string> words(std::string_view text) {
 void set_value(const SettingList& list, const std::string& value, stepping::StepperSettings& settings) {
   const std::string name(list.option->name);
   set(*list.option, value, "--" + name, settings);
-  if (name != "stepper" && name != "law") return;
-  const stepping::StepperSettings given = settings;
-  settings = default_settings(given.kind, given.law.name);
-  settings.dt_s = given.dt_s;
-  settings.seed = given.seed;
+  if (name == "stepper" || name == "law") settings = usual_settings(settings, settings.law.name);
 }
 
 bool is_soft(const stepping::StepperSettings& settings) { return settings.law.name == stepping::Law::soft; }
@@ -39,6 +35,13 @@ std::span<const std::string> useful(const SettingList& list, const stepping::Ste
 }
 
 }  // namespace
+
+stepping::StepperSettings usual_settings(const stepping::StepperSettings& settings, stepping::Law law) {
+  stepping::StepperSettings usual = default_settings(settings.kind, law);
+  usual.dt_s = settings.dt_s;
+  usual.seed = settings.seed;
+  return usual;
+}
 
 void add_setting_list(const VariedOption& varied, boost::program_options::options_description& description) {
   description.add_options()(std::string(varied.name).c_str(), list_of<std::string>(),

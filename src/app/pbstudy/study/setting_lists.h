@@ -34,8 +34,11 @@ SettingList setting_list(const VariedOption& varied, const boost::program_option
 std::vector<SettingList> setting_lists(std::span<const VariedOption> varied,
                                        const boost::program_options::variables_map& values);
 
+/// The default_settings() of the stepper of `settings` with this law, but with their step's length and seed.
+stepping::StepperSettings usual_settings(const stepping::StepperSettings& settings, stepping::Law law);
+
 /// Takes each combination over `base`, the last list varying fastest. A stepper or a law brings its
-/// default_settings(), except for the step's length and the seed. An option that a setting has no use for
+/// usual_settings(). An option that a setting has no use for
 /// (one that its stepper lacks, iterations without sweeps, a tolerance without a second substep or a memory)
 /// takes one value only; sor with its soft law keeps its own number of iterations.
 void cross_settings(const stepping::StepperSettings& base, std::span<const SettingList> lists,
