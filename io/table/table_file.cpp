@@ -149,7 +149,7 @@ struct TableWriter::Impl {
 
 TableWriter::TableWriter(const std::string& path) {
   prepare_hdf5();
-  impl_ = std::make_unique<Impl>(Impl{output_target(path, "pbmpi-study", table_bytes)});
+  impl_ = std::make_unique<Impl>(Impl{output_target(path, study_filetype, table_bytes)});
 }
 TableWriter::~TableWriter() = default;
 
@@ -202,13 +202,13 @@ OutputTarget output_target(const std::string& path, const std::string& filetype,
   return target;
 }
 
-std::string filetype_of(const std::string& path) {
+std::string root_text(const std::string& path, const std::string& attribute) {
   prepare_hdf5();
   if (content_of(path) != Content::hdf5) return "";  // a pipe is not even opened
   try {
     if (core::seal_of(path) == core::Seal::broken) return "";  // nothing in the file can be trusted
     const File file = open_unlocked(path);
-    return core::value_in(attributes_as_text(file.id(), "/"), "filetype");
+    return core::value_in(attributes_as_text(file.id(), "/"), attribute);
   } catch (const std::runtime_error&) {
     return "";
   }

@@ -63,7 +63,8 @@ class TableWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Major and minor version of the layout of a study's file.
+/// The attribute filetype of all files of pbstudy, and the major and minor version of their layout.
+inline constexpr const char* study_filetype = "pbmpi-study";
 inline constexpr std::array<std::int64_t, 2> study_version = {1, 7};
 
 /// About as many bytes as a table file has.
@@ -83,7 +84,9 @@ TableFile read_table_file(const std::string& path, const std::string& filetype,
 /// type: any other HDF5 file may be somebody's data. Throws core::InputError like OutputTarget's constructor.
 OutputTarget output_target(const std::string& path, const std::string& filetype, std::int64_t bytes);
 
-/// The attribute filetype of an HDF5 file; empty if `path` is not one, is damaged, or has no such attribute.
-std::string filetype_of(const std::string& path);
+/// A text among the root's attributes of an HDF5 file; empty if `path` is not one, is damaged, or has no such
+/// attribute.
+std::string root_text(const std::string& path, const std::string& attribute);
+inline std::string filetype_of(const std::string& path) { return root_text(path, "filetype"); }
 
 }  // namespace pbmpi::io

@@ -8,27 +8,19 @@
 
 #include "app/common/options.h"
 #include "core/system/child.h"
+#include "io/hdf5/file_types.h"
 #include "io/run/run_data.h"
 #include "io/table/table_file.h"
 
 namespace pbmpi::app {
 namespace {
 
-constexpr const char *run_filetype = "pbmpi-run", *study_filetype = "pbmpi-study";
-
-/// The first version of the files had only accuracy studies, and did not say so.
-std::string study_of(const std::string& path) {
-  const io::TableFile file = io::read_table_file(path, study_filetype);
-  const auto study = file.attributes.find("study");
-  return study == file.attributes.end() ? "accuracy" : study->second;
-}
-
 void require_sound_files(const std::vector<std::string>& args) {
   for (const std::string& arg : args) {
     if (arg.empty() || arg.front() == '-') continue;
     const std::string filetype = io::filetype_of(arg);
-    if (filetype == study_filetype) io::read_table_file(arg, study_filetype);
-    if (filetype == run_filetype) io::require_sound_run(arg);
+    if (filetype == io::study_filetype) io::read_table_file(arg, io::study_filetype);
+    if (filetype == io::filetype) io::require_sound_run(arg);
   }
 }
 
@@ -39,11 +31,12 @@ std::string package_folder() { return core::folder_of_program() + "/../share/pbm
 
 std::string report_of_study_in(const std::vector<std::string>& args) {
   for (const std::string& arg : args) {
-    if (arg.empty() || arg.front() == '-' || io::filetype_of(arg) != study_filetype) continue;
-    const std::string study = study_of(arg);
+    if (arg.empty() || arg.front() == '-' || io::filetype_of(arg) != io::study_filetype) continue;
+    const std::string study = io::root_text(arg, "study");
     core::require_input(study != "prediction",
                         arg + ": a study of prediction; jobs/paper/paper.py prediction FILE shows it");
-    return study == "accuracy" ? "study" : study;
+    // The first version of the files had only accuracy studies, and did not say so.
+    return study.empty() || study == "accuracy" ? "study" : study;
   }
   return {};
 }

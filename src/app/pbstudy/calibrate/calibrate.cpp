@@ -121,7 +121,8 @@ core::ExitCode run_calibrate(const mpi::Communicator& comm, const std::vector<st
   const CaseTimes times = time_all(comm, cases, options);
   mpi::agree_on_errors(comm, [&] {
     if (!comm.is_root()) return;
-    writer->write("pbmpi-study", file_of(provenance, options, rank_bytes[0], case_columns(cases, times)));
+    writer->write(io::study_filetype,
+                  file_of(provenance, options, rank_bytes[0], case_columns(cases, times)));
     if (options.common.quiet) return;
     std::cout << cases.size() << " cases, " << options.repeats << " times each, in " << options.output
               << "\nnext: pbreport " << options.output << "\n"

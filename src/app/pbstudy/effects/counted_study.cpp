@@ -26,7 +26,7 @@ void require_equal(const io::TableFile& file, const std::vector<io::TableColumn>
 
 CountedStudy::CountedStudy(std::string path, const std::vector<StudyScene>& scenes,
                            const std::vector<EffectCase>& cases)
-    : path_(std::move(path)), file_(io::read_table_file(path_, "pbmpi-study")) {
+    : path_(std::move(path)), file_(io::read_table_file(path_, io::study_filetype)) {
   const auto study = file_.attributes.find("study");
   core::require_input(study != file_.attributes.end() && study->second == "effects",
                       path_ + ": no study of effects; --instructions-from wants a file of pbstudy effects");

@@ -145,7 +145,7 @@ void StudyRunner::write(const std::function<StudyContent()>& content) {
   mpi::agree_on_errors(comm_, [&] {
     if (!comm_.is_root()) return;
     const StudyContent given = content();
-    writer_->write("pbmpi-study", file_with(given));
+    writer_->write(io::study_filetype, file_with(given));
     remove_case_journals(options_.output);
     if (!options_.common.quiet) print_end(given);
   });
