@@ -17,9 +17,10 @@ using Texts = std::vector<std::string>;
 
 /// engine, scene, text
 std::array<Texts, 3> found(const std::vector<std::string>& names, const std::set<StepperKind>& kinds) {
-  std::vector<StudyScene> studied;
-  for (const std::string& name : names) studied.push_back(study_scene(scenes::find_scene(name), {}));
-  const std::vector<io::TableColumn> columns = engine_differences(studied, kinds);
+  std::vector<SceneModel> models;
+  for (const std::string& name : names)
+    models.push_back({name, scenes::parse_scene(scenes::find_scene(name))->build(0, 1)});
+  const std::vector<io::TableColumn> columns = engine_differences(models, kinds);
   EXPECT_EQ(columns.size(), 3u);
   EXPECT_EQ(columns[0].name + " " + columns[1].name + " " + columns[2].name, "engine scene text");
   std::array<Texts, 3> values;

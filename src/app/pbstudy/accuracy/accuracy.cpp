@@ -56,7 +56,10 @@ StudyContent content(const AccuracyOptions& options, const std::vector<StudyScen
       Parameter::of("own_most_iterations", std::int64_t{options.own_most_iterations}),
       Parameter::of("rest_seconds", options.rest_s)};
   content.cases = case_columns(scenes, cases, results);
-  content.tables["differences"] = engine_differences(scenes, steppers_of(cases));
+  std::vector<SceneModel> models;
+  for (const StudyScene& scene : scenes)
+    models.push_back({scene.source.name, scenes::parse_scene(scene.source)->build(0, options.seed)});
+  content.tables["differences"] = engine_differences(models, steppers_of(cases));
   content.next = " --budget 3.33ms";
   return content;
 }

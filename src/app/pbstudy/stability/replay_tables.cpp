@@ -7,12 +7,12 @@ namespace pbmpi::app {
 namespace {
 
 struct BodyOfScene {
-  const ReplayedScene& scene;
+  const SceneModel& scene;
   const model::Body& body;
 };
 
 struct GeomOfScene {
-  const ReplayedScene& scene;
+  const SceneModel& scene;
   const model::Geom& geom;
 
   std::string kind() const {
@@ -54,10 +54,10 @@ std::vector<io::TableColumn> geom_columns(const std::vector<GeomOfScene>& geoms)
 
 }  // namespace
 
-std::map<std::string, std::vector<io::TableColumn>> replay_tables(const std::vector<ReplayedScene>& scenes) {
+std::map<std::string, std::vector<io::TableColumn>> replay_tables(const std::vector<SceneModel>& scenes) {
   std::vector<BodyOfScene> bodies;
   std::vector<GeomOfScene> geoms;
-  for (const ReplayedScene& scene : scenes) {
+  for (const SceneModel& scene : scenes) {
     for (const model::Body& body : scene.model->bodies) bodies.push_back({scene, body});
     for (const model::Geom& geom : scene.model->geoms) geoms.push_back({scene, geom});
   }

@@ -2,22 +2,15 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "app/pbstudy/study/study_scene.h"
 #include "io/table/table_file.h"
-#include "model/model.h"
 
 namespace pbmpi::app {
 
-/// A scene whose cases have poses.
-struct ReplayedScene {
-  std::string name;
-  std::shared_ptr<const model::Model> model;
-};
-
 /// Tables "bodies" and "geoms" (io/SCHEMA.md), scene by scene.
-std::map<std::string, std::vector<io::TableColumn>> replay_tables(const std::vector<ReplayedScene>& scenes);
+std::map<std::string, std::vector<io::TableColumn>> replay_tables(const std::vector<SceneModel>& scenes);
 
 }  // namespace pbmpi::app

@@ -44,18 +44,19 @@ core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<st
     for (const RecordedPose& pose : poses)
       with_poses.insert(runner.scene(cases[static_cast<std::size_t>(pose.case_index)].scene).source.name);
     std::vector<stability::HardCase> hard_cases;
-    std::vector<ReplayedScene> replayed;
+    std::vector<SceneModel> models, replayed;
     for (const StudyScene& scene : runner.scenes()) {
       HardScene hard = build_hard_scene(scene, scene.dt_s, options.seed);
       hard_cases.push_back(std::move(hard.hard_case));
-      if (with_poses.contains(scene.source.name)) replayed.push_back({scene.source.name, hard.model});
+      models.push_back({scene.source.name, hard.model});
+      if (with_poses.contains(scene.source.name)) replayed.push_back(models.back());
     }
     const StabilityRows rows{runner.scenes(), options.settings, hard_cases, cases, measured.results};
     StudyContent content;
     content.cases = stability_columns(rows);
     content.tables = stability_tables(rows, poses);
     content.tables.merge(replay_tables(replayed));
-    content.tables["differences"] = engine_differences(runner.scenes(), steppers_of(cases));
+    content.tables["differences"] = engine_differences(models, steppers_of(cases));
     content.note = stability_note(rows);
     content.next = " --html stability.html";
     return content;

@@ -8,17 +8,16 @@
 
 namespace pbmpi::app {
 
-std::vector<io::TableColumn> engine_differences(const std::vector<StudyScene>& scenes,
+std::vector<io::TableColumn> engine_differences(const std::vector<SceneModel>& scenes,
                                                 const std::set<stepping::StepperKind>& kinds) {
   struct Difference {
     std::string engine, scene, text;
   };
   std::vector<Difference> differences;
-  for (const StudyScene& scene : scenes) {
-    const auto model = scenes::parse_scene(scene.source)->build(0, 1);
+  for (const SceneModel& scene : scenes) {
     for (const stepping::StepperKind kind : kinds) {
-      for (const std::string& text : engines::inexpressible(kind, *model))
-        differences.push_back({std::string(name_of(kind)), scene.source.name, text});
+      for (const std::string& text : engines::inexpressible(kind, *scene.model))
+        differences.push_back({std::string(name_of(kind)), scene.name, text});
     }
   }
   using One = const Difference&;

@@ -19,8 +19,8 @@ std::set<stepping::StepperKind> steppers_of(const std::vector<Case>& cases) {
 }
 
 /// The columns of /differences (io/SCHEMA.md): engine, scene, text; scene by scene, in each the engines in
-/// the order of `kinds`. Builds the scenes' models.
-std::vector<io::TableColumn> engine_differences(const std::vector<StudyScene>& scenes,
+/// the order of `kinds`.
+std::vector<io::TableColumn> engine_differences(const std::vector<SceneModel>& scenes,
                                                 const std::set<stepping::StepperKind>& kinds);
 
 }  // namespace pbmpi::app

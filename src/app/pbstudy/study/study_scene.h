@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,12 @@ struct StudyScene {
   int steps_per_frame() const {
     return static_cast<int>(std::round(frame_s / dt_s));
   }  ///< with the scene's step
+};
+
+/// A scene's model, as it is at the start.
+struct SceneModel {
+  std::string name;  ///< the scene's
+  std::shared_ptr<const model::Model> model;
 };
 
 /// What the command line sets instead of the scene.
