@@ -48,6 +48,7 @@ core::ExitCode run_python_report(const std::string& command, const std::vector<s
                                     command};
   words.insert(words.end(), args.begin(), args.end());
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   setenv("PBREPORT_VERSION", version_line("pbreport").c_str(), 1);

@@ -57,6 +57,7 @@ StudyContent content(const AccuracyOptions& options, const std::vector<StudyScen
       Parameter::of("rest_seconds", options.rest_s)};
   content.cases = case_columns(scenes, cases, results);
   std::vector<SceneModel> models;
+  models.reserve(scenes.size());
   for (const StudyScene& scene : scenes)
     models.push_back({scene.source.name, scenes::parse_scene(scene.source)->build(0, options.seed)});
   content.tables["differences"] = engine_differences(models, steppers_of(cases));
