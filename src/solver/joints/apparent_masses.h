@@ -1,6 +1,7 @@
 /// The masses with which bodies of articulations that have rotors answer to contacts.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "solver/layout/body_lanes.h"
@@ -32,33 +33,37 @@ class ApparentMasses {
   void lend(int slot, const W (&answer)[6][6], const V& is_touched, const V& num_touched,
             BodyLanes<T>& bodies) {
     BodyLane<V>& body = bodies.bodies[slot];
-    const W bodies_touched = T::widen(num_touched);
+    const W own_answer = T::widen(body.inv_mass), bodies_touched = T::widen(num_touched);
     W square = Wide::broadcast(0);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) square += answer[i][j] * answer[i][j];
     }
     // The norm is at least the largest eigenvalue.
-    const V share_of_mass = 1 / (num_touched * T::sqrt(T::narrow(square)));
-    const Sym3L<W> share_of_inertia = inverse(Sym3L<W>{
-        answer[3][3] * bodies_touched, answer[4][3] * bodies_touched, answer[5][3] * bodies_touched,
-        answer[4][4] * bodies_touched, answer[5][4] * bodies_touched, answer[5][5] * bodies_touched});
-    const Sym3L<V> own_inertia = inverse(body.inv_inertia);
-    const V half = T::broadcast(0.5F);
-    const auto mean = [&](const V& own, const W& share) { return (own + T::narrow(share)) * half; };
+    const W share_of_answer =
+        T::widen(T::sqrt(T::narrow(square))) * bodies_touched + own_answer * Wide::broadcast(least_share);
+    const Sym3L<W> own_turn = widened(body.inv_inertia);
+    Sym3L<W> share_of_turn = own_turn;
+    int column = 0, row = 0;
+    for (W Sym3L<W>::*part : parts<W>()) {
+      share_of_turn.*part *= Wide::broadcast(least_share);
+      share_of_turn.*part += answer[3 + row][3 + column] * bodies_touched;
+      if (++row == 3) row = ++column;
+    }
+    const Sym3L<W> own_inertia = inverse(own_turn), share_of_inertia = inverse(share_of_turn);
     Lent& lent = lent_.emplace_back();
     lent.slot = slot;
     lent.is_touched = is_touched;
     lent.inv_mass = body.inv_mass;
     lent.inv_inertia = body.inv_inertia;
-    lent.mass = (1 / body.inv_mass + share_of_mass) * half;
-    lent.inertia = {mean(own_inertia.xx, share_of_inertia.xx), mean(own_inertia.xy, share_of_inertia.xy),
-                    mean(own_inertia.xz, share_of_inertia.xz), mean(own_inertia.yy, share_of_inertia.yy),
-                    mean(own_inertia.yz, share_of_inertia.yz), mean(own_inertia.zz, share_of_inertia.zz)};
-    const Sym3L<V> inv_inertia = inverse(lent.inertia);
+    const W half = Wide::broadcast(0.5);
+    lent.mass = T::narrow((1 / own_answer + 1 / share_of_answer) * half);
+    Sym3L<W> inertia;
+    for (W Sym3L<W>::*part : parts<W>()) inertia.*part = (own_inertia.*part + share_of_inertia.*part) * half;
+    lent.inertia = narrowed(inertia);
+    const Sym3L<V> inv_inertia = narrowed(inverse(inertia));
     const auto is_lent = is_touched > T::broadcast(0);
     body.inv_mass = is_lent ? 1 / lent.mass : body.inv_mass;
-    for (V Sym3L<V>::*part :
-         {&Sym3L<V>::xx, &Sym3L<V>::xy, &Sym3L<V>::xz, &Sym3L<V>::yy, &Sym3L<V>::yz, &Sym3L<V>::zz})
+    for (V Sym3L<V>::*part : parts<V>())
       body.inv_inertia.*part = is_lent ? inv_inertia.*part : body.inv_inertia.*part;
   }
   /// Puts the bodies' own masses back.
@@ -89,6 +94,21 @@ class ApparentMasses {
   void clear() { lent_.clear(); }
 
  private:
+  /// The least answer of a share, of the body's own: what joints hold has none, but for rounding.
+  static constexpr double least_share = 1e-4;
+
+  template <class L>
+  static constexpr std::array<L Sym3L<L>::*, 6> parts() {
+    return {&Sym3L<L>::xx, &Sym3L<L>::xy, &Sym3L<L>::xz, &Sym3L<L>::yy, &Sym3L<L>::yz, &Sym3L<L>::zz};
+  }
+  static Sym3L<W> widened(const Sym3L<V>& m) {
+    return {T::widen(m.xx), T::widen(m.xy), T::widen(m.xz), T::widen(m.yy), T::widen(m.yz), T::widen(m.zz)};
+  }
+  static Sym3L<V> narrowed(const Sym3L<W>& m) {
+    return {T::narrow(m.xx), T::narrow(m.xy), T::narrow(m.xz),
+            T::narrow(m.yy), T::narrow(m.yz), T::narrow(m.zz)};
+  }
+
   struct alignas(sizeof(V)) Lent {
     int slot;
     V is_touched;

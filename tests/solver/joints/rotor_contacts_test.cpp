@@ -98,6 +98,27 @@ TEST(RotorContacts, give_no_robot_energy_that_lands) {
   }
 }
 
+// A puck as light as public models have them (1e-5 kg/m^3): its slider's armature is ten million times its
+// mass, and the slider lets it turn about no axis.
+TEST(RotorContacts, move_a_light_body_on_a_slider) {
+  Model model;
+  support::add_ground(model);
+  const int actor = support::add_actor(model, "puck");
+  const int puck =
+      support::add_solid(model, actor, "puck", model::Shape::sphere, {0.05, 0, 0}, 4e-9, {0, 0, 0.05});
+  const int slider =
+      support::add_joint(model, JointKind::slider, puck, model::no_body, {0, 0, 0.05}, Vec3::UnitX());
+  model.joints[static_cast<std::size_t>(slider)].armature[0] = 0.04;
+  model.bodies[static_cast<std::size_t>(puck)].velocity = {0.1, 0, 0};
+  for (const auto precision : {stepping::Precision::double_, stepping::Precision::single}) {
+    const auto stepper = make_stepper(settings_with(0.01, precision), {model});
+    advance(*stepper, 50);
+    const Vec3& position = stepper->state(0).position[0];
+    EXPECT_NEAR(position.x(), 0.05, 1e-4);
+    EXPECT_NEAR(position.z(), 0.05, 1e-4);
+  }
+}
+
 TEST(RotorContacts, have_the_same_bits_for_every_instruction_set) {
   std::vector<Model> worlds;
   for (const double armature : {0.01, 0.1, 1.0, 0.3, 0.03}) worlds.push_back(two_legs(armature));
