@@ -49,7 +49,7 @@ def reference():
 
 
 def estimates():
-    """Frames estimated after none, one and two of their three steps: the work that an estimate waits for, and its defect."""
+    """Estimated frames: the work that an estimate waits for, and its defect."""
     scenes = ("CrashSk", "CrashWa", "Fight")
     with programs.Folder() as folder:
         cases, _ = programs.accuracy_cases(folder, scenes, "--precision", "double", "--iterations", "20", "--substeps", "1",
@@ -58,15 +58,14 @@ def estimates():
     for case in cases:
         if case["kind"] == "estimate":
             share = case["row_visits"] / frame_visits(case)
-            name = "look" if case["estimate_source"] == "same_solve" else "run"
-            line = (programs.setting_name(case), f"{case['estimate_after']:.0f}", f"{name}, {case['estimate_iterations']:.0f}")
+            line = (programs.setting_name(case), f"{case['estimate_iterations']:.0f}")
             found.setdefault(line, {})[case["scene"]] = (share, programs.millimetres(case["defect_body_position_rms"]))
     rows = []
     for line, by_scene in found.items():
         shares = {f"{100 * share:.0f}" for share, _ in by_scene.values()}
         rows.append([*line, " to ".join(sorted({min(shares, key=float), max(shares, key=float)}, key=float)),
                      *(by_scene[scene][1] for scene in scenes)])
-    return programs.table(["frames of", "precise steps", "then, iterations a step", "work [%] until it is there", *scenes], rows)
+    return programs.table(["frames of", "iterations a step", "work [%] until it is there", *scenes], rows)
 
 
 def frame_visits(case):

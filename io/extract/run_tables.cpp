@@ -43,7 +43,7 @@ constexpr auto names = std::to_array<TableName>({
     {"spaces", "/timings/space", Items::worlds, Rows::frames, "collision detection by spaces"},
     {"estimates", "/estimate", Items::bodies, Rows::recorded, "poses as FEEC estimated them"},
     {"estimate_times", "/estimate", Items::run, Rows::frames, "when estimates were delivered"},
-    {"estimate_ranks", "/estimate", Items::ranks, Rows::frames, "seconds and steps of ranks for estimates"},
+    {"estimate_ranks", "/estimate", Items::ranks, Rows::frames, "seconds of ranks for estimates"},
 });
 
 ItemsOf items_of(Items items) {

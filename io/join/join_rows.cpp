@@ -19,9 +19,8 @@ constexpr const char* contact_frames = "/contacts/frame";
 constexpr std::size_t piece_bytes = std::size_t{4} << 20;
 
 /// Columns that clocks have measured or decided, or that describe ranks, whose number differs between parts:
-/// no two executions of a frame agree on them. Estimates with a deadline depend on what was ready by then.
-bool is_of_one_execution(const JoinPart& part, const std::string& column) {
-  if (column.starts_with("/estimate/") && has_object(part.file, "/parameters/estimate_by")) return true;
+/// no two executions of a frame agree on them.
+bool is_of_one_execution(const std::string& column) {
   constexpr std::array clocks = {"/timings/frame/wall",
                                  "/timings/frame/deadline_met",
                                  "/timings/island/solve",
@@ -29,9 +28,7 @@ bool is_of_one_execution(const JoinPart& part, const std::string& column) {
                                  "/timings/space/collide_spaces",
                                  "/estimate/delivered",
                                  "/estimate/precise",
-                                 "/estimate/compute",
-                                 "/estimate/precise_steps",
-                                 "/estimate/coarse_steps"};
+                                 "/estimate/compute"};
   return column.starts_with("/timings/rank/") || std::ranges::find(clocks, column) != clocks.end();
 }
 
@@ -259,7 +256,7 @@ void require_equal_overlaps(const std::vector<JoinPart>& parts, const CommonTabl
         const bool is_recorded = table.rows == Rows::recorded;
         if (is_recorded && !record_alike(in_a, in_b, plan.record_every())) continue;
         for (const std::string& column : table.columns) {
-          if (is_of_one_execution(a, column)) continue;
+          if (is_of_one_execution(column)) continue;
           require_equal(a, rows_of(table, plan, overlap, in_a.first), b,
                         rows_of(table, plan, overlap, in_b.first), column, in_a.first,
                         is_recorded ? plan.record_every() : 1);

@@ -16,10 +16,7 @@ void put_times(const FrameSource& source, GrowingTable& row) {
 }
 
 void put_ranks(const FrameSource& source, GrowingTable& row) {
-  const stepping::EstimateRecord& estimate = estimate_of(source);
-  row.put(0, source.own_rank(), estimate.compute_s);
-  row.put(1, source.own_rank(), std::int64_t{estimate.steps.precise});
-  row.put(2, source.own_rank(), std::int64_t{estimate.steps.coarse});
+  row.put(0, source.own_rank(), estimate_of(source).compute_s);
 }
 
 void put_poses(const FrameSource& source, GrowingTable& row) {
@@ -39,13 +36,7 @@ std::vector<FrameTable> estimate_tables(const OptionalColumns& optional) {
            Items::run,
            Rows::frames,
            put_times},
-          {"/estimate",
-           {{"compute", H5T_NATIVE_DOUBLE, 1, "s"},
-            {"precise_steps", H5T_NATIVE_INT64, 1, ""},
-            {"coarse_steps", H5T_NATIVE_INT64, 1, ""}},
-           Items::ranks,
-           Rows::frames,
-           put_ranks},
+          {"/estimate", {{"compute", H5T_NATIVE_DOUBLE, 1, "s"}}, Items::ranks, Rows::frames, put_ranks},
           {"/estimate",
            {{"position/value", H5T_NATIVE_DOUBLE, 3, "m"}, {"orientation/value", H5T_NATIVE_DOUBLE, 4, ""}},
            Items::bodies,

@@ -30,7 +30,6 @@ CutWorld::CutWorld(const Communicator& comm, stepping::SpaceStepper& stepper, Er
       stepper_(&stepper),
       errors_(&errors),
       steps_per_frame_(settings.steps_per_frame),
-      dt_s_(settings.dt_s),
       ownership_(stepper.map(), std::move(owners), comm.size()),
       step_(comm, stepper, errors),
       rebalancer_(stepper, settings.steps_per_frame, settings.rebalance_threshold) {}
@@ -50,31 +49,20 @@ void CutWorld::watch(int number, const stability::GuardSettings& settings) {
   observables_ = now_.seen;
 }
 
-void CutWorld::estimate_with(const Communicator& comm, stepping::SpaceStepper& stepper,
-                             std::optional<double> due_s) {
-  estimate_ = std::make_unique<SpaceEstimate>(comm, stepper, *errors_, steps_per_frame_, dt_s_, due_s);
+void CutWorld::estimate_with(const Communicator& comm, stepping::SpaceStepper& stepper) {
+  estimate_ = std::make_unique<SpaceEstimate>(comm, stepper, *errors_, steps_per_frame_);
 }
 
 void CutWorld::estimate(core::PhaseTimes& times) {
   estimate_s_ = 0;
   if (is_frozen_) return estimate_->take(state());
   core::PhaseTimes own;
-  switch (estimate_->choose()) {
-    case SpaceEstimate::How::precise:
-      advance(times);
-      is_advanced_ = true;
-      return estimate_->take(state());
-    case SpaceEstimate::How::coarse:
-      estimate_->run(ownership_, state(), steps_done_, own);
-      estimate_s_ = own.useful_s();
-      return add(own, times);
-    case SpaceEstimate::How::glide:
-      return estimate_->glide(state());
-  }
+  estimate_->run(ownership_, state(), steps_done_, own);
+  estimate_s_ = own.useful_s();
+  add(own, times);
 }
 
 void CutWorld::advance(core::PhaseTimes& times) {
-  if (std::exchange(is_advanced_, false)) return;
   core::PhaseTimes own;
   if (is_frozen_) {
     steps_done_ += steps_per_frame_;
@@ -86,7 +74,6 @@ void CutWorld::advance(core::PhaseTimes& times) {
 }
 
 void CutWorld::step_frame(core::PhaseTimes& times) {
-  const double start_s = core::now_s();
   core::LapTimer timer(times);
   // A rank without bodies only waits for the others, whichever phases it does that in.
   const bool idle = !comm_->is_root() && ownership_.bodies[comm_->rank()].empty();
@@ -103,7 +90,6 @@ void CutWorld::step_frame(core::PhaseTimes& times) {
   rebalancer_.note_times(step_.findings());
   end_watched_frame();
   observing.lap(Phase::islands);
-  if (estimate_) estimate_->note_precise(core::now_s() - start_s);
 }
 
 void CutWorld::observe() {

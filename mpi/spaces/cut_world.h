@@ -49,10 +49,9 @@ class CutWorld {
 
   /// Estimates frames with a stepper of the same world and messages of `comm`, as SpaceEstimate describes.
   /// Borrowed.
-  void estimate_with(const Communicator& comm, stepping::SpaceStepper& stepper, std::optional<double> due_s);
+  void estimate_with(const Communicator& comm, stepping::SpaceStepper& stepper);
   void estimate(core::PhaseTimes& times);                                     ///< estimates the next frame
   const model::State& estimated_state() const { return estimate_->state(); }  ///< on root
-  stepping::EstimatedSteps estimated_steps() const { return estimate_->steps(); }
 
   /// Does the steps of a frame.
   void advance(core::PhaseTimes& times);
@@ -93,7 +92,6 @@ class CutWorld {
   stepping::SpaceStepper* stepper_;
   ErrorHold* errors_;
   int steps_per_frame_;
-  double dt_s_;
   SpaceOwnership ownership_;
   SpaceStep step_;
   stepping::Observables observables_;           ///< on root
@@ -107,7 +105,6 @@ class CutWorld {
   Reassignment planned_;        ///< on root: the decision of rebalancer_ after the last frame
   StepHook hook_;
   std::unique_ptr<SpaceEstimate> estimate_;  ///< with FEEC
-  bool is_advanced_ = false;                 ///< the frame is done: its estimate was the precise result
   double estimate_s_ = 0, frame_s_ = 0;      ///< useful seconds of this rank in the last frame
 };
 

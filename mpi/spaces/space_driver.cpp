@@ -128,15 +128,13 @@ std::vector<int> SpaceDriver::idle_ranks() const {
   return idle;
 }
 
-void SpaceDriver::estimate_with(std::span<stepping::SpaceStepper* const> steppers,
-                                std::optional<double> due_s) {
-  core::require_invariant(steppers.size() == worlds_.size() && (!due_s || settings().num_worlds == 1),
-                          "SpaceDriver: a stepper for each world, and a deadline for one only");
+void SpaceDriver::estimate_with(std::span<stepping::SpaceStepper* const> steppers) {
+  core::require_invariant(steppers.size() == worlds_.size(), "SpaceDriver: a stepper for each world");
   estimating_ = group_.dup();
   estimates_ = std::make_unique<PoseGather>(comm(), table_, roots_);
   for (std::size_t i = 0; i < worlds_.size(); ++i) {
     CutWorld& world = *worlds_[i];
-    world.estimate_with(estimating_, *steppers[i], due_s);
+    world.estimate_with(estimating_, *steppers[i]);
     if (group_.is_root()) estimated_worlds_.push_back({ids_[i], &world.model(), &world.estimated_state()});
   }
 }
@@ -148,7 +146,6 @@ double SpaceDriver::make_estimate(std::int64_t frame, double frame_start_s, core
   estimates_->expect();
   for (const auto& world : worlds_) world->estimate(times);
   estimate_record_.compute_s = core::now_s() - start_s;
-  if (!worlds_.empty()) estimate_record_.steps = worlds_.front()->estimated_steps();
 
   core::LapTimer timer(times);
   estimates_->start(estimated_worlds_, std::vector<double>(estimated_worlds_.size(), 0));

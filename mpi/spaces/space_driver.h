@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,10 +45,9 @@ class SpaceDriver final : public FrameDriver {
   /// every rank or on none, before run().
   void watch(const stability::GuardSettings& settings);
 
-  /// Estimates every frame first (FEEC), with steppers of the same worlds. `due_s`: the deadline from the
-  /// start of the frame, which only a run of one world can have. Borrowed. Called on every rank or on none,
-  /// before run().
-  void estimate_with(std::span<stepping::SpaceStepper* const> steppers, std::optional<double> due_s);
+  /// Estimates every frame first (FEEC), with steppers of the same worlds. Borrowed. Called on every rank or
+  /// on none, before run().
+  void estimate_with(std::span<stepping::SpaceStepper* const> steppers);
 
   const stepping::WorldTable& table() const override { return table_; }
   std::vector<stepping::LocalWorld> local_worlds() const override;

@@ -60,7 +60,7 @@ double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core
   errors().guard([&] {
     const int steps = settings().steps_per_frame;
     const core::SectionMark mark(core::SectionMark::Section::estimate);
-    // Estimators look into the stepper, and number worlds as it does.
+    // Steppers draw from a world's number in the ensemble.
     std::vector<stepping::LocalWorld> numbered = estimated_worlds_;
     for (stepping::LocalWorld& world : numbered) world.id = worlds_.number_of(world.id);
     estimator_->estimate(numbered, frame * steps, steps, times);
@@ -70,7 +70,6 @@ double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core
     }
   });
   estimate_record_.compute_s = core::now_s() - start_s;
-  estimate_record_.steps = estimator_->steps();
 
   core::LapTimer timer(times);
   estimates_->start(estimated_worlds_, std::vector<double>(estimated_worlds_.size(), 0));

@@ -21,7 +21,8 @@ namespace pbmpi::engines {
 
 std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings,
                                                      const std::string& warning_prefix) {
-  if (traits_of(settings.kind).is_anytime) return make_anytime_stepper(settings);
+  if (settings.kind == stepping::StepperKind::sor)
+    return solver::make_sor_stepper(settings, ode::make_narrow_phase);
   require_in_build(settings.kind, "stepper " + std::string(name_of(settings.kind)));
 #ifdef PBMPI_HAS_BULLET
   if (settings.kind == stepping::StepperKind::bullet)
@@ -33,10 +34,6 @@ std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSett
 #endif
   return ode::make_ode_stepper(
       settings, [warning_prefix](const std::string& line) { ode::warn_on_stderr(warning_prefix + line); });
-}
-
-std::unique_ptr<stepping::AnytimeStepper> make_anytime_stepper(const stepping::StepperSettings& settings) {
-  return solver::make_sor_stepper(settings, ode::make_narrow_phase);
 }
 
 std::unique_ptr<stepping::SpaceStepper> make_space_stepper(const stepping::StepperSettings& settings,

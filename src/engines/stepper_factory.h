@@ -15,9 +15,6 @@ namespace pbmpi::engines {
 std::unique_ptr<stepping::WorldStepper> make_stepper(const stepping::StepperSettings& settings,
                                                      const std::string& warning_prefix = "");
 
-/// A stepper whose state can be read in mid-solve: sor.
-std::unique_ptr<stepping::AnytimeStepper> make_anytime_stepper(const stepping::StepperSettings& settings);
-
 /// A stepper of one world that is cut into spaces: sor.
 std::unique_ptr<stepping::SpaceStepper> make_space_stepper(const stepping::StepperSettings& settings,
                                                            std::shared_ptr<const model::Model> model);

@@ -37,7 +37,6 @@ void ShortRun::estimate(std::span<const stepping::LocalWorld> worlds, std::int64
   core::LapTimer timer(times);
   follow(worlds, step);
   timer.lap(core::Phase::integrate);
-  num_steps_ = num_steps;
   if (!worlds.empty()) stepper_->advance(num_steps, times);
 }
 

@@ -12,8 +12,6 @@ namespace pbmpi::estimate {
 
 /// Estimates with `stepper`, e.g. of the same kind as the precise one with fewer iterations (the paper's
 /// choice). Follows the worlds that come to and leave this rank; keeps a copy of their models.
-///
-/// A stepper that can show its state in mid-solve needs no second assembly: SameSolve.
 class ShortRun final : public stepping::Estimator {
  public:
   explicit ShortRun(std::unique_ptr<stepping::WorldStepper> stepper) : stepper_(std::move(stepper)) {}
@@ -24,14 +22,12 @@ class ShortRun final : public stepping::Estimator {
     const auto found = standing_.find(world);
     return found == standing_.end() ? stepper_->state(world) : found->second;
   }
-  stepping::EstimatedSteps steps() const override { return {.coarse = num_steps_}; }
 
  private:
   void follow(std::span<const stepping::LocalWorld> worlds, std::int64_t step);
 
   std::unique_ptr<stepping::WorldStepper> stepper_;
   std::set<int> worlds_;                  ///< ids of the worlds in stepper_
-  int num_steps_ = 0;                     ///< of the last estimate
   std::map<int, model::State> standing_;  ///< states of worlds that stand still (model::GuardMemory)
 };
 

@@ -9,9 +9,7 @@
 namespace pbmpi::stability {
 
 GuardedStepper::GuardedStepper(std::unique_ptr<stepping::WorldStepper> inner, GuardSettings settings)
-    : settings_(std::move(settings)),
-      inner_(std::move(inner)),
-      anytime_(dynamic_cast<stepping::AnytimeStepper*>(inner_.get())) {}
+    : settings_(std::move(settings)), inner_(std::move(inner)) {}
 
 void GuardedStepper::add(int world, std::shared_ptr<const model::Model> model, const model::State& state,
                          std::int64_t step) {
@@ -58,7 +56,6 @@ void GuardedStepper::set_state(int world, const model::State& state, std::int64_
 }
 
 void GuardedStepper::set_motor_velocity(int world, int joint, int axis, double velocity) {
-  core::require_invariant(begun_steps_ == 0, "set_motor_velocity: a frame has begun");
   Slot& slot = worlds_.at(world);
   const bool changes = slot.targets.set(*slot.model, slot.step, joint, axis, velocity) != nullptr;
   if (slot.now.is_frozen()) return;
@@ -67,37 +64,17 @@ void GuardedStepper::set_motor_velocity(int world, int joint, int axis, double v
 }
 
 void GuardedStepper::advance(int num_steps, core::PhaseTimes& times) {
-  core::require_invariant(num_steps >= begun_steps_, "advance: no fewer steps than have begun");
-  const int begun_steps = std::exchange(begun_steps_, 0);
-  if (num_steps == 0 || num_steps > begun_steps) {  // steps that the guards repeat are not part of the frame
+  {  // steps that the guards repeat are not part of the frame
     const core::SectionMark mark(core::SectionMark::Section::precise);
-    step(num_steps - begun_steps, times);
+    inner_->advance(num_steps, times);
   }
   if (num_steps == 0) return;
   core::LapTimer timer(times);
   for (auto& [world, slot] : worlds_) {
-    slot.cost_s = std::exchange(slot.begun_cost_s, 0);
+    if (!slot.now.is_frozen()) slot.cost_s = inner_->cost_s(world);
     end_frame(world, slot, num_steps);
   }
   timer.lap(core::Phase::islands);
-}
-
-void GuardedStepper::step(int num_steps, core::PhaseTimes& times) {
-  inner_->advance(num_steps, times);
-  if (num_steps == 0) return;
-  for (auto& [world, slot] : worlds_) {
-    if (!slot.now.is_frozen()) slot.begun_cost_s += inner_->cost_s(world);
-  }
-}
-
-void GuardedStepper::begin_frame(int num_steps, core::PhaseTimes& times) {
-  begun_steps_ += num_steps;
-  step(num_steps, times);
-}
-
-const model::State& GuardedStepper::begun(int world) const {
-  const Slot& slot = worlds_.at(world);
-  return slot.now.is_frozen() ? slot.now.state : inner_->state(world);
 }
 
 void GuardedStepper::end_frame(int world, Slot& slot, int num_steps) {
@@ -124,16 +101,6 @@ const stepping::StepProfile* GuardedStepper::profile(int world) const {
 
 const stepping::StepContacts* GuardedStepper::contacts(int world) const {
   return worlds_.at(world).now.is_frozen() ? nullptr : inner_->contacts(world);
-}
-
-void GuardedStepper::begin_step(int iterations, core::PhaseTimes& times) {
-  core::require_invariant(anytime_ != nullptr, "begin_step: the stepper cannot be looked at in mid-solve");
-  anytime_->begin_step(iterations, times);
-}
-
-const model::State& GuardedStepper::look(int world) const {
-  const Slot& slot = worlds_.at(world);
-  return slot.now.is_frozen() ? slot.now.state : anytime_->look(world);
 }
 
 }  // namespace pbmpi::stability

@@ -18,9 +18,8 @@ namespace pbmpi::stability {
 /// hold the guards' memory (State::guard), so that the run continues unchanged where a world moves to another
 /// rank or is restored from a checkpoint. With freeze and refine a world that blows up gets another state. A
 /// frozen world is kept out of the other stepper, whose remaining worlds keep their bits.
-class GuardedStepper final : public stepping::FrameStepper, public stepping::RunEventSource {
+class GuardedStepper final : public stepping::WorldStepper, public stepping::RunEventSource {
  public:
-  /// begin_step() and look() require `inner` to be an AnytimeStepper.
   GuardedStepper(std::unique_ptr<stepping::WorldStepper> inner, GuardSettings settings);
   GuardedStepper(const GuardedStepper&) = delete;  // the worlds' guards point to its settings
   GuardedStepper& operator=(const GuardedStepper&) = delete;
@@ -40,11 +39,6 @@ class GuardedStepper final : public stepping::FrameStepper, public stepping::Run
   const stepping::StepProfile* profile(int world) const override;
   const stepping::StepContacts* contacts(int world) const override;
 
-  void begin_step(int iterations, core::PhaseTimes& times) override;
-  const model::State& look(int world) const override;
-  void begin_frame(int num_steps, core::PhaseTimes& times) override;
-  const model::State& begun(int world) const override;
-
   std::vector<stepping::RunEvent> take_events() override { return std::exchange(events_, {}); }
 
  private:
@@ -53,18 +47,15 @@ class GuardedStepper final : public stepping::FrameStepper, public stepping::Run
     std::unique_ptr<WorldGuard> guard;
     std::int64_t step = 0;
     stepping::MotorTargets targets;
-    double begun_cost_s = 0, cost_s = 0;  ///< of the part of a frame that has begun; of the last frame
+    double cost_s = 0;  ///< of the last frame
     Watched now;
   };
 
-  void step(int num_steps, core::PhaseTimes& times);
   void end_frame(int world, Slot& slot, int num_steps);
 
   GuardSettings settings_;
   std::unique_ptr<stepping::WorldStepper> inner_;
-  stepping::AnytimeStepper* anytime_ = nullptr;  ///< inner_, if it is one
   std::map<int, Slot> worlds_;
-  int begun_steps_ = 0;  ///< steps of the frame, set by begin_frame()
   std::vector<stepping::RunEvent> events_;
 };
 

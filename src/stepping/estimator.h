@@ -24,8 +24,6 @@ class Estimator {
 
   /// The last estimate() of a world, returned as it is even if it blew up.
   virtual const model::State& state(int world) const = 0;
-  /// What the last estimate() did for the frame's steps.
-  virtual EstimatedSteps steps() const = 0;
 };
 
 }  // namespace pbmpi::stepping

@@ -40,18 +40,11 @@ struct LocalWorld {
   const StepContacts* contacts = nullptr;
 };
 
-/// How an estimate goes through the steps of its frame: precise steps first, then coarse ones; for the rest
-/// bodies glide.
-struct EstimatedSteps {
-  int precise = 0, coarse = 0;
-};
-
 /// The estimate of a frame, available before the precise result (FEEC).
 struct EstimateRecord {
   std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id: estimated states, no observables
   double delivered_s = 0;  ///< start of the frame until root had all poses: the same on every rank
-  double compute_s = 0;    ///< this rank's time for it, including its start on the precise frame
-  EstimatedSteps steps;    ///< of this rank
+  double compute_s = 0;    ///< this rank's time for it
 };
 
 /// A finished frame as its rank saw it. Spans and pointers hold until the observer returns.

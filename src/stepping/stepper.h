@@ -170,28 +170,4 @@ class WorldStepper {
   }
 };
 
-/// A stepper that can stop in mid-solve, show its state as it would be if the step ended there, and go on as
-/// if nobody had looked.
-class AnytimeStepper : public WorldStepper {
- public:
-  /// Does the next step of every world up to this many iterations of its last substep (0 or more, at most
-  /// all of them). The next advance() counts this step as its first, and finishes it: its result is the same,
-  /// bit for bit. Until then state() is that before the step; add(), remove() and set_state() drop what was
-  /// begun. Adds the seconds spent to `times`.
-  virtual void begin_step(int iterations, core::PhaseTimes& times) = 0;
-  /// The state of a world as it would be if the step ended where the last begin_step() stopped; no memory.
-  virtual const model::State& look(int world) const = 0;
-};
-
-/// A stepper whose frame can be begun before advance() is called for it.
-class FrameStepper : public AnytimeStepper {
- public:
-  /// Does the first steps of a frame, or goes on after those that it has done. The next advance() counts them
-  /// among its own: its result is the same, bit for bit. Until then state() is that before the frame, and a
-  /// begin_step() is of the step after them. Adds the seconds spent to `times`.
-  virtual void begin_frame(int num_steps, core::PhaseTimes& times) = 0;
-  /// The state of a world after the steps of begin_frame().
-  virtual const model::State& begun(int world) const = 0;
-};
-
 }  // namespace pbmpi::stepping

@@ -17,7 +17,6 @@ struct StepperTraits {
   bool has_precision = false;           ///< can compute in another number type than double
   bool has_lanes = false;               ///< works in vector lanes: instructions can be chosen
   bool has_constraint_solvers = false;  ///< ConstraintSolver can be chosen
-  bool is_anytime = false;              ///< an AnytimeStepper: can be looked at in mid-solve
   bool cuts_spaces = false;             ///< has a SpaceStepper: one world can be cut over ranks
   bool shows_residuals = false;         ///< measures Observables::residuals
   bool profiles_islands = false;        ///< WorldStepper::profile_last_step() measures single islands
@@ -35,7 +34,6 @@ inline constexpr std::array<StepperTraits, 5> stepper_traits = {{
      .has_substeps = true,
      .has_precision = true,
      .has_lanes = true,
-     .is_anytime = true,
      .cuts_spaces = true,
      .shows_residuals = true},
     {.iterates = true, .own_iterations = 10, .relative_cost = 8},  // Bullet's btContactSolverInfo

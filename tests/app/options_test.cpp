@@ -121,30 +121,13 @@ TEST(Options, residuals_are_of_whole_worlds_and_go_into_the_file) {
   EXPECT_THROW(spec({"--no-output"}), core::InputError);
 }
 
-TEST(Options, feec_looks_at_the_precise_solve_where_it_is_the_only_one_of_a_frame) {
-  const auto source = [](std::vector<std::string> more) {
-    std::vector<std::string> args = {"--scene",      "Fake", "--stepper",         "sor", "--feec",
-                                     "--iterations", "20",   "--steps-per-frame", "1"};
-    args.insert(args.end(), more.begin(), more.end());
-    return resolve(parse_options(args), FakeScene({})).estimate->source;
-  };
-  EXPECT_EQ(source({"--substeps", "1"}), EstimateSource::same_solve);
-  EXPECT_EQ(source({"--substeps", "1", "--estimate-iterations", "20"}), EstimateSource::same_solve);
-  EXPECT_EQ(source({}), EstimateSource::short_run) << "14 substeps";
-  for (const std::vector<std::string>& other : {std::vector<std::string>{"--estimate-iterations", "21"},
-                                                {"--estimate-stepper", "quick"},
-                                                {"--estimate-precision", "single"}}) {
-    EXPECT_EQ(source({"--substeps", "1", other[0], other[1]}), EstimateSource::short_run) << other.back();
-  }
-}
-
 TEST(Options, feec_estimates_as_the_precise_stepper_does_but_with_one_iteration) {
   const RunSpec spec =
       resolve(parse_options({"--scene", "Fake", "--feec", "--solver-seed", "7"}), FakeScene({}));
   ASSERT_TRUE(spec.estimate.has_value());
-  EXPECT_EQ(spec.estimate->stepper.kind, stepping::StepperKind::sor);
-  EXPECT_EQ(spec.estimate->stepper.iterations, 1);
-  EXPECT_EQ(spec.estimate->stepper.seed, 7u);
+  EXPECT_EQ(spec.estimate->kind, stepping::StepperKind::sor);
+  EXPECT_EQ(spec.estimate->iterations, 1);
+  EXPECT_EQ(spec.estimate->seed, 7u);
   EXPECT_EQ(spec.stepper.seed, 7u);
   EXPECT_EQ(spec.seed, 1u);
   EXPECT_FALSE(resolve(parse_options({"--scene", "Fake"}), FakeScene({})).estimate.has_value());
@@ -157,9 +140,9 @@ TEST(Options, feec_may_estimate_with_another_stepper) {
               FakeScene({}));
   ASSERT_TRUE(spec.estimate.has_value());
   EXPECT_EQ(spec.stepper.kind, stepping::StepperKind::quick);
-  EXPECT_EQ(spec.estimate->stepper.kind, stepping::StepperKind::sor);
-  EXPECT_EQ(spec.estimate->stepper.iterations, 3);
-  EXPECT_EQ(spec.estimate->stepper.precision, stepping::Precision::single);
+  EXPECT_EQ(spec.estimate->kind, stepping::StepperKind::sor);
+  EXPECT_EQ(spec.estimate->iterations, 3);
+  EXPECT_EQ(spec.estimate->precision, stepping::Precision::single);
 }
 
 TEST(Options, those_of_the_estimate_are_refused_where_they_make_no_sense) {
@@ -222,16 +205,6 @@ TEST(RunOptions, have_values_that_are_read_back) {
   }
 }
 
-TEST(RunOptions, of_an_estimate_have_a_value_only_where_there_is_one) {
-  RunSpec spec;
-  spec.estimate_after = 1;
-  for (const bool feec : {false, true}) {
-    spec.feec = feec;
-    const auto option = std::ranges::find(run_options(), "estimate-after", &RunOption::name);
-    EXPECT_EQ(value_of(*option, spec).has_value(), feec);
-  }
-}
-
 TEST(Options, help_names_every_group_and_exit_code) {
   const std::string help = help_of(pbmpi_manual(), {"--help", "all"});
   for (const char* words :
@@ -261,8 +234,6 @@ TEST(Options, cut_into_spaces_by_themselves_only_where_it_helps) {
   const std::vector<std::string> threads = {"--scene", "Fake", "--replicas", "1", "--threads", "2"};
   EXPECT_THROW(decided(threads, 3, 2), core::InputError) << "threads step worlds of their own";
   EXPECT_EQ(decided(threads, 3, 1), Decomposition::worlds);
-  EXPECT_EQ(decided({"--scene", "Fake", "--feec", "--estimate-after", "1"}, 3, 2), Decomposition::worlds)
-      << "what is precise of a cut frame is known to no rank alone";
   EXPECT_EQ(decided({"--scene", "Fake", "--stepper", "sor", "--replicas", "2"}, 3, 2), Decomposition::worlds);
 }
 
@@ -276,9 +247,6 @@ TEST(Options, cut_many_worlds_by_themselves_only_where_ranks_would_have_none_and
   EXPECT_EQ(six.groups.worlds, (std::vector<int>{1, 1, 1}));
   const std::vector<std::string> threads = {"--scene", "Fake", "--replicas", "3", "--threads", "2"};
   EXPECT_EQ(decided(threads, 4, 6), Decomposition::worlds) << "as without groups";
-  const std::vector<std::string> due = {"--scene", "Fake",          "--replicas", "3",
-                                        "--feec",  "--estimate-by", "1ms"};
-  EXPECT_EQ(decided(due, 4, 6), Decomposition::worlds);
   EXPECT_EQ(decided({"--scene", "Fake", "--replicas", "3", "--stepper", "quick"}, 4, 6),
             Decomposition::worlds);
 }
@@ -319,9 +287,6 @@ TEST(Options, refuse_spaces_where_they_cannot_be_had_and_say_why) {
   for (const char* stepper : {"quick", "direct"})
     EXPECT_NE(refused({"--stepper", stepper}).find("add --stepper sor"), std::string::npos);
   EXPECT_EQ(refused({"--stepper", "sor", "--replicas", "4"}), "");
-  const std::string due = refused({"--replicas", "4", "--feec", "--estimate-by", "1ms"});
-  EXPECT_NE(due.find("--estimate-by: "), std::string::npos) << due;
-  EXPECT_NE(due.find("there are 4"), std::string::npos) << due;
   EXPECT_NE(refused({"--ranks-per-world", "0"}).find("at least 1"), std::string::npos);
 }
 

@@ -53,88 +53,26 @@ class Feec(ProgramTest):
                     for column in ("position/value", "orientation/value"):
                         self.assertEqual(one["estimate"][column][:].tobytes(), file["estimate"][column][:].tobytes(), (scene, ranks))
                     self.assertGreater(np.abs(file["estimate/position/value"][:] - file["particles/bodies/position/value"][:]).max(), 0)
-                    self.assertTrue((file["estimate/coarse_steps"][:] == 3).all())
 
     def test_what_cannot_estimate_a_cut_world_is_refused_and_by_itself_leaves_it_whole(self):
         args = ["--scene", "Fight", "--frames", 2, "--no-output", "--feec"]
-        for options, name in ((["--estimate-after", 1], "--estimate-after"), (["--estimate-stepper", "quick"], "--estimate-stepper quick")):
-            refused = self.pbmpi(2, *args, *options, "--decompose", "spaces")
-            self.assertEqual(refused.returncode, 2, refused.stderr)
-            self.assertIn(name + ": ", refused.stderr)
-            self.assertEqual(self.summary(2, *args, *options)["decomposition"], "worlds")
-
-    def test_an_estimate_after_precise_steps_is_nearer_and_leaves_the_run_alone(self):
-        for stepper in (["--stepper", "quick"], [], ODE_LAW):
-            args = ["--scene", "CrashSk", "--replicas", 3, *stepper, "--iterations", 20]
-            alone = self.summary(1, *args, "--no-output")["state_hash"]
-            defects = []
-            for after in (0, 1, 2):
-                estimates = []
-                for ranks in (1, 3):
-                    summary = self.summary(ranks, *args, "--feec", "--estimate-after", after, "--output", "run.h5")
-                    self.assertEqual(summary["state_hash"], alone)
-                    self.assertEqual(summary["estimate"]["after_steps"], after)
-                    with h5py.File(self.path("run.h5")) as file:
-                        self.assertTrue((file["estimate/precise_steps"][:] == after).all())
-                        estimates.append(file["estimate/position/value"][:].tobytes())
-                self.assertEqual(estimates[0], estimates[1])
-                defects.append(summary["estimate"]["position_defect_m"]["rms"])
-            self.assertEqual(defects, sorted(defects, reverse=True))
-            self.assertLess(defects[2], defects[0])
-            source = summary["estimate"]["source"]
-            self.assertEqual(source, "same_solve" if stepper == ODE_LAW else "short_run")
-
-    def test_an_estimate_is_there_when_it_is_due_and_leaves_the_run_alone(self):
-        for ranks, scene in ((1, "CrashSk"), (3, "CrashSk"), (2, "Fight")):
-            args = ["--scene", scene, "--frames", 6]
-            alone = self.summary(1, *args, "--no-output")["state_hash"]
-            ample = self.summary(ranks, *args, "--feec", "--estimate-by", "100s", "--output", "ample.h5")
-            self.assertEqual((ample["state_hash"], ample["estimate"]["source"]), (alone, "until_due"))
-            self.assertEqual((ample["estimate"]["due_s"], ample["estimate"]["in_time_fraction"]), (100, 1))
-            self.assertEqual(ample["estimate"]["position_defect_m"]["max"], 0, "there is time for the precise frame")
-            none = self.summary(ranks, *args, "--feec", "--estimate-by", "0.001us", "--output", "none.h5")
-            self.assertEqual((none["state_hash"], none["estimate"]["in_time_fraction"]), (alone, 0))
-            self.assertGreater(none["estimate"]["position_defect_m"]["max"], 0)
-            with h5py.File(self.path("ample.h5")) as early, h5py.File(self.path("none.h5")) as late:
-                has_worlds = early["estimate/precise_steps"][:].max(axis=0) > 0
-                self.assertTrue((early["estimate/precise_steps"][:, has_worlds] == 3).all())
-                start = late["particles/bodies/position/value"][3:-1]
-                # Bodies that no step moved: the first frames count on no time at all for a step that is not known yet.
-                self.assertTrue((late["estimate/coarse_steps"][4:] == 0).all() and (late["estimate/precise_steps"][4:] == 0).all())
-                gone = late["estimate/position/value"][4:] - start - 0.03 * late["particles/bodies/velocity/value"][3:-1]
-                # A sum of two roundings of numbers below 100.
-                self.assertLess(np.abs(gone).max(), 1e-13)
-            self.assertEqual(self.json(self.report("ample.h5", "--json"))["estimate"], ample["estimate"])
-        both = self.pbmpi(1, "--scene", "CrashSk", "--feec", "--estimate-by", "1ms", "--estimate-after", 1)
-        self.assertEqual(both.returncode, 2)
-        self.assertIn("exclude each other", both.stderr)
+        quick = ["--estimate-stepper", "quick"]
+        refused = self.pbmpi(2, *args, *quick, "--decompose", "spaces")
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertIn("--estimate-stepper quick: ", refused.stderr)
+        self.assertEqual(self.summary(2, *args, *quick)["decomposition"], "worlds")
 
     def test_as_many_iterations_as_the_precise_run_leave_no_defect(self):
         for setting in (["--stepper", "quick"], [*ODE_LAW, "--iterations", 20], ["--substeps", 1, "--iterations", 20]):
             summary = self.summary(3, "--scene", "CrashSk", *setting, "--feec", "--estimate-iterations", 20, "--no-output")
             self.assertEqual(summary["estimate"]["position_defect_m"]["max"], 0)
 
-    def test_with_one_step_a_frame_sor_estimates_from_the_same_solve(self):
-        ode_law = ["--scene", "CrashSk", "--replicas", 7, *ODE_LAW, "--steps-per-frame", 1, "--frames", 16]
-        args = [*ode_law, "--iterations", 20]
-        alone = self.summary(1, *args, "--no-output")["state_hash"]
-        for ranks in (1, 2, 3, 4):
-            summary = self.summary(ranks, *args, "--feec", "--estimate-iterations", 3, "--output", f"run{ranks}.h5")
-            self.assertEqual(summary["state_hash"], alone)
-            self.assertEqual(summary["estimate"]["source"], "same_solve")
-        own = self.summary(2, *args, "--feec", "--estimate-iterations", 3, "--estimate-precision", "single", "--no-output")
-        self.assertEqual((own["state_hash"], own["estimate"]["source"]), (alone, "short_run"))
-        exact = self.summary(2, *args, "--feec", "--estimate-iterations", 20, "--no-output")["estimate"]
-        self.assertEqual((exact["source"], exact["position_defect_m"]["max"]), ("same_solve", 0))
-        with h5py.File(self.path("run1.h5")) as one, h5py.File(self.path("run4.h5")) as four:
-            for column in ("position/value", "orientation/value"):
-                self.assertEqual(one["estimate"][column][:].tobytes(), four["estimate"][column][:].tobytes())
-            # The first frame starts where a run of three iterations does, and so is its first frame.
-            self.summary(1, *ode_law, "--iterations", 3, "--output", "short.h5")
-            with h5py.File(self.path("short.h5")) as short:
-                self.assertEqual(one["estimate/position/value"][0].tobytes(),
-                                 short["particles/bodies/position/value"][0].tobytes())
-            self.assertEqual(one["parameters/estimate_source"][()], b"same_solve")
+    def test_an_estimate_is_the_run_of_so_many_iterations_from_where_the_frame_starts(self):
+        args = ["--scene", "CrashSk", "--replicas", 7, *ODE_LAW, "--steps-per-frame", 1, "--frames", 16]
+        self.summary(3, *args, "--iterations", 20, "--feec", "--estimate-iterations", 3, "--output", "run.h5")
+        self.summary(1, *args, "--iterations", 3, "--output", "short.h5")
+        with h5py.File(self.path("run.h5")) as run, h5py.File(self.path("short.h5")) as short:
+            self.assertEqual(run["estimate/position/value"][0].tobytes(), short["particles/bodies/position/value"][0].tobytes())
 
     def test_pbreport_shows_the_same_estimate_as_pbmpi(self):
         for solve in ([], ["--stepper", "sor", "--steps-per-frame", 1]):

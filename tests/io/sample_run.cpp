@@ -190,10 +190,7 @@ void put_frame(RunFile& file, const Sample& sample, std::int64_t frame) {
   record.wall_s = sample_wall_s(frame);
   record.deadline_met = frame % 2 == 0;
   const RankWorlds estimated = sample_estimate(sample, frame);
-  const stepping::EstimateRecord estimate{estimated.worlds,
-                                          0.25 * record.wall_s,
-                                          1e-4 * (sample.rank + 1),
-                                          {.precise = sample.rank, .coarse = 3 - sample.rank}};
+  const stepping::EstimateRecord estimate{estimated.worlds, 0.25 * record.wall_s, 1e-4 * (sample.rank + 1)};
   record.estimate = &estimate;
   file.frame_done(record);
 }

@@ -253,35 +253,6 @@ TEST(FieldOfInterestInPacks, worlds_have_the_bits_that_each_has_alone_for_every_
   }
 }
 
-TEST(FieldOfInterestAnytime, a_look_is_the_state_of_a_run_of_so_many_iterations_and_changes_no_bit) {
-  StepperSettings settings = default_settings(StepperKind::sor, stepping::Law::ode);
-  const auto model = std::make_shared<const Model>(yards_with_ball(20));
-  const auto path = start(settings, *model);
-  int at = 0;
-  for (const int step : {10, 30, 41, 60}) {
-    advance(*path, step - at);
-    at = step;
-    const State state = path->state(0);
-    for (const int iterations : {0, 2, 3, 9, 20}) {
-      const auto looked_at = make_sor_stepper(settings, ode::make_narrow_phase);
-      looked_at->add(0, model, state, step);
-      core::PhaseTimes times;
-      looked_at->begin_step(iterations, times);
-      if (iterations > 0) {
-        StepperSettings few = settings;
-        few.iterations = iterations;
-        const auto short_run = start(few, *model, state, step);
-        advance(*short_run, 1);
-        EXPECT_EQ(model::hash(looked_at->look(0)), model::hash(short_run->state(0))) << iterations;
-      }
-      const auto plain = start(settings, *model, state, step);
-      advance(*plain, 1);
-      advance(*looked_at, 1);
-      EXPECT_EQ(model::hash(looked_at->state(0)), model::hash(plain->state(0))) << iterations;
-    }
-  }
-}
-
 TEST(FieldOfInterestDirect, is_idle_where_nothing_iterates) {
   StepperSettings settings = default_settings(StepperKind::direct);
   Model plain = yards(true, true);

@@ -133,7 +133,6 @@ TEST(StepOptions, files_write_names_with_underscores) {
 }
 
 TEST(StepperTraits, follow_the_order_of_the_kinds) {
-  EXPECT_TRUE(traits_of(StepperKind::sor).is_anytime);
   EXPECT_TRUE(traits_of(StepperKind::quick).iterates);
   EXPECT_FALSE(traits_of(StepperKind::direct).iterates);
   StepperSettings sor = default_settings(StepperKind::sor, Law::ode);

@@ -3,11 +3,7 @@
 #include <algorithm>
 
 #include "engines/stepper_factory.h"
-#include "estimate/partly_precise.h"
-#include "estimate/same_solve.h"
 #include "estimate/short_run.h"
-#include "estimate/until_due.h"
-#include "stepping/stepper_traits.h"
 
 namespace pbmpi::app {
 
@@ -26,31 +22,8 @@ StepperSettings default_estimate(const StepperSettings& precise) {
   return estimate;
 }
 
-EstimateSource source_of(const EstimateSpec& estimate, const StepperSettings& precise, int steps_per_frame) {
-  if (estimate.due_s) return EstimateSource::until_due;
-  const bool one_solve =
-      traits_of(precise.kind).is_anytime && steps_per_frame - estimate.after == 1 && precise.substeps == 1;
-  const bool passes = estimate.stepper.kind == precise.kind &&
-                      estimate.stepper.precision == precise.precision &&
-                      estimate.stepper.iterations <= precise.iterations;
-  return one_solve && passes ? EstimateSource::same_solve : EstimateSource::short_run;
-}
-
-std::unique_ptr<stepping::Estimator> make_estimator(const EstimateSpec& estimate,
-                                                    stepping::FrameStepper& precise) {
-  std::unique_ptr<stepping::Estimator> estimator;
-  if (estimate.source == EstimateSource::same_solve) {
-    estimator = std::make_unique<pbmpi::estimate::SameSolve>(precise, estimate.stepper.iterations);
-  } else {
-    estimator =
-        std::make_unique<pbmpi::estimate::ShortRun>(engines::make_stepper(estimate.stepper, "estimate: "));
-  }
-  if (estimate.due_s)
-    return std::make_unique<pbmpi::estimate::UntilDue>(precise, std::move(estimator), *estimate.due_s,
-                                                       estimate.stepper.dt_s);
-  if (estimate.after > 0)
-    return std::make_unique<pbmpi::estimate::PartlyPrecise>(precise, std::move(estimator), estimate.after);
-  return estimator;
+std::unique_ptr<stepping::Estimator> make_estimator(const StepperSettings& settings) {
+  return std::make_unique<estimate::ShortRun>(engines::make_stepper(settings, "estimate: "));
 }
 
 }  // namespace pbmpi::app

@@ -141,18 +141,6 @@ void print_groups(std::ostream& out, const Work& work, int num_ranks) {
     out << "  rank " << rank << ": idle (more ranks than groups have use for)\n";
 }
 
-/// When and from what each frame is estimated.
-std::string time_text(const EstimateSpec& estimate, int steps_per_frame) {
-  std::ostringstream text;
-  if (estimate.due_s) {
-    text << "due " << 1e3 * *estimate.due_s << " ms after the start of each frame";
-    return text.str();
-  }
-  text << (estimate.source == EstimateSource::same_solve ? "from the same solve" : "before each frame");
-  if (estimate.after > 0) text << ", after " << estimate.after << " of its " << steps_per_frame << " steps";
-  return text.str();
-}
-
 /// Which worlds of an ensemble the run has, and what they change in the scene.
 std::string ensemble_lines(const Work& work) {
   std::string text;
@@ -196,10 +184,9 @@ std::string describe(const Work& work, int num_ranks) {
       << " steps of " << spec.stepper.dt_s << " s\n"
       << "stepper: " << setting_text(spec.stepper) << ", seed " << spec.stepper.seed << '\n';
   if (spec.estimate) {
-    const stepping::StepperSettings& stepper = spec.estimate->stepper;
+    const stepping::StepperSettings& stepper = *spec.estimate;
     out << "estimate: " << name_of(stepper.kind) << ", " << stepper.iterations << " iteration"
-        << (stepper.iterations == 1 ? "" : "s") << ", " << name_of(stepper.precision) << " precision, "
-        << time_text(*spec.estimate, spec.steps_per_frame) << '\n';
+        << (stepper.iterations == 1 ? "" : "s") << ", " << name_of(stepper.precision) << " precision\n";
   }
   for (const std::string& note : scene.notes()) out << "note: " << note << '\n';
   if (!spec.effects.empty()) out << "effects chosen: " << effects::to_text(spec.effects) << '\n';

@@ -101,13 +101,10 @@ RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, con
 EstimateSummary estimate_summary(const RunSpec& spec, const mpi::WorldRunResult& result,
                                  const EstimateMonitor& monitor) {
   EstimateSummary summary;
-  const stepping::StepperSettings& settings = spec.estimate->stepper;
+  const stepping::StepperSettings& settings = *spec.estimate;
   summary.stepper = name_of(settings.kind);
-  summary.source = estimate_source_names[static_cast<std::size_t>(spec.estimate->source)];
   summary.iterations = settings.iterations;
   summary.precision = name_of(settings.precision);
-  summary.after = spec.estimate->after;
-  summary.due_s = spec.estimate->due_s;
   std::vector<double> delivered_s, precise_s;
   for (const mpi::FrameTimes& times : result.times) {
     if (!times.measured) continue;

@@ -126,9 +126,7 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
     parameters.push_back(Parameter::of("field_of_interest", *interest));
   if (spec.estimate) {
     for (const std::string_view name : estimate_options)
-      parameters.push_back(step_parameter("estimate_", stepping::step_option(name), spec.estimate->stepper));
-    const auto source = static_cast<std::size_t>(spec.estimate->source);
-    parameters.push_back(Parameter::of("estimate_source", std::string(estimate_source_names[source])));
+      parameters.push_back(step_parameter("estimate_", stepping::step_option(name), *spec.estimate));
   }
   if (!spec.checkpoint.resumed_from.empty())
     parameters.push_back(Parameter::of("resumed_from", spec.checkpoint.resumed_from));

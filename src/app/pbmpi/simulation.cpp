@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/common/estimate_spec.h"
 #include "engines/stepper_factory.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/spaces/space_driver.h"
@@ -68,14 +69,14 @@ Simulation make_simulation(const mpi::Communicator& comm, const Work& work) {
                                                      driver_settings(spec), work.states);
     driver->watch(*simulation.guards);
     if (spec.estimate) {
-      simulation.estimate_spaces = make_space_steppers(comm, work, spec.estimate->stepper);
-      driver->estimate_with(borrowed(simulation.estimate_spaces), spec.estimate->due_s);
+      simulation.estimate_spaces = make_space_steppers(comm, work, *spec.estimate);
+      driver->estimate_with(borrowed(simulation.estimate_spaces));
     }
     simulation.driver = std::move(driver);
   } else {
     auto guarded = std::make_unique<stability::GuardedStepper>(engines::make_stepper(spec.stepper),
                                                                guard_settings(spec));
-    if (spec.estimate) simulation.estimator = make_estimator(*spec.estimate, *guarded);
+    if (spec.estimate) simulation.estimator = make_estimator(*spec.estimate);
     auto driver =
         std::make_unique<mpi::WorldDriver>(comm, *guarded, build, driver_settings(spec), work.states);
     driver->set_event_source(*guarded);

@@ -85,12 +85,10 @@ class Case:
         return error_by(measure, self.own_defect) if self.has_own() else math.nan
 
     def setting(self):
-        """"sor single, 14 x 1, look at 2 after 1 step, dt 0.01 s"."""
+        """"sor single, 14 x 1, 2 a step, dt 0.01 s"."""
         text, row = self.row.setting, self.row
         if row.estimate_iterations > 0:
-            text += f", look at {row.estimate_iterations}" if row.estimate_source == "same_solve" else f", {row.estimate_iterations} a step"
-            if row.estimate_after > 0:
-                text += f" after {plural(row.estimate_after, 'step')}"
+            text += f", {row.estimate_iterations} a step"
         return f"{text}, dt {row.dt:g} s"
 
     def options(self):
@@ -291,8 +289,7 @@ def scene_section(scene, limit):
         tables.append(own_table(scene))
     tables += cases_tables("Pareto front", "", scene.front(limit.measure), scene, limit)
     if scene.estimates:
-        text = ("a frame of the setting, estimated with so many iterations a step (look: of the solve itself) after so many of its steps; "
-                "times are those until the estimate is there")
+        text = "a frame of the setting, estimated with so many iterations a step; times are those until the estimate is there"
         tables += cases_tables("Estimates (FEEC)", text, scene.estimates, scene, limit, "setting, and what estimates its frame",
                                "until it is there ms")
     return Section(scene.name, scene_text(scene, limit), charts, tables)
@@ -312,9 +309,7 @@ def case_json(one, scene, limit):
 
 
 def estimate_json(one, scene, limit):
-    row = one.row
-    return case_json(one, scene, limit) | {"estimate": {"iterations": row.estimate_iterations, "after_steps": row.estimate_after,
-                                                        "source": row.estimate_source}}
+    return case_json(one, scene, limit) | {"estimate": {"iterations": one.row.estimate_iterations}}
 
 
 def own_json(one, scene, measure):

@@ -141,11 +141,6 @@ void compute_delivery(const std::vector<double>& delivered_s, const std::vector<
   const auto num_frames = static_cast<double>(delivered_s.size());
   const auto satisfied = std::count_if(delivered_s.begin(), delivered_s.end(),
                                        [&](double time_s) { return time_s <= budget_s; });
-  if (estimate.due_s) {
-    const auto in_time = std::count_if(delivered_s.begin(), delivered_s.end(),
-                                       [&](double time_s) { return time_s <= *estimate.due_s; });
-    estimate.in_time_fraction = static_cast<double>(in_time) / num_frames;
-  }
   estimate.delivered_p50_s = core::quantile(delivered_s, 0.50);
   estimate.delivered_p99_s = core::quantile(delivered_s, 0.99);
   estimate.delivered_max_s = largest(delivered_s);

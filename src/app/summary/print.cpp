@@ -108,20 +108,12 @@ std::string bands_text(const analysis::ErrorSummary& errors, const Names& names)
   return text;
 }
 
-/// ", from the same solve after 2 precise steps", ", due within 3.33 ms (100 % are)"
-std::string estimate_source_text(const EstimateSummary& e) {
-  if (e.due_s) return format(", due within %g ms (%.0f %% are)", 1e3 * *e.due_s, 100 * e.in_time_fraction);
-  std::string text = e.source == "same_solve" ? ", from the same solve" : "";
-  if (e.after > 0) text += format(", after %d precise step%s", e.after, e.after == 1 ? "" : "s");
-  return text;
-}
-
 std::string estimate_lines(const EstimateSummary& e, double budget_s) {
   std::string text;
   text +=
-      format("estimate: %s, %d iterations, %s precision%s; delivered p50 %.3f ms, p99 %.3f ms, max %.3f ms\n",
-             e.stepper.c_str(), e.iterations, e.precision.c_str(), estimate_source_text(e).c_str(),
-             1e3 * e.delivered_p50_s, 1e3 * e.delivered_p99_s, 1e3 * e.delivered_max_s);
+      format("estimate: %s, %d iterations, %s precision; delivered p50 %.3f ms, p99 %.3f ms, max %.3f ms\n",
+             e.stepper.c_str(), e.iterations, e.precision.c_str(), 1e3 * e.delivered_p50_s,
+             1e3 * e.delivered_p99_s, 1e3 * e.delivered_max_s);
   text += format(
       "estimate_rate: %.1f Hz harmonic mean, %.0f %% of the estimates within %.2f ms, precise %.2f times "
       "later\n",
@@ -140,15 +132,10 @@ nlohmann::ordered_json errors_json(const analysis::ErrorSummary& e) {
 }
 
 nlohmann::ordered_json estimate_json(const EstimateSummary& e) {
-  using Json = nlohmann::ordered_json;
   return {
       {"stepper", e.stepper},
       {"iterations", e.iterations},
       {"precision", e.precision},
-      {"source", e.source},
-      {"after_steps", e.due_s ? Json(nullptr) : Json(e.after)},
-      {"due_s", e.due_s ? Json(*e.due_s) : Json(nullptr)},
-      {"in_time_fraction", e.due_s ? Json(e.in_time_fraction) : Json(nullptr)},
       {"delivered_s", {{"p50", e.delivered_p50_s}, {"p99", e.delivered_p99_s}, {"max", e.delivered_max_s}}},
       {"harmonic_mean_hz", e.harmonic_mean_hz},
       {"satisfied_fraction", e.satisfied_fraction},

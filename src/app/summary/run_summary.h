@@ -36,11 +36,8 @@ std::vector<EffectSummary> effect_summaries(const effects::RunPlan& plan);
 /// FEEC, over the measured frames. Defects, over all bodies, compare the estimate with the precise pose of
 /// the same frame.
 struct EstimateSummary {
-  std::string stepper, precision = "double", source = "short_run";
+  std::string stepper, precision = "double";
   int iterations = 1;
-  int after = 0;                ///< number of precise steps at the start of every frame
-  std::optional<double> due_s;  ///< start of the frame until the estimate is due; `after` then means nothing
-  double in_time_fraction = 0;  ///< of the estimates, if they have a due time
   double delivered_p50_s = 0, delivered_p99_s = 0, delivered_max_s = 0;  ///< start of the frame to delivery
   double harmonic_mean_hz = 0, satisfied_fraction = 0;                   ///< over the deliveries
   double precise_over_delivered = 0;       ///< sum of the frames' precise times over that of their deliveries
@@ -130,7 +127,7 @@ struct MeasuredFrames {
 /// product.
 void compute_performance(const MeasuredFrames& frames, RunSummary& summary);
 
-/// Fills the times of `estimate`, whose due_s is set, from those of the measured frames [T].
+/// Fills the times of `estimate` from those of the measured frames [T].
 void compute_delivery(const std::vector<double>& delivered_s, const std::vector<double>& precise_s,
                       double budget_s, EstimateSummary& estimate);
 

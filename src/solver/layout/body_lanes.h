@@ -101,13 +101,6 @@ PBMPI_LANES void refresh(BodyLane<V>& body) {
   refresh_inertia(body);
 }
 
-/// A body's pose, in lanes.
-template <class V>
-struct alignas(sizeof(V)) PoseLane {
-  Vec3L<V> position, position_low;
-  V qw, qx, qy, qz;
-};
-
 /// 1 / sqrt(square); numbers close to 1 take a few terms of the series, with an error below 4e-6.
 template <class T>
 PBMPI_LANES typename T::V near_inverse_root(const typename T::V& square) {
@@ -144,11 +137,11 @@ PBMPI_LANES void move_by(typename T::V& place, typename T::V& low, const typenam
   }
 }
 
-/// ODE's dxStepBody without finite rotation: q += h/2 w q, normalised. `body` is a BodyLane or a PoseLane.
-/// `last`: the step ends here; earlier, near_inverse_root() suffices to bring the quaternion's length back to
-/// 1.
-template <class T, bool last, class Body>
-PBMPI_LANES void integrate(Body& body, const Twist<typename T::V>& twist, typename T::Scalar h) {
+/// ODE's dxStepBody without finite rotation: q += h/2 w q, normalised. `last`: the step ends here; earlier,
+/// near_inverse_root() suffices to bring the quaternion's length back to 1.
+template <class T, bool last>
+PBMPI_LANES void integrate(BodyLane<typename T::V>& body, const Twist<typename T::V>& twist,
+                           typename T::Scalar h) {
   using V = typename T::V;
   const Vec3L<V> way = twist.linear * T::broadcast(h);
   move_by<T>(body.position.x, body.position_low.x, way.x);

@@ -28,10 +28,6 @@ class BodyMotion {
   /// above, or null where bodies turn without the torque.
   template <bool last>
   void move(const Batch& batch, Scalar h, const V& exact, const GyroscopicSlot<V>*& next);
-  /// move() for one slot: its pose and rotation.
-  template <bool last>
-  void move_slot(int slot, Scalar h, const V& exact, const GyroscopicSlot<V>*& next, BodyLane<V>& body,
-                 Twist<V>& twist);
   void damp(const Batch& batch, double h);
 
  private:
@@ -74,24 +70,18 @@ void BodyMotion<T>::look_ahead(const Batch& batch, Scalar h, const GyroscopicSlo
 template <class T>
 template <bool last>
 void BodyMotion<T>::move(const Batch& batch, Scalar h, const V& exact, const GyroscopicSlot<V>*& next) {
+  const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
     BodyLane<V>& body = worlds_.bodies.bodies[slot];
-    move_slot<last>(slot, h, exact, next, body, worlds_.bodies.twists[slot]);
+    Twist<V>& twist = worlds_.bodies.twists[slot];
+    while (next != nullptr && next != end && next->slot < slot) ++next;
+    if (next != nullptr && next != end && next->slot == slot) {
+      integrate_turning<T, last>(next->inertia, h, next->has_torque, exact, body, twist);
+    } else {
+      integrate<T, last>(body, twist, h);
+      body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
+    }
     refresh_inertia(body);
-  }
-}
-
-template <class T>
-template <bool last>
-void BodyMotion<T>::move_slot(int slot, Scalar h, const V& exact, const GyroscopicSlot<V>*& next,
-                              BodyLane<V>& body, Twist<V>& twist) {
-  const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
-  while (next != nullptr && next != end && next->slot < slot) ++next;
-  if (next != nullptr && next != end && next->slot == slot) {
-    integrate_turning<T, last>(next->inertia, h, next->has_torque, exact, body, twist);
-  } else {
-    integrate<T, last>(body, twist, h);
-    body.rotation = to_matrix(body.qw, body.qx, body.qy, body.qz);
   }
 }
 

@@ -90,19 +90,8 @@ class Pack {
   /// Takes one step with these contacts (of each world, in canonical order). `forces`: those with which the
   /// contacts start and, after the call, end: [contacts] of each world, or none. The spans must stay valid
   /// during the call. Adds the seconds spent on rows, solve and integrate to `times`.
-  void step(Contacts contacts, Forces forces, const StepParameters& parameters, core::PhaseTimes& times) {
-    begin_step(contacts, forces, parameters, times);
-    finish_step(times);
-  }
-  /// A step in parts: everything before the iterations of the last substep; then some of these iterations, at
-  /// most as many as are left; then the rest of the step.
-  virtual void begin_step(Contacts contacts, Forces forces, const StepParameters& parameters,
-                          core::PhaseTimes& times) = 0;
-  virtual void iterate(int iterations, core::PhaseTimes& times) = 0;
-  virtual void finish_step(core::PhaseTimes& times) = 0;
-  /// Before finish_step(): the states [num_worlds] as they would be if the step ended now. Costs an
-  /// integration, and does not affect the step.
-  virtual void look(std::span<model::State> states) = 0;
+  virtual void step(Contacts contacts, Forces forces, const StepParameters& parameters,
+                    core::PhaseTimes& times) = 0;
   /// How far a world's last step was from the solution of its constraints; StepParameters::residuals only.
   virtual stepping::Residuals residuals(int world) const = 0;
   /// What a joint of an active body exerted in the last substep.

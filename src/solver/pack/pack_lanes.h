@@ -68,13 +68,10 @@ class PackLanes final : public Pack {
                      std::vector<model::Contact>& contacts) override {
     if (collider_) collider_->collide_pairs(worlds_, world, pairs, contacts);
   }
-  void begin_step(Contacts contacts, Forces forces, const StepParameters& parameters,
-                  core::PhaseTimes& times) override {
-    step_.begin(contacts, forces, parameters, times);
+  void step(Contacts contacts, Forces forces, const StepParameters& parameters,
+            core::PhaseTimes& times) override {
+    step_.run(contacts, forces, parameters, times);
   }
-  void iterate(int iterations, core::PhaseTimes& times) override { step_.iterate(iterations, times); }
-  void finish_step(core::PhaseTimes& times) override { step_.finish(times); }
-  void look(std::span<model::State> states) override { step_.look(states); }
   stepping::Residuals residuals(int world) const override { return step_.residuals(world); }
 
  private:

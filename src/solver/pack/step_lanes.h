@@ -16,7 +16,7 @@
 
 namespace pbmpi::solver {
 
-/// See Pack: a step is begin(), iterate() and finish(), in this order.
+/// See Pack.
 template <class T>
 class StepLanes {
  public:
@@ -34,10 +34,11 @@ class StepLanes {
         contacts_(frictionless_contacts(passes)),
         laws_(laws, passes, {}) {}
 
-  void begin(Contacts contacts, Forces forces, const StepParameters& parameters, core::PhaseTimes& times);
-  void iterate(int iterations, core::PhaseTimes& times);
-  void finish(core::PhaseTimes& times);
-  void look(std::span<model::State> states);
+  /// Pack::step().
+  void run(Contacts contacts, Forces forces, const StepParameters& parameters, core::PhaseTimes& times) {
+    begin(contacts, forces, parameters, times);
+    finish(times);
+  }
 
   double h() const { return static_cast<double>(laws_.h()); }  ///< [s] length of the last step's substeps
   stepping::Residuals residuals(int world) const { return residuals_[static_cast<std::size_t>(world)]; }
@@ -45,6 +46,8 @@ class StepLanes {
  private:
   using Batch = typename JointBatches<T>::Batch;
 
+  void begin(Contacts contacts, Forces forces, const StepParameters& parameters, core::PhaseTimes& times);
+  void finish(core::PhaseTimes& times);
   void sort_contacts(Contacts contacts, Forces forces);
 
   void touch_trees(int world, std::span<const model::Contact> contacts);
@@ -107,8 +110,6 @@ class StepLanes {
   StepParameters parameters_;           ///< of the current step
   StepLaws<T> laws_;                    ///< of the current step
   int substep_ = 0, iteration_ = 0;
-  std::vector<PoseLane<V>> look_poses_;         ///< [slots] scratch
-  std::vector<Twist<V>> kept_twists_;           ///< [slots] scratch
   std::vector<stepping::Residuals> residuals_;  ///< [num_worlds] of the last step, if measured
 };
 
@@ -355,6 +356,7 @@ void StepLanes<T>::choose_trees(stepping::JointSolver solver) {
   trees_.emplace(worlds_.places.shapes(), solver == stepping::JointSolver::tree, worlds_.joints);
 }
 
+/// Everything before the iterations of the last substep.
 template <class T>
 void StepLanes<T>::begin(Contacts contacts, Forces forces, const StepParameters& parameters,
                          core::PhaseTimes& times) {
@@ -377,13 +379,6 @@ void StepLanes<T>::begin(Contacts contacts, Forces forces, const StepParameters&
     start_substep();
     timer.lap(core::Phase::rows);
   }
-}
-
-template <class T>
-void StepLanes<T>::iterate(int iterations, core::PhaseTimes& times) {
-  core::LapTimer timer(times);
-  for (int i = 0; i < iterations && iteration_ < parameters_.iterations; ++i) sweep();
-  timer.lap(core::Phase::solve);
 }
 
 template <class T>
@@ -414,31 +409,6 @@ void StepLanes<T>::finish(core::PhaseTimes& times) {
   end_substep<true>();
   if (passes_.holds_bodies()) worlds_.restore_held();
   timer.lap(core::Phase::integrate);
-}
-
-/// The twists of free bodies are in the contacts' rows during the solve; the copies made here are overwritten
-/// when it ends.
-template <class T>
-void StepLanes<T>::look(std::span<model::State> states) {
-  end_twists(laws_.joint_laws());
-  look_poses_.resize(worlds_.gravity.size());
-  std::vector<Twist<V>>& twists = worlds_.bodies.twists;
-  const bool changes_twists = passes_.damping || relaxes();
-  if (changes_twists) kept_twists_ = twists;
-  const GyroscopicSlot<V>* turning = first_turning();
-  worlds_.joints.for_each_active_batch([&](const Batch& batch) {
-    const V exact = exact_lanes(batch);
-    for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
-      BodyLane<V> body = worlds_.bodies.bodies[slot];
-      motion_.template move_slot<true>(slot, laws_.h(), exact, turning, body, twists[slot]);
-      look_poses_[static_cast<std::size_t>(slot)] = {body.position, body.position_low, body.qw,
-                                                     body.qx,       body.qy,           body.qz};
-    }
-  });
-  worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
-  for (std::size_t world = 0; world < states.size(); ++world)
-    worlds_.store_with(look_poses_.data(), static_cast<int>(world), states[world]);
-  if (changes_twists) twists = kept_twists_;
 }
 
 template <class T>

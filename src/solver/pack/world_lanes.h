@@ -36,13 +36,7 @@ class WorldLanes {
     for (int body = 0; body < model(world).num_bodies(); ++body) store_body(world, body, state);
   }
   void load_body(int world, int body, const model::State& state);
-  void store_body(int world, int body, model::State& state) const {
-    store_body(world, body, bodies.bodies.data(), state);
-  }
-  /// Stores a world as it would be with these poses [slots] and the current twists.
-  void store_with(const PoseLane<V>* poses, int world, model::State& state) const {
-    for (int body = 0; body < model(world).num_bodies(); ++body) store_body(world, body, poses, state);
-  }
+  void store_body(int world, int body, model::State& state) const;
   /// See Pack. Takes effect on batches at the next update_active().
   void set_active(int world, std::span<const int> moving) { active_.set(world, moving); }
   void set_awake(int world, std::span<const int> awake_bodies) { awake_.set(world, awake_bodies); }
@@ -115,18 +109,14 @@ class WorldLanes {
       if (!broken_.contains(world, joint)) visit(places.joint(world, joint));
     }
   }
-  /// [m] Position of a BodyLane or a PoseLane.
-  template <class Body>
-  static model::Vec3 position(const Body& body, int lane) {
+  /// [m]
+  static model::Vec3 position(const BodyLane<V>& body, int lane) {
     const auto number = [lane](const V& high, const V& low) {
       return static_cast<double>(T::get(high, lane)) + static_cast<double>(T::get(low, lane));
     };
     return {number(body.position.x, body.position_low.x), number(body.position.y, body.position_low.y),
             number(body.position.z, body.position_low.z)};
   }
-  /// `poses`: BodyLane or PoseLane, [slots].
-  template <class Poses>
-  void store_body(int world, int body, const Poses* poses, model::State& state) const;
   void set_masses(int world, int body);
   void set_joint(int world, const Articulation& articulation, std::size_t index);
   template <class Setting>
@@ -248,13 +238,12 @@ void WorldLanes<T>::load_body(int world, int body, const model::State& state) {
 }
 
 template <class T>
-template <class Poses>
-void WorldLanes<T>::store_body(int world, int body, const Poses* poses, model::State& state) const {
+void WorldLanes<T>::store_body(int world, int body, model::State& state) const {
   const auto vector_of = [](const Vec3L<V>& v, int lane) {
     return model::Vec3(T::get(v.x, lane), T::get(v.y, lane), T::get(v.z, lane));
   };
   const LanePlace at = places.body(world, body);
-  const Poses& lanes = poses[at.slot];
+  const BodyLane<V>& lanes = bodies.bodies[at.slot];
   state.position[body] = position(lanes, at.lane);
   state.orientation[body] = {T::get(lanes.qw, at.lane), T::get(lanes.qx, at.lane), T::get(lanes.qy, at.lane),
                              T::get(lanes.qz, at.lane)};

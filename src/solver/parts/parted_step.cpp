@@ -120,36 +120,22 @@ void PartedStep::activate(Pack& pack, const Part& part) const {
   for (std::size_t w = 0; w < worlds_.size(); ++w) pack.set_active(static_cast<int>(w), part.bodies[w]);
 }
 
-void PartedStep::start(Pack& pack, std::optional<int> look_after, core::PhaseTimes& times) {
+void PartedStep::take(Pack& pack, core::PhaseTimes& times) {
   if (!cut_) {
-    pack.begin_step(contacts_, forces_, parameters_, times);
+    pack.step(contacts_, forces_, parameters_, times);
     return;
   }
-  looks_.resize(worlds_.size());
-  scratch_.resize(worlds_.size());
-  for (std::size_t w = 0; look_after && w < worlds_.size(); ++w) {
-    looks_[w].resize(worlds_[w].model->num_bodies());
-    scratch_[w].resize(worlds_[w].model->num_bodies());
-  }
-  for (std::size_t p = 0; p + 1 < parts_.size(); ++p) take(pack, p, look_after, times);
+  for (std::size_t p = 0; p + 1 < parts_.size(); ++p) take_part(pack, p, times);
   const Part& last = parts_.back();
   activate(pack, last);
   has_last_ = !last.is_empty();
-  if (has_last_) pack.begin_step(contacts_, forces_, parameters_of(last), times);
+  if (has_last_) pack.step(contacts_, forces_, parameters_of(last), times);
 }
 
-void PartedStep::take(Pack& pack, std::size_t part, std::optional<int> look_after, core::PhaseTimes& times) {
+void PartedStep::take_part(Pack& pack, std::size_t part, core::PhaseTimes& times) {
   if (parts_[part].is_empty()) return;
   activate(pack, parts_[part]);
-  pack.begin_step(contacts_, forces_, parameters_of(parts_[part]), times);
-  if (look_after) {
-    pack.iterate(*look_after, times);
-    pack.look(scratch_);
-    for (std::size_t w = 0; w < worlds_.size(); ++w) {
-      for (const int body : parts_[part].bodies[w]) model::copy_body(body, scratch_[w], looks_[w]);
-    }
-  }
-  pack.finish_step(times);
+  pack.step(contacts_, forces_, parameters_of(parts_[part]), times);
   if (parts_[part].on_trial) judge(pack, part);
   for (std::size_t w = 0; w < worlds_.size(); ++w) {
     if (!parts_[part].bodies[w].empty()) note(pack, static_cast<int>(w), static_cast<int>(part));
@@ -199,23 +185,6 @@ void PartedStep::note(const Pack& pack, int world, int part) {
       seen.reactions[joint] = pack.reaction(world, static_cast<int>(joint));
   }
   if (parameters_.residuals) seen.residuals = join(seen.residuals, pack.residuals(world));
-}
-
-void PartedStep::iterate(Pack& pack, int iterations, core::PhaseTimes& times) const {
-  if (has_last_) pack.iterate(iterations, times);
-}
-
-void PartedStep::look(Pack& pack, std::span<model::State> states) const {
-  if (has_last_) pack.look(states);
-  for (std::size_t w = 0; cut_ && w < worlds_.size(); ++w) {
-    for (std::size_t p = 0; p + 1 < parts_.size(); ++p) {
-      for (const int body : parts_[p].bodies[w]) model::copy_body(body, looks_[w], states[w]);
-    }
-  }
-}
-
-void PartedStep::finish(Pack& pack, core::PhaseTimes& times) const {
-  if (has_last_) pack.finish_step(times);
 }
 
 int PartedStep::joint_rows(const Pack& pack, int world, int joint) const {

@@ -1,7 +1,6 @@
 /// A step of a pack in which some islands get more or fewer substeps, or iterations, than others.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,22 +31,16 @@ struct PartedWorld {
 /// one part active: first quiet islands, which are on trial, then the rest together with failed trials,
 /// fewest substeps and iterations first. An island gets the same bits as in a pack without the other islands.
 ///
-/// A step is begin(), start(), perhaps iterate() and look(), finish().
+/// A step is begin() and take().
 class PartedStep {
  public:
   /// Begins a step with the run's parameters. The spans must live until the step is taken.
   void begin(std::span<const PartedWorld> worlds, const StepParameters& parameters);
-  /// Does the step have more than one part? After finish() the bodies of the last part are active.
+  /// Does the step have more than one part? After take() the bodies of the last part are active.
   bool is_cut() const { return cut_; }
 
-  /// Takes all parts except the last, and the last part up to the iterations of its last substep. With
-  /// `look_after`: records the other parts as they would be after so many iterations.
-  void start(Pack& pack, std::optional<int> look_after, core::PhaseTimes& times);
-  /// Pack::iterate() for the last part.
-  void iterate(Pack& pack, int iterations, core::PhaseTimes& times) const;
-  /// After start() with `look_after`: the states [num_worlds], as in Pack::look().
-  void look(Pack& pack, std::span<model::State> states) const;
-  void finish(Pack& pack, core::PhaseTimes& times) const;
+  /// Takes the step, the last part last.
+  void take(Pack& pack, core::PhaseTimes& times);
 
   /// As in Pack, for the whole step; valid until the next begin().
   int joint_rows(const Pack& pack, int world, int joint) const;
@@ -83,7 +76,7 @@ class PartedStep {
   std::vector<std::vector<int>>& bodies_of(const Part& like);
   StepParameters parameters_of(const Part& part) const;
   void activate(Pack& pack, const Part& part) const;
-  void take(Pack& pack, std::size_t part, std::optional<int> look_after, core::PhaseTimes& times);
+  void take_part(Pack& pack, std::size_t part, core::PhaseTimes& times);
   void judge(Pack& pack, std::size_t part);
   void put_back(Pack& pack, int world, std::span<const int> far, std::size_t part);
   void note(const Pack& pack, int world, int part);
@@ -94,7 +87,6 @@ class PartedStep {
   std::vector<std::span<model::ContactForce>> forces_;     ///< [num_worlds]
   std::vector<Part> parts_;                                ///< of a step that is cut
   std::vector<Seen> seen_;                                 ///< [num_worlds] of a step that is cut
-  std::vector<model::State> looks_, scratch_;              ///< [num_worlds]
   std::vector<int> far_;                                   ///< scratch
   bool cut_ = false;
   bool has_last_ = true;  ///< has the last part any bodies?

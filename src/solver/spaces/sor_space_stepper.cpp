@@ -344,8 +344,7 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   if (rules_.sleepers() != nullptr && active_.bodies().empty()) return;
   packed_.load(active_.bodies(), *pack_);
   timer.lap(core::Phase::rows);
-  parted_.start(*pack_, std::nullopt, times);
-  parted_.finish(*pack_, times);
+  parted_.take(*pack_, times);
   core::LapTimer after(times);
   last_step_ = step;
   if (remembers()) recall_.store(packed_.state().memory.contacts);

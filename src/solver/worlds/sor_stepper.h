@@ -11,10 +11,9 @@ namespace pbmpi::solver {
 
 /// Worlds lie side by side in lanes; a world's result depends neither on its neighbours nor on the numbers of
 /// lanes and threads. With StepperSettings::threads above 1 groups of worlds are stepped at the same time, in
-/// advance() and begin_step(); the caller's thread does everything else. set_motor_velocity() drops a step
-/// that has begun if it changes the motor's target. Throws core::InputError for dt <= 0, iterations or
+/// advance(); the caller's thread does everything else. Throws core::InputError for dt <= 0, iterations or
 /// substeps < 1, a warm start outside 0 to 1, or an instruction set that this machine lacks.
-std::unique_ptr<stepping::AnytimeStepper> make_sor_stepper(const stepping::StepperSettings& settings,
-                                                           model::MakeNarrowPhase make_narrow_phase);
+std::unique_ptr<stepping::WorldStepper> make_sor_stepper(const stepping::StepperSettings& settings,
+                                                         model::MakeNarrowPhase make_narrow_phase);
 
 }  // namespace pbmpi::solver

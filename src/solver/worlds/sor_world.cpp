@@ -113,15 +113,14 @@ void SorWorld::enter(Pack& pack, int index) const {
     pack.set_motor(index, target.joint, target.axis, target.motor);
 }
 
-bool SorWorld::aim(int joint, int axis, double velocity, Pack* pack, int index) {
+void SorWorld::aim(int joint, int axis, double velocity, Pack* pack, int index) {
   const auto* target = targets_.set(*model_, step_, joint, axis, velocity);
-  if (target == nullptr) return false;
+  if (target == nullptr) return;
   if (pack != nullptr) pack->set_motor(index, joint, axis, target->motor);
-  if (rules_.sleepers() == nullptr) return true;
+  if (rules_.sleepers() == nullptr) return;
   const model::Joint& driven = model_->joints[static_cast<std::size_t>(joint)];
   const bool woke = rules_.sleepers()->wake_islands_of(std::array{driven.body_a, driven.body_b});
   if (woke && pack != nullptr) show_awake(*pack, index);
-  return true;
 }
 
 bool SorWorld::mends(const model::State& state) const {
@@ -197,12 +196,6 @@ void SorWorld::after_solve(Pack& pack, int index, std::vector<model::Contact>& c
 void SorWorld::sleep_on() {
   rules_.sleep_on();
   ++step_;
-}
-
-void SorWorld::keep_sleepers(model::State& state) const {
-  for (int body = 0; rules_.sleepers() != nullptr && body < model_->num_bodies(); ++body) {
-    if (state_.rest[body].asleep()) model::copy_body(body, state_, state);
-  }
 }
 
 void SorWorld::count_rows(const Pack& pack, int index, const PartedStep& step,

@@ -41,9 +41,8 @@ class SorWorld {
   /// Replaces the state; a pack that holds the world must be loaded anew, or entered anew if the step has
   /// changed.
   void set_state(const model::State& state, std::int64_t step);
-  /// WorldStepper::set_motor_velocity(); false if the motor already aims at `velocity`. `pack`: null if none
-  /// holds the world.
-  bool aim(int joint, int axis, double velocity, Pack* pack, int index);
+  /// WorldStepper::set_motor_velocity(). `pack`: null if none holds the world.
+  void aim(int joint, int axis, double velocity, Pack* pack, int index);
 
   /// Is a joint that is broken now unbroken in `state`? A pack cannot mend joints.
   bool mends(const model::State& state) const;
@@ -70,8 +69,6 @@ class SorWorld {
   void activate(Pack& pack, int index) const { pack.set_active(index, rules_.awake()); }
   /// False if all bodies sleep: a step changes nothing.
   bool moves() const { return !rules_.all_asleep(); }
-  /// Copies the sleeping bodies into `state`.
-  void keep_sleepers(model::State& state) const;
   /// Collides the pairs of shapes that the lanes do not handle.
   model::NarrowPhase& narrow_phase() const { return *narrow_phase_; }
   /// Reads the state back and measures it; rows and contacts are those of the last step.

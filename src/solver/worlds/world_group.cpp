@@ -32,57 +32,36 @@ bool WorldGroup::stands_at_one_step() const {
 
 void WorldGroup::advance(int num_steps, core::PhaseTimes& times) {
   const double start_s = core::now_s();
-  for (int i = 0; i < num_steps; ++i) {
-    if (!std::exchange(has_begun_, false)) begin(std::nullopt, times);
-    finish(times);
-  }
+  for (int i = 0; i < num_steps; ++i) step(times);
   observe(times);
   spent_s_ = core::now_s() - start_s;
 }
 
-void WorldGroup::begin_step(int iterations, core::PhaseTimes& times) {
-  const double start_s = core::now_s();
-  begin(iterations, times);
-  if (!sleeps_) {
-    const PhaseMark mark(PhaseMark::MarkedPhase::forward_step);
-    parted_.iterate(*pack_, iterations, times);
-  }
-  take_looks(times);
-  has_begun_ = true;
-  spent_s_ = core::now_s() - start_s;
-}
-
-void WorldGroup::take_looks(core::PhaseTimes& times) {
-  LapTimer timer(times);
-  if (looks_.empty()) {  // memory for them, kept from step to step
-    for (const SorWorld* world : worlds_) {
-      looks_.push_back(world->state());
-      looks_.back().memory.clear();  // no step starts from a look
-    }
-  }
-  if (!sleeps_) parted_.look(*pack_, looks_);
-  for (std::size_t i = 0; i < worlds_.size(); ++i) {
-    worlds_[i]->keep_sleepers(looks_[i]);
-    looks_[i].broken_in = worlds_[i]->state().broken_in;
-  }
-  timer.lap(Phase::integrate);
-}
-
-void WorldGroup::begin(std::optional<int> look_after, core::PhaseTimes& times) {
+void WorldGroup::step(core::PhaseTimes& times) {
   LapTimer timer(times);
   for (std::size_t i = 0; i < worlds_.size(); ++i) worlds_[i]->begin_step(*pack_, static_cast<int>(i));
-  sleeps_ =
-      std::none_of(worlds_.begin(), worlds_.end(), [](const SorWorld* world) { return world->moves(); });
-  if (sleeps_) {
+  if (std::ranges::none_of(worlds_, [](const SorWorld* world) { return world->moves(); })) {
     for (std::vector<model::Contact>& contacts : contacts_) contacts.clear();
+    for (SorWorld* world : worlds_) world->sleep_on();
+    timer.lap(Phase::islands);
     return;
   }
   collide();
   timer.lap(Phase::collide);
   part();
   timer.lap(Phase::islands);
-  const PhaseMark mark(PhaseMark::MarkedPhase::forward_step);
-  parted_.start(*pack_, look_after, times);
+  {
+    const PhaseMark mark(PhaseMark::MarkedPhase::forward_step);
+    parted_.take(*pack_, times);
+  }
+  end_step(times);
+}
+
+void WorldGroup::end_step(core::PhaseTimes& times) {
+  LapTimer timer(times);
+  for (std::size_t i = 0; i < worlds_.size(); ++i)
+    worlds_[i]->after_solve(*pack_, static_cast<int>(i), contacts_[i], parted_);
+  timer.lap(Phase::islands);
 }
 
 void WorldGroup::part() {
@@ -110,22 +89,6 @@ void WorldGroup::collide() {
   }
 }
 
-void WorldGroup::finish(core::PhaseTimes& times) {
-  if (!sleeps_) {
-    const PhaseMark mark(PhaseMark::MarkedPhase::forward_step);
-    parted_.finish(*pack_, times);
-  }
-  LapTimer timer(times);
-  for (std::size_t i = 0; i < worlds_.size(); ++i) {
-    if (sleeps_) {
-      worlds_[i]->sleep_on();
-    } else {
-      worlds_[i]->after_solve(*pack_, static_cast<int>(i), contacts_[i], parted_);
-    }
-  }
-  timer.lap(Phase::islands);
-}
-
 void WorldGroup::observe(core::PhaseTimes& times) {
   LapTimer timer(times);
   for (std::size_t i = 0; i < worlds_.size(); ++i) {
@@ -135,13 +98,13 @@ void WorldGroup::observe(core::PhaseTimes& times) {
   timer.lap(Phase::islands);
 }
 
-void WorldGroup::share_cost() {
+void WorldGroup::share_cost(double share) {
   double weights = 0;
   const auto weight = [this](const SorWorld& world) {
     return world.observables().row_visits / sweeps_of(*settings_) + std::max(1, world.num_awake());
   };
   for (const SorWorld* world : worlds_) weights += weight(*world);
-  const double cost_s = std::exchange(cost_s_, 0);
+  const double cost_s = share * spent_s_;
   for (SorWorld* world : worlds_) world->cost_s = cost_s * weight(*world) / weights;
 }
 

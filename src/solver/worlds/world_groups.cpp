@@ -37,12 +37,6 @@ void WorldGroups::dissolve(const WorldGroup& group) {
   is_complete_ = false;
 }
 
-void WorldGroups::dissolve() {
-  for (auto& [id, member] : members_) member.place = {};
-  groups_.clear();
-  is_complete_ = false;
-}
-
 /// Worlds whose rows keep their order may be at different steps.
 void WorldGroups::part_steps() {
   if (!std::exchange(steps_changed_, false) || settings_->law.row_order == stepping::RowOrder::fixed) return;

@@ -32,9 +32,8 @@ class WorldGroups {
 
   /// Notes that a world has changed step.
   void note_step() { steps_changed_ = true; }
-  /// Marks a world's group, or all groups, to be made anew from the states of their worlds.
+  /// Marks a world's group to be made anew from the states of its worlds.
   void dissolve_group_of(const SorWorld& world);
-  void dissolve();
 
   /// Puts every world into a group.
   void complete();

@@ -60,10 +60,10 @@ class Breakage(ProgramTest):
         for stepper in ("quick", "sor"):
             plain = self.hash_of(1, "--stepper", stepper, "--replicas", 2)
             self.assertEqual(self.hash_of(2, "--stepper", stepper, "--replicas", 2, "--feec"), plain, stepper)
-        same_solve = (*RUN[:2], "--stepper", "sor", "--steps-per-frame", 1, "--frames", 120, "--no-output")
-        plain = self.summary(1, *same_solve)
+        short = (*RUN[:2], "--stepper", "sor", "--steps-per-frame", 1, "--frames", 120, "--no-output")
+        plain = self.summary(1, *short)
         self.assertGreater(plain["joints_broken"], 0)
-        self.assertEqual(self.summary(1, *same_solve, "--feec")["state_hash"], plain["state_hash"])
+        self.assertEqual(self.summary(1, *short, "--feec")["state_hash"], plain["state_hash"])
         hashes = set()
         for simd in ("auto", "off", "sse2", "avx2", "avx512"):
             result = self.pbmpi(1, *RUN, "--no-output", "--stepper", "sor", "--simd", simd, "--report", "json")

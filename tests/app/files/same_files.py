@@ -7,7 +7,7 @@ OF_THE_CLOCK = {
     "/timings/frame/wall", "/timings/frame/deadline_met", "/timings/island/solve", "/timings/space/collide",
     "/timings/space/collide_spaces", "/world_results/cost", "/world_results/moves", "/estimate/delivered", "/estimate/precise"}
 OF_THE_RANKS = ("/ranks/", "/timings/rank/", "/parameters/", "/checksums/timings.", "/checksums/estimate.delivered",
-                *(prefix + name for prefix in ("/estimate/", "/checksums/estimate.") for name in ("compute", "precise_steps", "coarse_steps")),
+                "/estimate/compute", "/checksums/estimate.compute",
                 "/checksums/events.")
 # A rebalance follows measured times.
 EVENTS_OF_THE_CLOCK = {b"rebalance"}

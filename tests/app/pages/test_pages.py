@@ -237,10 +237,9 @@ class Pages(unittest.TestCase):
             self.assertEqual(len(sets["chosen"]), 1)
             self.assertTrue(any(sets["chosen"][0].removeprefix("chosen: ") == text for label in sets if label.startswith(("sor", "quick"))
                                 for text in sets[label]), "the ring lies round one of the settings")
-            self.assertEqual(len(sets["estimates (FEEC)"]), 2 * 3 * (1 + 2 * 2),
-                             "two numbers of iterations after three numbers of steps, of quick and of two kinds of sor in two precisions")
-            for kind in (", 5 a step after 1 step,", ", look at 5 after 2 steps,"):
-                self.assertTrue(any(kind in text for text in sets["estimates (FEEC)"]), kind)
+            self.assertEqual(len(sets["estimates (FEEC)"]), 2 * (1 + 2 * 2),
+                             "two numbers of iterations, of quick and of two kinds of sor in two precisions")
+            self.assertTrue(any(", 5 a step," in text for text in sets["estimates (FEEC)"]))
             said = " ".join(sets["sor double"])
             self.assertIn("(2 substeps of 20 iterations)", said)
             self.assertIn("(1 substep of 1 iteration)", said)

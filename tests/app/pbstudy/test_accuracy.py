@@ -38,9 +38,9 @@ class Accuracy(ProgramTest):
     def test_errors_are_the_same_for_any_number_of_ranks(self):
         args = ["--scene", "CrashSk", "--iterations", 1, 5, 20, "--substeps", 1, 2, *FAST, *ONE_DT]
         one, three = self.made(1, "one.h5", *args), self.made(3, "three.h5", *args)
-        self.assertEqual(len(one["scene"]), 3 + 3 * 2 * 2 + 2 * 2 + 2 * 3 * (1 + 2 * 2) + 1 + 2 + 1,
-                         "quick; sor with ODE's law in one substep and in two; with the soft one; estimates by two numbers of iterations after "
-                         "three numbers of steps, of quick, and of sor with both laws in two precisions; the reference, seeds, half the step")
+        self.assertEqual(len(one["scene"]), 3 + 3 * 2 * 2 + 2 * 2 + 2 * (1 + 2 * 2) + 1 + 2 + 1,
+                         "quick; sor with ODE's law in one substep and in two; with the soft one; estimates by two numbers of iterations "
+                         "of quick, and of sor with both laws in two precisions; the reference, seeds, half the step")
         for name, column in one.items():
             if not name.startswith("frame_time"):
                 self.assertEqual(column.tobytes(), three[name].tobytes(), name)
@@ -51,14 +51,8 @@ class Accuracy(ProgramTest):
         visits = one["rows"] * (one["iterations"] + relax) * one["substeps"] * one["steps_per_frame"]
         self.assertTrue(np.allclose(one["row_visits"][setting], visits[setting], rtol=1e-14))
         estimate = one["kind"] == b"estimate"
-        sweeps = (one["iterations"] + relax) * one["substeps"]
-        left = one["steps_per_frame"] - one["estimate_after"]
-        coarse = np.where(one["estimate_source"] == b"same_solve", one["estimate_iterations"],
-                          left * np.maximum(1, one["substeps"] // 6) * (one["estimate_iterations"] + relax))
-        before = one["rows"] * (sweeps * one["estimate_after"] + coarse)
-        self.assertTrue(np.array_equal(one["row_visits"][estimate], before[estimate]))
-        ode_law = (one["stepper"] == b"sor") & (one["law"] == b"ode")
-        self.assertTrue(np.array_equal(one["estimate_source"] == b"same_solve", estimate & ode_law & (left == 1)))
+        coarse = one["steps_per_frame"] * np.maximum(1, one["substeps"] // 6) * (one["estimate_iterations"] + relax)
+        self.assertTrue(np.array_equal(one["row_visits"][estimate], (one["rows"] * coarse)[estimate]))
         bands = one["defect_body_position_bands"]
         self.assertTrue((bands.sum(axis=1) == 3 * 37).all(), "the same number of entries for every method")
         self.assertGreater(one["defect_body_position_rms"][setting].min(), 0)
@@ -86,22 +80,21 @@ class Accuracy(ProgramTest):
         args = ["--scene", "CrashSk", "--stepper", "sor", "--dt", 0.03, "--iterations", 3, 20, "--substeps", 1,
                 "--estimates", 3, 20, *FAST]
         study = self.made(2, "study.h5", *args)
-        rows = {(kind, precision, look or iterations): index for index, (kind, precision, look, iterations, law) in
+        rows = {(kind, precision, coarse or iterations): index for index, (kind, precision, coarse, iterations, law) in
                 enumerate(zip(study["kind"], study["precision"], study["estimate_iterations"], study["iterations"], study["law"]))
                 if law == b"ode"}
         for precision in (b"double", b"single"):
             for iterations in (3, 20):
-                look, run = (rows[kind, precision, iterations] for kind in (b"estimate", b"setting"))
+                estimate, run = (rows[kind, precision, iterations] for kind in (b"estimate", b"setting"))
                 for name, column in study.items():
                     if name.startswith("defect") or name in ("joint_gap", "energy_change", "row_visits"):
-                        self.assertEqual(column[look].tobytes(), column[run].tobytes(), name)
+                        self.assertEqual(column[estimate].tobytes(), column[run].tobytes(), name)
             early, late = (rows[b"estimate", precision, iterations] for iterations in (3, 20))
             self.assertEqual(study["drift_body_position_rms"][early], study["drift_body_position_rms"][late],
                              "an estimate ends with its frame")
             self.assertLess(study["defect_body_position_rms"][late], study["defect_body_position_rms"][early])
         [scene] = self.front("study.h5")
-        looks = [row["estimate"] for row in scene["estimates"] if row["estimate"]["source"] == "same_solve"]
-        self.assertEqual(looks, [{"iterations": n, "after_steps": 0, "source": "same_solve"} for n in (3, 20, 3, 20)])
+        self.assertEqual([row["estimate"]["iterations"] for row in scene["estimates"]], 4 * [3, 20], "two laws, two precisions")
         self.assertIn("Estimates (FEEC)", self.report("study.h5").stdout)
 
     def test_the_reference_is_solved_to_a_residual_and_judged(self):

@@ -148,7 +148,6 @@ class Groups(ProgramTest):
                             (("--ranks-per-world", 2, "--decompose", "worlds"), "or give --decompose spaces"),
                             (("--ranks-per-world", 0), "--ranks-per-world 0: it must be at least 1"),
                             ((*cut(2), "--record-residuals"), "--record-residuals: no rank of a world that is cut"),
-                            ((*cut(2), "--feec", "--estimate-by", "1ms"), "--estimate-by: of worlds that are cut only one alone"),
                             ((*cut(2), "--threads", 2), "--threads 2: a rank steps its part")):
             result = self.pbmpi(2, "--scene", "Fight", "--replicas", 3, *args)
             self.assertEqual(result.returncode, 2, result.stderr)

@@ -26,7 +26,7 @@ def columns_of(time_ms, error_mm, **others):
              "substeps": 2, "iterations": 3, "steps_per_frame": 3, "worlds": 1, "warmup": 0, "frames": 5,
              "frame_time_worst": 1e-3 * time_ms, "frame_time_median": 0.9e-3 * time_ms, "row_visits": 100.0,
              "joint_gap": 0.0, "penetration": 0.0, "rest_fallen": math.nan, "rest_fell_at": math.nan, "rest_creep": math.nan,
-             "rest_energy_gain": math.nan, "estimate_iterations": 0, "estimate_after": 0, "estimate_source": "", "own": -1,
+             "rest_energy_gain": math.nan, "estimate_iterations": 0, "own": -1,
              "solve_residual": math.nan, "solve_iterations": math.nan}
     for table in ("defect", "drift", "own_defect"):
         for kind in errors.KINDS:
@@ -134,10 +134,7 @@ class Words(unittest.TestCase):
 
     def test_a_setting_says_its_estimate_and_its_step(self):
         self.assertEqual(case(1, 1).setting(), "sor single, 2 x 3, dt 0.01 s")
-        estimate = {"estimate_iterations": 2, "estimate_source": "short_run"}
-        self.assertEqual(case(1, 1, **estimate).setting(), "sor single, 2 x 3, 2 a step, dt 0.01 s")
-        look = {"estimate_iterations": 2, "estimate_source": "same_solve", "estimate_after": 1}
-        self.assertEqual(case(1, 1, **look).setting(), "sor single, 2 x 3, look at 2 after 1 step, dt 0.01 s")
+        self.assertEqual(case(1, 1, estimate_iterations=2).setting(), "sor single, 2 x 3, 2 a step, dt 0.01 s")
 
     def test_a_setting_becomes_the_options_that_give_it(self):
         one = case(1, 10)
@@ -181,7 +178,7 @@ class Program(unittest.TestCase):
         self.path = os.path.join(folder.name, "accuracy.h5")
         self.config = os.path.join(folder.name, "chosen.cfg")
         rows = [columns_of(1, 10), columns_of(2, 5, rest_fallen=0.0, rest_fell_at=math.inf), columns_of(0.5, 8, **BLOWN_UP),
-                columns_of(1, 3, kind="estimate", estimate_iterations=1, estimate_source="short_run"), columns_of(9, 1, kind="floor"),
+                columns_of(1, 3, kind="estimate", estimate_iterations=1), columns_of(9, 1, kind="floor"),
                 columns_of(9, 0, kind="reference", solve_residual=1e-6, solve_iterations=640.0), columns_of(9, 2, kind="more_iterations")]
         with h5py.File(self.path, "w") as file:
             file.attrs["filetype"], file.attrs["study"], file.attrs["version"] = np.bytes_("pbmpi-study"), np.bytes_("accuracy"), [1, 7]
@@ -205,7 +202,7 @@ class Program(unittest.TestCase):
         self.assertEqual([one["error_m"] for one in found["front"]], [10e-3, 5e-3])
         self.assertEqual((found["noise_floor_m"], found["more_iterations_m"], found["uncertainty_m"]), (1e-3, 2e-3, 2e-3))
         self.assertEqual(found["reference"], {"residual_m": 1e-6, "iterations": 640})
-        self.assertEqual(found["estimates"][0]["estimate"], {"iterations": 1, "after_steps": 0, "source": "short_run"})
+        self.assertEqual(found["estimates"][0]["estimate"], {"iterations": 1})
         self.assertEqual(found["chosen"]["at_rest"], {"fallen": 0, "fell_at_s": None, "creep_m_s": None, "energy_gain_j": None})
         self.assertNotIn("at_rest", found["front"][0], "nothing was watched")
         self.assertNotIn("own", found)

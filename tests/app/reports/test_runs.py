@@ -81,7 +81,7 @@ class Settings(Files):
             self.assertEqual(set(names), set(re.findall(r'"(\w+)"', listed)))
 
     def test_parameters_matter_for_results_samples_estimates_or_nothing(self):
-        for name, matters in (("iterations", runs.RESULTS), ("seed", runs.SEED), ("estimate_after", runs.ESTIMATE), ("feec", runs.ESTIMATE),
+        for name, matters in (("iterations", runs.RESULTS), ("seed", runs.SEED), ("estimate_iterations", runs.ESTIMATE), ("feec", runs.ESTIMATE),
                               ("ranks", runs.NOTHING), ("env_OMP_NUM_THREADS", runs.NOTHING)):
             self.assertEqual(runs.matters_for(name), matters, name)
 

@@ -95,7 +95,7 @@ GroupRun run_cut(const Communicator& comm, const std::vector<SharedModel>& world
   };
   SpaceDriver driver(comm, make_steppers(), groups, settings, with.states);
   if (with.guards != nullptr) driver.watch(*with.guards);
-  if (with.estimates) driver.estimate_with(make_steppers(), std::nullopt);
+  if (with.estimates) driver.estimate_with(make_steppers());
   GroupRun run;
   Shelf shelf;
   CheckpointPlan plan;

@@ -117,23 +117,5 @@ TEST_P(IslandShares, keeps_a_field_of_interest) {
   }
 }
 
-TEST_P(IslandShares, a_look_shows_the_step_that_is_taken) {
-  const auto model = std::make_shared<const Model>(yard_with_ball(150));
-  for (const int step : {60, 140, 160}) {
-    const auto path = start(GetParam().settings(), *model);
-    advance(*path, step);
-    const auto looked_at = make_sor_stepper(GetParam().settings(), ode::make_narrow_phase);
-    looked_at->add(0, model, path->state(0), step);
-    core::PhaseTimes times;
-    looked_at->begin_step(1, times);
-    const State seen = looked_at->look(0);
-    advance(*looked_at, 1);
-    advance(*path, 1);
-    EXPECT_EQ(model::hash(looked_at->state(0)), model::hash(path->state(0)));
-    for (int body = 0; body < model->num_bodies(); ++body)
-      EXPECT_LT((seen.position[body] - path->state(0).position[body]).norm(), 2e-3) << body;
-  }
-}
-
 }  // namespace
 }  // namespace pbmpi::solver

@@ -63,7 +63,7 @@ std::vector<Setting> every_setting() {
           {"island_shares", shares}};
 }
 
-using Stepper = std::unique_ptr<stepping::AnytimeStepper>;
+using Stepper = std::unique_ptr<stepping::WorldStepper>;
 
 Stepper start(StepperSettings settings, int num_threads, const std::vector<Model>& worlds) {
   settings.threads = num_threads;
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Sor, ThreadsOfEachSetting, testing::ValuesIn(every_sett
 
 TEST_P(ThreadsOfEachSetting, of_any_number_give_the_same_bits) {
   const std::vector<Model> worlds = many_worlds();
-  expect_same(worlds, [&](stepping::AnytimeStepper& stepper) {
+  expect_same(worlds, [&](stepping::WorldStepper& stepper) {
     for (int i = 0; i < 8; ++i) advance(stepper, 3);
     std::vector<double> seen;
     for (int world = 0; world < std::ssize(worlds); ++world)
@@ -103,25 +103,9 @@ TEST_P(ThreadsOfEachSetting, of_any_number_give_the_same_bits) {
   });
 }
 
-TEST_P(ThreadsOfEachSetting, give_the_same_looks_into_a_step_that_has_begun) {
-  const std::vector<Model> worlds = many_worlds();
-  expect_same(worlds, [&](stepping::AnytimeStepper& stepper) {
-    advance(stepper, 6);
-    std::vector<std::uint64_t> looks;
-    core::PhaseTimes times;
-    for (int step = 0; step < 3; ++step) {
-      stepper.begin_step(1, times);
-      for (int world = 0; world < std::ssize(worlds); ++world)
-        looks.push_back(model::hash(stepper.look(world)));
-      advance(stepper, 2);
-    }
-    return std::pair(looks, hashes(stepper, static_cast<int>(worlds.size())));
-  });
-}
-
 TEST_P(ThreadsOfEachSetting, give_the_same_bits_where_worlds_come_go_and_change) {
   const std::vector<Model> worlds = many_worlds();
-  expect_same(worlds, [&](stepping::AnytimeStepper& stepper) {
+  expect_same(worlds, [&](stepping::WorldStepper& stepper) {
     advance(stepper, 5);
     const State state = stepper.state(3);
     stepper.remove(3);

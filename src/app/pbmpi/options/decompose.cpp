@@ -21,15 +21,9 @@ std::optional<std::string> why_whole(const RunSpec& spec) {
   }
   if (spec.stepper.residuals)
     return "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds";
-  if (spec.estimate && !traits_of(spec.estimate->stepper.kind).cuts_spaces)
-    return "--estimate-stepper " + std::string(name_of(spec.estimate->stepper.kind)) +
+  if (spec.estimate && !traits_of(spec.estimate->kind).cuts_spaces)
+    return "--estimate-stepper " + std::string(name_of(spec.estimate->kind)) +
            ": a world that is cut is estimated by sor; use --decompose worlds";
-  if (spec.estimate && spec.estimate->after > 0)
-    return "--estimate-after: the estimate of a world that is cut is of whole frames; use --decompose worlds";
-  if (spec.estimate && spec.estimate->due_s && spec.num_worlds > 1)
-    return "--estimate-by: of worlds that are cut only one alone can keep a deadline, and there are " +
-           std::to_string(spec.num_worlds) +
-           "; use --replicas 1, a --world-range of one world, or --decompose worlds";
   return std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 #include <regex>
 #include <utility>
 
+#include "app/common/estimate_spec.h"
 #include "app/pbmpi/options/options.h"
 #include "app/pbmpi/options/run_options.h"
 #include "core/error.h"
@@ -16,8 +17,7 @@ using core::require_input;
 namespace {
 
 /// The estimate's own settings over those of the precise stepper, whose step and seed it shares.
-stepping::StepperSettings resolve_estimate_stepper(const Options& options,
-                                                   const stepping::StepperSettings& precise) {
+stepping::StepperSettings resolve_estimate(const Options& options, const stepping::StepperSettings& precise) {
   stepping::StepperSettings estimate = default_estimate(precise);
   for (const auto& [name, text] : options.estimate)
     set(stepping::step_option(name), text, "--estimate-" + name, estimate);
@@ -26,22 +26,6 @@ stepping::StepperSettings resolve_estimate_stepper(const Options& options,
                 "--estimate-precision is an option of an estimate by sor; give --estimate-stepper sor");
   engines::require_in_build(estimate.kind, "--estimate-stepper " + std::string(name_of(estimate.kind)));
   if (!has_precision) estimate.precision = stepping::Precision::double_;
-  return estimate;
-}
-
-std::optional<EstimateSpec> resolve_estimate(const Options& options, const RunSpec& spec) {
-  if (!spec.feec) return std::nullopt;
-  require_input(!spec.estimate_after || !spec.estimate_by_s,
-                "--estimate-after and --estimate-by exclude each other: the one says how many steps of a "
-                "frame are precise, the other leaves it to the clock");
-  EstimateSpec estimate;
-  estimate.stepper = resolve_estimate_stepper(options, spec.stepper);
-  estimate.after = spec.estimate_after.value_or(0);
-  estimate.due_s = spec.estimate_by_s;
-  require_input(estimate.after < spec.steps_per_frame,
-                "--estimate-after " + std::to_string(estimate.after) + ": it must be at most " +
-                    std::to_string(spec.steps_per_frame - 1) + ", so that a step of the frame is left");
-  estimate.source = source_of(estimate, spec.stepper, spec.steps_per_frame);
   return estimate;
 }
 
@@ -212,7 +196,7 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
                     std::to_string(spec.warmup) + " of warm-up) are done; give --frames above " +
                     std::to_string(from.frames - spec.warmup) + " to go on");
   require_recordable(spec);
-  spec.estimate = resolve_estimate(options, spec);
+  if (spec.feec) spec.estimate = resolve_estimate(options, spec.stepper);
   return spec;
 }
 

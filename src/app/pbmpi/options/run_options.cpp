@@ -136,32 +136,9 @@ std::vector<RunOption> estimate_rows() {
        .group = group,
        .meaning = "estimate every frame from the precise state before it is computed: the estimate goes to "
                   "root at once, and is dropped when the precise result is there. It is a short run of its "
-                  "own; with sor in one substep, if a single step is left to estimate, it is the state after "
-                  "the first iterations of the precise solve",
+                  "own",
        .saved = Saved::value,
        .recorded = true},
-      {.name = "estimate-after",
-       .member = &RunSpec::estimate_after,
-       .group = group,
-       .placeholder = "N",
-       .meaning = "begin with this many precise steps of the frame, and estimate the others: later, and "
-                  "nearer; default: 0",
-       .saved = Saved::value,
-       .recorded = true,
-       .needs = &RunSpec::feec,
-       .least = 0},
-      {.name = "estimate-by",
-       .member = &RunSpec::estimate_by_s,
-       .group = group,
-       .placeholder = "SECONDS",
-       .meaning =
-           "send the best estimate that is there so long after the start of the frame (3.33ms, or a "
-           "number of seconds): precise steps while there is time, then coarse ones; if not even these "
-           "fit, bodies move on at their velocities. It follows the clock: estimates, not the precise "
-           "frames, differ from run to run",
-       .saved = Saved::value,
-       .recorded = true,
-       .needs = &RunSpec::feec},
   };
 }
 

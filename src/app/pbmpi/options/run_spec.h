@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "app/common/estimate_spec.h"
 #include "model/model.h"
 #include "mpi/spaces/plan/rank_groups.h"
 #include "scenes/scene.h"
@@ -55,8 +54,6 @@ struct RunSpec {
   stability::OnBlowup on_blowup = stability::OnBlowup::report;
 
   bool feec = false;
-  std::optional<int> estimate_after;
-  std::optional<double> estimate_by_s;
 
   Decomposition decomposition = Decomposition::automatic;  ///< decided by decompose()
   std::optional<int> ranks_per_world;                      ///< of worlds that are cut
@@ -78,8 +75,8 @@ struct RunSpec {
   // What follows from them.
   int num_worlds = 1;  ///< all of the ensemble, or those of the range
   stepping::StepperSettings stepper;
-  std::optional<EstimateSpec> estimate;  ///< FEEC: how each frame is estimated first
-  std::optional<std::string> sidecar;    ///< path of ParaView's sidecar
+  std::optional<stepping::StepperSettings> estimate;  ///< FEEC: how each frame is estimated first
+  std::optional<std::string> sidecar;                 ///< path of ParaView's sidecar
   mpi::RankGroups groups;  ///< with spaces: which ranks cut which worlds; decided by decompose()
   CheckpointSpec checkpoint;
 

@@ -74,8 +74,8 @@ std::string saved_options(const RunSpec& spec) {
   if (!spec.estimate) return lines;
   for (const std::string_view name : estimate_options) {
     const stepping::StepOption& option = stepping::step_option(name);
-    if (fits(option, spec.estimate->stepper.kind))
-      add("estimate-" + std::string(name), text_of(option, spec.estimate->stepper));
+    if (fits(option, spec.estimate->kind))
+      add("estimate-" + std::string(name), text_of(option, *spec.estimate));
   }
   return lines;
 }

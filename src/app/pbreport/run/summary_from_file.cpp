@@ -138,11 +138,6 @@ EstimateSummary estimate_of(const io::RunData& run, const std::string& path, dou
   summary.stepper = core::value_in(run.parameters, "estimate_stepper");
   summary.iterations = number_of<int>(run, "estimate_iterations", path);
   summary.precision = core::value_in(run.parameters, "estimate_precision");
-  const std::string source = core::value_in(run.parameters, "estimate_source");  // older files have none
-  if (!source.empty()) summary.source = source;
-  if (run.parameters.contains("estimate_after"))  // older files have none
-    summary.after = number_of<int>(run, "estimate_after", path);
-  if (run.parameters.contains("estimate_by")) summary.due_s = number_of<double>(run, "estimate_by", path);
   compute_delivery(only_measured(run.estimate.delivered_s, run.frame_measured),
                    only_measured(run.estimate.precise_s, run.frame_measured), budget_s, summary);
   const std::size_t record_every = run.position.empty() ? 1 : run.frame_measured.size() / run.position.size();

@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 
+#include "app/common/estimate_spec.h"
 #include "core/error.h"
 #include "mpi/balance/partition.h"
 #include "scenes/scene.h"
@@ -23,20 +24,15 @@ int steps_in_frame(const StudyScene& scene, double dt_s) {
   return static_cast<int>(std::round(steps));
 }
 
-/// The frame of one precise setting, estimated by each number of iterations after each number of its steps.
+/// The frame of one precise setting, estimated by each number of iterations.
 void add_estimates_of(AccuracyCase precise, const AccuracyOptions& options,
                       std::vector<AccuracyCase>& cases) {
   precise.kind = CaseKind::estimate;
-  for (int after = 0; after < precise.steps_per_frame; ++after) {
-    for (const int iterations : options.estimates) {
-      if (iterations == 0) continue;
-      EstimateSpec& estimate = precise.estimate.emplace();
-      estimate.stepper = default_estimate(precise.stepper);
-      estimate.stepper.iterations = iterations;
-      estimate.after = after;
-      estimate.source = source_of(estimate, precise.stepper, precise.steps_per_frame);
-      cases.push_back(precise);
-    }
+  for (const int iterations : options.estimates) {
+    if (iterations == 0) continue;
+    precise.estimate = default_estimate(precise.stepper);
+    precise.estimate->iterations = iterations;
+    cases.push_back(precise);
   }
 }
 
@@ -185,11 +181,7 @@ void add_own_floors(std::size_t first, const AccuracyOptions& options, std::vect
 }  // namespace
 
 int AccuracyCase::sweeps_a_frame() const {
-  if (!estimate) return steps_per_frame * sweeps();
-  const int rest = estimate->source == EstimateSource::same_solve
-                       ? estimate->stepper.iterations
-                       : (steps_per_frame - estimate->after) * sweeps_of(estimate->stepper);
-  return estimate->after * sweeps() + rest;
+  return steps_per_frame * (estimate ? sweeps_of(*estimate) : sweeps());
 }
 
 StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions& options) {

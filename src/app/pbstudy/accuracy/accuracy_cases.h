@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "app/common/estimate_spec.h"
 #include "app/pbstudy/accuracy/accuracy_options.h"
 #include "app/pbstudy/accuracy/reference.h"
 #include "app/pbstudy/study/study_scene.h"
@@ -38,7 +37,7 @@ struct AccuracyCase {
   CaseKind kind = CaseKind::setting;
   stepping::StepperSettings stepper;
   int steps_per_frame = 3;
-  std::optional<EstimateSpec> estimate = {};  ///< for CaseKind::estimate
+  std::optional<stepping::StepperSettings> estimate = {};  ///< for CaseKind::estimate
   /// For a setting and for is_own(): the case that solves the same equations; otherwise no_own.
   int own = no_own;
 

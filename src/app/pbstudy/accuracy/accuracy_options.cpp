@@ -32,8 +32,7 @@ po::options_description options_description() {
       ("estimates", list_of<int>(),
        "FEEC cases, not crossed with the others, at the first step of --dt: frames of each stepper and law "
        "as "
-       "they are by default, estimated with so many iterations, after none and more of their steps; 0: none; "
-       "default: 1 5");
+       "they are by default, estimated with so many iterations; 0: none; default: 1 5");
   add_setting_list(varied_dt, what);
   what.add_options()  //
       ("max-sweeps", po::value<int>()->default_value(320)->value_name("N"),

@@ -17,15 +17,7 @@ std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
       column<std::string>("kind", "", cases,
                           [](Case c) { return case_kind_names[static_cast<std::size_t>(c.kind)]; }),
       column<std::int64_t>("estimate_iterations", "", cases,
-                           [](Case c) { return c.estimate ? c.estimate->stepper.iterations : 0; }),
-      column<std::int64_t>("estimate_after", "", cases,
-                           [](Case c) { return c.estimate ? c.estimate->after : 0; }),
-      column<std::string>("estimate_source", "", cases,
-                          [](Case c) {
-                            return c.estimate
-                                       ? estimate_source_names[static_cast<std::size_t>(c.estimate->source)]
-                                       : "";
-                          }),
+                           [](Case c) { return c.estimate ? c.estimate->iterations : 0; }),
       column<std::int64_t>("own", "", cases, [](Case c) { return c.own; }),
       column<std::int64_t>("steps_per_frame", "", cases, [](Case c) { return c.steps_per_frame; }),
       column<std::int64_t>("worlds", "", cases, [&](Case c) { return scene_of(c).num_worlds; }),

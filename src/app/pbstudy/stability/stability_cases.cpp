@@ -65,7 +65,6 @@ std::vector<StabilityCase> make_stability_cases(const std::vector<StudyScene>& s
       if (!setting.own_dt) one.stepper.dt_s = scenes[i].dt_s;
       one.stepper.seed = options.seed;
       one.cut = setting.cut;
-      one.estimate_iterations = setting.estimate_iterations;
       one.num_steps = std::llround(hard.hard_case.seconds / one.stepper.dt_s);
       one.num_bodies = hard.model->num_bodies();
       one.not_applicable = why_not(one, hard, options.most_work);

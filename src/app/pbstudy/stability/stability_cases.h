@@ -29,7 +29,6 @@ struct StabilityCase {
   int setting = 0;  ///< index into its settings
   stepping::StepperSettings stepper;
   bool cut = false;
-  int estimate_iterations = 0;
   std::int64_t num_steps = 0;
   int num_bodies = 0;
   std::string not_applicable;  ///< why the setting cannot run this case; empty: it can

@@ -14,8 +14,7 @@ namespace po = boost::program_options;
 std::string setting_help() {
   std::string text =
       "settings, each in quotes: a stepper, then options of a step as name=value (law=ode: 1 x 20 unless "
-      "others say otherwise), cut (the world in two spaces), estimate=N (FEEC's look at the solve "
-      "after N iterations); default:";
+      "others say otherwise), cut (the world in two spaces); default:";
   for (const std::string& setting : default_stability_settings()) text += " \"" + setting + "\"";
   return text;
 }

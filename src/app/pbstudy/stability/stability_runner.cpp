@@ -95,26 +95,6 @@ void run_whole(const StabilityCase& one, const HardScene& hard, Recorder& record
   }
 }
 
-/// Observes what each step shows before its solve has ended; the next step starts from the precise state.
-void run_estimates(const StabilityCase& one, const HardScene& hard, Recorder& recorder) {
-  const auto stepper = engines::make_anytime_stepper(one.stepper);
-  stepper->add(0, hard.model, model::initial_state(*hard.model), 0);
-  core::PhaseTimes times;
-  double seconds = 0;
-  for (std::int64_t step = 1; step <= one.num_steps; ++step) {
-    const double start_s = core::thread_cpu_s();
-    stepper->begin_step(one.estimate_iterations, times);
-    const State shown = stepper->look(0);
-    seconds += core::thread_cpu_s() - start_s;
-    stepper->advance(1, times);
-    stepping::Observables seen = stepper->observables(0);
-    stepping::observe_state(*hard.model, shown, seen);
-    recorder.see(shown, seen, step);
-    recorder.result.step_time_s = seconds / static_cast<double>(step);
-    if (stepper->observables(0).nonfinite > 0) return;
-  }
-}
-
 /// The world cut into two spaces: the first half of its units, and the rest.
 std::shared_ptr<const model::Model> cut_in_two(const model::Model& whole) {
   const model::SpaceMap map = model::make_space_map(whole);
@@ -177,8 +157,6 @@ StabilityResult run_stability_case(const StabilityCase& one, const HardScene& ha
   if (!one.not_applicable.empty()) return recorder.result;
   if (one.cut) {
     run_cut(one, hard, recorder);
-  } else if (one.estimate_iterations > 0) {
-    run_estimates(one, hard, recorder);
   } else {
     run_whole(one, hard, recorder);
   }

@@ -20,12 +20,6 @@ using core::require_input;
 void set_option(const std::string& text, const std::string& name, const std::string& value,
                 StabilitySetting& setting) {
   const std::string where = "--setting '" + text + "': " + name;
-  if (name == "estimate") {
-    stepping::StepperSettings count;
-    set(stepping::step_option("iterations"), value, where, count);
-    setting.estimate_iterations = count.iterations;
-    return;
-  }
   const auto option = std::ranges::find(stepping::step_options(), name, &stepping::StepOption::name);
   require_input(option != stepping::step_options().end(),
                 where + ": there is no such option of a step (pbmpi --help all)");
@@ -62,16 +56,8 @@ StabilitySetting parse_stability_setting(const std::string& text) {
                   "--setting '" + text + "': " + one + ": write name=value, or cut");
     set_option(text, one.substr(0, equals), one.substr(equals + 1), setting);
   }
-  const stepping::StepperTraits& traits = traits_of(setting.stepper.kind);
-  require_input(!setting.cut || traits.cuts_spaces,
+  require_input(!setting.cut || traits_of(setting.stepper.kind).cuts_spaces,
                 "--setting '" + text + "': this stepper steps whole worlds; leave out cut");
-  require_input(
-      setting.estimate_iterations == 0 || traits.is_anytime,
-      "--setting '" + text + "': this stepper cannot be looked at in mid-solve; leave out estimate");
-  require_input(!setting.cut || setting.estimate_iterations == 0,
-                "--setting '" + text + "': estimates are those of whole worlds; leave out cut or estimate");
-  require_input(setting.estimate_iterations <= setting.stepper.iterations,
-                "--setting '" + text + "': the estimate waits for at most all iterations");
   return setting;
 }
 
@@ -85,7 +71,6 @@ const std::vector<std::string>& default_stability_settings() {
       "sor law=ode",
       "sor law=ode iterations=80",
       "sor cut",
-      "sor estimate=1",
   };
   return settings;
 }
@@ -94,7 +79,6 @@ std::string setting_text(const StabilitySetting& setting) {
   std::string text = stepping::setting_text(setting.stepper);
   if (setting.own_dt) text += format(", dt %g s", setting.stepper.dt_s);
   if (setting.cut) text += ", in two spaces";
-  if (setting.estimate_iterations > 0) text += format(", look at %d", setting.estimate_iterations);
   return text;
 }
 

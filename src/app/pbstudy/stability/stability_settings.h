@@ -12,12 +12,11 @@ namespace pbmpi::app {
 struct StabilitySetting {
   stepping::StepperSettings stepper;  ///< its dt_s is the scene's unless `own_dt`
   bool own_dt = false;
-  bool cut = false;             ///< the world in two spaces (sor)
-  int estimate_iterations = 0;  ///< sor: FEEC's look at the solve after so many iterations is judged
+  bool cut = false;  ///< the world in two spaces (sor)
 };
 
-/// Reads "quick", "sor iterations=80 precision=single", "sor cut", "sor estimate=1": a stepper, then step
-/// options by name, including dt. Throws core::InputError for impossible ones.
+/// Reads "quick", "sor iterations=80 precision=single", "sor cut": a stepper, then step options by name,
+/// including dt. Throws core::InputError for impossible ones.
 StabilitySetting parse_stability_setting(const std::string& text);
 
 /// The settings that the study takes unless told otherwise.

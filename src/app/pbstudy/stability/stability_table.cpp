@@ -42,7 +42,6 @@ std::vector<io::TableColumn> case_facts(const StabilityRows& rows) {
           "setting", "", cases,
           [&](Case c) { return setting_text(rows.settings[static_cast<std::size_t>(c.setting)]); }),
       column<std::int64_t>("cut", "", cases, [](Case c) { return c.cut ? 1 : 0; }),
-      column<std::int64_t>("estimate_iterations", "", cases, [](Case c) { return c.estimate_iterations; }),
       column<std::int64_t>("bodies", "", cases, [](Case c) { return c.num_bodies; }),
       column<double>("seconds", "s", cases, [&](Case c) { return hard(c).seconds; }),
   };

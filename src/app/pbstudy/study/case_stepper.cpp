@@ -2,7 +2,6 @@
 
 #include "core/clock.h"
 #include "engines/stepper_factory.h"
-#include "stability/guarded_stepper.h"
 
 namespace pbmpi::app {
 namespace {
@@ -32,15 +31,11 @@ Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed,
 }
 
 CaseStepper::CaseStepper(const Worlds& worlds, const stepping::StepperSettings& settings, int steps_per_frame,
-                         const std::optional<EstimateSpec>& estimate)
-    : num_worlds_(static_cast<int>(worlds.size())), steps_per_frame_(steps_per_frame) {
-  stepper_ = engines::make_stepper(settings, "case: ");
-  if (estimate) {
-    auto frames =
-        std::make_unique<stability::GuardedStepper>(std::move(stepper_), stability::GuardSettings());
-    estimator_ = make_estimator(*estimate, *frames);
-    stepper_ = std::move(frames);
-  }
+                         const std::optional<stepping::StepperSettings>& estimate)
+    : stepper_(engines::make_stepper(settings, "case: ")),
+      num_worlds_(static_cast<int>(worlds.size())),
+      steps_per_frame_(steps_per_frame) {
+  if (estimate) estimator_ = make_estimator(*estimate);
   for (int world = 0; world < num_worlds_; ++world) {
     const auto& model = worlds[static_cast<std::size_t>(world)];
     stepper_->add(world, model, model::initial_state(*model), 0);

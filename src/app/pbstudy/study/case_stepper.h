@@ -25,7 +25,7 @@ class CaseStepper {
  public:
   /// With `estimate` it shows the estimate of a frame (FEEC) instead of its end.
   CaseStepper(const Worlds& worlds, const stepping::StepperSettings& settings, int steps_per_frame,
-              const std::optional<EstimateSpec>& estimate = std::nullopt);
+              const std::optional<stepping::StepperSettings>& estimate = std::nullopt);
 
   /// Puts all worlds into `states` [num_worlds] at the start of frame `frame`.
   void start_from(const std::vector<model::State>& states, int frame);
