@@ -36,8 +36,7 @@ for scene in "${scenes[@]}"; do
     record "$name.iter19.$repeat" "${setting[@]}" --iterations 19
     record "$name.iter1.$repeat" "${setting[@]}" --iterations 1
     record "$name.feec.$repeat" "${setting[@]}" --feec
-    record "$name.feec_sor.$repeat" "${setting[@]}" --feec --estimate-stepper sor --estimate-precision single \
-      --estimate-iterations 5
+    record "$name.feec_sor.$repeat" "${setting[@]}" "--feec=sor iterations=5 precision=single"
   done
   for ((seed = 2; seed <= ${SEEDS:-8} + 1; ++seed)); do
     record "$name.seed$seed" "${setting[@]}" --solver-seed "$seed"

@@ -134,10 +134,9 @@ TEST(Options, feec_estimates_as_the_precise_stepper_does_but_with_one_iteration)
 }
 
 TEST(Options, feec_may_estimate_with_another_stepper) {
-  const RunSpec spec =
-      resolve(parse_options({"--scene", "Fake", "--stepper", "quick", "--feec", "--estimate-stepper", "sor",
-                             "--estimate-iterations", "3", "--estimate-precision", "single"}),
-              FakeScene({}));
+  const RunSpec spec = resolve(
+      parse_options({"--scene", "Fake", "--stepper", "quick", "--feec=sor iterations=3 precision=single"}),
+      FakeScene({}));
   ASSERT_TRUE(spec.estimate.has_value());
   EXPECT_EQ(spec.stepper.kind, stepping::StepperKind::quick);
   EXPECT_EQ(spec.estimate->kind, stepping::StepperKind::sor);
@@ -145,16 +144,19 @@ TEST(Options, feec_may_estimate_with_another_stepper) {
   EXPECT_EQ(spec.estimate->precision, stepping::Precision::single);
 }
 
-TEST(Options, those_of_the_estimate_are_refused_where_they_make_no_sense) {
-  EXPECT_NE(refusal({"--scene", "Fake", "--estimate-iterations", "2"}).find("--feec"), std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--estimate-stepper", "sor"}).find("--feec"), std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--feec", "--estimate-iterations", "0"}).find("at least 1"),
+TEST(Options, an_estimate_that_cannot_be_is_refused_by_name) {
+  const auto refused = [](const std::string& setting, const char* stepper = "sor") {
+    return refusal({"--scene", "Fake", "--stepper", stepper, "--feec=" + setting});
+  };
+  EXPECT_EQ(refused("iterations=2"), "");
+  EXPECT_EQ(refused("iterations=0"), "--feec='iterations=0': iterations 0: it must be at least 1");
+  EXPECT_NE(refused("fast").find("quick, direct, sor"), std::string::npos);
+  EXPECT_NE(refused("precision=single", "quick").find("the stepper quick has no such option"),
             std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--feec", "--estimate-stepper", "fast"}).find("quick, direct, sor"),
+  EXPECT_NE(refused("substeps=2").find("substeps: an estimate has a stepper, iterations and a precision"),
             std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--feec", "--estimate-precision", "single"})
-                .find("--estimate-stepper sor"),
-            std::string::npos);
+  EXPECT_NE(refused("sor single").find("STEPPER iterations=N precision=NAME"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "--feec", "quick"}).find("without a dash"), std::string::npos);
   EXPECT_NE(refusal({"--scene", "Fake", "--solver-seed", "-x"}).find("solver-seed"), std::string::npos);
 }
 

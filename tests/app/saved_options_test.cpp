@@ -35,8 +35,8 @@ TEST(SavedOptions, give_the_same_run_when_they_are_read_again) {
        "--simd", "sse2", "--decompose", "worlds", "--spaces", "one"},
       {"--scene", "Fake", "--seed", "18446744073709551615", "--solver-seed", "3", "--record-every", "5",
        "--budget", "2ms"},
-      {"--scene", "Fake", "--feec", "--estimate-stepper", "quick", "--estimate-iterations", "3"},
-      {"--scene", "Fake", "--feec", "--estimate-precision", "single", "--dt", "0.012345678901234567"}};
+      {"--scene", "Fake", "--feec=quick iterations=3"},
+      {"--scene", "Fake", "--feec=precision=single", "--dt", "0.012345678901234567"}};
   for (const auto& args : runs) {
     const std::string first = saved(args);
     EXPECT_EQ(saved_options(resolved({"--scene", "Fake"}, first)), first);

@@ -17,9 +17,21 @@ class Feec(ProgramTest):
 
     def test_an_estimate_by_another_stepper_does_not_change_the_hash(self):
         args = ["--scene", "CrashSk", "--no-output"]
-        mixed = self.summary(2, *args, "--feec", "--estimate-stepper", "sor", "--estimate-precision", "single")
+        mixed = self.summary(2, *args, "--feec=sor precision=single")
         self.assertEqual(mixed["state_hash"], self.summary(1, *args)["state_hash"])
         self.assertEqual((mixed["estimate"]["stepper"], mixed["estimate"]["precision"]), ("sor", "single"))
+
+    def test_a_file_of_options_a_checkpoint_and_the_description_have_what_estimates(self):
+        self.write("feec.cfg", "feec = quick iterations=2\n")
+        args = ["--scene", "CrashSk", "--config", "feec.cfg", "--frames", 3]
+        self.summary(1, *args, "--output", "run.h5", "--checkpoint", "run.checkpoint.h5")
+        again = self.summary(2, "--resume", "run.checkpoint.h5", "--frames", 5, "--output", "on.h5")
+        self.assertEqual((again["estimate"]["stepper"], again["estimate"]["iterations"]), ("quick", 2))
+        for name in ("run.h5", "on.h5"):
+            with h5py.File(self.path(name)) as file:
+                self.assertEqual((file["parameters/feec"][()], file["parameters/estimate_stepper"][()],
+                                  file["parameters/estimate_iterations"][()]), (1, b"quick", 2))
+        self.assertIn("estimate: quick, 2 iterations, double precision\n", self.pbmpi(1, *args, "--describe").stdout)
 
     def test_the_file_holds_what_the_summary_says(self):
         summary = self.summary(2, "--scene", "CrashSk", "--replicas", 4, "--feec", "--output", "run.h5")
@@ -55,21 +67,20 @@ class Feec(ProgramTest):
                     self.assertGreater(np.abs(file["estimate/position/value"][:] - file["particles/bodies/position/value"][:]).max(), 0)
 
     def test_what_cannot_estimate_a_cut_world_is_refused_and_by_itself_leaves_it_whole(self):
-        args = ["--scene", "Fight", "--frames", 2, "--no-output", "--feec"]
-        quick = ["--estimate-stepper", "quick"]
-        refused = self.pbmpi(2, *args, *quick, "--decompose", "spaces")
+        args = ["--scene", "Fight", "--frames", 2, "--no-output", "--feec=quick"]
+        refused = self.pbmpi(2, *args, "--decompose", "spaces")
         self.assertEqual(refused.returncode, 2, refused.stderr)
-        self.assertIn("--estimate-stepper quick: ", refused.stderr)
-        self.assertEqual(self.summary(2, *args, *quick)["decomposition"], "worlds")
+        self.assertIn("--feec=quick: ", refused.stderr)
+        self.assertEqual(self.summary(2, *args)["decomposition"], "worlds")
 
     def test_as_many_iterations_as_the_precise_run_leave_no_defect(self):
         for setting in (["--stepper", "quick"], [*ODE_LAW, "--iterations", 20], ["--substeps", 1, "--iterations", 20]):
-            summary = self.summary(3, "--scene", "CrashSk", *setting, "--feec", "--estimate-iterations", 20, "--no-output")
+            summary = self.summary(3, "--scene", "CrashSk", *setting, "--feec=iterations=20", "--no-output")
             self.assertEqual(summary["estimate"]["position_defect_m"]["max"], 0)
 
     def test_an_estimate_is_the_run_of_so_many_iterations_from_where_the_frame_starts(self):
         args = ["--scene", "CrashSk", "--replicas", 7, *ODE_LAW, "--steps-per-frame", 1, "--frames", 16]
-        self.summary(3, *args, "--iterations", 20, "--feec", "--estimate-iterations", 3, "--output", "run.h5")
+        self.summary(3, *args, "--iterations", 20, "--feec=iterations=3", "--output", "run.h5")
         self.summary(1, *args, "--iterations", 3, "--output", "short.h5")
         with h5py.File(self.path("run.h5")) as run, h5py.File(self.path("short.h5")) as short:
             self.assertEqual(run["estimate/position/value"][0].tobytes(), short["particles/bodies/position/value"][0].tobytes())

@@ -52,12 +52,15 @@ std::string examples_of(const Manual& manual) {
   return text;
 }
 
-/// "-o, --output FILE" where Boost prints "-o [ --output ] FILE", and two blanks before the meaning where it
-/// prints one after a long default: what help2man and completions read.
+/// "-o, --output FILE" where Boost prints "-o [ --output ] FILE", "--feec[=SETTING]" without a blank between,
+/// and two blanks before the meaning where it prints one after a long default: what help2man and completions
+/// read.
 std::string in_usual_form(const std::string& printed) {
   static const std::regex both_names(R"((-\w) \[ (--[\w-]+) \]((?: \S+)*))");
   static const std::regex one_blank(R"(( \(=\S+\)) (?=\S))");
-  return std::regex_replace(std::regex_replace(printed, both_names, "$1, $2$3   "), one_blank, "$1  ");
+  static const std::regex joined_value(R"((--[\w-]+) (\[=\S+\]))");
+  const std::string text = std::regex_replace(printed, both_names, "$1, $2$3   ");
+  return std::regex_replace(std::regex_replace(text, one_blank, "$1  "), joined_value, "$1$2 ");
 }
 
 std::string all_options(const Manual& manual) {

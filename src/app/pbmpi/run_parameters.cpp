@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "app/common/engine_texts.h"
+#include "app/common/estimate_spec.h"
 #include "app/common/scene_parameter.h"
 #include "app/common/version.h"
 #include "app/pbmpi/options/run_options.h"
@@ -124,6 +125,7 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
   }
   if (const auto interest = interest_of(*work.first_world))
     parameters.push_back(Parameter::of("field_of_interest", *interest));
+  parameters.push_back(Parameter::of("feec", std::int64_t{spec.estimate ? 1 : 0}));
   if (spec.estimate) {
     for (const std::string_view name : estimate_options)
       parameters.push_back(step_parameter("estimate_", stepping::step_option(name), *spec.estimate));

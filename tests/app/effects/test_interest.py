@@ -47,8 +47,8 @@ class Interest(ProgramTest):
     def test_an_estimate_leaks_into_nothing(self):
         short = (*SOR, "--steps-per-frame", 1, "--decompose", "worlds")
         plain = self.hash_of(1, *short)
-        self.assertEqual(self.hash_of(1, *short, "--feec", "--estimate-iterations", 2), plain)
-        self.assertEqual(self.hash_of(1, *short, "--feec", "--estimate-stepper", "quick"), plain)
+        self.assertEqual(self.hash_of(1, *short, "--feec=iterations=2"), plain)
+        self.assertEqual(self.hash_of(1, *short, "--feec=quick"), plain)
 
     def test_the_file_says_what_mattered_and_how_many_bodies_did(self):
         for cut in ("worlds", "spaces"):

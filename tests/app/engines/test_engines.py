@@ -38,12 +38,12 @@ class Engines(ProgramTest):
             if self.in_build(engine):
                 continue
             with self.subTest(engine):
-                for option in ("--stepper", "--estimate-stepper"):
-                    result = self.pbmpi(3, "--scene", "CrashSk", option, engine, *(["--feec"] if "estimate" in option else []))
+                for option, named in ((["--stepper", engine], f"--stepper {engine}"), ([f"--feec={engine}"], f"--feec='{engine}'")):
+                    result = self.pbmpi(3, "--scene", "CrashSk", *option)
                     self.assertEqual(result.returncode, 2, result.stderr)
                     lines = [line for line in result.stderr.splitlines() if line.startswith("pbmpi: ")]
                     self.assertEqual(len(lines), 1, result.stderr)
-                    for word in (f"{option} {engine}", package, "configure anew", f"PBMPI_{engine.upper()}"):
+                    for word in (named, package, "configure anew", f"PBMPI_{engine.upper()}"):
                         self.assertIn(word, lines[0])
                 self.assertEqual(os.listdir(self.folder), [])
 
@@ -112,8 +112,8 @@ class Engines(ProgramTest):
         for engine in self.each():
             args = ["--scene", "CrashSk", "--stepper", engine, "--frames", 6, "--no-output"]
             alone = self.summary(1, *args)["state_hash"]
-            for estimate in ([], ["--estimate-stepper", "sor"]):
-                summary = self.summary(2, *args, "--feec", *estimate)
+            for feec in ("--feec", "--feec=sor"):
+                summary = self.summary(2, *args, feec)
                 self.assertEqual(summary["state_hash"], alone)
                 self.assertGreater(summary["estimate"]["position_defect_m"]["count"], 0)
 

@@ -22,7 +22,7 @@ std::optional<std::string> why_whole(const RunSpec& spec) {
   if (spec.stepper.residuals)
     return "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds";
   if (spec.estimate && !traits_of(spec.estimate->kind).cuts_spaces)
-    return "--estimate-stepper " + std::string(name_of(spec.estimate->kind)) +
+    return "--feec=" + std::string(name_of(spec.estimate->kind)) +
            ": a world that is cut is estimated by sor; use --decompose worlds";
   return std::nullopt;
 }

@@ -26,19 +26,15 @@ po::options_description options_description() {
   scene.add_options()("list-scenes", "list the scenes that pbmpi brings")  //
       ("describe",
        "print the resolved scene, the step plan, who owns what and the size of the file; run nothing");
-  po::options_description estimate =
-      options_of(OptionGroup::estimate, "Fast estimation with error control (FEEC)");
-  estimate.add_options()  //
-      ("estimate-iterations", po::value<std::string>()->value_name("N"),
-       "sweeps of the estimate; default: 1")  //
-      ("estimate-stepper", po::value<std::string>()->value_name("quick|direct|sor|bullet|mujoco"),
-       "what estimates; default: that of --stepper")  //
-      ("estimate-precision", po::value<std::string>()->value_name("double|single"),
-       "of an estimate by sor; default: that of --precision, or double");
+  po::options_description step = options_of(OptionGroup::step, "How to step");
+  step.add_options()("feec", po::value<std::string>()->implicit_value("", "")->value_name("[=SETTING]"),
+                     "fast estimation with error control: estimate every frame by a short run from the "
+                     "precise state before it is computed; the estimate goes to root at once, and is dropped "
+                     "when the precise result is there. SETTING: what estimates, e.g. \"quick\", or \"sor "
+                     "iterations=5 precision=single\"; default: that of --stepper, iterations=1");
   po::options_description all;
   all.add(scene)
-      .add(options_of(OptionGroup::step, "How to step"))
-      .add(estimate)
+      .add(step)
       .add(options_of(OptionGroup::cut, "How to cut the work"))
       .add(options_of(OptionGroup::output, "What to write"))
       .add(options_of(OptionGroup::stop, "When to stop, and how to go on"))
@@ -51,17 +47,6 @@ Action action_of(const po::variables_map& values) {
   if (values.count("version") != 0) return Action::version;
   if (values.count("list-scenes") != 0) return Action::list_scenes;
   return values.count("describe") != 0 ? Action::describe : Action::run;
-}
-
-/// Options that only say how another one works are refused without it.
-void require_needs(const Options& options) {
-  for (const RunOption& option : run_options()) {
-    require_input(
-        option.needs == nullptr || options.run.*option.needs || !options.given.contains(option.name),
-        "--" + std::string(option.name) + " says how --feec estimates; give --feec too");
-  }
-  for (const auto& [name, text] : options.estimate)
-    require_input(options.run.feec, "--estimate-" + name + " says how --feec estimates; give --feec too");
 }
 
 }  // namespace
@@ -108,11 +93,7 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
     }
     options.given.insert(name);
   }
-  for (const std::string_view name : estimate_options) {
-    const std::string option = "estimate-" + std::string(name);
-    if (values.count(option) != 0) options.estimate.emplace(name, values[option].as<std::string>());
-  }
-  require_needs(options);
+  if (values.count("feec") != 0) options.feec = values["feec"].as<std::string>();
   const bool needs_scene = options.action == Action::run || options.action == Action::describe;
   require_input(!needs_scene || options.run.scene || options.run.resume,
                 "no scene given; name one with --scene (see --list-scenes)");

@@ -1,14 +1,11 @@
 /// The command line of pbmpi, and the run that it and the scene together describe.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/common/options.h"
@@ -26,8 +23,8 @@ struct Options {
   RunSpec run;  ///< members of options that are not `given` are left to the scene
   std::set<std::string, std::less<>> given;  ///< names in run_options()
   stepping::StepChoices step;
-  std::map<std::string, std::string, std::less<>> estimate;  ///< step options of the estimate, as given
-  std::vector<core::NamedPath> paths;                        ///< named on the command line
+  std::optional<std::string> feec;     ///< with FEEC: what estimates, as given (estimate_settings())
+  std::vector<core::NamedPath> paths;  ///< named on the command line
   CommonOptions common;
   std::string command_line;
 
@@ -39,9 +36,6 @@ struct Options {
     return given.contains("spaces") ? std::optional(run.spaces) : std::nullopt;
   }
 };
-
-/// The step options that FEEC's estimate has in its own version: "estimate-stepper" and so on.
-inline constexpr std::array<std::string_view, 3> estimate_options = {"stepper", "iterations", "precision"};
 
 /// `saved`: further options that all others override, one "name = value" a line. Throws core::InputError with
 /// one clear message.

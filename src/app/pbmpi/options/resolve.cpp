@@ -16,19 +16,6 @@ using core::require_input;
 
 namespace {
 
-/// The estimate's own settings over those of the precise stepper, whose step and seed it shares.
-stepping::StepperSettings resolve_estimate(const Options& options, const stepping::StepperSettings& precise) {
-  stepping::StepperSettings estimate = default_estimate(precise);
-  for (const auto& [name, text] : options.estimate)
-    set(stepping::step_option(name), text, "--estimate-" + name, estimate);
-  const bool has_precision = traits_of(estimate.kind).has_precision;
-  require_input(has_precision || !options.estimate.contains("precision"),
-                "--estimate-precision is an option of an estimate by sor; give --estimate-stepper sor");
-  engines::require_in_build(estimate.kind, "--estimate-stepper " + std::string(name_of(estimate.kind)));
-  if (!has_precision) estimate.precision = stepping::Precision::double_;
-  return estimate;
-}
-
 namespace fs = std::filesystem;
 
 /// "run.xdmf" for "run.h5"; any other name gets ".xdmf" appended, so that two runs share none, except r and
@@ -196,7 +183,7 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
                     std::to_string(spec.warmup) + " of warm-up) are done; give --frames above " +
                     std::to_string(from.frames - spec.warmup) + " to go on");
   require_recordable(spec);
-  if (spec.feec) spec.estimate = resolve_estimate(options, spec.stepper);
+  if (options.feec) spec.estimate = estimate_settings(*options.feec, spec.stepper);
   return spec;
 }
 

@@ -128,20 +128,6 @@ std::vector<RunOption> step_rows() {
   };
 }
 
-std::vector<RunOption> estimate_rows() {
-  constexpr OptionGroup group = OptionGroup::estimate;
-  return {
-      {.name = "feec",
-       .member = &RunSpec::feec,
-       .group = group,
-       .meaning = "estimate every frame from the precise state before it is computed: the estimate goes to "
-                  "root at once, and is dropped when the precise result is there. It is a short run of its "
-                  "own",
-       .saved = Saved::value,
-       .recorded = true},
-  };
-}
-
 std::vector<RunOption> cut_rows() {
   constexpr OptionGroup group = OptionGroup::cut;
   return {
@@ -346,7 +332,6 @@ requires std::is_enum_v<Enum> std::string as_text(Enum value) {
 /// Calls visit(value) unless the option is left out.
 template <class Visit>
 void with_value(const RunOption& option, const RunSpec& spec, Visit visit) {
-  if (option.needs != nullptr && !(spec.*option.needs)) return;
   const auto pass = [&](const auto& value) {
     if constexpr (requires { value.has_value(); }) {
       if (value) visit(*value);
@@ -362,8 +347,7 @@ void with_value(const RunOption& option, const RunSpec& spec, Visit visit) {
 const std::vector<RunOption>& run_options() {
   static const std::vector<RunOption> all = [] {
     std::vector<RunOption> rows;
-    for (const auto& group :
-         {scene_rows(), step_rows(), estimate_rows(), cut_rows(), output_rows(), stop_rows()})
+    for (const auto& group : {scene_rows(), step_rows(), cut_rows(), output_rows(), stop_rows()})
       rows.insert(rows.end(), group.begin(), group.end());
     return rows;
   }();

@@ -27,7 +27,7 @@ using RunMember =
                  scenes::SpacesForm RunSpec::*, ReportFormat RunSpec::*>;
 
 /// The headings of --help.
-enum class OptionGroup { scene, step, estimate, cut, output, stop };
+enum class OptionGroup { scene, step, cut, output, stop };
 
 /// What a checkpoint keeps of an option.
 enum class Saved {
@@ -47,7 +47,6 @@ struct RunOption {
   Saved saved = Saved::no;
   bool recorded = false;                                  ///< has a value in /parameters
   int scenes::RunDefaults::*of_scene = nullptr;           ///< what the scene proposes
-  bool RunSpec::*needs = nullptr;                         ///< the option says how this one works
   int least = 1, most = std::numeric_limits<int>::max();  ///< of whole numbers
 };
 
@@ -62,7 +61,7 @@ void set(const RunOption& option, const std::string& text, RunSpec& spec);
 void take_default(const RunOption& option, const scenes::RunDefaults& defaults, RunSpec& spec);
 
 /// The value as text that set() reads back bit for bit. Nothing where the option is left out: an optional
-/// member without a value, a flag that is not set, or one that needs another which is not set.
+/// member without a value, or a flag that is not set.
 std::optional<std::string> text_of(const RunOption& option, const RunSpec& spec);
 /// The value as files store it, likewise; flags are 0 or 1.
 std::optional<stepping::StepValue> value_of(const RunOption& option, const RunSpec& spec);

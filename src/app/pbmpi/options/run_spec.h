@@ -53,8 +53,6 @@ struct RunSpec {
   int steps_per_frame = 3;
   stability::OnBlowup on_blowup = stability::OnBlowup::report;
 
-  bool feec = false;
-
   Decomposition decomposition = Decomposition::automatic;  ///< decided by decompose()
   std::optional<int> ranks_per_world;                      ///< of worlds that are cut
   scenes::SpacesForm spaces = scenes::SpacesForm::many;

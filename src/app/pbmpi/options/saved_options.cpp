@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/common/estimate_spec.h"
 #include "app/pbmpi/options/run_options.h"
 #include "core/error.h"
 #include "stepping/names.h"
@@ -71,12 +72,7 @@ std::string saved_options(const RunSpec& spec) {
     const auto text = option.saved == Saved::no ? std::nullopt : text_of(option, spec);
     if (text) add(std::string(option.name), *text);
   }
-  if (!spec.estimate) return lines;
-  for (const std::string_view name : estimate_options) {
-    const stepping::StepOption& option = stepping::step_option(name);
-    if (fits(option, spec.estimate->kind))
-      add("estimate-" + std::string(name), text_of(option, *spec.estimate));
-  }
+  if (spec.estimate) add("feec", estimate_text(*spec.estimate));
   return lines;
 }
 

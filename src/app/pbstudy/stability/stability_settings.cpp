@@ -1,63 +1,31 @@
 #include "app/pbstudy/stability/stability_settings.h"
 
-#include <algorithm>
-#include <iterator>
-#include <optional>
-#include <sstream>
-
 #include "app/common/format.h"
+#include "app/common/step_arguments.h"
 #include "core/error.h"
-#include "engines/optional_engines.h"
-#include "stepping/names.h"
 #include "stepping/step_options.h"
 
 namespace pbmpi::app {
-namespace {
 
 using core::require_input;
 
-/// One "name=value" of a setting.
-void set_option(const std::string& text, const std::string& name, const std::string& value,
-                StabilitySetting& setting) {
-  const std::string where = "--setting '" + text + "': " + name;
-  const auto option = std::ranges::find(stepping::step_options(), name, &stepping::StepOption::name);
-  require_input(option != stepping::step_options().end(),
-                where + ": there is no such option of a step (pbmpi --help all)");
-  require_input(
-      fits(*option, setting.stepper.kind),
-      where + ": the stepper " + std::string(name_of(setting.stepper.kind)) + " has no such option");
-  set(*option, value, where, setting.stepper);
-  if (name == "law") setting.stepper = default_settings(setting.stepper.kind, setting.stepper.law.name);
-  setting.own_dt = setting.own_dt || name == "dt";
-}
-
-}  // namespace
-
 StabilitySetting parse_stability_setting(const std::string& text) {
-  std::istringstream stream(text);
-  std::string word;
+  const std::string where = "--setting '" + text + "'";
+  const SettingWords words = setting_words(text);
+  require_input(!words.stepper.empty(), where + ": it begins with a stepper, e.g. \"sor iterations=80\"");
   StabilitySetting setting;
-  require_input(static_cast<bool>(stream >> word),
-                "--setting: it begins with a stepper, e.g. \"sor iterations=80\"");
-  set(stepping::step_option("stepper"), word, "--setting '" + text + "': stepper", setting.stepper);
-  engines::require_in_build(setting.stepper.kind, "--setting '" + text + "'");
+  set_stepper(words, where, setting.stepper);
   setting.stepper = default_settings(setting.stepper.kind);
-  std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
-  // A law brings its own iterations and substeps, so that it comes before them.
-  std::stable_partition(words.begin(), words.end(),
-                        [](const std::string& one) { return one.starts_with("law="); });
-  for (const std::string& one : words) {
-    const std::size_t equals = one.find('=');
-    if (one == "cut") {
-      setting.cut = true;
-      continue;
-    }
-    require_input(equals != std::string::npos,
-                  "--setting '" + text + "': " + one + ": write name=value, or cut");
-    set_option(text, one.substr(0, equals), one.substr(equals + 1), setting);
+  for (const auto& [name, value] : words.options) {
+    set_by_name(name, value, where, setting.stepper);
+    if (name == "law") setting.stepper = default_settings(setting.stepper.kind, setting.stepper.law.name);
+    setting.own_dt = setting.own_dt || name == "dt";
   }
+  for (const std::string& flag : words.flags)
+    require_input(flag == "cut", where + ": " + flag + ": write name=value, or cut");
+  setting.cut = !words.flags.empty();
   require_input(!setting.cut || traits_of(setting.stepper.kind).cuts_spaces,
-                "--setting '" + text + "': this stepper steps whole worlds; leave out cut");
+                where + ": this stepper steps whole worlds; leave out cut");
   return setting;
 }
 
