@@ -165,8 +165,8 @@ class Steps:
             raise ValueError(f"{path}: its contacts or states are not all there; record it with --record-contacts, from the start")
         if self.frames and file["timings/frame/step"][0] != 1:
             raise ValueError(f"{path}: a frame has several steps; record it with --steps-per-frame 1")
-        if "law" not in file["parameters"] or parameter("stepper") != b"sor" or parameter("finish") != b"newton":
-            raise ValueError(f"{path}: its friction is no cone; record it with --law ode --finish newton")
+        if "law" not in file["parameters"] or parameter("law") != b"coulomb":
+            raise ValueError(f"{path}: its friction is no cone; record it with --law coulomb")
         self.dt = float(parameter("dt"))
         self.h = self.dt / int(parameter("substeps"))
         if self.h != self.dt:

@@ -13,10 +13,9 @@ inline constexpr std::array<std::string_view, 5> stepper_kind_names = {"quick", 
                                                                        "mujoco"};
 inline constexpr std::array<std::string_view, 2> precision_names = {"double", "single"};
 inline constexpr std::array<std::string_view, 5> simd_names = {"auto", "sse2", "avx2", "avx512", "off"};
-inline constexpr std::array<std::string_view, 2> law_names = {"soft", "ode"};
+inline constexpr std::array<std::string_view, 3> law_names = {"soft", "ode", "coulomb"};
 inline constexpr std::array<std::string_view, 2> row_order_names = {"shuffled", "fixed"};
 inline constexpr std::array<std::string_view, 3> constraint_solver_names = {"newton", "pgs", "cg"};
-inline constexpr std::array<std::string_view, 2> finish_names = {"none", "newton"};
 
 constexpr std::string_view name_of(StepperKind kind) { return stepper_kind_names[static_cast<int>(kind)]; }
 constexpr std::string_view name_of(Precision precision) {
@@ -27,7 +26,6 @@ constexpr std::string_view name_of(Law law) { return law_names[static_cast<int>(
 constexpr std::string_view name_of(ConstraintSolver solver) {
   return constraint_solver_names[static_cast<int>(solver)];
 }
-constexpr std::string_view name_of(Finish finish) { return finish_names[static_cast<int>(finish)]; }
 constexpr std::string_view name_of(RowOrder order) { return row_order_names[static_cast<int>(order)]; }
 
 }  // namespace pbmpi::stepping

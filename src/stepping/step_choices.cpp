@@ -84,9 +84,6 @@ StepperSettings settle_step(const StepChoices& choices, const StepProposal& prop
                                                     ": it must be at least 1");
   if (!choices.has("solver-seed")) settings.seed = proposal.seed;
   require_fitting(settings, dashes);
-  core::require_input(settings.finish == Finish::none || settings.law.name == Law::ode,
-                      dashes + "finish " + std::string(name_of(settings.finish)) +
-                          ": it solves the rigid rows of " + dashes + "law ode; give that law, too");
   return settings;
 }
 

@@ -21,7 +21,7 @@ bool is_length(double value) { return std::isfinite(value) && value > 0; }
 bool is_magnitude(double value) { return std::isfinite(value) && value >= 0; }
 bool is_thread_count(double value) { return value >= 1 && value <= 1024; }
 
-constexpr std::array<StepOption, 12> options = {{
+constexpr std::array<StepOption, 11> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
      .placeholder = "sor|quick|direct|bullet|mujoco",
@@ -32,10 +32,12 @@ constexpr std::array<StepOption, 12> options = {{
      .shown_default = "sor"},
     {.name = "law",
      .member = &Settings::law,
-     .placeholder = "soft|ode",
+     .placeholder = "soft|ode|coulomb",
      .meaning =
          "sor: soft: soft constraints in many substeps, with a memory of forces; ode: ODE's equations, each "
-         "step solved from nothing, for references and comparisons; default: soft",
+         "step solved from nothing, for references and comparisons; coulomb: these with Coulomb's cones of "
+         "friction, islands of up to 400 rows of contacts, limits and motors solved to rounding by Newton's "
+         "method after the sweeps, for references; default: soft",
      .needs = &Traits::has_laws,
      .in_short = "law *"},
     {.name = "dt",
@@ -50,14 +52,15 @@ constexpr std::array<StepOption, 12> options = {{
      .placeholder = "N",
      .meaning =
          "sweeps of the iterative solver, in each substep; default: the scene's (20) with quick and --law "
-         "ode, 1 with --law soft, 10 with bullet; with mujoco the most iterations of its "
+         "ode or coulomb, 1 with --law soft, 10 with bullet; with mujoco the most iterations of its "
          "--constraint-solver, 100",
      .allows = at_least_1,
      .limit = "it must be at least 1"},
     {.name = "substeps",
      .member = &Settings::substeps,
      .placeholder = "N",
-     .meaning = "sor: parts of a step that share its collision detection; default: 14, with --law ode 1",
+     .meaning =
+         "sor: parts of a step that share its collision detection; default: 14, with --law ode or coulomb 1",
      .needs = &Traits::has_substeps,
      .allows = at_least_1,
      .limit = "it must be at least 1"},
@@ -80,14 +83,6 @@ constexpr std::array<StepOption, 12> options = {{
          "are the most steps, sweeps or steps; default: newton",
      .needs = &Traits::has_constraint_solvers,
      .in_short = "*"},
-    {.name = "finish",
-     .member = &Settings::finish,
-     .placeholder = "none|newton",
-     .meaning = "sor: newton: after the sweeps of --law ode islands of up to 400 rows of contacts, limits "
-                "and motors "
-                "are solved to rounding, with cones of friction, for references; default: none",
-     .needs = &Traits::has_laws,
-     .in_short = "by *"},
     {.name = "precision",
      .member = &Settings::precision,
      .placeholder = "double|single",
@@ -124,7 +119,6 @@ constexpr std::array<StepOption, 12> options = {{
 constexpr const auto& names_of(StepperKind) { return stepper_kind_names; }
 constexpr const auto& names_of(Law) { return law_names; }
 constexpr const auto& names_of(ConstraintSolver) { return constraint_solver_names; }
-constexpr const auto& names_of(Finish) { return finish_names; }
 constexpr const auto& names_of(Precision) { return precision_names; }
 constexpr const auto& names_of(Simd) { return simd_names; }
 

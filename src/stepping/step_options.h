@@ -17,8 +17,7 @@ namespace pbmpi::stepping {
 using StepMember =
     std::variant<int StepperSettings::*, double StepperSettings::*, std::uint64_t StepperSettings::*,
                  StepperKind StepperSettings::*, SorLaw StepperSettings::*,
-                 ConstraintSolver StepperSettings::*, Finish StepperSettings::*, Precision StepperSettings::*,
-                 Simd StepperSettings::*>;
+                 ConstraintSolver StepperSettings::*, Precision StepperSettings::*, Simd StepperSettings::*>;
 
 /// A value as HDF5 files store it.
 using StepValue = std::variant<std::int64_t, double, std::string>;

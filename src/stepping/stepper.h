@@ -50,14 +50,12 @@ enum class JointSolver { sweeps, hanging, tree };
 /// conjugate gradients.
 enum class ConstraintSolver { newton, pgs, cg };
 
-/// What ends the sweeps of the sor stepper over rigid rows: nothing, or Newton's method on each island.
-enum class Finish { none, newton };
-
-/// Which equations the sor stepper solves: those of soft constraints, or ODE's.
-enum class Law { soft, ode };
+/// Which equations the sor stepper solves: those of soft constraints, ODE's, or ODE's with Coulomb's cones of
+/// friction.
+enum class Law { soft, ode, coulomb };
 
 /// The equations of the sor stepper, and how its sweeps solve them: by default, those of `Law::soft`. A run
-/// chooses one of the two laws; their parts can be chosen one by one in C++ only.
+/// chooses one of the laws; their parts can be chosen one by one in C++ only.
 struct SorLaw {
   Law name = Law::soft;
   double sor_factor = 1;  ///< over-relaxation, above 0 and below 2
@@ -70,7 +68,8 @@ struct SorLaw {
   double joint_frequency = model::infinity;  ///< [Hz] frequency of joints as springs, likewise
   double joint_damping = 3;                  ///< damping ratio of joints as springs
   double contact_margin = 1;                 ///< contacts are found up to so many g dt^2 apart
-  Friction friction = Friction::patch;       ///< with Finish::newton it is a cone
+  Friction friction = Friction::patch;
+  bool newton = false;  ///< Newton's method ends the sweeps over rigid rows, on each island; needs cones
   JointSolver joint_solver = JointSolver::hanging;
   int most_substeps = 32;  ///< the most for tall islands, if above StepperSettings::substeps
   RowOrder row_order = RowOrder::shuffled;
@@ -92,18 +91,30 @@ constexpr SorLaw ode_law() {
           .friction = Friction::pyramid,
           .joint_solver = JointSolver::sweeps};
 }
-constexpr SorLaw law_named(Law name) { return name == Law::soft ? SorLaw{} : ode_law(); }
+
+/// ODE's equations with cones of friction, solved to rounding.
+constexpr SorLaw coulomb_law() {
+  SorLaw law = ode_law();
+  law.name = Law::coulomb;
+  law.friction = Friction::cone;
+  law.newton = true;
+  return law;
+}
+
+constexpr SorLaw law_named(Law name) {
+  if (name == Law::soft) return {};
+  return name == Law::ode ? ode_law() : coulomb_law();
+}
 
 /// What a run chooses about the step; the rest is in the Model. By default that of sor with its soft law;
 /// default_settings() has those of the other steppers.
 struct StepperSettings {
   StepperKind kind = StepperKind::sor;
   double dt_s = 0.01;
-  int iterations = 1;            ///< sweeps of an iterative solver, in each substep
-  int substeps = 14;             ///< sor: parts of a step without new collision detection
-  double tolerance_m = 0;        ///< sor: islands that move less get fewer substeps; 0: all get all of them
-  SorLaw law = {};               ///< sor; the others have ode_law()
-  Finish finish = Finish::none;  ///< sor
+  int iterations = 1;      ///< sweeps of an iterative solver, in each substep
+  int substeps = 14;       ///< sor: parts of a step without new collision detection
+  double tolerance_m = 0;  ///< sor: islands that move less get fewer substeps; 0: all get all of them
+  SorLaw law = {};         ///< sor; the others have ode_law()
   ConstraintSolver constraint_solver = ConstraintSolver::newton;  ///< mujoco
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;

@@ -10,7 +10,7 @@ namespace pbmpi::stepping {
 struct StepperTraits {
   bool iterates = false;                ///< StepperSettings::iterations counts
   int own_iterations = 0;               ///< by default; 0: those of the scene, which are meant for quick and
-                                        ///< for sor with ODE's law
+                                        ///< for sor with ODE's laws
   bool has_field = false;               ///< gives islands outside of a field of interest fewer iterations
   bool has_laws = false;                ///< StepperSettings::law can be chosen
   bool has_substeps = false;            ///< can share one collision detection among parts of a step
@@ -61,7 +61,7 @@ constexpr StepperSettings default_settings(StepperKind kind, Law law = Law::soft
   constexpr int iterations_of_quick = 20;  // ODE's default, and the scenes'
   StepperSettings settings{.kind = kind, .iterations = default_iterations(kind, law, iterations_of_quick)};
   if (traits_of(kind).has_laws && law == Law::soft) return settings;
-  settings.law = ode_law();
+  settings.law = traits_of(kind).has_laws ? law_named(law) : ode_law();
   settings.substeps = 1;
   return settings;
 }

@@ -89,8 +89,9 @@ TEST(Options, parts_of_a_law_cannot_be_chosen) {
   for (const char* part : {"--sor-factor", "--warm-start", "--relax", "--contact-frequency", "--joint-solver",
                            "--friction", "--row-order", "--colliders"})
     EXPECT_NE(refusal({"--scene", "Fake", part, "1"}).find("unknown option"), std::string::npos) << part;
-  EXPECT_NE(refusal({"--scene", "Fake", "--law", "hard"}).find("--law hard: it must be one of soft, ode"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal({"--scene", "Fake", "--law", "hard"}).find("--law hard: it must be one of soft, ode, coulomb"),
+      std::string::npos);
 }
 
 TEST(Options, sor_starts_with_the_step_that_has_a_memory) {

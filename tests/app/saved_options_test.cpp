@@ -31,8 +31,8 @@ TEST(SavedOptions, give_the_same_run_when_they_are_read_again) {
   const std::vector<std::vector<std::string>> runs = {
       {"--scene", "Fake"},
       {"--scene", "Fake", "--stepper", "quick", "--dt", "0.1", "--replicas", "7"},
-      {"--scene", "Fake", "--substeps", "4", "--law", "ode", "--finish", "newton", "--precision", "single",
-       "--simd", "sse2", "--decompose", "worlds", "--spaces", "one"},
+      {"--scene", "Fake", "--substeps", "4", "--law", "coulomb", "--precision", "single", "--simd", "sse2",
+       "--decompose", "worlds", "--spaces", "one"},
       {"--scene", "Fake", "--seed", "18446744073709551615", "--solver-seed", "3", "--record-every", "5",
        "--budget", "2ms"},
       {"--scene", "Fake", "--feec=quick iterations=3"},

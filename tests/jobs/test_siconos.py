@@ -16,7 +16,7 @@ import recorded_steps  # noqa: E402
 import solve  # noqa: E402
 from harness import PBMPI, ProgramTest  # noqa: E402
 
-REFERENCE = {"law": "ode", "finish": "newton", "iterations": 200, "steps-per-frame": 1, "warmup": 0}
+REFERENCE = {"law": "coulomb", "iterations": 200, "steps-per-frame": 1, "warmup": 0}
 
 MASS, RADIUS, DEPTH, SPEED, SOFT, CFM, ERP, MU, STEP = 4.0, 0.5, 0.001, 0.3, 2e-6, 1e-10, 0.2, 0.5, 0.01
 BALL = f"""title = "a ball that slides on the ground"
@@ -151,7 +151,7 @@ class Siconos(ProgramTest):
 
     def test_runs_that_hide_a_step_are_refused(self):
         """A frame of several steps, and a pyramid of friction."""
-        for options in ({"steps_per_frame": 3}, {"finish": "none"}):
+        for options in ({"steps_per_frame": 3}, {"law": "ode"}):
             self.record(self.write("ball.toml", BALL), 1, **options)
             with self.assertRaises(ValueError):
                 recorded_steps.Steps(self.path("run.h5"))

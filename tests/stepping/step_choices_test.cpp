@@ -50,14 +50,12 @@ TEST(StepChoices, of_a_law_bring_its_substeps_and_iterations_unless_others_are_c
   EXPECT_EQ(ode.iterations, 33) << "those of the scene, as with quick";
   EXPECT_EQ(chosen({{"law", "ode"}, {"iterations", "80"}, {"substeps", "2"}}).iterations, 80);
   EXPECT_EQ(chosen({{"law", "ode"}, {"iterations", "80"}, {"substeps", "2"}}).substeps, 2);
+  const StepperSettings coulomb = chosen({{"law", "coulomb"}});
+  EXPECT_EQ(coulomb.law, coulomb_law());
+  EXPECT_EQ(coulomb.substeps, 1);
+  EXPECT_EQ(coulomb.iterations, 33);
   EXPECT_EQ(chosen({{"law", "soft"}}).substeps, 14);
   EXPECT_EQ(chosen({{"stepper", "quick"}}).law, ode_law());
-}
-
-TEST(StepChoices, newton_finishes_the_law_of_ode_alone) {
-  EXPECT_EQ(refusal({{"finish", "newton"}, {"law", "ode"}}), "");
-  EXPECT_EQ(refusal({{"finish", "newton"}}, "--"),
-            "--finish newton: it solves the rigid rows of --law ode; give that law, too");
 }
 
 TEST(StepChoices, that_cannot_be_are_refused_by_name) {

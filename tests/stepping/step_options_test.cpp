@@ -33,7 +33,6 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.substeps = 3;
   settings.tolerance_m = 1.0 / 17;
   settings.constraint_solver = ConstraintSolver::pgs;
-  settings.finish = Finish::newton;
   settings.precision = Precision::single;
   settings.simd = Simd::avx2;
   settings.threads = 3;
@@ -68,6 +67,8 @@ TEST(StepOptions, are_by_default_those_of_sor_with_its_soft_law_and_a_text_names
   settings.substeps = 4;
   EXPECT_EQ(setting_text(settings), "sor double, 4 x 1, tolerance 0.001 m");
   EXPECT_EQ(setting_text(default_settings(StepperKind::sor, Law::ode)), "sor double, 1 x 20, law ode");
+  EXPECT_EQ(setting_text(default_settings(StepperKind::sor, Law::coulomb)),
+            "sor double, 1 x 20, law coulomb");
   EXPECT_EQ(setting_text(default_settings(StepperKind::quick)), "quick, 1 x 20");
 }
 
@@ -79,7 +80,7 @@ TEST(StepOptions, a_law_is_set_and_restored_by_its_name) {
   EXPECT_EQ(std::get<std::string>(value_of(step_option("law"), settings)), "ode");
   restore(step_option("law"), "soft", settings);
   EXPECT_EQ(settings.law, SorLaw{});
-  EXPECT_EQ(refusal("law", "hard"), "--law hard: it must be one of soft, ode");
+  EXPECT_EQ(refusal("law", "hard"), "--law hard: it must be one of soft, ode, coulomb");
 }
 
 TEST(StepOptions, impossible_values_are_refused_by_name) {
@@ -103,7 +104,7 @@ TEST(StepOptions, a_length_may_have_a_unit) {
 }
 
 TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
-  for (const char* name : {"law", "substeps", "tolerance", "finish", "precision", "simd", "threads"}) {
+  for (const char* name : {"law", "substeps", "tolerance", "precision", "simd", "threads"}) {
     EXPECT_TRUE(fits(step_option(name), StepperKind::sor));
     EXPECT_FALSE(fits(step_option(name), StepperKind::quick));
     EXPECT_FALSE(fits(step_option(name), StepperKind::direct));

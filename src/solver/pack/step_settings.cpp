@@ -21,8 +21,8 @@ void require_valid(const stepping::StepperSettings& settings) {
                       "warm start: the share of the impulses to take over is 0 to 1");
   const stepping::SorLaw& law = settings.law;
   const bool is_rigid = law.relax == 0 && law.contact_frequency == 0 && law.joint_frequency == 0;
-  core::require_input(settings.finish == stepping::Finish::none || is_rigid,
-                      "--finish newton solves rigid rows: it needs --law ode");
+  core::require_input(!law.newton || (is_rigid && law.friction == stepping::Friction::cone),
+                      "Newton's method solves rigid rows with cones of friction: it needs --law coulomb");
   core::require_input(has_simd(settings.simd),
                       "this machine lacks the instruction set asked for with --simd; use auto");
 }
@@ -63,8 +63,8 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   parameters.joint_places = joint_place_spring(settings);
   parameters.joint_turns = joint_turn_spring(settings);
   parameters.joint_solver = settings.law.joint_solver;
-  parameters.newton = settings.finish == stepping::Finish::newton;
-  parameters.friction = parameters.newton ? stepping::Friction::cone : settings.law.friction;
+  parameters.newton = settings.law.newton;
+  parameters.friction = settings.law.friction;
   parameters.residuals = settings.residuals;
   parameters.show_forces = settings.contacts;
   parameters.shuffled = settings.law.row_order == stepping::RowOrder::shuffled;

@@ -21,7 +21,7 @@ SOR = {
     "law ode": ODE_LAW,
     "law ode, 4 x 2, single": (*ODE_LAW, "--substeps", 4, "--iterations", 2, "--precision", "single"),
     "4 x 2": ("--substeps", 4, "--iterations", 2),
-    "newton": (*ODE_LAW, "--finish", "newton", "--iterations", 2),
+    "law coulomb": ("--stepper", "sor", "--law", "coulomb", "--iterations", 2),
     "half the step": ("--dt", 0.005),
     "sleeping": ("--effects", "+sleeping,+drag"),
     "tolerance": ("--tolerance", "0.1mm"),

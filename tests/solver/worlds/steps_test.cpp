@@ -49,15 +49,15 @@ std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out
 std::vector<Setting> every_setting() {
   const StepperSettings by_default = default_settings(stepping::StepperKind::sor);
   const StepperSettings ode_law = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
-  StepperSettings single = by_default, fixed = by_default, newton = ode_law;
-  newton.finish = stepping::Finish::newton;
+  const StepperSettings coulomb = default_settings(stepping::StepperKind::sor, stepping::Law::coulomb);
+  StepperSettings single = by_default, fixed = by_default;
   single.precision = stepping::Precision::single;
   fixed.law.row_order = stepping::RowOrder::fixed;
   return {{"default", by_default},
           {"single", single},
           {"fixed_order", fixed},
           {"ode_law", ode_law},
-          {"newton", newton}};
+          {"coulomb", coulomb}};
 }
 
 /// A stepper of crashes, and how many steps each has taken since its start.

@@ -13,7 +13,7 @@ namespace po = boost::program_options;
 /// In the order in which cases are crossed, the last varying fastest.
 constexpr std::array<VariedOption, 7> varied = {{
     {"stepper", "quick, direct, sor, bullet, mujoco; default: quick sor", "quick sor"},
-    {"law", "sor: ode, soft; default: both", "ode soft"},
+    {"law", "sor: ode, soft, coulomb; default: ode soft", "ode soft"},
     {"iterations", "but of --law soft, which takes 1; default: 1 2 3 5 10 15 19 20 40 80",
      "1 2 3 5 10 15 19 20 40 80"},
     {"substeps", "sor; default: 1 3 7 14 28", "1 3 7 14 28"},

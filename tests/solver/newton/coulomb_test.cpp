@@ -12,17 +12,16 @@ namespace pbmpi::solver {
 namespace {
 
 using model::Vec3;
-using stepping::Finish;
+using stepping::Law;
 using stepping::StepperSettings;
 
-StepperSettings ode_law(int iterations, Finish finish) {
-  StepperSettings settings = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
+StepperSettings with_memory(int iterations, Law law) {
+  StepperSettings settings = default_settings(stepping::StepperKind::sor, law);
   settings.iterations = iterations;
   settings.law.sor_factor = 1;
   settings.law.warm_start = 1;
   settings.law.friction = stepping::Friction::cone;
   settings.residuals = true;
-  settings.finish = finish;
   return settings;
 }
 
@@ -51,10 +50,10 @@ double largest_difference(const model::State& a, const model::State& b) {
   return largest;
 }
 
-TEST(Finish, by_newton_is_where_very_many_sweeps_lead) {
+TEST(Coulomb, is_where_very_many_sweeps_lead) {
   const model::Model model = dragged_box();
-  const auto few = make_stepper(ode_law(5, Finish::newton), {model});
-  const auto many = make_stepper(ode_law(40000, Finish::none), {model});
+  const auto few = make_stepper(with_memory(5, Law::coulomb), {model});
+  const auto many = make_stepper(with_memory(40000, Law::ode), {model});
   for (int step = 0; step < 12; ++step) {
     advance(*few, 1);
     advance(*many, 1);
@@ -63,9 +62,9 @@ TEST(Finish, by_newton_is_where_very_many_sweeps_lead) {
   EXPECT_LT(largest_difference(few->state(0), many->state(0)), 1e-7);
 }
 
-TEST(Finish, by_newton_leaves_far_smaller_residuals_of_a_crash) {
-  const auto plain = make_stepper(ode_law(100, Finish::none), {support::crash()});
-  const auto finished = make_stepper(ode_law(100, Finish::newton), {support::crash()});
+TEST(Coulomb, leaves_far_smaller_residuals_of_a_crash) {
+  const auto plain = make_stepper(with_memory(100, Law::ode), {support::crash()});
+  const auto finished = make_stepper(with_memory(100, Law::coulomb), {support::crash()});
   double most_plain = 0, most_finished = 0;
   for (int step = 0; step < 20; ++step) {
     advance(*plain, 1);
@@ -79,11 +78,11 @@ TEST(Finish, by_newton_leaves_far_smaller_residuals_of_a_crash) {
   EXPECT_LT(most_finished, 1e-6);  // [m/s, rad/s] of some 10; measured 1.6e-8
 }
 
-TEST(Finish, by_newton_has_the_same_bits_in_any_lanes) {
+TEST(Coulomb, has_the_same_bits_in_any_lanes) {
   for (const auto precision : {stepping::Precision::double_, stepping::Precision::single}) {
     std::vector<std::uint64_t> hashes;
     for (const stepping::Simd simd : machine_simds()) {
-      StepperSettings settings = ode_law(10, Finish::newton);
+      StepperSettings settings = with_memory(10, Law::coulomb);
       settings.precision = precision;
       settings.simd = simd;
       settings.substeps = 2;
@@ -99,25 +98,16 @@ TEST(Finish, by_newton_has_the_same_bits_in_any_lanes) {
   }
 }
 
-TEST(Finish, by_newton_is_of_rigid_rows_alone) {
+TEST(Coulomb, is_of_rigid_rows_with_cones_alone) {
   const auto refused = [](auto change) {
-    StepperSettings settings = ode_law(10, Finish::newton);
+    StepperSettings settings = with_memory(10, Law::coulomb);
     change(settings);
     EXPECT_THROW(make_stepper(settings), core::InputError);
   };
   refused([](StepperSettings& settings) { settings.law.relax = 1; });
   refused([](StepperSettings& settings) { settings.law.contact_frequency = 60; });
   refused([](StepperSettings& settings) { settings.law.joint_frequency = 60; });
-}
-
-TEST(Finish, by_newton_has_cones_of_friction_whatever_the_law_has) {
-  StepperSettings pyramids = ode_law(10, Finish::newton);
-  pyramids.law.friction = stepping::Friction::pyramid;
-  const auto a = make_stepper(ode_law(10, Finish::newton), {dragged_box()}),
-             b = make_stepper(pyramids, {dragged_box()});
-  advance(*a, 5);
-  advance(*b, 5);
-  EXPECT_EQ(model::hash(a->state(0)), model::hash(b->state(0)));
+  refused([](StepperSettings& settings) { settings.law.friction = stepping::Friction::pyramid; });
 }
 
 }  // namespace
