@@ -120,7 +120,7 @@ run_point() {
   read -r -a given <<<"${PBMPI_MPIRUN_OPTIONS:-}"
   run_until_stopped mpirun "${host_options[@]}" "${mpi_options[@]}" "${given[@]}" -n "$count" "$(command -v pbmpi)" --scene "$scene" \
     --replicas "$worlds" --decompose "$how" --frames "$frames" --record-every "$((frames + 3))" --warmup 3 --quiet \
-    --no-xdmf --output "$file" "$@" "${limit[@]}"
+    --output "$file" "$@" "${limit[@]}"
 }
 
 # stop CODE: of a run that did not end well.
@@ -148,7 +148,7 @@ for case in "${cases[@]}"; do
   file=$out/$(name_of_scene "$scene")-islands.h5
   readarray -t limit < <(time_limit)
   is_complete "$file" || run_until_stopped pbmpi --scene "$scene" --replicas 1 --stepper quick --record-islands \
-    --frames "$frames" --warmup 3 --quiet --no-xdmf --output "$file" "${limit[@]}" || stop $?
+    --frames "$frames" --warmup 3 --quiet --output "$file" "${limit[@]}" || stop $?
 done
 
 # The other tasks of an array may be at work: on runs that are not complete yet, and on the report.

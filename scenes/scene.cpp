@@ -58,7 +58,6 @@ struct ActorEntry {
 /// The defaults of the scene that the caller replaces.
 struct Choices {
   std::optional<double> dt_s;
-  std::optional<SpacesForm> spaces;
   model::EffectChoices effects;
 };
 
@@ -71,7 +70,6 @@ class FileScene final : public Scene {
     title_ = scene.text("title");
     read_defaults(scene);
     if (choices.dt_s) defaults_.dt_s = *choices.dt_s;
-    if (choices.spaces) defaults_.spaces = *choices.spaces;
     read_effects(scene);
     for (const auto& [name, on] : choices.effects) defaults_.effects[name] = on;
     read_world(scene, empty_);
@@ -116,7 +114,7 @@ class FileScene final : public Scene {
  private:
   std::shared_ptr<const model::Model> build(int world, std::uint64_t seed) const {
     auto result = std::make_shared<model::Model>(empty_);
-    if (defaults_.spaces == SpacesForm::one) result->spaces.resize(1);
+    if (in_one_space_) result->spaces.resize(1);
     for (std::size_t i = 0; i < actors_.size(); ++i) place_copies(i, world, seed, *result);
     for (const PairPlan& pair : pairs_) pair.put_into(*result);
     for (const JointPlan& joint : joints_) joint(*result);
@@ -163,7 +161,7 @@ class FileScene final : public Scene {
     defaults_.iterations = run->integer("iterations", 1, defaults_.iterations);
     const std::string form = run->text("spaces", "many");
     if (form != "one" && form != "many") run->fail("spaces", "'spaces' must be \"one\" or \"many\"");
-    defaults_.spaces = form == "one" ? SpacesForm::one : SpacesForm::many;
+    in_one_space_ = form == "one";
     run->finish();
   }
 
@@ -258,7 +256,7 @@ class FileScene final : public Scene {
       place.pose.position = actor.position + actor.copies.offset(copy) + offset.position;
       place.pose.orientation = rotation(radians(actor.heading_deg + offset.heading_deg), Vec3::UnitZ());
       place.velocity = actor.velocity + offset.velocity;
-      place.space = defaults_.spaces == SpacesForm::one ? 0 : actor.space;
+      place.space = in_one_space_ ? 0 : actor.space;
       place.copy = copy;
       try {
         actor.plan(place, model);
@@ -324,7 +322,8 @@ class FileScene final : public Scene {
   toml::table toml_;
   std::string title_;
   RunDefaults defaults_;
-  model::Model empty_;  ///< what every world has before its actors are added
+  bool in_one_space_ = false;  ///< all named spaces are one
+  model::Model empty_;         ///< what every world has before its actors are added
   std::vector<ActorEntry> actors_;
   std::vector<PairPlan> pairs_;
   std::vector<JointPlan> joints_;
@@ -342,12 +341,12 @@ class FileScene final : public Scene {
 }  // namespace
 
 std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s,
-                                   std::optional<SpacesForm> spaces, const model::EffectChoices& effects) {
+                                   const model::EffectChoices& effects) {
   if (dt_s) {
     core::require_input(std::isfinite(*dt_s) && *dt_s > 0,
                         "dt is " + std::to_string(*dt_s) + " s; it must be finite and above 0");
   }
-  auto scene = std::make_unique<FileScene>(source, Choices{dt_s, spaces, effects}, parse_with_base(source));
+  auto scene = std::make_unique<FileScene>(source, Choices{dt_s, effects}, parse_with_base(source));
   scene->build(0, 0,
                {});  // detects early what only shows in a built world: joints to bodies that do not exist
   return scene;

@@ -13,10 +13,6 @@
 
 namespace pbmpi::scenes {
 
-/// A scene's named spaces, or one space instead: the same world, cut differently. A world's physics does not
-/// depend on it.
-enum class SpacesForm { one, many };
-
 /// What a scene file proposes for a run; the command line overrides each value.
 struct RunDefaults {
   int replicas = 1;
@@ -25,7 +21,6 @@ struct RunDefaults {
   int steps_per_frame = 3;
   double dt_s = 0.01;
   int iterations = 20;
-  SpacesForm spaces = SpacesForm::many;
   model::EffectChoices effects;  ///< merged one effect at a time
 };
 
@@ -82,10 +77,9 @@ std::vector<SceneSource> bases_of(const SceneSource& source);
 /// Parses a scene: TOML, or, if the text begins with '<', a model that becomes the scene's only actor. Throws
 /// core::InputError ("file:line:column: ...") for malformed files, unknown keys and impossible values. Rank 0
 /// finds and reads the text, and every rank parses the same text. `dt_s` replaces the file's own time step:
-/// programmes given in seconds (steering) are converted to steps with it. `spaces` replaces the file's `[run]
-/// spaces`; `effects` take precedence over those of the file's `[effects]`.
+/// programmes given in seconds (steering) are converted to steps with it. `effects` take precedence over
+/// those of the file's `[effects]`.
 std::unique_ptr<Scene> parse_scene(const SceneSource& source, std::optional<double> dt_s = std::nullopt,
-                                   std::optional<SpacesForm> spaces = std::nullopt,
                                    const model::EffectChoices& effects = {});
 
 }  // namespace pbmpi::scenes

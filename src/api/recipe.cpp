@@ -97,7 +97,7 @@ Recipe::Recipe(const mpi::Communicator& comm, const BatchOptions& options)
     choices_ = choices_of(options);
     const std::optional<double> dt_s =
         choices_.has("dt") ? std::optional(choices_.settings.dt_s) : std::nullopt;
-    scene_ = scenes::parse_scene(source_, dt_s, std::nullopt, effects_of(options));
+    scene_ = scenes::parse_scene(source_, dt_s, effects_of(options));
     settings(options.seed);
     core::require_input(options.num_worlds >= 0, "num_worlds " + std::to_string(options.num_worlds) +
                                                      ": it must be at least 1, or 0 for the scene's own");

@@ -80,18 +80,6 @@ std::string size_of(const model::Geom& geom) {
   return "0 0 1";
 }
 
-const char* solver_name(stepping::ConstraintSolver solver) {
-  switch (solver) {
-    case stepping::ConstraintSolver::newton:
-      return "Newton";
-    case stepping::ConstraintSolver::pgs:
-      return "PGS";
-    case stepping::ConstraintSolver::cg:
-      return "CG";
-  }
-  throw std::logic_error("mujoco: a solver without a name");
-}
-
 class Writer {
  public:
   Writer(const MjcfParts& parts, int stack)
@@ -125,8 +113,7 @@ class Writer {
     const double dt_s = parts_.settings.dt_s;
     const effects::StepPlan plan(model);
     const bool collides = plan.has(effects::EffectId::collision);
-    text_ += "<option integrator='implicit' cone='elliptic' jacobian='auto'" +
-             attribute("solver", solver_name(parts_.settings.constraint_solver)) +
+    text_ += "<option integrator='implicit' cone='elliptic' jacobian='auto'" + attribute("solver", "Newton") +
              attribute("timestep", numbers({dt_s})) + attribute("gravity", numbers(model.gravity)) +
              attribute("iterations", std::to_string(parts_.settings.iterations)) +
              "><flag constraint='disable' warmstart='disable' filterparent='disable'" +

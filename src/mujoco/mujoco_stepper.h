@@ -10,7 +10,7 @@
 
 namespace pbmpi::mujoco {
 
-/// Each articulation is a kinematic tree in MuJoCo's joint coordinates. `constraint_solver` makes at most
+/// Each articulation is a kinematic tree in MuJoCo's joint coordinates. MuJoCo's Newton solver makes at most
 /// `iterations` iterations, with elliptic friction cones, and the integrator is the implicit one
 /// (docs/steppers.md, "mujoco"). Warnings go to stderr after `warning_prefix`.
 ///

@@ -15,7 +15,6 @@ inline constexpr std::array<std::string_view, 2> precision_names = {"double", "s
 inline constexpr std::array<std::string_view, 5> simd_names = {"auto", "sse2", "avx2", "avx512", "off"};
 inline constexpr std::array<std::string_view, 3> law_names = {"soft", "ode", "coulomb"};
 inline constexpr std::array<std::string_view, 2> row_order_names = {"shuffled", "fixed"};
-inline constexpr std::array<std::string_view, 3> constraint_solver_names = {"newton", "pgs", "cg"};
 
 constexpr std::string_view name_of(StepperKind kind) { return stepper_kind_names[static_cast<int>(kind)]; }
 constexpr std::string_view name_of(Precision precision) {
@@ -23,9 +22,6 @@ constexpr std::string_view name_of(Precision precision) {
 }
 constexpr std::string_view name_of(Simd simd) { return simd_names[static_cast<int>(simd)]; }
 constexpr std::string_view name_of(Law law) { return law_names[static_cast<int>(law)]; }
-constexpr std::string_view name_of(ConstraintSolver solver) {
-  return constraint_solver_names[static_cast<int>(solver)];
-}
 constexpr std::string_view name_of(RowOrder order) { return row_order_names[static_cast<int>(order)]; }
 
 }  // namespace pbmpi::stepping

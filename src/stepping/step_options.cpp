@@ -21,7 +21,7 @@ bool is_length(double value) { return std::isfinite(value) && value > 0; }
 bool is_magnitude(double value) { return std::isfinite(value) && value >= 0; }
 bool is_thread_count(double value) { return value >= 1 && value <= 1024; }
 
-constexpr std::array<StepOption, 11> options = {{
+constexpr std::array<StepOption, 10> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
      .placeholder = "sor|quick|direct|bullet|mujoco",
@@ -52,8 +52,7 @@ constexpr std::array<StepOption, 11> options = {{
      .placeholder = "N",
      .meaning =
          "sweeps of the iterative solver, in each substep; default: the scene's (20) with quick and --law "
-         "ode or coulomb, 1 with --law soft, 10 with bullet; with mujoco the most iterations of its "
-         "--constraint-solver, 100",
+         "ode or coulomb, 1 with --law soft, 10 with bullet; with mujoco the most of Newton's method, 100",
      .allows = at_least_1,
      .limit = "it must be at least 1"},
     {.name = "substeps",
@@ -75,14 +74,6 @@ constexpr std::array<StepOption, 11> options = {{
      .limit = "a tolerance is a length, e.g. 0.1mm, or 0",
      .in_short = "tolerance * m",
      .unit = "m"},
-    {.name = "constraint-solver",
-     .member = &Settings::constraint_solver,
-     .placeholder = "newton|pgs|cg",
-     .meaning =
-         "mujoco: Newton's method, projected Gauss-Seidel, or conjugate gradients, of which --iterations "
-         "are the most steps, sweeps or steps; default: newton",
-     .needs = &Traits::has_constraint_solvers,
-     .in_short = "*"},
     {.name = "precision",
      .member = &Settings::precision,
      .placeholder = "double|single",
@@ -118,7 +109,6 @@ constexpr std::array<StepOption, 11> options = {{
 
 constexpr const auto& names_of(StepperKind) { return stepper_kind_names; }
 constexpr const auto& names_of(Law) { return law_names; }
-constexpr const auto& names_of(ConstraintSolver) { return constraint_solver_names; }
 constexpr const auto& names_of(Precision) { return precision_names; }
 constexpr const auto& names_of(Simd) { return simd_names; }
 
@@ -205,19 +195,6 @@ void set(const StepOption& option, std::string_view text, const std::string& wha
          StepperSettings& settings) {
   std::visit([&](auto member) { settings.*member = parse(text, what, option, settings.*member); },
              option.member);
-}
-
-void restore(const StepOption& option, const StepValue& value, StepperSettings& settings) {
-  const auto put = [&](auto member) {
-    using Member = std::remove_reference_t<decltype(settings.*member)>;
-    if constexpr (is_word<Member>)
-      settings.*member = parse(std::get<std::string>(value), std::string(option.name), option, Member{});
-    else if constexpr (std::is_integral_v<Member>)
-      settings.*member = static_cast<Member>(std::get<std::int64_t>(value));
-    else
-      settings.*member = std::get<double>(value);
-  };
-  std::visit(put, option.member);
 }
 
 std::string stepper_text(const StepperSettings& settings) {

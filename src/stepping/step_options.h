@@ -16,8 +16,8 @@ namespace pbmpi::stepping {
 /// The member of StepperSettings that an option sets.
 using StepMember =
     std::variant<int StepperSettings::*, double StepperSettings::*, std::uint64_t StepperSettings::*,
-                 StepperKind StepperSettings::*, SorLaw StepperSettings::*,
-                 ConstraintSolver StepperSettings::*, Precision StepperSettings::*, Simd StepperSettings::*>;
+                 StepperKind StepperSettings::*, SorLaw StepperSettings::*, Precision StepperSettings::*,
+                 Simd StepperSettings::*>;
 
 /// A value as HDF5 files store it.
 using StepValue = std::variant<std::int64_t, double, std::string>;
@@ -63,9 +63,6 @@ bool is_default(const StepOption& option, const StepperSettings& settings);
 /// Sets the value that `text` names. Throws core::InputError, opening with `what` (e.g. "--precision"), if
 /// there is no such value. A law brings none of its default_settings() but itself.
 void set(const StepOption& option, std::string_view text, const std::string& what, StepperSettings& settings);
-
-/// Inverse of value_of(). Throws core::InputError for a name that no enumerator has.
-void restore(const StepOption& option, const StepValue& value, StepperSettings& settings);
 
 /// The stepper's name, and its precision where it has a choice: "quick", "sor single".
 std::string stepper_text(const StepperSettings& settings);

@@ -46,10 +46,6 @@ enum class Friction { pyramid, cone, patch };
 /// contacts see the foot and not the body.
 enum class JointSolver { sweeps, hanging, tree };
 
-/// MuJoCo's solver for its convex constraint problem: Newton's method, projected Gauss-Seidel on the dual, or
-/// conjugate gradients.
-enum class ConstraintSolver { newton, pgs, cg };
-
 /// Which equations the sor stepper solves: those of soft constraints, ODE's, or ODE's with Coulomb's cones of
 /// friction.
 enum class Law { soft, ode, coulomb };
@@ -115,7 +111,6 @@ struct StepperSettings {
   int substeps = 14;       ///< sor: parts of a step without new collision detection
   double tolerance_m = 0;  ///< sor: islands that move less get fewer substeps; 0: all get all of them
   SorLaw law = {};         ///< sor; the others have ode_law()
-  ConstraintSolver constraint_solver = ConstraintSolver::newton;  ///< mujoco
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;
   int threads = 1;         ///< sor: that step packs of worlds at the same time; moves no bit

@@ -8,18 +8,17 @@
 namespace pbmpi::stepping {
 
 struct StepperTraits {
-  bool iterates = false;                ///< StepperSettings::iterations counts
-  int own_iterations = 0;               ///< by default; 0: those of the scene, which are meant for quick and
-                                        ///< for sor with ODE's laws
-  bool has_field = false;               ///< gives islands outside of a field of interest fewer iterations
-  bool has_laws = false;                ///< StepperSettings::law can be chosen
-  bool has_substeps = false;            ///< can share one collision detection among parts of a step
-  bool has_precision = false;           ///< can compute in another number type than double
-  bool has_lanes = false;               ///< works in vector lanes: instructions can be chosen
-  bool has_constraint_solvers = false;  ///< ConstraintSolver can be chosen
-  bool cuts_spaces = false;             ///< has a SpaceStepper: one world can be cut over ranks
-  bool shows_residuals = false;         ///< measures Observables::residuals
-  bool profiles_islands = false;        ///< WorldStepper::profile_last_step() measures single islands
+  bool iterates = false;          ///< StepperSettings::iterations counts
+  int own_iterations = 0;         ///< by default; 0: those of the scene, which are meant for quick and
+                                  ///< for sor with ODE's laws
+  bool has_field = false;         ///< gives islands outside of a field of interest fewer iterations
+  bool has_laws = false;          ///< StepperSettings::law can be chosen
+  bool has_substeps = false;      ///< can share one collision detection among parts of a step
+  bool has_precision = false;     ///< can compute in another number type than double
+  bool has_lanes = false;         ///< works in vector lanes: instructions can be chosen
+  bool cuts_spaces = false;       ///< has a SpaceStepper: one world can be cut over ranks
+  bool shows_residuals = false;   ///< measures Observables::residuals
+  bool profiles_islands = false;  ///< WorldStepper::profile_last_step() measures single islands
   /// Time of a sweep (of a solve, for a stepper without sweeps) over that of sor: roughly, to deal out work.
   double relative_cost = 1;
 };
@@ -36,11 +35,8 @@ inline constexpr std::array<StepperTraits, 5> stepper_traits = {{
      .has_lanes = true,
      .cuts_spaces = true,
      .shows_residuals = true},
-    {.iterates = true, .own_iterations = 10, .relative_cost = 8},  // Bullet's btContactSolverInfo
-    {.iterates = true,
-     .own_iterations = 100,
-     .has_constraint_solvers = true,
-     .relative_cost = 1},  // mjOption::iterations; few are done
+    {.iterates = true, .own_iterations = 10, .relative_cost = 8},   // Bullet's btContactSolverInfo
+    {.iterates = true, .own_iterations = 100, .relative_cost = 1},  // mjOption::iterations; few are done
 }};
 
 constexpr const StepperTraits& traits_of(StepperKind kind) {

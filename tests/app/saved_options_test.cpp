@@ -32,7 +32,7 @@ TEST(SavedOptions, give_the_same_run_when_they_are_read_again) {
       {"--scene", "Fake"},
       {"--scene", "Fake", "--stepper", "quick", "--dt", "0.1", "--replicas", "7"},
       {"--scene", "Fake", "--substeps", "4", "--law", "coulomb", "--precision", "single", "--simd", "sse2",
-       "--decompose", "worlds", "--spaces", "one"},
+       "--decompose", "worlds"},
       {"--scene", "Fake", "--seed", "18446744073709551615", "--solver-seed", "3", "--record-every", "5",
        "--budget", "2ms"},
       {"--scene", "Fake", "--feec=quick iterations=3"},
@@ -64,13 +64,22 @@ TEST(SavedOptions, each_that_decides_the_bits_is_refused_if_it_changes) {
   }
 }
 
+TEST(SavedOptions, that_are_gone_are_refused_by_name) {
+  try {
+    resolved({"--scene", "Fake"}, "finish = none\n");
+    FAIL() << "nothing was refused";
+  } catch (const core::InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("the options in the checkpoint: unknown option 'finish'"), 0u)
+        << error.what();
+  }
+}
+
 TEST(SavedOptions, others_may_change) {
   const std::string before = saved({"--scene", "Fake"});
-  EXPECT_EQ(
-      refusal({"--scene", "Fake", "--frames", "99", "--warmup", "0", "--record-every", "2", "--simd", "off",
-               "--threads", "4", "--decompose", "worlds", "--spaces", "one", "--feec", "--budget", "1ms"},
-              before),
-      "");
+  EXPECT_EQ(refusal({"--scene", "Fake", "--frames", "99", "--warmup", "0", "--record-every", "2", "--simd",
+                     "off", "--threads", "4", "--decompose", "worlds", "--feec", "--budget", "1ms"},
+                    before),
+            "");
 }
 
 TEST(Resume, output_goes_to_a_file_of_its_own_beside_the_first) {

@@ -92,7 +92,7 @@ class Signals(ProgramTest):
 
     def test_ranks_that_wait_for_a_stopped_one_say_what_for_and_end(self):
         process = self.start(2, "--scene", "CrashSk", "--replicas", "100000", "--frames", "1", "--no-output", "--quiet",
-                             "--wait-limit", "4", env={**os.environ, **AT_ONCE})
+                             env={**os.environ, **AT_ONCE, "PBMPI_WAIT_LIMIT": "4"})
         wait_until(lambda: memory_bytes(rank_pids(process).get(1)) > 2e8, "rank 1 to build worlds")
         os.kill(rank_pids(process)[1], signal.SIGSTOP)
         self.assertEqual(process.wait(timeout=TIMEOUT_S), 1)

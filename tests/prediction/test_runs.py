@@ -97,7 +97,7 @@ class Runs(ToolTest):
     def test_quick_in_single_precision_is_near_quick_and_holds_single_numbers(self):
         positions = {}
         for program in (PBMPI, SINGLE):
-            subprocess.run([program, "--scene", "2-Cars", "--stepper", "quick", "--warmup", "0", "--frames", "1", "--no-xdmf", "--quiet",
+            subprocess.run([program, "--scene", "2-Cars", "--stepper", "quick", "--warmup", "0", "--frames", "1", "--quiet",
                             "--output", self.path("run.h5")], check=True, timeout=60, env=self.environment)
             with h5py.File(self.path("run.h5")) as file:
                 positions[program] = file["particles/bodies/position/value"][:]

@@ -136,7 +136,7 @@ class Resumed(Files):
                      ["--resume", "run.ck.h5", "--frames", "12", "--output", "third.h5"],
                      [*scene, "--frames", "3", "--output", "seed.h5", "--seed", "2"],
                      ["--scene", "CrashSk", "--frames", "3", "--output", "one.h5"]):
-            subprocess.run([PBMPI, "--quiet", "--no-xdmf", *args], cwd=cls.files, check=True)
+            subprocess.run([PBMPI, "--quiet", *args], cwd=cls.files, check=True)
 
     def setUp(self):
         super().setUp()

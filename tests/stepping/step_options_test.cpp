@@ -32,7 +32,6 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.iterations = 7;
   settings.substeps = 3;
   settings.tolerance_m = 1.0 / 17;
-  settings.constraint_solver = ConstraintSolver::pgs;
   settings.precision = Precision::single;
   settings.simd = Simd::avx2;
   settings.threads = 3;
@@ -72,13 +71,13 @@ TEST(StepOptions, are_by_default_those_of_sor_with_its_soft_law_and_a_text_names
   EXPECT_EQ(setting_text(default_settings(StepperKind::quick)), "quick, 1 x 20");
 }
 
-TEST(StepOptions, a_law_is_set_and_restored_by_its_name) {
+TEST(StepOptions, a_law_is_set_by_its_name) {
   StepperSettings settings;
   set(step_option("law"), "ode", "--law", settings);
   EXPECT_EQ(settings.law, ode_law());
   EXPECT_FALSE(is_default(step_option("law"), settings));
   EXPECT_EQ(std::get<std::string>(value_of(step_option("law"), settings)), "ode");
-  restore(step_option("law"), "soft", settings);
+  set(step_option("law"), "soft", "--law", settings);
   EXPECT_EQ(settings.law, SorLaw{});
   EXPECT_EQ(refusal("law", "hard"), "--law hard: it must be one of soft, ode, coulomb");
 }
@@ -111,19 +110,6 @@ TEST(StepOptions, those_of_sor_fit_no_stepper_of_ode) {
   }
   for (const char* name : {"stepper", "dt", "iterations", "solver-seed"})
     EXPECT_TRUE(fits(step_option(name), StepperKind::quick));
-}
-
-TEST(StepOptions, the_constraint_solver_fits_mujoco_alone_and_stands_in_a_settings_text) {
-  for (const StepperKind kind :
-       {StepperKind::quick, StepperKind::direct, StepperKind::sor, StepperKind::bullet})
-    EXPECT_FALSE(fits(step_option("constraint-solver"), kind)) << name_of(kind);
-  StepperSettings settings = default_settings(StepperKind::mujoco);
-  EXPECT_EQ(settings.constraint_solver, ConstraintSolver::newton);
-  EXPECT_EQ(setting_text(settings), "mujoco, 1 x 100");
-  set(step_option("constraint-solver"), "pgs", "", settings);
-  EXPECT_EQ(setting_text(settings), "mujoco, 1 x 100, pgs");
-  EXPECT_EQ(refusal("constraint-solver", "sor"),
-            "--constraint-solver sor: it must be one of newton, pgs, cg");
 }
 
 TEST(StepOptions, files_write_names_with_underscores) {

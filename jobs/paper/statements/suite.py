@@ -52,7 +52,7 @@ for scene_of_paper, row_of_paper in PAPER.items():
 
 
 @STATEMENTS.judged_by("3.2", "Table 1: number of spaces", "the same, the larger where it has two", COUNTS, FIGURE_6,
-                      papers="; ".join(f"{scene} {row.spaces}" for scene, row in PAPER.items()), remark="--spaces one takes them as one")
+                      papers="; ".join(f"{scene} {row.spaces}" for scene, row in PAPER.items()), remark="spaces = \"one\" in [run] takes them as one")
 def number_of_spaces(data):
     ours = of_the_paper(data)
     return over_scenes([(one.scene, str(one.spaces)) for one in ours],

@@ -51,7 +51,7 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
                                      const po::positional_options_description& positional,
                                      const std::string& last) {
   po::variables_map values;
-  std::string where;  // the file being read, with ": "; empty for the command line
+  std::string where;  // what is being read, with ": "; empty for the command line
   try {
     po::store(po::command_line_parser(help_arguments(args).args)
                   .options(description)
@@ -66,8 +66,10 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
       po::store(po::parse_config_file(lines, description), values);
       where = "";
     }
+    where = "the options in the checkpoint: ";
     std::istringstream lines(last);
     po::store(po::parse_config_file(lines, description), values);
+    where = "";
     po::notify(values);
   } catch (const po::unknown_option& error) {
     throw core::InputError(where + unknown_option_message(error.get_option_name(), description));

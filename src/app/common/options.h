@@ -24,7 +24,7 @@ struct CommonOptions {
 boost::program_options::options_description common_options_description();
 
 /// Parses `args` (without the program's name) and, if given, the file named by --config. The command line
-/// wins over it, and both over `last`, lines as in such a file.
+/// wins over it, and both over `last`, the options in a checkpoint, as lines of such a file.
 /// `positional` names the option that takes the words without a dash; empty = such words are refused. Throws
 /// core::InputError for anything that is not in `description`, with the nearest option, and for a file to be
 /// written that another option also writes or reads.

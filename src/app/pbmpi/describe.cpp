@@ -175,8 +175,7 @@ std::string describe(const Work& work, int num_ranks) {
   out << "scene: " << scene.name() << " - " << scene.title() << '\n'
       << "worlds: " << census.table.num_worlds() << ", bodies: " << census.table.num_bodies()
       << ", geoms: " << census.geoms << ", joints: " << census.joints << ", events: " << census.events
-      << ", spaces: " << census.spaces
-      << (spec.spaces == scenes::SpacesForm::one ? " (form: one)" : " (form: many)") << '\n'
+      << ", spaces: " << census.spaces << '\n'
       << "actors:";
   for (const auto& [kind, count] : census.actor_kinds) out << ' ' << count << ' ' << kind;
   out << '\n' << ensemble_lines(work);

@@ -1,6 +1,7 @@
 #include "app/pbmpi/run.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 
@@ -28,6 +29,7 @@
 #include "model/names.h"
 #include "mpi/comm/agreement.h"
 #include "stepping/names.h"
+#include "stepping/option_values.h"
 
 namespace pbmpi::app {
 namespace {
@@ -287,7 +289,8 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
       break;
   }
   const SignalRequests signals;
-  core::set_wait_limit(options.run.wait_limit_s);
+  if (const char* limit_s = std::getenv("PBMPI_WAIT_LIMIT"))
+    core::set_wait_limit(stepping::read_number<int>(limit_s, "PBMPI_WAIT_LIMIT"));
   std::optional<core::Awaited> awaited("all ranks to read the scene");
   Work work = options.run.resume ? resumed_work(comm, args, options) : new_work(comm, options);
   Cut cut = decompose(work.spec, mpi::space_costs(model::make_space_map(*work.first_world)), comm.size());

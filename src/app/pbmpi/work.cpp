@@ -145,7 +145,7 @@ void tell_notes(const mpi::Communicator& comm, const Options& options, const sce
 Work new_work(const mpi::Communicator& comm, const Options& options) {
   Work work;
   work.source = engines::share_scene(comm, *options.run.scene);
-  work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces(), options.run.effects);
+  work.scene = scenes::parse_scene(work.source, options.dt_s(), options.run.effects);
   if (options.run.parameters) work.parameters = engines::share_parameters(comm, *options.run.parameters);
   work.spec = resolve(options, *work.scene, {}, num_rows(work));
   work.first_world = build_anew(work, 0);
@@ -163,7 +163,7 @@ Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>&
   options = parse_options(args, checkpoint.options);
   work.parameters = parameters_of(comm, checkpoint, path, options.run.parameters);
   require_same_stepper(path, checkpoint.options, options.step.settings.kind);
-  work.scene = scenes::parse_scene(work.source, options.dt_s(), options.spaces(), options.run.effects);
+  work.scene = scenes::parse_scene(work.source, options.dt_s(), options.run.effects);
   work.spec = resolve(options, *work.scene, {path, checkpoint.frames, checkpoint.output}, num_rows(work));
   require_same_physics(path, checkpoint.options, saved_options(work.spec));
   core::require_input(checkpoint.steps == checkpoint.frames * work.spec.steps_per_frame,

@@ -127,35 +127,6 @@ class Engines(ProgramTest):
                 self.assertIn(word, result.stderr)
                 self.assertEqual(result.stdout, "")
 
-    def test_mujoco_solves_by_the_method_that_was_chosen(self):
-        if not self.in_build("mujoco"):
-            self.skipTest("this build has no MuJoCo")
-        args = ["--scene", "CrashSk", "--replicas", 3, "--stepper", "mujoco"]
-        whole = ["--frames", 8]
-        hashes = {"default": self.summary(1, *args, *whole, "--no-output")["state_hash"]}
-        for solver in ("newton", "pgs", "cg"):
-            chosen = [*args, "--constraint-solver", solver]
-            hashes[solver] = self.summary(1, *chosen, *whole, "--output", "run.h5")["state_hash"]
-            self.assertEqual(self.summary(2, *chosen, *whole, "--no-output")["state_hash"], hashes[solver], "on any number of ranks")
-            with h5py.File(self.path("run.h5")) as file:
-                self.assertEqual(file["parameters/constraint_solver"].asstr()[()], solver)
-            self.summary(1, *chosen, "--frames", 4, "--no-output", "--checkpoint", "run.ck.h5")
-            rest = self.summary(2, "--resume", "run.ck.h5", *whole, "--no-output")
-            self.assertEqual(rest["state_hash"], hashes[solver], "a checkpoint keeps the choice")
-        result = self.pbmpi(1, "--resume", "run.ck.h5", *whole, "--no-output", "--constraint-solver", "pgs")
-        self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertIn("the run in run.ck.h5 has constraint-solver cg", result.stderr)
-        described = self.pbmpi(1, "--scene", "CrashSk", "--stepper", "mujoco", "--constraint-solver", "pgs", "--describe")
-        self.assertIn("stepper: mujoco, 1 x 100, pgs, seed 1", described.stdout)
-        self.assertEqual(hashes["default"], hashes["newton"])
-        self.assertEqual(len(set(hashes.values())), 3)
-
-    def test_the_constraint_solver_is_refused_where_it_says_nothing(self):
-        for stepper in ("sor", "quick", *[engine for engine in ("bullet",) if self.in_build(engine)]):
-            result = self.pbmpi(1, "--scene", "Fight", "--stepper", stepper, "--constraint-solver", "pgs", "--no-output")
-            self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertIn("--constraint-solver is an option of --stepper mujoco", result.stderr)
-
     def test_describe_says_what_is_taken_otherwise(self):
         for engine in self.each():
             result = self.pbmpi(1, "--scene", "CrashSk", "--stepper", engine, "--describe")
@@ -172,27 +143,6 @@ class Engines(ProgramTest):
             verdicts, reasons = (file[f"cases/{name}"].asstr()[:] for name in ("verdict", "decided_by"))
             self.assertEqual([verdict == "n/a" for verdict in verdicts], [True, False])
             self.assertIn("'sleeping'", reasons[0])
-
-    def test_studies_vary_the_constraint_solver(self):
-        if not self.in_build("mujoco"):
-            self.skipTest("this build has no MuJoCo")
-        result = self.run_command([PBSTUDY, "stability", "--scene", "hard/rest/column10", "--setting", "mujoco",
-                                   "mujoco constraint-solver=pgs iterations=50", "--output", "stability.h5", "--poses", "0", "--progress", "never"])
-        self.assertEqual(result.returncode, 0, result.stderr)
-        with h5py.File(self.path("stability.h5")) as file:
-            self.assertEqual(sorted(set(file["cases/constraint_solver"].asstr()[:])), ["newton", "pgs"])
-            self.assertIn("mujoco, 1 x 50, pgs", file["cases/setting"].asstr()[:].tolist())
-        result = self.run_command([PBSTUDY, "accuracy", "--scene", "2-Cars", "--stepper", "mujoco", "--constraint-solver", "newton", "pgs",
-                                   "--iterations", "5", "--frames", "1", "--repeats", "1", "--floor-seeds", "1", "--reference-iterations",
-                                   "40", "--reference-residual", "0", "--reference-check", "0", "--rest-seconds", "0", "--estimates", "0",
-                                   "--dt", "0.01", "--output", "accuracy.h5", "--progress", "never"])
-        self.assertEqual(result.returncode, 0, result.stderr)
-        with h5py.File(self.path("accuracy.h5")) as file:
-            solvers = file["cases/constraint_solver"].asstr()[:][file["cases/stepper"].asstr()[:] == "mujoco"]
-            self.assertEqual(sorted(set(solvers)), ["newton", "pgs"])
-        result = self.run_command([PBSTUDY, "stability", "--setting", "sor constraint-solver=pgs"])
-        self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertIn("the stepper sor has no such option", result.stderr)
 
     def test_studies_take_them_when_they_are_named(self):
         for engine in self.each():

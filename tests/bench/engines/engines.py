@@ -59,24 +59,19 @@ def iterations(*counts, parts=1):
     return [Setting(f"{count}" if parts == 1 else f"{parts} steps of {count}", parts, iterations=count) for count in counts]
 
 
-def solver(name, *counts):
-    return [Setting(f"{name} {count}", constraint_solver=name, iterations=count) for count in counts]
-
-
 # The first of each engine is its default.
 SETTINGS = {
     "sor": [Setting("14 x 1"), Setting("single 14 x 1", precision="single"), Setting("8 x 1", substeps=8), Setting("16 x 1", substeps=16),
             Setting("32 x 1", substeps=32)],
     "quick": iterations(20, 5, 10, 50) + iterations(5, parts=2) + iterations(5, parts=4),
     "bullet": iterations(10, 2, 3, 4, 5, 20, 50) + iterations(5, 20, parts=2) + iterations(5, parts=4),
-    "mujoco": solver("newton", 100) + solver("pgs", 100, 10, 3) + solver("cg", 30),
+    "mujoco": iterations(100),
 }
 ENGINES = tuple(SETTINGS)
 # How many times the default of `sor` should be ahead at equal joint gap.
 AIMS = {(scene, engine): aim for scene, aim in (("100CrSk", 5), ("CrashWa", 2)) for engine in ("bullet", "mujoco")}
-# With --quick: the default, and of MuJoCo each solver.
-QUICK_SETTINGS = {engine: [one for one in settings if one is settings[0] or one.name in ("pgs 10", "cg 30")]
-                  for engine, settings in SETTINGS.items()}
+# With --quick: the default.
+QUICK_SETTINGS = {engine: settings[:1] for engine, settings in SETTINGS.items()}
 
 
 class Bench:

@@ -17,8 +17,7 @@ class SpaceScenes : public testing::TestWithParam<const char*> {};
 
 TEST_P(SpaceScenes, have_the_contacts_and_the_bits_of_the_undecomposed_world) {
   const Communicator comm = Communicator::world();
-  const auto scene =
-      scenes::parse_scene(scenes::find_scene(GetParam()), std::nullopt, scenes::SpacesForm::many);
+  const auto scene = scenes::parse_scene(scenes::find_scene(GetParam()));
   const auto model = scene->build(0, 1);
   ASSERT_GT(model->spaces.size(), 1u);
   const auto settings = space_settings(58);  // and 2 of warm-up

@@ -16,7 +16,7 @@ class SteppedScene {
  public:
   explicit SteppedScene(const std::string& name, const model::EffectChoices& effects = {},
                         stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor)) {
-    const auto scene = parse_scene(find_scene(name), {}, {}, effects);
+    const auto scene = parse_scene(find_scene(name), {}, effects);
     settings.dt_s = scene->defaults().dt_s;
     if (settings.kind != stepping::StepperKind::sor) settings.iterations = scene->defaults().iterations;
     dt_s_ = settings.dt_s;

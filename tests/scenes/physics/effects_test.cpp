@@ -59,7 +59,7 @@ std::unique_ptr<stepping::WorldStepper> make_stepper(const RunDefaults& defaults
 
 std::uint64_t hash_after(const SceneSource& source, const EffectChoices& effects, StepperKind kind,
                          int num_steps) {
-  const auto scene = parse_scene(source, {}, {}, effects);
+  const auto scene = parse_scene(source, {}, effects);
   const auto stepper = make_stepper(scene->defaults(), kind);
   const auto model = scene->build(0, 1);
   stepper->add(0, model, model::initial_state(*model), 0);
@@ -159,7 +159,7 @@ TEST(SceneEffects, are_chosen_by_the_file_and_overridden_by_the_caller) {
   const EffectChoices file = {{"restitution", true}, {"gravity", false}};
   EXPECT_EQ(parse_scene(source)->defaults().effects, file);
   EXPECT_TRUE(parse_scene(source)->build(0, 1)->gravity.isZero());
-  const auto scene = parse_scene(source, {}, {}, {{"gravity", true}});
+  const auto scene = parse_scene(source, {}, {{"gravity", true}});
   EXPECT_FALSE(scene->build(0, 1)->gravity.isZero());
   EXPECT_TRUE(scene->defaults().effects.at("restitution"));
 }

@@ -43,8 +43,10 @@ TEST_P(Suite, stays_finite_for_a_second_after_the_start) {
 }
 
 TEST_P(Suite, is_the_same_world_in_one_space_and_in_the_papers_many) {
-  const auto one = parse_scene(find_scene(GetParam().scene), {}, SpacesForm::one)->build(0, 1);
-  const auto many = parse_scene(find_scene(GetParam().scene), {}, SpacesForm::many)->build(0, 1);
+  const std::string base(GetParam().scene);
+  const std::string variant = "title = \"t\"\nbase = \"" + base + "\"\n[run]\nspaces = \"one\"\n";
+  const auto one = parse_scene({"t", "t.toml", variant})->build(0, 1);
+  const auto many = parse_scene(find_scene(base))->build(0, 1);
   EXPECT_EQ(one->spaces.size(), 1u);
   EXPECT_EQ(many->spaces.size(), static_cast<std::size_t>(GetParam().spaces));
   EXPECT_EQ(fingerprint(*one), fingerprint(*many));
@@ -59,15 +61,6 @@ INSTANTIATE_TEST_SUITE_P(Table1, Suite,
                                          Row{"Battle", 120, 2, 93, 3}, Row{"Fight", 10, 7, 8, 10},
                                          Row{"Battle2", 156, 113, 134, 15}),
                          [](const auto& test) { return std::string(test.param.scene); });
-
-TEST(SpacesForm, is_chosen_by_the_file_and_overridden_by_the_caller) {
-  const SceneSource source{
-      "t", "t.toml",
-      "title = \"t\"\nspaces = [\"a\", \"b\"]\n[run]\nspaces = \"one\"\n[[actor]]\nname = "
-      "\"x\"\ntype = \"sphere\"\nradius = 1\nmass = 1\nspace = \"b\"\n"};
-  EXPECT_EQ(parse_scene(source)->build(0, 1)->spaces.size(), 1u);
-  EXPECT_EQ(parse_scene(source, {}, SpacesForm::many)->build(0, 1)->geoms[0].space, 1);
-}
 
 // The wall must stand until the car arrives, after 19 steps.
 TEST(CrashWa, its_wall_stands_until_it_is_hit) {

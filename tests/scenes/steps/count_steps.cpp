@@ -65,8 +65,8 @@ std::unique_ptr<stepping::WorldStepper> make_stepper(const std::string& name) {
 }
 
 void run(const std::string& scene, const std::string& stepper_name, const std::string& choices) {
-  const auto parsed = scenes::parse_scene(scenes::find_scene(scene), std::nullopt, std::nullopt,
-                                          effects::parse_effect_choices(choices));
+  const auto parsed =
+      scenes::parse_scene(scenes::find_scene(scene), std::nullopt, effects::parse_effect_choices(choices));
   const auto model = parsed->build(0, 1);
   const auto stepper = make_stepper(stepper_name);
   const model::State start = model::initial_state(*model);

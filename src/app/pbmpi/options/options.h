@@ -32,9 +32,6 @@ struct Options {
   std::optional<double> dt_s() const {
     return step.has("dt") ? std::optional(step.settings.dt_s) : std::nullopt;
   }
-  std::optional<scenes::SpacesForm> spaces() const {
-    return given.contains("spaces") ? std::optional(run.spaces) : std::nullopt;
-  }
 };
 
 /// `saved`: further options that all others override, one "name = value" a line. Throws core::InputError with

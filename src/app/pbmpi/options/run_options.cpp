@@ -152,14 +152,6 @@ std::vector<RunOption> cut_rows() {
                   "own; default: as few as make the busiest group's worlds cost least, counted in rows of "
                   "joints and bodies; one world: all ranks",
        .recorded = true},
-      {.name = "spaces",
-       .member = &RunSpec::spaces,
-       .group = group,
-       .placeholder = "one|many",
-       .meaning = "many: the scene's named collision spaces; one: all of them as one, with the same physics; "
-                  "default: the scene's",
-       .saved = Saved::value,
-       .recorded = true},
   };
 }
 
@@ -171,13 +163,10 @@ std::vector<RunOption> output_rows() {
        .group = group,
        .letter = 'o',
        .placeholder = "FILE",
-       .meaning = "HDF5 file of the run; default: <scene>.h5"},
+       .meaning =
+           "HDF5 file of the run, with a sidecar for ParaView beside it, <output without .h5>.xdmf; default: "
+           "<scene>.h5"},
       {.name = "no-output", .member = &RunSpec::no_output, .group = group, .meaning = "write no file"},
-      {.name = "no-xdmf",
-       .member = &RunSpec::no_xdmf,
-       .group = group,
-       .meaning = "write no sidecar for ParaView; without this it stands beside the file, <output without "
-                  ".h5>.xdmf"},
       {.name = "record-every",
        .member = &RunSpec::record_every,
        .group = group,
@@ -240,13 +229,6 @@ std::vector<RunOption> stop_rows() {
        .group = group,
        .placeholder = "SECONDS",
        .meaning = "save the run this often, too"},
-      {.name = "wait-limit",
-       .member = &RunSpec::wait_limit_s,
-       .group = group,
-       .placeholder = "SECONDS",
-       .meaning = "end with exit code 1 if ranks wait so long for each other while the run begins or ends; "
-                  "what they wait for is said on stderr long before",
-       .shows_default = true},
       {.name = "resume",
        .member = &RunSpec::resume,
        .group = group,
@@ -261,7 +243,6 @@ std::vector<RunOption> stop_rows() {
 
 constexpr const auto& names_of(stability::OnBlowup) { return stability::on_blowup_names; }
 constexpr const auto& names_of(Decomposition) { return decomposition_names; }
-constexpr const auto& names_of(scenes::SpacesForm) { return spaces_names; }
 constexpr const auto& names_of(ReportFormat) { return report_format_names; }
 
 template <class T>

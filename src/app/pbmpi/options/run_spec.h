@@ -20,7 +20,6 @@ enum class ReportFormat { text, json };
 enum class Decomposition { automatic, worlds, spaces };
 inline constexpr std::array<std::string_view, 2> report_format_names = {"text", "json"};
 inline constexpr std::array<std::string_view, 3> decomposition_names = {"auto", "worlds", "spaces"};
-inline constexpr std::array<std::string_view, 2> spaces_names = {"one", "many"};
 
 /// Worlds first .. end - 1 of an ensemble.
 struct WorldRange {
@@ -55,10 +54,9 @@ struct RunSpec {
 
   Decomposition decomposition = Decomposition::automatic;  ///< decided by decompose()
   std::optional<int> ranks_per_world;                      ///< of worlds that are cut
-  scenes::SpacesForm spaces = scenes::SpacesForm::many;
 
   std::optional<std::string> output;  ///< nothing: no file is written
-  bool no_output = false, no_xdmf = false;
+  bool no_output = false;
   int record_every = 1;
   bool record_islands = false, record_contacts = false, record_residuals = false;
   ReportFormat report = ReportFormat::text;
@@ -67,7 +65,6 @@ struct RunSpec {
   std::optional<double> max_time_s;
   std::optional<std::string> checkpoint_file;
   std::optional<double> checkpoint_every_s;
-  int wait_limit_s = 1800;
   std::optional<std::string> resume;
 
   // What follows from them.

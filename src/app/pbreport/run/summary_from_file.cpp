@@ -77,10 +77,8 @@ std::vector<int> idle_ranks(const io::RunData& run) {
 std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed) {
   try {
     const std::string name = core::value_in(run.attributes, "scene");
-    const auto form = core::value_in(run.parameters, "spaces") == "one" ? scenes::SpacesForm::one
-                                                                        : scenes::SpacesForm::many;
     const auto scene =
-        scenes::parse_scene({name, name + ".toml", core::value_in(run.parameters, "scene_text")}, {}, form,
+        scenes::parse_scene({name, name + ".toml", core::value_in(run.parameters, "scene_text")}, {},
                             effects::parse_effect_choices(core::value_in(run.parameters, "effects")));
     effects::RunPlan plan;
     for (const auto& world : build_worlds(*scene, run, seed)) plan.add(*world);

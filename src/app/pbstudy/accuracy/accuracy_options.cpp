@@ -11,14 +11,13 @@ namespace {
 namespace po = boost::program_options;
 
 /// In the order in which cases are crossed, the last varying fastest.
-constexpr std::array<VariedOption, 7> varied = {{
+constexpr std::array<VariedOption, 6> varied = {{
     {"stepper", "quick, direct, sor, bullet, mujoco; default: quick sor", "quick sor"},
     {"law", "sor: ode, soft, coulomb; default: ode soft", "ode soft"},
     {"iterations", "but of --law soft, which takes 1; default: 1 2 3 5 10 15 19 20 40 80",
      "1 2 3 5 10 15 19 20 40 80"},
     {"substeps", "sor; default: 1 3 7 14 28", "1 3 7 14 28"},
     {"precision", "sor: double, single; default: both", "double single"},
-    {"constraint-solver", "mujoco: newton, pgs, cg; default: newton", "newton"},
     {"tolerance", "soft law: below how long a way an island gets one substep; default: 0", "0"},
 }};
 constexpr VariedOption varied_dt = {

@@ -15,7 +15,7 @@ constexpr const char* nothing_calls_for_it = "nothing calls for it";
 
 /// The plan of all worlds of the scene with some effects chosen.
 effects::RunPlan plan_of(const StudyScene& scene, std::uint64_t seed, const model::EffectChoices& effects) {
-  const auto parsed = scenes::parse_scene(scene.source, scene.dt_s, std::nullopt, effects);
+  const auto parsed = scenes::parse_scene(scene.source, scene.dt_s, effects);
   effects::RunPlan plan;
   for (int world = 0; world < scene.num_worlds; ++world) plan.add(*parsed->build(world, seed));
   return plan;

@@ -24,7 +24,7 @@ analysis::PoseErrors compare_all(const Worlds& worlds, const StateOf& state_of,
 
 Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed,
                     const model::EffectChoices& effects) {
-  const auto parsed = scenes::parse_scene(scene.source, dt_s, std::nullopt, effects);
+  const auto parsed = scenes::parse_scene(scene.source, dt_s, effects);
   Worlds worlds;
   for (int world = 0; world < scene.num_worlds; ++world) worlds.push_back(parsed->build(world, seed));
   return worlds;
