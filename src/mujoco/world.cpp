@@ -32,20 +32,13 @@ void require_no_refusal(const model::Model& model) {
 
 World::World(const model::Model& model, stepping::MotorTargets& targets, const model::State& state,
              std::int64_t step, const stepping::StepperSettings& settings)
-    : model_(&model),
-      observer_(model),
-      targets_(&targets),
-      plan_(model),
+    : EngineWorld(model, targets, state, step, settings, std::nullopt),
       num_parts_(fewest_parts(settings.dt_s)),
-      settings_(settings),
       part_settings_(part_of(settings, num_parts_)),
       drives_(model, step),
-      state_(state),
-      rules_(model, settings.dt_s, std::nullopt, effects::StepRules::World::whole, state_),
       measures_loads_(settings.contacts || std::ranges::any_of(model.joints, &model::Joint::breakable)),
       kept_linear_(std::exp(-model.linear_damping * settings.dt_s)),
-      kept_angular_(std::exp(-model.angular_damping * settings.dt_s)),
-      step_(step) {
+      kept_angular_(std::exp(-model.angular_damping * settings.dt_s)) {
   require_no_refusal(model);
   for (const stepping::MotorTargets::Target& target : targets_->all())
     drives_.set_motor(target.joint, target.axis, target.motor);
@@ -249,7 +242,7 @@ void World::lose() {
   for (model::Vec3& velocity : state_.angular_velocity) velocity.setConstant(nan);
 }
 
-void World::read(model::State& state, stepping::Observables& observables) const {
+void World::read(model::State& state, stepping::Observables& observables) {
   const model::GuardMemory guard = state.guard;
   state = state_;
   state.guard = guard;

@@ -1,9 +1,6 @@
 #include "ode/world.h"
 
-#include <array>
 #include <cmath>
-#include <numeric>
-#include <utility>
 
 #include "core/error.h"
 #include "core/marks.h"
@@ -11,7 +8,6 @@
 #include "ode/objects/bodies.h"
 #include "ode/objects/joints.h"
 #include "ode/objects/numbers.h"
-#include "stepping/observable_table.h"
 #include "stepping/stepper_traits.h"
 
 namespace pbmpi::ode {
@@ -43,69 +39,63 @@ std::optional<int> iterations_of(const stepping::StepperSettings& settings) {
   return settings.kind == stepping::StepperKind::quick ? std::optional(settings.iterations) : std::nullopt;
 }
 
-std::vector<int> joints_in(std::span<const int> joints) { return {joints.begin(), joints.end()}; }
+/// ODE normalises the quaternion in the same way each time, so a restart before or after the launch changes
+/// nothing.
+void place(dBodyID body, const model::Pose& pose) {
+  dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
+  const dQuaternion q = {real(pose.orientation.w), real(pose.orientation.x), real(pose.orientation.y),
+                         real(pose.orientation.z)};
+  dBodySetQuaternion(body, q);
+}
 
-std::vector<int> all_joints(const model::Model& model) {
-  std::vector<int> joints(model.joints.size());
-  std::iota(joints.begin(), joints.end(), 0);
-  return joints;
+void set_velocity(dBodyID body, const model::Vec3& v, const model::Vec3& w) {
+  dBodySetLinearVel(body, v.x(), v.y(), v.z());
+  dBodySetAngularVel(body, w.x(), w.y(), w.z());
 }
 
 }  // namespace
 
 World::World(int id, const model::Model& model, stepping::MotorTargets& targets, const model::State& state,
-             std::int64_t step, const stepping::StepperSettings& settings, const SolverResources& resources)
-    : id_(id),
-      model_(&model),
-      observer_(model),
-      targets_(&targets),
-      plan_(model),
-      settings_(settings),
+             std::int64_t step, const stepping::StepperSettings& settings, const SolverResources& resources,
+             MessageLog& log)
+    : JointedWorld(model, targets, state, step, settings, iterations_of(settings)),
+      id_(id),
+      log_(&log),
       world_(make_world(model, settings, resources)),
       bodies_(make_bodies(world_.get(), model)),
-      slow_bounds_(effects::slow_bounds(model)),
       joints_(make_joints(world_.get(), bodies_, model, settings.dt_s)),
-      held_poses_(model, joints_),
-      events_(model, bodies_, joints_, held_poses_),
-      state_(state),
-      rules_(model, settings.dt_s, iterations_of(settings), effects::StepRules::World::whole, state_),
-      loads_(model, joints_, settings.contacts ? all_joints(model) : joints_in(rules_.breakable_joints())),
-      contacts_(model, plan_, bodies_),
-      row_counter_(model, joints_),
-      step_(step) {
+      loads_(model, joints_, measured_joints()),
+      contacts_(model, plan_, bodies_) {
   core::require_input(!settings.profile || rules_.sleepers() == nullptr,
                       "the islands of a step are timed one by one, and with the effect 'sleeping' some are "
                       "not stepped; leave one of the two out");
   if (plan_.has(effects::EffectId::collision))
     broad_phase_.emplace(model, bodies_, best_space(model.geoms.size()));
   if (rules_.field() != nullptr) focus_.emplace(*rules_.field(), bodies_);
-  events_.skip_to(step);
-  for (const stepping::MotorTargets::Target& target : targets_->all())
-    events_.set_motor(target.joint, target.axis, target.motor);
-  set_state(state);
+  start(state);
 }
 
-void World::set_state(const model::State& state) {
-  moved_ = true;
-  restore(bodies_, state);
-  state_ = state;
-  if (rules_.sleepers() == nullptr) state_.rest.clear();
-  const bool other_joints_hold = rules_.start();
-  if (rules_.sleepers() != nullptr) show_awake();
-  if (other_joints_hold) show_broken();
+void World::restore(const model::State& state) { ode::restore(bodies_, state); }
+
+void World::launch(const model::Event& event) {
+  const dBodyID body = bodies_[event.body];
+  if (event.pose) place(body, *event.pose);
+  set_velocity(body, event.velocity, event.angular_velocity);
 }
 
-void World::aim(const stepping::MotorTargets::Target& target) {
-  events_.set_motor(target.joint, target.axis, target.motor);
-  if (rules_.sleepers() == nullptr) return;
-  const model::Joint& joint = model_->joints[target.joint];
-  if (rules_.sleepers()->wake_islands_of(std::array{joint.body_a, joint.body_b})) show_awake();
+void World::drive(int joint, int axis, const model::AxisMotor& motor) {
+  ode::set_motor(joints_[joint], model_->joints[joint].kind, axis, motor);
 }
 
-void World::fire_events(std::int64_t step) {
-  events_.fire(step);
-  targets_->pass(*model_, step);
+void World::limit(int joint, const model::AxisLimit& limit) {
+  set_limit(joints_[joint], model_->joints[joint].kind, 0, limit);
 }
+
+double World::coordinate(int joint, int axis) {
+  return ode::coordinate(joints_[joint], model_->joints[joint].kind, axis);
+}
+
+int World::count_rows(int joint) { return ode::count_rows(joints_[joint], model_->joints[joint].kind); }
 
 void World::set_broken(const std::vector<std::int32_t>& broken_in) {
   state_.broken_in = broken_in;
@@ -125,8 +115,7 @@ void World::show_awake() {
 
 void World::show_asleep(std::span<const int> bodies) {
   for (const int body : bodies) {
-    dBodySetLinearVel(bodies_[body], 0, 0, 0);
-    dBodySetAngularVel(bodies_[body], 0, 0, 0);
+    set_velocity(bodies_[body], model::Vec3::Zero(), model::Vec3::Zero());
     dBodyDisable(bodies_[body]);
   }
 }
@@ -134,22 +123,13 @@ void World::show_asleep(std::span<const int> bodies) {
 void World::store(std::span<const int>, model::State& state) const { copy_out(bodies_, state); }
 
 void World::set_velocities(std::span<const int> bodies, const model::State& state) {
-  for (const int body : bodies) {
-    const model::Vec3 &v = state.velocity[body], &w = state.angular_velocity[body];
-    dBodySetLinearVel(bodies_[body], v.x(), v.y(), v.z());
-    dBodySetAngularVel(bodies_[body], w.x(), w.y(), w.z());
-  }
+  for (const int body : bodies)
+    set_velocity(bodies_[body], state.velocity[body], state.angular_velocity[body]);
 }
 
-std::span<const effects::BodyPair> World::touching() {
-  touching_.clear();
-  for (const Touch& touch : contacts_.touches()) touching_.emplace_back(touch.body_a, touch.body_b);
-  return touching_;
-}
-
-void World::advance(int num_steps, core::LapTimer& timer, MessageLog& log) {
+void World::advance(int num_steps, core::LapTimer& timer) {
   for (int i = 0; i < num_steps; ++i) {
-    log.set_place(id_, step_);
+    log_->set_place(id_, step_);
     take_step(i + 1 == num_steps, timer);
   }
 }
@@ -158,7 +138,7 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
   rules_.begin_step(*this, step_);
   if (rules_.all_asleep()) return sleep_on(is_last);
   moved_ = true;
-  held_poses_.aim(settings_.dt_s);
+  aim_held();
   if (is_last && settings_.profile) {
     before_last_.resize(model_->num_bodies());
     copy_out(bodies_, before_last_);
@@ -171,7 +151,7 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
     timer.lap(core::Phase::collide);
   }
   if (is_last) {
-    row_counter_.count(contacts_.touches(), rest(), broken_in(), counts_);
+    count();
     timer.lap(core::Phase::islands);
   }
   rules_.before_solve(*this);
@@ -187,23 +167,16 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
   ++step_;
 }
 
-/// A step of a world in which all bodies sleep and that no event wakes changes nothing.
-void World::sleep_on(bool is_last) {
+void World::forget_contacts() {
   contacts_.forget();
   shown_.contacts.clear();
   shown_.forces.clear();
-  rules_.sleep_on();
-  if (is_last && moved_) row_counter_.count(contacts_.touches(), rest(), broken_in(), counts_);
-  counts_.row_visits = 0;
-  ++step_;
 }
 
 int World::sweeps_of(int body) const {
   if (!stepping::traits_of(settings_.kind).iterates) return 1;
   return rules_.field() != nullptr ? rules_.field()->iterations_of(body) : settings_.iterations;
 }
-
-std::span<const model::Rest> World::rest() const { return state_.rest; }
 
 void World::collide() {
   const core::PhaseMark mark(core::PhaseMark::MarkedPhase::collision);
@@ -212,20 +185,6 @@ void World::collide() {
     contacts_.clear();
     contacts_.make(world_.get(), awake_pairs(pairs), broad_phase_->geoms());
   } while (rules_.after_collision(*this));
-}
-
-/// The pairs with at least one awake geom.
-const std::vector<GeomPair>& World::awake_pairs(const std::vector<GeomPair>& pairs) {
-  if (rules_.sleepers() == nullptr) return pairs;
-  awake_pairs_.clear();
-  const auto awake = [&](int geom) {
-    const int body = model_->geoms[geom].body;
-    return body != model::no_body && !state_.rest[body].asleep();
-  };
-  for (const GeomPair& pair : pairs) {
-    if (awake(pair.first) || awake(pair.second)) awake_pairs_.push_back(pair);
-  }
-  return awake_pairs_;
 }
 
 bool World::may_be_fast() const {
@@ -277,19 +236,6 @@ void World::show_contacts() {
   contacts_.show(centres_, shown_.contacts, shown_.forces);
   for (std::size_t joint = 0; joint < joints_.size(); ++joint)
     shown_.joints.push_back(loads_.force(static_cast<int>(joint)));
-}
-
-void World::read(model::State& state, stepping::Observables& observables) {
-  if (!std::exchange(moved_, false)) return stepping::observe_sleep(observables);
-  copy_out(bodies_, state);
-  if (rules_.sleepers() != nullptr) state.rest = state_.rest;
-  state.broken_in = broken_in();
-  observables = counts_;
-  observables.contacts = contacts_.count();
-  observables.fast_bodies = rules_.num_fast();
-  observables.bodies_inside = rules_.num_inside();
-  observables.max_penetration_m = contacts_.deepest_m();
-  observer_.observe(state, observables);
 }
 
 }  // namespace pbmpi::ode

@@ -48,28 +48,28 @@ std::vector<double> shares_of_geoms(const model::Model& model) {
 
 }  // namespace
 
-stepping::StepProfile World::profile_last_step() {
+std::optional<stepping::StepProfile> World::profile_last_step() {
   model::State after = before_last_;
   copy_out(bodies_, after);
   after.broken_in = broken_in();
   set_broken(before_last_.broken_in);
   --step_;
   stepping::StepProfile profile;
-  restore(bodies_, before_last_);
+  restore(before_last_);
   if (broad_phase_) profile_collision(profile);
-  row_counter_.count(contacts_.touches(), rest(), broken_in(), counts_);
+  count();
   profile_islands(profile);
   contacts_.clear();
   ++step_;
-  restore(bodies_, after);
+  restore(after);
   set_broken(after.broken_in);
   return profile;
 }
 
 /// Leaves the contacts of the whole step in place.
 void World::profile_collision(stepping::StepProfile& profile) {
-  const double broad_s = least_time([&] { restore(bodies_, before_last_); },
-                                    [&] { static_cast<void>(broad_phase_->find_pairs()); });
+  const double broad_s =
+      least_time([&] { restore(before_last_); }, [&] { static_cast<void>(broad_phase_->find_pairs()); });
   const std::vector<GeomPair>& pairs = broad_phase_->find_pairs();
   const std::vector<std::vector<GeomPair>> cut = cut_by_space(*model_, pairs);
   const std::vector<double> shares = shares_of_geoms(*model_);
@@ -90,7 +90,7 @@ void World::profile_collision(stepping::StepProfile& profile) {
   contacts_.clear();
   contacts_.make(world_.get(), pairs, broad_phase_->geoms());
   static_cast<void>(rules_.after_collision(*this));  // nothing sleeps in a world that is profiled
-  for (const Touch& touch : contacts_.touches()) {
+  for (const stepping::Touch& touch : contacts_.touches()) {
     if (touch.cross_space) profile.cross_contacts += touch.num_contacts;
   }
 }
@@ -126,10 +126,10 @@ double World::time_solve(const std::vector<dBodyID>& enabled, int iterations, co
   for (const dBodyID body : enabled) dBodyEnable(body);
   const double least_s = least_time(
       [&] {
-        if (!enabled.empty()) restore(enabled, before);
+        if (!enabled.empty()) ode::restore(enabled, before);
       },
       [&] { solve_enabled(iterations); });
-  if (!enabled.empty()) restore(enabled, before);
+  if (!enabled.empty()) ode::restore(enabled, before);
   for (const dBodyID body : enabled) dBodyDisable(body);
   return least_s;
 }

@@ -1,5 +1,3 @@
-#include "ode/objects/events.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -39,7 +39,8 @@ double approach_speed(const btPersistentManifold& manifold, const btManifoldPoin
                                      velocity(manifold.getBody1(), point.getPositionWorldOnB()));
 }
 
-model::Contact to_contact(const btManifoldPoint& point, const model::GeomPair& geoms, const Touch& touch) {
+model::Contact to_contact(const btManifoldPoint& point, const model::GeomPair& geoms,
+                          const stepping::Touch& touch) {
   model::Contact contact;
   contact.body_a = touch.body_a;
   contact.body_b = touch.body_b;
@@ -108,8 +109,8 @@ void Contacts::run(int a, int b, btPersistentManifold& manifold) {
   collider_->collide(first, second, *info_, result);
 }
 
-void Contacts::keep(btPersistentManifold& manifold, const Touch& touch, const model::GeomPair& geoms,
-                    const model::Material& material) {
+void Contacts::keep(btPersistentManifold& manifold, const stepping::Touch& touch,
+                    const model::GeomPair& geoms, const model::Material& material) {
   touches_.push_back(touch);
   made_.push_back({&manifold, geoms, material});
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
@@ -187,12 +188,6 @@ void Contacts::show(std::span<const model::Vec3> before, std::vector<model::Cont
       forces.push_back(force);
     }
   }
-}
-
-int Contacts::count() const {
-  int sum = 0;
-  for (const Touch& touch : touches_) sum += touch.num_contacts;
-  return sum;
 }
 
 }  // namespace pbmpi::bullet

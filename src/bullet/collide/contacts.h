@@ -9,16 +9,9 @@
 #include "effects/effects.h"
 #include "model/contact.h"
 #include "model/step_memory.h"
+#include "stepping/engine/touch.h"
 
 namespace pbmpi::bullet {
-
-/// Two geoms that touch at one or more points.
-struct Touch {
-  int body_a = model::no_body;  ///< a real body
-  int body_b = model::no_body;
-  int num_contacts = 0;
-  int rows_per_contact = 1;  ///< 3 with friction
-};
 
 /// Makes the contacts of a step with Bullet's algorithms, one manifold per pair, all of them anew: the points
 /// of earlier steps, with which Bullet completes its manifolds and warm-starts its solver, are not part of a
@@ -46,9 +39,8 @@ class Contacts {
   void show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
             std::vector<model::ContactForce>& forces) const;
 
-  const std::vector<Touch>& touches() const { return touches_; }
+  const std::vector<stepping::Touch>& touches() const { return touches_; }
   double deepest_m() const { return deepest_m_; }  ///< 0 without contacts
-  int count() const;
 
  private:
   struct Made {
@@ -58,7 +50,7 @@ class Contacts {
   };
   void collide(const model::GeomPair& pair);
   void run(int a, int b, btPersistentManifold& manifold);
-  void keep(btPersistentManifold& manifold, const Touch& touch, const model::GeomPair& geoms,
+  void keep(btPersistentManifold& manifold, const stepping::Touch& touch, const model::GeomPair& geoms,
             const model::Material& material);
   void set_bounce(const btPersistentManifold& manifold, double restitution, btManifoldPoint& point) const;
   model::Material surface_of(const model::GeomPair& pair) const;
@@ -73,7 +65,7 @@ class Contacts {
   bool restitution_;
   int most_points_;  ///< per pair
   std::vector<Made> made_;
-  std::vector<Touch> touches_;
+  std::vector<stepping::Touch> touches_;
   double deepest_m_ = 0;
 };
 

@@ -126,12 +126,6 @@ bool Contacts::is_cross_space(const GeomPair& pair) const {
          first.space != second.space;
 }
 
-int Contacts::count() const {
-  int sum = 0;
-  for (const Touch& touch : touches_) sum += touch.num_contacts;
-  return sum;
-}
-
 void Contacts::join(dWorldID world, const GeomPair& pair, int num_contacts) {
   const int body_a = model_->geoms[pair.first].body;
   const int body_b = model_->geoms[pair.second].body;

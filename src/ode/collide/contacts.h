@@ -10,17 +10,9 @@
 #include "model/contact.h"
 #include "model/step_memory.h"
 #include "ode/collide/broad_phase.h"
+#include "stepping/engine/touch.h"
 
 namespace pbmpi::ode {
-
-/// A pair of geoms that touch.
-struct Touch {
-  int body_a = model::no_body;
-  int body_b = model::no_body;
-  int num_contacts = 0;
-  int rows_per_contact = 1;  ///< 3 with friction
-  bool cross_space = false;  ///< two real bodies whose geoms lie in different collision spaces
-};
 
 /// Converts what dCollide found for a pair into a contact: body a is a real one, and the normal points into
 /// it.
@@ -56,9 +48,8 @@ class Contacts {
     deepest_m_ = 0;
   }
 
-  const std::vector<Touch>& touches() const { return touches_; }
+  const std::vector<stepping::Touch>& touches() const { return touches_; }
   double deepest_m() const { return deepest_m_; }  ///< 0 without contacts
-  int count() const;
 
  private:
   dBodyID body_id(int body) const { return body == model::no_body ? nullptr : bodies_[body]; }
@@ -84,7 +75,7 @@ class Contacts {
   };
   bool keeps_ = false;
   std::deque<Kept> kept_;  ///< ODE writes into these while it solves
-  std::vector<Touch> touches_;
+  std::vector<stepping::Touch> touches_;
   double deepest_m_ = 0;
 };
 

@@ -190,11 +190,7 @@ void set_motor(dJointID joint, JointKind kind, int axis, const model::AxisMotor&
   set(joint, param_of(axis, dParamFMax), motor.max_force);
 }
 
-void aim_motor(dJointID joint, JointKind kind, int axis, const model::AxisMotor& motor, double dt_s) {
-  const KindApi& api = api_of(kind);
-  const double rate = std::min(motor.hold_rate, 1 / dt_s);
-  api.set_param(joint, param_of(axis, dParamVel), motor.velocity - rate * api.coordinate[axis](joint));
-}
+double coordinate(dJointID joint, JointKind kind, int axis) { return api_of(kind).coordinate[axis](joint); }
 
 /// The low stop is set twice: ODE ignores a stop that lies beyond the present value of the other one (ODE
 /// manual, "Stops and motor parameters").

@@ -16,8 +16,8 @@ std::vector<dJointID> make_joints(dWorldID world, const std::vector<dBodyID>& bo
 
 /// `axis`: 0 or 1.
 void set_motor(dJointID joint, model::JointKind kind, int axis, const model::AxisMotor& motor);
-/// Sets the target of a motor with a hold rate for the next step of `dt_s`, to return to the initial pose.
-void aim_motor(dJointID joint, model::JointKind kind, int axis, const model::AxisMotor& motor, double dt_s);
+/// Angle [rad] or length [m] of an axis for the present poses.
+double coordinate(dJointID joint, model::JointKind kind, int axis);
 void set_limit(dJointID joint, model::JointKind kind, int axis, const model::AxisLimit& limit);
 
 /// The scalar rows of the joint in a step from the present poses: the degrees of freedom that its kind

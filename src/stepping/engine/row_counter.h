@@ -1,30 +1,32 @@
 /// Counts what a step has to solve: rows and islands.
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <functional>
 #include <vector>
 
 #include "model/islands.h"
 #include "model/state.h"
-#include "ode/collide/contacts.h"
+#include "stepping/engine/touch.h"
 #include "stepping/observables.h"
 #include "stepping/step_profile.h"
 
-namespace pbmpi::ode {
+namespace pbmpi::stepping {
 
-/// ODE exposes neither its rows nor its islands; this counts both from the joints and contacts. To be used
-/// between Contacts::make() and the solver, since limits become active according to the poses before the
-/// step.
+/// Counts from the joints and contacts, for engines that show neither their rows nor their islands. To be
+/// used between collision detection and the solver, since limits become active according to the poses before
+/// the step.
 class RowCounter {
  public:
-  /// `model` is borrowed.
-  RowCounter(const model::Model& model, const std::vector<dJointID>& joints);
+  /// Scalar rows of a joint in the step.
+  using RowsOfJoint = std::function<int(int joint)>;
 
-  /// Sets rows, islands and max_island_rows. `rest`, `broken_in`: as in model::State; sleeping bodies have no
-  /// rows.
-  void count(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
-             std::span<const std::int32_t> broken_in, stepping::Observables& observables);
+  /// `model` is borrowed.
+  explicit RowCounter(const model::Model& model) : model_(&model), sets_(model.num_bodies()) {}
+
+  /// Sets rows, islands and max_island_rows. `state`: its `rest` and `broken_in` are current; sleeping bodies
+  /// have no rows.
+  void count(const std::vector<Touch>& touches, const model::State& state, const RowsOfJoint& rows_of_joint,
+             Observables& observables);
   /// Sum over the islands of the last count() of their rows times their sweeps; sweeps(body) is called with
   /// an island's lowest body.
   template <class Sweeps>
@@ -37,7 +39,7 @@ class RowCounter {
     return visits;
   }
   /// The islands of the last count(), in order of their lowest body, without times.
-  std::vector<stepping::IslandCost> islands(const std::vector<Touch>& touches);
+  std::vector<IslandCost> islands(const std::vector<Touch>& touches);
   /// The lowest body of the island that contained `body`.
   int island_of(int body) { return sets_.find(body); }
 
@@ -46,14 +48,13 @@ class RowCounter {
   struct Link {
     int body_a, body_b, rows;
   };
-  void collect(const std::vector<Touch>& touches, std::span<const model::Rest> rest,
-               std::span<const std::int32_t> broken_in);
+  void collect(const std::vector<Touch>& touches, const model::State& state,
+               const RowsOfJoint& rows_of_joint);
 
   const model::Model* model_;
-  std::vector<dJointID> joints_;
   std::vector<Link> links_;
   model::DisjointSets sets_;
   std::vector<int> set_rows_;  ///< [num_bodies], at the lowest body of each island
 };
 
-}  // namespace pbmpi::ode
+}  // namespace pbmpi::stepping

@@ -1,0 +1,155 @@
+#include "stepping/engine/jointed_world.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/error.h"
+#include "model/joint_traits.h"
+#include "stepping/observable_table.h"
+
+namespace pbmpi::stepping {
+namespace {
+
+/// Is it a setting of a joint's axis? Releases are handled by effects::Breakage.
+bool is_setting(const model::Event& event) {
+  return event.kind == model::EventKind::motor || event.kind == model::EventKind::steer;
+}
+
+void require_drivable(const model::Model& model) {
+  for (const model::Event& event : model.events) {
+    if (!is_setting(event)) continue;
+    const model::Joint& joint = model.joints[static_cast<std::size_t>(event.joint)];
+    const int axis = event.kind == model::EventKind::steer ? 0 : event.axis;
+    core::require_input(model::traits_of(joint.kind).axes[static_cast<std::size_t>(axis)].has_motor,
+                        "event of step " + std::to_string(event.step) + ": joint '" + joint.name +
+                            "' has no axis " + std::to_string(axis + 1) + " to drive; name another joint");
+  }
+}
+
+}  // namespace
+
+JointedWorld::JointedWorld(const model::Model& model, MotorTargets& targets, const model::State& state,
+                           std::int64_t step, const StepperSettings& settings, std::optional<int> iterations)
+    : EngineWorld(model, targets, state, step, settings, iterations),
+      slow_bounds_(effects::slow_bounds(model)),
+      row_counter_(model) {
+  for (int j = 0; j < model.num_joints(); ++j) {
+    const model::Joint& joint = model.joints[static_cast<std::size_t>(j)];
+    for (int axis = 0; axis < 2; ++axis) hold(j, axis, joint.motors[static_cast<std::size_t>(axis)]);
+  }
+}
+
+void JointedWorld::start(const model::State& state) {
+  require_drivable(*model_);
+  for (; next_event_ < model_->events.size() && model_->events[next_event_].step < step_; ++next_event_) {
+    // launches of earlier steps are already part of the state
+    if (is_setting(model_->events[next_event_])) apply(model_->events[next_event_]);
+  }
+  for (const MotorTargets::Target& target : targets_->all())
+    set_motor(target.joint, target.axis, target.motor);
+  set_state(state);
+}
+
+void JointedWorld::set_state(const model::State& state) {
+  moved_ = true;
+  restore(state);
+  state_ = state;
+  if (rules_.sleepers() == nullptr) state_.rest.clear();
+  const bool other_joints_hold = rules_.start();
+  if (rules_.sleepers() != nullptr) show_awake();
+  if (other_joints_hold) show_broken();
+}
+
+void JointedWorld::aim(const MotorTargets::Target& target) {
+  set_motor(target.joint, target.axis, target.motor);
+  if (rules_.sleepers() == nullptr) return;
+  const model::Joint& joint = model_->joints[static_cast<std::size_t>(target.joint)];
+  if (rules_.sleepers()->wake_islands_of(std::array{joint.body_a, joint.body_b})) show_awake();
+}
+
+void JointedWorld::read(model::State& state, Observables& observables) {
+  if (!std::exchange(moved_, false)) return observe_sleep(observables);
+  store(rules_.all_bodies(), state);
+  if (rules_.sleepers() != nullptr) state.rest = state_.rest;
+  state.broken_in = state_.broken_in;
+  observables = counts_;
+  observables.contacts = count_contacts(touches());
+  observables.fast_bodies = rules_.num_fast();
+  observables.bodies_inside = rules_.num_inside();
+  observables.max_penetration_m = std::max(0.0, deepest_m());
+  observer_.observe(state, observables);
+}
+
+void JointedWorld::fire_events(std::int64_t step) {
+  while (next_event_ < model_->events.size() && model_->events[next_event_].step <= step)
+    apply(model_->events[next_event_++]);
+  targets_->pass(*model_, step);
+}
+
+void JointedWorld::apply(const model::Event& event) {
+  switch (event.kind) {
+    case model::EventKind::motor:
+      return set_motor(event.joint, event.axis, event.motor);
+    case model::EventKind::steer:
+      return limit(event.joint, {event.angle, event.angle});
+    case model::EventKind::launch:
+      return launch(event);
+    case model::EventKind::release:
+      return;
+  }
+}
+
+void JointedWorld::set_motor(int joint, int axis, const model::AxisMotor& motor) {
+  drive(joint, axis, motor);
+  hold(joint, axis, motor);
+}
+
+/// Without a hold rate the target of the axis is no longer updated.
+void JointedWorld::hold(int joint, int axis, const model::AxisMotor& motor) {
+  std::erase_if(held_, [&](const Held& held) { return held.joint == joint && held.axis == axis; });
+  if (motor.active() && motor.hold_rate > 0) held_.push_back({joint, axis, motor});
+}
+
+/// A rate above 1 / dt would overshoot.
+void JointedWorld::aim_held() {
+  for (const Held& held : held_) {
+    model::AxisMotor motor = held.motor;
+    motor.velocity -= std::min(motor.hold_rate, 1 / settings_.dt_s) * coordinate(held.joint, held.axis);
+    drive(held.joint, held.axis, motor);
+  }
+}
+
+std::span<const effects::BodyPair> JointedWorld::touching() {
+  touching_.clear();
+  for (const Touch& touch : touches()) touching_.emplace_back(touch.body_a, touch.body_b);
+  return touching_;
+}
+
+void JointedWorld::sleep_on(bool is_last) {
+  forget_contacts();
+  rules_.sleep_on();
+  if (is_last && moved_) count();
+  counts_.row_visits = 0;
+  ++step_;
+}
+
+const std::vector<model::GeomPair>& JointedWorld::awake_pairs(const std::vector<model::GeomPair>& pairs) {
+  if (rules_.sleepers() == nullptr) return pairs;
+  awake_pairs_.clear();
+  const auto awake = [&](int geom) {
+    const int body = model_->geoms[static_cast<std::size_t>(geom)].body;
+    return body != model::no_body && !state_.rest[static_cast<std::size_t>(body)].asleep();
+  };
+  for (const model::GeomPair& pair : pairs) {
+    if (awake(pair.first) || awake(pair.second)) awake_pairs_.push_back(pair);
+  }
+  return awake_pairs_;
+}
+
+void JointedWorld::count() {
+  row_counter_.count(
+      touches(), state_, [this](int joint) { return count_rows(joint); }, counts_);
+}
+
+}  // namespace pbmpi::stepping

@@ -1,0 +1,88 @@
+/// One world in an engine that holds joints by constraints between bodies.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "effects/fast_bodies.h"
+#include "model/contact.h"
+#include "stepping/engine/engine_world.h"
+#include "stepping/engine/row_counter.h"
+
+namespace pbmpi::stepping {
+
+/// The part of such a world that needs no engine: its events, its motors, what sleeps in it, what is read of
+/// it. Bodies and joints have the model's numbers.
+///
+/// The engine's own deactivation of bodies must be off: bodies sleep by State::rest. A broken joint is
+/// disabled and keeps its place.
+class JointedWorld : public EngineWorld {
+ public:
+  void set_state(const model::State& state) final;
+  void aim(const MotorTargets::Target& target) final;
+  void read(model::State& state, Observables& observables) final;
+
+ protected:
+  /// As EngineWorld's.
+  JointedWorld(const model::Model& model, MotorTargets& targets, const model::State& state, std::int64_t step,
+               const StepperSettings& settings, std::optional<int> iterations);
+  /// To be called at the end of the engine's constructor, with the joints as the model has them: brings them
+  /// to their settings at the start of step(), before that step's own events, and sets the state. Throws
+  /// core::InputError for a motor or steer event on an axis that its joint lacks.
+  void start(const model::State& state);
+
+  /// Gives all bodies their poses and velocities.
+  virtual void restore(const model::State& state) = 0;
+  /// Gives the body of a launch event its pose, if it has one, and its velocities.
+  virtual void launch(const model::Event& event) = 0;
+  /// `axis`: 0 or 1, as in the model.
+  virtual void drive(int joint, int axis, const model::AxisMotor& motor) = 0;
+  /// Limits axis 0 of a joint.
+  virtual void limit(int joint, const model::AxisLimit& limit) = 0;
+  /// Angle [rad] or length [m] of an axis for the present poses.
+  virtual double coordinate(int joint, int axis) = 0;
+  /// Scalar rows of a joint in a step from the present poses.
+  virtual int count_rows(int joint) = 0;
+  virtual const std::vector<Touch>& touches() const = 0;
+  /// [m] Depth of the deepest contact; 0 without contacts.
+  virtual double deepest_m() const = 0;
+  /// The step has no contacts.
+  virtual void forget_contacts() = 0;
+
+  void fire_events(std::int64_t step) final;
+  std::span<const effects::BodyPair> touching() final;
+  bool is_driven(int joint) const final { return targets_->drive(*model_, step_ + 1, joint); }
+
+  /// Sets the targets of the motors that hold a pose from the present poses, to be called in each step: the
+  /// engine's motors know only a velocity.
+  void aim_held();
+  /// Takes a step in which all bodies sleep and which no event wakes: it changes nothing.
+  void sleep_on(bool is_last);
+  /// The pairs with at least one awake geom.
+  const std::vector<model::GeomPair>& awake_pairs(const std::vector<model::GeomPair>& pairs);
+  /// Sets rows and islands of `counts_`.
+  void count();
+
+  std::vector<effects::SlowBound> slow_bounds_;  ///< [bodies]
+  RowCounter row_counter_;
+  std::vector<model::Contact> ahead_;  ///< scratch of add_speculative_contacts()
+  std::vector<model::Vec3> centres_;   ///< [bodies] with `contacts`: before the last step
+  bool moved_ = true;                  ///< since the last read()
+
+ private:
+  struct Held {
+    int joint, axis;
+    model::AxisMotor motor;
+  };
+  void apply(const model::Event& event);
+  void set_motor(int joint, int axis, const model::AxisMotor& motor);
+  void hold(int joint, int axis, const model::AxisMotor& motor);
+
+  std::vector<Held> held_;                    ///< motors with a hold rate
+  std::size_t next_event_ = 0;                ///< in Model::events
+  std::vector<model::GeomPair> awake_pairs_;  ///< scratch
+  std::vector<effects::BodyPair> touching_;   ///< scratch
+};
+
+}  // namespace pbmpi::stepping
