@@ -6,7 +6,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config git ca-certificates
-  openmpi-bin libopenmpi-dev openssh-client libhdf5-openmpi-dev libode-dev libeigen3-dev
+  openmpi-bin libopenmpi-dev openssh-client libhdf5-openmpi-dev libode-dev libeigen3-dev libfmt-dev
   libboost-program-options-dev libtomlplusplus-dev libpugixml-dev nlohmann-json3-dev libjs-three libjs-chart.js
   pybind11-dev python3-dev python3-numpy python3-h5py)
 package_packages=(dpkg-dev file gzip help2man valgrind)

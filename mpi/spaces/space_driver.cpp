@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "mpi/frame/state_transfer.h"
@@ -13,16 +14,14 @@ namespace pbmpi::mpi {
 namespace {
 
 std::string describe(const Reassignment& plan) {
-  char text[96];
-  std::snprintf(text, sizeof text, "%zu space%s moved: busiest rank %.3f -> %.3f ms a frame",
-                plan.moves.size(), plan.moves.size() == 1 ? "" : "s", 1e3 * plan.makespan_before_s,
-                1e3 * plan.makespan_after_s);
-  return text;
+  return fmt::format("{} space{} moved: busiest rank {:.3f} -> {:.3f} ms a frame", plan.moves.size(),
+                     plan.moves.size() == 1 ? "" : "s", 1e3 * plan.makespan_before_s,
+                     1e3 * plan.makespan_after_s);
 }
 
 std::string describe_many(std::int64_t num_moves, std::int64_t num_worlds) {
-  return std::to_string(num_moves) + (num_moves == 1 ? " space" : " spaces") + " moved, of " +
-         std::to_string(num_worlds) + (num_worlds == 1 ? " world" : " worlds");
+  return fmt::format("{} space{} moved, of {} world{}", num_moves, num_moves == 1 ? "" : "s", num_worlds,
+                     num_worlds == 1 ? "" : "s");
 }
 
 /// The number of parts that a placement places; an idle rank takes the placement as it is.

@@ -1,7 +1,8 @@
 #include "mpi/worlds/world_driver.h"
 
-#include <cstdio>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include "core/marks.h"
 
@@ -13,10 +14,8 @@ Placement initial_placement(const WorldRunSettings& settings, int num_ranks) {
 }
 
 std::string describe(const Rebalancing& plan) {
-  char text[96];
-  std::snprintf(text, sizeof text, "%zu world%s moved: max/avg useful time %.3f -> %.3f", plan.moves.size(),
-                plan.moves.size() == 1 ? "" : "s", plan.imbalance_before, plan.imbalance_after);
-  return text;
+  return fmt::format("{} world{} moved: max/avg useful time {:.3f} -> {:.3f}", plan.moves.size(),
+                     plan.moves.size() == 1 ? "" : "s", plan.imbalance_before, plan.imbalance_after);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "effects/effects.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <sstream>
+
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "effects/drag.h"
@@ -30,9 +30,7 @@ std::optional<Reason> counted_events(const model::Model& model, Predicate predic
 
 std::optional<Reason> gravity(const model::Model& model) {
   if (model.gravity.isZero()) return std::nullopt;
-  std::ostringstream what;
-  what << "bodies under " << model.gravity.norm() << " m/s^2";
-  return counted(model.num_bodies(), what.str());
+  return counted(model.num_bodies(), fmt::format("bodies under {:g} m/s^2", model.gravity.norm()));
 }
 
 std::optional<Reason> collision(const model::Model& model) {
@@ -78,16 +76,14 @@ std::optional<Reason> fast_bodies(const model::Model& model) {
 std::optional<Reason> field_of_interest(const model::Model& model) {
   if (!model.interest) return std::nullopt;
   const model::Interest& interest = *model.interest;
-  std::ostringstream text;
-  text << "within " << interest.radius_m << " m of ";
-  if (interest.follows == model::no_body) {
-    text << '[' << interest.center.x() << ", " << interest.center.y() << ", " << interest.center.z() << ']';
-  } else {
-    text << '\'' << model.bodies[static_cast<std::size_t>(interest.follows)].name << '\'';
-  }
-  text << "; elsewhere at most " << interest.outside_iterations
-       << (interest.outside_iterations == 1 ? " iteration" : " iterations");
-  return Reason{0, text.str()};
+  const model::Vec3& c = interest.center;
+  const std::string middle =
+      interest.follows == model::no_body
+          ? fmt::format("[{:g}, {:g}, {:g}]", c.x(), c.y(), c.z())
+          : fmt::format("'{}'", model.bodies[static_cast<std::size_t>(interest.follows)].name);
+  return Reason{0, fmt::format("within {:g} m of {}; elsewhere at most {} {}", interest.radius_m, middle,
+                               interest.outside_iterations,
+                               interest.outside_iterations == 1 ? "iteration" : "iterations")};
 }
 
 std::optional<Reason> joints(const model::Model& model) {
@@ -126,9 +122,7 @@ std::optional<Reason> steering(const model::Model& model) {
 
 std::optional<Reason> drag(const model::Model& model) {
   if (model.air_density == 0) return std::nullopt;
-  std::ostringstream what;
-  what << "bodies in air of " << model.air_density << " kg/m^3";
-  return counted(model.num_bodies(), what.str());
+  return counted(model.num_bodies(), fmt::format("bodies in air of {:g} kg/m^3", model.air_density));
 }
 
 std::optional<Reason> launches(const model::Model& model) {
@@ -142,18 +136,15 @@ std::optional<Reason> gyroscopic_torque(const model::Model& model) {
 
 std::optional<Reason> damping(const model::Model& model) {
   if (model.linear_damping == 0 && model.angular_damping == 0) return std::nullopt;
-  std::ostringstream what;
-  what << "bodies at " << model.linear_damping << " 1/s linear, " << model.angular_damping << " 1/s angular";
-  return counted(model.num_bodies(), what.str());
+  return counted(model.num_bodies(), fmt::format("bodies at {:g} 1/s linear, {:g} 1/s angular",
+                                                 model.linear_damping, model.angular_damping));
 }
 
 /// Sleeping is an approximation, so a model has it only on explicit request.
 std::optional<Reason> sleeping(const model::Model& model) {
   if (choice_of(model, EffectId::sleeping) != std::optional<bool>(true)) return std::nullopt;
-  char text[96];
-  std::snprintf(text, sizeof text, "after %g s below %g m/s and %g rad/s", model.sleep.after_s,
-                model.sleep.speed, model.sleep.angular_speed);
-  return Reason{0, text};
+  return Reason{0, fmt::format("after {:g} s below {:g} m/s and {:g} rad/s", model.sleep.after_s,
+                               model.sleep.speed, model.sleep.angular_speed)};
 }
 
 template <model::EventKind kind>

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <string_view>
 #include <vector>
 
+#include <fmt/core.h>
 #include <mujoco/mjxmacro.h>
 
 namespace pbmpi::mujoco {
@@ -39,9 +39,7 @@ std::unique_ptr<mjModel, void (*)(mjModel*)> load(const std::string& mjcf) {
 }
 
 std::string gigabytes(std::size_t bytes) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f GB", 1e-9 * static_cast<double>(bytes));
-  return text.data();
+  return fmt::format("{:.1f} GB", 1e-9 * static_cast<double>(bytes));
 }
 
 /// Refuses a world whose solver asks for `stack` numbers if that is too many.

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/core.h>
 
 #include "geometry/body_size.h"
 #include "model/joint_gap.h"
@@ -29,11 +30,7 @@ int first_nonfinite(const State& state) {
   return model::no_body;
 }
 
-std::string number(double value, const char* unit) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.3g%s", value, unit);
-  return text;
-}
+std::string number(double value, const char* unit) { return fmt::format("{:.3g}{}", value, unit); }
 
 std::string geom_text(const model::Model& model, int geom) {
   const model::Geom& one = model.geoms[geom];

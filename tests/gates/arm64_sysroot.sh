@@ -5,7 +5,7 @@
 set -euo pipefail
 
 root=$(realpath -m "$1")
-packages=(libc6-dev libstdc++-12-dev libopenmpi-dev libhdf5-openmpi-dev libode-dev libeigen3-dev
+packages=(libc6-dev libstdc++-12-dev libopenmpi-dev libhdf5-openmpi-dev libode-dev libeigen3-dev libfmt-dev
   libboost-program-options-dev libtomlplusplus-dev libpugixml-dev nlohmann-json3-dev libjs-three libjs-chart.js)
 [[ -f $root/complete && $(<"$root/complete") == "${packages[*]}" ]] && exit 0
 

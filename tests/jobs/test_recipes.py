@@ -14,7 +14,8 @@ APPTAINER = PACKAGES / "containers/pbmpi.def"
 # Debian's package -> Spack's; None: of the tools that Spack brings or has no use for, or part of the recipe itself.
 SPACK = {"g++": "cxx", "cmake": "cmake", "ninja-build": None, "pkg-config": "pkgconfig", "git": None, "ca-certificates": None,
          "openmpi-bin": "mpi", "libopenmpi-dev": "mpi", "openssh-client": None, "libhdf5-openmpi-dev": "hdf5",
-         "libode-dev": "open-dynamics-engine", "libeigen3-dev": "eigen", "libboost-program-options-dev": "boost",
+         "libode-dev": "open-dynamics-engine", "libeigen3-dev": "eigen", "libfmt-dev": "fmt",
+         "libboost-program-options-dev": "boost",
          "libtomlplusplus-dev": "tomlplusplus", "libpugixml-dev": "pugixml", "nlohmann-json3-dev": "nlohmann-json", "libjs-three": None,
          "libjs-chart.js": None, "pybind11-dev": "py-pybind11", "python3-dev": None, "python3-numpy": "py-numpy",
          "python3-h5py": None, "libpython3-dev": None, "python3": None}

@@ -1,6 +1,7 @@
 #include "app/pbmpi/progress.h"
 
-#include "app/common/format.h"
+#include <fmt/core.h>
+
 #include "core/clock.h"
 
 namespace pbmpi::app {
@@ -23,8 +24,8 @@ std::string ProgressBar::text(std::int64_t done) const {
   const double left_s = rate_hz > 0 ? static_cast<double>(num_frames_ - done) / rate_hz : 0;
   const auto filled = static_cast<std::size_t>(bar_width * done / num_frames_);
   const std::string bar = std::string(filled, '#') + std::string(bar_width - filled, '.');
-  return format("[%s] frame %lld/%lld  %.1f frames/s  ETA %.0f s", bar.c_str(), static_cast<long long>(done),
-                static_cast<long long>(num_frames_), rate_hz, left_s);
+  return fmt::format("[{}] frame {}/{}  {:.1f} frames/s  ETA {:.0f} s", bar, done, num_frames_, rate_hz,
+                     left_s);
 }
 
 }  // namespace pbmpi::app

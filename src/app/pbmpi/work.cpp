@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/common/format.h"
+#include <fmt/core.h>
+
 #include "app/common/version.h"
 #include "app/pbmpi/options/saved_options.h"
 #include "core/error.h"
@@ -115,9 +116,10 @@ void require_memory(const mpi::Communicator& comm, const Work& work) {
   constexpr double gib = 1024.0 * 1024 * 1024;
   core::require_input(
       of_a_rank <= memory,
-      format("--replicas %d: the worlds of a rank need more than %.0f GiB, and its machine has %.0f; ask "
-             "for fewer, or use more nodes",
-             work.spec.num_worlds, of_a_rank / gib, memory / gib));
+      fmt::format(
+          "--replicas {}: the worlds of a rank need more than {:.0f} GiB, and its machine has {:.0f}; ask "
+          "for fewer, or use more nodes",
+          work.spec.num_worlds, of_a_rank / gib, memory / gib));
 }
 
 /// --dt without --steps-per-frame changes the time that a frame stands for, and with it every result per
@@ -127,9 +129,9 @@ void note_length_of_frame(const mpi::Communicator& comm, const Options& options,
   const scenes::RunDefaults own = scenes::parse_scene(work.source)->defaults();
   const double before_s = own.dt_s * own.steps_per_frame, now_s = *options.dt_s() * work.spec.steps_per_frame;
   if (!comm.is_root() || std::abs(now_s - before_s) <= 1e-9 * before_s) return;
-  std::cerr << format(
-      "pbmpi: note: with --dt %g a frame of %d steps is %g s and not the scene's %g s of simulated time; "
-      "--steps-per-frame %.0f comes nearest to it\n",
+  std::cerr << fmt::format(
+      "pbmpi: note: with --dt {:g} a frame of {} steps is {:g} s and not the scene's {:g} s of simulated "
+      "time; --steps-per-frame {:.0f} comes nearest to it\n",
       *options.dt_s(), work.spec.steps_per_frame, now_s, before_s,
       std::max(1.0, std::round(before_s / *options.dt_s())));
 }

@@ -1,6 +1,6 @@
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "app/common/format.h"
 #include "app/common/json_text.h"
 #include "app/summary/rank_groups_text.h"
 #include "app/summary/run_summary.h"
@@ -20,28 +20,26 @@ bool are_groups(const RunSummary& s) { return s.groups.num_groups() > 0 && s.wor
 
 std::string run_lines(const RunSummary& s) {
   std::string text;
-  text += format("scene: %s (%d worlds, %lld bodies)\n", s.scene.c_str(), s.worlds,
-                 static_cast<long long>(s.bodies));
-  text += format("ranks: %d on %s\n", s.ranks,
-                 join(s.hosts, [](const std::string& host) { return host; }).c_str());
-  if (s.threads > 1) text += format("threads: %d in each rank\n", s.threads);
+  text += fmt::format("scene: {} ({} worlds, {} bodies)\n", s.scene, s.worlds, s.bodies);
+  text +=
+      fmt::format("ranks: {} on {}\n", s.ranks, join(s.hosts, [](const std::string& host) { return host; }));
+  if (s.threads > 1) text += fmt::format("threads: {} in each rank\n", s.threads);
   if (are_groups(s)) text += "groups: " + in_words(s.groups) + ", each cuts worlds of its own into spaces\n";
   if (!s.idle_ranks.empty()) {
-    text += format("idle_ranks: %s (more ranks than %s)\n",
-                   join(s.idle_ranks, [](int rank) { return std::to_string(rank); }).c_str(),
-                   are_groups(s) ? "groups and spaces" : s.decomposition.c_str());
+    text += fmt::format("idle_ranks: {} (more ranks than {})\n",
+                        join(s.idle_ranks, [](int rank) { return std::to_string(rank); }),
+                        are_groups(s) ? "groups and spaces" : s.decomposition);
   }
-  text +=
-      format("stepper: %s, %d iterations, %d substeps, %s precision, dt %g s, %d steps a frame, seed %llu\n",
-             s.stepper.c_str(), s.iterations, s.substeps, s.precision.c_str(), s.dt_s, s.steps_per_frame,
-             static_cast<unsigned long long>(s.seed));
+  text += fmt::format(
+      "stepper: {}, {} iterations, {} substeps, {} precision, dt {:g} s, {} steps a frame, seed {}\n",
+      s.stepper, s.iterations, s.substeps, s.precision, s.dt_s, s.steps_per_frame, s.seed);
   if (!s.simd.empty()) text += "simd: " + s.simd + "\n";
-  text += format("effects: %s\n", join(s.effects, [](const EffectSummary& e) { return e.name; }).c_str());
+  text += fmt::format("effects: {}\n", join(s.effects, [](const EffectSummary& e) { return e.name; }));
   if (!s.effects_chosen.empty()) text += "effects_chosen: " + s.effects_chosen + "\n";
-  text += format("frames: %lld measured after %lld of warm-up%s\n", static_cast<long long>(s.measured_frames),
-                 static_cast<long long>(s.warmup_frames), s.complete ? "" : " (stopped before the last)");
+  text += fmt::format("frames: {} measured after {} of warm-up{}\n", s.measured_frames, s.warmup_frames,
+                      s.complete ? "" : " (stopped before the last)");
   if (s.first_frame > 0) {
-    text += format("resumed: after %lld frames\n", static_cast<long long>(s.first_frame));
+    text += fmt::format("resumed: after {} frames\n", s.first_frame);
   }
   return text;
 }
@@ -50,50 +48,50 @@ std::string spaces_lines(const RunSummary& s) {
   const SpacesSummary& spaces = s.spaces;
   std::string text;
   for (int rank = 0; rank < s.ranks; ++rank) {
-    text += format("rank: %-3d", rank);
+    text += fmt::format("rank: {:<3}", rank);
     for (const PhaseSummary& p : s.phases)
-      text += format(" %s %.3f", p.name.c_str(), 1e3 * p.by_rank_s[static_cast<std::size_t>(rank)]);
+      text += fmt::format(" {} {:.3f}", p.name, 1e3 * p.by_rank_s[static_cast<std::size_t>(rank)]);
     text += " ms\n";
   }
-  text += format(
-      "spaces: serial share %.2f %% (%s), so at most %.2f times one rank (Amdahl), %.2f with the "
-      "largest island on one rank; measured %.2f (work over elapsed time)\n",
+  text += fmt::format(
+      "spaces: serial share {:.2f} % ({}), so at most {:.2f} times one rank (Amdahl), {:.2f} with the "
+      "largest island on one rank; measured {:.2f} (work over elapsed time)\n",
       100 * spaces.serial_share, are_groups(s) ? "sections of the groups' roots" : "root's section",
       spaces.amdahl_bound, spaces.island_bound, spaces.speed_up);
-  text += format("traffic: %.1f messages and %.0f bytes a step\n", spaces.messages_per_step,
-                 spaces.bytes_per_step);
+  text += fmt::format("traffic: {:.1f} messages and {:.0f} bytes a step\n", spaces.messages_per_step,
+                      spaces.bytes_per_step);
   return text;
 }
 
 std::string speed_lines(const RunSummary& s) {
   std::string text;
-  text += format("frame_rate: %.1f Hz harmonic mean, %.0f %% of the frames within %.2f ms\n",
-                 s.harmonic_mean_hz, 100 * s.satisfied_fraction, 1e3 * s.budget_s);
-  text += format("frame_time: p50 %.3f ms, p95 %.3f ms, p99 %.3f ms, max %.3f ms\n", 1e3 * s.frame_p50_s,
-                 1e3 * s.frame_p95_s, 1e3 * s.frame_p99_s, 1e3 * s.frame_max_s);
-  text += format("throughput: %.0f world-steps/s (%.0f a rank), %.0f body-steps/s\n", s.world_steps_per_s,
-                 s.world_steps_per_s / s.ranks, s.body_steps_per_s);
+  text += fmt::format("frame_rate: {:.1f} Hz harmonic mean, {:.0f} % of the frames within {:.2f} ms\n",
+                      s.harmonic_mean_hz, 100 * s.satisfied_fraction, 1e3 * s.budget_s);
+  text += fmt::format("frame_time: p50 {:.3f} ms, p95 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
+                      1e3 * s.frame_p50_s, 1e3 * s.frame_p95_s, 1e3 * s.frame_p99_s, 1e3 * s.frame_max_s);
+  text += fmt::format("throughput: {:.0f} world-steps/s ({:.0f} a rank), {:.0f} body-steps/s\n",
+                      s.world_steps_per_s, s.world_steps_per_s / s.ranks, s.body_steps_per_s);
   for (const PhaseSummary& p : s.phases) {
-    text += format("phase: %-11s min %9.3f ms (rank %d)  avg %9.3f ms  max %9.3f ms (rank %d)\n",
-                   p.name.c_str(), 1e3 * p.min_s, p.min_rank, 1e3 * p.avg_s, 1e3 * p.max_s, p.max_rank);
+    text +=
+        fmt::format("phase: {:11} min {:>9.3f} ms (rank {})  avg {:>9.3f} ms  max {:>9.3f} ms (rank {})\n",
+                    p.name, 1e3 * p.min_s, p.min_rank, 1e3 * p.avg_s, 1e3 * p.max_s, p.max_rank);
   }
-  text += format("efficiency: parallel %.1f %% = load balance %.1f %% x communication %.1f %%\n",
-                 100 * s.parallel_efficiency, 100 * s.load_balance, 100 * s.communication_efficiency);
+  text += fmt::format("efficiency: parallel {:.1f} % = load balance {:.1f} % x communication {:.1f} %\n",
+                      100 * s.parallel_efficiency, 100 * s.load_balance, 100 * s.communication_efficiency);
   if (s.decomposition == "spaces") {
     text += spaces_lines(s);
   } else if (s.ranks > 1) {
-    text +=
-        format("traffic: %.1f messages and %.0f bytes a frame\n", s.messages_per_frame, s.bytes_per_frame);
+    text += fmt::format("traffic: {:.1f} messages and {:.0f} bytes a frame\n", s.messages_per_frame,
+                        s.bytes_per_frame);
   }
   if (s.rebalances > 0) {
-    text += format("rebalances: %lld (%lld %s moved)\n", static_cast<long long>(s.rebalances),
-                   static_cast<long long>(s.worlds_moved), s.decomposition.c_str());
+    text += fmt::format("rebalances: {} ({} {} moved)\n", s.rebalances, s.worlds_moved, s.decomposition);
   }
   if (s.memory.max_bytes > 0) {
     constexpr double mib = 1024.0 * 1024;
-    text += format("memory: peak of a rank min %.1f MiB (rank %d), max %.1f MiB (rank %d)\n",
-                   static_cast<double>(s.memory.min_bytes) / mib, s.memory.min_rank,
-                   static_cast<double>(s.memory.max_bytes) / mib, s.memory.max_rank);
+    text += fmt::format("memory: peak of a rank min {:.1f} MiB (rank {}), max {:.1f} MiB (rank {})\n",
+                        static_cast<double>(s.memory.min_bytes) / mib, s.memory.min_rank,
+                        static_cast<double>(s.memory.max_bytes) / mib, s.memory.max_rank);
   }
   return text;
 }
@@ -102,28 +100,27 @@ template <class Names>
 std::string bands_text(const analysis::ErrorSummary& errors, const Names& names) {
   std::string text;
   for (std::size_t band = 0; band < names.size(); ++band) {
-    text += format("%s%lld %s", band == 0 ? "" : ", ", static_cast<long long>(errors.bands[band]),
-                   std::string(names[band]).c_str());
+    text += fmt::format("{}{} {}", band == 0 ? "" : ", ", errors.bands[band], names[band]);
   }
   return text;
 }
 
 std::string estimate_lines(const EstimateSummary& e, double budget_s) {
   std::string text;
-  text +=
-      format("estimate: %s, %d iterations, %s precision; delivered p50 %.3f ms, p99 %.3f ms, max %.3f ms\n",
-             e.stepper.c_str(), e.iterations, e.precision.c_str(), 1e3 * e.delivered_p50_s,
-             1e3 * e.delivered_p99_s, 1e3 * e.delivered_max_s);
-  text += format(
-      "estimate_rate: %.1f Hz harmonic mean, %.0f %% of the estimates within %.2f ms, precise %.2f times "
-      "later\n",
+  text += fmt::format(
+      "estimate: {}, {} iterations, {} precision; delivered p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
+      e.stepper, e.iterations, e.precision, 1e3 * e.delivered_p50_s, 1e3 * e.delivered_p99_s,
+      1e3 * e.delivered_max_s);
+  text += fmt::format(
+      "estimate_rate: {:.1f} Hz harmonic mean, {:.0f} % of the estimates within {:.2f} ms, precise {:.2f} "
+      "times later\n",
       e.harmonic_mean_hz, 100 * e.satisfied_fraction, 1e3 * budget_s, e.precise_over_delivered);
-  text += format("estimate_defect: position rms %.3g mm, p99 %.3g mm, max %.3g mm (%s)\n",
-                 1e3 * e.position_defect.rms, 1e3 * e.position_defect.p99, 1e3 * e.position_defect.max,
-                 bands_text(e.position_defect, analysis::position_band_names).c_str());
-  text += format("estimate_defect: orientation rms %.3g rad, p99 %.3g rad, max %.3g rad (%s)\n",
-                 e.orientation_defect.rms, e.orientation_defect.p99, e.orientation_defect.max,
-                 bands_text(e.orientation_defect, analysis::orientation_band_names).c_str());
+  text += fmt::format("estimate_defect: position rms {:.3g} mm, p99 {:.3g} mm, max {:.3g} mm ({})\n",
+                      1e3 * e.position_defect.rms, 1e3 * e.position_defect.p99, 1e3 * e.position_defect.max,
+                      bands_text(e.position_defect, analysis::position_band_names));
+  text += fmt::format("estimate_defect: orientation rms {:.3g} rad, p99 {:.3g} rad, max {:.3g} rad ({})\n",
+                      e.orientation_defect.rms, e.orientation_defect.p99, e.orientation_defect.max,
+                      bands_text(e.orientation_defect, analysis::orientation_band_names));
   return text;
 }
 
@@ -146,9 +143,8 @@ nlohmann::ordered_json estimate_json(const EstimateSummary& e) {
 
 std::string guard_lines(const GuardSummary& guards) {
   if (guards.counts.empty()) return "";
-  const std::string counts = join(guards.counts, [](const auto& one) {
-    return format("%lld %s", static_cast<long long>(one.second), one.first.c_str());
-  });
+  const std::string counts =
+      join(guards.counts, [](const auto& one) { return fmt::format("{} {}", one.second, one.first); });
   return "guards: " + counts + (guards.first.empty() ? "" : "; first: " + guards.first) + "\n";
 }
 
@@ -162,16 +158,15 @@ nlohmann::ordered_json guards_json(const GuardSummary& guards) {
 
 std::string state_lines(const RunSummary& s) {
   std::string text;
-  text += format("islands: max %.0f, min %.0f, mean %.2f, stddev %.2f\n", s.islands.max, s.islands.min,
-                 s.islands.mean, s.islands.stddev);
-  text += format("contacts: mean %.1f, max %.0f; rows: mean %.1f, max %.0f\n", s.contacts_mean,
-                 s.contacts_max, s.rows_mean, s.rows_max);
-  text +=
-      format("invariants: %lld non-finite bodies, joint gap %.2f mm, penetration %.2f mm, energy %.1f J\n",
-             static_cast<long long>(s.nonfinite_bodies), 1e3 * s.max_joint_gap_m, 1e3 * s.max_penetration_m,
-             s.energy_j);
-  text += format("worlds_survived: %lld of %d\n", static_cast<long long>(s.worlds_survived), s.worlds);
-  if (s.joints_broken > 0) text += format("joints_broken: %lld\n", static_cast<long long>(s.joints_broken));
+  text += fmt::format("islands: max {:.0f}, min {:.0f}, mean {:.2f}, stddev {:.2f}\n", s.islands.max,
+                      s.islands.min, s.islands.mean, s.islands.stddev);
+  text += fmt::format("contacts: mean {:.1f}, max {:.0f}; rows: mean {:.1f}, max {:.0f}\n", s.contacts_mean,
+                      s.contacts_max, s.rows_mean, s.rows_max);
+  text += fmt::format(
+      "invariants: {} non-finite bodies, joint gap {:.2f} mm, penetration {:.2f} mm, energy {:.1f} J\n",
+      s.nonfinite_bodies, 1e3 * s.max_joint_gap_m, 1e3 * s.max_penetration_m, s.energy_j);
+  text += fmt::format("worlds_survived: {} of {}\n", s.worlds_survived, s.worlds);
+  if (s.joints_broken > 0) text += fmt::format("joints_broken: {}\n", s.joints_broken);
   text += guard_lines(s.guards);
   text += "output: " + (s.output.empty() ? std::string("none") : s.output) + "\n";
   if (!s.checkpoint.empty()) text += "checkpoint: " + s.checkpoint + "\n";

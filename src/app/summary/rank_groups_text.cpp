@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <sstream>
 
-#include "app/common/format.h"
+#include <fmt/core.h>
 
 namespace pbmpi::app {
 
 std::string to_text(const mpi::RankGroups& groups) {
   std::string text;
   for (std::size_t group = 0; group < groups.ranks.size(); ++group)
-    text += format("%s%d:%d", group == 0 ? "" : ",", groups.ranks[group], groups.worlds[group]);
+    text += fmt::format("{}{}:{}", group == 0 ? "" : ",", groups.ranks[group], groups.worlds[group]);
   return text;
 }
 
@@ -30,9 +30,9 @@ mpi::RankGroups rank_groups_from_text(const std::string& text) {
 
 std::string in_words(const mpi::RankGroups& groups) {
   const auto [fewest, most] = std::ranges::minmax(groups.ranks);
-  const std::string sizes = fewest == most ? std::to_string(most) : format("%d to %d", fewest, most);
-  return format("%d %s of %s %s", groups.num_groups(), groups.num_groups() == 1 ? "group" : "groups",
-                sizes.c_str(), most == 1 ? "rank" : "ranks");
+  const std::string sizes = fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most);
+  return fmt::format("{} {} of {} {}", groups.num_groups(), groups.num_groups() == 1 ? "group" : "groups",
+                     sizes, most == 1 ? "rank" : "ranks");
 }
 
 }  // namespace pbmpi::app

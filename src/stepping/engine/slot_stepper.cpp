@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 
 namespace pbmpi::stepping {
@@ -118,9 +120,7 @@ const SlotStepper::Slot& SlotStepper::get(int world) const {
 }
 
 void print_loss(const std::string& engine, int world, std::int64_t step, const std::string& reason) {
-  const std::string line = engine + ": world " + std::to_string(world) + ", step " + std::to_string(step) +
-                           ": this world stops here, " + reason + "\n";
-  std::fputs(line.c_str(), stderr);
+  fmt::print(stderr, "{}: world {}, step {}: this world stops here, {}\n", engine, world, step, reason);
 }
 
 }  // namespace pbmpi::stepping

@@ -1,6 +1,7 @@
 #include "app/pbstudy/stability/stability_settings.h"
 
-#include "app/common/format.h"
+#include <fmt/core.h>
+
 #include "app/common/step_arguments.h"
 #include "core/error.h"
 #include "stepping/step_options.h"
@@ -45,7 +46,7 @@ const std::vector<std::string>& default_stability_settings() {
 
 std::string setting_text(const StabilitySetting& setting) {
   std::string text = stepping::setting_text(setting.stepper);
-  if (setting.own_dt) text += format(", dt %g s", setting.stepper.dt_s);
+  if (setting.own_dt) text += fmt::format(", dt {:g} s", setting.stepper.dt_s);
   if (setting.cut) text += ", in two spaces";
   return text;
 }

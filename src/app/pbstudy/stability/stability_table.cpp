@@ -1,7 +1,8 @@
 #include "app/pbstudy/stability/stability_table.h"
 
+#include <fmt/core.h>
+
 #include "analysis/error_bands.h"
-#include "app/common/format.h"
 #include "app/pbstudy/study/table_columns.h"
 #include "stability/cases/verdict.h"
 
@@ -114,15 +115,16 @@ std::map<std::string, std::vector<io::TableColumn>> stability_tables(const Stabi
 
 std::string stability_note(const StabilityRows& rows) {
   const std::vector<Judgement> judgements = judge_all(rows);
-  std::string text = format("%-52s %5s %9s %7s %5s\n", "setting", "pass", "degraded", "broken", "n/a");
+  std::string text =
+      fmt::format("{:52} {:>5} {:>9} {:>7} {:>5}\n", "setting", "pass", "degraded", "broken", "n/a");
   for (std::size_t k = 0; k < rows.settings.size(); ++k) {
     std::array<int, 4> count{};
     for (std::size_t i = 0; i < rows.cases.size(); ++i) {
       if (rows.cases[i].setting == static_cast<int>(k))
         ++count[static_cast<std::size_t>(judgements[i].verdict)];
     }
-    text += format("%-52s %5d %9d %7d %5d\n", setting_text(rows.settings[k]).c_str(), count[0], count[1],
-                   count[2], count[3]);
+    text += fmt::format("{:52} {:5} {:9} {:7} {:5}\n", setting_text(rows.settings[k]), count[0], count[1],
+                        count[2], count[3]);
   }
   return text;
 }

@@ -4,8 +4,9 @@
 #include <iostream>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "app/common/engine_texts.h"
-#include "app/common/format.h"
 #include "app/common/scene_parameter.h"
 #include "app/common/version.h"
 #include "core/clock.h"
@@ -98,17 +99,17 @@ void StudyRunner::require_all_done(std::size_t num_left_out) const {
   comm_.allreduce(left, mpi::Reduce::sum);
   if (left[0] == 0) return;
   throw StudyStopped{
-      format("stopped with %lld of %zu cases left; the others are kept beside %s: the same command with "
-             "--resume goes on",
-             static_cast<long long>(left[0]), is_kept_.size(), options_.output.c_str())};
+      fmt::format("stopped with {} of {} cases left; the others are kept beside {}: the same command with "
+                  "--resume goes on",
+                  left[0], is_kept_.size(), options_.output)};
 }
 
 void StudyRunner::case_done(int scene) {
   ++own_done_;
   if (!progress_) return;
   progress_->show(own_done_ == own_cases_, [&] {
-    return format("pbstudy: case %zu of %zu on this rank (%s)", own_done_, own_cases_,
-                  this->scene(scene).source.name.c_str());
+    return fmt::format("pbstudy: case {} of {} on this rank ({})", own_done_, own_cases_,
+                       this->scene(scene).source.name);
   });
 }
 

@@ -23,6 +23,7 @@ class Pbmpi(CMakePackage):
     depends_on("hdf5@1.10: +mpi")
     depends_on("boost@1.74: +program_options")
     depends_on("eigen@3.4:3")
+    depends_on("fmt@9:")
     depends_on("tomlplusplus")
     depends_on("pugixml")
     depends_on("nlohmann-json")
