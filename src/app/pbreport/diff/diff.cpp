@@ -1,11 +1,11 @@
 #include "app/pbreport/diff/diff.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 
-#include "app/common/format.h"
 #include "app/common/json_text.h"
 #include "app/pbreport/diff/diff_file.h"
 #include "app/pbreport/diff/diff_options.h"
@@ -123,8 +123,8 @@ std::string summary_text(const std::string& what, const char* name, const char* 
   const std::string bands = is_position ? bands_text(s.bands, analysis::position_band_names)
                                         : bands_text(s.bands, analysis::orientation_band_names);
   const std::string broken = s.broken > 0 ? ", " + std::to_string(s.broken) + " broken" : "";
-  return format("%s %-17s rms %10.4g  p99 %10.4g  max %10.4g %-3s  (%s)\n", what.c_str(), name, s.rms, s.p99,
-                s.max, unit, (bands + broken).c_str());
+  return fmt::format("{} {:17} rms {:>10.4g}  p99 {:>10.4g}  max {:>10.4g} {:3}  ({})\n", what, name, s.rms,
+                     s.p99, s.max, unit, bands + broken);
 }
 
 std::string errors_text(const std::string& what, const ErrorTable& table) {
@@ -141,8 +141,7 @@ std::string constraints_text(const std::string& whose, const ConstraintErrors& e
       text += summary_text("constraints of the " + whose + ":", column.name, column.unit, *summary);
   }
   if (errors.passages > 0)
-    text += format("constraints of the %s: %lld bodies went through something\n", whose.c_str(),
-                   static_cast<long long>(errors.passages));
+    text += fmt::format("constraints of the {}: {} bodies went through something\n", whose, errors.passages);
   return text;
 }
 
@@ -152,28 +151,27 @@ std::string floor_text(const RunComparison& c) {
     const Range rms = floor_of(c, column, &analysis::ErrorSummary::rms);
     const Range max = floor_of(c, column, &analysis::ErrorSummary::max);
     const double found = (c.drift.*column.summary).rms;
-    text +=
-        format("noise_floor: %-11s rms %.4g to %.4g, max %.4g to %.4g %s over %zu seeds: the drift is %s\n",
-               column.name, rms.low, rms.high, max.low, max.high, column.unit, c.floor.size(),
-               found > rms.high ? "above it" : "inside it and proves nothing");
+    text += fmt::format(
+        "noise_floor: {:11} rms {:.4g} to {:.4g}, max {:.4g} to {:.4g} {} over {} seeds: the drift is {}\n",
+        column.name, rms.low, rms.high, max.low, max.high, column.unit, c.floor.size(),
+        found > rms.high ? "above it" : "inside it and proves nothing");
   }
   return text;
 }
 
 std::string invariants_text(const char* whose, const RunInvariants& kept) {
   static constexpr std::array<std::string_view, 4> names = {"< 3 %", "3-20 %", "> 20 %", "inf/NaN"};
-  return format(
-      "%s: penetration %.2f mm, joint gap %.2f mm, energy %.1f J to %.1f J, stretch of human segments "
-      "max %.2f %% (%s)\n",
+  return fmt::format(
+      "{}: penetration {:.2f} mm, joint gap {:.2f} mm, energy {:.1f} J to {:.1f} J, stretch of human "
+      "segments max {:.2f} % ({})\n",
       whose, 1e3 * kept.max_penetration_m, 1e3 * kept.max_joint_gap_m, kept.energy_first_j,
-      kept.energy_last_j, 100 * kept.max_stretch, bands_text(kept.stretch, names).c_str());
+      kept.energy_last_j, 100 * kept.max_stretch, bands_text(kept.stretch, names));
 }
 
 std::string breaks_text(const char* where, const std::vector<BrokenJoint>& broken) {
   std::string text;
   for (const BrokenJoint& one : broken) {
-    text += format("joints_broken: in the %s only: %s in step %lld\n", where, one.joint.c_str(),
-                   static_cast<long long>(one.step));
+    text += fmt::format("joints_broken: in the {} only: {} in step {}\n", where, one.joint, one.step);
   }
   return text;
 }
@@ -183,21 +181,19 @@ std::string breaks_text(const BreakComparison& breaks) {
   const std::size_t apart = breaks.in_run_only.size() + breaks.in_reference_only.size();
   std::string text;
   if (breaks.unknown_in_run + breaks.unknown_in_reference > 0) {
-    text = format(
-        "joints_broken: %lld more in the run and %lld in the reference, of which the files do not say "
+    text = fmt::format(
+        "joints_broken: {} more in the run and {} in the reference, of which the files do not say "
         "which they are\n",
-        static_cast<long long>(breaks.unknown_in_run), static_cast<long long>(breaks.unknown_in_reference));
+        breaks.unknown_in_run, breaks.unknown_in_reference);
   }
   if (breaks.in_both == 0 && apart == 0) return text;
-  return format("joints_broken: %lld in both, %zu in one of the two\n",
-                static_cast<long long>(breaks.in_both), apart) +
-         text + breaks_text("run", breaks.in_run_only) + breaks_text("reference", breaks.in_reference_only);
+  return fmt::format("joints_broken: {} in both, {} in one of the two\n", breaks.in_both, apart) + text +
+         breaks_text("run", breaks.in_run_only) + breaks_text("reference", breaks.in_reference_only);
 }
 
 std::string to_text(const DiffOptions& options, const RunComparison& c, bool same_hash) {
-  std::string text =
-      format("run: %s\nreference: %s\nframes: %zu measured\nstate_hash: %s\n", options.run.c_str(),
-             options.reference.c_str(), c.num_frames, same_hash ? "equal" : "different");
+  std::string text = fmt::format("run: {}\nreference: {}\nframes: {} measured\nstate_hash: {}\n", options.run,
+                                 options.reference, c.num_frames, same_hash ? "equal" : "different");
   text += errors_text("drift:", c.drift);
   if (c.defect) text += errors_text("estimate_defect:", *c.defect);
   if (c.estimate_drift) text += errors_text("estimate_drift:", *c.estimate_drift);

@@ -1,11 +1,11 @@
 #include "app/pbreport/diff/diff_page.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "app/common/format.h"
 #include "app/common/json_text.h"
 #include "app/common/options.h"
 #include "io/html/chart_page.h"
@@ -37,7 +37,7 @@ io::html::Chart chart_of(const RunComparison& c, const std::string& title, const
   const std::size_t per_point = frames_a_point(c);
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < c.times_s.size(); i += per_point)
-    labels.push_back(format("%.4g", c.times_s[i]));
+    labels.push_back(fmt::format("{:.4g}", c.times_s[i]));
   ChartJson datasets = ChartJson::array();
   for (const Line& line : lines) {
     ChartJson dataset = {
@@ -73,10 +73,10 @@ io::html::PageSection drift_section(const RunComparison& c) {
   io::html::PageSection section;
   section.title = "How far the run is from the reference";
   section.text =
-      format("Drift along the trajectory, frame by frame, over the %zu measured frames that both have.",
-             c.num_frames);
+      fmt::format("Drift along the trajectory, frame by frame, over the {} measured frames that both have.",
+                  c.num_frames);
   if (frames_a_point(c) > 1)
-    section.text += format(" A point is the largest of %zu frames.", frames_a_point(c));
+    section.text += fmt::format(" A point is the largest of {} frames.", frames_a_point(c));
   for (const analysis::NamedSummary& named : analysis::error_columns) {
     const auto line = [&](const char* label, const char* colour, double ErrorSummary::*number) {
       return Line{label, colour, false, numbers(c.num_frames, [&](std::size_t i) {
@@ -84,7 +84,7 @@ io::html::PageSection drift_section(const RunComparison& c) {
                   })};
     };
     section.charts.push_back(chart_of(
-        c, spoken(named.name), "Of all finite errors of the frame.", format("error [%s]", named.unit),
+        c, spoken(named.name), "Of all finite errors of the frame.", fmt::format("error [{}]", named.unit),
         {line("largest", orange, &ErrorSummary::max), line("rms", blue, &ErrorSummary::rms)}));
   }
   return section;
@@ -119,7 +119,8 @@ io::html::PageSection constraint_section(const RunComparison& c) {
   for (const NamedConstraint& named : constraint_columns) {
     const std::vector<Line> lines = constraint_lines(c, named);
     if (!lines.empty())
-      section.charts.push_back(chart_of(c, spoken(named.name), "", format("error [%s]", named.unit), lines));
+      section.charts.push_back(
+          chart_of(c, spoken(named.name), "", fmt::format("error [{}]", named.unit), lines));
   }
   return section;
 }
@@ -129,7 +130,7 @@ std::string largest_of(const std::optional<RunConstraints>& of_run, std::size_t 
                        const NamedConstraint& named) {
   if (!of_run || actor >= of_run->by_actor.size()) return "";
   const ErrorSummary* summary = named.summary(of_run->by_actor[actor]);
-  return summary == nullptr || summary->count == 0 ? "" : format("%.3g", summary->max);
+  return summary == nullptr || summary->count == 0 ? "" : fmt::format("{:.3g}", summary->max);
 }
 
 io::html::PageSection actor_section(const RunComparison& c) {
@@ -141,12 +142,12 @@ io::html::PageSection actor_section(const RunComparison& c) {
   });
   io::html::TextTable table{"Actors", {"world", "actor", "drift rms [m]", "largest [m]"}, {}};
   for (const NamedConstraint& named : constraint_columns)
-    table.header.push_back(format("run's largest %s [%s]", spoken(named.name).c_str(), named.unit));
+    table.header.push_back(fmt::format("run's largest {} [{}]", spoken(named.name), named.unit));
   for (std::size_t i = 0; i < std::min(order.size(), most_rows); ++i) {
     const ActorErrors& actor = c.drift_by_actor[order[i]];
     std::vector<std::string> row = {std::to_string(actor.actor.world), actor.actor.name,
-                                    format("%.3g", actor.drift.body_position.rms),
-                                    format("%.3g", actor.drift.body_position.max)};
+                                    fmt::format("{:.3g}", actor.drift.body_position.rms),
+                                    fmt::format("{:.3g}", actor.drift.body_position.max)};
     for (const NamedConstraint& named : constraint_columns)
       row.push_back(largest_of(c.run_constraints, order[i], named));
     table.rows.push_back(std::move(row));
@@ -154,8 +155,8 @@ io::html::PageSection actor_section(const RunComparison& c) {
   io::html::PageSection section;
   section.title = "By actor";
   section.text = order.size() > most_rows
-                     ? format("The %zu of %zu actors that are farthest off; --output FILE has all.",
-                              most_rows, order.size())
+                     ? fmt::format("The {} of {} actors that are farthest off; --output FILE has all.",
+                                   most_rows, order.size())
                      : "Those that are farthest off first.";
   section.tables = {table};
   return section;

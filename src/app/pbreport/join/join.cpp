@@ -2,7 +2,8 @@
 
 #include <ostream>
 
-#include "app/common/format.h"
+#include <fmt/core.h>
+
 #include "app/common/options.h"
 #include "app/common/text_output.h"
 #include "io/join/join_runs.h"
@@ -24,20 +25,17 @@ po::options_description visible_options() {
 std::string to_text(const io::JoinedRun& joined, const std::string& output) {
   std::string text;
   for (const io::JoinedRun::Part& part : joined.parts) {
-    text += format("%s: frames %lld to %lld, %lld of them taken", part.path.c_str(),
-                   static_cast<long long>(part.first_frame),
-                   static_cast<long long>(part.first_frame + part.num_frames - 1),
-                   static_cast<long long>(part.num_used));
+    text += fmt::format("{}: frames {} to {}, {} of them taken", part.path, part.first_frame,
+                        part.first_frame + part.num_frames - 1, part.num_used);
     for (const std::string& one : part.differs) text += "; " + one;
     text += "\n";
   }
   for (const std::string& name : joined.left_out)
     text += "left_out: " + name + ", which not all files have\n";
-  return text + format("%s: frames %lld to %lld, %s\nstate_hash: %s\n", output.c_str(),
-                       static_cast<long long>(joined.first_frame),
-                       static_cast<long long>(joined.first_frame + joined.num_frames - 1),
-                       joined.complete ? "complete" : "incomplete",
-                       joined.state_hash.empty() ? "none (the run was cut off)" : joined.state_hash.c_str());
+  return text + fmt::format("{}: frames {} to {}, {}\nstate_hash: {}\n", output, joined.first_frame,
+                            joined.first_frame + joined.num_frames - 1,
+                            joined.complete ? "complete" : "incomplete",
+                            joined.state_hash.empty() ? "none (the run was cut off)" : joined.state_hash);
 }
 
 }  // namespace

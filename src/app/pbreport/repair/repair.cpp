@@ -2,7 +2,8 @@
 
 #include <ostream>
 
-#include "app/common/format.h"
+#include <fmt/core.h>
+
 #include "app/common/options.h"
 #include "app/common/text_output.h"
 #include "io/repair/repair_run.h"
@@ -45,9 +46,8 @@ core::ExitCode run_repair(const std::vector<std::string>& args, std::ostream& ou
     constexpr double mebibyte = 1024.0 * 1024.0;
     if (values.count("quiet") == 0) {
       out << file
-          << format(": %lld frames are committed; %.1f MiB given back\n",
-                    static_cast<long long>(repair.frames),
-                    static_cast<double>(repair.bytes_freed) / mebibyte);
+          << fmt::format(": {} frames are committed; {:.1f} MiB given back\n", repair.frames,
+                         static_cast<double>(repair.bytes_freed) / mebibyte);
     }
   }
   require_printed(out, "what was repaired");

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <iostream>
 
-#include "app/common/format.h"
+#include <fmt/core.h>
+
 #include "app/pbstudy/prediction/child_runs.h"
 #include "app/pbstudy/prediction/prediction_table.h"
 #include "app/pbstudy/prediction/unpredicted_runs.h"
@@ -68,8 +69,8 @@ core::ExitCode run_prediction(const mpi::Communicator& comm, const std::vector<s
                           io::Parameter::of("figure_threshold", options.thresholds.front())};
     if (!options.has_ode_single)
       content.note =
-          format("no runs of quick in single precision: this build has no %s (jobs/ode_single.sh)\n",
-                 ode_single_program);
+          fmt::format("no runs of quick in single precision: this build has no {} (jobs/ode_single.sh)\n",
+                      ode_single_program);
     content.report = "jobs/paper/paper.py prediction";
     content.next = " --html prediction.html";
     return content;

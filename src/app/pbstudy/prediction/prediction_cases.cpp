@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/common/format.h"
+#include <fmt/core.h>
+
 #include "core/error.h"
 #include "mpi/balance/partition.h"
 
@@ -63,8 +64,8 @@ void add_scene(int index, const StudyScene& scene, const PredictionOptions& opti
   const double first = options.thresholds.front();
   const std::string fvp = name_of_threshold(first);
   const bool in_detail = scene.source.name == options.detail_scene;
-  list.add(format("%dIter", scene.iterations), 0).has_variants = in_detail;
-  list.add(format("%dIter", scene.iterations - 1), 0).iterations = scene.iterations - 1;
+  list.add(fmt::format("{}Iter", scene.iterations), 0).has_variants = in_detail;
+  list.add(fmt::format("{}Iter", scene.iterations - 1), 0).iterations = scene.iterations - 1;
   list.add("FEEC", 0).feec = true;
   list.add("FEEC+" + fvp, first).feec = true;
   for (const double threshold : options.thresholds) {
@@ -103,7 +104,7 @@ std::vector<int> deal_out(const std::vector<PredictionCase>& cases, int num_rank
 std::string name_of_threshold(double threshold) {
   const double digits = -std::log10(threshold);
   const bool is_power = std::abs(digits - std::round(digits)) < 1e-9 && digits > 0.5;
-  return is_power ? format("FVP%.0f", digits) : format("FVP(%g)", threshold);
+  return is_power ? fmt::format("FVP{:.0f}", digits) : fmt::format("FVP({:g})", threshold);
 }
 
 const std::vector<ModelVariant>& model_variants() {

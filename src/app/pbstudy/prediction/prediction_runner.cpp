@@ -2,7 +2,8 @@
 
 #include <filesystem>
 
-#include "app/common/format.h"
+#include <fmt/core.h>
+
 #include "app/pbstudy/prediction/run_errors.h"
 #include "app/pbstudy/prediction/tool_report.h"
 #include "app/pbstudy/prediction/unpredicted_runs.h"
@@ -39,20 +40,20 @@ class PredictedRuns {
   std::vector<std::string> tool() const {
     std::vector<std::string> command = {"valgrind", "--quiet", "--tool=pbvalue",
                                         "--pbvalue-out-file=" + report(), "--scope=" + case_.scope};
-    if (case_.threshold > 0) command.push_back(format("--threshold=%.17g", case_.threshold));
+    if (case_.threshold > 0) command.push_back(fmt::format("--threshold={:.17g}", case_.threshold));
     command.insert(command.end(), options_.tool_options.begin(), options_.tool_options.end());
     return command;
   }
   void add_models(std::vector<std::string>& command) const {
-    command.push_back(format("--first-modelled=%d", scene_.warmup));
+    command.push_back(fmt::format("--first-modelled={}", scene_.warmup));
     command.emplace_back(case_.feec ? "--modelled=estimate" : "--modelled=precise");
     command.emplace_back("--model=none");
     command.emplace_back("--model=predicted:predict=1");
     if (!case_.has_variants) return;
     for (std::size_t i = 1; i < model_variants().size(); ++i) {
       const std::string settings = model_variants()[i].settings;
-      command.push_back(format("--model=none%zu:", i) + settings);
-      command.push_back(format("--model=predicted%zu:", i) + settings + ",predict=1");
+      command.push_back(fmt::format("--model=none{}:", i) + settings);
+      command.push_back(fmt::format("--model=predicted{}:", i) + settings + ",predict=1");
     }
   }
   std::vector<std::string> step_options(bool feec) const {
