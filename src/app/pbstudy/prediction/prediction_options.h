@@ -15,7 +15,6 @@ struct PredictionOptions : StudyOptions {
   std::vector<std::string> tool_options;  ///< for pbvalue, after the study's own
   double budget_s = 0;                    ///< per frame
   double time_limit_s = 0;                ///< per run
-  bool has_ode_single = false;            ///< this build can run quick in single precision
   bool full = false;                      ///< every world of every scene, cycles of every threshold
 };
 
