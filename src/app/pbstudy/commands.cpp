@@ -4,16 +4,6 @@
 #include <iostream>
 
 #include "app/common/options.h"
-#include "app/pbstudy/accuracy/accuracy.h"
-#include "app/pbstudy/accuracy/accuracy_options.h"
-#include "app/pbstudy/calibrate/calibrate.h"
-#include "app/pbstudy/calibrate/calibrate_options.h"
-#include "app/pbstudy/effects/effects.h"
-#include "app/pbstudy/effects/effects_options.h"
-#include "app/pbstudy/prediction/prediction.h"
-#include "app/pbstudy/prediction/prediction_options.h"
-#include "app/pbstudy/stability/stability.h"
-#include "app/pbstudy/stability/stability_options.h"
 #include "app/pbstudy/study/study_runner.h"
 #include "core/text.h"
 

@@ -6,16 +6,15 @@
 #include <vector>
 
 #include "app/manual/manual.h"
-#include "core/error.h"
-#include "mpi/comm/communicator.h"
+#include "app/pbstudy/study/studies.h"
 
 namespace pbmpi::app {
 
-/// One study. It reads its own options, and its run is collective.
+/// One study, which reads its own options.
 struct StudyCommand {
   std::string_view name;
   std::string_view meaning;  ///< one line for --help
-  core::ExitCode (*run)(const mpi::Communicator& comm, const std::vector<std::string>& args);
+  Study* run;
 };
 
 const std::vector<StudyCommand>& study_commands();

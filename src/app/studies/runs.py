@@ -30,7 +30,7 @@ class CaseRuns:
         steps = steps or scene["steps_per_frame"]
         frames = (scene["warmup"] + scene["frames"]) * scene["steps_per_frame"] // steps
         command = [*tool, self.program(case["program"]), "--scene", scene_file, "--stepper", case["stepper"], "--warmup", 0, "--frames", frames,
-                   "--steps-per-frame", steps, "--replicas", scene["worlds"], "--output", self.folder / f"{name}.h5", "--no-xdmf",
+                   "--steps-per-frame", steps, "--replicas", scene["worlds"], "--output", self.folder / f"{name}.h5",
                    "--report", "json", "--progress", "never", "--seed", self.options["seed"], *more]
         if case["stepper"] == "quick":
             command += ["--iterations", iterations]

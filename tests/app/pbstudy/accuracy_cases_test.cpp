@@ -10,6 +10,7 @@
 #include "app/pbstudy/accuracy/own_solution.h"
 #include "app/pbstudy/accuracy/yardsticks.h"
 #include "core/error.h"
+#include "mpi/balance/partition.h"
 #include "stepping/step_options.h"
 
 namespace pbmpi::app {
@@ -21,7 +22,7 @@ AccuracyOptions options_of(std::vector<std::string> args) {
 }
 
 std::vector<AccuracyCase> cases_of(const AccuracyOptions& options) {
-  return make_cases({study_scene(scenes::find_scene("CrashSk"), options)}, options);
+  return make_cases({study_scene(scenes::find_scene("CrashSk"), options.overrides)}, options);
 }
 
 std::int64_t count(const std::vector<AccuracyCase>& cases, CaseKind kind) {
@@ -150,9 +151,12 @@ TEST(AccuracyCases, another_step_fills_the_same_frame) {
 
 TEST(AccuracyCases, every_case_has_one_owner_and_no_rank_has_all_the_work) {
   const AccuracyOptions options = options_of({});
-  const std::vector<StudyScene> scenes = {study_scene(scenes::find_scene("CrashSk"), options)};
+  const std::vector<StudyScene> scenes = {study_scene(scenes::find_scene("CrashSk"), options.overrides)};
   const auto cases = make_cases(scenes, options);
-  const std::vector<int> owner = deal_out(cases, scenes, 3);
+  std::vector<double> cost;
+  cost.reserve(cases.size());
+  for (const AccuracyCase& one : cases) cost.push_back(cost_of(one, scenes.front()));
+  const std::vector<int> owner = mpi::lpt_placement(cost, 3);
   ASSERT_EQ(owner.size(), cases.size());
   EXPECT_EQ(std::set<int>(owner.begin(), owner.end()), (std::set<int>{0, 1, 2}));
 }
@@ -181,7 +185,7 @@ TEST(AccuracyCases, bad_values_are_named) {
 
 TEST(CaseRunner, the_reference_has_no_error_against_itself_and_few_iterations_have) {
   const AccuracyOptions options = options_of({"--reference-iterations", "40", "--reference-residual", "0"});
-  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
+  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options.overrides);
   const SolvedReference reference = solve_reference(scene, reference_solve(scene, options));
   const RestRunner no_rest(scene, reference_settings(scene, options), 0);
   ASSERT_EQ(reference.states.size(), 9u);
@@ -205,7 +209,7 @@ TEST(CaseRunner, the_reference_has_no_error_against_itself_and_few_iterations_ha
 
 TEST(CaseRunner, repeats_change_times_only) {
   const AccuracyOptions options = options_of({"--reference-iterations", "10", "--reference-residual", "0"});
-  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
+  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options.overrides);
   const SolvedReference reference = solve_reference(scene, reference_solve(scene, options));
   const RestRunner no_rest(scene, reference_settings(scene, options), 0);
   AccuracyCase one{0, CaseKind::setting, default_settings(stepping::StepperKind::quick), 3};
@@ -220,7 +224,7 @@ TEST(ConvergingStepper, solves_each_step_of_each_world_as_far_as_asked) {
   const AccuracyOptions options =
       options_of({"--replicas", "3", "--reference-iterations", "40", "--reference-residual", "1mm",
                   "--reference-most-iterations", "2560"});
-  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
+  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options.overrides);
   ReferenceSolve asked = reference_solve(scene, options);
   const SolvedReference reference = solve_reference(scene, asked);
   std::set<int> used;
@@ -247,7 +251,7 @@ TEST(ConvergingStepper, solves_each_step_of_each_world_as_far_as_asked) {
 TEST(Yardsticks, the_reference_solved_further_is_nearer_to_it_than_half_of_it) {
   const AccuracyOptions options =
       options_of({"--reference-iterations", "320", "--reference-residual", "0", "--reference-check", "8"});
-  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
+  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options.overrides);
   const SolvedReference reference = solve_reference(scene, reference_solve(scene, options));
   const auto defect = [&](CaseKind kind) {
     for (const AccuracyCase& one : make_cases({scene}, options)) {
@@ -348,7 +352,7 @@ TEST(OwnSolution, is_what_more_iterations_come_to) {
                                               "0",
                                               "--floor-seeds",
                                               "1"});
-  const StudyScene scene = study_scene(scenes::find_scene("2-Cars"), options);
+  const StudyScene scene = study_scene(scenes::find_scene("2-Cars"), options.overrides);
   const auto cases = make_cases({scene}, options);
   const SolvedReference reference = solve_reference(scene, reference_solve(scene, options));
   const RestRunner no_rest(scene, reference_settings(scene, options), 0);
@@ -375,7 +379,8 @@ TEST(OwnSolution, is_what_more_iterations_come_to) {
 }
 
 TEST(OwnSolution, a_disturbance_moves_all_by_no_more_than_its_size) {
-  const auto worlds = build_worlds(study_scene(scenes::find_scene("2-Cars"), options_of({})), 0.01, 1);
+  const auto worlds =
+      build_worlds(study_scene(scenes::find_scene("2-Cars"), options_of({}).overrides), 0.01, 1);
   const model::State start = model::initial_state(*worlds[0]);
   model::State moved = start, again = start, other = start;
   disturb(1e-12, 5, moved);
@@ -392,7 +397,7 @@ TEST(OwnSolution, a_disturbance_moves_all_by_no_more_than_its_size) {
 
 TEST(RestRunner, counts_what_falls_though_the_reference_holds_it) {
   const AccuracyOptions options = options_of({"--reference-iterations", "80"});
-  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options);
+  const StudyScene scene = study_scene(scenes::find_scene("CrashSk"), options.overrides);
   const stepping::StepperSettings reference = reference_settings(scene, options);
   const RestRunner rest(scene, reference, 1);
   EXPECT_EQ(rest.run(reference).fallen, 0) << "against itself";

@@ -1,5 +1,3 @@
-#include "app/pbstudy/accuracy/accuracy.h"
-
 #include <iostream>
 #include <optional>
 
@@ -7,6 +5,7 @@
 #include "app/pbstudy/accuracy/own_solution.h"
 #include "app/pbstudy/accuracy/yardsticks.h"
 #include "app/pbstudy/study/engine_differences.h"
+#include "app/pbstudy/study/studies.h"
 #include "app/pbstudy/study/study_runner.h"
 
 namespace pbmpi::app {
@@ -15,13 +14,13 @@ namespace {
 using io::Parameter;
 
 /// Each rank that has cases of a scene makes the scene's reference and own solutions itself.
-std::vector<CaseResult> run_cases(const mpi::Communicator& comm, const AccuracyOptions& options,
-                                  const std::vector<AccuracyCase>& cases, StudyRunner& runner) {
+std::vector<CaseResult> run_cases(const AccuracyOptions& options, const std::vector<AccuracyCase>& cases,
+                                  StudyRunner& runner) {
   std::optional<SolvedReference> reference;
   std::optional<RestRunner> rest;
   std::optional<OwnSolutions> own;
   int reference_scene = -1;
-  const std::vector<int> owner = deal_out(cases, runner.scenes(), comm.size());
+  const auto cost = [&](const AccuracyCase& one) { return cost_of(one, runner.scene(one.scene)); };
   const auto run_one = [&](std::size_t i) {
     const StudyScene& scene = runner.scene(cases[i].scene);
     if (cases[i].scene != reference_scene) {
@@ -34,12 +33,7 @@ std::vector<CaseResult> run_cases(const mpi::Communicator& comm, const AccuracyO
     if (is_yardstick(cases[i].kind)) return run_yardstick(cases[i], scene, *reference, options);
     return run_case(cases[i], scene, *reference, *rest, options.repeats, own->ends(cases[i].own));
   };
-  return runner
-      .run<CaseResult>(cases, owner,
-                       [&](std::size_t i) {
-                         return CaseOutcome<CaseResult>{run_one(i), {}};
-                       })
-      .results;
+  return runner.run<CaseResult>(cases, cost, run_one).results;
 }
 
 StudyContent content(const AccuracyOptions& options, const std::vector<StudyScene>& scenes,
@@ -76,7 +70,7 @@ core::ExitCode run_accuracy(const mpi::Communicator& comm, const std::vector<std
   StudyRunner runner(comm, "accuracy", options);
   const std::vector<AccuracyCase> cases = make_cases(runner.scenes(), options);
   runner.open_output();
-  const std::vector<CaseResult> results = run_cases(comm, options, cases, runner);
+  const std::vector<CaseResult> results = run_cases(options, cases, runner);
   runner.write([&] { return content(options, runner.scenes(), cases, results); });
   return core::ExitCode::done;
 }

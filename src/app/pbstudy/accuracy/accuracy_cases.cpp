@@ -7,7 +7,6 @@
 
 #include "app/common/estimate_spec.h"
 #include "core/error.h"
-#include "mpi/balance/partition.h"
 #include "scenes/scene.h"
 
 namespace pbmpi::app {
@@ -184,10 +183,6 @@ int AccuracyCase::sweeps_a_frame() const {
   return steps_per_frame * (estimate ? sweeps_of(*estimate) : sweeps());
 }
 
-StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions& options) {
-  return study_scene(source, options.overrides);
-}
-
 StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options) {
   StepperSettings reference = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
   reference.dt_s = scene.dt_s;
@@ -224,16 +219,10 @@ std::vector<AccuracyCase> make_cases(const std::vector<StudyScene>& scenes, cons
   return cases;
 }
 
-std::vector<int> deal_out(const std::vector<AccuracyCase>& cases, const std::vector<StudyScene>& scenes,
-                          int num_ranks) {
+double cost_of(const AccuracyCase& one, const StudyScene& scene) {
   // A step costs its sweeps and a fixed part of about five more.
-  std::vector<double> cost;
-  for (const AccuracyCase& one : cases) {
-    const double per_sweep = traits_of(one.stepper.kind).relative_cost;
-    const StudyScene& scene = scenes[static_cast<std::size_t>(one.scene)];
-    cost.push_back(per_sweep * (one.sweeps() + 5) * one.steps_per_frame * scene.num_worlds);
-  }
-  return mpi::lpt_placement(cost, num_ranks);
+  return traits_of(one.stepper.kind).relative_cost * (one.sweeps() + 5) * one.steps_per_frame *
+         scene.num_worlds;
 }
 
 }  // namespace pbmpi::app

@@ -45,8 +45,6 @@ struct AccuracyCase {
   int sweeps_a_frame() const;                        ///< until the estimate, or the frame's end, is there
 };
 
-StudyScene study_scene(const scenes::SceneSource& source, const AccuracyOptions& options);
-
 /// The reference's setting: sor with ODE's law in double precision, with the iterations that it begins with.
 stepping::StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options);
 ReferenceSolve reference_solve(const StudyScene& scene, const AccuracyOptions& options);
@@ -59,8 +57,7 @@ stepping::StepperSettings own_settings(const stepping::StepperSettings& setting,
 /// All cases of all scenes, scene by scene. Throws core::InputError for a dt that does not fill a frame.
 std::vector<AccuracyCase> make_cases(const std::vector<StudyScene>& scenes, const AccuracyOptions& options);
 
-/// [num_cases] the rank that works on each case: dealt out by expected cost, the dearest first.
-std::vector<int> deal_out(const std::vector<AccuracyCase>& cases, const std::vector<StudyScene>& scenes,
-                          int num_ranks);
+/// Expected, in any unit.
+double cost_of(const AccuracyCase& one, const StudyScene& scene);
 
 }  // namespace pbmpi::app

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "app/common/quantities.h"
-#include "app/pbstudy/study/option_lists.h"
 
 namespace pbmpi::app {
 namespace {

@@ -1,15 +1,14 @@
-#include "app/pbstudy/calibrate/calibrate.h"
-
 #include <malloc.h>
 
 #include <iostream>
 #include <memory>
 
 #include "app/common/provenance.h"
-#include "app/common/version.h"
 #include "app/pbstudy/calibrate/calibrate_cases.h"
 #include "app/pbstudy/calibrate/calibrate_options.h"
 #include "app/pbstudy/calibrate/timed_cases.h"
+#include "app/pbstudy/study/studies.h"
+#include "app/pbstudy/study/study_runner.h"
 #include "app/pbstudy/study/table_columns.h"
 #include "core/statistics.h"
 #include "core/system/awaited.h"
@@ -62,15 +61,15 @@ double bytes_of_a_body() {
 
 std::vector<io::TableColumn> case_columns(const std::vector<TimedCase>& cases, const CaseTimes& times) {
   const auto integers = [&](const char* name, const char* unit, std::int64_t TimedCase::*number) {
-    return column<std::int64_t>(name, unit, cases, [&](const TimedCase& one) { return one.*number; });
+    return column(name, unit, cases, [&](const TimedCase& one) { return one.*number; });
   };
   const auto seconds = [&](const char* name, double q) {
-    return column<double>(name, "s", times, [&](const auto& rounds) { return core::quantile(rounds, q); });
+    return column(name, "s", times, [&](const auto& rounds) { return core::quantile(rounds, q); });
   };
-  return {column<std::string>("part", "", cases,
-                              [](const TimedCase& one) {
-                                return std::string(timed_part_names[static_cast<std::size_t>(one.part)]);
-                              }),
+  return {column("part", "", cases,
+                 [](const TimedCase& one) {
+                   return std::string(timed_part_names[static_cast<std::size_t>(one.part)]);
+                 }),
           integers("ranks", "", &TimedCase::ranks),
           integers("worlds", "", &TimedCase::worlds),
           integers("bodies", "", &TimedCase::bodies),
@@ -83,20 +82,12 @@ std::vector<io::TableColumn> case_columns(const std::vector<TimedCase>& cases, c
 
 io::TableFile file_of(const Provenance& provenance, const CalibrateOptions& options, std::int64_t rank_bytes,
                       std::vector<io::TableColumn> columns) {
-  io::TableFile file;
-  file.attributes = {{"study", "calibrate"},
-                     {"pbmpi_version", program_version},
-                     {"git_revision", git_revision},
-                     {"created", provenance.created},
-                     {"command_line", provenance.command_line}};
-  file.parameters = {Parameter::of("seed", static_cast<std::int64_t>(options.seed)),
-                     Parameter::of("repeats", std::int64_t{options.repeats}),
-                     Parameter::of("ranks", static_cast<std::int64_t>(provenance.hosts.size())),
-                     Parameter::of("hosts", static_cast<std::int64_t>(distinct(provenance.hosts).size())),
-                     Parameter::of("processors", std::int64_t{provenance.processors}),
-                     Parameter::of("rank_bytes", rank_bytes),
-                     Parameter::of("body_bytes", bytes_of_a_body()),
-                     Parameter::of("build", build_description)};
+  io::TableFile file = study_file("calibrate", provenance, options.seed, options.repeats);
+  for (const Parameter& one :
+       {Parameter::of("hosts", static_cast<std::int64_t>(distinct(provenance.hosts).size())),
+        Parameter::of("processors", std::int64_t{provenance.processors}),
+        Parameter::of("rank_bytes", rank_bytes), Parameter::of("body_bytes", bytes_of_a_body())})
+    file.parameters.push_back(one);
   file.tables["cases"] = std::move(columns);
   return file;
 }

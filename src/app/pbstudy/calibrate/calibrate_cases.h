@@ -1,12 +1,39 @@
-/// The cases that "pbstudy calibrate" times, and their order.
+/// The cases of "pbstudy calibrate": each a part of the harness, timed under one load.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
-#include "app/pbstudy/calibrate/timed_case.h"
-
 namespace pbmpi::app {
+
+/// The part that was timed.
+enum class TimedPart {
+  frame,    ///< worlds without physics, on one rank
+  unpack,   ///< root: reads the worlds of all other ranks from one array
+  balance,  ///< root: decides that no world moves
+  table,    ///< the table of where the bodies of all worlds begin
+  hash,     ///< the hash of a run from those of its worlds
+  bodies,   ///< hashes of worlds from their bodies
+  message,  ///< half a message there and back
+  send,     ///< a message of a burst, at its sender
+  receive,  ///< a message of a burst, at its receiver
+  move,     ///< root: decides which worlds move; costs are uneven. Not used in any fit
+};
+inline constexpr std::array<std::string_view, 10> timed_part_names = {
+    "frame", "unpack", "balance", "table", "hash", "bodies", "message", "send", "receive", "move"};
+
+/// Members that do not concern its part are 0.
+struct TimedCase {
+  TimedPart part = TimedPart::frame;
+  std::int64_t ranks = 1;
+  std::int64_t worlds = 0;
+  std::int64_t bodies = 0;  ///< per world
+  std::int64_t steps = 0;   ///< per frame
+  std::int64_t bytes = 0;   ///< per message
+  double seconds = 0;
+};
 
 /// Cases without seconds; `num_ranks`: the ranks available. Those of one rank come first, then those in which
 /// all ranks take part: frames of all of them, and messages.

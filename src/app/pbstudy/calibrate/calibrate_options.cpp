@@ -1,6 +1,6 @@
 #include "app/pbstudy/calibrate/calibrate_options.h"
 
-#include "app/pbstudy/study/option_lists.h"
+#include "app/pbstudy/study/study_options.h"
 
 namespace pbmpi::app {
 namespace {

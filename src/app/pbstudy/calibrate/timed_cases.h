@@ -1,7 +1,7 @@
 /// How a case of "pbstudy calibrate" is timed, once.
 #pragma once
 
-#include "app/pbstudy/calibrate/timed_case.h"
+#include "app/pbstudy/calibrate/calibrate_cases.h"
 #include "mpi/comm/communicator.h"
 
 namespace pbmpi::app {

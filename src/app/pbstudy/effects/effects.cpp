@@ -1,11 +1,10 @@
-#include "app/pbstudy/effects/effects.h"
-
 #include <iostream>
 #include <optional>
 
 #include "app/common/engine_texts.h"
 #include "app/pbstudy/effects/counted_study.h"
 #include "app/pbstudy/effects/effects_table.h"
+#include "app/pbstudy/study/studies.h"
 #include "app/pbstudy/study/study_runner.h"
 
 namespace pbmpi::app {
@@ -24,11 +23,9 @@ struct Baseline {
   }
 };
 
-std::vector<EffectResult> run_cases(const mpi::Communicator& comm, const EffectsOptions& options,
-                                    const std::vector<EffectCase>& cases, core::InstructionCounter& counter,
-                                    StudyRunner& runner) {
+std::vector<EffectResult> run_cases(const EffectsOptions& options, const std::vector<EffectCase>& cases,
+                                    core::InstructionCounter& counter, StudyRunner& runner) {
   Baseline baseline;
-  const std::vector<int> owner = deal_out(cases, runner.scenes(), comm.size());
   const auto run_one = [&](std::size_t i) {
     const EffectCase& one = cases[i];
     const StudyScene& scene = runner.scene(one.scene);
@@ -37,12 +34,7 @@ std::vector<EffectResult> run_cases(const mpi::Communicator& comm, const Effects
     if (!baseline.serves(one.scene, stepper)) baseline = {one.scene, stepper, make_reference(scene, stepper)};
     return run_effect_case(one, scene, baseline.reference, stepper, options.repeats, counter);
   };
-  return runner
-      .run<EffectResult>(cases, owner,
-                         [&](std::size_t i) {
-                           return CaseOutcome<EffectResult>{run_one(i), {}};
-                         })
-      .results;
+  return runner.run<EffectResult>(cases, &EffectCase::cost, run_one).results;
 }
 
 StudyContent content(const std::vector<StudyScene>& scenes, const std::vector<EffectCase>& cases,
@@ -76,7 +68,7 @@ core::ExitCode run_effects(const mpi::Communicator& comm, const std::vector<std:
     if (options.instructions_from) counted.emplace(*options.instructions_from, runner.scenes(), cases);
   });
   core::InstructionCounter counter;
-  std::vector<EffectResult> results = run_cases(comm, options, cases, counter, runner);
+  std::vector<EffectResult> results = run_cases(options, cases, counter, runner);
   runner.write([&] {
     if (counted) counted->give_counts(results);
     const std::string counted_by = counted ? counted->source() : std::string(core::name_of(counter.source()));

@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "effects/run_plan.h"
-#include "mpi/balance/partition.h"
 
 namespace pbmpi::app {
 namespace {
@@ -94,12 +93,18 @@ model::EffectChoices EffectCase::choices() const {
   return {{effect, kind == EffectCaseKind::demanded}};
 }
 
+double EffectCase::cost() const {
+  const double nothing_to_do = kind == EffectCaseKind::refused ? 1e-6 : 1;
+  return traits_of(stepper.kind).relative_cost * nothing_to_do * num_bodies;
+}
+
 std::vector<EffectCase> make_effect_cases(const std::vector<StudyScene>& scenes,
                                           const EffectsOptions& options) {
   std::vector<EffectCase> cases;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const int index = static_cast<int>(i);
     const effects::RunPlan baseline = plan_of(scenes[i], options.seed, {});
+    const std::size_t begin = cases.size();
     std::vector<EffectCase> of_scene;
     for (const std::string& effect : options.effects)
       of_scene.push_back(case_of(index, scenes[i], options.seed, baseline, effect));
@@ -110,24 +115,11 @@ std::vector<EffectCase> make_effect_cases(const std::vector<StudyScene>& scenes,
       }
       add_floor(index, stepper, options.floor_seeds, cases);
     }
+    const auto first = scenes::parse_scene(scenes[i].source, scenes[i].dt_s)->build(0, 1);
+    for (std::size_t k = begin; k < cases.size(); ++k)
+      cases[k].num_bodies = scenes[i].num_worlds * first->num_bodies();
   }
   return cases;
-}
-
-std::vector<int> deal_out(const std::vector<EffectCase>& cases, const std::vector<StudyScene>& scenes,
-                          int num_ranks) {
-  std::vector<double> bodies;  // of a scene's first world: its worlds differ little
-  for (const StudyScene& scene : scenes) {
-    const auto first = scenes::parse_scene(scene.source, scene.dt_s)->build(0, 1);
-    bodies.push_back(scene.num_worlds * first->num_bodies());
-  }
-  std::vector<double> cost;
-  for (const EffectCase& one : cases) {
-    const double share = traits_of(one.stepper.kind).relative_cost;
-    const double nothing_to_do = one.kind == EffectCaseKind::refused ? 1e-6 : 1;
-    cost.push_back(share * nothing_to_do * bodies[static_cast<std::size_t>(one.scene)]);
-  }
-  return mpi::lpt_placement(cost, num_ranks);
 }
 
 }  // namespace pbmpi::app

@@ -28,18 +28,16 @@ struct EffectCase {
   std::string effect;                 ///< empty for a floor
   bool called_for = false;            ///< by something in the scene
   std::string reason;                 ///< what calls for it, or why it is refused
+  int num_bodies = 0;                 ///< of its worlds, if all are like the first
 
   /// The choices that turn the scene into the variant.
   model::EffectChoices choices() const;
+  double cost() const;  ///< expected, in any unit
 };
 
 /// All cases of all scenes, scene by scene and stepper by stepper. Throws core::InputError for a scene that
 /// cannot be built.
 std::vector<EffectCase> make_effect_cases(const std::vector<StudyScene>& scenes,
                                           const EffectsOptions& options);
-
-/// [num_cases] the rank that works on each case: dealt out by expected cost, the dearest first.
-std::vector<int> deal_out(const std::vector<EffectCase>& cases, const std::vector<StudyScene>& scenes,
-                          int num_ranks);
 
 }  // namespace pbmpi::app

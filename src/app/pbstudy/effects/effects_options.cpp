@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "app/pbstudy/study/option_lists.h"
 #include "core/error.h"
 #include "effects/effect_choices.h"
 #include "effects/effects.h"

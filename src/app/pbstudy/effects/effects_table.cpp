@@ -9,8 +9,8 @@ namespace {
 void add_spread(const std::string& name, const std::string& unit, Spread EffectResult::*spread,
                 const std::vector<EffectResult>& results, std::vector<io::TableColumn>& columns) {
   const auto add = [&](const std::string& suffix, double Spread::*number) {
-    columns.push_back(column<double>(name + suffix, unit, results,
-                                     [&](const EffectResult& r) { return r.*spread.*number; }));
+    columns.push_back(
+        column(name + suffix, unit, results, [&](const EffectResult& r) { return r.*spread.*number; }));
   };
   add("", &Spread::median);
   add("_p10", &Spread::p10);
@@ -32,24 +32,20 @@ std::vector<io::TableColumn> effect_columns(const std::vector<StudyScene>& scene
                                             const std::vector<EffectResult>& results, bool counted) {
   using Case = const EffectCase&;
   using Result = const EffectResult&;
-  const auto scene_of = [&](Case c) -> const StudyScene& {
-    return scenes[static_cast<std::size_t>(c.scene)];
-  };
   std::vector<io::TableColumn> columns = {
-      column<std::string>("scene", "", cases, [&](Case c) { return scene_of(c).source.name; }),
-      column<std::string>("kind", "", cases,
-                          [](Case c) { return effect_case_kind_names[static_cast<std::size_t>(c.kind)]; }),
-      column<std::string>("effect", "", cases, [](Case c) { return c.effect; }),
-      column<std::int64_t>("called_for", "", cases, [](Case c) { return c.called_for ? 1 : 0; }),
-      column<std::string>("reason", "", cases, [](Case c) { return c.reason; }),
-      column<std::int64_t>("steps_per_frame", "", cases,
-                           [&](Case c) { return scene_of(c).steps_per_frame(); }),
-      column<std::int64_t>("worlds", "", cases, [&](Case c) { return scene_of(c).num_worlds; }),
-      column<std::int64_t>("warmup", "", cases, [&](Case c) { return scene_of(c).warmup; }),
-      column<std::int64_t>("frames", "", cases, [&](Case c) { return scene_of(c).frames; }),
-      column<std::int64_t>("same_bits", "", results, same_bits),
-      column<std::string>("hash_baseline", "", results, [](Result r) { return hash_text(r.hash_baseline); }),
-      column<std::string>("hash_variant", "", results, [](Result r) { return hash_text(r.hash_variant); }),
+      scene_column("scene", scenes, cases, &StudyScene::name),
+      column("kind", "", cases,
+             [](Case c) { return effect_case_kind_names[static_cast<std::size_t>(c.kind)]; }),
+      column("effect", "", cases, &EffectCase::effect),
+      column("called_for", "", cases, &EffectCase::called_for),
+      column("reason", "", cases, &EffectCase::reason),
+      scene_column("steps_per_frame", scenes, cases, &StudyScene::steps_per_frame),
+      scene_column("worlds", scenes, cases, &StudyScene::num_worlds),
+      scene_column("warmup", scenes, cases, &StudyScene::warmup),
+      scene_column("frames", scenes, cases, &StudyScene::frames),
+      column("same_bits", "", results, same_bits),
+      column("hash_baseline", "", results, [](Result r) { return hash_text(r.hash_baseline); }),
+      column("hash_variant", "", results, [](Result r) { return hash_text(r.hash_variant); }),
   };
   add_step_columns(cases, columns);
   add_spread("time_with", "s", &EffectResult::time_with_s, results, columns);
@@ -57,10 +53,8 @@ std::vector<io::TableColumn> effect_columns(const std::vector<StudyScene>& scene
   add_spread("time_cost", "s", &EffectResult::cost_s, results, columns);
   add_spread("time_share", "", &EffectResult::share, results, columns);
   if (counted) {
-    columns.push_back(
-        column<double>("instructions_with", "", results, [](Result r) { return r.instructions_with; }));
-    columns.push_back(
-        column<double>("instructions_without", "", results, [](Result r) { return r.instructions_without; }));
+    columns.push_back(column("instructions_with", "", results, &EffectResult::instructions_with));
+    columns.push_back(column("instructions_without", "", results, &EffectResult::instructions_without));
   }
   add_errors("defect", &EffectResult::defect, results, columns);
   add_errors("drift", &EffectResult::drift, results, columns);

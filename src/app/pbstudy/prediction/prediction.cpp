@@ -1,5 +1,3 @@
-#include "app/pbstudy/prediction/prediction.h"
-
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -7,9 +5,9 @@
 
 #include "app/pbstudy/prediction/prediction_options.h"
 #include "app/pbstudy/prediction/prediction_steps.h"
+#include "app/pbstudy/study/studies.h"
 #include "app/pbstudy/study/study_runner.h"
 #include "app/pbstudy/study/table_columns.h"
-#include "mpi/balance/partition.h"
 
 namespace pbmpi::app {
 namespace {
@@ -69,13 +67,6 @@ std::vector<PredictionCase> cases_in(const json& plan) {
   return cases;
 }
 
-std::vector<int> deal_out(const std::vector<PredictionCase>& cases, int num_ranks) {
-  std::vector<double> cost;
-  cost.reserve(cases.size());
-  for (const PredictionCase& one : cases) cost.push_back(one.content.at("cost"));
-  return mpi::lpt_placement(cost, num_ranks);
-}
-
 CaseOutcome<PredictionResult, OutcomeLetter> run_case(const PredictionCase& one, std::size_t index,
                                                       const StudyScene& scene, json request,
                                                       const PredictionSteps& steps) {
@@ -85,7 +76,7 @@ CaseOutcome<PredictionResult, OutcomeLetter> run_case(const PredictionCase& one,
   const std::string what = scene.source.name + ", " + one.content.at("name").get<std::string>();
   CaseOutcome<PredictionResult, OutcomeLetter> outcome;
   for (const char letter : steps.answer("run", request, what))
-    outcome.rows_of<OutcomeLetter>().push_back({static_cast<std::int32_t>(index), letter});
+    outcome.rows_of<OutcomeLetter>().push_back({0, letter});
   return outcome;
 }
 
@@ -104,9 +95,7 @@ StudyContent content_of(const json& plan, const std::vector<PredictionCase>& cas
     }
   }
   content.cases = std::move(content.tables.extract("cases").mapped());
-  content.cases.push_back(column<std::string>("scene", "", cases, [&](const PredictionCase& one) {
-    return scenes[static_cast<std::size_t>(one.scene)].source.name;
-  }));
+  content.cases.push_back(scene_column("scene", scenes, cases, &StudyScene::name));
   content.note = plan.at("note");
   return content;
 }
@@ -129,7 +118,7 @@ core::ExitCode run_prediction(const mpi::Communicator& comm, const std::vector<s
   const std::vector<PredictionCase> cases = cases_in(plan);
   runner.open_output();
   const Outcomes measured = runner.run<PredictionResult, OutcomeLetter>(
-      cases, deal_out(cases, comm.size()),
+      cases, [](const PredictionCase& one) { return one.content.at("cost").get<double>(); },
       [&](std::size_t i) { return run_case(cases[i], i, runner.scene(cases[i].scene), request, *steps); });
   runner.write([&] {
     StudyContent content = content_of(plan, cases, runner.scenes(), measured);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "app/pbstudy/study/option_lists.h"
 #include "core/error.h"
 
 namespace pbmpi::app {

@@ -1,5 +1,4 @@
-#include "app/pbstudy/stability/replay_tables.h"
-
+#include "app/pbstudy/stability/stability_table.h"
 #include "app/pbstudy/study/table_columns.h"
 #include "model/names.h"
 
@@ -31,8 +30,8 @@ std::vector<io::TableColumn> body_columns(const std::vector<BodyOfScene>& bodies
   using Row = const BodyOfScene&;
   std::vector<double> poses;
   for (Row row : bodies) append(row.body.pose, poses);
-  return {column<std::string>("scene", "", bodies, [](Row row) { return row.scene.name; }),
-          column<std::string>("name", "", bodies, [](Row row) { return row.body.name; }),
+  return {column("scene", "", bodies, [](Row row) { return row.scene.name; }),
+          column("name", "", bodies, [](Row row) { return row.body.name; }),
           {"pose", "", std::move(poses), 7}};
 }
 
@@ -43,13 +42,12 @@ std::vector<io::TableColumn> geom_columns(const std::vector<GeomOfScene>& geoms)
     sizes.insert(sizes.end(), row.geom.size.begin(), row.geom.size.end());
     append(row.geom.local, poses);
   }
-  return {
-      column<std::string>("scene", "", geoms, [](Row row) { return row.scene.name; }),
-      column<std::int64_t>("body", "", geoms, [](Row row) { return row.geom.body; }),
-      column<std::string>("kind", "", geoms, [](Row row) { return row.kind(); }),
-      column<std::string>("shape", "", geoms, [](Row row) { return std::string(name_of(row.geom.shape)); }),
-      {"size", "m", std::move(sizes), 3},
-      {"local", "", std::move(poses), 7}};
+  return {column("scene", "", geoms, [](Row row) { return row.scene.name; }),
+          column("body", "", geoms, [](Row row) { return row.geom.body; }),
+          column("kind", "", geoms, [](Row row) { return row.kind(); }),
+          column("shape", "", geoms, [](Row row) { return std::string(name_of(row.geom.shape)); }),
+          {"size", "m", std::move(sizes), 3},
+          {"local", "", std::move(poses), 7}};
 }
 
 }  // namespace

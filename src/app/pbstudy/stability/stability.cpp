@@ -1,11 +1,9 @@
-#include "app/pbstudy/stability/stability.h"
-
 #include <iostream>
 #include <set>
 
-#include "app/pbstudy/stability/replay_tables.h"
 #include "app/pbstudy/stability/stability_table.h"
 #include "app/pbstudy/study/engine_differences.h"
+#include "app/pbstudy/study/studies.h"
 #include "app/pbstudy/study/study_runner.h"
 
 namespace pbmpi::app {
@@ -13,15 +11,13 @@ namespace {
 
 using Outcomes = CaseOutcomes<StabilityResult, RecordedPose>;
 
-Outcomes run_cases(const mpi::Communicator& comm, const StabilityOptions& options,
-                   const std::vector<StabilityCase>& cases, StudyRunner& runner) {
-  return runner.run<StabilityResult, RecordedPose>(cases, deal_out(cases, comm.size()), [&](std::size_t i) {
+Outcomes run_cases(const StabilityOptions& options, const std::vector<StabilityCase>& cases,
+                   StudyRunner& runner) {
+  return runner.run<StabilityResult, RecordedPose>(cases, cost_of, [&](std::size_t i) {
     const StabilityCase& one = cases[i];
     const HardScene hard = build_hard_scene(runner.scene(one.scene), one.stepper.dt_s, options.seed);
     CaseOutcome<StabilityResult, RecordedPose> outcome;
-    std::vector<RecordedPose>& poses = outcome.rows_of<RecordedPose>();
-    outcome.result = run_stability_case(one, hard, options.most_poses, poses);
-    for (RecordedPose& pose : poses) pose.case_index = static_cast<std::int32_t>(i);
+    outcome.result = run_stability_case(one, hard, options.most_poses, outcome.rows_of<RecordedPose>());
     return outcome;
   });
 }
@@ -37,7 +33,7 @@ core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<st
   StudyRunner runner(comm, "stability", options);
   const std::vector<StabilityCase> cases = make_stability_cases(runner.scenes(), options);
   runner.open_output();
-  const Outcomes measured = run_cases(comm, options, cases, runner);
+  const Outcomes measured = run_cases(options, cases, runner);
   runner.write([&] {
     const std::vector<RecordedPose>& poses = measured.rows_of<RecordedPose>();
     std::set<std::string> with_poses;

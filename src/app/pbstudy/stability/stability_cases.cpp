@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "engines/optional_engines.h"
 #include "model/space_map.h"
-#include "mpi/balance/partition.h"
 #include "stepping/stepper_traits.h"
 
 namespace pbmpi::app {
@@ -25,17 +24,6 @@ std::string why_not(const StabilityCase& one, const HardScene& hard, double most
   const std::vector<std::string> refused = engines::refusals(one.stepper.kind, *hard.model);
   if (!refused.empty()) return refused.front();
   return {};
-}
-
-/// Expected cost of a case in any unit.
-double cost_of(const StabilityCase& one) {
-  if (!one.not_applicable.empty()) return 0;
-  const stepping::StepperTraits& traits = traits_of(one.stepper.kind);
-  const double bodies = one.num_bodies;
-  const double sweeps = sweeps_of(one.stepper);
-  const double step = one.stepper.kind == StepperKind::direct ? traits.relative_cost * std::pow(bodies, 3)
-                                                              : traits.relative_cost * (sweeps + 5) * bodies;
-  return step * static_cast<double>(one.num_steps);
 }
 
 }  // namespace
@@ -74,11 +62,14 @@ std::vector<StabilityCase> make_stability_cases(const std::vector<StudyScene>& s
   return cases;
 }
 
-std::vector<int> deal_out(const std::vector<StabilityCase>& cases, int num_ranks) {
-  std::vector<double> cost;
-  cost.reserve(cases.size());
-  for (const StabilityCase& one : cases) cost.push_back(cost_of(one));
-  return mpi::lpt_placement(cost, num_ranks);
+double cost_of(const StabilityCase& one) {
+  if (!one.not_applicable.empty()) return 0;
+  const stepping::StepperTraits& traits = traits_of(one.stepper.kind);
+  const double bodies = one.num_bodies;
+  const double sweeps = sweeps_of(one.stepper);
+  const double step = one.stepper.kind == StepperKind::direct ? traits.relative_cost * std::pow(bodies, 3)
+                                                              : traits.relative_cost * (sweeps + 5) * bodies;
+  return step * static_cast<double>(one.num_steps);
 }
 
 }  // namespace pbmpi::app

@@ -38,7 +38,7 @@ struct StabilityCase {
 std::vector<StabilityCase> make_stability_cases(const std::vector<StudyScene>& scenes,
                                                 const StabilityOptions& options);
 
-/// [num_cases] the rank that works on each case: dealt out by expected cost, the dearest first.
-std::vector<int> deal_out(const std::vector<StabilityCase>& cases, int num_ranks);
+/// Expected, in any unit.
+double cost_of(const StabilityCase& one);
 
 }  // namespace pbmpi::app

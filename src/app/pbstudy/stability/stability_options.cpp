@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "app/pbstudy/study/option_lists.h"
 #include "core/error.h"
 #include "stepping/step_options.h"
 

@@ -33,18 +33,16 @@ std::vector<io::TableColumn> case_facts(const StabilityRows& rows) {
   };
   const auto& cases = rows.cases;
   std::vector<io::TableColumn> columns = {
-      column<std::string>("scene", "", cases,
-                          [&](Case c) { return rows.scenes[static_cast<std::size_t>(c.scene)].source.name; }),
-      column<std::string>("group", "", cases, [&](Case c) { return hard(c).group; }),
-      column<std::int64_t>("row", "", cases, [&](Case c) { return hard(c).row; }),
-      column<std::string>("oracle", "", cases, [&](Case c) { return hard(c).oracle; }),
-      column<std::string>("source", "", cases, [&](Case c) { return hard(c).source; }),
-      column<std::string>(
-          "setting", "", cases,
-          [&](Case c) { return setting_text(rows.settings[static_cast<std::size_t>(c.setting)]); }),
-      column<std::int64_t>("cut", "", cases, [](Case c) { return c.cut ? 1 : 0; }),
-      column<std::int64_t>("bodies", "", cases, [](Case c) { return c.num_bodies; }),
-      column<double>("seconds", "s", cases, [&](Case c) { return hard(c).seconds; }),
+      scene_column("scene", rows.scenes, cases, &StudyScene::name),
+      column("group", "", cases, [&](Case c) { return hard(c).group; }),
+      column("row", "", cases, [&](Case c) { return hard(c).row; }),
+      column("oracle", "", cases, [&](Case c) { return hard(c).oracle; }),
+      column("source", "", cases, [&](Case c) { return hard(c).source; }),
+      column("setting", "", cases,
+             [&](Case c) { return setting_text(rows.settings[static_cast<std::size_t>(c.setting)]); }),
+      column("cut", "", cases, &StabilityCase::cut),
+      column("bodies", "", cases, &StabilityCase::num_bodies),
+      column("seconds", "s", cases, [&](Case c) { return hard(c).seconds; }),
   };
   add_step_columns(cases, columns);
   return columns;
@@ -57,28 +55,28 @@ std::vector<io::TableColumn> stability_columns(const StabilityRows& rows) {
   std::vector<io::TableColumn> columns = case_facts(rows);
   const std::vector<Judgement> judgements = judge_all(rows);
   using Judged = const Judgement&;
-  columns.push_back(column<std::string>("verdict", "", judgements, [](Judged j) {
+  columns.push_back(column("verdict", "", judgements, [](Judged j) {
     return std::string(stability::verdict_names[static_cast<std::size_t>(j.verdict)]);
   }));
-  columns.push_back(column<std::string>("decided_by", "", judgements, [](Judged j) { return j.decided_by; }));
-  columns.push_back(column<double>("value", "", judgements, [](Judged j) { return j.value; }));
-  columns.push_back(column<std::string>("value_unit", "", judgements, [](Judged j) { return j.unit; }));
-  columns.push_back(column<double>("limit_right", "", judgements, [](Judged j) { return j.limits.right; }));
-  columns.push_back(column<double>("limit_broken", "", judgements, [](Judged j) { return j.limits.broken; }));
+  columns.push_back(column("decided_by", "", judgements, &Judgement::decided_by));
+  columns.push_back(column("value", "", judgements, &Judgement::value));
+  columns.push_back(column("value_unit", "", judgements, &Judgement::unit));
+  columns.push_back(column("limit_right", "", judgements, [](Judged j) { return j.limits.right; }));
+  columns.push_back(column("limit_broken", "", judgements, [](Judged j) { return j.limits.broken; }));
   const auto& results = rows.results;
-  columns.push_back(column<double>("broken_at", "s", results, [](Result r) { return r.broken_at_s; }));
-  columns.push_back(column<double>("simulated", "s", results, [](Result r) { return r.simulated_s; }));
+  columns.push_back(column("broken_at", "s", results, &StabilityResult::broken_at_s));
+  columns.push_back(column("simulated", "s", results, &StabilityResult::simulated_s));
   for (std::size_t m = 0; m < stability::num_metrics; ++m) {
     const stability::MetricTraits& traits = stability::metric_table[m];
-    columns.push_back(column<double>(std::string(traits.name), std::string(traits.unit), results,
-                                     [m](Result r) { return r.metrics[m]; }));
+    columns.push_back(column(std::string(traits.name), std::string(traits.unit), results,
+                             [m](Result r) { return r.metrics[m]; }));
   }
   // The paper's category for the body that drifted farthest.
-  columns.push_back(column<std::int64_t>("drift_band", "", results, [](Result r) {
+  columns.push_back(column("drift_band", "", results, [](Result r) {
     return analysis::position_band(r.metrics[static_cast<std::size_t>(Metric::drift)]);
   }));
-  columns.push_back(column<double>("row_visits", "", results, [](Result r) { return r.row_visits; }));
-  columns.push_back(column<double>("step_time", "s", results, [](Result r) { return r.step_time_s; }));
+  columns.push_back(column("row_visits", "", results, &StabilityResult::row_visits));
+  columns.push_back(column("step_time", "s", results, &StabilityResult::step_time_s));
   return columns;
 }
 
@@ -94,22 +92,20 @@ std::map<std::string, std::vector<io::TableColumn>> stability_tables(const Stabi
       points.push_back({result.index, result.curve[static_cast<std::size_t>(i)]});
   }
   const auto curve = [&](const char* name, const char* unit, double CurvePoint::*number) {
-    return column<double>(name, unit, points, [number](const Point& p) { return p.at.*number; });
+    return column(name, unit, points, [number](const Point& p) { return p.at.*number; });
   };
-  std::vector<io::TableColumn> curves = {
-      column<std::int64_t>("case", "", points, [](const Point& p) { return p.case_index; }),
-      curve("time", "s", &CurvePoint::time_s),
-      curve("energy", "J", &CurvePoint::energy_j),
-      curve("joint_gap", "m", &CurvePoint::joint_gap_m),
-      curve("penetration", "m", &CurvePoint::penetration_m),
-      curve("drift", "m", &CurvePoint::drift_m)};
+  std::vector<io::TableColumn> curves = {column("case", "", points, &Point::case_index),
+                                         curve("time", "s", &CurvePoint::time_s),
+                                         curve("energy", "J", &CurvePoint::energy_j),
+                                         curve("joint_gap", "m", &CurvePoint::joint_gap_m),
+                                         curve("penetration", "m", &CurvePoint::penetration_m),
+                                         curve("drift", "m", &CurvePoint::drift_m)};
   std::vector<double> numbers;
   for (const RecordedPose& pose : poses) numbers.insert(numbers.end(), pose.pose.begin(), pose.pose.end());
-  std::vector<io::TableColumn> replay = {
-      column<std::int64_t>("case", "", poses, [](const RecordedPose& p) { return p.case_index; }),
-      column<double>("time", "s", poses, [](const RecordedPose& p) { return p.time_s; }),
-      column<std::int64_t>("body", "", poses, [](const RecordedPose& p) { return p.body; }),
-      {"pose", "", std::move(numbers), 7}};
+  std::vector<io::TableColumn> replay = {column("case", "", poses, &RecordedPose::case_index),
+                                         column("time", "s", poses, &RecordedPose::time_s),
+                                         column("body", "", poses, &RecordedPose::body),
+                                         {"pose", "", std::move(numbers), 7}};
   return {{"curves", std::move(curves)}, {"poses", std::move(replay)}};
 }
 

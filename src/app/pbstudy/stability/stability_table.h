@@ -25,6 +25,9 @@ std::vector<io::TableColumn> stability_columns(const StabilityRows& rows);
 std::map<std::string, std::vector<io::TableColumn>> stability_tables(const StabilityRows& rows,
                                                                      const std::vector<RecordedPose>& poses);
 
+/// What a replay shows of scenes at rest: tables "bodies" and "geoms", scene by scene.
+std::map<std::string, std::vector<io::TableColumn>> replay_tables(const std::vector<SceneModel>& scenes);
+
 /// "9 of 70 broken" for each setting, for the end of the run.
 std::string stability_note(const StabilityRows& rows);
 

@@ -18,8 +18,17 @@ namespace pbmpi::app {
 template <class Result, class... Rows>
 struct CaseOutcome {
   static_assert((std::is_trivially_copyable_v<Result> && ... && std::is_trivially_copyable_v<Rows>));
-  Result result;
-  std::tuple<std::vector<Rows>...> rows;
+  Result result = {};
+  std::tuple<std::vector<Rows>...> rows = {};
+
+  /// Of the case, in the result and in all rows.
+  void set_index(int index) {
+    result.index = index;
+    [[maybe_unused]] const auto set_all = [&](auto& its_rows) {
+      for (auto& row : its_rows) row.case_index = index;
+    };
+    (set_all(std::get<std::vector<Rows>>(rows)), ...);
+  }
 
   template <class Row>
   std::vector<Row>& rows_of() {

@@ -20,10 +20,9 @@ std::vector<io::TableColumn> engine_differences(const std::vector<SceneModel>& s
         differences.push_back({std::string(name_of(kind)), scene.name, text});
     }
   }
-  using One = const Difference&;
-  return {column<std::string>("engine", "", differences, [](One one) { return one.engine; }),
-          column<std::string>("scene", "", differences, [](One one) { return one.scene; }),
-          column<std::string>("text", "", differences, [](One one) { return one.text; })};
+  return {column("engine", "", differences, &Difference::engine),
+          column("scene", "", differences, &Difference::scene),
+          column("text", "", differences, &Difference::text)};
 }
 
 }  // namespace pbmpi::app

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "app/pbstudy/study/option_lists.h"
+#include "app/pbstudy/study/study_options.h"
 #include "engines/optional_engines.h"
 
 namespace pbmpi::app {

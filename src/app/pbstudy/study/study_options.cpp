@@ -3,7 +3,6 @@
 #include <set>
 
 #include "app/common/quantities.h"
-#include "app/pbstudy/study/option_lists.h"
 #include "core/system/input_file.h"
 
 namespace pbmpi::app {
@@ -29,6 +28,20 @@ std::vector<std::string> deciding_among(const std::vector<std::string>& args) {
 }
 
 }  // namespace
+
+void require_at_least(const std::vector<int>& given, int least, const char* option) {
+  for (const int value : given) {
+    core::require_input(value >= least, std::string(option) + " " + std::to_string(value) +
+                                            ": it must be at least " + std::to_string(least));
+  }
+}
+
+std::optional<int> given(const boost::program_options::variables_map& values, const char* name, int least) {
+  if (values.count(name) == 0) return std::nullopt;
+  const int value = values[name].as<int>();
+  require_at_least({value}, least, ("--" + std::string(name)).c_str());
+  return value;
+}
 
 void add_scene_option(po::options_description& what) {
   what.add_options()("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE..."),

@@ -1,4 +1,5 @@
-/// Options of all studies: the scenes, the window, how often each frame is measured.
+/// Options of all studies: the scenes, the window, how often each frame is measured; and how options that are
+/// lists or counts are read.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 
 #include "app/common/options.h"
 #include "app/pbstudy/study/study_scene.h"
+#include "core/error.h"
 
 namespace pbmpi::app {
 
@@ -25,6 +27,23 @@ struct StudyOptions {
   std::string command_line;
   std::vector<std::string> deciding;  ///< the arguments on which outcomes depend
 };
+
+template <class T>
+auto list_of() {
+  return boost::program_options::value<std::vector<T>>()->multitoken()->value_name("LIST");
+}
+
+template <class T>
+std::vector<T> list(const boost::program_options::variables_map& values, const char* name,
+                    std::vector<T> fallback) {
+  return values.count(name) != 0 ? values[name].as<std::vector<T>>() : fallback;
+}
+
+/// Throws core::InputError naming `option`.
+void require_at_least(const std::vector<int>& given, int least, const char* option);
+
+/// The number of an option without a default. Throws core::InputError if it is below `least`.
+std::optional<int> given(const boost::program_options::variables_map& values, const char* name, int least);
 
 /// Adds --scene.
 void add_scene_option(boost::program_options::options_description& what);

@@ -113,23 +113,29 @@ void StudyRunner::case_done(int scene) {
   });
 }
 
-io::TableFile StudyRunner::file_with(StudyContent content) const {
+io::TableFile study_file(const std::string& study, const Provenance& provenance, std::uint64_t seed,
+                         int repeats) {
   io::TableFile file;
-  file.attributes = {{"study", name_},
+  file.attributes = {{"study", study},
                      {"pbmpi_version", program_version},
                      {"git_revision", git_revision},
-                     {"created", provenance_.created},
-                     {"command_line", provenance_.command_line}};
-  file.parameters = std::move(content.parameters);
-  file.parameters.push_back(Parameter::of("seed", static_cast<std::int64_t>(options_.seed)));
-  file.parameters.push_back(Parameter::of("repeats", std::int64_t{options_.repeats}));
+                     {"created", provenance.created},
+                     {"command_line", provenance.command_line}};
+  file.parameters = {Parameter::of("seed", static_cast<std::int64_t>(seed)),
+                     Parameter::of("repeats", std::int64_t{repeats}),
+                     Parameter::of("ranks", static_cast<std::int64_t>(provenance.hosts.size())),
+                     Parameter::of("build", build_description)};
+  return file;
+}
+
+io::TableFile StudyRunner::file_with(StudyContent content) const {
+  io::TableFile file = study_file(name_, provenance_, options_.seed, options_.repeats);
   file.parameters.push_back(Parameter::of("floor_seeds", std::int64_t{options_.floor_seeds}));
-  file.parameters.push_back(Parameter::of("ranks", static_cast<std::int64_t>(provenance_.hosts.size())));
-  file.parameters.push_back(Parameter::of("build", build_description));
   for (const auto& [name, version] : engine_versions())
     file.parameters.push_back(Parameter::of(name, version));
   for (const StudyScene& scene : scenes_)
     file.parameters.push_back(Parameter::of(scene_text_parameter(scene.source.name), scene.source.text));
+  for (Parameter& parameter : content.parameters) file.parameters.push_back(std::move(parameter));
   file.tables = std::move(content.tables);
   file.tables["cases"] = std::move(content.cases);
   return file;

@@ -20,6 +20,7 @@
 #include "app/pbstudy/study/study_scene.h"
 #include "core/error.h"
 #include "io/table/table_file.h"
+#include "mpi/balance/partition.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/comm/communicator.h"
 
@@ -34,6 +35,10 @@ struct StudyContent {
   std::string report = "pbreport";                             ///< shows the file
   std::string next;                                            ///< its options for the next look
 };
+
+/// What the files of all studies say of their run: attributes, and as parameters seed, repeats, ranks, build.
+io::TableFile study_file(const std::string& study, const Provenance& provenance, std::uint64_t seed,
+                         int repeats);
 
 /// Thrown on all ranks when a study was stopped before all its cases were done: it is incomplete, and can go
 /// on.
@@ -54,14 +59,13 @@ class StudyRunner {
   /// Makes sure before the work begins that the file can be written, if `check` (on root) throws nothing.
   void open_output(const std::function<void()>& check = {});
 
-  /// Runs the cases whose `owner` [num_cases] is this rank, one at a time and in their order, with
-  /// run_case(index), which gives a CaseOutcome; all ranks get the outcomes of all cases, in their order. A
-  /// case has a `scene`. Outcomes are kept in a journal beside the output until write(); with --resume, cases
-  /// already in it are not run again. If `run_case` throws on one rank, all ranks throw; StudyStopped if a
-  /// rank was asked to stop, or the time is up.
-  template <class Result, class... Rows, class Case, class RunCase>
-  CaseOutcomes<Result, Rows...> run(const std::vector<Case>& cases, const std::vector<int>& owner,
-                                    RunCase&& run_case);
+  /// Runs cases, one at a time and in their order, with run_case(index), which gives a CaseOutcome, or a
+  /// Result; all ranks get the outcomes of all cases, in their order. A case has a `scene`. Cases are dealt
+  /// out over the ranks by cost_of(case), in any unit, the dearest first. Outcomes are kept in a journal
+  /// beside the output until write(); with --resume, cases already in it are not run again. If `run_case`
+  /// throws on one rank, all ranks throw; StudyStopped if a rank was asked to stop, or the time is up.
+  template <class Result, class... Rows, class Case, class CostOf, class RunCase>
+  CaseOutcomes<Result, Rows...> run(const std::vector<Case>& cases, CostOf&& cost_of, RunCase&& run_case);
 
   /// Root writes the result of `content` (called on root), and prints the file's path.
   void write(const std::function<StudyContent()>& content);
@@ -93,9 +97,12 @@ class StudyRunner {
   std::size_t num_cases_ = 0, own_cases_ = 0, own_done_ = 0;
 };
 
-template <class Result, class... Rows, class Case, class RunCase>
-CaseOutcomes<Result, Rows...> StudyRunner::run(const std::vector<Case>& cases, const std::vector<int>& owner,
+template <class Result, class... Rows, class Case, class CostOf, class RunCase>
+CaseOutcomes<Result, Rows...> StudyRunner::run(const std::vector<Case>& cases, CostOf&& cost_of,
                                                RunCase&& run_case) {
+  std::vector<double> cost(cases.size());
+  std::ranges::transform(cases, cost.begin(), cost_of);
+  const std::vector<int> owner = mpi::lpt_placement(cost, comm_.size());
   std::uint64_t layout = sizeof(Result);
   ((layout = 31 * layout + sizeof(Rows)), ...);
   open_journal(layout, cases.size());
@@ -112,8 +119,8 @@ CaseOutcomes<Result, Rows...> StudyRunner::run(const std::vector<Case>& cases, c
         ++num_left_out;
         continue;
       }
-      CaseOutcome<Result, Rows...> outcome = run_case(i);
-      outcome.result.index = static_cast<int>(i);
+      CaseOutcome<Result, Rows...> outcome{run_case(i)};
+      outcome.set_index(static_cast<int>(i));
       journal_->add(static_cast<std::int64_t>(i), bytes_of(outcome));
       outcomes.append(outcome);
       case_done(cases[i].scene);

@@ -22,6 +22,7 @@ struct StudyScene {
   model::EffectChoices effects;    ///< the scene's
   std::vector<std::string> notes;  ///< from scenes::Scene
 
+  const std::string& name() const { return source.name; }
   int total_frames() const { return warmup + frames; }
   int steps_per_frame() const {
     return static_cast<int>(std::round(frame_s / dt_s));

@@ -2,32 +2,50 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "analysis/error_table.h"
+#include "app/pbstudy/study/study_scene.h"
 #include "io/table/table_file.h"
 #include "stepping/step_options.h"
 
 namespace pbmpi::app {
 
-template <class Value, class Rows, class Get>
+/// How a file stores values of a type: whole numbers (and yes or no), real numbers, or texts.
+template <class Value>
+using Stored = std::conditional_t<std::is_floating_point_v<Value>, double,
+                                  std::conditional_t<std::is_integral_v<Value>, std::int64_t, std::string>>;
+
+/// A column of what `get`, a function or a member, gives of each row.
+template <class Rows, class Get>
 io::TableColumn column(const std::string& name, const std::string& unit, const Rows& rows, Get&& get) {
+  using Value = Stored<std::decay_t<std::invoke_result_t<Get&, const typename Rows::value_type&>>>;
   std::vector<Value> values;
   values.reserve(rows.size());
-  for (const auto& row : rows) values.push_back(static_cast<Value>(get(row)));
+  for (const auto& row : rows) values.push_back(static_cast<Value>(std::invoke(get, row)));
   return {name, unit, std::move(values)};
+}
+
+/// A column of what is known of each case's scene.
+template <class Case, class Get>
+io::TableColumn scene_column(const std::string& name, const std::vector<StudyScene>& scenes,
+                             const std::vector<Case>& cases, Get&& get) {
+  return column(name, "", cases, [&](const Case& one) {
+    return std::invoke(get, scenes[static_cast<std::size_t>(one.scene)]);
+  });
 }
 
 /// The value of a step option in the settings of each case.
 template <class Case>
 io::TableColumn step_column(const stepping::StepOption& option, const std::vector<Case>& cases) {
   const auto of_type = [&](auto type) {
-    using Value = decltype(type);
-    return column<Value>(file_name(option), option.unit, cases,
-                         [&](const Case& one) { return std::get<Value>(value_of(option, one.stepper)); });
+    return column(file_name(option), option.unit, cases,
+                  [&](const Case& one) { return std::get<decltype(type)>(value_of(option, one.stepper)); });
   };
   return std::visit(of_type, value_of(option, stepping::StepperSettings{}));
 }
@@ -51,10 +69,9 @@ void add_step_columns(const std::vector<Case>& cases, std::vector<io::TableColum
   }
   const auto is_setting = [](const io::TableColumn& one) { return one.name == "setting"; };
   if (std::ranges::none_of(columns, is_setting))
-    columns.push_back(column<std::string>(
-        "setting", "", cases, [](const Case& one) { return stepping::setting_text(one.stepper); }));
-  columns.push_back(
-      column<std::string>("options", "", cases, [](const Case& one) { return options_text(one.stepper); }));
+    columns.push_back(
+        column("setting", "", cases, [](const Case& one) { return stepping::setting_text(one.stepper); }));
+  columns.push_back(column("options", "", cases, [](const Case& one) { return options_text(one.stepper); }));
 }
 
 /// Columns "PREFIX_body_position_rms" and so on, for the ErrorTable that `table` points to in each result.
@@ -64,9 +81,8 @@ void add_errors(const std::string& prefix, analysis::ErrorTable Result::*table,
   for (const analysis::NamedSummary& named : analysis::error_columns) {
     const std::string name = prefix + "_" + named.name + "_";
     const auto add = [&](const char* what, double analysis::ErrorSummary::*number) {
-      columns.push_back(column<double>(name + what, named.unit, results, [&](const Result& result) {
-        return result.*table.*named.summary.*number;
-      }));
+      columns.push_back(column(name + what, named.unit, results,
+                               [&](const Result& result) { return result.*table.*named.summary.*number; }));
     };
     add("rms", &analysis::ErrorSummary::rms);
     add("p99", &analysis::ErrorSummary::p99);
@@ -78,9 +94,8 @@ void add_errors(const std::string& prefix, analysis::ErrorTable Result::*table,
     }
     columns.push_back({name + "bands", "", std::move(bands), analysis::num_bands});
     if (!std::string_view(named.name).starts_with("joint")) continue;
-    columns.push_back(column<std::int64_t>(name + "broken", "", results, [&](const Result& result) {
-      return (result.*table.*named.summary).broken;
-    }));
+    columns.push_back(column(name + "broken", "", results,
+                             [&](const Result& result) { return (result.*table.*named.summary).broken; }));
   }
 }
 
