@@ -66,7 +66,7 @@ void FrameDriver::run_frame() {
   const double start_s = core::now_s();
   stepping::FrameRecord record;
   record.phases[core::Phase::output] = last_output_s_;
-  const double delivered_s = make_estimate(frame_, start_s, record.phases);
+  const double delivered_s = make_estimate(start_s, record.phases);
   advance(record.phases);
 
   core::LapTimer timer(record.phases);
@@ -78,7 +78,7 @@ void FrameDriver::run_frame() {
   core::LapTimer after(record.phases);
   const Verdict verdict = decide(start_s, delivered_s, status);
   after.lap(core::Phase::wait);
-  record.estimate = estimate(verdict.delivered_s);
+  record.estimate = finish_estimate(verdict.delivered_s);
 
   const std::vector<stepping::LocalWorld> worlds = settings_.profile ? profiled_worlds() : local_worlds();
   record.frame = frame_;
@@ -107,6 +107,38 @@ void FrameDriver::run_frame() {
   }
   if (verdict.saves != 0) save(record.step);
   ++frame_;
+}
+
+void FrameDriver::gather_estimates(const stepping::WorldTable& table, std::span<const int> placement) {
+  estimates_.emplace(comm_, table, placement);
+}
+
+/// Returns, on root, the time from the frame's start until the estimate had arrived. Messages are sent even
+/// if something fails here, so that root never waits for one in vain.
+double FrameDriver::make_estimate(double frame_start_s, core::PhaseTimes& times) {
+  if (!estimates_) return 0;
+  const double start_s = core::now_s();
+  estimates_->expect();
+  estimate_.worlds = compute_estimate(frame_, times);
+  estimate_.compute_s = core::now_s() - start_s;
+
+  core::LapTimer timer(times);
+  estimates_->start(estimate_.worlds, std::vector<double>(estimate_.worlds.size(), 0));
+  timer.lap(core::Phase::gather);
+  if (!comm_.is_root()) return 0;
+  estimates_->deliver();
+  timer.lap(core::Phase::wait);
+  const double delivered_s = core::now_s() - frame_start_s;
+  hand_to_consumers(frame_, stepping::PoseKind::estimate, estimates_->position(), estimates_->orientation());
+  return delivered_s;
+}
+
+/// The record of the estimate, or null; `delivered_s` is root's.
+const stepping::EstimateRecord* FrameDriver::finish_estimate(double delivered_s) {
+  if (!estimates_) return nullptr;
+  if (!comm_.is_root()) errors_.guard([&] { estimates_->deliver(); });
+  estimate_.delivered_s = delivered_s;
+  return &estimate_;
 }
 
 FrameDriver::Status FrameDriver::agree_on_status() {

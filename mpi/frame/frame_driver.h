@@ -13,6 +13,7 @@
 #include "mpi/comm/agreement.h"
 #include "mpi/comm/communicator.h"
 #include "mpi/frame/checkpoint_schedule.h"
+#include "mpi/frame/pose_gather.h"
 #include "mpi/frame/run_settings.h"
 #include "stepping/frame.h"
 
@@ -103,20 +104,21 @@ class FrameDriver {
   const WorldRunSettings& settings() const { return settings_; }
   /// The first error of this rank that the other ranks do not know of yet.
   ErrorHold& errors() { return errors_; }
-  void hand_to_consumers(std::int64_t frame, stepping::PoseKind kind, std::span<const core::Vec3> position,
-                         std::span<const core::Quat> orientation);
+  /// Has each frame estimated first (FEEC): calls compute_estimate(), and gathers the poses of all bodies of
+  /// `table` (borrowed) for root's consumers while the other ranks advance. Called on every rank or on none.
+  void gather_estimates(const stepping::WorldTable& table, std::span<const int> placement);
+  /// To be called after worlds have moved.
+  void place_estimates(std::span<const int> placement) {
+    if (estimates_) estimates_->set_placement(placement);
+  }
 
  private:
-  /// Estimates the frame to come (FEEC) and hands the estimate to root's consumers. Returns, on root, the
-  /// time from the frame's start until the estimate had arrived.
-  virtual double make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) {
-    static_cast<void>(frame), static_cast<void>(frame_start_s), static_cast<void>(times);
-    return 0;
-  }
-  /// The record of the estimate that make_estimate() made, or null; `delivered_s` is root's.
-  virtual const stepping::EstimateRecord* estimate(double delivered_s) {
-    static_cast<void>(delivered_s);
-    return nullptr;
+  /// Estimates frame `frame`, which is to come. Returns the worlds that this rank reports, by ascending id,
+  /// with their estimated states; valid until the next call. Errors are held in errors().
+  virtual std::span<const stepping::LocalWorld> compute_estimate(std::int64_t frame,
+                                                                 core::PhaseTimes& times) {
+    static_cast<void>(frame), static_cast<void>(times);
+    return {};
   }
   /// This rank's worlds with their profiles (settings().profile); outside of the frame's time.
   virtual std::vector<stepping::LocalWorld> profiled_worlds() { return local_worlds(); }
@@ -162,6 +164,10 @@ class FrameDriver {
   };
 
   void run_frame();
+  double make_estimate(double frame_start_s, core::PhaseTimes& times);
+  const stepping::EstimateRecord* finish_estimate(double delivered_s);
+  void hand_to_consumers(std::int64_t frame, stepping::PoseKind kind, std::span<const core::Vec3> position,
+                         std::span<const core::Quat> orientation);
   Status agree_on_status();
   Verdict decide(double frame_start_s, double delivered_s, const Status& status);
   void end_early(const std::string& kind, const std::string& why, int value = 0);
@@ -184,6 +190,8 @@ class FrameDriver {
   std::optional<CheckpointSchedule> schedule_;  ///< only with a keeper; used on root
   double until_s_ = std::numeric_limits<double>::infinity();
   ErrorHold errors_;
+  std::optional<PoseGather> estimates_;         ///< with FEEC
+  stepping::EstimateRecord estimate_;           ///< of this frame
   std::int64_t frame_ = 0;                      ///< frames done, including those before the run was resumed
   bool joints_break_ = false;                   ///< the effect "breakable_joints", in any world
   std::vector<stepping::RunEvent> own_events_;  ///< events of this frame, from guards

@@ -130,7 +130,7 @@ std::vector<int> SpaceDriver::idle_ranks() const {
 void SpaceDriver::estimate_with(std::span<stepping::SpaceStepper* const> steppers) {
   core::require_invariant(steppers.size() == worlds_.size(), "SpaceDriver: a stepper for each world");
   estimating_ = group_.dup();
-  estimates_ = std::make_unique<PoseGather>(comm(), table_, roots_);
+  gather_estimates(table_, roots_);
   for (std::size_t i = 0; i < worlds_.size(); ++i) {
     CutWorld& world = *worlds_[i];
     world.estimate_with(estimating_, *steppers[i]);
@@ -138,31 +138,9 @@ void SpaceDriver::estimate_with(std::span<stepping::SpaceStepper* const> stepper
   }
 }
 
-/// Messages are sent even if something fails here, so that root never waits for one in vain.
-double SpaceDriver::make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) {
-  if (!estimates_) return 0;
-  const double start_s = core::now_s();
-  estimates_->expect();
+std::span<const stepping::LocalWorld> SpaceDriver::compute_estimate(std::int64_t, core::PhaseTimes& times) {
   for (const auto& world : worlds_) world->estimate(times);
-  estimate_record_.compute_s = core::now_s() - start_s;
-
-  core::LapTimer timer(times);
-  estimates_->start(estimated_worlds_, std::vector<double>(estimated_worlds_.size(), 0));
-  timer.lap(core::Phase::gather);
-  if (!comm().is_root()) return 0;
-  estimates_->deliver();
-  timer.lap(core::Phase::wait);
-  const double delivered_s = core::now_s() - frame_start_s;
-  hand_to_consumers(frame, stepping::PoseKind::estimate, estimates_->position(), estimates_->orientation());
-  return delivered_s;
-}
-
-const stepping::EstimateRecord* SpaceDriver::estimate(double delivered_s) {
-  if (!estimates_) return nullptr;
-  if (!comm().is_root()) errors().guard([&] { estimates_->deliver(); });
-  estimate_record_.worlds = estimated_worlds_;
-  estimate_record_.delivered_s = delivered_s;
-  return &estimate_record_;
+  return estimated_worlds_;
 }
 
 core::Traffic SpaceDriver::take_traffic() {

@@ -60,8 +60,8 @@ class SpaceDriver final : public FrameDriver {
   void set_step_hook(CutWorld::StepHook hook) { worlds_.front()->set_step_hook(std::move(hook)); }
 
  private:
-  double make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) override;
-  const stepping::EstimateRecord* estimate(double delivered_s) override;
+  std::span<const stepping::LocalWorld> compute_estimate(std::int64_t frame,
+                                                         core::PhaseTimes& times) override;
   void advance(core::PhaseTimes& times) override;
   int lowest_nonfinite_world() const override;
   std::int64_t count_nonfinite(int world) const override { return at(world).observables().nonfinite; }
@@ -90,9 +90,7 @@ class SpaceDriver final : public FrameDriver {
   std::vector<std::unique_ptr<CutWorld>> worlds_;  ///< [ids_]
   stepping::WorldTable table_;
   std::unique_ptr<PoseGather> gather_;
-  std::unique_ptr<PoseGather> estimates_;               ///< with FEEC
-  std::vector<stepping::LocalWorld> estimated_worlds_;  ///< on the root of a group
-  stepping::EstimateRecord estimate_record_;
+  std::vector<stepping::LocalWorld> estimated_worlds_;  ///< with FEEC, on the root of a group
 };
 
 }  // namespace pbmpi::mpi

@@ -47,14 +47,11 @@ std::vector<int> WorldDriver::idle_ranks() const {
 
 void WorldDriver::set_estimator(stepping::Estimator& estimator) {
   estimator_ = &estimator;
-  estimates_ = std::make_unique<PoseGather>(comm(), worlds_.table(), worlds_.placement());
+  gather_estimates(worlds_.table(), worlds_.placement());
 }
 
-/// Messages are sent even if something fails here, so that root never waits for one in vain.
-double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) {
-  if (estimator_ == nullptr) return 0;
-  const double start_s = core::now_s();
-  estimates_->expect();
+std::span<const stepping::LocalWorld> WorldDriver::compute_estimate(std::int64_t frame,
+                                                                    core::PhaseTimes& times) {
   estimated_worlds_ = worlds_.views();
   errors().guard([&] {
     const int steps = settings().steps_per_frame;
@@ -68,25 +65,7 @@ double WorldDriver::make_estimate(std::int64_t frame, double frame_start_s, core
       world.observables = nullptr;
     }
   });
-  estimate_record_.compute_s = core::now_s() - start_s;
-
-  core::LapTimer timer(times);
-  estimates_->start(estimated_worlds_, std::vector<double>(estimated_worlds_.size(), 0));
-  timer.lap(core::Phase::gather);
-  if (!comm().is_root()) return 0;
-  estimates_->deliver();
-  timer.lap(core::Phase::wait);
-  const double delivered_s = core::now_s() - frame_start_s;
-  hand_to_consumers(frame, stepping::PoseKind::estimate, estimates_->position(), estimates_->orientation());
-  return delivered_s;
-}
-
-const stepping::EstimateRecord* WorldDriver::estimate(double delivered_s) {
-  if (estimator_ == nullptr) return nullptr;
-  if (!comm().is_root()) errors().guard([&] { estimates_->deliver(); });
-  estimate_record_.worlds = estimated_worlds_;
-  estimate_record_.delivered_s = delivered_s;
-  return &estimate_record_;
+  return estimated_worlds_;
 }
 
 std::vector<stepping::LocalWorld> WorldDriver::profiled_worlds() {
@@ -137,7 +116,7 @@ std::string WorldDriver::make_moves(std::int64_t num_moves, std::int64_t step) {
   comm().bcast(std::span(planned_.moves));
   worlds_.move(planned_.moves, step);
   gather_.set_placement(worlds_.placement());
-  if (estimates_) estimates_->set_placement(worlds_.placement());
+  place_estimates(worlds_.placement());
   return describe(planned_);
 }
 

@@ -44,8 +44,8 @@ class WorldDriver final : public FrameDriver {
   const std::vector<int>& placement() const { return worlds_.placement(); }
 
  private:
-  double make_estimate(std::int64_t frame, double frame_start_s, core::PhaseTimes& times) override;
-  const stepping::EstimateRecord* estimate(double delivered_s) override;
+  std::span<const stepping::LocalWorld> compute_estimate(std::int64_t frame,
+                                                         core::PhaseTimes& times) override;
   std::vector<stepping::LocalWorld> profiled_worlds() override;
   void advance(core::PhaseTimes& times) override;
   int lowest_nonfinite_world() const override;
@@ -70,9 +70,7 @@ class WorldDriver final : public FrameDriver {
   Rebalancing planned_;    ///< root: the moves of the last verdict
   stepping::Estimator* estimator_ = nullptr;
   stepping::RunEventSource* events_ = nullptr;
-  std::unique_ptr<PoseGather> estimates_;               ///< with an estimator
   std::vector<stepping::LocalWorld> estimated_worlds_;  ///< of this frame
-  stepping::EstimateRecord estimate_record_;
 };
 
 }  // namespace pbmpi::mpi
