@@ -10,6 +10,7 @@
 #include "core/number_text.h"
 #include "core/system/input_file.h"
 #include "core/system/seal.h"
+#include "io/hdf5/columns.h"
 #include "io/hdf5/file_types.h"
 
 namespace pbmpi::io {
@@ -78,50 +79,26 @@ std::optional<hsize_t> product(std::span<const hsize_t> dims) {
   return count;
 }
 
-/// The selection of the first rows of a dataset.
-struct FirstRows {
-  Dataset dataset;
-  Dataspace in_file, in_memory;
-  hsize_t num_rows = 0;
-  hsize_t num_values = 0;
-};
-
-FirstRows select_first_rows(hid_t file, const std::string& path, std::int64_t num_rows, hsize_t row_values) {
-  FirstRows rows;
-  rows.dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
-  std::vector<hsize_t> dims = dims_of(file, path);
-  if (dims.empty()) throw core::RunError(path + " has no rows");
-  if (num_rows >= 0) {
-    if (dims[0] < static_cast<hsize_t>(num_rows)) {
-      throw core::RunError(path + " has " + std::to_string(dims[0]) + " rows, not " +
-                           std::to_string(num_rows));
-    }
-    dims[0] = static_cast<hsize_t>(num_rows);
-  }
-  const auto type = owned<Datatype>(H5Dget_type(rows.dataset.id()), "H5Dget_type");
-  require_in_file(file, product(dims), H5Tget_size(type.id()), path);
-  const std::optional<hsize_t> row = product(std::span(dims).subspan(1));
-  if (!row) throw core::RunError(path + " has rows without end");
-  const hsize_t values = *row;
+/// The first rows of a dataset that has rows; `row_values`: values of each, 0 = any number.
+RawRows rows_of_values(hid_t file, const std::string& path, std::int64_t num_rows, hsize_t row_values) {
+  RawRows rows = raw_rows(file, path, num_rows);
+  if (rows.dims.empty()) throw core::RunError(path + " has no rows");
+  const hsize_t values = rows.row_bytes / H5Tget_size(rows.type.id());
   if (row_values != 0 && values != row_values) {
     throw core::RunError(path + " has rows of " + std::to_string(values) + " values, not " +
                          std::to_string(row_values));
   }
-  rows.num_rows = dims[0];
-  rows.num_values = dims[0] * values;
-  rows.in_file = owned<Dataspace>(H5Dget_space(rows.dataset.id()), "H5Dget_space");
-  const std::vector<hsize_t> start(dims.size(), 0);
-  check(H5Sselect_hyperslab(rows.in_file.id(), H5S_SELECT_SET, start.data(), nullptr, dims.data(), nullptr),
-        "H5Sselect_hyperslab");
-  rows.in_memory = owned<Dataspace>(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
-                                    "H5Screate_simple");
   return rows;
 }
 
-void read(const FirstRows& rows, hid_t type, void* values, const std::string& path) {
-  if (rows.num_values == 0) return;
-  check(H5Dread(rows.dataset.id(), type, rows.in_memory.id(), rows.in_file.id(), H5P_DEFAULT, values),
-        "H5Dread(" + path + ")");
+template <class Number>
+std::vector<Number> read_numbers(hid_t file, const std::string& path, std::int64_t num_rows,
+                                 hsize_t row_values, hid_t type) {
+  RawRows rows = rows_of_values(file, path, num_rows, row_values);
+  std::vector<Number> values(rows.num_rows * rows.row_bytes / H5Tget_size(rows.type.id()));
+  rows.type = number_type(type);
+  rows.read(0, rows.num_rows, values.data());
+  return values;
 }
 
 /// Returns the minor version of the layout.
@@ -197,30 +174,22 @@ std::vector<hsize_t> dims_of(hid_t file, const std::string& path) {
 
 std::vector<double> read_doubles(hid_t file, const std::string& path, std::int64_t num_rows,
                                  hsize_t row_values) {
-  const FirstRows rows = select_first_rows(file, path, num_rows, row_values);
-  std::vector<double> values(rows.num_values);
-  read(rows, H5T_NATIVE_DOUBLE, values.data(), path);
-  return values;
+  return read_numbers<double>(file, path, num_rows, row_values, H5T_NATIVE_DOUBLE);
 }
 
 std::vector<std::int64_t> read_integers(hid_t file, const std::string& path, std::int64_t num_rows) {
-  const FirstRows rows = select_first_rows(file, path, num_rows, 0);
-  std::vector<std::int64_t> values(rows.num_values);
-  read(rows, H5T_NATIVE_INT64, values.data(), path);
-  return values;
+  return read_numbers<std::int64_t>(file, path, num_rows, 0, H5T_NATIVE_INT64);
 }
 
 std::vector<std::string> read_texts(hid_t file, const std::string& path, std::int64_t num_rows) {
-  const FirstRows rows = select_first_rows(file, path, num_rows, 1);
-  const auto type = owned<Datatype>(H5Dget_type(rows.dataset.id()), "H5Dget_type");
-  if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) > 0) {
-    throw core::RunError(path + " is not text of fixed length");
-  }
-  const std::size_t bytes = H5Tget_size(type.id());
-  std::vector<char> buffer(bytes * rows.num_values);
-  read(rows, type.id(), buffer.data(), path);
+  const RawRows rows = rows_of_values(file, path, num_rows, 1);
+  if (H5Tget_class(rows.type.id()) != H5T_STRING) throw core::RunError(path + " is not text");
+  const std::size_t bytes = rows.row_bytes;
+  std::vector<char> buffer(bytes * rows.num_rows);
+  rows.read(0, rows.num_rows, buffer.data());
   std::vector<std::string> texts;
-  for (hsize_t i = 0; i < rows.num_values; ++i) texts.push_back(trimmed(&buffer[i * bytes], bytes));
+  texts.reserve(rows.num_rows);
+  for (hsize_t i = 0; i < rows.num_rows; ++i) texts.push_back(trimmed(&buffer[i * bytes], bytes));
   return texts;
 }
 
@@ -234,7 +203,9 @@ RawRows raw_rows(hid_t file, const std::string& path, std::int64_t num_rows) {
   rows.dims = dims_of(file, path);
   rows.num_rows = rows.dims.empty() ? 1 : rows.dims[0];
   if (num_rows >= 0 && !rows.dims.empty()) {
-    if (rows.dims[0] < static_cast<hsize_t>(num_rows)) throw core::RunError(path + " has too few rows");
+    if (rows.dims[0] < static_cast<hsize_t>(num_rows))
+      throw core::RunError(path + " has " + std::to_string(rows.dims[0]) + " rows, not " +
+                           std::to_string(num_rows));
     rows.num_rows = rows.dims[0] = static_cast<hsize_t>(num_rows);
   }
   const std::size_t bytes = H5Tget_size(rows.type.id());
@@ -245,22 +216,33 @@ RawRows raw_rows(hid_t file, const std::string& path, std::int64_t num_rows) {
   return rows;
 }
 
+RawRows::Selection RawRows::select(hsize_t first, hsize_t count) const {
+  Selection selected{owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space"), {}};
+  std::vector<hsize_t> start(dims.size(), 0), extent = dims;
+  if (!dims.empty()) {
+    start[0] = first;
+    extent[0] = count;
+    check(H5Sselect_hyperslab(selected.in_file.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(),
+                              nullptr),
+          "H5Sselect_hyperslab");
+  }
+  selected.in_memory = owned<Dataspace>(
+      H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), "H5Screate_simple");
+  return selected;
+}
+
 void RawRows::read(hsize_t first, hsize_t count, void* values) const {
   if (count == 0 || row_bytes == 0) return;
-  const auto in_file = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
-  if (dims.empty()) {
-    check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "H5Dread(" + path + ")");
-    return;
-  }
-  std::vector<hsize_t> start(dims.size(), 0), extent = dims;
-  start[0] = first;
-  extent[0] = count;
-  check(H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr),
-        "H5Sselect_hyperslab");
-  const auto in_memory = owned<Dataspace>(
-      H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), "H5Screate_simple");
-  check(H5Dread(dataset.id(), type.id(), in_memory.id(), in_file.id(), H5P_DEFAULT, values),
+  const Selection rows = select(first, count);
+  check(H5Dread(dataset.id(), type.id(), rows.in_memory.id(), rows.in_file.id(), H5P_DEFAULT, values),
         "H5Dread(" + path + ")");
+}
+
+void RawRows::write(hsize_t first, hsize_t count, const void* values) const {
+  if (count == 0) return;
+  const Selection rows = select(first, count);
+  check(H5Dwrite(dataset.id(), type.id(), rows.in_memory.id(), rows.in_file.id(), H5P_DEFAULT, values),
+        "H5Dwrite(" + path + ")");
 }
 
 std::vector<std::string> names_in(hid_t file, const std::string& path) {

@@ -137,12 +137,13 @@ JoinedEvents::JoinedEvents(const std::vector<JoinPart>& parts, const JoinPlan& p
 void JoinedEvents::write(hid_t to) const {
   std::size_t begin = 0;
   for (const std::string& path : column_paths()) {
-    const std::size_t bytes = raw_rows(to, path).row_bytes;
+    const RawRows column = raw_rows(to, path);
+    const std::size_t bytes = column.row_bytes;
     std::vector<std::byte> values;
     for (const auto& row : rows_)
       values.insert(values.end(), row.begin() + static_cast<std::ptrdiff_t>(begin),
                     row.begin() + static_cast<std::ptrdiff_t>(begin + bytes));
-    write_rows(to, path, 0, rows_.size(), values.data());
+    column.write(0, rows_.size(), values.data());
     begin += bytes;
   }
   std::vector<std::uint64_t> checksums;
@@ -151,7 +152,7 @@ void JoinedEvents::write(hid_t to) const {
     sum.add(row);
     checksums.push_back(sum.value());
   }
-  write_rows(to, EventColumns::datasets().back(), 0, checksums.size(), checksums.data());
+  raw_rows(to, EventColumns::datasets().back()).write(0, checksums.size(), checksums.data());
 }
 
 }  // namespace pbmpi::io

@@ -75,14 +75,13 @@ void write_table(const std::vector<JoinPart>& parts, const JoinedTable& table, c
       const auto values =
           widened(read_bytes(sources[i], {from.first + row, count}), sources[i].row_bytes, bytes);
       for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(std::span(values).subspan(k * bytes, bytes));
-      write_rows(to, table.columns[i], static_cast<hsize_t>(into.first + row), static_cast<hsize_t>(count),
-                 values.data());
+      targets[i].write(static_cast<hsize_t>(into.first + row), static_cast<hsize_t>(count), values.data());
     }
     std::vector<std::uint64_t> checksums;
     checksums.reserve(sums.size());
     for (const core::Checksum& sum : sums) checksums.push_back(sum.value());
-    write_rows(to, table.checksums, static_cast<hsize_t>(into.first + row), static_cast<hsize_t>(count),
-               checksums.data());
+    raw_rows(to, table.checksums)
+        .write(static_cast<hsize_t>(into.first + row), checksums.size(), checksums.data());
   }
 }
 
@@ -105,7 +104,7 @@ struct ContactFrames {
   void write(hid_t to, std::int64_t row) const {
     const std::string group = contact_frames;
     const auto put = [&](const std::string& path, const auto& values) {
-      write_rows(to, path, static_cast<hsize_t>(row), values.size(), values.data());
+      raw_rows(to, path).write(static_cast<hsize_t>(row), values.size(), values.data());
     };
     put(group + "/first", first);
     put(group + "/count", count);
@@ -130,13 +129,12 @@ void write_contacts(const std::vector<JoinPart>& parts, const JoinPlan& plan, hi
       num_points += spans[i].count;
     }
     frames.write(to, stretch.first - plan.first());
-    const RawRows points = raw_rows(from, ContactRows::points);
+    const RawRows points = raw_rows(from, ContactRows::points), written = raw_rows(to, ContactRows::points);
     const auto piece = static_cast<std::int64_t>(piece_bytes / points.row_bytes);
     for (std::int64_t row = 0; row < num_points; row += piece) {
       const std::int64_t count = std::min(piece, num_points - row);
       const auto values = read_bytes(points, {spans[static_cast<std::size_t>(begin)].first + row, count});
-      write_rows(to, ContactRows::points, static_cast<hsize_t>(next + row), static_cast<hsize_t>(count),
-                 values.data());
+      written.write(static_cast<hsize_t>(next + row), static_cast<hsize_t>(count), values.data());
     }
     next += num_points;
   }
@@ -278,21 +276,6 @@ void write_joined_rows(const std::vector<JoinPart>& parts, const CommonTables& c
     for (const Stretch& stretch : plan.stretches()) write_table(parts, table, plan, stretch, to);
   }
   if (common.has_contacts) write_contacts(parts, plan, to);
-}
-
-void write_rows(hid_t to, const std::string& path, hsize_t first, hsize_t count, const void* values) {
-  if (count == 0) return;
-  const RawRows rows = raw_rows(to, path);
-  const auto in_file = owned<Dataspace>(H5Dget_space(rows.dataset.id()), "H5Dget_space");
-  std::vector<hsize_t> start(rows.dims.size(), 0), extent = rows.dims;
-  start.at(0) = first;
-  extent.at(0) = count;
-  check(H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr),
-        "H5Sselect_hyperslab");
-  const auto in_memory = owned<Dataspace>(
-      H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), "H5Screate_simple");
-  check(H5Dwrite(rows.dataset.id(), rows.type.id(), in_memory.id(), in_file.id(), H5P_DEFAULT, values),
-        "H5Dwrite(" + path + ")");
 }
 
 }  // namespace pbmpi::io

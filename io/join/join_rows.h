@@ -53,7 +53,4 @@ void require_equal_overlaps(const std::vector<JoinPart>& parts, const CommonTabl
 void write_joined_rows(const std::vector<JoinPart>& parts, const CommonTables& common, const JoinPlan& plan,
                        hid_t to);
 
-/// Writes rows [first, first + count) of a dataset of `to`, as the bytes that the file stores.
-void write_rows(hid_t to, const std::string& path, hsize_t first, hsize_t count, const void* values);
-
 }  // namespace pbmpi::io
