@@ -3,7 +3,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "model/model.h"
 #include "stepping/stepper.h"
 
 namespace pbmpi::bullet {
@@ -17,5 +19,9 @@ namespace pbmpi::bullet {
 /// iterations < 1, and from add() for a joint that ODE could not express either.
 std::unique_ptr<stepping::WorldStepper> make_bullet_stepper(const stepping::StepperSettings& settings,
                                                             const std::string& warning_prefix);
+
+/// The features of this model that Bullet steps differently from ODE, or not at all, one per line, e.g.
+/// "max_per_pair 16: a pair of geoms has 4 contacts at most".
+std::vector<std::string> inexpressible(const model::Model& model);
 
 }  // namespace pbmpi::bullet

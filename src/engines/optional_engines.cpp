@@ -7,7 +7,7 @@
 #include "engines/engine_builds.h"
 #include "stepping/names.h"
 #ifdef PBMPI_HAS_BULLET
-#include "bullet/inexpressible.h"
+#include "bullet/bullet_stepper.h"
 #endif
 #ifdef PBMPI_HAS_MUJOCO
 #include "mujoco/mujoco_stepper.h"

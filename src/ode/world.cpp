@@ -7,7 +7,6 @@
 #include "core/random.h"
 #include "ode/objects/bodies.h"
 #include "ode/objects/joints.h"
-#include "ode/objects/numbers.h"
 #include "stepping/stepper_traits.h"
 
 namespace pbmpi::ode {

@@ -1,4 +1,4 @@
-#include "bullet/inexpressible.h"
+#include "bullet/bullet_stepper.h"
 
 #include <algorithm>
 

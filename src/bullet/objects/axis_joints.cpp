@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/error.h"
 #include "model/joint_traits.h"
 
 namespace pbmpi::bullet {
@@ -14,20 +13,6 @@ using Constraint = btGeneric6DofSpring2Constraint;
 
 /// Bullet's numbers of a constraint's axes.
 constexpr int line_z = 2, turn_x = 3, turn_y = 4, turn_z = 5, num_axes = 6;
-
-void require_expressible(const model::Joint& joint) {
-  const JointTraits& traits = model::traits_of(joint.kind);
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    core::require_input(traits.axes[axis].has_motor || !joint.motors[axis].active(),
-                        "joint '" + joint.name + "': it has a motor on axis " + std::to_string(axis + 1) +
-                            ", which its kind does not have; remove the motor");
-    core::require_input(traits.axes[axis].has_limit || !joint.limits[axis].active(),
-                        "joint '" + joint.name + "': it has a limit on axis " + std::to_string(axis + 1) +
-                            ", which its kind cannot limit; remove the limit");
-  }
-  core::require_input(!traits.needs_two_bodies || joint.body_b != model::no_body,
-                      "joint '" + joint.name + "': a hinge2 needs two bodies; name the wheel");
-}
 
 void free_axis(Constraint& constraint, int axis) { constraint.setLimit(axis, 1, -1); }
 
@@ -64,7 +49,6 @@ void suspend(const model::Joint& joint, Constraint& constraint) {
 
 AxisJoints::AxisJoints(const model::Model& model, Bodies& bodies) : model_(&model) {
   for (const model::Joint& joint : model.joints) {
-    require_expressible(joint);
     const JointFrames frames = frames_of(model, joint, bodies);
     joints_.push_back(std::make_unique<Constraint>(bodies.get(joint.body_a), bodies.get(joint.body_b),
                                                    frames.a, frames.b, RO_XYZ));

@@ -13,8 +13,7 @@ namespace pbmpi::bullet {
 /// three angular, is locked, free or limited. `axis`: 0 or 1, as in the model.
 class AxisJoints {
  public:
-  /// `model` and `bodies` are borrowed. Throws core::InputError for a joint that has a motor or limit on an
-  /// axis that its kind lacks, and for a hinge2 to the world.
+  /// `model` and `bodies` are borrowed.
   AxisJoints(const model::Model& model, Bodies& bodies);
 
   int size() const { return static_cast<int>(joints_.size()); }

@@ -6,7 +6,6 @@
 #include "ode/collide/contacts.h"
 #include "ode/objects/engine.h"
 #include "ode/objects/geoms.h"
-#include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 namespace {

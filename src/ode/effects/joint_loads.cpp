@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 

@@ -4,7 +4,6 @@
 
 #include "effects/effects.h"
 #include "model/mechanics.h"
-#include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 namespace {

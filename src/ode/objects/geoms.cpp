@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "model/state.h"
-#include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 namespace {

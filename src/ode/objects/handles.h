@@ -1,11 +1,13 @@
-/// Move-only owners of ODE's objects. A bare id (dBodyID, dGeomID, dJointID) is borrowed: its world or space
-/// owns it.
+/// ODE's numbers, and move-only owners of its objects. A bare id (dBodyID, dGeomID, dJointID) is borrowed:
+/// its world or space owns it.
 #pragma once
 
 #include <memory>
 #include <type_traits>
 
 #include <ode/ode.h>
+
+#include "model/model.h"
 
 namespace pbmpi::ode {
 
@@ -18,6 +20,10 @@ static_assert(
     std::is_same_v<dReal, float> == is_single_precision,
     "ODE's headers have the wrong precision: double (Debian: libode-dev), or single in the folder of "
     "PBMPI_ODE_SINGLE");
+
+inline dReal real(double x) { return static_cast<dReal>(x); }
+/// The first three of ODE's four numbers.
+inline model::Vec3 vec3(const dReal* v) { return {v[0], v[1], v[2]}; }
 
 struct DestroyWorld {
   void operator()(dWorldID id) const { dWorldDestroy(id); }

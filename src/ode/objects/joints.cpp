@@ -1,12 +1,10 @@
 #include "ode/objects/joints.h"
 
-#include <algorithm>
 #include <array>
 #include <numbers>
 
 #include "core/error.h"
 #include "model/joint_traits.h"
-#include "ode/objects/numbers.h"
 
 namespace pbmpi::ode {
 namespace {
@@ -87,20 +85,6 @@ const KindApi& api_of(JointKind kind) { return kind_apis[static_cast<int>(kind)]
 /// ODE's parameter number for the second axis is that of the first plus dParamGroup2.
 int param_of(int axis, int param) { return axis == 0 ? param : param + dParamGroup2; }
 
-void require_expressible(const model::Joint& joint) {
-  const model::JointTraits& traits = model::traits_of(joint.kind);
-  for (int axis = 0; axis < 2; ++axis) {
-    core::require_input(traits.axes[axis].has_motor || !joint.motors[axis].active(),
-                        "joint '" + joint.name + "': it has a motor on axis " + std::to_string(axis + 1) +
-                            ", which its kind does not have; remove the motor");
-    core::require_input(traits.axes[axis].has_limit || !joint.limits[axis].active(),
-                        "joint '" + joint.name + "': it has a limit on axis " + std::to_string(axis + 1) +
-                            ", which its kind cannot limit; remove the limit");
-  }
-  core::require_input(!traits.needs_two_bodies || joint.body_b != model::no_body,
-                      "joint '" + joint.name + "': a hinge2 needs two bodies; name the wheel");
-}
-
 Vec3 position_of(dBodyID body) { return vec3(dBodyGetPosition(body)); }
 
 void set_position(dBodyID body, const Vec3& position) {
@@ -145,7 +129,6 @@ void set_suspension(dJointID id, const model::Joint& joint, double dt_s) {
 
 dJointID make_joint(dWorldID world, const std::vector<dBodyID>& bodies, const model::Model& model,
                     const model::Joint& joint, double dt_s) {
-  require_expressible(joint);
   const dJointID id = api_of(joint.kind).create(world, nullptr);
   const dBodyID body_a = bodies[joint.body_a];
   dJointAttach(id, body_a, joint.body_b == model::no_body ? nullptr : bodies[joint.body_b]);

@@ -9,8 +9,7 @@
 namespace pbmpi::ode {
 
 /// One ODE joint per model joint, in the model's order. The bodies must be at their initial poses (from which
-/// ODE takes a joint's relative pose) and are there again afterwards. Throws core::InputError for a joint
-/// that ODE does not have: a motor or limit on an axis that the kind lacks, or a hinge2 to the world.
+/// ODE takes a joint's relative pose) and are there again afterwards.
 std::vector<dJointID> make_joints(dWorldID world, const std::vector<dBodyID>& bodies,
                                   const model::Model& model, double dt_s);
 

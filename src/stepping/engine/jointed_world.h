@@ -24,7 +24,8 @@ class JointedWorld : public EngineWorld {
   void read(model::State& state, Observables& observables) final;
 
  protected:
-  /// As EngineWorld's.
+  /// As EngineWorld's. Throws core::InputError for a joint that is not of its kind: a motor or limit on an
+  /// axis that the kind lacks, or a hinge2 to the world.
   JointedWorld(const model::Model& model, MotorTargets& targets, const model::State& state, std::int64_t step,
                const StepperSettings& settings, std::optional<int> iterations);
   /// To be called at the end of the engine's constructor, with the joints as the model has them: brings them
