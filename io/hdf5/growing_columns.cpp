@@ -22,13 +22,6 @@ std::vector<hsize_t> table_dims(hsize_t rows, hsize_t items, hsize_t width) {
   return dims;
 }
 
-std::vector<hsize_t> extent_of(hid_t dataset) {
-  const auto space = owned<Dataspace>(H5Dget_space(dataset), "H5Dget_space");
-  std::vector<hsize_t> dims(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.id())));
-  check(H5Sget_simple_extent_dims(space.id(), dims.data(), nullptr), "H5Sget_simple_extent_dims");
-  return dims;
-}
-
 /// Adds the bytes of the chunks that lie entirely after row `num_rows`.
 void add_unused_chunks(hid_t dataset, hsize_t num_rows, std::vector<core::ByteRange>& unused) {
   const auto space = owned<Dataspace>(H5Dget_space(dataset), "H5Dget_space");
@@ -171,7 +164,8 @@ std::string GrowingTable::write(const PropertyList& transfer) {
   collective_ = true;
   for (Column& column : columns_) {
     try {
-      write(column, rows, transfer);
+      write_rows(column.dataset, column.type.id(), {written_ + rows.first, rows.count},
+                 place(column, rows.first, 0), transfer.id(), column.path);
       collective_ = was_collective(transfer) && collective_;
     } catch (const core::RunError& e) {
       if (error.empty()) error = e.what();
@@ -181,26 +175,6 @@ std::string GrowingTable::write(const PropertyList& transfer) {
   written_ += num_waiting_;
   num_waiting_ = 0;
   return error;
-}
-
-void GrowingTable::write(Column& column, Range rows, const PropertyList& transfer) {
-  const auto in_file = owned<Dataspace>(H5Dget_space(column.dataset.id()), "H5Dget_space");
-  std::vector<hsize_t> dims = extent_of(column.dataset.id());
-  dims[0] = std::max<hsize_t>(rows.count, 1);
-  const auto in_memory = owned<Dataspace>(
-      H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), "H5Screate_simple");
-  if (rows.count == 0) {
-    check(H5Sselect_none(in_file.id()), "H5Sselect_none");
-    check(H5Sselect_none(in_memory.id()), "H5Sselect_none");
-  } else {
-    std::vector<hsize_t> start(dims.size(), 0);
-    start[0] = written_ + rows.first;
-    check(H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr, dims.data(), nullptr),
-          "H5Sselect_hyperslab");
-  }
-  check(H5Dwrite(column.dataset.id(), column.type.id(), in_memory.id(), in_file.id(), transfer.id(),
-                 place(column, rows.first, 0)),
-        "H5Dwrite(" + column.path + ")");
 }
 
 void GrowingTable::close() {
@@ -213,7 +187,7 @@ void GrowingTable::cut(hid_t file, std::vector<core::ByteRange>& unused) const {
 
 void cut_rows(hid_t file, const std::string& path, hsize_t num_rows, std::vector<core::ByteRange>& unused) {
   const auto dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
-  std::vector<hsize_t> dims = extent_of(dataset.id());
+  std::vector<hsize_t> dims = extent_of(owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space"));
   if (dims[0] == num_rows) return;
   add_unused_chunks(dataset.id(), num_rows, unused);
   dims[0] = num_rows;

@@ -97,7 +97,6 @@ class GrowingTable {
   /// returns where the next items begin.
   void pack(hsize_t row, std::vector<std::byte>& message);
   const std::byte* unpack(hsize_t row, const std::byte* message);
-  void write(Column& column, Range rows, const PropertyList& transfer);
   /// The columns of the table, without the checksums.
   std::span<Column> own_columns() { return std::span(columns_).first(columns_.size() - 1); }
   /// Puts the checksums of the rows that this rank has whole.

@@ -12,6 +12,7 @@
 #include "core/system/seal.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/file_types.h"
+#include "io/hdf5/rows.h"
 
 namespace pbmpi::io {
 namespace {
@@ -166,10 +167,7 @@ bool has_object(hid_t file, const std::string& path) {
 
 std::vector<hsize_t> dims_of(hid_t file, const std::string& path) {
   const auto dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
-  const auto space = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
-  std::vector<hsize_t> dims(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space.id()), 0)));
-  check(H5Sget_simple_extent_dims(space.id(), dims.data(), nullptr), "H5Sget_simple_extent_dims");
-  return dims;
+  return extent_of(owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space"));
 }
 
 std::vector<double> read_doubles(hid_t file, const std::string& path, std::int64_t num_rows,
@@ -216,33 +214,16 @@ RawRows raw_rows(hid_t file, const std::string& path, std::int64_t num_rows) {
   return rows;
 }
 
-RawRows::Selection RawRows::select(hsize_t first, hsize_t count) const {
-  Selection selected{owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space"), {}};
-  std::vector<hsize_t> start(dims.size(), 0), extent = dims;
-  if (!dims.empty()) {
-    start[0] = first;
-    extent[0] = count;
-    check(H5Sselect_hyperslab(selected.in_file.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(),
-                              nullptr),
-          "H5Sselect_hyperslab");
-  }
-  selected.in_memory = owned<Dataspace>(
-      H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), "H5Screate_simple");
-  return selected;
-}
-
 void RawRows::read(hsize_t first, hsize_t count, void* values) const {
   if (count == 0 || row_bytes == 0) return;
-  const Selection rows = select(first, count);
-  check(H5Dread(dataset.id(), type.id(), rows.in_memory.id(), rows.in_file.id(), H5P_DEFAULT, values),
+  const auto in_file = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
+  const Dataspace in_memory = select_rows(in_file, {first, count});
+  check(H5Dread(dataset.id(), type.id(), in_memory.id(), in_file.id(), H5P_DEFAULT, values),
         "H5Dread(" + path + ")");
 }
 
 void RawRows::write(hsize_t first, hsize_t count, const void* values) const {
-  if (count == 0) return;
-  const Selection rows = select(first, count);
-  check(H5Dwrite(dataset.id(), type.id(), rows.in_memory.id(), rows.in_file.id(), H5P_DEFAULT, values),
-        "H5Dwrite(" + path + ")");
+  if (count > 0) write_rows(dataset, type.id(), {first, count}, values, H5P_DEFAULT, path);
 }
 
 std::vector<std::string> names_in(hid_t file, const std::string& path) {

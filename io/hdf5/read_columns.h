@@ -52,12 +52,6 @@ struct RawRows {
   void read(hsize_t first, hsize_t count, void* values) const;
   /// Writes them, serially.
   void write(hsize_t first, hsize_t count, const void* values) const;
-
- private:
-  struct Selection {
-    Dataspace in_file, in_memory;
-  };
-  Selection select(hsize_t first, hsize_t count) const;
 };
 /// `num_rows` as in read_doubles().
 RawRows raw_rows(hid_t file, const std::string& path, std::int64_t num_rows = -1);

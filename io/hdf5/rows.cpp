@@ -5,15 +5,12 @@
 #include <numeric>
 
 namespace pbmpi::io {
-namespace {
 
-std::vector<hsize_t> extent(const Dataspace& space) {
+std::vector<hsize_t> extent_of(const Dataspace& space) {
   std::vector<hsize_t> dims(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space.id()), 0)));
   check(H5Sget_simple_extent_dims(space.id(), dims.data(), nullptr), "H5Sget_simple_extent_dims");
   return dims;
 }
-
-}  // namespace
 
 void append_range(std::vector<Range>& ranges, hsize_t first, hsize_t count) {
   if (count == 0) return;
@@ -39,7 +36,7 @@ Range share_of_rows(hsize_t num_rows, int rank, int num_ranks) {
 
 void select_ranges(const Dataspace& space, const std::vector<Range>& ranges) {
   check(H5Sselect_none(space.id()), "H5Sselect_none");
-  std::vector<hsize_t> count = extent(space);
+  std::vector<hsize_t> count = extent_of(space);
   std::vector<hsize_t> start(count.size(), 0);
   for (const Range& range : ranges) {
     start[0] = range.first;
@@ -47,6 +44,33 @@ void select_ranges(const Dataspace& space, const std::vector<Range>& ranges) {
     check(H5Sselect_hyperslab(space.id(), H5S_SELECT_OR, start.data(), nullptr, count.data(), nullptr),
           "H5Sselect_hyperslab");
   }
+}
+
+Dataspace select_rows(const Dataspace& in_file, Range rows) {
+  std::vector<hsize_t> count = extent_of(in_file);
+  std::vector<hsize_t> start(count.size(), 0);
+  if (!count.empty()) {  // a scalar counts as one row
+    start[0] = rows.first;
+    count[0] = std::max<hsize_t>(rows.count, 1);
+  }
+  auto in_memory = owned<Dataspace>(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
+                                    "H5Screate_simple");
+  if (rows.count == 0) {
+    check(H5Sselect_none(in_file.id()), "H5Sselect_none");
+    check(H5Sselect_none(in_memory.id()), "H5Sselect_none");
+  } else if (!count.empty()) {
+    check(H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+          "H5Sselect_hyperslab");
+  }
+  return in_memory;
+}
+
+void write_rows(const Dataset& dataset, hid_t type, Range rows, const void* values, hid_t transfer,
+                const std::string& path) {
+  const auto in_file = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
+  const Dataspace in_memory = select_rows(in_file, rows);
+  check(H5Dwrite(dataset.id(), type, in_memory.id(), in_file.id(), transfer, values),
+        "H5Dwrite(" + path + ")");
 }
 
 std::vector<hsize_t> chunk_shape(const std::vector<hsize_t>& dims, std::size_t element_bytes) {

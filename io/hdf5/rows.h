@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "io/hdf5/hdf5_handle.h"
@@ -15,6 +16,9 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
+/// The dimensions of a dataspace, row first; empty for a scalar.
+std::vector<hsize_t> extent_of(const Dataspace& space);
+
 /// Appends a range; if it begins where the last one ends, the two are merged. Empty ranges are dropped.
 void append_range(std::vector<Range>& ranges, hsize_t first, hsize_t count);
 
@@ -27,6 +31,14 @@ Range share_of_rows(hsize_t num_rows, int rank, int num_ranks);
 
 /// Selects `ranges` of items in `space` [items][...].
 void select_ranges(const Dataspace& space, const std::vector<Range>& ranges);
+
+/// Selects these rows of a dataset [rows][...] in `in_file`, and returns the space that they take in memory.
+Dataspace select_rows(const Dataspace& in_file, Range rows);
+
+/// Writes rows of a dataset, `values` in the memory type `type`. With a collective `transfer` a rank without
+/// rows takes part, too. `path`: of the dataset, for errors.
+void write_rows(const Dataset& dataset, hid_t type, Range rows, const void* values, hid_t transfer,
+                const std::string& path);
 
 /// Chunks for `dims`, row first: whole rows of 1 to 4 MiB (a row beyond that is cut along its items), or the
 /// whole dataset if it is smaller. Rows are spread evenly over the chunks, so the last is not half empty.

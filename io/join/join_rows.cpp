@@ -15,7 +15,6 @@
 namespace pbmpi::io {
 namespace {
 
-constexpr const char* contact_frames = "/contacts/frame";
 constexpr std::size_t piece_bytes = std::size_t{4} << 20;
 
 /// Columns that clocks have measured or decided, or that describe ranks, whose number differs between parts:
@@ -102,7 +101,7 @@ struct ContactFrames {
     row_checksum.push_back(sum.value());
   }
   void write(hid_t to, std::int64_t row) const {
-    const std::string group = contact_frames;
+    const std::string group = ContactRows::frame_group;
     const auto put = [&](const std::string& path, const auto& values) {
       raw_rows(to, path).write(static_cast<hsize_t>(row), values.size(), values.data());
     };
@@ -121,7 +120,8 @@ void write_contacts(const std::vector<JoinPart>& parts, const JoinPlan& plan, hi
     const hid_t from = parts[stretch.part].file;
     const std::int64_t begin = stretch.first - plan.parts()[stretch.part].first;
     const std::vector<ContactSpan> spans = read_contact_spans(from, begin + stretch.count);
-    const auto dropped = read_integers(from, std::string(contact_frames) + "/dropped", begin + stretch.count);
+    const auto dropped =
+        read_integers(from, std::string(ContactRows::frame_group) + "/dropped", begin + stretch.count);
     ContactFrames frames;
     std::int64_t num_points = 0;
     for (auto i = static_cast<std::size_t>(begin); i < spans.size(); ++i) {
@@ -144,8 +144,8 @@ std::int64_t num_contacts(const std::vector<JoinPart>& parts, const JoinPlan& pl
   std::int64_t all = 0;
   for (const Stretch& stretch : plan.stretches()) {
     const std::int64_t begin = stretch.first - plan.parts()[stretch.part].first;
-    const auto counts = read_integers(parts[stretch.part].file, std::string(contact_frames) + "/count",
-                                      begin + stretch.count);
+    const auto counts = read_integers(
+        parts[stretch.part].file, std::string(ContactRows::frame_group) + "/count", begin + stretch.count);
     for (auto count = counts.begin() + begin; count != counts.end(); ++count) all += *count;
   }
   return all;
@@ -203,9 +203,10 @@ CommonTables common_tables(const std::vector<JoinPart>& parts) {
   const auto found = parts_with(ContactRows::points);
   common.has_contacts = found == std::ssize(parts);
   if (found > 0 && !common.has_contacts) {
-    std::vector<std::string> datasets = GrowingTable::datasets(contact_frames, ContactRows::frame_columns());
+    std::vector<std::string> datasets =
+        GrowingTable::datasets(ContactRows::frame_group, ContactRows::frame_columns());
     datasets.emplace_back(ContactRows::points);
-    datasets.emplace_back(contact_frames);  // leaves the group above it empty
+    datasets.emplace_back(ContactRows::frame_group);  // leaves the group above it empty
     add_to_some(ContactRows::points, datasets);
   }
   return common;
@@ -215,7 +216,7 @@ std::set<std::string> growing_datasets() {
   std::set<std::string> all = {ContactRows::points};
   const auto add = [&all](const std::vector<std::string>& paths) { all.insert(paths.begin(), paths.end()); };
   for (const FrameTable& table : all_frame_tables()) add(GrowingTable::datasets(table.group, table.columns));
-  add(GrowingTable::datasets(contact_frames, ContactRows::frame_columns()));
+  add(GrowingTable::datasets(ContactRows::frame_group, ContactRows::frame_columns()));
   add(EventColumns::datasets());
   return all;
 }
@@ -235,7 +236,8 @@ std::map<std::string, GrownDataset> grown_datasets(const std::vector<JoinPart>& 
     grown[table.checksums] = {rows, 0, 0};
   }
   if (common.has_contacts) {
-    for (const std::string& path : GrowingTable::datasets(contact_frames, ContactRows::frame_columns()))
+    for (const std::string& path :
+         GrowingTable::datasets(ContactRows::frame_group, ContactRows::frame_columns()))
       grown[path] = {frames, 0, 0};
     grown[ContactRows::points] = {static_cast<hsize_t>(num_contacts(parts, plan)), 0, 0};
   }
@@ -263,8 +265,8 @@ void require_equal_overlaps(const std::vector<JoinPart>& parts, const CommonTabl
       if (!common.has_contacts) continue;
       for (const char* column : {"count", "dropped", "checksum"}) {
         require_equal(a, {overlap.first - in_a.first, overlap.count}, b,
-                      {overlap.first - in_b.first, overlap.count}, std::string(contact_frames) + "/" + column,
-                      in_a.first, 1);
+                      {overlap.first - in_b.first, overlap.count},
+                      std::string(ContactRows::frame_group) + "/" + column, in_a.first, 1);
       }
     }
   }

@@ -40,7 +40,8 @@ std::vector<Cut> cuts_of(hid_t file, std::int64_t frames) {
   }
   if (const std::vector<ContactSpan> spans = read_contact_spans(file, frames);
       has_object(file, "/contacts")) {
-    for (const std::string& path : GrowingTable::datasets("/contacts/frame", ContactRows::frame_columns()))
+    for (const std::string& path :
+         GrowingTable::datasets(ContactRows::frame_group, ContactRows::frame_columns()))
       add(path, frames);
     add(ContactRows::points, spans.empty() ? 0 : spans.back().first + spans.back().count);
   }

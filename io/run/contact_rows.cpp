@@ -12,7 +12,6 @@
 namespace pbmpi::io {
 namespace {
 
-constexpr const char* frame_group = "/contacts/frame";
 constexpr std::size_t num_columns = contact_columns.size();
 constexpr std::size_t bytes_a_row = num_columns * sizeof(double);
 
@@ -204,21 +203,9 @@ std::string ContactRows::write(const PropertyList& transfer) {
   collective_ = frames_.wrote_collectively();
   if (settled_ == written_) return error;
   try {
-    const auto in_file = owned<Dataspace>(H5Dget_space(dataset_.id()), "H5Dget_space");
-    const std::array<hsize_t, 2> start = {first_own_, 0}, all = {own_rows_.size(), num_columns};
-    const std::array<hsize_t, 2> extent = {std::max<hsize_t>(all[0], 1), num_columns};
-    const auto in_memory = owned<Dataspace>(H5Screate_simple(2, extent.data(), nullptr), "H5Screate_simple");
-    if (own_rows_.empty()) {
-      check(H5Sselect_none(in_file.id()), "H5Sselect_none");
-      check(H5Sselect_none(in_memory.id()), "H5Sselect_none");
-    } else {
-      check(H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr, all.data(), nullptr),
-            "H5Sselect_hyperslab");
-    }
     const Row nothing{};
-    check(H5Dwrite(dataset_.id(), H5T_NATIVE_DOUBLE, in_memory.id(), in_file.id(), transfer.id(),
-                   own_rows_.empty() ? nothing.data() : own_rows_.front().data()),
-          std::string("H5Dwrite(") + points + ")");
+    write_rows(dataset_, H5T_NATIVE_DOUBLE, {first_own_, own_rows_.size()},
+               own_rows_.empty() ? nothing.data() : own_rows_.front().data(), transfer.id(), points);
     collective_ = collective_ && was_collective(transfer);
   } catch (const core::RunError& failed) {
     if (error.empty()) error = failed.what();
@@ -240,9 +227,9 @@ void ContactRows::cut(hid_t file, std::vector<core::ByteRange>& unused) const {
 
 std::vector<ContactSpan> read_contact_spans(hid_t file, std::int64_t num_frames) {
   if (!has_object(file, "/contacts")) return {};
-  const auto first = read_integers(file, std::string(frame_group) + "/first", num_frames);
-  const auto count = read_integers(file, std::string(frame_group) + "/count", num_frames);
-  const RawRows sums = raw_rows(file, std::string(frame_group) + "/checksum", num_frames);
+  const auto first = read_integers(file, std::string(ContactRows::frame_group) + "/first", num_frames);
+  const auto count = read_integers(file, std::string(ContactRows::frame_group) + "/count", num_frames);
+  const RawRows sums = raw_rows(file, std::string(ContactRows::frame_group) + "/checksum", num_frames);
   if (sums.row_bytes != sizeof(std::uint64_t)) throw core::RunError(sums.path + " is no column of checksums");
   std::vector<std::uint64_t> checksum(static_cast<std::size_t>(num_frames));
   sums.read(0, sums.num_rows, checksum.data());
@@ -250,7 +237,7 @@ std::vector<ContactSpan> read_contact_spans(hid_t file, std::int64_t num_frames)
   std::int64_t next = 0;
   for (std::size_t frame = 0; frame < first.size(); ++frame) {
     if (first[frame] != next || count[frame] < 0)
-      throw core::RunError(std::string(frame_group) + " does not say where the rows of frame " +
+      throw core::RunError(std::string(ContactRows::frame_group) + " does not say where the rows of frame " +
                            std::to_string(frame) + " are");
     next += count[frame];
     spans.push_back({first[frame], count[frame], checksum[frame]});

@@ -37,7 +37,8 @@ struct ContactSpan {
 class ContactRows {
  public:
   static constexpr const char* points = "/contacts/point";
-  /// Columns of the frames' table in the group /contacts/frame.
+  /// The group of the frames' table, and its columns.
+  static constexpr const char* frame_group = "/contacts/frame";
   static std::vector<ColumnSpec> frame_columns();
   /// Rows for which a file has room; bytes of the rows that are expected, and of the others.
   static hsize_t capacity(const RunShape& shape);

@@ -35,6 +35,16 @@ TEST(SelectRanges, selects_the_ranges_and_all_that_is_in_their_items) {
   EXPECT_EQ(num_selected(space), 0) << "a rank without items";
 }
 
+TEST(SelectRows, selects_whole_rows_and_returns_their_space_in_memory) {
+  const Dataspace space = space_of({6, 3});
+  const Dataspace in_memory = select_rows(space, {4, 2});
+  EXPECT_EQ(num_selected(space), 2 * 3);
+  EXPECT_EQ(extent_of(in_memory), (std::vector<hsize_t>{2, 3}));
+  EXPECT_EQ(num_selected(select_rows(space, {})), 0) << "a rank without rows";
+  EXPECT_EQ(num_selected(space), 0);
+  EXPECT_EQ(num_selected(select_rows(space_of({}), {0, 1})), 1) << "a scalar counts as one row";
+}
+
 TEST(ShareOfRows, gives_each_row_to_exactly_one_rank_in_nearly_equal_shares) {
   for (const hsize_t num_rows : {0, 1, 2, 7, 1000}) {
     for (int num_ranks = 1; num_ranks <= 9; ++num_ranks) {
