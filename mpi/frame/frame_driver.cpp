@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "mpi/comm/tree_gather.h"
-#include "mpi/frame/breaks.h"
 #include "mpi/frame/world_events.h"
 
 namespace pbmpi::mpi {

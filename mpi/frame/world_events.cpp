@@ -60,4 +60,32 @@ std::vector<stepping::RunEvent> share_events(const Communicator& comm,
   return events;
 }
 
+bool any_breakage(const Communicator& comm, std::span<const stepping::LocalWorld> worlds) {
+  std::int64_t any = 0;
+  for (const stepping::LocalWorld& world : worlds) any |= world.state->broken_in.empty() ? 0 : 1;
+  comm.allreduce(std::span(&any, 1), Reduce::max);
+  return any != 0;
+}
+
+std::vector<stepping::RunEvent> find_breaks(const Communicator& comm,
+                                            std::span<const stepping::LocalWorld> worlds, int first_world,
+                                            std::int64_t frame, std::int64_t first_step) {
+  std::vector<stepping::RunEvent> own;
+  for (const stepping::LocalWorld& world : worlds) {
+    for (std::size_t joint = 0; joint < world.state->broken_in.size(); ++joint) {
+      const std::int32_t step = world.state->broken_in[joint];
+      if (step < first_step) continue;
+      const std::string& name = world.model->joints[joint].name;
+      own.push_back({.kind = stepping::event_kind::joint_broken,
+                     .detail = "world " + std::to_string(first_world + world.id) + ": '" + name +
+                               "' broke in step " + std::to_string(step),
+                     .step = step,
+                     .world = world.id,
+                     .joint = static_cast<int>(joint),
+                     .name = name});
+    }
+  }
+  return share_events(comm, own, frame);
+}
+
 }  // namespace pbmpi::mpi
