@@ -1,6 +1,5 @@
 #include "simulation.h"
 
-#include "model/validate.h"
 #include "mujoco/mujoco_stepper.h"
 #include "ode/ode_stepper.h"
 #include "stepping/stepper_traits.h"
@@ -14,23 +13,12 @@ stepping::StepperSettings settings_with(double dt_s) {
 }
 
 Simulation::Simulation(const model::Model& model, const stepping::StepperSettings& settings)
-    : Simulation(model, make_mujoco_stepper(settings)) {}
-
-Simulation::Simulation(const model::Model& model, std::unique_ptr<stepping::WorldStepper> stepper)
-    : stepper_(std::move(stepper)) {
-  model::validate(model, "test");
-  stepper_->add(0, std::make_shared<model::Model>(model), model::initial_state(model), 0);
-}
+    : OneWorld(model, make_mujoco_stepper(settings)) {}
 
 Simulation Simulation::by_ode(const model::Model& model, double dt_s) {
   stepping::StepperSettings settings = settings_with(dt_s);
   settings.kind = stepping::StepperKind::direct;
   return {model, ode::make_ode_stepper(settings, [](const std::string&) {})};
-}
-
-void Simulation::advance(int num_steps) {
-  core::PhaseTimes times;
-  stepper_->advance(num_steps, times);
 }
 
 std::uint64_t hash_after(const model::Model& model, int num_steps) {

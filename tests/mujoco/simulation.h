@@ -1,31 +1,22 @@
-/// One world in a stepper, for tests of its motion.
+/// One world in MuJoCo, for tests of its motion.
 #pragma once
 
-#include <memory>
-
 #include "stepping/stepper.h"
+#include "support/one_world.h"
 
 namespace pbmpi::mujoco {
 
 /// MuJoCo's own steps are a quarter of these.
 stepping::StepperSettings settings_with(double dt_s = 0.01);
 
-class Simulation {
+class Simulation : public support::OneWorld {
  public:
   explicit Simulation(const model::Model& model, const stepping::StepperSettings& settings = settings_with());
   /// The same world in ODE's stepper `direct`.
   static Simulation by_ode(const model::Model& model, double dt_s = 0.01);
 
-  void advance(int num_steps);
-  const model::State& state() const { return stepper_->state(0); }
-  const stepping::Observables& observables() const { return stepper_->observables(0); }
-  double energy() const { return observables().energy_j; }
-  stepping::WorldStepper& stepper() { return *stepper_; }
-
  private:
-  Simulation(const model::Model& model, std::unique_ptr<stepping::WorldStepper> stepper);
-
-  std::unique_ptr<stepping::WorldStepper> stepper_;
+  using OneWorld::OneWorld;
 };
 
 /// The bits of a world after `num_steps` steps, alone in a new stepper.

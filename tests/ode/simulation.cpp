@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "model/validate.h"
 #include "ode/ode_stepper.h"
 
 namespace pbmpi::ode {
@@ -26,19 +25,7 @@ WarningSink sink_for(stepping::StepperKind kind) {
 void fail_on_warning(const std::string& line) { ADD_FAILURE() << line; }
 
 Simulation::Simulation(const model::Model& model, const stepping::StepperSettings& settings)
-    : stepper_(make_ode_stepper(settings, sink_for(settings.kind))) {
-  model::validate(model, "test");
-  stepper_->add(0, std::make_shared<model::Model>(model), model::initial_state(model), 0);
-}
-
-void Simulation::advance(int num_steps) {
-  core::PhaseTimes times;
-  stepper_->advance(num_steps, times);
-}
-
-model::Vec3 Simulation::direction(int body, const model::Vec3& local) const {
-  return state().orientation[body].to_eigen() * local;
-}
+    : OneWorld(model, make_ode_stepper(settings, sink_for(settings.kind))) {}
 
 std::uint64_t hash_after(const model::Model& model, const stepping::StepperSettings& settings, int world,
                          int num_steps) {

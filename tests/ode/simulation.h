@@ -1,11 +1,10 @@
-/// One world in a stepper, for tests of its motion.
+/// One world in ODE, for tests of its motion.
 #pragma once
 
-#include <memory>
 #include <string>
-#include <vector>
 
 #include "stepping/stepper.h"
+#include "support/one_world.h"
 
 namespace pbmpi::ode {
 
@@ -13,20 +12,9 @@ namespace pbmpi::ode {
 void fail_on_warning(const std::string& line);
 
 /// With `quick`, any message of ODE fails the test; with `direct`, any except that of its LCP solver.
-class Simulation {
+class Simulation : public support::OneWorld {
  public:
   Simulation(const model::Model& model, const stepping::StepperSettings& settings);
-
-  void advance(int num_steps);
-  const model::State& state() const { return stepper_->state(0); }
-  const stepping::Observables& observables() const { return stepper_->observables(0); }
-  const model::Model& model() const { return stepper_->model(0); }
-  double energy() const { return observables().energy_j; }
-  /// Converts a direction fixed in a body to the world frame.
-  model::Vec3 direction(int body, const model::Vec3& local) const;
-
- private:
-  std::unique_ptr<stepping::WorldStepper> stepper_;
 };
 
 /// The bits of a world after `num_steps` steps, alone in a new stepper.
