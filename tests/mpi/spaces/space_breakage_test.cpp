@@ -15,8 +15,8 @@ namespace pbmpi::mpi {
 namespace {
 
 using testing_support::add_to_space;
+using testing_support::expect_whole_in_placements;
 using testing_support::Oracle;
-using testing_support::placements_of_four_spaces;
 using testing_support::run_spaces;
 using testing_support::share;
 using testing_support::SharedModel;
@@ -79,19 +79,7 @@ class SpaceBreakage : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(AwakeAndWithSleep, SpaceBreakage, testing::Bool());
 
 TEST_P(SpaceBreakage, has_the_bits_of_the_whole_world_for_every_ownership) {
-  const SharedModel model = falling_rows(GetParam());
-  WorldRunSettings settings = space_settings(num_frames);
-  settings.rebalance_threshold = model::infinity;
-  for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-    stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
-    stepper.precision = precision;
-    const std::uint64_t expected = whole_hash(model, settings, stepper);
-    for (const Placement& placement : placements_of_four_spaces(world().size(), 37)) {
-      settings.placement = placement;
-      const auto run = run_spaces(world(), model, settings, stepper, Oracle::none);
-      ASSERT_EQ(run.result.state_hash, expected) << testing::PrintToString(placement);
-    }
-  }
+  expect_whole_in_placements(falling_rows(GetParam()), num_frames, 37);
 }
 
 TEST_P(SpaceBreakage, has_the_bits_of_the_whole_world_while_spaces_change_their_owner) {

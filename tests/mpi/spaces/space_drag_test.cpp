@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "space_run.h"
-#include "stepping/stepper_traits.h"
 
 namespace pbmpi::mpi {
 namespace {
 
+using testing_support::expect_whole_in_placements;
 using testing_support::neighbours;
 using testing_support::Oracle;
-using testing_support::placements_of_four_spaces;
 using testing_support::run_spaces;
 using testing_support::share;
 using testing_support::SharedModel;
@@ -25,20 +24,8 @@ model::Model in_thick_air(model::Model model) {
 
 // Root, too, sees the fast bodies of other ranks slowed down before it looks for their speculative contacts.
 TEST(SpaceDrag, has_the_bits_of_the_whole_world_for_every_ownership) {
-  WorldRunSettings settings = space_settings();
-  settings.rebalance_threshold = model::infinity;
-  for (const SharedModel& model : {share(in_thick_air(neighbours())), share(in_thick_air(shoot_out()))}) {
-    for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-      stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
-      stepper.precision = precision;
-      const std::uint64_t expected = whole_hash(model, settings, stepper);
-      for (const Placement& placement : placements_of_four_spaces(world().size(), 23)) {
-        settings.placement = placement;
-        ASSERT_EQ(run_spaces(world(), model, settings, stepper, Oracle::none).result.state_hash, expected)
-            << testing::PrintToString(placement);
-      }
-    }
-  }
+  for (const SharedModel& model : {share(in_thick_air(neighbours())), share(in_thick_air(shoot_out()))})
+    expect_whole_in_placements(model, 20, 23);
 }
 
 TEST(SpaceDrag, has_the_bits_of_the_whole_world_where_islands_sleep) {

@@ -13,10 +13,10 @@
 namespace pbmpi::mpi {
 namespace {
 
+using testing_support::expect_whole_in_placements;
 using testing_support::make_space_stepper;
 using testing_support::neighbours;
 using testing_support::Oracle;
-using testing_support::placements_of_four_spaces;
 using testing_support::run_spaces;
 using testing_support::share;
 using testing_support::SharedModel;
@@ -56,20 +56,8 @@ std::vector<int> inside_of(FrameDriver& driver) {
 }
 
 TEST(SpaceFocus, has_the_bits_of_the_whole_world_for_every_ownership) {
-  WorldRunSettings settings = space_settings();
-  settings.rebalance_threshold = model::infinity;
-  for (const SharedModel& model : {share(followed_ball()), share(watched_place())}) {
-    for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-      stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
-      stepper.precision = precision;
-      const std::uint64_t expected = whole_hash(model, settings, stepper);
-      for (const Placement& placement : placements_of_four_spaces(world().size(), 23)) {
-        settings.placement = placement;
-        const SpaceRun run = run_spaces(world(), model, settings, stepper, Oracle::none);
-        ASSERT_EQ(run.result.state_hash, expected) << testing::PrintToString(placement);
-      }
-    }
-  }
+  for (const SharedModel& model : {share(followed_ball()), share(watched_place())})
+    expect_whole_in_placements(model, 20, 23);
 }
 
 TEST(SpaceFocus, has_the_bits_of_the_whole_world_while_spaces_change_their_owner) {

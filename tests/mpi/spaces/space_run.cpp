@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include <gtest/gtest.h>
+
 #include "../world_driver_support.h"
 #include "contact_oracle.h"
 #include "ode/collide/narrow_phase.h"
@@ -126,6 +128,21 @@ void add_balls(model::Model& model, double x, int space) {
 }
 
 }  // namespace
+
+void expect_whole_in_placements(const SharedModel& model, int frames, int stride) {
+  mpi::WorldRunSettings settings = space_settings(frames);
+  settings.rebalance_threshold = model::infinity;
+  for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
+    stepping::StepperSettings stepper = ode_steps;
+    stepper.precision = precision;
+    const std::uint64_t expected = whole_hash(model, settings, stepper);
+    for (const mpi::Placement& placement : placements_of_four_spaces(world().size(), stride)) {
+      settings.placement = placement;
+      const SpaceRun run = run_spaces(world(), model, settings, stepper, Oracle::none);
+      ASSERT_EQ(run.result.state_hash, expected) << testing::PrintToString(placement);
+    }
+  }
+}
 
 model::Model neighbours() {
   model::Model model;

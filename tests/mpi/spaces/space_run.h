@@ -57,6 +57,10 @@ SpaceRun run_spaces(const mpi::Communicator& comm, const SharedModel& model,
 std::uint64_t whole_hash(const SharedModel& model, const mpi::WorldRunSettings& settings = space_settings(),
                          const stepping::StepperSettings& stepper = ode_steps);
 
+/// Expects the bits of the whole world, in both precisions, of `frames` measured frames of the world cut into
+/// its four spaces, in every `stride`-th placement of these.
+void expect_whole_in_placements(const SharedModel& model, int frames, int stride);
+
 /// Four spaces in a row, 1 m apart: a pile of boxes, a chain that falls on its neighbours, a pile, and loose
 /// balls that roll from one end to the other and are launched into other spaces.
 model::Model neighbours();

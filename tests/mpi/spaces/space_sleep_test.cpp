@@ -13,8 +13,8 @@ namespace pbmpi::mpi {
 namespace {
 
 using testing_support::add_to_space;
+using testing_support::expect_whole_in_placements;
 using testing_support::Oracle;
-using testing_support::placements_of_four_spaces;
 using testing_support::run_spaces;
 using testing_support::share;
 using testing_support::SharedModel;
@@ -66,19 +66,7 @@ model::Model stacks_across_spaces() {
 SharedModel shared_stacks() { return share(stacks_across_spaces()); }
 
 TEST(SpaceSleep, has_the_bits_of_the_whole_world_for_every_ownership) {
-  const SharedModel model = shared_stacks();
-  WorldRunSettings settings = space_settings(num_frames);
-  settings.rebalance_threshold = model::infinity;
-  for (const stepping::Precision precision : {stepping::Precision::double_, stepping::Precision::single}) {
-    stepping::StepperSettings stepper = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
-    stepper.precision = precision;
-    const std::uint64_t expected = whole_hash(model, settings, stepper);
-    for (const Placement& placement : placements_of_four_spaces(world().size(), 37)) {
-      settings.placement = placement;
-      ASSERT_EQ(run_spaces(world(), model, settings, stepper, Oracle::none).result.state_hash, expected)
-          << testing::PrintToString(placement);
-    }
-  }
+  expect_whole_in_placements(shared_stacks(), num_frames, 37);
 }
 
 TEST(SpaceSleep, has_the_bits_of_the_whole_world_while_spaces_change_their_owner) {
