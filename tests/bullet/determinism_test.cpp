@@ -4,6 +4,7 @@
 #include "model/validate.h"
 #include "simulation.h"
 #include "support/models.h"
+#include "support/motions.h"
 
 namespace pbmpi::bullet {
 namespace {
@@ -153,23 +154,7 @@ TEST(Determinism, holds_for_a_state_that_is_set) {
 }
 
 TEST(Determinism, holds_across_a_restart_among_events) {
-  Model model = support::crash();
-  for (const auto& [step, angle] : {std::pair{5, 0.2}, {40, -0.3}}) {
-    model::Event event;
-    event.step = step;
-    event.kind = model::EventKind::steer;
-    event.joint = 0;
-    event.angle = angle;
-    model.events.push_back(event);
-    event.kind = model::EventKind::motor;
-    event.axis = 1;
-    event.motor = {30, 200};
-    model.events.push_back(event);
-    event.kind = model::EventKind::launch;
-    event.body = 0;
-    event.velocity = {10, 0, 3};
-    model.events.push_back(event);
-  }
+  const Model model = support::crash_with_events();
   const std::uint64_t uninterrupted = alone(0, model);
   EXPECT_NE(uninterrupted, alone(0, support::crash()));
   for (const int stop : {4, 5, 6, 39, 40, 41, 100})

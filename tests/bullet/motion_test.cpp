@@ -1,11 +1,10 @@
 #include <cmath>
-#include <numbers>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "simulation.h"
 #include "support/models.h"
+#include "support/motions.h"
 
 namespace pbmpi::bullet {
 namespace {
@@ -109,21 +108,9 @@ TEST(Motion, of_a_box_on_a_slope_is_sliding_or_rest_as_its_friction_says) {
 }
 
 TEST(Motion, of_an_elastic_ball_comes_back_with_the_restitution) {
-  Model model;
-  support::add_ground(model);
-  model.geoms[0].material.restitution = 0.8;
-  const int actor = support::add_actor(model, "ball");
-  support::add_solid(model, actor, "ball", model::Shape::sphere, {0.1, 0, 0}, 1, {0, 0, 1.1});
-  Simulation simulation(model, settings_of(0.001, 10));
-  double highest = 0;
-  bool bounced = false;
-  for (int step = 0; step < 900; ++step) {
-    simulation.advance(1);
-    bounced = bounced || simulation.state().velocity[0].z() > 0;
-    if (bounced) highest = std::max(highest, simulation.state().position[0].z());
-  }
+  Simulation simulation(support::elastic_ball(), settings_of(0.001, 10));
   // It falls 1 m and rises 0.64 m; the impact is detected up to v dt = 4.4 mm late, in either direction.
-  EXPECT_NEAR(highest - 0.1, 0.64, 0.015);
+  EXPECT_NEAR(support::highest_after_bounce(simulation) - 0.1, 0.64, 0.015);
 }
 
 TEST(Motion, of_a_slow_ball_does_not_bounce) {
@@ -138,27 +125,12 @@ TEST(Motion, of_a_slow_ball_does_not_bounce) {
   EXPECT_LT(simulation.state().position[0].z(), 0.1005);
 }
 
-/// Seconds between the first two passages of x = 0 in the same direction.
-double period_of(Simulation& simulation, double h) {
-  std::vector<double> passages;
-  double before = simulation.model().bodies[0].pose.position.x();
-  for (int step = 1; passages.size() < 2 && step < 20000; ++step) {
-    simulation.advance(1);
-    const double now = simulation.state().position[0].x();
-    if (before < 0 && now >= 0) passages.push_back(h * (step - now / (now - before)));
-    before = now;
-  }
-  return passages.size() == 2 ? passages[1] - passages[0] : 0;
-}
-
 TEST(Motion, of_a_hinge_pendulum_has_the_period_of_theory) {
   const double h = 0.001, length = 1, angle = 0.2;
   Simulation simulation(support::pendulum(length, angle), settings_of(h, 50));
-  const double inertia = length * length + simulation.model().bodies[0].inertia(1, 1);  // of 1 kg
-  const double small = 2 * std::numbers::pi * std::sqrt(inertia / (g * length));
-  const double theory = small * (1 + angle * angle / 16 + 11 * std::pow(angle, 4) / 3072);
+  const double theory = support::period_in_theory(simulation.model(), length, angle);
   // A first-order step of 1 ms in a period of 2 s: 0.1 %.
-  EXPECT_NEAR(period_of(simulation, h), theory, 1e-3 * theory);
+  EXPECT_NEAR(support::period_of(simulation, h), theory, 1e-3 * theory);
   EXPECT_LT(simulation.observables().joint_gap_m, 1e-4);
 }
 
