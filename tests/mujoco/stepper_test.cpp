@@ -28,29 +28,6 @@ TEST(MujocoStepper, refuses_settings_that_step_nothing) {
   EXPECT_THROW(make_mujoco_stepper(settings), core::InputError);
 }
 
-TEST(MujocoStepper, knows_a_world_from_its_adding_to_its_removal) {
-  const auto stepper = make_mujoco_stepper(settings_with());
-  EXPECT_THROW(stepper->state(3), std::logic_error);
-  const Model model = support::free_box();
-  add(*stepper, 3, model);
-  EXPECT_EQ(model::hash(stepper->state(3)), model::hash(model::initial_state(model)));
-  EXPECT_EQ(stepper->model(3).bodies[0].name, "box");
-  EXPECT_THROW(add(*stepper, 3, model), std::logic_error);
-  stepper->remove(3);
-  EXPECT_THROW(stepper->remove(3), std::logic_error);
-  add(*stepper, 3, model);
-  EXPECT_EQ(stepper->state(3).num_bodies(), 1);
-}
-
-TEST(MujocoStepper, drops_what_another_stepper_remembered) {
-  const auto stepper = make_mujoco_stepper(settings_with());
-  const auto model = std::make_shared<const Model>(support::box_over_ground(0.1));
-  model::State remembering = model::initial_state(*model);
-  remembering.memory.contacts.push_back({{0, 1}, 0, model::no_body, {0, 0, -0.5}, 98});
-  stepper->add(0, model, remembering, 0);
-  EXPECT_TRUE(stepper->state(0).memory.empty());
-}
-
 TEST(MujocoStepper, tells_where_the_time_went_and_what_was_solved) {
   const auto stepper = make_mujoco_stepper(settings_with());
   add(*stepper, 0, support::crash());
