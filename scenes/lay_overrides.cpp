@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -33,14 +34,18 @@ std::string place_of(const Override& one) {
   throw core::InputError(place_of(one) + ": " + problem);
 }
 
-/// The names of the scene's [[actor]] or [[joint]] tables.
-std::vector<std::string> names_in(const toml::table& scene, std::string_view array) {
-  std::vector<std::string> names;
-  if (const toml::array* entries = scene[array].as_array()) {
+/// What the scene has under each name, "actor" or "joint", and nothing for "world".
+using Names = std::map<std::string, std::string_view, std::less<>>;
+
+Names names_in(const toml::table& scene) {
+  Names names{{std::string(whole_world), ""}};
+  for (const std::string_view array : {"actor", "joint"}) {
+    const toml::array* entries = scene[array].as_array();
+    if (entries == nullptr) continue;
     for (const toml::node& entry : *entries) {
       const toml::table* table = entry.as_table();
       const auto name = table ? (*table)["name"].value<std::string>() : std::nullopt;
-      if (name) names.push_back(*name);
+      if (name) names.emplace(*name, array);
     }
   }
   return names;
@@ -73,34 +78,26 @@ void require_of_a_world(const Override& one, const std::string& key) {
     refuse(one, "a [[" + key + "]] has no name by which a world could have it otherwise");
 }
 
-Target target_of(const Override& one, const toml::table& scene) {
+Target target_of(const Override& one, const Names& names) {
   const std::string_view key = one.key;
-  std::vector<std::string> known = {std::string(whole_world)};
-  for (const char* array : {"actor", "joint"}) {
-    const std::vector<std::string> names = names_in(scene, array);
-    known.insert(known.end(), names.begin(), names.end());
-  }
   // A name may itself contain a dot: among the names that the key begins with, the longest is meant.
-  std::string_view longest;
-  for (const std::string& name : known) {
-    const bool begins = key.size() > name.size() && key.starts_with(name) && key[name.size()] == '.';
-    if (begins && name.size() > longest.size()) longest = key.substr(0, name.size());
-  }
-  if (longest.empty()) {
-    const std::string first(key.substr(0, key.find('.')));
-    if (std::ranges::find(known, first) != known.end())
-      refuse(one, "there is no key behind " + core::in_quotes(first) + "; write " + first + ".KEY");
-    refuse(one, "the scene has no actor or joint " + core::in_quotes(first) + core::suggestion(first, known));
-  }
-  Target target{"", longest, split(one, key.substr(longest.size() + 1))};
-  if (longest == whole_world) {
-    require_of_a_world(one, target.path.front());
+  for (std::size_t dot = key.rfind('.'); dot != std::string_view::npos && dot > 0;
+       dot = key.rfind('.', dot - 1)) {
+    const auto found = names.find(key.substr(0, dot));
+    if (found == names.end()) continue;
+    Target target{found->second, found->first, split(one, key.substr(dot + 1))};
+    if (target.array.empty())
+      require_of_a_world(one, target.path.front());
+    else if (target.path.front() == "name")
+      refuse(one, "a name is what the other keys go by; it stays");
     return target;
   }
-  if (target.path.front() == "name") refuse(one, "a name is what the other keys go by; it stays");
-  const std::vector<std::string> actors = names_in(scene, "actor");
-  target.array = std::ranges::find(actors, longest) != actors.end() ? "actor" : "joint";
-  return target;
+  const std::string first(key.substr(0, key.find('.')));
+  if (names.contains(first))
+    refuse(one, "there is no key behind " + core::in_quotes(first) + "; write " + first + ".KEY");
+  std::vector<std::string> known;
+  for (const auto& [name, array] : names) known.push_back(name);
+  refuse(one, "the scene has no actor or joint " + core::in_quotes(first) + core::suggestion(first, known));
 }
 
 /// Refuses a text that is not exactly one value.
@@ -139,8 +136,9 @@ std::string toml_text(const toml::node& value) {
 std::string toml_string(std::string_view text) { return toml_text(toml::value<std::string>(text)); }
 
 void lay_overrides(toml::table& scene, const Overrides& overrides) {
+  const Names names = names_in(scene);
   for (const Override& one : overrides) {
-    const Target target = target_of(one, scene);
+    const Target target = target_of(one, names);
     require_value(one);
     lay_over(scene, file_of(one, target));
   }

@@ -45,8 +45,10 @@ ParameterTable::ParameterTable(std::string file, std::string text)
   core::require_input(!keys_.empty(), file_ + ": the table has no parameters; name one, as in car.speed");
 }
 
-void ParameterTable::note_key(const std::string& key) {
-  if (std::ranges::find(keys_, key) == keys_.end()) keys_.push_back(key);
+bool ParameterTable::add_key(const std::string& key) {
+  const bool is_new = column_of_.emplace(key, keys_.size()).second;
+  if (is_new) keys_.push_back(key);
+  return is_new;
 }
 
 void ParameterTable::read_csv_rows() {
@@ -58,9 +60,8 @@ void ParameterTable::read_csv_rows() {
   for (const CsvCell& cell : rows.front()) {
     core::require_input(!cell.text.empty(),
                         place(cell) + "a column has no name; give its key, as in car.speed");
-    core::require_input(std::ranges::find(keys_, cell.text) == keys_.end(),
+    core::require_input(add_key(cell.text),
                         place(cell) + "a second column " + core::in_quotes(cell.text) + "; drop one");
-    keys_.push_back(cell.text);
   }
   for (auto row = rows.begin() + 1; row != rows.end(); ++row) {
     Overrides& overrides = rows_.emplace_back();
@@ -79,7 +80,7 @@ void ParameterTable::read_toml_rows() {
   for (const TableReader& world : reader.tables("world")) flatten(world.toml(), "", rows_.emplace_back());
   reader.finish();
   for (const Overrides& overrides : rows_) {
-    for (const Override& one : overrides) note_key(one.key);
+    for (const Override& one : overrides) add_key(one.key);
   }
 }
 
@@ -97,8 +98,7 @@ std::vector<std::vector<std::string>> ParameterTable::values() const {
   std::vector<std::vector<std::string>> all;
   for (const Overrides& overrides : rows_) {
     std::vector<std::string>& row = all.emplace_back(keys_.size());
-    for (const Override& one : overrides)
-      row[static_cast<std::size_t>(std::ranges::find(keys_, one.key) - keys_.begin())] = one.value;
+    for (const Override& one : overrides) row[column_of_.at(one.key)] = one.value;
   }
   return all;
 }

@@ -1,6 +1,7 @@
 /// The parameters of an ensemble: a table of the values in which its worlds differ from the scene.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,10 +31,12 @@ class ParameterTable {
  private:
   void read_csv_rows();
   void read_toml_rows();
-  void note_key(const std::string& key);
+  /// Takes up a key; false if it is known.
+  bool add_key(const std::string& key);
 
   std::string file_, text_;
   std::vector<std::string> keys_;
+  std::map<std::string, std::size_t> column_of_;  ///< index into keys_
   std::vector<Overrides> rows_;
 };
 

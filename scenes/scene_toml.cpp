@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -17,15 +18,10 @@
 namespace pbmpi::scenes {
 namespace {
 
-toml::table* find_by_name(toml::array& entries, const toml::node& name) {
-  for (toml::node& entry : entries) {
-    toml::table* table = entry.as_table();
-    if (table && table->get("name") &&
-        table->get("name")->value<std::string>() == name.value<std::string>()) {
-      return table;
-    }
-  }
-  return nullptr;
+/// The name of a table in an array; nothing for anything else.
+std::optional<std::string> name_of(const toml::node& entry) {
+  const toml::table* table = entry.as_table();
+  return table == nullptr ? std::nullopt : (*table)["name"].value<std::string>();
 }
 
 /// A compound's geoms have no names: a file that lists geoms replaces all of its base's.
@@ -37,13 +33,18 @@ bool is_array_of_tables(const toml::node& node) {
 }
 
 void merge_by_name(toml::array& base, toml::array&& over) {
+  std::map<std::string, std::size_t> index;  // of the first of a name
+  const auto add = [&](const toml::node& entry, std::size_t at) {
+    if (const auto name = name_of(entry)) index.emplace(*name, at);
+  };
+  for (std::size_t i = 0; i < base.size(); ++i) add(base[i], i);
   for (toml::node& entry : over) {
-    toml::table* table = entry.as_table();
-    const toml::node* name = table ? table->get("name") : nullptr;
-    toml::table* same = name && name->is_string() ? find_by_name(base, *name) : nullptr;
-    if (same) {
-      lay_over(*same, std::move(*table));
+    const auto name = name_of(entry);
+    const auto same = name ? index.find(*name) : index.end();
+    if (same != index.end()) {
+      lay_over(*base[same->second].as_table(), std::move(*entry.as_table()));
     } else {
+      add(entry, base.size());
       base.push_back(std::move(entry));
     }
   }

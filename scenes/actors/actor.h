@@ -10,6 +10,7 @@
 
 #include "model/model.h"
 #include "scenes/format/table_reader.h"
+#include "scenes/parts/growing_model.h"
 #include "scenes/parts/parts.h"
 
 namespace pbmpi::scenes {
@@ -37,7 +38,7 @@ struct SceneContext {
 inline constexpr double initial_depth_m = 1e-4;
 
 /// Adds an actor to a model. Holds the parameters read from the file, so that building does not read TOML.
-using ActorPlan = std::function<void(const Placement&, model::Model&)>;
+using ActorPlan = std::function<void(const Placement&, GrowingModel&)>;
 
 struct ActorType {
   std::string_view name;  ///< as in `type = "car"`

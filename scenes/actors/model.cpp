@@ -1,5 +1,5 @@
 // A mechanism from an MJCF or URDF file.
-#include <algorithm>
+#include <map>
 #include <memory>
 
 #include "core/text.h"
@@ -20,28 +20,24 @@ ModelChoices read_choices(TableReader& actor) {
   return choices;
 }
 
-/// The joint of that name; null without one.
-links::LinkJoint* find_joint(links::Mechanism& mechanism, const std::string& name,
-                             std::vector<std::string>& names) {
-  for (links::Link& link : mechanism.links) {
-    for (links::LinkJoint& joint : link.joints) {
-      if (joint.name == name) return &joint;
-      names.push_back(joint.name);
-    }
-  }
-  return nullptr;
-}
-
 /// Reads `joints = { knee = deg, rail = metres, shoulder = { axis = [x, y, z], angle = deg } }`: where joints
 /// start, as the model counts them.
 void read_starts(TableReader& actor, links::Mechanism& mechanism) {
   auto table = actor.table("joints");
   if (!table) return;
+  std::map<std::string, links::LinkJoint*> joints;
+  std::vector<std::string> names;
+  for (links::Link& link : mechanism.links) {
+    for (links::LinkJoint& joint : link.joints) {
+      joints.emplace(joint.name, &joint);
+      names.push_back(joint.name);
+    }
+  }
   for (const std::string& name : table->keys()) {
-    std::vector<std::string> names;
-    links::LinkJoint* joint = find_joint(mechanism, name, names);
-    if (joint == nullptr)
+    const auto found = joints.find(name);
+    if (found == joints.end())
       table->fail(name, "unknown joint " + core::in_quotes(name) + core::suggestion(name, names));
+    links::LinkJoint* joint = found->second;
     switch (joint->motion) {
       case links::Motion::hinge:
         joint->start = radians(table->number(name, Sign::any)) - joint->reference;

@@ -42,25 +42,22 @@ double half_length(const Projectile& p) {
 }
 
 /// The muzzle: the end of the barrel's only geom, with x pointing forward.
-Pose muzzle(const Projectile& projectile, const model::Model& model) {
+Pose muzzle(const Projectile& projectile, GrowingModel& model) {
   const Shot& shot = projectile.shot;
-  const int barrel = find_body(model, shot.tank + ".barrel");
-  core::require_input(barrel != model::no_body, shot.where + ": no tank " + core::in_quotes(shot.tank) +
-                                                    " stands above this actor in the file; place it there");
-  for (const model::Geom& geom : model.geoms) {
-    if (geom.body != barrel) continue;
-    // A hand's breadth beyond the barrel.
-    const double ahead = geom.size[1] / 2 + half_length(projectile) + 0.1;
-    const Quat aim = compose({{}, rotation(radians(shot.azimuth_deg), Vec3::UnitZ())},
-                             {{}, rotation(-radians(shot.elevation_deg), Vec3::UnitY())})
-                         .orientation;
-    return compose(model.bodies[barrel].pose, {Vec3(ahead, 0, 0), aim});
-  }
-  core::require_invariant(false, "a barrel without a geom");
-  return {};
+  const std::optional<int> barrel = model.find_body(shot.tank + ".barrel");
+  core::require_input(barrel.has_value(), shot.where + ": no tank " + core::in_quotes(shot.tank) +
+                                              " stands above this actor in the file; place it there");
+  const model::Geom* geom = model.geom_of(*barrel);
+  core::require_invariant(geom != nullptr, "a barrel without a geom");
+  // A hand's breadth beyond the barrel.
+  const double ahead = geom->size[1] / 2 + half_length(projectile) + 0.1;
+  const Quat aim = compose({{}, rotation(radians(shot.azimuth_deg), Vec3::UnitZ())},
+                           {{}, rotation(-radians(shot.elevation_deg), Vec3::UnitY())})
+                       .orientation;
+  return compose(model.bodies[*barrel].pose, {Vec3(ahead, 0, 0), aim});
 }
 
-model::Event launch(const Projectile& projectile, int body, int copy, const model::Model& model) {
+model::Event launch(const Projectile& projectile, int body, int copy, GrowingModel& model) {
   const Shot& shot = projectile.shot;
   const Pose start = muzzle(projectile, model);
   model::Event event;
@@ -74,7 +71,7 @@ model::Event launch(const Projectile& projectile, int body, int copy, const mode
   return event;
 }
 
-void build(const Projectile& projectile, const Placement& place, model::Model& model) {
+void build(const Projectile& projectile, const Placement& place, GrowingModel& model) {
   model::Body body;
   body.name = place.name;
   body.actor = add_actor(model, place.name, model::ActorKind::projectile);
@@ -112,7 +109,7 @@ ActorPlan read_projectile(TableReader& actor, const SceneContext& context) {
   projectile.mass_kg = actor.number("density", Sign::positive) * volume(projectile.shape, projectile.size);
   projectile.material = read_material(actor, projectile.material);
   read_shot(actor, projectile.shot);
-  return [projectile](const Placement& place, model::Model& model) { build(projectile, place, model); };
+  return [projectile](const Placement& place, GrowingModel& model) { build(projectile, place, model); };
 }
 
 }  // namespace pbmpi::scenes

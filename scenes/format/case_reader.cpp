@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "scenes/format/lookup.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -80,14 +79,13 @@ void CaseReader::read_expectation(TableReader& table) {
   case_.expectations.push_back(std::move(expectation));
 }
 
-void CaseReader::require_bodies(const model::Model& model) const {
+void CaseReader::require_bodies(GrowingModel& model) const {
   for (std::size_t i = 0; i < expect_where_.size(); ++i)
-    named_body(model, case_.expectations[i].body, expect_where_[i]);
+    model.named_body(case_.expectations[i].body, expect_where_[i]);
   for (const std::string& beginning : case_.watch) {
-    const bool any = std::ranges::any_of(
-        model.bodies, [&](const model::Body& body) { return body.name.starts_with(beginning); });
-    core::require_input(any, watch_where_ + ": case: no body's name begins with " +
-                                 core::in_quotes(beginning) + "; give a beginning that one has");
+    core::require_input(model.has_body_beginning_with(beginning),
+                        watch_where_ + ": case: no body's name begins with " + core::in_quotes(beginning) +
+                            "; give a beginning that one has");
   }
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "model/model.h"
 #include "scenes/format/table_reader.h"
+#include "scenes/parts/growing_model.h"
 #include "stability/cases/hard_case.h"
 
 namespace pbmpi::scenes {
@@ -17,7 +17,7 @@ class CaseReader {
   const stability::HardCase& hard_case() const { return case_; }
   /// Throws core::InputError at the name of a body that `model`, a world of the scene, does not have, or at a
   /// name prefix that no body's name begins with.
-  void require_bodies(const model::Model& model) const;
+  void require_bodies(GrowingModel& model) const;
 
  private:
   void read_region(TableReader& table);

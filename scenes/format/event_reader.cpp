@@ -1,6 +1,5 @@
 #include "scenes/format/event_reader.h"
 
-#include "scenes/format/lookup.h"
 #include "scenes/format/rotation_reader.h"
 #include "scenes/parts/parts.h"
 
@@ -18,9 +17,9 @@ EventPlan read_launch(TableReader& table, model::Event event) {
   } else if (table.has("rotation")) {
     table.fail("rotation", "give the 'position' where the body appears, too");
   }
-  return [event, body, where](model::Model& model) {
+  return [event, body, where](GrowingModel& model) {
     model.events.push_back(event);
-    model.events.back().body = named_body(model, body, where);
+    model.events.back().body = model.named_body(body, where);
   };
 }
 
@@ -29,9 +28,9 @@ EventPlan read_release(TableReader& table, model::Event event) {
   event.kind = model::EventKind::release;
   if (event.step < 1)
     table.fail("at", "a joint can be released one step after the start at the soonest; leave it out instead");
-  return [event, joint, where](model::Model& model) {
+  return [event, joint, where](GrowingModel& model) {
     model.events.push_back(event);
-    model.events.back().joint = named_joint(model, joint, where);
+    model.events.back().joint = model.named_joint(joint, where);
   };
 }
 

@@ -1,7 +1,6 @@
 #include "scenes/format/interest.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -16,31 +15,22 @@ InterestPlan::InterestPlan(TableReader& table) {
     interest_.center = table.vector("center", Sign::any);
   } else {
     follows_ = table.text("follows");
-    where_ = table.where("follows");
+    where_ = table.where("follows") + ": interest";
   }
   interest_.radius_m = table.number("radius", Sign::positive);
   interest_.outside_iterations = table.integer("outside_iterations", 1, interest_.outside_iterations);
   table.finish();
 }
 
-int InterestPlan::followed_body(const model::Model& model) const {
-  std::vector<std::string> names;
-  for (std::size_t actor = 0; actor < model.actors.size(); ++actor) {
-    if (model.actors[actor].name != follows_) {
-      names.push_back(model.actors[actor].name);
-      continue;
-    }
-    const auto first = std::ranges::find(model.bodies, static_cast<int>(actor), &model::Body::actor);
-    core::require_input(first != model.bodies.end(), where_ + ": interest: actor " +
-                                                         core::in_quotes(follows_) +
-                                                         " has no body to follow; give a 'center'");
-    return static_cast<int>(first - model.bodies.begin());
-  }
-  throw core::InputError(where_ + ": interest: there is no actor " + core::in_quotes(follows_) +
-                         core::suggestion(follows_, names));
+int InterestPlan::followed_body(GrowingModel& model) const {
+  const int actor = model.named_actor(follows_, where_);
+  const auto first = std::ranges::find(model.bodies, actor, &model::Body::actor);
+  core::require_input(first != model.bodies.end(), where_ + ": actor " + core::in_quotes(follows_) +
+                                                       " has no body to follow; give a 'center'");
+  return static_cast<int>(first - model.bodies.begin());
 }
 
-void InterestPlan::put_into(model::Model& model) const {
+void InterestPlan::put_into(GrowingModel& model) const {
   model.interest = interest_;
   if (!follows_.empty()) model.interest->follows = followed_body(model);
 }

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "model/model.h"
 #include "scenes/format/table_reader.h"
+#include "scenes/parts/growing_model.h"
 
 namespace pbmpi::scenes {
 
@@ -14,14 +14,14 @@ class InterestPlan {
 
   /// Puts the field of interest into a model that has all its actors. Throws core::InputError at the name if
   /// no actor has that name, or if that actor has no body.
-  void put_into(model::Model& model) const;
+  void put_into(GrowingModel& model) const;
 
  private:
-  int followed_body(const model::Model& model) const;
+  int followed_body(GrowingModel& model) const;
 
   model::Interest interest_;
   std::string follows_;  ///< an actor; empty: the center is fixed
-  std::string where_;    ///< place of its name in the file
+  std::string where_;    ///< place of its name in the file, and "interest"
 };
 
 }  // namespace pbmpi::scenes

@@ -10,7 +10,6 @@
 #include "core/text.h"
 #include "model/joint_traits.h"
 #include "model/names.h"
-#include "scenes/format/lookup.h"
 #include "scenes/parts/parts.h"
 
 namespace pbmpi::scenes {
@@ -123,9 +122,9 @@ void read_copies(TableReader& table, JointSpec& joint) {
   joint.spacing = table.vector("spacing", Sign::any);
 }
 
-int resolve(const JointSpec& joint, const model::Model& model, const std::string& name) {
+int resolve(const JointSpec& joint, GrowingModel& model, const std::string& name) {
   if (name == world_name) return model::no_body;
-  return named_body(model, name, joint.bodies_where + ": joint " + core::in_quotes(joint.name));
+  return model.named_body(name, joint.bodies_where + ": joint " + core::in_quotes(joint.name));
 }
 
 /// "link.7" for copy 4 of "link.3"; a name that does not end in a number is the same for every copy.
@@ -147,7 +146,7 @@ JointSpec copy_of(const JointSpec& spec, int copy) {
   return result;
 }
 
-void build_one(const JointSpec& spec, model::Model& model) {
+void build_one(const JointSpec& spec, GrowingModel& model) {
   const int a = resolve(spec, model, spec.bodies[0]);
   const int b = resolve(spec, model, spec.bodies[1]);
   model::Joint joint = join(model, spec.name, spec.kind, a, b, spec.anchor, spec.axis1, spec.axis2);
@@ -160,7 +159,7 @@ void build_one(const JointSpec& spec, model::Model& model) {
   model.joints.push_back(joint);
 }
 
-void build(const JointSpec& spec, model::Model& model) {
+void build(const JointSpec& spec, GrowingModel& model) {
   if (spec.num_copies == 0) build_one(spec, model);
   for (int copy = 0; copy < spec.num_copies; ++copy) build_one(copy_of(spec, copy), model);
 }
@@ -177,7 +176,7 @@ JointPlan read_joint(TableReader& table) {
   read_axes(table, joint);
   read_copies(table, joint);
   table.finish();
-  return [joint](model::Model& model) { build(joint, model); };
+  return [joint](GrowingModel& model) { build(joint, model); };
 }
 
 }  // namespace pbmpi::scenes

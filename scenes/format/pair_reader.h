@@ -4,8 +4,8 @@
 #include <array>
 #include <string>
 
-#include "model/model.h"
 #include "scenes/format/table_reader.h"
+#include "scenes/parts/growing_model.h"
 
 namespace pbmpi::scenes {
 
@@ -17,7 +17,7 @@ class PairPlan {
 
   /// Puts the pair into a model that has all its actors, replacing what an earlier [[pair]] set. Throws
   /// core::InputError at a name that no actor has.
-  void put_into(model::Model& model) const;
+  void put_into(GrowingModel& model) const;
 
  private:
   std::array<std::string, 2> actors_;

@@ -18,10 +18,10 @@ PartVelocities::PartVelocities(TableReader& actor) {
   }
 }
 
-void PartVelocities::put_into(model::Model& model, const std::string& actor) const {
+void PartVelocities::put_into(GrowingModel& model, const std::string& actor) const {
   for (const Part& part : parts_) {
-    const int body = find_body(model, actor + "." + part.name);
-    if (body == model::no_body) {
+    const std::optional<int> body = model.find_body(actor + "." + part.name);
+    if (!body) {
       std::vector<std::string> names;
       for (const model::Body& one : model.bodies) {
         if (one.name.starts_with(actor + ".")) names.push_back(one.name.substr(actor.size() + 1));
@@ -29,8 +29,8 @@ void PartVelocities::put_into(model::Model& model, const std::string& actor) con
       throw core::InputError(part.where + ": the actor has no part " + core::in_quotes(part.name) +
                              core::suggestion(part.name, names));
     }
-    model.bodies[body].velocity = part.velocity;
-    model.bodies[body].angular_velocity = part.angular_velocity;
+    model.bodies[*body].velocity = part.velocity;
+    model.bodies[*body].angular_velocity = part.angular_velocity;
   }
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "model/model.h"
 #include "scenes/format/table_reader.h"
+#include "scenes/parts/growing_model.h"
 
 namespace pbmpi::scenes {
 
@@ -17,7 +17,7 @@ class PartVelocities {
 
   /// Gives the velocities to the parts of the actor called `actor`, one of the copies. Throws
   /// core::InputError at a part that the actor does not have.
-  void put_into(model::Model& model, const std::string& actor) const;
+  void put_into(GrowingModel& model, const std::string& actor) const;
 
  private:
   struct Part {

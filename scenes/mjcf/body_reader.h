@@ -9,14 +9,6 @@
 
 namespace pbmpi::scenes::mjcf {
 
-/// What the rest of the file specifies about bodies.
-struct Context {
-  Compiler compiler;
-  Option option;
-  Defaults defaults;
-  const xml::LeaveOut& leave_out;
-};
-
 /// Reads the bodies below all `<worldbody>` as links, parents before children; the geoms of the world itself
 /// are a link without joints. Returns the joints in the order of MuJoCo's qpos.
 std::vector<JointPlace> read_bodies(const std::vector<const xml::Element*>& worlds, const Context& context,

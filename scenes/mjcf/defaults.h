@@ -6,7 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/mjcf/compiler.h"
 #include "scenes/xml/element.h"
+#include "scenes/xml/leave_out.h"
 
 namespace pbmpi::scenes::mjcf {
 
@@ -28,6 +30,14 @@ class Defaults {
   void read_class(const xml::Element& element, const std::string& name);
 
   std::map<std::string, ByElement> classes_{{"main", {}}};
+};
+
+/// What the rest of the file specifies about its bodies and servos.
+struct Context {
+  Compiler compiler;
+  Option option;
+  Defaults defaults;
+  const xml::LeaveOut& leave_out;
 };
 
 }  // namespace pbmpi::scenes::mjcf

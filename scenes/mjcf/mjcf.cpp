@@ -7,6 +7,7 @@
 #include "core/text.h"
 #include "scenes/mjcf/body_reader.h"
 #include "scenes/mjcf/keyframe.h"
+#include "scenes/parts/name_index.h"
 
 namespace pbmpi::scenes::mjcf {
 namespace {
@@ -65,18 +66,14 @@ class Reader {
       for (const xml::Element& one : section->children) all_actuators.push_back(&one);
     }
     const std::vector<double> controls = keyframe_.controls(all_actuators.size());
-    for (std::size_t i = 0; i < all_actuators.size(); ++i)
-      read_actuator(*all_actuators[i], controls[i], context_.defaults, context_.compiler, joints_, leave_out_,
-                    file_.mechanism);
+    ActuatorReader reader(context_, joints_, file_.mechanism);
+    for (std::size_t i = 0; i < all_actuators.size(); ++i) reader.read(*all_actuators[i], controls[i]);
   }
 
-  int named_link(Attributes& exclude, const char* key) const {
+  int named_link(Attributes& exclude, const char* key) {
     const std::string name = exclude.text(key);
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < file_.mechanism.links.size(); ++i) {
-      names.push_back(file_.mechanism.links[i].name);
-      if (names.back() == name) return static_cast<int>(i);
-    }
+    if (const auto found = link_names_.find(file_.mechanism.links, name)) return *found;
+    const std::vector<std::string> names = names_of(file_.mechanism.links);
     exclude.fail(key, "unknown body " + core::in_quotes(name) + core::suggestion(name, names));
   }
 
@@ -153,6 +150,7 @@ class Reader {
   Keyframe keyframe_;
   links::ModelFile file_;
   std::vector<JointPlace> joints_;
+  NameIndex link_names_;
 };
 
 }  // namespace

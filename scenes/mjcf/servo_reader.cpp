@@ -11,20 +11,6 @@ namespace {
 using xml::Attributes;
 using xml::Range;
 
-const JointPlace& read_driven_joint(Attributes& actuator, const std::vector<JointPlace>& joints) {
-  for (const char* other : {"tendon", "site", "body", "jointinparent", "cranksite", "slidersite"}) {
-    if (actuator.has(other))
-      actuator.fail(other, "a servo on a " + core::in_quotes(other) + " has no equal; drive a 'joint'");
-  }
-  const std::string name = actuator.text("joint");
-  const auto found = std::ranges::find(joints, name, &JointPlace::name);
-  if (found != joints.end()) return *found;
-  std::vector<std::string> names;
-  names.reserve(joints.size());
-  for (const JointPlace& one : joints) names.push_back(one.name);
-  actuator.fail("joint", "unknown joint " + core::in_quotes(name) + core::suggestion(name, names));
-}
-
 void allow_others(Attributes& actuator) {
   actuator.allow({"name", "class", "group", "user", "lengthrange", "actlimited", "actrange", "actearly"});
   for (const std::string_view name : {"timeconst", "dampratio"})
@@ -59,13 +45,25 @@ double balance(double weight, double value, double other_weight, double other_va
   return sum > 0 ? (weight * value + other_weight * other_value) / sum : value;
 }
 
-void read_servo(const xml::Element& element, double control, const Defaults& defaults,
-                const Compiler& compiler, const std::vector<JointPlace>& joints,
-                const xml::LeaveOut& leave_out, links::Mechanism& mechanism) {
-  Attributes actuator(element, leave_out, defaults.of(element, ""));
-  const JointPlace& at = read_driven_joint(actuator, joints);
+}  // namespace
+
+const JointPlace& ActuatorReader::read_driven_joint(Attributes& actuator) {
+  for (const char* other : {"tendon", "site", "body", "jointinparent", "cranksite", "slidersite"}) {
+    if (actuator.has(other))
+      actuator.fail(other, "a servo on a " + core::in_quotes(other) + " has no equal; drive a 'joint'");
+  }
+  const std::string name = actuator.text("joint");
+  if (const auto found = joint_names_.find(joints_, name)) return joints_[static_cast<std::size_t>(*found)];
+  actuator.fail("joint",
+                "unknown joint " + core::in_quotes(name) + core::suggestion(name, names_of(joints_)));
+}
+
+void ActuatorReader::read_servo(const xml::Element& element, double control) {
+  const Compiler& compiler = context_.compiler;
+  Attributes actuator(element, context_.leave_out, context_.defaults.of(element, ""));
+  const JointPlace& at = read_driven_joint(actuator);
   links::LinkJoint& joint =
-      mechanism.links[static_cast<std::size_t>(at.link)].joints[static_cast<std::size_t>(at.joint)];
+      mechanism_.links[static_cast<std::size_t>(at.link)].joints[static_cast<std::size_t>(at.joint)];
   if (joint.motion != links::Motion::hinge && joint.motion != links::Motion::slide)
     actuator.fail("joint", "a servo needs a joint of type hinge or slide");
   const std::vector<double> gears = actuator.numbers("gear", 1, 6);
@@ -82,7 +80,7 @@ void read_servo(const xml::Element& element, double control, const Defaults& def
   drive.velocity = balance(drive.damping, drive.velocity, damping, is_position ? 0 : aim);
   drive.stiffness += stiffness;
   drive.damping += damping;
-  const double most = compiler.most_force(actuator, "forcelimited", "forcerange", leave_out.notes());
+  const double most = compiler.most_force(actuator, "forcelimited", "forcerange", context_.leave_out.notes());
   if (std::isfinite(most))
     drive.most_force = (std::isinf(drive.most_force) ? 0 : drive.most_force) + most * std::abs(gear);
   drive.most_force = std::min(drive.most_force, at.most_servo_force);
@@ -90,28 +88,24 @@ void read_servo(const xml::Element& element, double control, const Defaults& def
   actuator.finish();
 }
 
-void require_idle(const xml::Element& element, double control, const Defaults& defaults,
-                  const Compiler& compiler, const xml::LeaveOut& leave_out) {
-  Attributes actuator(element, leave_out, defaults.of(element, ""));
-  if (clipped(control, actuator, compiler) == 0) return;
+void ActuatorReader::require_idle(const xml::Element& element, double control) const {
+  Attributes actuator(element, context_.leave_out, context_.defaults.of(element, ""));
+  if (clipped(control, actuator, context_.compiler) == 0) return;
   const std::string why = control == 0 ? "'ctrlrange' leaves out 0" : "the keyframe gives it a control";
   actuator.fail("ctrlrange", why + ", so that it always acts, which has no equal; change that, or " +
                                  xml::LeaveOut::advice(element.name));
 }
 
-}  // namespace
-
-void read_actuator(const xml::Element& element, double control, const Defaults& defaults,
-                   const Compiler& compiler, const std::vector<JointPlace>& joints,
-                   const xml::LeaveOut& leave_out, links::Mechanism& mechanism) {
+void ActuatorReader::read(const xml::Element& element, double control) {
+  const xml::LeaveOut& leave_out = context_.leave_out;
   const std::string left_out = "actuators of type " + core::in_quotes(element.name) + " are left out";
   if (leave_out.names(element.name)) {
     leave_out.notes().add(element.where, left_out);
   } else if (element.name == "motor" || element.name == "damper" || element.name == "adhesion") {
-    require_idle(element, control, defaults, compiler, leave_out);
+    require_idle(element, control);
     leave_out.notes().add(element.where, left_out + ": their control is 0, with which they do nothing");
   } else if (element.name == "position" || element.name == "velocity") {
-    read_servo(element, control, defaults, compiler, joints, leave_out, mechanism);
+    read_servo(element, control);
   } else if (is_actuator(element.name)) {
     Attributes(element).fail("an actuator of this type has no equal; take position, velocity or motor, or " +
                              xml::LeaveOut::advice(element.name));

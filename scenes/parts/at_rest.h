@@ -5,8 +5,8 @@
 
 namespace pbmpi::scenes {
 
-/// `model` without events, with all bodies at rest and all motors set to zero velocity. A projectile that
-/// would start in flight lies on the highest ground plane below it, or stays where it is if there is none.
-model::Model at_rest(model::Model model);
+/// Takes out all events, stops all bodies, and sets all motors to zero velocity. A projectile that would
+/// start in flight lies on the highest ground plane below it, or stays where it is if there is none.
+void bring_to_rest(model::Model& model);
 
 }  // namespace pbmpi::scenes

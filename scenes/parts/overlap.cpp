@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "geometry/cell_grid.h"
 #include "scenes/parts/parts.h"
 
 namespace pbmpi::scenes {
@@ -21,7 +22,7 @@ struct InnerBox {
   Vec3 centre;
   model::Mat3 axes;  ///< columns
   Vec3 half;
-  Vec3 low, high;  ///< of its axis-aligned hull
+  geometry::Box hull;  ///< aligned with the world's axes
 };
 
 /// Half sides of a box inside the geom, in the geom's own frame.
@@ -55,8 +56,11 @@ InnerBox inner_box(const model::Geom& geom, const model::Model& model) {
   box.axes = pose.orientation.to_eigen().toRotationMatrix();
   box.half = inner_half_sides(geom);
   const Vec3 reach = box.axes.cwiseAbs() * box.half;
-  box.low = box.centre - reach;
-  box.high = box.centre + reach;
+  for (int k = 0; k < 3; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    box.hull.min[at] = box.centre[k] - reach[k];
+    box.hull.max[at] = box.centre[k] + reach[k];
+  }
   return box;
 }
 
@@ -106,7 +110,7 @@ class Search {
       if (geom.shape != Shape::plane) boxes_.push_back(inner_box(geom, model));
     }
     std::sort(boxes_.begin(), boxes_.end(),
-              [](const InnerBox& a, const InnerBox& b) { return a.low.x() < b.low.x(); });
+              [](const InnerBox& a, const InnerBox& b) { return a.hull.min[0] < b.hull.min[0]; });
   }
 
   std::optional<Overlap> run() const {
@@ -122,25 +126,31 @@ class Search {
   }
 
  private:
-  /// Sweep along x.
+  /// The pair that a sweep along x meets first.
   std::optional<Overlap> among_boxes() const {
+    geometry::CellGrid grid;
+    for (std::size_t i = 0; i < boxes_.size(); ++i) grid.add(static_cast<int>(i), 0, boxes_[i].hull);
+    grid.finish();
+    std::optional<std::pair<std::size_t, std::size_t>> first;
+    double depth_of_first = 0;
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      const InnerBox& a = boxes_[i];
-      for (std::size_t j = i + 1; j < boxes_.size() && boxes_[j].low.x() <= a.high.x(); ++j) {
-        const InnerBox& b = boxes_[j];
-        if (!may_clash(a, b)) continue;
+      grid.for_each_near(0, boxes_[i].hull, [&](int other) {
+        const std::pair<std::size_t, std::size_t> pair = std::minmax(i, static_cast<std::size_t>(other));
+        const InnerBox &a = boxes_[pair.first], &b = boxes_[pair.second];
+        if ((first && *first <= pair) || !may_clash(a, b)) return;
         const double deep = depth(a, b);
-        if (deep > std::min(tolerance(a), tolerance(b))) return overlap(a.actor, b.actor, deep);
-      }
+        if (!(deep > std::min(tolerance(a), tolerance(b)))) return;
+        first = pair;
+        depth_of_first = deep;
+      });
     }
-    return std::nullopt;
+    if (!first) return std::nullopt;
+    return overlap(boxes_[first->first].actor, boxes_[first->second].actor, depth_of_first);
   }
 
   bool may_clash(const InnerBox& a, const InnerBox& b) const {
     if (a.actor == b.actor || (a.is_static && b.is_static)) return false;
-    if (a.low.y() > b.high.y() || b.low.y() > a.high.y()) return false;
-    if (a.low.z() > b.high.z() || b.low.z() > a.high.z()) return false;
-    return !joined_.contains(std::minmax(a.actor, b.actor));
+    return a.hull.overlaps(b.hull) && !joined_.contains(std::minmax(a.actor, b.actor));
   }
 
   double tolerance(const InnerBox& box) const {

@@ -72,13 +72,6 @@ int add_body(model::Model& model, model::Body body) {
   return model.num_bodies() - 1;
 }
 
-int find_body(const model::Model& model, std::string_view name) {
-  for (int i = 0; i < model.num_bodies(); ++i) {
-    if (model.bodies[i].name == name) return i;
-  }
-  return model::no_body;
-}
-
 model::Joint join(const model::Model& model, std::string name, model::JointKind kind, int a, int b,
                   const Vec3& anchor, const Vec3& axis1, const Vec3& axis2) {
   const Pose pose_a = pose_of(model, a);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "model/model.h"
 
@@ -31,9 +30,6 @@ void add_event(model::Model& model, const model::Event& event);
 /// Appends an actor or a body, and returns its index. Throws std::length_error for the 4,000,001st body.
 int add_actor(model::Model& model, std::string name, model::ActorKind kind);
 int add_body(model::Model& model, model::Body body);
-
-/// Index of the body of that name, or model::no_body.
-int find_body(const model::Model& model, std::string_view name);
 
 /// A joint whose anchor and axes are given in the world frame at the initial poses; the anchors of the two
 /// bodies coincide. `b` may be model::no_body. Axes need not have unit length.

@@ -1,16 +1,11 @@
 #include "scenes/xml/notes.h"
 
-#include <algorithm>
-
 namespace pbmpi::scenes::xml {
 
 void Notes::add(const std::string& where, const std::string& text) {
-  const auto found = std::ranges::find(notes_, text, &Note::text);
-  if (found == notes_.end()) {
-    notes_.push_back({where, text, 1});
-  } else {
-    ++found->count;
-  }
+  const auto [at, is_new] = index_.emplace(text, notes_.size());
+  if (is_new) notes_.push_back({where, text, 0});
+  ++notes_[at->second].count;
 }
 
 std::vector<std::string> Notes::lines() const {

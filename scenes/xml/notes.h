@@ -1,6 +1,8 @@
 /// Notes on the parts of another simulator's model that pbmpi interprets differently or leaves out.
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ class Notes {
     int count = 0;
   };
   std::vector<Note> notes_;
+  std::map<std::string, std::size_t> index_;  ///< of each text
 };
 
 }  // namespace pbmpi::scenes::xml

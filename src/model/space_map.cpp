@@ -43,14 +43,14 @@ void find_shapes(const Model& model, SpaceMap& map) {
 
 void find_spaces(const Model& model, SpaceMap& map) {
   const std::size_t num_spaces = model.spaces.size();
-  std::vector<std::vector<int>> geoms(map.bodies_of_unit.size(), std::vector<int>(num_spaces, 0));
+  std::vector<std::map<int, int>> geoms(map.bodies_of_unit.size());  // number by space, where there is any
   for (const Geom& geom : model.geoms) {
     if (geom.body != no_body) ++geoms[map.unit_of_body[geom.body]][geom.space];
   }
   map.units_of_space.resize(num_spaces);
   for (std::size_t unit = 0; unit < geoms.size(); ++unit) {
-    const auto most = std::max_element(geoms[unit].begin(), geoms[unit].end());
-    map.space_of_unit.push_back(static_cast<int>(most - geoms[unit].begin()));
+    const auto most = std::ranges::max_element(geoms[unit], {}, &std::pair<const int, int>::second);
+    map.space_of_unit.push_back(most == geoms[unit].end() ? 0 : most->first);
     map.units_of_space[map.space_of_unit.back()].push_back(static_cast<int>(unit));
   }
   map.geoms_of_space.resize(num_spaces);

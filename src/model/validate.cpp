@@ -158,9 +158,30 @@ void validate_interest(const Model& model, const Interest& interest, const std::
   require_input(interest.outside_iterations >= 1, who + ": the solver needs at least 1 iteration outside");
 }
 
-}  // namespace
+/// Runs a check; what it throws has the actor, if there is one of this index.
+template <class Check>
+void check_of_actor(const Model& model, int actor, Check check) {
+  try {
+    check();
+  } catch (const core::InputError& error) {
+    if (index_fault(actor, model.actors.size(), "actor")) throw;
+    throw ActorError(error.what(), static_cast<std::size_t>(actor));
+  }
+}
 
-void validate(const Model& model, const std::string& where) {
+constexpr int no_actor = -1;
+
+int actor_of_body(const Model& model, int body) {
+  return index_fault(body, model.bodies.size(), "body") ? no_actor : model.bodies[body].actor;
+}
+
+int actor_of(const Model& model, const Event& event) {
+  if (event.kind == EventKind::launch) return actor_of_body(model, event.body);
+  if (index_fault(event.joint, model.joints.size(), "joint")) return no_actor;
+  return actor_of_body(model, model.joints[event.joint].body_a);
+}
+
+void validate_world(const Model& model, const std::string& where) {
   require_input(!model.bodies.empty(),
                 where + ": the world has no body; place an actor that moves, such as a model with a mass");
   require_input(model.gravity.allFinite(), where + ": gravity is not finite");
@@ -184,21 +205,35 @@ void validate(const Model& model, const std::string& where) {
   require_input(model.contact_law.max_per_pair >= 1 && model.contact_law.max_per_pair <= most_per_pair,
                 where + ": max_per_pair is " + std::to_string(model.contact_law.max_per_pair) +
                     "; it must be between 1 and " + std::to_string(most_per_pair));
+}
+
+}  // namespace
+
+void validate(const Model& model, const std::string& where) {
+  validate_world(model, where);
   std::set<std::string> names;
   for (const Body& body : model.bodies) {
-    const std::string who = where + ": body '" + body.name + "'";
-    require_input(names.insert(body.name).second, who + " exists twice; give each body its own name");
-    validate_body(model, body, who);
+    check_of_actor(model, body.actor, [&] {
+      const std::string who = where + ": body '" + body.name + "'";
+      require_input(names.insert(body.name).second, who + " exists twice; give each body its own name");
+      validate_body(model, body, who);
+    });
   }
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
-    validate_geom(model, model.geoms[i], where + ": geom " + std::to_string(i));
+    const Geom& geom = model.geoms[i];
+    check_of_actor(model, geom.actor,
+                   [&] { validate_geom(model, geom, where + ": geom " + std::to_string(i)); });
   }
   validate_pair_materials(model, where);
-  for (const Joint& joint : model.joints)
-    validate_joint(model, joint, where + ": joint '" + joint.name + "'");
+  for (const Joint& joint : model.joints) {
+    check_of_actor(model, actor_of_body(model, joint.body_a),
+                   [&] { validate_joint(model, joint, where + ": joint '" + joint.name + "'"); });
+  }
   for (std::size_t i = 0; i < model.events.size(); ++i) {
-    if (const auto fault = fault_of(model, model.events[i]))
-      throw core::InputError(where + ": event " + std::to_string(i) + ": " + *fault);
+    check_of_actor(model, actor_of(model, model.events[i]), [&] {
+      if (const auto fault = fault_of(model, model.events[i]))
+        throw core::InputError(where + ": event " + std::to_string(i) + ": " + *fault);
+    });
   }
 }
 

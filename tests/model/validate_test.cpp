@@ -157,6 +157,17 @@ TEST(Validate, names_the_place_and_the_thing_of_each_mistake) {
   }
 }
 
+TEST(Validate, gives_the_actor_of_what_is_wrong) {
+  Model model = support::crash();
+  model.bodies.back().mass_kg = -1;
+  try {
+    validate(model, "here");
+    FAIL() << "nothing is thrown";
+  } catch (const ActorError& error) {
+    EXPECT_EQ(static_cast<int>(error.actor()), model.bodies.back().actor);
+  }
+}
+
 TEST(Validate, allows_a_quaternion_that_is_a_rounding_off_unit_length) {
   EXPECT_EQ(complaint([](Model& m) { m.bodies[0].pose.orientation.w = 1 + 1e-15; }), "");
 }

@@ -49,7 +49,7 @@ TEST(Interest, tells_the_place_of_each_mistake) {
   for (const Case& one : {
            Case{"radius = 1\n", "test.toml:5:", "either 'center', a point, or 'follows'"},
            Case{"center = [0, 0, 0]\nfollows = \"car\"\nradius = 1\n", "test.toml:7:", "either 'center'"},
-           Case{"follows = \"ball\"\nradius = 1\n", "test.toml:6:", "there is no actor 'ball'"},
+           Case{"follows = \"ball\"\nradius = 1\n", "test.toml:6:", "unknown actor 'ball'"},
            Case{"follows = \"ground\"\nradius = 1\n", "test.toml:6:", "no body to follow"},
            Case{"follows = \"car\"\n", "test.toml:5:", "radius"},
            Case{"follows = \"car\"\nradius = 0\n", "test.toml:7:", "radius"},

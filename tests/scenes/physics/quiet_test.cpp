@@ -109,7 +109,8 @@ int count_sunk(const model::Model& model, const model::State& state, bool heads)
 
 Measured measure(const Setting& setting, const std::string& name) {
   const auto scene = parse_scene(find_scene(name));
-  const auto model = std::make_shared<const model::Model>(at_rest(*scene->build(0, 1)));
+  const auto model = std::make_shared<model::Model>(*scene->build(0, 1));
+  bring_to_rest(*model);
   StepperSettings with = setting.stepper;
   with.dt_s = scene->defaults().dt_s;
   const auto stepper = make_stepper(with);
