@@ -1,30 +1,38 @@
 #include "scenes/actors/actor.h"
 
-#include "core/text.h"
+#include <algorithm>
+
+#include "model/names.h"
+#include "scenes/format/shape_reader.h"
 
 namespace pbmpi::scenes {
 
 const std::vector<ActorType>& actor_types() {
-  static const std::vector<ActorType> types = {
-      {"box", true, read_box},           {"capsule", true, read_capsule},
-      {"car", true, read_car},           {"centipede", true, read_centipede},
-      {"compound", true, read_compound}, {"cylinder", true, read_cylinder},
-      {"ground", false, read_ground},    {"human", true, read_human},
-      {"model", true, read_model},       {"projectile", true, read_projectile},
-      {"ramp", false, read_ramp},        {"sphere", true, read_sphere},
-      {"tank", true, read_tank},         {"wall", true, read_wall},
-  };
-  return types;
+  static const std::vector<ActorType> all = [] {
+    std::vector<ActorType> types = {
+        {"car", true, read_car},
+        {"centipede", true, read_centipede},
+        {"compound", true, read_compound},
+        {"ground", false, read_ground},
+        {"human", true, read_human},
+        {"model", true, read_model},
+        {"projectile", true, read_projectile},
+        {"ramp", false, read_ramp},
+        {"tank", true, read_tank},
+        {"wall", true, read_wall},
+    };
+    for (const model::Shape shape : solid_shapes())
+      types.push_back({model::name_of(shape), true, read_solid});
+    std::ranges::sort(types, {}, &ActorType::name);
+    return types;
+  }();
+  return all;
 }
 
 const ActorType& read_actor_type(TableReader& actor) {
-  const std::string name = actor.text("type");
-  std::vector<std::string> names;
-  for (const ActorType& type : actor_types()) {
-    if (type.name == name) return type;
-    names.emplace_back(type.name);
-  }
-  actor.fail("type", "unknown type " + core::in_quotes(name) + core::suggestion(name, names));
+  std::vector<std::string_view> names;
+  for (const ActorType& type : actor_types()) names.push_back(type.name);
+  return actor_types()[actor.choice("type", names)];
 }
 
 model::Material read_material(TableReader& actor, const model::Material& fallback) {

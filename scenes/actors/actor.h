@@ -46,7 +46,7 @@ struct ActorType {
   ActorPlan (*read)(TableReader&, const SceneContext&);
 };
 
-/// All types, by name.
+/// All types, by name: a type for each solid shape, and the others.
 const std::vector<ActorType>& actor_types();
 
 /// Reads the type; refuses an unknown one at the value of `type`, naming the nearest known types.
@@ -63,10 +63,8 @@ ActorPlan read_tank(TableReader& actor, const SceneContext& context);
 ActorPlan read_wall(TableReader& actor, const SceneContext& context);
 ActorPlan read_projectile(TableReader& actor, const SceneContext& context);
 ActorPlan read_human(TableReader& actor, const SceneContext& context);
-ActorPlan read_box(TableReader& actor, const SceneContext& context);
-ActorPlan read_sphere(TableReader& actor, const SceneContext& context);
-ActorPlan read_capsule(TableReader& actor, const SceneContext& context);
-ActorPlan read_cylinder(TableReader& actor, const SceneContext& context);
+/// A body of one shape, whose name is the type.
+ActorPlan read_solid(TableReader& actor, const SceneContext& context);
 ActorPlan read_compound(TableReader& actor, const SceneContext& context);
 ActorPlan read_model(TableReader& actor, const SceneContext& context);
 

@@ -20,15 +20,6 @@ struct GenericBody {
   model::Material material;
 };
 
-model::ActorKind read_kind(TableReader& actor) {
-  const std::string name = actor.text("kind", "prop");
-  const auto kind = model::enum_from_name<model::ActorKind>(name, model::actor_kind_names);
-  if (kind) return *kind;
-  const auto& names = model::actor_kind_names;
-  actor.fail("kind",
-             "unknown kind " + core::in_quotes(name) + core::suggestion(name, {names.begin(), names.end()}));
-}
-
 double read_mass(TableReader& actor, const std::vector<Solid>& solids) {
   if (actor.has("mass") == actor.has("density")) {
     actor.fail("density", "give either 'mass' [kg] or 'density' [kg/m^3]");
@@ -92,7 +83,7 @@ void refuse_motion(TableReader& actor) {
 ActorPlan read_generic(TableReader& actor, std::vector<Solid> solids) {
   GenericBody body;
   body.solids = std::move(solids);
-  body.kind = read_kind(actor);
+  body.kind = static_cast<model::ActorKind>(actor.choice("kind", model::actor_kind_names, "prop"));
   body.is_static = actor.flag("static", false);
   body.orientation = read_rotation(actor);
   body.material = read_material(actor, {});
@@ -106,14 +97,10 @@ ActorPlan read_generic(TableReader& actor, std::vector<Solid> solids) {
   return [body](const Placement& place, model::Model& model) { build(body, place, model); };
 }
 
-ActorPlan read_one(TableReader& actor, model::Shape shape) {
-  return read_generic(actor, {{shape, read_size(actor, shape), {}}});
-}
-
-Solid read_solid(TableReader& geom) {
+Solid read_part(TableReader& geom) {
   geom.set_what("geom of a compound");
   Solid solid;
-  solid.shape = read_shape(geom, solid_shapes);
+  solid.shape = read_shape(geom, solid_shapes());
   solid.size = read_size(geom, solid.shape);
   solid.pose = {geom.vector("position", Sign::any, Vec3(Vec3::Zero())), read_rotation(geom)};
   geom.finish();
@@ -122,23 +109,14 @@ Solid read_solid(TableReader& geom) {
 
 }  // namespace
 
-ActorPlan read_box(TableReader& actor, const SceneContext&) { return read_one(actor, model::Shape::box); }
-
-ActorPlan read_sphere(TableReader& actor, const SceneContext&) {
-  return read_one(actor, model::Shape::sphere);
-}
-
-ActorPlan read_capsule(TableReader& actor, const SceneContext&) {
-  return read_one(actor, model::Shape::capsule);
-}
-
-ActorPlan read_cylinder(TableReader& actor, const SceneContext&) {
-  return read_one(actor, model::Shape::cylinder);
+ActorPlan read_solid(TableReader& actor, const SceneContext&) {
+  const model::Shape shape = *model::enum_from_name<model::Shape>(actor.text("type"), model::shape_names);
+  return read_generic(actor, {{shape, read_size(actor, shape), {}}});
 }
 
 ActorPlan read_compound(TableReader& actor, const SceneContext&) {
   std::vector<Solid> solids;
-  for (TableReader& geom : actor.tables("geoms")) solids.push_back(read_solid(geom));
+  for (TableReader& geom : actor.tables("geoms")) solids.push_back(read_part(geom));
   if (solids.empty()) actor.fail("geoms", "'geoms' is missing or empty; give at least one { shape = ... }");
   return read_generic(actor, std::move(solids));
 }

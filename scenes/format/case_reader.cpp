@@ -15,17 +15,6 @@ stability::Limits read_limits(TableReader& table, const char* key) {
   return {right, broken};
 }
 
-stability::Quantity read_quantity(TableReader& table) {
-  const std::string name = table.text("quantity");
-  const auto& names = stability::quantity_names;
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) {
-    table.fail("quantity", "unknown quantity " + core::in_quotes(name) +
-                               core::suggestion(name, {names.begin(), names.end()}));
-  }
-  return static_cast<stability::Quantity>(found - names.begin());
-}
-
 }  // namespace
 
 CaseReader::CaseReader(TableReader& table) {
@@ -69,7 +58,8 @@ void CaseReader::read_expectation(TableReader& table) {
   table.set_what("case, expect");
   stability::Expectation expectation;
   expectation.body = table.text("body");
-  expectation.quantity = read_quantity(table);
+  expectation.quantity =
+      static_cast<stability::Quantity>(table.choice("quantity", stability::quantity_names));
   expectation.at_s = table.number("at", Sign::non_negative, case_.seconds);
   if (expectation.at_s > case_.seconds) table.fail("at", "the case has ended by then; raise its 'seconds'");
   expectation.value = table.number("value", Sign::any);

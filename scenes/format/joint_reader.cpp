@@ -34,15 +34,6 @@ struct JointSpec {
   Vec3 spacing = Vec3::Zero();
 };
 
-JointKind read_kind(TableReader& table) {
-  const std::string name = table.text("kind");
-  const auto kind = model::enum_from_name<JointKind>(name, model::joint_kind_names);
-  if (kind) return *kind;
-  const auto& names = model::joint_kind_names;
-  table.fail("kind",
-             "unknown kind " + core::in_quotes(name) + core::suggestion(name, {names.begin(), names.end()}));
-}
-
 void read_bodies(TableReader& table, JointSpec& joint) {
   joint.bodies = table.texts("bodies");
   joint.bodies_where = table.where("bodies");
@@ -170,7 +161,7 @@ JointPlan read_joint(TableReader& table) {
   JointSpec joint;
   joint.name = table.text("name");
   table.set_what("joint " + core::in_quotes(joint.name));
-  joint.kind = read_kind(table);
+  joint.kind = static_cast<JointKind>(table.choice("kind", model::joint_kind_names));
   read_bodies(table, joint);
   read_strength(table, joint);
   read_axes(table, joint);

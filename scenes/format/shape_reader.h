@@ -3,15 +3,15 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "model/model.h"
 #include "scenes/format/table_reader.h"
 
 namespace pbmpi::scenes {
 
-/// The shapes that enclose a volume.
-inline constexpr std::array solid_shapes = {model::Shape::sphere, model::Shape::box, model::Shape::capsule,
-                                            model::Shape::cylinder};
+/// The shapes that enclose a volume, and their names.
+const std::vector<model::Shape>& solid_shapes();
 
 /// Reads `shape = "box"`, one of `allowed`.
 model::Shape read_shape(TableReader& table, std::span<const model::Shape> allowed);

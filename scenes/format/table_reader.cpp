@@ -122,6 +122,15 @@ std::string TableReader::text(std::string_view key, const std::optional<std::str
   return node.as_string()->get();
 }
 
+std::size_t TableReader::choice(std::string_view key, std::span<const std::string_view> names,
+                                const std::optional<std::string>& fallback) {
+  const std::string name = text(key, fallback);
+  const auto found = std::ranges::find(names, name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  fail(key, "unknown " + std::string(key) + " " + core::in_quotes(name) +
+                core::suggestion(name, {names.begin(), names.end()}));
+}
+
 core::Vec3 TableReader::vector(std::string_view key, Sign sign, const std::optional<core::Vec3>& fallback) {
   if (fallback && !has(key)) return *fallback;
   return checked_vector(key, need_array(key, "[x, y, z]"), sign);

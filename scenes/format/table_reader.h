@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,9 @@ class TableReader {
   int integer(std::string_view key, int least, std::optional<int> fallback = std::nullopt);
   bool flag(std::string_view key, bool fallback);
   std::string text(std::string_view key, const std::optional<std::string>& fallback = std::nullopt);
+  /// Index of the text in `names`; refuses any other, with the nearest names.
+  std::size_t choice(std::string_view key, std::span<const std::string_view> names,
+                     const std::optional<std::string>& fallback = std::nullopt);
   core::Vec3 vector(std::string_view key, Sign sign,
                     const std::optional<core::Vec3>& fallback = std::nullopt);
   core::Vec3 vector_or_infinity(std::string_view key);

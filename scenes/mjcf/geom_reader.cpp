@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "model/names.h"
 #include "scenes/links/rigid.h"
 
 namespace pbmpi::scenes::mjcf {
@@ -31,39 +32,28 @@ std::optional<Segment> read_segment(Attributes& geom) {
   return Segment{{(from + to) / 2, turn_of_z(along)}, along.norm() / 2};
 }
 
-/// `size` as in model::Geom.
+/// `size` as in model::Geom; MJCF has half of each length.
 std::array<double, 3> read_sizes(Attributes& geom, Shape shape, const std::optional<Segment>& segment) {
   if (shape == Shape::plane) {
     geom.allow({"size"});  // only affects how a plane is drawn, which has no end
     return {};
   }
-  const std::size_t own = shape == Shape::box ? 3 : shape == Shape::sphere ? 1 : 2;
-  const std::size_t needed = segment ? 1 : own;
-  const std::vector<double> size = geom.numbers("size", 1, 3);
-  if (size.size() < needed)
+  const model::ShapeTraits& traits = model::traits_of(shape);
+  const std::size_t needed = segment ? 1 : static_cast<std::size_t>(traits.num_sizes);
+  const std::vector<double> read = geom.numbers("size", 1, 3);
+  if (read.size() < needed)
     geom.fail("size",
               "'size' needs " + std::to_string(needed) + " number" + (needed == 1 ? "" : "s") + " [m]");
   for (std::size_t i = 0; i < needed; ++i) {
-    if (!(size[i] > 0)) geom.fail("size", "'size' must be above 0");
+    if (!(read[i] > 0)) geom.fail("size", "'size' must be above 0");
   }
-  switch (shape) {
-    case Shape::sphere:
-      return {size[0], 0, 0};
-    case Shape::box:
-      if (segment) return {2 * size[0], 2 * size[0], 2 * segment->half_length};
-      return {2 * size[0], 2 * size[1], 2 * size[2]};
-    default:
-      return {size[0], 2 * (segment ? segment->half_length : size[1]), 0};
+  std::array<double, 3> size{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(traits.num_sizes); ++i) {
+    const double given = segment ? read[0] : read[i];
+    size[i] = static_cast<int>(i) == traits.radius ? given : 2 * given;
   }
-}
-
-std::optional<Shape> shape_of(const std::string& type) {
-  if (type == "sphere") return Shape::sphere;
-  if (type == "capsule") return Shape::capsule;
-  if (type == "cylinder") return Shape::cylinder;
-  if (type == "box") return Shape::box;
-  if (type == "plane") return Shape::plane;
-  return std::nullopt;
+  if (segment) size[static_cast<std::size_t>(traits.length[2])] = 2 * segment->half_length;
+  return size;
 }
 
 /// Reads the friction. Only the first coefficient, for sliding along the surface, has an effect here.
@@ -96,7 +86,7 @@ ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const xml::L
   const std::string type = attributes.text("type", attributes.has("mesh") ? "mesh" : "sphere");
   const int contype = attributes.integer("contype", 0, 1),
             conaffinity = attributes.integer("conaffinity", 0, 1);
-  const auto shape = shape_of(type);
+  const auto shape = model::enum_from_name<Shape>(type, model::shape_names);
   if (!shape) {
     const bool is_known = type == "mesh" || type == "ellipsoid" || type == "hfield" || type == "sdf";
     const bool is_drawing = is_known && contype == 0 && conaffinity == 0;

@@ -1,18 +1,16 @@
-/// Volumes and moments of inertia of solid bodies of uniform density.
+/// Mass properties of rigid bodies of one or several parts, of uniform density.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "geometry/measures.h"
 #include "model/model.h"
 
 namespace pbmpi::scenes {
 
-/// Volume [m^3] of a solid shape; `size` as in model::Geom. Not for planes.
-double volume(model::Shape shape, const std::array<double, 3>& size);
-
-/// Inertia [kg m^2] about the centre of mass, in the shape's own axes (capsule and cylinder lie along z).
-model::Mat3 solid_inertia(model::Shape shape, const std::array<double, 3>& size, double mass_kg);
+using geometry::solid_inertia;
+using geometry::volume;
 
 /// May a body have this inertia? None has a moment above the sum of the other two, except by the rounding of
 /// three digits, as model files often give them for flat bodies, where the two are equal.

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <vector>
 
 #include "geometry/cell_grid.h"
+#include "geometry/geometry.h"
 #include "scenes/parts/parts.h"
 
 namespace pbmpi::scenes {
@@ -25,22 +25,14 @@ struct InnerBox {
   geometry::Box hull;  ///< aligned with the world's axes
 };
 
-/// Half sides of a box inside the geom, in the geom's own frame.
+/// Half sides of a box inside the geom, in the geom's own frame: a radius reaches equally far along the axes
+/// on which the shape has no length.
 Vec3 inner_half_sides(const model::Geom& geom) {
-  const auto& size = geom.size;
-  const double in_circle = size[0] / std::numbers::sqrt2;
-  switch (geom.shape) {
-    case Shape::sphere:
-      return Vec3::Constant(size[0] / std::numbers::sqrt3);
-    case Shape::box:
-      return Vec3(size[0], size[1], size[2]) / 2;
-    case Shape::capsule:
-    case Shape::cylinder:
-      return {in_circle, in_circle, size[1] / 2};
-    case Shape::plane:
-      break;
-  }
-  return Vec3::Zero();
+  const geometry::Extent extent = geometry::extent_of(geom);
+  const auto round = std::ranges::count(extent.half, 0.0);
+  const double reach = round == 0 ? 0 : (extent.ball + extent.disc) / std::sqrt(static_cast<double>(round));
+  const auto half = [&](std::size_t k) { return extent.half[k] > 0 ? extent.half[k] : reach; };
+  return {half(0), half(1), half(2)};
 }
 
 Pose pose_of(const model::Geom& geom, const model::Model& model) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/names.h"
 #include "scenes/links/rigid.h"
 #include "scenes/urdf/elements.h"
 #include "scenes/xml/attributes.h"
@@ -50,7 +51,10 @@ std::optional<links::LinkGeom> read_collision(const Element& element, const Leav
   pass_over_unknown(element, {"origin", "geometry", "material", "verbose", "contact_coefficients", "surface"},
                     leave_out);
   const Element& geometry = need_child(element, "geometry");
-  const std::vector<std::string> shapes = {"box", "sphere", "cylinder", "capsule", "mesh"};
+  std::vector<std::string> shapes{"mesh"};
+  for (const model::ShapeTraits& traits : model::shape_traits) {
+    if (traits.num_sizes > 0) shapes.emplace_back(traits.name);
+  }
   pass_over_unknown(geometry, shapes, leave_out);
   const auto is_shape = [&](const Element& child) {
     return std::ranges::find(shapes, child.name) != shapes.end();
@@ -69,16 +73,16 @@ std::optional<links::LinkGeom> read_collision(const Element& element, const Leav
   geom.where = shape.where;
   geom.pose = read_origin(element, leave_out);
   Attributes size(shape, leave_out);
-  if (shape.name == "box") {
+  geom.shape = *model::enum_from_name<Shape>(shape.name, model::shape_names);
+  const model::ShapeTraits& traits = model::traits_of(geom.shape);
+  if (traits.radius == model::no_size) {
     const core::Vec3 sides = size.vector("size");
     if (!(sides.minCoeff() > 0)) size.fail("size", "'size' must be above 0");
-    geom.shape = Shape::box;
     geom.size = {sides.x(), sides.y(), sides.z()};
-  } else if (shape.name == "sphere") {
-    geom.size[0] = size.number("radius", Range::positive);
   } else {
-    geom.shape = shape.name == "cylinder" ? Shape::cylinder : Shape::capsule;
-    geom.size = {size.number("radius", Range::positive), size.number("length", Range::positive), 0};
+    geom.size[static_cast<std::size_t>(traits.radius)] = size.number("radius", Range::positive);
+    if (traits.length[2] != model::no_size)
+      geom.size[static_cast<std::size_t>(traits.length[2])] = size.number("length", Range::positive);
   }
   size.finish(leave_out.notes());
   return geom;

@@ -1,38 +1,14 @@
 /// The effect drag: the air slows bodies down.
 #pragma once
 
-#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "effects/effects.h"
+#include "geometry/measures.h"
 
 namespace pbmpi::effects {
-
-/// Cd A [m^2] of a geom, as if it were its body's only geom and nothing stood near.
-///
-/// A is the mean area of a convex body's shadow over all directions: a quarter of its surface (Cauchy), since
-/// a tumbling body shows all its sides. Cd at Re of 1e4 to 2e5: sphere 0.47 and cube 1.05 from S. F. Hoerner,
-/// Fluid-Dynamic Drag (1965), chapter III; cylinder 0.82 (ten diameters long, side on) from C. Matthews,
-/// Aeronautical Engineer's Data Book (2002), chapter 5. A capsule is taken as round as a sphere.
-inline double drag_area(const model::Geom& geom) {
-  constexpr double cd_round = 0.47, cd_box = 1.05, cd_cylinder = 0.82, pi = std::numbers::pi;
-  const auto& [a, b, c] = geom.size;
-  switch (geom.shape) {
-    case model::Shape::sphere:
-      return cd_round * pi * a * a;
-    case model::Shape::capsule:
-      return cd_round * pi * a * (a + b / 2);
-    case model::Shape::cylinder:
-      return cd_cylinder * pi * a * (a + b) / 2;
-    case model::Shape::box:
-      return cd_box * (a * b + b * c + c * a) / 2;
-    case model::Shape::plane:
-      break;
-  }
-  return 0;
-}
 
 /// k = rho Cd A / (2 m) [1/m] of each body.
 inline std::vector<double> drag_factors(const model::Model& model) {
@@ -40,7 +16,7 @@ inline std::vector<double> drag_factors(const model::Model& model) {
   for (const model::Geom& geom : model.geoms) {
     if (geom.body == model::no_body) continue;
     const auto body = static_cast<std::size_t>(geom.body);
-    factors[body] += model.air_density * drag_area(geom) / (2 * model.bodies[body].mass_kg);
+    factors[body] += model.air_density * geometry::drag_area(geom) / (2 * model.bodies[body].mass_kg);
   }
   return factors;
 }

@@ -7,7 +7,6 @@
 namespace pbmpi::mujoco {
 namespace {
 
-using model::JointKind;
 using model::Vec3;
 
 /// MuJoCo has no constraint that keeps two axes parallel: two points of a hinge's axis hold it, at this
@@ -34,8 +33,8 @@ void add_pins(const model::Model& model, int body, const Link& link, std::vector
 void add_closures(const model::Model& model, const model::Joint& joint, std::vector<Closure>& closures) {
   const model::Pose a = start_of(model, joint.body_a), b = start_of(model, joint.body_b);
   Closure closure{joint.body_a,   joint.body_b,   joint.anchor_a,
-                  joint.anchor_b, relative(a, b), joint.kind == JointKind::fixed};
-  if (joint.kind != JointKind::hinge) {
+                  joint.anchor_b, relative(a, b), closing_of(joint.kind) == Closing::weld};
+  if (closing_of(joint.kind) != Closing::two_points) {
     closures.push_back(closure);
     return;
   }
@@ -50,9 +49,7 @@ void add_closures(const model::Model& model, const model::Joint& joint, std::vec
 }  // namespace
 
 std::string closing_problem(const model::Joint& joint, bool has_controls) {
-  const bool fits =
-      joint.kind == JointKind::ball || joint.kind == JointKind::hinge || joint.kind == JointKind::fixed;
-  if (!fits)
+  if (closing_of(joint.kind) == Closing::none)
     return "joint '" + joint.name +
            "' closes a loop, and MuJoCo can close one only with a ball joint, a hinge or a fixed joint";
   if (has_controls)

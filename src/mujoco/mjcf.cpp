@@ -9,6 +9,7 @@
 
 #include "core/number_text.h"
 #include "effects/effects.h"
+#include "model/shape_traits.h"
 
 namespace pbmpi::mujoco {
 namespace {
@@ -47,37 +48,16 @@ std::string spring(double dt_s, double erp) {
 
 std::string impedance(double share) { return numbers({share, share, 0.001}); }
 
-const char* type_of(model::Shape shape) {
-  switch (shape) {
-    case model::Shape::sphere:
-      return "sphere";
-    case model::Shape::box:
-      return "box";
-    case model::Shape::capsule:
-      return "capsule";
-    case model::Shape::cylinder:
-      return "cylinder";
-    case model::Shape::plane:
-      return "plane";
-  }
-  throw std::logic_error("mujoco: a shape without a geom");
-}
-
-/// MuJoCo takes half of each length; the size of a plane only affects how it is drawn.
+/// MuJoCo takes a radius and half of each length; the size of a plane only affects how it is drawn.
 std::string size_of(const model::Geom& geom) {
-  const auto& [a, b, c] = geom.size;
-  switch (geom.shape) {
-    case model::Shape::sphere:
-      return numbers({a});
-    case model::Shape::box:
-      return numbers({a / 2, b / 2, c / 2});
-    case model::Shape::capsule:
-    case model::Shape::cylinder:
-      return numbers({a, b / 2});
-    case model::Shape::plane:
-      break;
+  const model::ShapeTraits& traits = model::traits_of(geom.shape);
+  if (traits.num_sizes == 0) return "0 0 1";
+  std::string text;
+  for (int i = 0; i < traits.num_sizes; ++i) {
+    const double size = geom.size[static_cast<std::size_t>(i)];
+    text += (i == 0 ? "" : " ") + numbers({i == traits.radius ? size : size / 2});
   }
-  return "0 0 1";
+  return text;
 }
 
 class Writer {
@@ -175,7 +155,8 @@ class Writer {
 
   void write_geom(int index) {
     const model::Geom& geom = parts_.model.geoms[index];
-    text_ += "<geom" + attribute("name", geom_name(index)) + attribute("type", type_of(geom.shape)) +
+    text_ += "<geom" + attribute("name", geom_name(index)) +
+             attribute("type", std::string(model::traits_of(geom.shape).name)) +
              attribute("size", size_of(geom)) + place(geom.local) + "/>";
   }
 

@@ -24,21 +24,10 @@ double inner_radius(const Geom& geom) {
   const auto side = [&](int axis) {
     return extent.half[static_cast<std::size_t>(axis)] - std::abs(centre[axis]);
   };
-  switch (geom.shape) {
-    case Shape::sphere:
-      return geom.size[0] - centre.norm();
-    case Shape::capsule: {
-      const Vec3 off(centre.x(), centre.y(), std::max(0.0, -side(2)));
-      return geom.size[0] - off.norm();
-    }
-    case Shape::cylinder:
-      return std::min(geom.size[0] - std::sqrt(centre.x() * centre.x() + centre.y() * centre.y()), side(2));
-    case Shape::box:
-      return std::min({side(0), side(1), side(2)});
-    case Shape::plane:
-      break;
-  }
-  return 0;
+  if (geom.shape == Shape::plane) return 0;
+  if (extent.ball > 0) return extent.ball - Vec3(centre.x(), centre.y(), std::max(0.0, -side(2))).norm();
+  if (extent.disc > 0) return std::min(extent.disc - std::sqrt(centre.x() * centre.x() + centre.y() * centre.y()), side(2));
+  return std::min({side(0), side(1), side(2)});
 }
 
 BodyPose pose_of(const State& state, int body) {

@@ -7,7 +7,6 @@
 namespace pbmpi::mujoco {
 namespace {
 
-using model::JointKind;
 using model::Pose;
 using model::Vec3;
 
@@ -19,22 +18,15 @@ Vec3 turn_into(const Pose& to, const Pose& from, const Vec3& direction) {
 /// From the joint's second body to its first: axis 2 is fixed in the second, axis 1 and anything that slides
 /// along it in the first.
 std::vector<LinkAxis> axes_from_b(const model::Joint& joint, const Vec3& axis1, const Vec3& axis2) {
-  switch (joint.kind) {
-    case JointKind::ball:
-      return {{Freedom::ball, axis1, 0}};
-    case JointKind::hinge:
-      return {{Freedom::hinge, axis1, 0}};
-    case JointKind::slider:
-      return {{Freedom::slide, axis1, 0}};
-    case JointKind::universal:
-      return {{Freedom::hinge, axis2, 1}, {Freedom::hinge, axis1, 0}};
-    case JointKind::hinge2:
-      if (!(joint.suspension.stiffness > 0)) return {{Freedom::hinge, axis2, 1}, {Freedom::hinge, axis1, 0}};
-      return {{Freedom::hinge, axis2, 1}, {Freedom::hinge, axis1, 0}, {Freedom::slide, axis1, 0, true}};
-    case JointKind::fixed:
-      break;
-  }
-  return {};
+  const model::JointTraits& traits = model::traits_of(joint.kind);
+  if (traits.place == model::HeldPlace::anchor && traits.turn == model::HeldTurn::nothing)
+    return {{Freedom::ball, axis1, 0}};
+  std::vector<LinkAxis> axes;
+  if (traits.num_axes > 1) axes.push_back({Freedom::hinge, axis2, 1});
+  if (traits.num_axes > 0) axes.push_back({traits.slides ? Freedom::slide : Freedom::hinge, axis1, 0});
+  const bool is_sprung = traits.has_suspension() && joint.suspension.stiffness > 0;
+  if (is_sprung) axes.push_back({Freedom::slide, axis1, 0, true});
+  return axes;
 }
 
 Link make_link(const model::Model& model, int body, const Hold& hold) {

@@ -3,28 +3,14 @@
 #include <algorithm>
 
 #include "model/islands.h"
+#include "model/joint_traits.h"
 
 namespace pbmpi::mujoco {
 namespace {
 
-using model::JointKind;
-
 /// Joints of the lowest class enter the tree first.
 int class_of(const model::Joint& joint, bool has_controls) {
-  if (has_controls) return 0;
-  switch (joint.kind) {
-    case JointKind::slider:
-    case JointKind::universal:
-    case JointKind::hinge2:
-      return 0;
-    case JointKind::fixed:
-      return 1;
-    case JointKind::hinge:
-      return 2;
-    case JointKind::ball:
-      return 3;
-  }
-  return 0;
+  return has_controls ? 0 : static_cast<int>(closing_of(joint.kind));
 }
 
 /// The joints that hold, ordered by preference for the tree.
@@ -92,6 +78,14 @@ class Walk {
 };
 
 }  // namespace
+
+Closing closing_of(model::JointKind kind) {
+  const model::JointTraits& traits = model::traits_of(kind);
+  if (traits.place == model::HeldPlace::offset) return Closing::weld;
+  if (traits.place != model::HeldPlace::anchor) return Closing::none;
+  if (traits.turn == model::HeldTurn::nothing) return Closing::point;
+  return traits.turn == model::HeldTurn::axis ? Closing::two_points : Closing::none;
+}
 
 std::vector<bool> joints_with_controls(const model::Model& model) {
   std::vector<bool> controls(model.joints.size(), false);

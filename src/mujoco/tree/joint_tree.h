@@ -23,6 +23,17 @@ struct JointTree {
   std::vector<int> closing;  ///< joints that close loops, ascending
 };
 
+/// How MuJoCo closes a loop of joints.
+enum class Closing {
+  none,        ///< not at all
+  weld,        ///< holds the pose of one body in the other
+  two_points,  ///< holds two points of an axis
+  point,       ///< holds one point
+};
+
+/// How a joint of this kind can close a loop.
+Closing closing_of(model::JointKind kind);
+
 /// Does the joint have more than its own rows: a limit, a motor, an event that sets one, or a strength?
 std::vector<bool> joints_with_controls(const model::Model& model);
 

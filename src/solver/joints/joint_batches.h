@@ -167,34 +167,25 @@ class JointBatches {
   const RowsOf<kind>& rows_of() const {
     return std::get<RowsOf<kind>>(rows_);
   }
-  /// Calls visit<kind>(std::integral_constant<Kind, kind>).
-  template <class Visit>
+  /// Calls visit(std::integral_constant<Kind, kind>), searching from kind number `first` on.
+  template <int first = 0, class Visit>
   static auto with_kind(Kind kind, Visit visit) {
-    switch (kind) {
-      case Kind::ball:
-        return visit(std::integral_constant<Kind, Kind::ball>{});
-      case Kind::hinge:
-        return visit(std::integral_constant<Kind, Kind::hinge>{});
-      case Kind::slider:
-        return visit(std::integral_constant<Kind, Kind::slider>{});
-      case Kind::universal:
-        return visit(std::integral_constant<Kind, Kind::universal>{});
-      case Kind::fixed:
-        return visit(std::integral_constant<Kind, Kind::fixed>{});
-      case Kind::hinge2:
-        break;
+    constexpr auto own = static_cast<Kind>(first);
+    if constexpr (first + 1 < model::num_joint_kinds) {
+      if (kind != own) return with_kind<first + 1>(kind, visit);
     }
-    return visit(std::integral_constant<Kind, Kind::hinge2>{});
+    return visit(std::integral_constant<Kind, own>{});
   }
+  template <std::size_t... kind>
+  static std::tuple<RowsOf<static_cast<Kind>(kind)>...> rows_of_all(std::index_sequence<kind...>);
 
   /// Calls visit(joint, its rows) for each joint of a batch.
   template <class Visit>
   void for_each_rows(const Batch& batch, Visit visit);
 
   std::vector<Shape> shapes_;
-  std::tuple<RowsOf<Kind::ball>, RowsOf<Kind::hinge>, RowsOf<Kind::slider>, RowsOf<Kind::universal>,
-             RowsOf<Kind::fixed>, RowsOf<Kind::hinge2>>
-      rows_;
+  /// [kinds]
+  decltype(rows_of_all(std::make_index_sequence<model::num_joint_kinds>())) rows_;
 };
 
 template <class T>

@@ -91,9 +91,9 @@ template <class T>
 template <model::JointKind kind>
 void JointBuilder<T>::build(JointLane<V>& joint, const V& exact, const JointForceLane<V>& carried,
                             const BodyLanes<T>& bodies, JointRows<T, kind>& rows) const {
-  using model::JointKind;
+  constexpr const model::JointTraits& traits = model::traits_of(kind);
   const Pair pair{bodies.bodies[joint.slot_a], bodies.bodies[joint.slot_b]};
-  rows.sprung = kind == JointKind::hinge2 && joint.sprung;
+  rows.sprung = traits.has_suspension() && joint.sprung;
   rows.slot_a = joint.slot_a;
   rows.slot_b = joint.slot_b;
   rows.inv_mass_a = pair.a.inv_mass;
@@ -111,28 +111,23 @@ void JointBuilder<T>::build(JointLane<V>& joint, const V& exact, const JointForc
   for (PointRows<V>& point : rows.points)
     build_point<T>(joint.terms, bodies, joint.slot_a, joint.slot_b, rows_.place_k(), ahead_s_,
                    rows.reversible, fastest_, point);
-  if constexpr (kind == JointKind::hinge) {
-    set_parallel_axes(joint.terms, pair, rows.axes.data());
-    controls_.set_hinge_control(joint, pair, rows);
-  } else if constexpr (kind == JointKind::fixed) {
+  if constexpr (traits.turn == model::HeldTurn::axis) set_parallel_axes(joint.terms, pair, rows.axes.data());
+  if constexpr (traits.turn == model::HeldTurn::orientation)
     set_orientation(joint.terms, pair, rows.axes.data());
-  } else if constexpr (kind == JointKind::universal) {
-    set_crossed_axes(joint, pair, rows);
-  } else if constexpr (kind == JointKind::hinge2) {
+  if constexpr (traits.place == model::HeldPlace::suspended_anchor)
     set_suspended_point(joint, pair, rows.reversible, rows.lines.data());
-    set_crossed_axes(joint, pair, rows);
-  } else if constexpr (kind == JointKind::slider) {
-    set_orientation(joint.terms, pair, rows.axes.data());
+  if constexpr (traits.place == model::HeldPlace::line)
     set_slider_lines(joint.terms, pair, rows.reversible, rows.lines.data());
-    controls_.set_slider_control(joint, pair, rows);
-  }
+  if constexpr (traits.num_axes == 2) set_crossed_axes(joint, pair, rows);
+  if constexpr (traits.num_axes == 1 && traits.slides) controls_.set_slider_control(joint, pair, rows);
+  if constexpr (traits.num_axes == 1 && !traits.slides) controls_.set_hinge_control(joint, pair, rows);
 }
 
 template <class T>
 template <model::JointKind kind>
 void JointBuilder<T>::look_ahead(const JointLane<V>& joint, const BodyLanes<T>& bodies,
                                  JointRows<T, kind>& rows) const {
-  using model::JointKind;
+  constexpr const model::JointTraits& traits = model::traits_of(kind);
   if (!(ahead_s_ > 0)) return;
   const BodyLane<V>&a = bodies.bodies[joint.slot_a], &b = bodies.bodies[joint.slot_b];
   const L3 &turn_a = bodies.expected[joint.slot_a].angular, &turn_b = bodies.expected[joint.slot_b].angular;
@@ -152,10 +147,10 @@ void JointBuilder<T>::look_ahead(const JointLane<V>& joint, const BodyLanes<T>& 
   }
   const V zero = T::broadcast(0);
   L3 turned{zero, zero, zero};
-  if constexpr (kind == JointKind::hinge) {
+  if constexpr (traits.turn == model::HeldTurn::axis) {
     const L3 axis = a.rotation * joint.terms.axis1_a;
     turned = gain_of_axis(axis, turn_a, dot(axis, turn_a - turn_b));
-  } else if constexpr (kind == JointKind::universal || kind == JointKind::hinge2) {
+  } else if constexpr (traits.num_axes == 2) {
     const L3 axis1 = a.rotation * joint.terms.axis1_a, axis2 = b.rotation * joint.terms.axis2_b;
     const V cosine = dot(axis1, axis2), per = 1 / (1 - cosine * cosine);
     const V along1 = dot(axis1, turn_a - turn_b), along2 = dot(axis2, turn_a - turn_b);
@@ -163,7 +158,7 @@ void JointBuilder<T>::look_ahead(const JointLane<V>& joint, const BodyLanes<T>& 
              gain_of_axis(axis2, turn_b, (along2 - cosine * along1) * per);
   }
   for (AxisRow<V>& row : rows.axes) set(row.ahead, dot(row.axis, more_b - more_a), dot(row.axis, turned));
-  if constexpr (kind == JointKind::slider) {
+  if constexpr (traits.place == model::HeldPlace::line) {
     const Pair pair{a, b};
     for (LineRow<V>& row : rows.lines)
       set(row.ahead, -dot(row.moment_a, more_a + more_b), ahead_of_line(row, pair, bodies, joint));
@@ -260,7 +255,7 @@ void JointBuilder<T>::set_crossed_axes(JointLane<V>& joint, const Pair& pair,
   const V sine = T::sqrt(dot(crossed, crossed));
   const V cosine = dot(axis1, axis2);
   // universal: the axes stay at right angles; hinge2: at the initial angle. cos0 is 0 for ODE's universal.
-  const V rhs = kind == model::JointKind::universal
+  const V rhs = model::traits_of(kind).turn == model::HeldTurn::right_angle
                     ? -rows_.turn_k() * cosine
                     : rows_.turn_k() * (terms.cos0 * sine - terms.sin0 * cosine);
   rows_.set_axis(crossed * (1 / sine), rhs, pair, rows.axes[0]);

@@ -1,0 +1,24 @@
+/// What follows from the shape and the sizes of a solid alone.
+#pragma once
+
+#include <array>
+
+#include "model/model.h"
+
+namespace pbmpi::geometry {
+
+/// Volume [m^3] of a solid shape; `size` as in model::Geom. Not for planes.
+double volume(model::Shape shape, const std::array<double, 3>& size);
+
+/// Inertia [kg m^2] about the centre of mass, in the shape's own axes (capsule and cylinder lie along z).
+model::Mat3 solid_inertia(model::Shape shape, const std::array<double, 3>& size, double mass_kg);
+
+/// Cd A [m^2] of a geom, as if it were its body's only geom and nothing stood near.
+///
+/// A is the mean area of a convex body's shadow over all directions: a quarter of its surface (Cauchy), since
+/// a tumbling body shows all its sides. Cd at Re of 1e4 to 2e5: sphere 0.47 and cube 1.05 from S. F. Hoerner,
+/// Fluid-Dynamic Drag (1965), chapter III; cylinder 0.82 (ten diameters long, side on) from C. Matthews,
+/// Aeronautical Engineer's Data Book (2002), chapter 5. A capsule is taken as round as a sphere.
+double drag_area(const model::Geom& geom);
+
+}  // namespace pbmpi::geometry
