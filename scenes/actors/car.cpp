@@ -3,7 +3,7 @@
 #include <numbers>
 #include <string>
 
-#include "scenes/actors/actor.h"
+#include "scenes/actors/actor_builder.h"
 #include "scenes/parts/mass_properties.h"
 
 namespace pbmpi::scenes {
@@ -64,16 +64,12 @@ Car read(TableReader& actor, const SceneContext& context) {
   return car;
 }
 
-class CarBuilder {
+class CarBuilder : ActorBuilder {
  public:
   CarBuilder(const Car& car, const Placement& place, model::Model& model)
-      : car_(car), place_(place), model_(model) {
-    actor_ = add_actor(model, place.name, model::ActorKind::car);
+      : ActorBuilder(place, model::ActorKind::car, model), car_(car) {
     // A wheel that has come off can hit the chassis and the other wheels.
     model.actors[actor_].self_collision = car.wheel_break_force_n > 0;
-    forward_ = place.pose.direction_to_outer(Vec3::UnitX());
-    left_ = place.pose.direction_to_outer(Vec3::UnitY());
-    up_ = place.pose.direction_to_outer(Vec3::UnitZ());
   }
 
   void build() {
@@ -94,14 +90,8 @@ class CarBuilder {
     // 1999-01-1336: yaw about 2000 kg m^2).
     const double height = car_.bonnet_m - car_.floor_m;
     const std::array<double, 3> size = {car_.length_m, car_.width_m, height};
-    model::Body body;
-    body.name = place_.name + ".chassis";
-    body.actor = actor_;
-    body.mass_kg = car_.chassis_mass_kg;
-    body.inertia = solid_inertia(model::Shape::box, size, body.mass_kg);
-    body.pose = compose(place_.pose, {{0, 0, car_.floor_m + height / 2 - initial_depth_m}, {}});
-    body.velocity = velocity();
-    chassis_ = add_body(model_, std::move(body));
+    const Pose middle = compose(place_.pose, {{0, 0, car_.floor_m + height / 2 - initial_depth_m}, {}});
+    chassis_ = add_moving("chassis", car_.chassis_mass_kg, model::Shape::box, size, middle);
     add_geom(chassis_, model::Shape::box, size, {}, car_.body_material);
     // The cabin begins behind the bonnet and ends before the boot: the middle half of the length, slightly to
     // the rear, and narrower than the body, since windows lean inwards.
@@ -113,19 +103,13 @@ class CarBuilder {
   /// `hub`: in the actor's frame, at z = 0. Returns the index of the wheel's joint.
   int add_wheel(const std::string& name, const Vec3& hub, bool driven) {
     const std::array<double, 3> size = {car_.wheel_radius_m, car_.wheel_width_m, 0};
-    model::Body body;
-    body.name = place_.name + "." + name;
-    body.actor = actor_;
-    body.mass_kg = car_.wheel_mass_kg;
-    body.inertia = solid_inertia(model::Shape::cylinder, size, body.mass_kg);
     // A cylinder touches along its whole width, as a tyre does, and lies within the body, where a sphere
     // would bulge by its radius; ODE keeps it steady at rest, rolling and on a ramp. Cylinders lie along z;
     // the axle lies along y.
-    body.pose = compose(place_.pose, {hub + Vec3(0, 0, car_.wheel_radius_m - initial_depth_m),
-                                      rotation(std::numbers::pi / 2, Vec3::UnitX())});
-    body.velocity = velocity();
-    body.angular_velocity = car_.speed_m_s / car_.wheel_radius_m * left_;
-    const int wheel = add_body(model_, std::move(body));
+    const Pose pose = compose(place_.pose, {hub + Vec3(0, 0, car_.wheel_radius_m - initial_depth_m),
+                                            rotation(std::numbers::pi / 2, Vec3::UnitX())});
+    const int wheel = add_moving(name, car_.wheel_mass_kg, model::Shape::cylinder, size, pose);
+    model_.bodies[wheel].angular_velocity = car_.speed_m_s / car_.wheel_radius_m * left();
     add_geom(wheel, model::Shape::cylinder, size, {}, {car_.tyre_mu, 0});
     return add_suspension(name, wheel, driven);
   }
@@ -134,23 +118,22 @@ class CarBuilder {
   /// steering angle is a left turn, and a positive motor velocity drives forward.
   int add_suspension(const std::string& name, int wheel, bool driven) {
     const Vec3 hub = model_.bodies[wheel].pose.position;
-    model::Joint joint = join(model_, place_.name + "." + name + "_suspension", model::JointKind::hinge2,
-                              chassis_, wheel, hub, -up_, -left_);
+    model::Joint& joint =
+        add_joint(name + "_suspension", model::JointKind::hinge2, chassis_, wheel, hub, -up(), -left());
     const double omega = 2 * std::numbers::pi * car_.suspension_hz;
     const double quarter_mass = car_.chassis_mass_kg / 4;
     joint.suspension.stiffness = quarter_mass * omega * omega;
     joint.suspension.damping = 2 * car_.damping_ratio * quarter_mass * omega;
     // The spring exerts no force where the anchors coincide. The chassis' anchor lies below the hub by the
     // deflection under a quarter of the chassis' weight, so the car starts at rest at its ride height.
-    const double weight_n = quarter_mass * std::max(0.0, -car_.context.gravity.dot(up_));
+    const double weight_n = quarter_mass * std::max(0.0, -car_.context.gravity.dot(up()));
     joint.anchor_a -= weight_n / joint.suspension.stiffness * Vec3::UnitZ();
     joint.limits[0] = {0, 0};
     joint.break_force = car_.wheel_break_force_n;
     if (driven && car_.drive_torque_nm > 0) {
       joint.motors[1] = {car_.speed_m_s / car_.wheel_radius_m, car_.drive_torque_nm};
     }
-    model_.joints.push_back(joint);
-    return static_cast<int>(model_.joints.size()) - 1;
+    return last_joint();
   }
 
   /// Adds one event per step, interpolated linearly between the points of the programme.
@@ -171,10 +154,7 @@ class CarBuilder {
   }
 
   void steer(int joint, std::int64_t step, double angle_deg) {
-    model::Event event;
-    event.step = step;
-    event.kind = model::EventKind::steer;
-    event.joint = joint;
+    model::Event event = event_of(model::EventKind::steer, joint, step);
     event.angle = radians(angle_deg);
     add_event(model_, event);
   }
@@ -183,19 +163,16 @@ class CarBuilder {
     return scenes::step_at(time_s, car_.context.dt_s, car_.steering_where + ": steering");
   }
 
-  Vec3 velocity() const { return place_.velocity + car_.speed_m_s * forward_; }
-
-  void add_geom(int body, model::Shape shape, const std::array<double, 3>& size, const Pose& local,
-                const model::Material& material) {
-    model_.geoms.push_back({body, actor_, place_.space, shape, size, local, material});
+  /// A part that moves at the car's speed.
+  int add_moving(const std::string& name, double mass_kg, model::Shape shape,
+                 const std::array<double, 3>& size, const Pose& pose) {
+    const int body = add_part(name, mass_kg, solid_inertia(shape, size, mass_kg), pose);
+    model_.bodies[body].velocity += car_.speed_m_s * forward();
+    return body;
   }
 
   const Car& car_;
-  const Placement& place_;
-  model::Model& model_;
-  int actor_ = 0;
   int chassis_ = 0;
-  Vec3 forward_, left_, up_;
 };
 
 }  // namespace

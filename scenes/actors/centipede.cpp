@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/elementary.h"
-#include "scenes/actors/actor.h"
+#include "scenes/actors/actor_builder.h"
 #include "scenes/parts/mass_properties.h"
 
 namespace pbmpi::scenes {
@@ -29,12 +29,10 @@ constexpr double most_bend_deg = 30;    // of a joint between segments, to each 
 constexpr double back_torque_nm = 600;  // holds the back straight: a segment's weight at three lengths
 constexpr double reach_deg = 20, lift_deg = 12;  // of a leg fore and aft, and up
 
-class CentipedeBuilder {
+class CentipedeBuilder : ActorBuilder {
  public:
   CentipedeBuilder(const Centipede& centipede, const Placement& place, model::Model& model)
-      : c_(centipede), place_(place), model_(model) {
-    actor_ = add_actor(model, place.name, model::ActorKind::centipede);
-  }
+      : ActorBuilder(place, model::ActorKind::centipede, model), c_(centipede) {}
 
   void build() {
     int before = model::no_body;
@@ -51,18 +49,17 @@ class CentipedeBuilder {
   int add_segment(int number, double x) {
     const std::array<double, 3> size = {c_.segment_length_m, c_.segment_width_m, c_.segment_height_m};
     const Pose pose{{x, 0, c_.ride_height_m - initial_depth_m}, {}};
-    return add_part("segment" + std::to_string(number + 1), model::Shape::box, size, pose);
+    return add_solid("segment" + std::to_string(number + 1), model::Shape::box, size, pose);
   }
 
   void add_back_joint(int number, int before, int segment, double x) {
     const Vec3 middle = at({x + (c_.segment_length_m + gap_m) / 2, 0, c_.ride_height_m - initial_depth_m});
-    model::Joint joint = join(model_, place_.name + ".back" + std::to_string(number),
-                              model::JointKind::universal, before, segment, middle, up(), left());
+    model::Joint& joint = add_joint("back" + std::to_string(number), model::JointKind::universal, before,
+                                    segment, middle, up(), left());
     for (int axis = 0; axis < 2; ++axis) {
       joint.limits[axis] = {-radians(most_bend_deg), radians(most_bend_deg)};
       joint.motors[axis] = {0, back_torque_nm};
     }
-    model_.joints.push_back(joint);
   }
 
   /// A capsule from the segment's flank down and out to the ground.
@@ -74,17 +71,16 @@ class CentipedeBuilder {
     const std::array<double, 3> size = {c_.leg_radius_m, (foot - hip).norm(), 0};
     const std::string name = (side > 0 ? "left_leg" : "right_leg") + std::to_string(number + 1);
     const int leg =
-        add_part(name, model::Shape::capsule, size, {(hip + foot) / 2, rotation(angle, Vec3::UnitX())});
+        add_solid(name, model::Shape::capsule, size, {(hip + foot) / 2, rotation(angle, Vec3::UnitX())});
     // Axis 1 swings the leg fore and aft, axis 2 lifts it. ODE measures the segment's turn against the leg's:
     // with these axes a positive angle is a swing forward, or a lift.
-    model::Joint joint = join(model_, place_.name + "." + name + "_hip", model::JointKind::universal, segment,
-                              leg, at(hip), side * up(), -side * forward());
+    model::Joint& joint = add_joint(name + "_hip", model::JointKind::universal, segment, leg, at(hip),
+                                    side * up(), -side * forward());
     joint.limits[0] = {-radians(reach_deg), radians(reach_deg)};
     joint.limits[1] = {-radians(lift_deg), radians(lift_deg)};
     joint.motors[0] = joint.motors[1] = {0, c_.torque_nm};
-    model_.joints.push_back(joint);
     const bool first_group = (number + (side > 0 ? 0 : 1)) % 2 == 0;
-    add_gait(static_cast<int>(model_.joints.size()) - 1, first_group);
+    add_gait(last_joint(), first_group);
   }
 
   /// Alternating groups of legs, as in insects: in one half of the stride a group is lifted and swings
@@ -106,38 +102,21 @@ class CentipedeBuilder {
   }
 
   void drive(int joint, int axis, std::int64_t step, double speed_rad_s) {
-    model::Event event;
-    event.step = step;
-    event.kind = model::EventKind::motor;
-    event.joint = joint;
+    model::Event event = event_of(model::EventKind::motor, joint, step);
     event.axis = axis;
     event.motor = {speed_rad_s, c_.torque_nm, 0};
     add_event(model_, event);
   }
 
-  int add_part(const std::string& name, model::Shape shape, const std::array<double, 3>& size,
-               const Pose& pose) {
-    model::Body body;
-    body.name = place_.name + "." + name;
-    body.actor = actor_;
-    body.mass_kg = c_.density_kg_m3 * volume(shape, size);
-    body.inertia = solid_inertia(shape, size, body.mass_kg);
-    body.pose = compose(place_.pose, pose);
-    body.velocity = place_.velocity;
-    const int index = add_body(model_, std::move(body));
-    model_.geoms.push_back({index, actor_, place_.space, shape, size, {}, c_.material});
-    return index;
+  int add_solid(const std::string& name, model::Shape shape, const std::array<double, 3>& size,
+                const Pose& pose) {
+    const double mass_kg = c_.density_kg_m3 * volume(shape, size);
+    const int body = add_part(name, mass_kg, solid_inertia(shape, size, mass_kg), compose(place_.pose, pose));
+    add_geom(body, shape, size, {}, c_.material);
+    return body;
   }
 
-  Vec3 at(const Vec3& local) const { return place_.pose.point_to_outer(local); }
-  Vec3 forward() const { return place_.pose.direction_to_outer(Vec3::UnitX()); }
-  Vec3 left() const { return place_.pose.direction_to_outer(Vec3::UnitY()); }
-  Vec3 up() const { return place_.pose.direction_to_outer(Vec3::UnitZ()); }
-
   const Centipede& c_;
-  const Placement& place_;
-  model::Model& model_;
-  int actor_ = 0;
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "core/text.h"
 #include "model/names.h"
 #include "scenes/actors/actor.h"
-#include "scenes/format/rotation_reader.h"
 #include "scenes/format/shape_reader.h"
 #include "scenes/parts/mass_properties.h"
 
@@ -85,7 +84,7 @@ ActorPlan read_generic(TableReader& actor, std::vector<Solid> solids) {
   body.solids = std::move(solids);
   body.kind = static_cast<model::ActorKind>(actor.choice("kind", model::actor_kind_names, "prop"));
   body.is_static = actor.flag("static", false);
-  body.orientation = read_rotation(actor);
+  body.orientation = actor.rotation();
   body.material = read_material(actor, {});
   if (body.is_static) {
     refuse_motion(actor);
@@ -102,7 +101,7 @@ Solid read_part(TableReader& geom) {
   Solid solid;
   solid.shape = read_shape(geom, solid_shapes());
   solid.size = read_size(geom, solid.shape);
-  solid.pose = {geom.vector("position", Sign::any, Vec3(Vec3::Zero())), read_rotation(geom)};
+  solid.pose = {geom.vector("position", Sign::any, Vec3(Vec3::Zero())), geom.rotation()};
   geom.finish();
   return solid;
 }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/elementary.h"
-#include "scenes/actors/actor.h"
+#include "scenes/actors/actor_builder.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -33,12 +33,10 @@ constexpr double hand_aspect = 3;
 
 /// Builds in the actor's frame: x forward, y left, z up, origin between the ankles on the ground. All
 /// segments start upright, their axes parallel to the actor's.
-class HumanBuilder {
+class HumanBuilder : ActorBuilder {
  public:
   HumanBuilder(const Human& human, const Placement& place, model::Model& model)
-      : human_(human), place_(place), model_(model), skeleton_(human.height_m) {
-    actor_ = add_actor(model, place.name, model::ActorKind::human);
-  }
+      : ActorBuilder(place, model::ActorKind::human, model), human_(human), skeleton_(human.height_m) {}
 
   void build() {
     const Skeleton& s = skeleton_;
@@ -48,10 +46,11 @@ class HumanBuilder {
     const int skull = add_upright(head, "", 0, s.vertex, s.neck);
     const Vec3 forward_bend = Vec3::UnitY();
     const Vec3 left_tilt = -Vec3::UnitX();
-    add_universal("lumbar", pelvis, belly, at(0, s.navel), forward_bend, trunk_bend, left_tilt, trunk_tilt);
+    add_universal("lumbar", pelvis, belly, point(0, s.navel), forward_bend, trunk_bend, left_tilt,
+                  trunk_tilt);
     // The ribcage leaves the upper spine little play.
-    add_joint("thoracic", JointKind::fixed, belly, chest, at(0, s.xiphoid));
-    add_universal("neck", chest, skull, at(0, s.neck), forward_bend, neck_bend, left_tilt, neck_tilt);
+    add_joint("thoracic", JointKind::fixed, belly, chest, point(0, s.xiphoid));
+    add_universal("neck", chest, skull, point(0, s.neck), forward_bend, neck_bend, left_tilt, neck_tilt);
     for (const int side : {1, -1}) {
       add_arm(chest, side);
       add_leg(pelvis, side);
@@ -62,7 +61,7 @@ class HumanBuilder {
   static std::string side_name(int side) { return side > 0 ? "left_" : "right_"; }
 
   /// A point of the upright upper body at this height of the skeleton.
-  Vec3 at(double y, double height) const { return {0, y, height - hip_drop()}; }
+  Vec3 point(double y, double height) const { return {0, y, height - hip_drop()}; }
 
   void add_arm(int chest, int side) {
     const Skeleton& s = skeleton_;
@@ -73,9 +72,9 @@ class HumanBuilder {
     const int palm = add_hand(name, y);
     // Segments that hang below their joint bend forward by a turn about -y. The palm faces the thigh: it
     // bends inwards, and the thumb points forward.
-    add_joint(name + "shoulder", JointKind::ball, chest, upper, at(y, s.shoulder));
-    add_hinge(name + "elbow", upper, lower, at(y, s.elbow), -Vec3::UnitY(), elbow_bend);
-    add_universal(name + "wrist", lower, palm, at(y, s.wrist), -side * Vec3::UnitX(), wrist_bend,
+    add_joint(name + "shoulder", JointKind::ball, chest, upper, point(y, s.shoulder));
+    add_hinge(name + "elbow", upper, lower, point(y, s.elbow), -Vec3::UnitY(), elbow_bend);
+    add_universal(name + "wrist", lower, palm, point(y, s.wrist), -side * Vec3::UnitX(), wrist_bend,
                   -Vec3::UnitY(), wrist_tilt);
   }
 
@@ -156,29 +155,22 @@ class HumanBuilder {
 
   int add_segment(const Segment& segment, const std::string& side, const Pose& pose, double length,
                   int longitudinal) {
-    model::Body body;
-    body.name = place_.name + "." + side + std::string(segment.name);
-    body.actor = actor_;
-    body.mass_kg = segment.mass_fraction * human_.mass_kg;
-    body.inertia = segment_inertia(segment, body.mass_kg, length, longitudinal);
-    body.pose = compose(place_.pose, {pose.position - Vec3(0, 0, initial_depth_m), pose.orientation});
-    body.velocity = place_.velocity;
-    return add_body(model_, std::move(body));
+    const double mass = segment.mass_fraction * human_.mass_kg;
+    return add_part(side + std::string(segment.name), mass,
+                    segment_inertia(segment, mass, length, longitudinal),
+                    compose(place_.pose, {pose.position - Vec3(0, 0, initial_depth_m), pose.orientation}));
   }
 
   void add_geom(int body, Shape shape, const std::array<double, 3>& size, const Pose& local) {
-    model_.geoms.push_back({body, actor_, place_.space, shape, size, local, human_.material});
+    ActorBuilder::add_geom(body, shape, size, local, human_.material);
   }
 
   model::Joint& add_joint(const std::string& name, JointKind kind, int inner, int outer, const Vec3& anchor,
                           const Vec3& axis1 = Vec3::UnitY(), const Vec3& axis2 = Vec3::UnitX()) {
     // ODE measures an angle as the first body against the second; the outer segment's turn has the opposite
     // sign, hence the minus.
-    model_.joints.push_back(join(model_, place_.name + "." + name, kind, inner, outer,
-                                 place_.pose.point_to_outer(anchor - Vec3(0, 0, initial_depth_m)),
-                                 -place_.pose.direction_to_outer(axis1),
-                                 -place_.pose.direction_to_outer(axis2)));
-    return model_.joints.back();
+    return ActorBuilder::add_joint(name, kind, inner, outer, at(anchor - Vec3(0, 0, initial_depth_m)),
+                                   -along(axis1), -along(axis2));
   }
 
   void add_hinge(const std::string& name, int inner, int outer, const Vec3& anchor, const Vec3& axis,
@@ -199,10 +191,7 @@ class HumanBuilder {
   }
 
   const Human& human_;
-  const Placement& place_;
-  model::Model& model_;
   Skeleton skeleton_;
-  int actor_ = 0;
 };
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include "core/text.h"
 #include "scenes/actors/actor.h"
 #include "scenes/actors/model_file.h"
-#include "scenes/format/rotation_reader.h"
 #include "scenes/links/assembly.h"
 
 namespace pbmpi::scenes {
@@ -46,7 +45,7 @@ void read_starts(TableReader& actor, links::Mechanism& mechanism) {
         joint->start = table->number(name, Sign::any) - joint->reference;
         break;
       case links::Motion::ball:
-        joint->start_turn = read_rotation(*table, name);
+        joint->start_turn = table->rotation(name);
         break;
       case links::Motion::free:
         table->fail(name, "a free body has no joint that could start elsewhere; give the actor's 'position'");

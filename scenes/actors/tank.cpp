@@ -2,7 +2,7 @@
 #include <numbers>
 #include <string>
 
-#include "scenes/actors/actor.h"
+#include "scenes/actors/actor_builder.h"
 #include "scenes/parts/mass_properties.h"
 
 namespace pbmpi::scenes {
@@ -26,12 +26,10 @@ struct Tank {
 constexpr double elevation_torque_nm = 2e5;
 constexpr double traverse_torque_nm = 2e5;
 
-class TankBuilder {
+class TankBuilder : ActorBuilder {
  public:
   TankBuilder(const Tank& tank, const Placement& place, model::Model& model)
-      : tank_(tank), place_(place), model_(model) {
-    actor_ = add_actor(model, place.name, model::ActorKind::tank);
-  }
+      : ActorBuilder(place, model::ActorKind::tank, model), tank_(tank) {}
 
   void build() {
     const int hull = add_hull();
@@ -53,21 +51,21 @@ class TankBuilder {
     const double belly_width = tank_.width_m - 2 * tank_.track_width_m;
     const std::array<double, 3> belly = {tank_.length_m, belly_width, belly_height};
     const double middle = tank_.ground_clearance_m + belly_height / 2 - initial_depth_m;
-    const int hull = add_part("hull", tank_.hull_mass_kg, belly, compose(place_.pose, {{0, 0, middle}, {}}));
-    add_geom(hull, model::Shape::box, belly, {});
+    const int hull = add_box("hull", tank_.hull_mass_kg, belly, compose(place_.pose, {{0, 0, middle}, {}}));
+    add_geom(hull, model::Shape::box, belly, {}, tank_.material);
     for (const int side : {1, -1}) {
       const double y = side * (tank_.width_m - tank_.track_width_m) / 2;
       add_geom(hull, model::Shape::box, {0.9 * tank_.length_m, tank_.track_width_m, tank_.track_height_m},
-               {{0, y, tank_.track_height_m / 2 - initial_depth_m - middle}, {}});
+               {{0, y, tank_.track_height_m / 2 - initial_depth_m - middle}, {}}, tank_.material);
     }
     return hull;
   }
 
   int add_turret(const Pose& ring) {
     const std::array<double, 3> size = {tank_.turret_length_m, tank_.turret_width_m, tank_.turret_height_m};
-    const int turret = add_part("turret", tank_.turret_mass_kg, size,
-                                compose(ring, {{0, 0, tank_.turret_height_m / 2}, {}}));
-    add_geom(turret, model::Shape::box, size, {});
+    const int turret =
+        add_box("turret", tank_.turret_mass_kg, size, compose(ring, {{0, 0, tank_.turret_height_m / 2}, {}}));
+    add_geom(turret, model::Shape::box, size, {}, tank_.material);
     return turret;
   }
 
@@ -75,42 +73,27 @@ class TankBuilder {
   int add_barrel(const Pose& trunnion) {
     const std::array<double, 3> size = {tank_.barrel_length_m, 2 * tank_.barrel_radius_m,
                                         2 * tank_.barrel_radius_m};
-    const int barrel = add_part("barrel", tank_.barrel_mass_kg, size,
-                                compose(trunnion, {{tank_.barrel_length_m / 2, 0, 0}, {}}));
+    const int barrel = add_box("barrel", tank_.barrel_mass_kg, size,
+                               compose(trunnion, {{tank_.barrel_length_m / 2, 0, 0}, {}}));
     add_geom(barrel, model::Shape::cylinder, {tank_.barrel_radius_m, tank_.barrel_length_m, 0},
-             {Vec3::Zero(), rotation(std::numbers::pi / 2, Vec3::UnitY())});
+             {Vec3::Zero(), rotation(std::numbers::pi / 2, Vec3::UnitY())}, tank_.material);
     return barrel;
   }
 
-  int add_part(const std::string& name, double mass_kg, const std::array<double, 3>& box, const Pose& pose) {
-    model::Body body;
-    body.name = place_.name + "." + name;
-    body.actor = actor_;
-    body.mass_kg = mass_kg;
-    body.inertia = solid_inertia(model::Shape::box, box, mass_kg);
-    body.pose = pose;
-    body.velocity = place_.velocity;
-    return add_body(model_, std::move(body));
-  }
-
-  void add_geom(int body, model::Shape shape, const std::array<double, 3>& size, const Pose& local) {
-    model_.geoms.push_back({body, actor_, place_.space, shape, size, local, tank_.material});
+  /// A part with the inertia of a solid box.
+  int add_box(const std::string& name, double mass_kg, const std::array<double, 3>& box, const Pose& pose) {
+    return add_part(name, mass_kg, solid_inertia(model::Shape::box, box, mass_kg), pose);
   }
 
   /// A drive at rest: its motor holds the angle.
   void hold(const std::string& name, int inner, int outer, const Vec3& anchor, const Vec3& axis,
             double torque_nm) {
-    model::Joint joint =
-        join(model_, place_.name + "." + name, model::JointKind::hinge, inner, outer, anchor, axis);
+    model::Joint& joint = add_joint(name, model::JointKind::hinge, inner, outer, anchor, axis);
     joint.limits[0] = {0, 0};
     joint.motors[0] = {0, torque_nm};
-    model_.joints.push_back(joint);
   }
 
   const Tank& tank_;
-  const Placement& place_;
-  model::Model& model_;
-  int actor_ = 0;
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/actors/actor.h"
+#include "scenes/actors/actor_builder.h"
 #include "scenes/parts/mass_properties.h"
 
 namespace pbmpi::scenes {
@@ -72,38 +72,34 @@ std::vector<Piece> pieces_of_course(const Wall& wall, int course) {
   return pieces;
 }
 
-void add_block(const Wall& wall, const Placement& place, int actor, const std::string& name, double height_m,
-               const Piece& piece, model::Model& model) {
-  const double length = piece.to_m - piece.from_m - joint_width_m;
-  model::Geom geom;
-  geom.actor = actor;
-  geom.space = place.space;
-  geom.shape = model::Shape::box;
-  geom.size = {length, wall.thickness_m, wall.block_height_m};
-  geom.material = wall.material;
-  model::Body body;
-  body.name = name;
-  body.actor = actor;
-  body.mass_kg = wall.density_kg_m3 * volume(geom.shape, geom.size);
-  body.inertia = solid_inertia(geom.shape, geom.size, body.mass_kg);
-  body.pose = compose(place.pose, {{(piece.from_m + piece.to_m) / 2, 0, height_m}, {}});
-  body.velocity = place.velocity;
-  geom.body = add_body(model, std::move(body));
-  model.geoms.push_back(geom);
-}
+class WallBuilder : ActorBuilder {
+ public:
+  WallBuilder(const Wall& wall, const Placement& place, model::Model& model)
+      : ActorBuilder(place, model::ActorKind::wall, model), wall_(wall) {
+    model.actors[actor_].self_collision = true;
+  }
 
-void build(const Wall& wall, const Placement& place, model::Model& model) {
-  const int actor = add_actor(model, place.name, model::ActorKind::wall);
-  model.actors[actor].self_collision = true;
-  for (int course = 0; course < wall.num_courses; ++course) {
-    const double height = (course + 0.5) * wall.block_height_m - (course + 1) * initial_depth_m;
-    int number = 0;
-    for (const Piece& piece : pieces_of_course(wall, course)) {
-      const std::string name = place.name + "." + std::to_string(course + 1) + "_" + std::to_string(++number);
-      add_block(wall, place, actor, name, height, piece, model);
+  void build() {
+    for (int course = 0; course < wall_.num_courses; ++course) {
+      const double height = (course + 0.5) * wall_.block_height_m - (course + 1) * initial_depth_m;
+      int number = 0;
+      for (const Piece& piece : pieces_of_course(wall_, course))
+        add_block(std::to_string(course + 1) + "_" + std::to_string(++number), height, piece);
     }
   }
-}
+
+ private:
+  void add_block(const std::string& name, double height_m, const Piece& piece) {
+    const double length = piece.to_m - piece.from_m - joint_width_m;
+    const std::array<double, 3> size = {length, wall_.thickness_m, wall_.block_height_m};
+    const double mass_kg = wall_.density_kg_m3 * volume(model::Shape::box, size);
+    const int block = add_part(name, mass_kg, solid_inertia(model::Shape::box, size, mass_kg),
+                               compose(place_.pose, {{(piece.from_m + piece.to_m) / 2, 0, height_m}, {}}));
+    add_geom(block, model::Shape::box, size, {}, wall_.material);
+  }
+
+  const Wall& wall_;
+};
 
 /// A wall has a whole number of courses; otherwise the error is reported at `key`.
 int courses(TableReader& table, const char* key, double height_m, double block_height_m) {
@@ -158,7 +154,7 @@ ActorPlan read_wall(TableReader& actor, const SceneContext&) {
   }
   wall.num_courses = courses(actor, "height", height, wall.block_height_m);
   wall.opening = read_opening(actor, wall);
-  return [wall](const Placement& place, model::Model& model) { build(wall, place, model); };
+  return [wall](const Placement& place, model::Model& model) { WallBuilder(wall, place, model).build(); };
 }
 
 }  // namespace pbmpi::scenes

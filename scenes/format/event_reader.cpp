@@ -1,6 +1,5 @@
 #include "scenes/format/event_reader.h"
 
-#include "scenes/format/rotation_reader.h"
 #include "scenes/parts/parts.h"
 
 namespace pbmpi::scenes {
@@ -13,7 +12,7 @@ EventPlan read_launch(TableReader& table, model::Event event) {
   event.velocity = table.vector("velocity", Sign::any, Vec3(Vec3::Zero()));
   event.angular_velocity = table.vector("angular_velocity", Sign::any, Vec3(Vec3::Zero()));
   if (table.has("position")) {
-    event.pose = Pose{table.vector("position", Sign::any), read_rotation(table)};
+    event.pose = Pose{table.vector("position", Sign::any), table.rotation()};
   } else if (table.has("rotation")) {
     table.fail("rotation", "give the 'position' where the body appears, too");
   }

@@ -19,32 +19,28 @@ using model::JointKind;
 
 constexpr std::string_view world_name = "world";
 
+/// A joint as a scene has it: what of it is in body frames follows when its bodies are known.
 struct JointSpec {
-  std::string name;
-  JointKind kind = JointKind::ball;
+  model::Joint joint;
   std::vector<std::string> bodies;  // two
   std::string bodies_where;
   Vec3 anchor = Vec3::Zero(), axis1 = Vec3::UnitZ(), axis2 = Vec3::UnitX();
-  std::array<model::AxisLimit, 2> limits;
-  std::array<model::AxisMotor, 2> motors;
-  std::array<double, 2> armature{};
-  model::Spring suspension;
-  double break_force = 0, break_torque = 0;
   int num_copies = 0;  ///< 0: one joint, whose name has no number
   Vec3 spacing = Vec3::Zero();
 };
 
-void read_bodies(TableReader& table, JointSpec& joint) {
-  joint.bodies = table.texts("bodies");
-  joint.bodies_where = table.where("bodies");
-  if (joint.bodies.size() != 2) table.fail("bodies", "'bodies' must name two bodies (or one and \"world\")");
-  if (joint.bodies[0] == joint.bodies[1]) {
+void read_bodies(TableReader& table, JointSpec& spec) {
+  spec.bodies = table.texts("bodies");
+  spec.bodies_where = table.where("bodies");
+  if (spec.bodies.size() != 2) table.fail("bodies", "'bodies' must name two bodies (or one and \"world\")");
+  if (spec.bodies[0] == spec.bodies[1]) {
     table.fail("bodies",
-               "it joins the body " + core::in_quotes(joint.bodies[0]) + " to itself; name two bodies");
+               "it joins the body " + core::in_quotes(spec.bodies[0]) + " to itself; name two bodies");
   }
-  if (joint.bodies[0] == world_name) table.fail("bodies", "\"world\" must be the second of 'bodies'");
-  if (model::traits_of(joint.kind).needs_two_bodies && joint.bodies[1] == world_name) {
-    table.fail("bodies", "a " + std::string(model::name_of(joint.kind)) + " needs two bodies, not \"world\"");
+  if (spec.bodies[0] == world_name) table.fail("bodies", "\"world\" must be the second of 'bodies'");
+  if (model::traits_of(spec.joint.kind).needs_two_bodies && spec.bodies[1] == world_name) {
+    table.fail("bodies",
+               "a " + std::string(model::name_of(spec.joint.kind)) + " needs two bodies, not \"world\"");
   }
 }
 
@@ -66,56 +62,57 @@ model::AxisMotor read_motor(TableReader& table, const char* key) {
   return {velocity, max_force, hold_rate};
 }
 
-void require_axes_apart(TableReader& table, const JointSpec& joint) {
-  const double cosine = std::abs(joint.axis1.dot(joint.axis2));
+void require_axes_apart(TableReader& table, const JointSpec& spec) {
+  const double cosine = std::abs(spec.axis1.dot(spec.axis2));
   constexpr double rounding = 1e-6;  // of a user's digits
-  if (model::traits_of(joint.kind).turn == model::HeldTurn::right_angle && cosine > rounding) {
-    table.fail("axis2",
-               "the axes of a " + std::string(model::name_of(joint.kind)) + " joint must be at right angles");
+  if (model::traits_of(spec.joint.kind).turn == model::HeldTurn::right_angle && cosine > rounding) {
+    table.fail("axis2", "the axes of a " + std::string(model::name_of(spec.joint.kind)) +
+                            " joint must be at right angles");
   }
   if (cosine > 0.999) table.fail("axis2", "the two axes are parallel; turn one");
 }
 
-void read_axes(TableReader& table, JointSpec& joint) {
-  const model::JointTraits& traits = model::traits_of(joint.kind);
+void read_axes(TableReader& table, JointSpec& spec) {
+  const model::JointTraits& traits = model::traits_of(spec.joint.kind);
   constexpr const char* limit_keys[] = {"limits", "limits2"};
   constexpr const char* motor_keys[] = {"motor", "motor2"};
   constexpr const char* armature_keys[] = {"armature", "armature2"};
-  if (traits.num_axes > 0) joint.axis1 = table.direction("axis");
+  if (traits.num_axes > 0) spec.axis1 = table.direction("axis");
   if (traits.num_axes > 1) {
-    joint.axis2 = table.direction("axis2");
-    require_axes_apart(table, joint);
+    spec.axis2 = table.direction("axis2");
+    require_axes_apart(table, spec);
   }
   for (std::size_t axis = 0; axis < traits.axes.size(); ++axis) {
-    if (traits.axes[axis].has_limit) joint.limits[axis] = read_limit(table, limit_keys[axis], joint.kind);
-    if (traits.axes[axis].has_motor) joint.motors[axis] = read_motor(table, motor_keys[axis]);
+    if (traits.axes[axis].has_limit)
+      spec.joint.limits[axis] = read_limit(table, limit_keys[axis], spec.joint.kind);
+    if (traits.axes[axis].has_motor) spec.joint.motors[axis] = read_motor(table, motor_keys[axis]);
     if (traits.axes[axis].has_motor)
-      joint.armature[axis] = table.number(armature_keys[axis], Sign::non_negative, 0.0);
+      spec.joint.armature[axis] = table.number(armature_keys[axis], Sign::non_negative, 0.0);
   }
   if (traits.has_suspension()) {
-    joint.suspension.stiffness = table.number("stiffness", Sign::non_negative, 0.0);
-    joint.suspension.damping = table.number("damping", Sign::non_negative, 0.0);
+    spec.joint.suspension.stiffness = table.number("stiffness", Sign::non_negative, 0.0);
+    spec.joint.suspension.damping = table.number("damping", Sign::non_negative, 0.0);
   }
 }
 
 /// Reads the strength. A fixed joint needs its anchor only for the torque.
-void read_strength(TableReader& table, JointSpec& joint) {
-  joint.break_force = table.number("break_force", Sign::non_negative, 0.0);
-  joint.break_torque = table.number("break_torque", Sign::non_negative, 0.0);
-  const model::JointTraits& traits = model::traits_of(joint.kind);
-  const bool is_weld = traits.place == model::HeldPlace::offset && joint.break_torque > 0;
-  if (traits.has_anchor() || is_weld) joint.anchor = table.vector("anchor", Sign::any);
+void read_strength(TableReader& table, JointSpec& spec) {
+  spec.joint.break_force = table.number("break_force", Sign::non_negative, 0.0);
+  spec.joint.break_torque = table.number("break_torque", Sign::non_negative, 0.0);
+  const model::JointTraits& traits = model::traits_of(spec.joint.kind);
+  const bool is_weld = traits.place == model::HeldPlace::offset && spec.joint.break_torque > 0;
+  if (traits.has_anchor() || is_weld) spec.anchor = table.vector("anchor", Sign::any);
 }
 
-void read_copies(TableReader& table, JointSpec& joint) {
+void read_copies(TableReader& table, JointSpec& spec) {
   if (!table.has("copies")) return;
-  joint.num_copies = table.integer("copies", 1);
-  joint.spacing = table.vector("spacing", Sign::any);
+  spec.num_copies = table.integer("copies", 1);
+  spec.spacing = table.vector("spacing", Sign::any);
 }
 
-int resolve(const JointSpec& joint, GrowingModel& model, const std::string& name) {
+int resolve(const JointSpec& spec, GrowingModel& model, const std::string& name) {
   if (name == world_name) return model::no_body;
-  return model.named_body(name, joint.bodies_where + ": joint " + core::in_quotes(joint.name));
+  return model.named_body(name, spec.bodies_where + ": joint " + core::in_quotes(spec.joint.name));
 }
 
 /// "link.7" for copy 4 of "link.3"; a name that does not end in a number is the same for every copy.
@@ -131,7 +128,7 @@ std::string body_of_copy(const std::string& name, int copy) {
 
 JointSpec copy_of(const JointSpec& spec, int copy) {
   JointSpec result = spec;
-  result.name += "." + std::to_string(copy + 1);
+  result.joint.name += "." + std::to_string(copy + 1);
   for (std::string& body : result.bodies) body = body_of_copy(body, copy);
   result.anchor += copy * spec.spacing;
   return result;
@@ -140,14 +137,8 @@ JointSpec copy_of(const JointSpec& spec, int copy) {
 void build_one(const JointSpec& spec, GrowingModel& model) {
   const int a = resolve(spec, model, spec.bodies[0]);
   const int b = resolve(spec, model, spec.bodies[1]);
-  model::Joint joint = join(model, spec.name, spec.kind, a, b, spec.anchor, spec.axis1, spec.axis2);
-  joint.limits = spec.limits;
-  joint.motors = spec.motors;
-  joint.armature = spec.armature;
-  joint.suspension = spec.suspension;
-  joint.break_force = spec.break_force;
-  joint.break_torque = spec.break_torque;
-  model.joints.push_back(joint);
+  model.joints.push_back(spec.joint);
+  attach(model, a, b, spec.anchor, spec.axis1, spec.axis2, model.joints.back());
 }
 
 void build(const JointSpec& spec, GrowingModel& model) {
@@ -158,16 +149,16 @@ void build(const JointSpec& spec, GrowingModel& model) {
 }  // namespace
 
 JointPlan read_joint(TableReader& table) {
-  JointSpec joint;
-  joint.name = table.text("name");
-  table.set_what("joint " + core::in_quotes(joint.name));
-  joint.kind = static_cast<JointKind>(table.choice("kind", model::joint_kind_names));
-  read_bodies(table, joint);
-  read_strength(table, joint);
-  read_axes(table, joint);
-  read_copies(table, joint);
+  JointSpec spec;
+  spec.joint.name = table.text("name");
+  table.set_what("joint " + core::in_quotes(spec.joint.name));
+  spec.joint.kind = static_cast<JointKind>(table.choice("kind", model::joint_kind_names));
+  read_bodies(table, spec);
+  read_strength(table, spec);
+  read_axes(table, spec);
+  read_copies(table, spec);
   table.finish();
-  return [joint](GrowingModel& model) { build(joint, model); };
+  return [spec](GrowingModel& model) { build(spec, model); };
 }
 
 }  // namespace pbmpi::scenes

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scenes/parts/parts.h"
 
 namespace pbmpi::scenes {
 namespace {
@@ -144,6 +145,15 @@ core::Vec3 TableReader::direction(std::string_view key, const std::optional<core
   const core::Vec3 value = vector(key, Sign::any, fallback);
   if (value.norm() < 1e-9) fail(key, core::in_quotes(key) + " has no direction; give one that is not zero");
   return value.normalized();
+}
+
+core::Quat TableReader::rotation(std::string_view key) {
+  auto turn = table(key);
+  if (!turn) return {};
+  const core::Vec3 axis = turn->direction("axis");
+  const double angle_deg = turn->number("angle", Sign::any);
+  turn->finish();
+  return scenes::rotation(radians(angle_deg), axis);
 }
 
 std::vector<std::string> TableReader::texts(std::string_view key) {

@@ -42,6 +42,8 @@ class TableReader {
   core::Vec3 vector_or_infinity(std::string_view key);
   /// Reads a vector and scales it to unit length; refuses zero.
   core::Vec3 direction(std::string_view key, const std::optional<core::Vec3>& fallback = std::nullopt);
+  /// Reads `key = { axis = [x, y, z], angle = deg }`; the identity without the key.
+  core::Quat rotation(std::string_view key = "rotation");
   std::vector<std::string> texts(std::string_view key);
   /// Reads [a, b, ...], not empty.
   std::vector<int> integers(std::string_view key, int least);

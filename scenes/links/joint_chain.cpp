@@ -41,21 +41,19 @@ std::vector<ChainPiece> pieces_of(const std::vector<LinkJoint>& joints) {
   return pieces;
 }
 
-Mat3 about(const Vec3& arm) { return arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose(); }
-
 /// Splits a body of mass m at distance d from the point: the part s m moves into the point, and the rest
 /// moves out to d / (1 - s). This keeps mass and centre, and costs the inertia s / (1 - s) m d^2.
 void split_about(const Vec3& point, std::size_t count, JointChain& chain) {
   const Vec3 arm = chain.rest.centre - point;
   const double mass = chain.rest.mass_kg;
   constexpr double most_loss = 0.25;  // of any moment
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat3> losses(mass * about(arm), chain.rest.inertia,
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat3> losses(steiner(mass, arm), chain.rest.inertia,
                                                               Eigen::EigenvaluesOnly);
   const double most = most_loss / std::max(losses.eigenvalues().maxCoeff(), most_loss);
   const double share = std::min(share_between, most / (1 + most) / static_cast<double>(count));
   const double all = share * static_cast<double>(count);
-  const double turning = (chain.rest.inertia + mass * about(arm)).trace() / 3;
-  chain.rest.inertia -= all / (1 - all) * mass * about(arm);
+  const double turning = (chain.rest.inertia + steiner(mass, arm)).trace() / 3;
+  chain.rest.inertia -= steiner(all / (1 - all) * mass, arm);
   chain.rest.mass_kg = (1 - all) * mass;
   chain.rest.centre = point + arm / (1 - all);
   chain.between.assign(count, {share * mass, point, share_between * turning * Mat3::Identity()});

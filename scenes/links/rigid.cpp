@@ -11,10 +11,6 @@ namespace {
 
 using model::Mat3;
 
-Mat3 steiner(double mass, const Vec3& arm) {
-  return mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
-}
-
 /// Moves a link's mass and geoms into the rigid; `pose`: that of the link in the rigid's frame.
 void take_over(const Link& link, int index, const Pose& pose, Rigid& rigid) {
   if (link.mass) rigid.mass = together(rigid.mass, moved(*link.mass, pose));

@@ -28,9 +28,8 @@ model::AxisLimit read_range(Attributes& joint, bool is_angle, double reference, 
 void refuse_axis_laws(Attributes& joint, const links::LinkJoint& read, bool is_limited) {
   const auto refuse = [&](std::string_view name, bool is_on) {
     if (is_on)
-      joint.fail(name, core::in_quotes(name) +
-                           " of a joint of type ball or free has no equal; take hinges, or " +
-                           xml::LeaveOut::advice(name));
+      joint.fail_unless_left_out(
+          name, core::in_quotes(name) + " of a joint of type ball or free has no equal; take hinges");
   };
   refuse("damping", read.drive.damping > 0);
   refuse("stiffness", read.drive.stiffness > 0);
@@ -64,8 +63,7 @@ ReadJoint read_joint(Attributes attributes, const std::string& name, const Compi
   const bool is_limited = compiler.is_limited(attributes, "limited", "range") && option.has_limits;
   if (!is_hinge && !is_slide) refuse_axis_laws(attributes, joint, is_limited);
   if (is_limited) joint.limit = read_range(attributes, is_hinge, joint.reference, compiler);
-  attributes.refuse({"springdamper"},
-                    "give 'stiffness' and 'damping' instead, or " + xml::LeaveOut::advice("springdamper"));
+  attributes.refuse({"springdamper"}, "give 'stiffness' and 'damping' instead");
   for (const char* key : {"solreflimit", "solimplimit", "solreffriction", "solimpfriction", "margin"}) {
     if (attributes.has(key))
       notes.add(attributes.where(key), core::in_quotes(key) + " of joints is left out: limits are rigid");

@@ -56,11 +56,10 @@ class BodyReader {
     link.pose = read_pose(body, context_.compiler);
     childclass = body.text("childclass", childclass);
     if (body.flag("mocap", false))
-      body.fail("mocap", "'mocap' bodies, which are moved from outside, have no equal; take it out, or " +
-                             xml::LeaveOut::advice("mocap"));
+      body.fail_unless_left_out("mocap",
+                                "'mocap' bodies, which are moved from outside, have no equal; take it out");
     if (body.number("gravcomp", xml::Range::any, 0.0) != 0)
-      body.fail("gravcomp", "gravity acts on all bodies alike; take 'gravcomp' out, or " +
-                                xml::LeaveOut::advice("gravcomp"));
+      body.fail_unless_left_out("gravcomp", "gravity acts on all bodies alike; take 'gravcomp' out");
     body.allow({"user", "sleep"});
     body.finish();
     mechanism_.links.push_back(std::move(link));
@@ -99,8 +98,7 @@ class BodyReader {
   void skip(const xml::Element& child) {
     if (std::ranges::find(onlookers_of_bodies, child.name) != onlookers_of_bodies.end()) return;
     if (!context_.leave_out.drops(child.name, child.where))
-      Attributes(child).fail("this element cannot be read here; write out its bodies, or " +
-                             xml::LeaveOut::advice(child.name));
+      xml::refuse_element(child, "this element cannot be read here; write out its bodies");
   }
 
   links::Link& link(int index) { return mechanism_.links[static_cast<std::size_t>(index)]; }

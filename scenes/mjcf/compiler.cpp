@@ -56,14 +56,6 @@ Quat read_xy_axes(Attributes& element) {
   return Quat::from_eigen(Eigen::Quaterniond(axes).normalized());
 }
 
-Quat read_quat(Attributes& element) {
-  const std::vector<double> q = element.numbers("quat", 4, 4);
-  const Eigen::Quaterniond value(q[0], q[1], q[2], q[3]);
-  if (!(value.norm() > 0))
-    element.fail("quat", "'quat' is zero and turns nothing; give a quaternion (w, x, y, z)");
-  return Quat::from_eigen(value.normalized());
-}
-
 void read_flags(const xml::Element& element, const xml::LeaveOut& leave_out, Option& option) {
   Attributes flags(element, leave_out);
   const auto is_on = [&](std::string_view name) {
@@ -76,8 +68,8 @@ void read_flags(const xml::Element& element, const xml::LeaveOut& leave_out, Opt
   for (const std::string_view name : {"constraint", "equality", "frictionloss", "passive", "spring", "damper",
                                       "filterparent", "clampctrl"}) {
     if (!is_on(name))
-      flags.fail(name, core::in_quotes(name) + " cannot be disabled here; take out what it turns off, or " +
-                           xml::LeaveOut::advice(name));
+      flags.fail_unless_left_out(
+          name, core::in_quotes(name) + " cannot be disabled here; take out what it turns off");
   }
   flags.allow({"warmstart", "refsafe", "sensor", "midphase", "eulerdamp", "nativeccd", "autoreset", "island",
                "override", "energy", "fwdinv", "invdiscrete", "sensornoise", "multiccd"});
@@ -135,8 +127,8 @@ void read_option(const xml::Element& element, const xml::LeaveOut& leave_out, Op
   option.gravity = from.vector("gravity", option.gravity);
   for (const char* name : {"density", "viscosity"}) {
     if (from.number(name, Range::any, 0.0) != 0)
-      from.fail(name, "a medium has no equal here; in a TOML scene, [air] has a density; take it out, or " +
-                          xml::LeaveOut::advice(name));
+      from.fail_unless_left_out(
+          name, "a medium has no equal here; in a TOML scene, [air] has a density; take it out");
   }
   from.word("collision", {"all"}, "all");
   if (from.has("o_margin") || from.has("o_solref") || from.has("o_solimp") || from.has("o_friction"))
@@ -172,8 +164,7 @@ void read_option(const xml::Element& element, const xml::LeaveOut& leave_out, Op
     if (child.name == "flag") {
       read_flags(child, leave_out, option);
     } else if (!leave_out.drops(child.name, child.where)) {
-      Attributes(child).fail("unknown element; <option> has only <flag>; take it out, or " +
-                             xml::LeaveOut::advice(child.name));
+      xml::refuse_element(child, "unknown element; <option> has only <flag>; take it out");
     }
   }
 }
@@ -189,7 +180,7 @@ Pose read_pose(Attributes& element, const Compiler& compiler) {
                              " both give the orientation; leave out one");
     given = name;
   }
-  if (given == "quat") pose.orientation = read_quat(element);
+  if (given == "quat") pose.orientation = element.turn("quat");
   if (given == "axisangle") pose.orientation = read_axis_angle(element, compiler);
   if (given == "euler") pose.orientation = read_euler(element, compiler);
   if (given == "xyaxes") pose.orientation = read_xy_axes(element);

@@ -91,17 +91,17 @@ ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const xml::L
     const bool is_known = type == "mesh" || type == "ellipsoid" || type == "hfield" || type == "sdf";
     const bool is_drawing = is_known && contype == 0 && conaffinity == 0;
     if (!is_drawing && !leave_out.names(type))
-      attributes.fail(
-          "type", "geoms of type " + core::in_quotes(type) +
-                      " cannot be collided here; take spheres, capsules, cylinders, boxes or planes, or " +
-                      xml::LeaveOut::advice(type));
+      attributes.fail_unless_left_out(
+          "type",
+          "geoms of type " + core::in_quotes(type) +
+              " cannot be collided here; take spheres, capsules, cylinders, boxes or planes",
+          type);
     leave_out.notes().add(attributes.where(),
                           "a geom of type " + core::in_quotes(type) + " is left out, and so is its mass");
     return {};
   }
   attributes.drop(leave_out);  // now that 'mesh' can only mean the type
-  attributes.refuse({"shellinertia"}, "hollow geoms are not read; give the body an <inertial>, or " +
-                                          xml::LeaveOut::advice("shellinertia"));
+  attributes.refuse({"shellinertia"}, "hollow geoms are not read; give the body an <inertial>");
   links::LinkGeom geom;
   geom.shape = *shape;
   geom.where = attributes.where();

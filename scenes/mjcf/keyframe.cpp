@@ -26,8 +26,7 @@ void require_rest(xml::Attributes& key) {
   for (const char* name : {"qvel", "act"}) {
     const std::vector<double> values = key.numbers(name, 1, most_values);
     if (std::ranges::any_of(values, [](double value) { return value != 0; }))
-      key.fail(name, core::in_quotes(name) + " of a keyframe is not read; set it to 0, or " +
-                         xml::LeaveOut::advice(name));
+      key.fail_unless_left_out(name, core::in_quotes(name) + " of a keyframe is not read; set it to 0");
   }
 }
 

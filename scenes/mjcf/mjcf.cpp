@@ -126,8 +126,7 @@ class Reader {
   }
 
   void leave_out_or_fail(const xml::Element& one, const std::string& problem) {
-    if (!leave_out_.drops(one.name, one.where))
-      Attributes(one).fail(problem + "; take it out, or " + xml::LeaveOut::advice(one.name));
+    if (!leave_out_.drops(one.name, one.where)) xml::refuse_element(one, problem + "; take it out");
   }
 
   void scale_mass() {

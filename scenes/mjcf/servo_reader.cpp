@@ -13,9 +13,7 @@ using xml::Range;
 
 void allow_others(Attributes& actuator) {
   actuator.allow({"name", "class", "group", "user", "lengthrange", "actlimited", "actrange", "actearly"});
-  for (const std::string_view name : {"timeconst", "dampratio"})
-    actuator.refuse(
-        {name}, "the servos here have no such term; give 'kp' and 'kv', or " + xml::LeaveOut::advice(name));
+  actuator.refuse({"timeconst", "dampratio"}, "the servos here have no such term; give 'kp' and 'kv'");
 }
 
 /// MuJoCo clips controls to their range.
@@ -92,8 +90,8 @@ void ActuatorReader::require_idle(const xml::Element& element, double control) c
   Attributes actuator(element, context_.leave_out, context_.defaults.of(element, ""));
   if (clipped(control, actuator, context_.compiler) == 0) return;
   const std::string why = control == 0 ? "'ctrlrange' leaves out 0" : "the keyframe gives it a control";
-  actuator.fail("ctrlrange", why + ", so that it always acts, which has no equal; change that, or " +
-                                 xml::LeaveOut::advice(element.name));
+  actuator.fail_unless_left_out(
+      "ctrlrange", why + ", so that it always acts, which has no equal; change that", element.name);
 }
 
 void ActuatorReader::read(const xml::Element& element, double control) {
@@ -107,11 +105,9 @@ void ActuatorReader::read(const xml::Element& element, double control) {
   } else if (element.name == "position" || element.name == "velocity") {
     read_servo(element, control);
   } else if (is_actuator(element.name)) {
-    Attributes(element).fail("an actuator of this type has no equal; take position, velocity or motor, or " +
-                             xml::LeaveOut::advice(element.name));
+    xml::refuse_element(element, "an actuator of this type has no equal; take position, velocity or motor");
   } else {
-    Attributes(element).fail("unknown element in <actuator>; take it out, or " +
-                             xml::LeaveOut::advice(element.name));
+    xml::refuse_element(element, "unknown element in <actuator>; take it out");
   }
 }
 

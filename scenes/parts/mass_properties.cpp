@@ -16,6 +16,10 @@ double volume(const std::vector<Solid>& solids) {
   return sum;
 }
 
+model::Mat3 steiner(double mass_kg, const model::Vec3& arm) {
+  return mass_kg * (arm.squaredNorm() * model::Mat3::Identity() - arm * arm.transpose());
+}
+
 MassProperties mass_properties(const std::vector<Solid>& solids, double mass_kg) {
   const double whole = volume(solids);
   const auto share_of = [&](const Solid& solid) { return volume(solid.shape, solid.size) / whole; };
@@ -26,7 +30,7 @@ MassProperties mass_properties(const std::vector<Solid>& solids, double mass_kg)
     const model::Mat3 axes = solid.pose.orientation.to_eigen().toRotationMatrix();
     const model::Vec3 arm = solid.pose.position - sum.centre;
     sum.inertia += axes * solid_inertia(solid.shape, solid.size, mass) * axes.transpose();
-    sum.inertia += mass * (arm.squaredNorm() * model::Mat3::Identity() - arm * arm.transpose());  // Steiner
+    sum.inertia += steiner(mass, arm);
   }
   return sum;
 }

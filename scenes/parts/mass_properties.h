@@ -32,6 +32,9 @@ struct MassProperties {
   model::Mat3 inertia = model::Mat3::Identity();  ///< [kg m^2] about the centre, axes of the parts' frame
 };
 
+/// What a mass at the end of `arm` [m] adds to a moment of inertia about the arm's start (Steiner).
+model::Mat3 steiner(double mass_kg, const model::Vec3& arm);
+
 /// The properties of parts of one density with a total mass of `mass_kg`.
 MassProperties mass_properties(const std::vector<Solid>& solids, double mass_kg);
 

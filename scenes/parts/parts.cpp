@@ -72,19 +72,24 @@ int add_body(model::Model& model, model::Body body) {
   return model.num_bodies() - 1;
 }
 
-model::Joint join(const model::Model& model, std::string name, model::JointKind kind, int a, int b,
-                  const Vec3& anchor, const Vec3& axis1, const Vec3& axis2) {
+void attach(const model::Model& model, int a, int b, const Vec3& anchor, const Vec3& axis1, const Vec3& axis2,
+            model::Joint& joint) {
   const Pose pose_a = pose_of(model, a);
   const Pose pose_b = pose_of(model, b);
-  model::Joint joint;
-  joint.name = std::move(name);
-  joint.kind = kind;
   joint.body_a = a;
   joint.body_b = b;
   joint.anchor_a = point_to_inner(pose_a, anchor);
   joint.anchor_b = point_to_inner(pose_b, anchor);
   joint.axis1_a = direction_to_inner(pose_a, axis1);
   joint.axis2_b = direction_to_inner(pose_b, axis2);
+}
+
+model::Joint join(const model::Model& model, std::string name, model::JointKind kind, int a, int b,
+                  const Vec3& anchor, const Vec3& axis1, const Vec3& axis2) {
+  model::Joint joint;
+  joint.name = std::move(name);
+  joint.kind = kind;
+  attach(model, a, b, anchor, axis1, axis2, joint);
   return joint;
 }
 

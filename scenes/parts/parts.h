@@ -31,8 +31,12 @@ void add_event(model::Model& model, const model::Event& event);
 int add_actor(model::Model& model, std::string name, model::ActorKind kind);
 int add_body(model::Model& model, model::Body body);
 
-/// A joint whose anchor and axes are given in the world frame at the initial poses; the anchors of the two
-/// bodies coincide. `b` may be model::no_body. Axes need not have unit length.
+/// Joins two bodies, of which `b` may be model::no_body, by `joint`, whose anchor and axes are given in the
+/// world frame at the initial poses; the anchors of the two bodies coincide. Axes need not have unit length.
+void attach(const model::Model& model, int a, int b, const Vec3& anchor, const Vec3& axis1, const Vec3& axis2,
+            model::Joint& joint);
+
+/// A joint of that name and kind, attached.
 model::Joint join(const model::Model& model, std::string name, model::JointKind kind, int a, int b,
                   const Vec3& anchor, const Vec3& axis1 = Vec3::UnitZ(), const Vec3& axis2 = Vec3::UnitX());
 

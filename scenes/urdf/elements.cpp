@@ -32,9 +32,6 @@ const Element& need_child(const Element& element, std::string_view name) {
 void pass_over(const Element& child, const Element& parent, const std::vector<std::string>& known,
                const LeaveOut& leave_out) {
   if (leave_out.drops(child.name, child.where)) return;
-  const auto fail = [&](const std::string& why) {
-    Attributes(child).fail(why + ", or " + LeaveOut::advice(child.name));
-  };
   if (child.name.starts_with("xacro:"))
     Attributes(child).fail("this is a xacro file; convert it to URDF with xacro first");
   // What other dialects add to a robot's motion: Drake's and Gazebo's.
@@ -44,11 +41,13 @@ void pass_over(const Element& child, const Element& parent, const std::vector<st
                                                       "drake:linear_spring_damper",
                                                       "drake:linear_bushing_rpy",
                                                       "drake:rotor_inertia"};
-  if (std::ranges::find(moving, child.name) != moving.end()) fail("this element has no equal; take it out");
+  if (std::ranges::find(moving, child.name) != moving.end())
+    xml::refuse_element(child, "this element has no equal; take it out");
   constexpr int misspelt = 2;  // letters; longer names that begin alike are other tools'
   if (std::ranges::any_of(
           known, [&](const std::string& name) { return core::edit_distance(child.name, name) <= misspelt; }))
-    fail("unknown element in <" + parent.name + ">" + core::suggestion(child.name, known) + " Rename it");
+    xml::refuse_element(child, "unknown element in <" + parent.name + ">" +
+                                   core::suggestion(child.name, known) + " Rename it");
   leave_out.notes().add(child.where, "<" + child.name + "> is left out");
 }
 
@@ -65,12 +64,10 @@ Pose read_origin(const Element& element, const LeaveOut& leave_out) {
   Attributes attributes(*origin, leave_out);
   Pose pose;
   pose.position = attributes.vector("xyz", Vec3(Vec3::Zero()));
-  if (const auto q = attributes.numbers("quat_xyzw", 4, 4); !q.empty()) {
-    const Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
+  if (attributes.has("quat_xyzw")) {
     if (attributes.has("rpy"))
       attributes.fail("rpy", "'rpy' and 'quat_xyzw' both give the orientation; leave out one");
-    if (!(turn.norm() > 0)) attributes.fail("quat_xyzw", "'quat_xyzw' is zero and turns nothing");
-    pose.orientation = Quat::from_eigen(turn.normalized());
+    pose.orientation = attributes.turn("quat_xyzw", true);
   } else {
     const core::Vec3 angles = attributes.vector("rpy", Vec3(Vec3::Zero()));  // about the fixed axes, x first
     const Eigen::Quaterniond turn = rotation(angles.z(), Vec3::UnitZ()).to_eigen() *

@@ -44,8 +44,7 @@ void read_limit(const Element& element, const std::string& type, links::LinkJoin
 void refuse_other_dynamics(Attributes& dynamics) {
   for (const char* name : {"stiffness", "spring_stiffness", "armature", "rotor_inertia"}) {
     if (dynamics.number(name, Range::any, 0.0) != 0)
-      dynamics.fail(
-          name, core::in_quotes(name) + " is not read of a URDF; set it to 0, or " + LeaveOut::advice(name));
+      dynamics.fail_unless_left_out(name, core::in_quotes(name) + " is not read of a URDF; set it to 0");
   }
   dynamics.allow({"spring_reference", "gear_ratio"});
 }
@@ -83,8 +82,7 @@ void refuse_mimic(const Element& element, const LeaveOut& leave_out) {
   const Element* mimic = child_of(element, "mimic");
   if (mimic == nullptr) return;
   if (!leave_out.names("mimic"))
-    Attributes(*mimic).fail("a joint that follows another has no equal; take it out, or " +
-                            LeaveOut::advice("mimic"));
+    xml::refuse_element(*mimic, "a joint that follows another has no equal; take it out");
   leave_out.notes().add(mimic->where, "'mimic' is left out: the joint moves freely");
 }
 

@@ -65,9 +65,8 @@ std::optional<links::LinkGeom> read_collision(const Element& element, const Leav
   if (shape.name == "mesh") {
     if (leave_out.drops(shape.name, shape.where)) return std::nullopt;
     const xml::Attribute* file = shape.find("filename");
-    Attributes(shape).fail("this shape" + (file == nullptr ? "" : " (" + file->value + ")") +
-                           " cannot be collided here; take boxes, spheres and cylinders, or " +
-                           LeaveOut::advice(shape.name));
+    xml::refuse_element(shape, "this shape" + (file == nullptr ? "" : " (" + file->value + ")") +
+                                   " cannot be collided here; take boxes, spheres and cylinders");
   }
   links::LinkGeom geom;
   geom.where = shape.where;

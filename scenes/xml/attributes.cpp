@@ -106,6 +106,15 @@ core::Vec3 Attributes::direction(std::string_view name, const core::Vec3& fallba
   return (value / largest).normalized();
 }
 
+core::Quat Attributes::turn(std::string_view name, bool real_last) {
+  std::vector<double> q = numbers(name, 4, 4);
+  if (real_last) std::ranges::rotate(q, q.end() - 1);
+  const Eigen::Quaterniond value(q[0], q[1], q[2], q[3]);
+  if (!(value.norm() > 0))
+    fail(name, core::in_quotes(name) + " is zero and turns nothing; give a quaternion that is not");
+  return core::Quat::from_eigen(value.normalized());
+}
+
 bool Attributes::flag(std::string_view name, bool fallback) {
   return word(name, {"true", "false"}, fallback ? "true" : "false") == "true";
 }
@@ -124,7 +133,7 @@ void Attributes::allow(std::initializer_list<std::string_view> names) {
 
 void Attributes::refuse(std::initializer_list<std::string_view> names, const std::string& problem) {
   for (const std::string_view name : names) {
-    if (has(name)) fail(name, core::in_quotes(name) + ": " + problem);
+    if (has(name)) fail_unless_left_out(name, core::in_quotes(name) + ": " + problem);
   }
 }
 
@@ -169,6 +178,15 @@ void Attributes::fail(const std::string& problem) const {
 
 void Attributes::fail(std::string_view name, const std::string& problem) const {
   throw core::InputError(where(name) + ": " + what_ + ": " + problem);
+}
+
+void Attributes::fail_unless_left_out(std::string_view name, const std::string& problem,
+                                      std::string_view left_out) const {
+  fail(name, problem + ", or " + LeaveOut::advice(left_out.empty() ? name : left_out));
+}
+
+void refuse_element(const Element& element, const std::string& problem) {
+  Attributes(element).fail(problem + ", or " + LeaveOut::advice(element.name));
 }
 
 const Attribute* Attributes::find(std::string_view name) {

@@ -42,6 +42,9 @@ class Attributes {
   core::Vec3 vector(std::string_view name, const std::optional<core::Vec3>& fallback = std::nullopt);
   /// Reads a vector and scales it to unit length; refuses zero.
   core::Vec3 direction(std::string_view name, const core::Vec3& fallback);
+  /// Reads a quaternion (w, x, y, z), or (x, y, z, w) with `real_last`, and scales it to unit length; refuses
+  /// zero. The attribute must be there.
+  core::Quat turn(std::string_view name, bool real_last = false);
   /// Reads "true" or "false".
   bool flag(std::string_view name, bool fallback);
   /// Reads one of `words`.
@@ -50,7 +53,7 @@ class Attributes {
 
   /// Allows attributes whose values do not matter here.
   void allow(std::initializer_list<std::string_view> names);
-  /// Refuses any of these attributes, with this reason and advice.
+  /// Refuses any of these attributes, with this reason and the advice to leave it out.
   void refuse(std::initializer_list<std::string_view> names, const std::string& problem);
   /// To be called when all attributes have been read.
   void finish() const;
@@ -63,6 +66,10 @@ class Attributes {
   std::string where(std::string_view name) const;
   [[noreturn]] void fail(const std::string& problem) const;
   [[noreturn]] void fail(std::string_view name, const std::string& problem) const;
+  /// fail() for what can also be left out: "problem, or leave it out (...)". `left_out`: what to name for
+  /// that; empty: the attribute.
+  [[noreturn]] void fail_unless_left_out(std::string_view name, const std::string& problem,
+                                         std::string_view left_out = {}) const;
 
  private:
   const Attribute* find(std::string_view name);
@@ -75,5 +82,8 @@ class Attributes {
   std::vector<Attribute> attributes_;
   std::vector<std::string> known_;
 };
+
+/// Refuses an element, with the advice to leave it out: "problem, or leave it out (...)".
+[[noreturn]] void refuse_element(const Element& element, const std::string& problem);
 
 }  // namespace pbmpi::scenes::xml

@@ -237,4 +237,19 @@ void validate(const Model& model, const std::string& where) {
   }
 }
 
+void require_kind_has(const Joint& joint) {
+  const JointTraits& traits = traits_of(joint.kind);
+  for (int axis = 0; axis < 2; ++axis) {
+    require_input(traits.axes[axis].has_motor || !joint.motors[axis].active(),
+                  "joint '" + joint.name + "': it has a motor on axis " + std::to_string(axis + 1) +
+                      ", which its kind does not have; remove the motor");
+    require_input(traits.axes[axis].has_limit || !joint.limits[axis].active(),
+                  "joint '" + joint.name + "': it has a limit on axis " + std::to_string(axis + 1) +
+                      ", which its kind cannot limit; remove the limit");
+  }
+  require_input(
+      !traits.needs_two_bodies || joint.body_b != no_body,
+      "joint '" + joint.name + "': a " + std::string(traits.name) + " needs two bodies; name the second");
+}
+
 }  // namespace pbmpi::model

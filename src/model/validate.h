@@ -28,4 +28,8 @@ class ActorError : public core::InputError {
 /// interest without extent, or without iterations outside.
 void validate(const Model& model, const std::string& where);
 
+/// Throws core::InputError where a joint has a motor, a limit or a second body of the world that its kind
+/// cannot have.
+void require_kind_has(const Joint& joint);
+
 }  // namespace pbmpi::model

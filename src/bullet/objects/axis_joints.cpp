@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "model/joint_traits.h"
+#include "model/validate.h"
 
 namespace pbmpi::bullet {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "model/joint_traits.h"
+#include "model/validate.h"
 #include "stepping/observable_table.h"
 
 namespace pbmpi::stepping {
@@ -14,20 +15,6 @@ namespace {
 /// Is it a setting of a joint's axis? Releases are handled by effects::Breakage.
 bool is_setting(const model::Event& event) {
   return event.kind == model::EventKind::motor || event.kind == model::EventKind::steer;
-}
-
-void require_expressible(const model::Joint& joint) {
-  const model::JointTraits& traits = model::traits_of(joint.kind);
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    core::require_input(traits.axes[axis].has_motor || !joint.motors[axis].active(),
-                        "joint '" + joint.name + "': it has a motor on axis " + std::to_string(axis + 1) +
-                            ", which its kind does not have; remove the motor");
-    core::require_input(traits.axes[axis].has_limit || !joint.limits[axis].active(),
-                        "joint '" + joint.name + "': it has a limit on axis " + std::to_string(axis + 1) +
-                            ", which its kind cannot limit; remove the limit");
-  }
-  core::require_input(!traits.needs_two_bodies || joint.body_b != model::no_body,
-                      "joint '" + joint.name + "': a hinge2 needs two bodies; name the wheel");
 }
 
 void require_drivable(const model::Model& model) {
@@ -50,7 +37,7 @@ JointedWorld::JointedWorld(const model::Model& model, MotorTargets& targets, con
       row_counter_(model) {
   for (int j = 0; j < model.num_joints(); ++j) {
     const model::Joint& joint = model.joints[static_cast<std::size_t>(j)];
-    require_expressible(joint);
+    model::require_kind_has(joint);
     for (int axis = 0; axis < 2; ++axis) hold(j, axis, joint.motors[static_cast<std::size_t>(axis)]);
   }
 }
