@@ -75,20 +75,19 @@ std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const S
   return times_s;
 }
 
-/// An estimate's drift is the drift of the precise run that it is taken from.
-void measure_drift(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
-                   const Worlds& worlds, CaseResult& result) {
-  CaseStepper stepper(worlds, one.stepper, one.steps_per_frame);
-  PoseErrors errors;
-  for (int frame = 0; frame < scene.total_frames(); ++frame) {
-    stepper.advance_frame();
-    if (frame < scene.warmup) continue;
-    errors.append(errors_of(stepper, worlds, reference.states[static_cast<std::size_t>(frame) + 1]));
-  }
-  result.drift = analysis::summarize(errors);
-}
-
 }  // namespace
+
+analysis::ErrorTable drift_of(const StudyScene& scene, const Reference& reference, const Worlds& worlds,
+                              const SolveFrame& solve) {
+  PoseErrors errors;
+  States states = reference.states.front();
+  for (int frame = 0; frame < scene.total_frames(); ++frame) {
+    states = solve(states, frame);
+    if (frame < scene.warmup) continue;
+    errors.append(errors_between(worlds, states, reference.states[static_cast<std::size_t>(frame) + 1]));
+  }
+  return analysis::summarize(errors);
+}
 
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
                     const RestRunner& rest, int repeats, const FrameEnds* own) {
@@ -96,7 +95,12 @@ CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Refe
   const Worlds worlds = worlds_at_step(reference, scene, one.stepper.dt_s, one.stepper.seed);
   const auto times_s = measure_defect(one, scene, reference, worlds, repeats, own, result);
   summarize_times(times_s, result);
-  measure_drift(one, scene, reference, worlds, result);
+  // An estimate's drift is that of the precise run that it is taken from.
+  CaseStepper stepper(worlds, one.stepper, one.steps_per_frame);
+  result.drift = drift_of(scene, reference, worlds, [&](const States&, int) {
+    stepper.advance_frame();
+    return stepper.states();
+  });
   result.rest = one.kind == CaseKind::setting ? rest.run(one.stepper) : RestResult{NAN, NAN, NAN, NAN};
   return result;
 }

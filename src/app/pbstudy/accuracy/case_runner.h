@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <type_traits>
 #include <vector>
 
@@ -38,6 +39,15 @@ static_assert(std::is_trivially_copyable_v<CaseResult>);
 /// States at the ends of the measured frames, each frame begun in the reference's state:
 /// [frames][num_worlds].
 using FrameEnds = std::vector<std::vector<model::State>>;
+
+/// The states [num_worlds] of all worlds.
+using States = std::vector<model::State>;
+/// Computes frame `frame` from these states.
+using SolveFrame = std::function<States(const States& start, int frame)>;
+
+/// The errors of the measured frames of a run from the reference's first states.
+analysis::ErrorTable drift_of(const StudyScene& scene, const Reference& reference, const Worlds& worlds,
+                              const SolveFrame& solve);
 
 /// Runs a setting or an estimate. `own`: the ends of its own solution; null: no comparison with one.
 CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,

@@ -10,7 +10,6 @@
 namespace pbmpi::app {
 
 using model::State;
-using States = std::vector<State>;
 
 namespace {
 

@@ -1,18 +1,11 @@
 #include "app/pbstudy/accuracy/yardsticks.h"
 
 #include <cmath>
-#include <functional>
 
 #include "core/clock.h"
 
 namespace pbmpi::app {
 namespace {
-
-using model::State;
-using States = std::vector<State>;
-
-/// Computes frame `frame` from these states.
-using SolveFrame = std::function<States(const States& start, int frame)>;
 
 /// The defect of the measured frames.
 void measure_defect(const StudyScene& scene, const SolvedReference& reference, const Worlds& worlds,
@@ -30,18 +23,6 @@ void measure_defect(const StudyScene& scene, const SolvedReference& reference, c
   summarize_times(times_s, result);
 }
 
-void measure_drift(const StudyScene& scene, const SolvedReference& reference, const Worlds& worlds,
-                   const SolveFrame& solve, CaseResult& result) {
-  analysis::PoseErrors errors;
-  States states = reference.states.front();
-  for (int frame = 0; frame < scene.total_frames(); ++frame) {
-    states = solve(states, frame);
-    if (frame < scene.warmup) continue;
-    errors.append(errors_between(worlds, states, reference.states[static_cast<std::size_t>(frame) + 1]));
-  }
-  result.drift = analysis::summarize(errors);
-}
-
 /// Solves the reference anew, with the case's seed and step.
 CaseResult solve_anew(const AccuracyCase& one, const StudyScene& scene, const SolvedReference& reference,
                       const AccuracyOptions& options) {
@@ -56,7 +37,7 @@ CaseResult solve_anew(const AccuracyCase& one, const StudyScene& scene, const So
   };
   CaseResult result = unobserved();
   measure_defect(scene, reference, worlds, solve, result);
-  measure_drift(scene, reference, worlds, solve, result);
+  result.drift = drift_of(scene, reference, worlds, solve);
   result.solve_residual = stepper.account().residual;
   result.solve_iterations = stepper.account().iterations;
   return result;
@@ -102,7 +83,7 @@ CaseResult account_for(const StudyScene& scene, const SolvedReference& reference
   };
   CaseResult result = unobserved();
   measure_defect(scene, reference, reference.worlds, look_up, result);
-  measure_drift(scene, reference, reference.worlds, look_up, result);
+  result.drift = drift_of(scene, reference, reference.worlds, look_up);
   result.solve_residual = reference.account.residual;
   result.solve_iterations = reference.account.iterations;
   return result;

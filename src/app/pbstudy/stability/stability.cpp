@@ -9,16 +9,14 @@
 namespace pbmpi::app {
 namespace {
 
-using Outcomes = CaseOutcomes<StabilityResult, RecordedPose>;
+using Outcomes = CaseOutcomes<StabilityResult, CurvePoint, RecordedPose>;
 
 Outcomes run_cases(const StabilityOptions& options, const std::vector<StabilityCase>& cases,
                    StudyRunner& runner) {
-  return runner.run<StabilityResult, RecordedPose>(cases, cost_of, [&](std::size_t i) {
+  return runner.run<StabilityResult, CurvePoint, RecordedPose>(cases, cost_of, [&](std::size_t i) {
     const StabilityCase& one = cases[i];
     const HardScene hard = build_hard_scene(runner.scene(one.scene), one.stepper.dt_s, options.seed);
-    CaseOutcome<StabilityResult, RecordedPose> outcome;
-    outcome.result = run_stability_case(one, hard, options.most_poses, outcome.rows_of<RecordedPose>());
-    return outcome;
+    return run_stability_case(one, hard, options.most_poses);
   });
 }
 
@@ -50,7 +48,7 @@ core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<st
     const StabilityRows rows{runner.scenes(), options.settings, hard_cases, cases, measured.results};
     StudyContent content;
     content.cases = stability_columns(rows);
-    content.tables = stability_tables(rows, poses);
+    content.tables = stability_tables(measured.rows_of<CurvePoint>(), poses);
     content.tables.merge(replay_tables(replayed));
     content.tables["differences"] = engine_differences(models, steppers_of(cases));
     content.note = stability_note(rows);

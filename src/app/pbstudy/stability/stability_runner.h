@@ -2,16 +2,16 @@
 #pragma once
 
 #include <array>
-#include <type_traits>
-#include <vector>
 
 #include "app/pbstudy/stability/stability_cases.h"
+#include "app/pbstudy/study/case_outcome.h"
 #include "stability/cases/case_watch.h"
 
 namespace pbmpi::app {
 
 /// A point of a case's curves: the worst values from the point before until `time_s`.
 struct CurvePoint {
+  std::int32_t case_index = 0;
   double time_s = 0;
   double energy_j = 0;  ///< at `time_s`
   double joint_gap_m = 0;
@@ -40,16 +40,13 @@ struct StabilityResult {
   double simulated_s = 0;
   double step_time_s = 0;  ///< processor time per step, mean
   double row_visits = 0;   ///< per step, mean
-  int num_points = 0;
-  std::array<CurvePoint, most_curve_points> curve{};
 
   stability::CaseMeasurement measurement(const stability::HardCase& hard_case) const;
 };
-static_assert(std::is_trivially_copyable_v<StabilityResult>);
-static_assert(std::is_trivially_copyable_v<RecordedPose>);
 
-/// Appends at most `most_poses` poses, at evenly spaced moments.
-StabilityResult run_stability_case(const StabilityCase& one, const HardScene& hard, int most_poses,
-                                   std::vector<RecordedPose>& poses);
+using StabilityOutcome = CaseOutcome<StabilityResult, CurvePoint, RecordedPose>;
+
+/// With at most `most_poses` poses, at evenly spaced moments.
+StabilityOutcome run_stability_case(const StabilityCase& one, const HardScene& hard, int most_poses);
 
 }  // namespace pbmpi::app

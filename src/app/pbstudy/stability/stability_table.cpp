@@ -80,26 +80,14 @@ std::vector<io::TableColumn> stability_columns(const StabilityRows& rows) {
   return columns;
 }
 
-std::map<std::string, std::vector<io::TableColumn>> stability_tables(const StabilityRows& rows,
+std::map<std::string, std::vector<io::TableColumn>> stability_tables(const std::vector<CurvePoint>& points,
                                                                      const std::vector<RecordedPose>& poses) {
-  struct Point {
-    int case_index;
-    CurvePoint at;
-  };
-  std::vector<Point> points;
-  for (const StabilityResult& result : rows.results) {
-    for (int i = 0; i < result.num_points; ++i)
-      points.push_back({result.index, result.curve[static_cast<std::size_t>(i)]});
-  }
-  const auto curve = [&](const char* name, const char* unit, double CurvePoint::*number) {
-    return column(name, unit, points, [number](const Point& p) { return p.at.*number; });
-  };
-  std::vector<io::TableColumn> curves = {column("case", "", points, &Point::case_index),
-                                         curve("time", "s", &CurvePoint::time_s),
-                                         curve("energy", "J", &CurvePoint::energy_j),
-                                         curve("joint_gap", "m", &CurvePoint::joint_gap_m),
-                                         curve("penetration", "m", &CurvePoint::penetration_m),
-                                         curve("drift", "m", &CurvePoint::drift_m)};
+  std::vector<io::TableColumn> curves = {column("case", "", points, &CurvePoint::case_index),
+                                         column("time", "s", points, &CurvePoint::time_s),
+                                         column("energy", "J", points, &CurvePoint::energy_j),
+                                         column("joint_gap", "m", points, &CurvePoint::joint_gap_m),
+                                         column("penetration", "m", points, &CurvePoint::penetration_m),
+                                         column("drift", "m", points, &CurvePoint::drift_m)};
   std::vector<double> numbers;
   for (const RecordedPose& pose : poses) numbers.insert(numbers.end(), pose.pose.begin(), pose.pose.end());
   std::vector<io::TableColumn> replay = {column("case", "", poses, &RecordedPose::case_index),

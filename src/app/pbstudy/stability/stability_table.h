@@ -22,7 +22,7 @@ struct StabilityRows {
 /// Columns with one row per case (io/SCHEMA.md).
 std::vector<io::TableColumn> stability_columns(const StabilityRows& rows);
 /// Tables "curves" and "poses".
-std::map<std::string, std::vector<io::TableColumn>> stability_tables(const StabilityRows& rows,
+std::map<std::string, std::vector<io::TableColumn>> stability_tables(const std::vector<CurvePoint>& points,
                                                                      const std::vector<RecordedPose>& poses);
 
 /// What a replay shows of scenes at rest: tables "bodies" and "geoms", scene by scene.
