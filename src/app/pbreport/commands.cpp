@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <ostream>
 
-#include "app/pbreport/csv/csv.h"
-#include "app/pbreport/csv/csv_options.h"
 #include "app/pbreport/diff/diff.h"
 #include "app/pbreport/diff/diff_options.h"
 #include "app/pbreport/join/join.h"
@@ -36,8 +34,7 @@ const std::vector<ReportCommand>& report_commands() {
       {"effects", "what effects cost: the file of pbstudy effects"},
       {"stability", "which settings hold the hard cases: the file of pbstudy stability"},
       {"engines", "engines side by side: files of pbstudy accuracy and pbstudy stability"},
-      {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ...",
-       run_csv},
+      {"csv", "a table of a run as comma-separated values: bodies, observables, timings, events ..."},
       {"ensemble", "mean, spread and quantiles over runs that differ in their seeds"},
       {"scaling", "what more ranks bring: runs of the same work on different numbers of ranks"},
       {"calibrate", "what the harness costs, forecast for more ranks: the file of pbstudy calibrate"},

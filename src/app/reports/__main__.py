@@ -1,4 +1,4 @@
-"""python3 reports COMMAND FILE [options]: pbreport's reports on studies and on several runs. pbreport calls it, once it has checked the
+"""python3 reports COMMAND FILE [options]: pbreport's reports on studies and runs. pbreport calls it, once it has checked the
 seals of the files."""
 import importlib
 import pathlib
@@ -18,7 +18,7 @@ except ImportError as error:
 
 # By command; a module has run(words), which prints.
 MODULES = {"study": "accuracy", "effects": "effects", "stability": "stability", "engines": "engines", "scaling": "scaling",
-           "ensemble": "ensemble", "calibrate": "calibrate", "islands": "islands"}
+           "ensemble": "ensemble", "calibrate": "calibrate", "islands": "islands", "csv": "one_run.csv_report"}
 
 
 def fail(message, code):

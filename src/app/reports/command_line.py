@@ -17,7 +17,7 @@ WRITTEN = ("html", "csv", "output", "write_config")  # options that name a file 
 
 @dataclasses.dataclass
 class Command:
-    """`usage`: what follows the command's name; `add_options(group)` adds the command's own options."""
+    """`usage`: what follows the command's name; `add_options(group)` adds the command's own options; `examples`: command lines."""
     name: str
     about: str
     usage: str
@@ -25,6 +25,8 @@ class Command:
     markdown: str = ""  # what --markdown prints
     csv: str = ""  # what --csv writes
     add_options: object = None
+    prints_report: bool = True  # --json and --quiet make sense for it
+    examples: tuple = ()
 
 
 class Layout(argparse.HelpFormatter):
@@ -62,13 +64,15 @@ def parser_of(command):
         group.add_argument("--html", metavar="OUT", help=f"one self-contained page: {command.page}")
     if command.csv:
         group.add_argument("--csv", metavar="OUT", help=command.csv)
-    group.add_argument("--json", action="store_true", help="print all as one JSON document")
+    if command.prints_report:
+        group.add_argument("--json", action="store_true", help="print all as one JSON document")
     if command.markdown:
         group.add_argument("--markdown", action="store_true", help=command.markdown)
     group.add_argument("-h", "--help", nargs="?", const="all", metavar="all", help="print this help")
     group.add_argument("--config", metavar="FILE", help="read options from FILE, one 'name = value' a line; the command line wins")
     printed = "--json or --markdown asks" if command.markdown else "--json asks"
-    group.add_argument("-q", "--quiet", action="store_true", help=f"print nothing but errors and what {printed} for")
+    if command.prints_report:
+        group.add_argument("-q", "--quiet", action="store_true", help=f"print nothing but errors and what {printed} for")
     return parser
 
 
@@ -116,7 +120,9 @@ def help_text(command, parser):
     """In the layout of the other programs' help."""
     options = parser.format_help()
     about = f"pbreport {command.name} {command.about[0].lower()}{command.about[1:]}"
-    return f"{textwrap.fill(about, 80, break_on_hyphens=False)}\n\nUsage: pbreport {command.name} {command.usage}\n\n{options[options.index('Options:'):]}"
+    examples = "".join(f"  $ {example}\n" for example in command.examples)
+    return (f"{textwrap.fill(about, 80, break_on_hyphens=False)}\n\nUsage: pbreport {command.name} {command.usage}\n\n"
+            f"{options[options.index('Options:'):]}" + (f"\nExamples:\n{examples}" if examples else ""))
 
 
 def parse(command, words):
@@ -133,7 +139,7 @@ def parse(command, words):
         more = config_words(options.config, parser, words)
         require_known(more, parser)
         options = parser.parse_args(words, parser.parse_args(more))
-    require(not (options.json and getattr(options, "markdown", False)), "--json and --markdown: print one of the two")
+    require(not (command.markdown and options.json and options.markdown), "--json and --markdown: print one of the two")
     require_separate(options)
     return options
 
@@ -179,9 +185,15 @@ def add_table_option(group, names, usual):
 
 def require_table(options, names):
     """Raises BadInput unless --table names one of these."""
-    near = difflib.get_close_matches(options.table, names, 1)
-    hint = f"did you mean '{near[0]}'?" if near else f"known: {', '.join(map(repr, names))}"
-    require(options.table in names, f"--table {options.table}: there is no such table; {hint}")
+    require(options.table in names, f"--table {options.table}: there is no such table; {suggestion(options.table, names)}")
+
+
+def suggestion(word, names):
+    """What may have been meant by a name that is not among these."""
+    near = difflib.get_close_matches(word, names, 1)
+    if near:
+        return f"did you mean '{near[0]}'?"
+    return f"known: {', '.join(map(repr, names))}" if names else "there are none"
 
 
 class PrintError(Exception):

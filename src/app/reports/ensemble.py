@@ -9,16 +9,14 @@ from reports import page, tables
 from reports.command_line import Command, Listed, add_table_option, deliver, parse, require_table
 from reports.document import MARKDOWN, TEXT, Report, Section, Table
 from reports.files import require
-from reports.runs import Run, difference_text, differences
+from reports.runs import OBSERVABLES, Run, difference_text, differences
 from reports.samples import quantile, total
 from reports.tables import Values
 
 FILETYPE, VERSION = "pbmpi-ensemble", (1, 6)
 TABLES = ("runs", "frames", "positions", "bodies", "worlds", "body_frames")
 RUNS, WORLDS = "runs", "worlds"  # what a sample is: a run with its worlds joined, or each world of each run
-# Columns of /observables/world and their units. Worlds are joined by their sum, or by the largest.
-OBSERVABLES = {"contacts": "", "rows": "", "islands": "", "max_island_rows": "", "fast_bodies": "", "row_visits": "", "energy": "J",
-               "max_penetration": "m", "joint_gap": "m", "nonfinite": "", "linear_momentum": "kg m s-1", "angular_momentum": "kg m2 s-1"}
+# Worlds are joined by their sum, or by the largest.
 VECTORS = ("linear_momentum", "angular_momentum")
 LARGEST = ("max_island_rows", "max_penetration", "joint_gap")
 AXES = "xyz"

@@ -9,7 +9,6 @@ import numpy as np
 from reports.words import short
 
 RUN, STUDY = "pbmpi-run", "pbmpi-study"
-HDF5_MARK = b"\x89HDF\r\n\x1a\n"
 
 
 class BadInput(Exception):
@@ -119,20 +118,19 @@ def own_output(path):
 
 
 def write_file(path, text):
-    """Puts the text under the name `path` in one go, keeping the permissions of an old file, which must not be HDF5: that may be
-    somebody's data. Devices, pipes and this program's own output are written to directly."""
-    data = text.encode("utf-8", "replace")
+    """Puts the text, or all parts of one, under the name `path` in one go, keeping the permissions of an old file, which must not be HDF5:
+    that may be somebody's data. Devices, pipes and this program's own output are written to directly."""
+    data = (part.encode("utf-8", "replace") for part in ([text] if isinstance(text, str) else text))
     try:
         require(not os.path.isdir(path) and not path.endswith("/"), f"{path}: it is a folder; name a file to write")
         number = own_output(path)
         if number is not None or (os.path.exists(path) and not os.path.isfile(path)):
             with open(path if number is None else number, "wb", closefd=number is None) as stream:
-                stream.write(data)
+                stream.writelines(data)
             return
         target, mode = os.path.realpath(path), None
         if os.path.exists(target):
-            with open(target, "rb") as old:
-                require(old.read(len(HDF5_MARK)) != HDF5_MARK, f"{path}: it is an HDF5 file, which a text does not replace; name another file")
+            require(not h5py.is_hdf5(target), f"{path}: it is an HDF5 file, which a text does not replace; name another file")
             require(os.access(target, os.W_OK), f"{path}: it cannot be written: Permission denied")
             mode = os.stat(target).st_mode & 0o7777
         replace(target, data, mode)
@@ -141,14 +139,14 @@ def write_file(path, text):
 
 
 def replace(target, data, mode):
-    """Writes beside the target and renames, so that a kill leaves the old file or the new one."""
+    """Writes parts of bytes beside the target and renames, so that a kill leaves the old file or the new one."""
     if mode is None:
         mode = 0o666 & ~current_umask()
     folder, name = os.path.split(target)
     descriptor, temporary = tempfile.mkstemp(prefix=f".{name}.", dir=folder)
     try:
         with open(descriptor, "wb") as stream:
-            stream.write(data)
+            stream.writelines(data)
             stream.flush()
             os.fsync(stream.fileno())
         os.chmod(temporary, mode)

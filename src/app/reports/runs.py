@@ -3,6 +3,9 @@ from reports.files import RUN, BadInput, open_file, require, text_of
 
 PHASES = ("collide", "islands", "rows", "solve", "integrate", "cross_space", "ship", "gather", "wait", "output")  # of a rank, in a frame
 USEFUL = PHASES[:6]  # time spent on the simulation itself
+# Columns of /observables/world and their units.
+OBSERVABLES = {"contacts": "", "rows": "", "islands": "", "max_island_rows": "", "fast_bodies": "", "row_visits": "", "energy": "J",
+               "max_penetration": "m", "joint_gap": "m", "nonfinite": "", "linear_momentum": "kg m s-1", "angular_momentum": "kg m2 s-1"}
 # What a parameter matters for: another value gives other results, another sample of the same case, other estimates, or none of these.
 RESULTS, SEED, ESTIMATE, NOTHING = "results", "seed", "estimate", "nothing"
 SEEDS = ("seed", "solver_seed", "world_range")

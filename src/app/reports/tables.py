@@ -101,6 +101,6 @@ def write_tables(path, filetype, *content):
     target = os.path.realpath(path)
     mode = os.stat(target).st_mode & 0o7777 if os.path.exists(target) else None
     try:
-        files.replace(target, image_of(filetype, *content), mode)
+        files.replace(target, [image_of(filetype, *content)], mode)
     except OSError as error:
         raise files.BadInput(f"cannot write {path}: {error.strerror}") from None
