@@ -32,17 +32,6 @@ Provenance provenance_of(const RunData& run, const std::string& maker) {
   return {joined({origin(run.attributes), page_by(maker)}), {}};
 }
 
-Provenance provenance_of(const std::vector<FileAttributes>& runs, const std::string& maker) {
-  Provenance provenance{
-      joined({std::to_string(runs.size()) + (runs.size() == 1 ? " run" : " runs"), page_by(maker)}), {}};
-  for (const auto& [path, attributes] : runs) {
-    const std::string hash = core::value_in(attributes, "state_hash");
-    provenance.entries.emplace_back(path, joined({core::value_in(attributes, "command_line"),
-                                                  origin(attributes), hash.empty() ? "" : "state " + hash}));
-  }
-  return provenance;
-}
-
 std::string provenance_json(const Provenance& provenance) {
   nlohmann::json entries = nlohmann::json::array();
   for (const auto& [name, text] : provenance.entries) entries.push_back({name, text});

@@ -19,12 +19,6 @@ struct Provenance {
 /// attributes and parameters elsewhere.
 Provenance provenance_of(const RunData& run, const std::string& maker);
 
-/// The attributes of a file's root, by the file's name.
-using FileAttributes = std::pair<std::string, std::map<std::string, std::string>>;
-
-/// The provenance of several runs: for each its command line, its program, and its state hash.
-Provenance provenance_of(const std::vector<FileAttributes>& runs, const std::string& maker);
-
 /// JSON for io/html/web/base.js.
 std::string provenance_json(const Provenance& provenance);
 

@@ -9,8 +9,6 @@
 
 #include "core/error.h"
 #include "core/system/paths.h"
-#include "io/extract/run_settings.h"
-#include "io/extract/run_tables.h"
 #include "io/file/output_target.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/commit_record.h"
@@ -21,18 +19,21 @@
 #include "io/join/join_events.h"
 #include "io/join/join_plan.h"
 #include "io/join/join_rows.h"
+#include "io/join/run_outline.h"
+#include "io/join/run_settings.h"
+#include "io/table/table_file.h"
 
 namespace pbmpi::io {
 namespace {
 
 /// A file that has been checked.
 struct Source {
-  RunTables run;
+  RunOutline run;
   File file;
   PartFrames frames;
 
-  explicit Source(const std::string& path) : run(path), file(open_run(path)) {
-    frames = {path, run.frames().empty() ? 0 : run.frames().front().frame, std::ssize(run.frames())};
+  explicit Source(const std::string& path) : run(read_outline(path)), file(open_run(path)) {
+    frames = {path, run.frames.empty() ? 0 : run.frames.front().frame, std::ssize(run.frames)};
   }
 };
 
@@ -58,8 +59,8 @@ std::vector<std::unique_ptr<Source>> open_all(const std::vector<std::string>& pa
 void require_same_attribute(const Source& a, const Source& b, const std::string& name,
                             const std::string& advice) {
   const auto value = [&name](const Source& source) {
-    const auto found = source.run.attributes().find(name);
-    return found == source.run.attributes().end() ? std::string("(none)") : found->second;
+    const auto found = source.run.attributes.find(name);
+    return found == source.run.attributes.end() ? std::string("(none)") : found->second;
   };
   core::require_input(value(a) == value(b), a.frames.path + " and " + b.frames.path +
                                                 " cannot be joined: " + name + " is " + value(a) + " and " +
@@ -68,8 +69,8 @@ void require_same_attribute(const Source& a, const Source& b, const std::string&
 
 /// Throws unless all frames have the same number of steps, starting from the first frame.
 void require_steps(const Source& source) {
-  const std::int64_t steps_per_frame = std::atoll(source.run.parameters().at("steps_per_frame").c_str());
-  for (const FrameTime& frame : source.run.frames())
+  const std::int64_t steps_per_frame = std::atoll(source.run.parameters.at("steps_per_frame").c_str());
+  for (const FrameNumber& frame : source.run.frames)
     core::require_input(frame.step == (frame.frame + 1) * steps_per_frame,
                         source.frames.path + ": frame " + std::to_string(frame.frame) + " ends with step " +
                             std::to_string(frame.step) + ", which is none of one run");
@@ -93,7 +94,7 @@ void require_one_run(const Source& a, const Source& b) {
   require_same_attribute(a, b, "record_every", "record all with the same interval");
   std::vector<ParameterDifference> apart;
   for (const Matters matters : {Matters::results, Matters::seed, Matters::estimate}) {
-    const auto more = differences(a.run.parameters(), b.run.parameters(), matters);
+    const auto more = differences(a.run.parameters, b.run.parameters, matters);
     apart.insert(apart.end(), more.begin(), more.end());
   }
   core::require_input(apart.empty(), path_a + " and " + path_b + " are not of one run: " +
@@ -107,7 +108,7 @@ std::vector<JoinPart> parts_of(const std::vector<std::unique_ptr<Source>>& sourc
   std::vector<JoinPart> parts;
   parts.reserve(sources.size());
   for (const auto& source : sources)
-    parts.push_back({source->frames.path, source->file.id(), std::ssize(source->run.items().hosts)});
+    parts.push_back({source->frames.path, source->file.id(), std::ssize(source->run.hosts)});
   return parts;
 }
 
@@ -134,7 +135,7 @@ File create_alone(const std::string& path) {
 void write_ranks(const std::vector<std::unique_ptr<Source>>& sources, hid_t to) {
   std::vector<std::string> hosts;
   for (const auto& source : sources) {
-    const std::vector<std::string>& of_part = source->run.items().hosts;
+    const std::vector<std::string>& of_part = source->run.hosts;
     hosts.resize(std::max(hosts.size(), of_part.size()));
     for (std::size_t rank = 0; rank < of_part.size(); ++rank) {
       std::string& all = hosts[rank];
@@ -169,14 +170,14 @@ void write_ranks(const std::vector<std::unique_ptr<Source>>& sources, hid_t to) 
 std::vector<std::string> differences_from(const Source& first, const Source& other) {
   std::vector<std::string> texts;
   for (const ParameterDifference& one :
-       differences(first.run.parameters(), other.run.parameters(), Matters::nothing)) {
+       differences(first.run.parameters, other.run.parameters, Matters::nothing)) {
     if (one.name != "resumed_from" && one.name != "joined_from" && one.name != "frames" &&
         !one.name.starts_with("env_"))
       texts.push_back(one.name + " is " + one.b);
   }
   const auto revision = [](const Source& source) {
-    const auto found = source.run.attributes().find("git_revision");
-    return found == source.run.attributes().end() ? std::string() : found->second;
+    const auto found = source.run.attributes.find("git_revision");
+    return found == source.run.attributes.end() ? std::string() : found->second;
   };
   if (revision(first) != revision(other)) texts.push_back("git_revision is " + revision(other));
   return texts;
@@ -190,7 +191,7 @@ JoinedRun describe(const std::vector<std::unique_ptr<Source>>& sources, const Jo
   for (const Stretch& stretch : plan.stretches()) joined.parts[stretch.part].num_used += stretch.count;
   joined.first_frame = plan.first();
   joined.num_frames = plan.num_frames();
-  const auto& attributes = sources[plan.stretches().back().part]->run.attributes();
+  const auto& attributes = sources[plan.stretches().back().part]->run.attributes;
   joined.complete = attributes.at("complete") != "0";
   joined.state_hash = attributes.at("state_hash");
   if (joined.state_hash.find_first_not_of(' ') == std::string::npos) joined.state_hash.clear();
@@ -204,10 +205,10 @@ std::string provenance(const JoinedRun& joined, const std::vector<std::unique_pt
     const JoinedRun::Part& part = joined.parts[i];
     text += part.path + ": frames " + std::to_string(part.first_frame) + " to " +
             std::to_string(part.first_frame + part.num_frames - 1) + ", " + std::to_string(part.num_used) +
-            " of them taken; created " + sources[i]->run.attributes().at("created");
+            " of them taken; created " + sources[i]->run.attributes.at("created");
     for (const std::string& one : part.differs) text += "; " + one;
     text += "\n";
-    const auto& parameters = sources[i]->run.parameters();
+    const auto& parameters = sources[i]->run.parameters;
     if (const auto before = parameters.find("joined_from"); before != parameters.end()) {
       std::istringstream lines(before->second);
       for (std::string line; std::getline(lines, line);) text += "  " + line + "\n";
@@ -220,12 +221,12 @@ void write_parameters(const std::vector<std::unique_ptr<Source>>& sources, const
                       const std::string& joined_from, hid_t to) {
   const Source& last = *sources[plan.stretches().back().part];
   std::size_t num_ranks = 0;
-  for (const auto& source : sources) num_ranks = std::max(num_ranks, source->run.items().hosts.size());
+  for (const auto& source : sources) num_ranks = std::max(num_ranks, source->run.hosts.size());
   const auto put = [to](const Parameter& value) {
     create_scalar(to, "/parameters/" + value.name, value, true);
   };
   put(Parameter::of("frames",
-                    static_cast<std::int64_t>(std::atoll(last.run.parameters().at("frames").c_str()))));
+                    static_cast<std::int64_t>(std::atoll(last.run.parameters.at("frames").c_str()))));
   put(Parameter::of("ranks", static_cast<std::int64_t>(num_ranks)));
   put(Parameter::of("joined_from", joined_from));
 }
@@ -254,7 +255,7 @@ JoinedRun join_runs(const std::vector<std::string>& paths, const std::string& ou
     if (source != sources.front()) require_one_run(*sources.front(), *source);
     frames.push_back(source->frames);
   }
-  const JoinPlan plan(std::move(frames), sources.front()->run.record_every());
+  const JoinPlan plan(std::move(frames), sources.front()->run.record_every);
   const std::vector<JoinPart> parts = parts_of(sources);
   try {
     const CommonTables common = tables_of(parts, common_only);

@@ -139,18 +139,6 @@ void read_estimate(hid_t file, std::int64_t num_recorded, RunData& run) {
   run.estimate.precise_s = read_doubles(file, "/estimate/precise", run.frames_committed, 1);
 }
 
-/// Joints that are broken stay broken: the last frame has them all.
-void read_broken(hid_t file, RunData& run) {
-  const std::string path = "/observables/joint/broken_in";
-  if (!has_object(file, "/observables/joint") || !has_object(file, path) || run.frames_committed == 0) return;
-  const std::vector<hsize_t> dims = dims_of(file, path);
-  if (dims.size() != 2) throw core::RunError(path + " is not a table");
-  const RawRows rows = raw_rows(file, path, run.frames_committed);
-  if (rows.row_bytes != dims[1] * sizeof(std::int32_t)) throw core::RunError(path + " is not of int32");
-  run.broken_in.resize(dims[1]);
-  rows.read(static_cast<hsize_t>(run.frames_committed) - 1, 1, run.broken_in.data());
-}
-
 std::vector<bool> to_flags(const std::vector<std::int64_t>& values) {
   std::vector<bool> flags;
   flags.reserve(values.size());
@@ -229,7 +217,6 @@ RunData read_all(hid_t file) {
   read_frames(file, run);
   read_profiles(file, run);
   read_estimate(file, run.frames_committed / record_every, run);
-  read_broken(file, run);
   read_events(file, run);
   run.world_id = read_world_ids(file, run.num_worlds);
   run.world_results = read_world_results(file);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -79,7 +78,6 @@ struct RunData {
   std::vector<std::vector<IslandRow>> islands;  ///< [T] of all worlds; empty unless the run recorded them
   std::map<std::string, Table> space_times;     ///< cross_contacts, collide, collide_spaces; as for islands
   EstimateData estimate;
-  std::vector<std::int32_t> broken_in;     ///< [J] after the last frame; empty: none can break, or unknown
   std::vector<std::string> hosts;          ///< [R]
   std::vector<stepping::RunEvent> events;  ///< events that have a row in the file, in order of arrival
   std::map<std::string, std::int64_t> num_events;  ///< kind -> number, those without a row included
@@ -93,38 +91,5 @@ struct RunData {
 RunData read_run(const std::string& path);
 /// Throws core::InputError as read_run() does, also if what is committed does not match its checksums.
 void require_sound_run(const std::string& path);
-
-/// A contact of the last step of a frame, in the world frame.
-struct ContactRow {
-  std::int64_t body_a = 0, body_b = -1;  ///< global ids; -1 = static
-  core::Vec3 position, normal;           ///< [m]; unit, into body a
-  double depth_m = 0, mu = 0;
-  double normal_force = 0;  ///< [N] on body a
-  core::Vec3 friction;      ///< [N] on body a
-};
-
-/// The data recorded of a frame in addition to poses; only contacts that acted.
-struct RecordedContacts {
-  std::vector<ContactRow> contacts;
-  std::vector<core::Vec3> velocity, angular_velocity;  ///< [N] m/s, rad/s
-};
-
-/// Reads contacts frame by frame: those of a long run are too many to hold.
-class ContactReader {
- public:
-  /// Throws core::InputError as read_run() does.
-  explicit ContactReader(const std::string& path);
-  ~ContactReader();
-  ContactReader(const ContactReader&) = delete;
-  ContactReader& operator=(const ContactReader&) = delete;
-
-  bool has_any() const;  ///< the run recorded contacts, and has a frame
-  RecordedContacts read(std::size_t recorded_row) const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-  std::string path_;
-};
 
 }  // namespace pbmpi::io

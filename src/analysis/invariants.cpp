@@ -1,6 +1,5 @@
 #include "analysis/invariants.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -72,17 +71,6 @@ std::vector<double> segment_stretch(const Model& model, const std::vector<Segmen
                                          : std::numeric_limits<double>::quiet_NaN());
   }
   return stretch;
-}
-
-StretchBands count_stretch(const std::vector<double>& stretch) {
-  StretchBands bands{};
-  for (const double s : stretch) {
-    const auto band = std::isfinite(s) ? std::upper_bound(stretch_edges.begin(), stretch_edges.end(), s) -
-                                             stretch_edges.begin()
-                                       : std::ptrdiff_t{3};
-    ++bands[static_cast<std::size_t>(band)];
-  }
-  return bands;
 }
 
 }  // namespace pbmpi::analysis

@@ -1,8 +1,6 @@
 /// An invariant of a world, independent of any reference: the length of human segments.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "analysis/pose_errors.h"
@@ -25,11 +23,5 @@ std::vector<Segment> human_segments(const model::Model& model);
 /// broken joint is left out.
 std::vector<double> segment_stretch(const model::Model& model, const std::vector<Segment>& segments,
                                     PoseView poses);
-
-/// Stretch below 3 %, 3 to 20 %, beyond 20 %, not finite. Harrison, Rensink and van de Panne (SIGGRAPH 2004):
-/// with full attention 3 % can be seen; without it more than 20 % can go unnoticed.
-inline constexpr std::array<double, 2> stretch_edges = {0.03, 0.20};
-using StretchBands = std::array<std::int64_t, 4>;
-StretchBands count_stretch(const std::vector<double>& stretch);
 
 }  // namespace pbmpi::analysis

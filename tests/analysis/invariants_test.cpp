@@ -47,10 +47,5 @@ TEST(Segments, joints_pulled_apart_stretch_the_segment_between_them) {
   EXPECT_NEAR(segment_stretch(model, segments, view(state))[0], 0.1, 1e-14);
 }
 
-TEST(Segments, stretch_falls_into_bands) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(count_stretch({0, 0.029, 0.03, 0.19, 0.2, 3, nan}), (StretchBands{2, 2, 2, 1}));
-}
-
 }  // namespace
 }  // namespace pbmpi::analysis

@@ -90,7 +90,7 @@ class Whole(Files):
 
 class Joined(unittest.TestCase):
     def test_the_parameters_that_change_no_result_are_those_of_pbreport_join(self):
-        text = (SOURCE / "io/extract/run_settings.cpp").read_text(encoding="utf-8")
+        text = (SOURCE / "io/join/run_settings.cpp").read_text(encoding="utf-8")
         [names] = re.findall(r"std::array nothing = \{(.*?)\};", text, re.DOTALL)
         self.assertEqual(FREE, set(re.findall(r'"(\w+)"', names)))
         beginnings = re.findall(r'name\.starts_with\("(\w+)"\)', text)

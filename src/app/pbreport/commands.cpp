@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <ostream>
 
-#include "app/pbreport/diff/diff.h"
-#include "app/pbreport/diff/diff_options.h"
 #include "app/pbreport/join/join.h"
 #include "app/pbreport/python_report.h"
 #include "app/pbreport/repair/repair.h"
@@ -29,7 +27,7 @@ const std::vector<ReportCommand>& report_commands() {
       {"report", "the summary of one run, its HTML page, its ParaView sidecar (the default)",
        run_first_command},
       {"islands", "the paper's Table 1 from runs"},
-      {"diff", "how far two recorded runs of the same bodies are apart", run_diff},
+      {"diff", "how far two recorded runs of the same bodies are apart"},
       {"study", "what accuracy costs in time: the file of pbstudy, and the setting for a budget"},
       {"effects", "what effects cost: the file of pbstudy effects"},
       {"stability", "which settings hold the hard cases: the file of pbstudy stability"},

@@ -95,12 +95,24 @@ def filetype_of(path):
         return ""
 
 
-def write_tables(path, filetype, *content):
+def seal_of(data):
+    """What follows the bytes of a file that is written whole, so that later changes are noticed (src/core/system/seal.h)."""
+    value, words = 0x9e3779b97f4a7c15, np.frombuffer(data + bytes(-len(data) % 8), "<u8").tolist()
+    if len(data) % 8 == 0:
+        words.append(0)
+    for word in (*words, len(data)):
+        value = (value ^ word) * 0x100000001b3 % 2 ** 64
+        value ^= value >> 32
+    return b"PBMPISUM" + len(data).to_bytes(8, "little") + value.to_bytes(8, "little")
+
+
+def write_tables(path, filetype, *content, is_sealed=False):
     """`content`: as image_of() takes it. The file gets its name once it is complete."""
     require_replaceable(path, filetype)  # once more: it may have been made meanwhile
     target = os.path.realpath(path)
     mode = os.stat(target).st_mode & 0o7777 if os.path.exists(target) else None
     try:
-        files.replace(target, [image_of(filetype, *content)], mode)
+        image = image_of(filetype, *content)
+        files.replace(target, [image, seal_of(image)] if is_sealed else [image], mode)
     except OSError as error:
         raise files.BadInput(f"cannot write {path}: {error.strerror}") from None

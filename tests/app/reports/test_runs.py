@@ -75,7 +75,7 @@ class Reading(Files):
 
 class Settings(Files):
     def test_what_changes_no_result_is_what_the_cpp_says(self):
-        text = (SOURCE / "io/extract/run_settings.cpp").read_text(encoding="utf-8")
+        text = (SOURCE / "io/join/run_settings.cpp").read_text(encoding="utf-8")
         for kind, names in (("seeds", runs.SEEDS), ("nothing", runs.FREE)):
             [listed] = re.findall(rf"std::array {kind} = \{{(.*?)\}};", text, re.DOTALL)
             self.assertEqual(set(names), set(re.findall(r'"(\w+)"', listed)))

@@ -144,7 +144,7 @@ def event_lines(run, table, choice):
     columns = run.read(table, 0, run.num_rows(table))
     values = {column.name: column.values[:, 0] for column in columns}
     world = values.get("world", np.full(len(values["frame"]), -1))
-    measured = np.isin(values["frame"], run.number[run.measured])
+    measured = np.isin(values["frame"], run.frame_number[run.measured])
     yield lambda: lines(columns, choice.has_frames(values["frame"], measured) & is_chosen(choice.world, world))
 
 
@@ -168,8 +168,8 @@ def blocks(rows, sizes):
 
 def frame_lines(run, table, choice):
     frames = run.frames_of(table)
-    rows = np.flatnonzero(choice.has_frames(run.number[frames], run.measured[frames]))
-    stamps = [",".join(stamp) for stamp in zip(*map(texts_of, (run.number, run.step, run.time, run.measured.astype(int))))]
+    rows = np.flatnonzero(choice.has_frames(run.frame_number[frames], run.measured[frames]))
+    stamps = [",".join(stamp) for stamp in zip(*map(texts_of, (run.frame_number, run.step, run.time, run.measured.astype(int))))]
     if table.items == CONTACTS:
         for first, count in blocks(rows, np.diff(run.contacts_before)[rows]):
             yield functools.partial(contact_lines, run, run.read(table, first, count), choice, stamps, first)

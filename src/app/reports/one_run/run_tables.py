@@ -63,13 +63,13 @@ def column_name(path):
 class RunTables(Run):
     """A run, the tables that its file has, and the names of what their rows are about.
 
-    step, time [s], number: [T], of each frame; body_name, actor, kind, body_world: [N]; joint_name, joint_world: [J];
+    step, time [s], frame_number: [T], of each frame; body_name, actor, kind, body_world: [N]; joint_name, joint_world: [J];
     contacts_before: [T + 1], the number of contacts before each frame."""
 
     def __init__(self, path):
         super().__init__(path)
         self.step, self.time = self.frames("timings/frame/step"), self.frames("timings/frame/time")
-        self.number = self.first_frame + np.arange(self.num_frames)
+        self.frame_number = self.first_frame + np.arange(self.num_frames)
         bodies = ("name", "actor", "kind", "world")
         self.body_name, self.actor, self.kind, self.body_world = (self.column(f"particles/bodies/{what}") for what in bodies)
         has_joints = self.has("joints/name")

@@ -1,4 +1,4 @@
-#include "io/extract/run_settings.h"
+#include "io/join/run_settings.h"
 
 #include <algorithm>
 #include <array>
