@@ -57,6 +57,12 @@ class GrowingTable {
   void put(std::size_t column, hsize_t item, T value) {
     put(column, item, &value, 1);
   }
+  /// Puts items of one or more numbers each, one after the other.
+  void put(std::size_t column, hsize_t first_item, std::span<const double> numbers) {
+    core::require_invariant(numbers.size_bytes() % columns_[column].item_bytes == 0,
+                            "items of another width than their column");
+    if (!numbers.empty()) std::memcpy(place(column, first_item), numbers.data(), numbers.size_bytes());
+  }
   void put_text(std::size_t column, const std::string& text);
 
   hsize_t num_waiting() const { return num_waiting_; }

@@ -6,12 +6,7 @@ namespace {
 
 void put_motion(const FrameSource& source, GrowingTable& row) {
   for (const stepping::LocalWorld& world : source.frame.worlds) {
-    const model::State& state = *world.state;
-    const hsize_t first = source.first_body(world);
-    row.put(0, first, state.position.data(), state.position.size());
-    row.put(1, first, state.orientation.data(), state.orientation.size());
-    row.put(2, first, state.velocity.data(), state.velocity.size());
-    row.put(3, first, state.angular_velocity.data(), state.angular_velocity.size());
+    put_values(model::body_columns, *world.state, source.first_body(world), row);
   }
 }
 
@@ -22,20 +17,27 @@ void put_step_and_time(const FrameSource& source, GrowingTable& row) {
 
 }  // namespace
 
+std::vector<ColumnSpec> value_columns(std::span<const model::BodyColumn> columns) {
+  std::vector<ColumnSpec> specs;
+  specs.reserve(columns.size());
+  for (const model::BodyColumn& column : columns)
+    specs.push_back({std::string(column.name) + "/value", H5T_NATIVE_DOUBLE, column.width(), column.unit});
+  return specs;
+}
+
+void put_values(std::span<const model::BodyColumn> columns, const model::State& state, hsize_t first,
+                GrowingTable& row) {
+  for (std::size_t i = 0; i < columns.size(); ++i) row.put(i, first, columns[i].of(state));
+}
+
 std::vector<FrameTable> body_tables() {
-  return {{"/particles/bodies",
-           {{"position/value", H5T_NATIVE_DOUBLE, 3, "m"},
-            {"orientation/value", H5T_NATIVE_DOUBLE, 4, ""},
-            {"velocity/value", H5T_NATIVE_DOUBLE, 3, "m s-1"},
-            {"angular_velocity/value", H5T_NATIVE_DOUBLE, 3, "rad s-1"}},
-           Items::bodies,
-           Rows::recorded,
-           put_motion},
-          {"/particles/bodies/position",
-           {{"step", H5T_NATIVE_INT64}, {"time", H5T_NATIVE_DOUBLE, 1, "s"}},
-           Items::run,
-           Rows::recorded,
-           put_step_and_time}};
+  return {
+      {"/particles/bodies", value_columns(model::body_columns), Items::bodies, Rows::recorded, put_motion},
+      {"/particles/bodies/position",
+       {{"step", H5T_NATIVE_INT64}, {"time", H5T_NATIVE_DOUBLE, 1, "s"}},
+       Items::run,
+       Rows::recorded,
+       put_step_and_time}};
 }
 
 }  // namespace pbmpi::io

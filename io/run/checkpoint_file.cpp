@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
@@ -10,6 +10,7 @@
 #include "io/hdf5/file_types.h"
 #include "io/run/table_rows.h"
 #include "io/table/table_file.h"
+#include "model/state_parts.h"
 
 namespace pbmpi::io {
 namespace {
@@ -17,57 +18,52 @@ namespace {
 /// Version of the layout; the first number changes when old programs would be misled.
 constexpr std::array<std::int64_t, 2> version = {1, 5};
 
-using core::Quat;
-using core::Vec3;
 using Doubles = std::vector<double>;
 using Integers = std::vector<std::int64_t>;
+using Worlds = std::vector<model::State>;
 
-/// Tables of State::memory, and the columns of /worlds that count the rows of each world.
-constexpr const char *contact_forces = "contact_forces", *joint_forces = "joint_forces";
-/// The table of State::rest, and the column of /worlds that counts its rows.
-constexpr const char *rest_table = "rest", *num_resting = "resting";
+/// The table of the bodies, the one whose columns have a row a world, and the former's number of rows there.
+constexpr const char *body_table = "bodies", *world_table = "worlds", *num_bodies = "bodies";
 
-void append(Doubles& column, const Vec3& vector) {
-  column.insert(column.end(), vector.data(), vector.data() + 3);
-}
-void append(Doubles& column, const Quat& q) { column.insert(column.end(), {q.w, q.x, q.y, q.z}); }
-
-/// The columns of all worlds, one world's rows after the previous world's.
-struct Columns {
-  Integers bodies, resting, joints;  ///< [W] rows of each world
-  Doubles position, orientation, velocity, angular_velocity;
-  Doubles rest_rows;  ///< as put_row() writes them
-  Integers broken_in;
-  Doubles energy_gain, largest_kinetic;  ///< [W], as frozen_in
-  Integers frozen_in;
-  Integers num_contact_forces, num_joint_forces;  ///< [W] rows of each world
-  Doubles contact_force_rows, joint_force_rows;   ///< as put_row() writes them
-
-  void add(const model::State& state) {
-    bodies.push_back(std::ssize(state.position));
-    resting.push_back(std::ssize(state.rest));
-    joints.push_back(std::ssize(state.broken_in));
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
-      append(position, state.position[i]);
-      append(orientation, state.orientation[i]);
-      append(velocity, state.velocity[i]);
-      append(angular_velocity, state.angular_velocity[i]);
+void put_bodies(const Worlds& worlds, TableFile& file) {
+  Integers counts;
+  counts.reserve(worlds.size());
+  for (const model::State& state : worlds) counts.push_back(state.num_bodies());
+  file.tables[world_table].push_back({num_bodies, "", std::move(counts)});
+  for (const model::BodyColumn& column : model::body_columns) {
+    Doubles values;
+    for (const model::State& state : worlds) {
+      const std::span<const double> numbers = column.of(state);
+      values.insert(values.end(), numbers.begin(), numbers.end());
     }
-    model::append_rows(rest_rows, state.rest, model::numbers_of_rest);
-    broken_in.insert(broken_in.end(), state.broken_in.begin(), state.broken_in.end());
-    energy_gain.push_back(state.guard.energy_gain_j);
-    largest_kinetic.push_back(state.guard.largest_kinetic_j);
-    frozen_in.push_back(state.guard.frozen_in);
-    num_contact_forces.push_back(std::ssize(state.memory.contacts));
-    num_joint_forces.push_back(std::ssize(state.memory.joints));
-    model::append_rows(contact_force_rows, state.memory.contacts, model::numbers_of_contact_force);
-    model::append_rows(joint_force_rows, state.memory.joints, model::numbers_of_joint_force);
+    file.tables[body_table].push_back({column.name, column.unit, std::move(values), column.width()});
   }
-};
+}
+
+template <class Row>
+void put_list(const model::RowList<Row>& list, const Worlds& worlds, TableFile& file) {
+  Integers counts;
+  counts.reserve(worlds.size());
+  std::vector<Row> rows;
+  for (const model::State& state : worlds) {
+    counts.push_back(std::ssize(list.of(state)));
+    rows.insert(rows.end(), list.of(state).begin(), list.of(state).end());
+  }
+  file.tables[world_table].push_back({list.count, "", std::move(counts)});
+  add_columns(rows, file.tables[list.table]);
+}
+
+/// The states of all worlds, one world's rows after the previous world's.
+void put_states(const Worlds& worlds, TableFile& file) {
+  put_bodies(worlds, file);
+  model::for_each_list([&](const auto& list) { put_list(list, worlds, file); });
+  std::vector<model::GuardMemory> guards;
+  guards.reserve(worlds.size());
+  for (const model::State& state : worlds) guards.push_back(state.guard);
+  add_columns(guards, file.tables[world_table]);
+}
 
 TableFile tables_of(const Checkpoint& checkpoint) {
-  Columns columns;
-  for (const model::State& state : checkpoint.worlds) columns.add(state);
   TableFile file;
   file.attributes = {{"pbmpi_version", checkpoint.pbmpi_version},
                      {"git_revision", checkpoint.git_revision},
@@ -83,74 +79,67 @@ TableFile tables_of(const Checkpoint& checkpoint) {
                      Parameter::of("parameters_text", checkpoint.parameters_text),
                      Parameter::of("options", checkpoint.options),
                      Parameter::of("output", checkpoint.output)};
-  file.tables["worlds"] = {{"bodies", "", std::move(columns.bodies)},
-                           {num_resting, "", std::move(columns.resting)},
-                           {"joints", "", std::move(columns.joints)},
-                           {"energy_gain", "J", std::move(columns.energy_gain)},
-                           {"largest_kinetic", "J", std::move(columns.largest_kinetic)},
-                           {"frozen_in", "", std::move(columns.frozen_in)},
-                           {contact_forces, "", std::move(columns.num_contact_forces)},
-                           {joint_forces, "", std::move(columns.num_joint_forces)}};
-  file.tables["bodies"] = {{"position", "m", std::move(columns.position), 3},
-                           {"orientation", "", std::move(columns.orientation), 4},
-                           {"velocity", "m s-1", std::move(columns.velocity), 3},
-                           {"angular_velocity", "rad s-1", std::move(columns.angular_velocity), 3}};
-  file.tables[rest_table] = columns_of(model::rest_parts, columns.rest_rows);
-  file.tables["joints"] = {{"broken_in", "", std::move(columns.broken_in)}};
-  file.tables[contact_forces] = columns_of(model::contact_force_parts, columns.contact_force_rows);
-  file.tables[joint_forces] = columns_of(model::joint_force_parts, columns.joint_force_rows);
+  put_states(checkpoint.worlds, file);
   return file;
 }
 
-void read_memory(const TableFile& file, std::vector<model::State>& worlds) {
-  if (!file.has_column("worlds", contact_forces)) return;  // layout 1.1
-  ItemReader<model::ContactForce> contacts(file, contact_forces, model::contact_force_parts, contact_forces,
-                                           model::contact_force_parts.size());
-  ItemReader<model::JointForce> joints(
-      file, joint_forces, model::joint_force_parts, joint_forces,
-      file.has_column(joint_forces, "angle") ? model::joint_force_parts.size() : 3);
-  for (model::State& state : worlds) state.memory = {contacts.of_next_world(), joints.of_next_world()};
-  contacts.require_end();
-  joints.require_end();
-}
-
-/// Before layout 1.5 a row said only where a body has stayed, and for how long. An awake body of such a file
-/// begins to rest anew.
-void read_rest(const TableFile& file, std::vector<model::State>& worlds) {
-  const bool is_whole = file.has_column(rest_table, "short_knots");
-  ItemReader<model::Rest> rests(file, rest_table, model::rest_parts, num_resting,
-                                is_whole ? model::rest_parts.size() : 3);
+/// Before layout 1.5 a row of /rest said only where a body has stayed, and for how long. An awake body of
+/// such a file begins to rest anew.
+void begin_to_rest(Worlds& worlds) {
   for (model::State& state : worlds) {
-    state.rest = rests.of_next_world();
-    for (int body = 0; !is_whole && body < std::ssize(state.rest); ++body) {
+    for (int body = 0; body < std::ssize(state.rest); ++body) {
       if (!state.rest[body].asleep()) state.rest[body] = model::begin_rest(state, body);
     }
   }
-  rests.require_end();
 }
 
-std::vector<model::State> worlds_of(const TableFile& file) {
-  RowReader<std::int64_t> bodies(file, "worlds", "bodies"), joints(file, "worlds", "joints"),
-      broken_in(file, "joints", "broken_in"), frozen_in(file, "worlds", "frozen_in");
-  RowReader<double> position(file, "bodies", "position", 3), orientation(file, "bodies", "orientation", 4),
-      velocity(file, "bodies", "velocity", 3), angular_velocity(file, "bodies", "angular_velocity", 3),
-      energy_gain(file, "worlds", "energy_gain"), largest_kinetic(file, "worlds", "largest_kinetic");
-  std::vector<model::State> worlds(file.column<std::int64_t>("worlds", "bodies").size());
-  for (model::State& state : worlds) {
-    const int num_bodies = bodies.integer(), num_joints = joints.integer();
-    for (int body = 0; body < num_bodies; ++body) {
-      state.position.push_back(position.vector());
-      state.orientation.push_back(orientation.quaternion());
-      state.velocity.push_back(velocity.vector());
-      state.angular_velocity.push_back(angular_velocity.vector());
-    }
-    for (int joint = 0; joint < num_joints; ++joint) state.broken_in.push_back(broken_in.integer());
-    state.guard = {*energy_gain.next(), *largest_kinetic.next(), frozen_in.integer()};
+/// [num_worlds] rows of each world in a table of `num_rows`: the column `name` of /worlds.
+const Integers& counts_of(const TableFile& file, const std::string& name, std::size_t num_rows,
+                          std::size_t num_worlds) {
+  const Integers& counts = file.column<std::int64_t>(world_table, name);
+  auto left = static_cast<std::int64_t>(num_rows);
+  for (const std::int64_t count : counts) {
+    if (count < 0 || count > left) refuse(world_table, name);
+    left -= count;
   }
-  for (const auto* column : {&position, &orientation, &velocity, &angular_velocity}) column->require_end();
-  broken_in.require_end();
-  read_rest(file, worlds);
-  read_memory(file, worlds);
+  if (left != 0 || counts.size() != num_worlds) refuse(world_table, name);
+  return counts;
+}
+
+void read_bodies(const TableFile& file, Worlds& worlds) {
+  for (const model::BodyColumn& column : model::body_columns) {
+    const Doubles& values = file.column<double>(body_table, column.name);
+    const Integers& counts = counts_of(file, num_bodies, values.size() / column.width(), worlds.size());
+    auto from = values.begin();
+    for (std::size_t world = 0; world < worlds.size(); ++world) {
+      worlds[world].resize(static_cast<int>(counts[world]));
+      const std::span<double> numbers = column.of(worlds[world]);
+      std::copy_n(from, numbers.size(), numbers.begin());
+      from += std::ssize(numbers);
+    }
+  }
+}
+
+template <class Row>
+void read_list(const model::RowList<Row>& list, const TableFile& file, Worlds& worlds) {
+  if (!file.has_column(world_table, list.count)) return;  // forces: layout 1.1
+  const std::vector<Row> rows = rows_of<Row>(file, list.table);
+  const Integers& counts = counts_of(file, list.count, rows.size(), worlds.size());
+  auto from = rows.begin();
+  for (std::size_t world = 0; world < worlds.size(); ++world) {
+    list.of(worlds[world]).assign(from, from + counts[world]);
+    from += counts[world];
+  }
+}
+
+Worlds worlds_of(const TableFile& file) {
+  Worlds worlds(file.column<std::int64_t>(world_table, num_bodies).size());
+  read_bodies(file, worlds);
+  model::for_each_list([&](const auto& list) { read_list(list, file, worlds); });
+  const auto guards = rows_of<model::GuardMemory>(file, world_table);
+  if (guards.size() != worlds.size()) refuse(world_table, num_bodies);
+  for (std::size_t world = 0; world < worlds.size(); ++world) worlds[world].guard = guards[world];
+  if (!file.has_column("rest", "velocity")) begin_to_rest(worlds);
   return worlds;
 }
 

@@ -22,8 +22,7 @@ void put_ranks(const FrameSource& source, GrowingTable& row) {
 void put_poses(const FrameSource& source, GrowingTable& row) {
   for (const stepping::LocalWorld& world : estimate_of(source).worlds) {
     const hsize_t first = source.first_body(world);
-    row.put(0, first, world.state->position.data(), world.state->position.size());
-    row.put(1, first, world.state->orientation.data(), world.state->orientation.size());
+    put_values(model::pose_columns, *world.state, first, row);
   }
 }
 
@@ -37,11 +36,7 @@ std::vector<FrameTable> estimate_tables(const OptionalColumns& optional) {
            Rows::frames,
            put_times},
           {"/estimate", {{"compute", H5T_NATIVE_DOUBLE, 1, "s"}}, Items::ranks, Rows::frames, put_ranks},
-          {"/estimate",
-           {{"position/value", H5T_NATIVE_DOUBLE, 3, "m"}, {"orientation/value", H5T_NATIVE_DOUBLE, 4, ""}},
-           Items::bodies,
-           Rows::recorded,
-           put_poses}};
+          {"/estimate", value_columns(model::pose_columns), Items::bodies, Rows::recorded, put_poses}};
 }
 
 }  // namespace pbmpi::io

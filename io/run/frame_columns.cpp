@@ -37,10 +37,10 @@ void link(hid_t file, const std::string& from, const std::string& to) {
 
 /// H5MD wants step and time next to each value; all four elements share one pair.
 void link_step_and_time(hid_t file) {
-  for (const char* element : {"orientation", "velocity", "angular_velocity"}) {
+  for (const model::BodyColumn& element : std::span(model::body_columns).subspan<1>()) {
     for (const char* column : {"step", "time"}) {
       const std::string from = std::string("/particles/bodies/position/") + column;
-      const std::string to = std::string("/particles/bodies/") + element + "/" + column;
+      const std::string to = std::string("/particles/bodies/") + element.name + "/" + column;
       link(file, from, to);
     }
   }

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "io/hdf5/growing_columns.h"
 #include "io/run/run_file.h"
+#include "model/state_parts.h"
 
 namespace pbmpi::io {
 
@@ -51,6 +53,11 @@ std::size_t row_bytes(const FrameTable& table, const RunShape& shape);
 
 /// Begins the next row with the items that this rank has in this frame.
 void begin_row(const FrameTable& table, const FrameSource& source, GrowingTable& row);
+
+/// The columns NAME/value of a table of bodies, and one world's items in them, from item `first` on.
+std::vector<ColumnSpec> value_columns(std::span<const model::BodyColumn> columns);
+void put_values(std::span<const model::BodyColumn> columns, const model::State& state, hsize_t first,
+                GrowingTable& row);
 
 /// Groups of the file, in the order in which they are created.
 std::vector<FrameTable> body_tables();

@@ -1,10 +1,14 @@
 /// Group /observables: the columns of stepping/observable_table.h, the forces of joints, and the step in
 /// which they broke.
+#include <span>
+
 #include "io/run/frame_table.h"
 #include "stepping/observable_table.h"
 
 namespace pbmpi::io {
 namespace {
+
+constexpr const auto& force_parts = model::parts_of<model::JointForce>;
 
 template <class Owner>
 ColumnSpec spec_of(const stepping::ObservableColumn<Owner>& column) {
@@ -70,14 +74,20 @@ void put_forces(const FrameSource& source, GrowingTable& row) {
   for (const stepping::LocalWorld& world : source.frame.worlds) {
     for (std::size_t j = 0; j < world.model->joints.size(); ++j) {
       const hsize_t item = source.first_joint(world) + j;
-      const model::JointForce force = force_of(world, j);
-      row.put(0, item, force.force);
-      row.put(1, item, force.torque);
-      int column = 2;
-      for (const double* pair : {force.control, force.rotor, force.angle})
-        row.put(column++, item, std::array{pair[0], pair[1]});
+      model::JointForce force = force_of(world, j);
+      for (std::size_t i = 0; i < force_parts.size(); ++i) {
+        const double* first = std::get<0>(force_parts[i].first)(force);
+        row.put(i, item, std::span(first, force_parts[i].width));
+      }
     }
   }
+}
+
+std::vector<ColumnSpec> force_columns() {
+  std::vector<ColumnSpec> specs;
+  specs.reserve(force_parts.size());
+  for (const auto& part : force_parts) specs.push_back({part.name, H5T_NATIVE_DOUBLE, part.width, part.unit});
+  return specs;
 }
 
 }  // namespace
@@ -103,15 +113,7 @@ std::vector<FrameTable> joint_tables(const OptionalColumns& optional) {
         {"/observables/joint", {{"broken_in", H5T_NATIVE_INT32}}, Items::joints, Rows::frames, put_broken});
   }
   if (optional.contacts) {
-    tables.push_back({"/observables/joint",
-                      {{"force", H5T_NATIVE_DOUBLE, 3, "N"},
-                       {"torque", H5T_NATIVE_DOUBLE, 3, "N m"},
-                       {"control", H5T_NATIVE_DOUBLE, 2},
-                       {"rotor", H5T_NATIVE_DOUBLE, 2},
-                       {"angle", H5T_NATIVE_DOUBLE, 2, "rad"}},
-                      Items::joints,
-                      Rows::frames,
-                      put_forces});
+    tables.push_back({"/observables/joint", force_columns(), Items::joints, Rows::frames, put_forces});
   }
   return tables;
 }

@@ -1,8 +1,11 @@
 /// The contents of a world: /particles/bodies, /geoms, /pair_materials.
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "io/setup/static_columns.h"
 #include "model/names.h"
+#include "model/state_parts.h"
 
 namespace pbmpi::io {
 namespace {
@@ -15,7 +18,8 @@ void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   std::vector<std::int64_t> id;
   std::vector<std::int32_t> world, local_body;
   std::vector<std::string> name, actor, kind, shape;
-  std::vector<double> mass, inertia, size, position, orientation, velocity, spin;
+  std::vector<double> mass, inertia, size;
+  std::array<std::vector<double>, model::body_columns.size()> initial;
   for (const LocalWorld& local : setup.worlds) {
     const model::Model& m = *local.model;
     for (int b = 0; b < m.num_bodies(); ++b) {
@@ -33,10 +37,11 @@ void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
       append(inertia, body.inertia);
       shape.emplace_back(has_geom ? name_of(geom->shape) : "none");
       append(size, has_geom ? geom->size : std::array<double, 3>{});
-      append(position, body.pose.position);
-      append(orientation, body.pose.orientation);
-      append(velocity, body.velocity);
-      append(spin, body.angular_velocity);
+    }
+    const model::State start = model::initial_state(m);
+    for (std::size_t i = 0; i < initial.size(); ++i) {
+      const std::span<const double> numbers = model::body_columns[i].of(start);
+      initial[i].insert(initial[i].end(), numbers.begin(), numbers.end());
     }
   }
   ColumnWriter columns(ranks, file, "/particles/bodies",
@@ -51,10 +56,10 @@ void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   columns.numbers("inertia", inertia, "kg m2", {3, 3});
   columns.texts("shape", shape, longest(model::shape_names));
   columns.numbers("shape_size", size, "m", {3});
-  columns.numbers("initial_position", position, "m", {3});
-  columns.numbers("initial_orientation", orientation, "", {4});
-  columns.numbers("initial_velocity", velocity, "m s-1", {3});
-  columns.numbers("initial_angular_velocity", spin, "rad s-1", {3});
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    const model::BodyColumn& column = model::body_columns[i];
+    columns.numbers(std::string("initial_") + column.name, initial[i], column.unit, {column.width()});
+  }
 }
 
 void write_geoms(const FileRanks& ranks, hid_t file, const RunSetup& setup) {

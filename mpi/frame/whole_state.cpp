@@ -1,50 +1,30 @@
 #include "mpi/frame/whole_state.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <string>
+#include <tuple>
 
 #include "core/error.h"
-#include "model/memory_rows.h"
+#include "model/state_parts.h"
 
 namespace pbmpi::mpi {
 namespace {
 
-constexpr std::size_t numbers_of_guard = 3;
+/// Numbers of rows of all kinds, with which the packed form begins: the bodies, and model::row_lists.
+constexpr std::size_t num_lengths = 1 + std::tuple_size_v<decltype(model::row_lists)>;
+constexpr std::size_t numbers_of_body = model::width_of(model::body_columns);
 
-/// Numbers of rows of a state, with which its packed form begins.
-struct Lengths {
-  std::size_t bodies = 0, rests = 0, joints = 0, contact_forces = 0, joint_forces = 0;
-
-  static Lengths of(const model::State& state) {
-    return {state.position.size(), state.rest.size(), state.broken_in.size(), state.memory.contacts.size(),
-            state.memory.joints.size()};
-  }
-  /// In the order in which they are packed.
-  static constexpr std::array<std::size_t Lengths::*, 5> all = {
-      &Lengths::bodies, &Lengths::rests, &Lengths::joints, &Lengths::contact_forces, &Lengths::joint_forces};
-
-  /// Length of the packed state in numbers.
-  std::size_t packed() const {
-    return all.size() + model::numbers_of_state * bodies + model::numbers_of_rest * rests + joints +
-           model::numbers_of_contact_force * contact_forces + model::numbers_of_joint_force * joint_forces +
-           numbers_of_guard;
-  }
-};
-
+/// Numbers of a row of a RowList.
 template <class Row>
-double* put(const std::vector<Row>& rows, double* to) {
-  if (rows.empty()) return to;
-  std::memcpy(to, static_cast<const void*>(rows.data()), rows.size() * sizeof(Row));
-  return to + rows.size() * sizeof(Row) / sizeof(double);
+constexpr std::size_t width_of(const model::RowList<Row>&) {
+  return model::row_width<Row>;
 }
 
-template <class Row>
-const double* take(const double* from, std::vector<Row>& rows) {
-  if (rows.empty()) return from;
-  std::memcpy(static_cast<void*>(rows.data()), from, rows.size() * sizeof(Row));
-  return from + rows.size() * sizeof(Row) / sizeof(double);
+std::size_t packed_size(const model::State& state) {
+  std::size_t size =
+      num_lengths + numbers_of_body * state.position.size() + model::row_width<model::GuardMemory>;
+  model::for_each_list([&](const auto& list) { size += width_of(list) * list.of(state).size(); });
+  return size;
 }
 
 /// Throws unless there is one entry for each joint of the model, or none at all.
@@ -67,58 +47,45 @@ bool acts_in(const model::ContactForce& force, const model::Model& model) {
 
 }  // namespace
 
-std::int64_t packed_size(const model::State& state) {
-  return static_cast<std::int64_t>(Lengths::of(state).packed());
-}
-
 std::vector<double> pack(const model::State& state) {
-  std::vector<double> packed(static_cast<std::size_t>(packed_size(state)));
-  double* to = packed.data();
-  const Lengths lengths = Lengths::of(state);
-  for (const auto length : Lengths::all) *to++ = static_cast<double>(lengths.*length);
-  to = put(state.position, to);
-  to = put(state.orientation, to);
-  to = put(state.velocity, to);
-  to = put(state.angular_velocity, to);
-  for (const model::Rest& rest : state.rest) to = model::put_row(rest, to);
-  to = std::copy(state.broken_in.begin(), state.broken_in.end(), to);
-  for (const model::ContactForce& force : state.memory.contacts) to = model::put_row(force, to);
-  for (const model::JointForce& force : state.memory.joints) to = model::put_row(force, to);
-  *to++ = state.guard.energy_gain_j;
-  *to++ = state.guard.largest_kinetic_j;
-  *to = state.guard.frozen_in;
+  std::vector<double> packed = {static_cast<double>(state.position.size())};
+  packed.reserve(packed_size(state));
+  model::for_each_list(
+      [&](const auto& list) { packed.push_back(static_cast<double>(list.of(state).size())); });
+  for (const model::BodyColumn& column : model::body_columns) {
+    const std::span<const double> numbers = column.of(state);
+    packed.insert(packed.end(), numbers.begin(), numbers.end());
+  }
+  model::for_each_list([&](const auto& list) { model::append_rows(list.of(state), packed); });
+  model::append_row(state.guard, packed);
   return packed;
 }
 
 model::State unpack(std::span<const double> packed) {
-  model::State state;
   const auto refuse_unless = [&](bool fits) {
     if (fits) return;
     throw core::RunError("a packed state of " + std::to_string(packed.size()) +
                          " numbers has not the length that it begins with; run the same build on all ranks");
   };
-  refuse_unless(packed.size() >= Lengths::all.size());
+  refuse_unless(packed.size() >= num_lengths);
   const double* from = packed.data();
-  Lengths lengths;
-  for (const auto length : Lengths::all) {
-    refuse_unless(*from >= 0 && *from <= static_cast<double>(packed.size()));
-    lengths.*length = static_cast<std::size_t>(*from++);
+  const auto next_length = [&](std::size_t width) {
+    refuse_unless(*from >= 0 && *from * static_cast<double>(width) <= static_cast<double>(packed.size()));
+    return static_cast<std::size_t>(*from++);
+  };
+  model::State state;
+  state.resize(static_cast<int>(next_length(numbers_of_body)));
+  model::for_each_list([&](const auto& list) { list.of(state).resize(next_length(width_of(list))); });
+  refuse_unless(packed.size() == packed_size(state));
+  for (const model::BodyColumn& column : model::body_columns) {
+    const std::span<double> numbers = column.of(state);
+    std::copy_n(from, numbers.size(), numbers.begin());
+    from += numbers.size();
   }
-  refuse_unless(packed.size() == lengths.packed());
-  state.resize(static_cast<int>(lengths.bodies));
-  state.rest.resize(lengths.rests);
-  state.memory.contacts.resize(lengths.contact_forces);
-  state.memory.joints.resize(lengths.joint_forces);
-  from = take(from, state.position);
-  from = take(from, state.orientation);
-  from = take(from, state.velocity);
-  from = take(from, state.angular_velocity);
-  for (model::Rest& rest : state.rest) from = model::take_row(from, rest);
-  for (std::size_t joint = 0; joint < lengths.joints; ++joint)
-    state.broken_in.push_back(static_cast<std::int32_t>(*from++));
-  for (model::ContactForce& force : state.memory.contacts) from = model::take_row(from, force);
-  for (model::JointForce& force : state.memory.joints) from = model::take_row(from, force);
-  state.guard = {from[0], from[1], static_cast<std::int32_t>(from[2])};
+  model::for_each_list([&](const auto& list) {
+    for (auto& row : list.of(state)) from = model::take_row(from, row);
+  });
+  model::take_row(from, state.guard);
   return state;
 }
 

@@ -1,16 +1,12 @@
 /// A world's whole state as one array of numbers, which begins with its own lengths.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "model/state.h"
 
 namespace pbmpi::mpi {
-
-/// Length of pack(state).
-std::int64_t packed_size(const model::State& state);
 
 /// Packs a state with every bit kept, also the payload of a NaN.
 std::vector<double> pack(const model::State& state);

@@ -3,20 +3,12 @@
 #include <numeric>
 
 #include "mpi/frame/state_transfer.h"
-#include "mpi/spaces/step/wire.h"
 
 namespace pbmpi::mpi {
 
 using core::Phase;
 
 namespace {
-
-/// 0, 1, ... count - 1: all bodies, or all units.
-std::vector<int> all_of(int count) {
-  std::vector<int> numbers(static_cast<std::size_t>(count));
-  std::iota(numbers.begin(), numbers.end(), 0);
-  return numbers;
-}
 
 void add(const core::PhaseTimes& own, core::PhaseTimes& times) {
   for (std::size_t phase = 0; phase < own.seconds.size(); ++phase) times.seconds[phase] += own.seconds[phase];
@@ -135,38 +127,11 @@ void CutWorld::make_moves() {
   if (num_moves == 0) return;
   planned_.moves.resize(num_moves);
   comm_->bcast(std::span(planned_.moves));
-  broadcast_state();
   std::vector<int> owner = ownership_.owner;
   for (const Move& move : planned_.moves) owner[move.part] = move.to;
   ownership_ = SpaceOwnership(stepper_->map(), std::move(owner), comm_->size());
-  const model::State state = stepper_->state();
-  step_.own(ownership_, state, steps_done_);
+  step_.own(ownership_, share_state(*comm_, state()), steps_done_);
   rebalancer_.forget_times();
-}
-
-/// Replaces the state of every rank with root's whole state, so that any rank can own any space.
-void CutWorld::broadcast_state() {
-  const std::vector<int> bodies = all_of(model().num_bodies());
-  std::vector<double> rows(model::numbers_of_state * bodies.size());
-  if (comm_->is_root()) rows = state_rows(state(), bodies);
-  comm_->bcast(std::span(rows));
-  stepper_->put_states(bodies, rows);
-  if (effects::SpaceSleepers* sleepers = stepper_->sleepers()) {
-    std::vector<double> rest = sleepers->rest_rows(bodies);
-    comm_->bcast(std::span(rest));
-    sleepers->put(bodies, rest);
-  }
-  const std::vector<int> units = all_of(stepper_->map().num_units());
-  std::vector<std::int32_t> broken = stepper_->broken_rows(units);
-  if (!broken.empty()) {
-    comm_->bcast(std::span(broken));
-    stepper_->put_broken(units, broken);
-  }
-  if (stepper_->remembers()) {
-    const bool has_rows = comm_->is_root();
-    stepper_->put_memory(
-        units, share_numbers(*comm_, has_rows ? stepper_->memory_rows(units) : std::vector<double>()));
-  }
 }
 
 core::Traffic CutWorld::take_traffic() {

@@ -86,7 +86,6 @@ class CutWorld {
   void step_frame(core::PhaseTimes& times);
   void observe();
   void end_watched_frame();
-  void broadcast_state();
 
   const Communicator* comm_;
   stepping::SpaceStepper* stepper_;

@@ -1,41 +1,37 @@
 #include "api/state_arrays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "model/state_parts.h"
 
 namespace pbmpi::api {
 namespace {
 
-constexpr int of_vector = 3, of_quaternion = 4;
+/// The array of each of model::body_columns.
+constexpr std::array<std::vector<double> BatchState::*, model::body_columns.size()> members = {
+    &BatchState::position, &BatchState::orientation, &BatchState::velocity, &BatchState::angular_velocity};
 /// A caller may have normalised in single precision, or rounded otherwise.
 constexpr double length_tolerance = 1e-3;
 
-void require_length(std::size_t length, int num_worlds, int num_bodies, int k, const char* name) {
-  const std::size_t wanted = static_cast<std::size_t>(num_worlds) * static_cast<std::size_t>(num_bodies) *
-                             static_cast<std::size_t>(k);
-  core::require_input(length == wanted, std::string(name) + " has " + std::to_string(length) +
-                                            " numbers, and [" + std::to_string(num_worlds) + "][" +
-                                            std::to_string(num_bodies) + "][" + std::to_string(k) + "] are " +
-                                            std::to_string(wanted));
-}
-
-std::span<const double> row(const std::vector<double>& numbers, std::size_t body, int k) {
-  return std::span(numbers).subspan(body * static_cast<std::size_t>(k), static_cast<std::size_t>(k));
-}
-
-/// The `k` numbers of one body.
-std::span<const double> checked(const std::vector<double>& numbers, std::size_t at, int k, const char* name,
-                                int id, const std::string& body) {
-  const std::span<const double> found = row(numbers, at, k);
-  core::require_input(std::all_of(found.begin(), found.end(), [](double x) { return std::isfinite(x); }),
+/// Throws unless the numbers of body `body` in world `id` are finite.
+void require_finite(std::span<const double> numbers, const char* name, int id, const std::string& body) {
+  core::require_input(std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); }),
                       std::string(name) + " of body " + core::in_quotes(body) + " in world " +
                           std::to_string(id) + " is not finite; set finite numbers, or reset the world");
-  return found;
+}
+
+void require_turn(const model::Quat& q, int id, const std::string& body) {
+  const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  core::require_input(std::abs(length - 1) <= length_tolerance,
+                      "orientation of body " + core::in_quotes(body) + " in world " + std::to_string(id) +
+                          " has the length " + std::to_string(length) +
+                          "; a rotation is a quaternion (w, x, y, z) of length 1");
 }
 
 }  // namespace
@@ -43,51 +39,40 @@ std::span<const double> checked(const std::vector<double>& numbers, std::size_t 
 BatchState make_arrays(int num_worlds, int num_bodies) {
   const std::size_t bodies = static_cast<std::size_t>(num_worlds) * static_cast<std::size_t>(num_bodies);
   BatchState arrays;
-  arrays.position.resize(of_vector * bodies);
-  arrays.orientation.resize(of_quaternion * bodies);
-  arrays.velocity.resize(of_vector * bodies);
-  arrays.angular_velocity.resize(of_vector * bodies);
+  for (std::size_t i = 0; i < members.size(); ++i)
+    (arrays.*members[i]).resize(model::body_columns[i].width() * bodies);
   return arrays;
 }
 
 void require_shape(const BatchState& arrays, int num_worlds, int num_bodies) {
-  require_length(arrays.position.size(), num_worlds, num_bodies, of_vector, "position");
-  require_length(arrays.orientation.size(), num_worlds, num_bodies, of_quaternion, "orientation");
-  require_length(arrays.velocity.size(), num_worlds, num_bodies, of_vector, "velocity");
-  require_length(arrays.angular_velocity.size(), num_worlds, num_bodies, of_vector, "angular_velocity");
+  const BatchState wanted = make_arrays(num_worlds, num_bodies);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const std::size_t length = (arrays.*members[i]).size(), fit = (wanted.*members[i]).size();
+    const model::BodyColumn& column = model::body_columns[i];
+    core::require_input(length == fit, std::string(column.name) + " has " + std::to_string(length) +
+                                           " numbers, and [" + std::to_string(num_worlds) + "][" +
+                                           std::to_string(num_bodies) + "][" +
+                                           std::to_string(column.width()) + "] are " + std::to_string(fit));
+  }
 }
 
 void put(const model::State& state, int index, BatchState& arrays) {
-  const std::size_t num_bodies = state.position.size();
-  std::size_t at = static_cast<std::size_t>(index) * num_bodies;
-  for (std::size_t body = 0; body < num_bodies; ++body, ++at) {
-    std::copy_n(state.position[body].data(), of_vector, &arrays.position[of_vector * at]);
-    std::copy_n(&state.orientation[body].w, of_quaternion, &arrays.orientation[of_quaternion * at]);
-    std::copy_n(state.velocity[body].data(), of_vector, &arrays.velocity[of_vector * at]);
-    std::copy_n(state.angular_velocity[body].data(), of_vector, &arrays.angular_velocity[of_vector * at]);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const std::span<const double> numbers = model::body_columns[i].of(state);
+    std::ranges::copy(numbers, (arrays.*members[i]).begin() + index * std::ssize(numbers));
   }
 }
 
 void take(const BatchState& arrays, int index, int id, const model::Model& model, model::State& state) {
-  const std::size_t num_bodies = state.position.size();
-  std::size_t at = static_cast<std::size_t>(index) * num_bodies;
-  for (std::size_t body = 0; body < num_bodies; ++body, ++at) {
-    const std::string& name = model.bodies[body].name;
-    const auto numbers = [&](const std::vector<double>& all, int k, const char* what) {
-      return checked(all, at, k, what, id, name).data();
-    };
-    const double* q = numbers(arrays.orientation, of_quaternion, "orientation");
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    core::require_input(std::abs(length - 1) <= length_tolerance,
-                        "orientation of body " + core::in_quotes(name) + " in world " + std::to_string(id) +
-                            " has the length " + std::to_string(length) +
-                            "; a rotation is a quaternion (w, x, y, z) of length 1");
-    std::copy_n(q, of_quaternion, &state.orientation[body].w);
-    std::copy_n(numbers(arrays.position, of_vector, "position"), of_vector, state.position[body].data());
-    std::copy_n(numbers(arrays.velocity, of_vector, "velocity"), of_vector, state.velocity[body].data());
-    std::copy_n(numbers(arrays.angular_velocity, of_vector, "angular_velocity"), of_vector,
-                state.angular_velocity[body].data());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const model::BodyColumn& column = model::body_columns[i];
+    const std::span<double> numbers = column.of(state);
+    std::copy_n((arrays.*members[i]).begin() + index * std::ssize(numbers), numbers.size(), numbers.begin());
+    for (int body = 0; body < state.num_bodies(); ++body)
+      require_finite(column.of(state, body), column.name, id, model.bodies[body].name);
   }
+  for (int body = 0; body < state.num_bodies(); ++body)
+    require_turn(state.orientation[body], id, model.bodies[body].name);
 }
 
 }  // namespace pbmpi::api

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/memory_rows.h"
+#include "model/state_parts.h"
 
 namespace pbmpi::effects {
 
@@ -18,9 +18,9 @@ void SpaceSleepers::put(std::span<const int> bodies, std::span<const double> row
 }
 
 std::vector<double> SpaceSleepers::rest_rows(std::span<const int> bodies) const {
-  std::vector<double> rows(model::numbers_of_rest * bodies.size());
-  double* to = rows.data();
-  for (const int body : bodies) to = model::put_row(state_->rest[body], to);
+  std::vector<double> rows;
+  rows.reserve(model::row_width<model::Rest> * bodies.size());
+  for (const int body : bodies) model::append_row(state_->rest[body], rows);
   return rows;
 }
 

@@ -23,7 +23,7 @@ class SpaceSleepers {
   void start();
   /// Takes in rest_rows().
   void put(std::span<const int> bodies, std::span<const double> rows);
-  /// State::rest of these bodies, [bodies][numbers_of_rest] (model/memory_rows.h).
+  /// State::rest of these bodies, a row each (model/state_parts.h).
   std::vector<double> rest_rows(std::span<const int> bodies) const;
 
   bool asleep(int body) const { return state_->rest[body].asleep(); }

@@ -46,7 +46,7 @@ struct GuardMemory {
   std::int32_t frozen_in = -1;   ///< the step from which on the world stands still; -1: it moves
 };
 
-/// One row a body, contiguous, world frame.
+/// One row a body, contiguous, world frame. state_parts.h lists what it consists of.
 struct State {
   std::vector<Vec3> position;          ///< [num_bodies][3] m, centres of mass
   std::vector<Quat> orientation;       ///< [num_bodies][4] (w, x, y, z)
@@ -70,10 +70,6 @@ struct State {
   }
 };
 
-/// How many numbers are sent for a body: position and orientation (w, x, y, z); these plus velocity and
-/// angular velocity.
-inline constexpr int numbers_of_pose = 7, numbers_of_state = 13;
-
 /// Copies the pose and velocities of one body between two states of one model.
 void copy_body(int body, const State& from, State& to);
 
@@ -90,5 +86,9 @@ std::uint64_t hash(const State& state);
 
 /// How many bodies have a number that is NaN or infinite.
 int count_nonfinite(const State& state);
+
+/// Drops all remembered forces on a body, e.g. because it has been put elsewhere: its contacts, and the
+/// forces of its joints.
+void forget(const Model& model, int body, StepMemory& memory);
 
 }  // namespace pbmpi::model

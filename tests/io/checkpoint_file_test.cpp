@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "io/file/write_file.h"
 #include "io/table/table_file.h"
-#include "model/memory_rows.h"
+#include "model/state_parts.h"
 #include "scratch.h"
 
 namespace pbmpi::io::test {
@@ -57,7 +57,7 @@ Checkpoint sample() {
 
 std::vector<double> rest_rows(const model::State& state) {
   std::vector<double> rows;
-  model::append_rows(rows, state.rest, model::numbers_of_rest);
+  model::append_rows(state.rest, rows);
   return rows;
 }
 
@@ -132,7 +132,7 @@ TEST(CheckpointFile, of_layout_1_4_has_awake_bodies_begin_to_rest_anew) {
   const model::State found = read_checkpoint(path).worlds[1];
   EXPECT_EQ(found.rest[0].island(), 0);
   EXPECT_EQ(found.rest[0].position, sample().worlds[1].rest[0].position);
-  std::array<double, model::numbers_of_rest> row, expected;
+  std::array<double, model::row_width<model::Rest>> row, expected;
   model::put_row(found.rest[1], row.data());
   model::put_row(model::begin_rest(sample().worlds[1], 1), expected.data());
   EXPECT_EQ(row, expected);

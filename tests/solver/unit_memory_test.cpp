@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "model/memory_rows.h"
 #include "model/state.h"
+#include "model/state_parts.h"
 #include "ode/collide/narrow_phase.h"
 #include "solver/spaces/sor_space_stepper.h"
 #include "stepping/stepper_traits.h"
@@ -55,9 +55,9 @@ StepMemory memory_of(double key) {
 }
 
 std::uint64_t hash_of(const StepMemory& memory) {
-  core::Hash64 hash;
-  model::add_bits(memory, hash);
-  return hash.value();
+  model::State state;
+  state.memory = memory;
+  return model::hash(state);
 }
 
 class Units : public testing::Test {
@@ -78,7 +78,8 @@ class Units : public testing::Test {
 
 TEST_F(Units, give_the_contacts_of_their_first_bodies_and_their_joints) {
   const auto size = [](std::size_t contacts, std::size_t joints) {
-    return 1 + model::numbers_of_contact_force * contacts + model::numbers_of_joint_force * joints;
+    return 1 + model::row_width<model::ContactForce> * contacts +
+           model::row_width<model::JointForce> * joints;
   };
   const StepMemory memory = memory_of(10);
   EXPECT_EQ(rows({0}, memory).size(), size(3, 2));

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "model/state_parts.h"
 #include "mpi/comm/message.h"
-#include "mpi/spaces/step/wire.h"
 
 namespace pbmpi::mpi {
 
@@ -98,14 +98,14 @@ void CrossingSearch::put_boxes(int rank, std::span<const geometry::Box> boxes) {
 void CrossingSearch::post_poses() {
   const model::State& state = shared_->stepper->state();
   MessageWriter message;
-  message.put(pose_rows(state, shared_->own_bodies()));
+  message.put(model::body_rows(state, shared_->own_bodies(), model::pose_columns));
   message.put(own_boxes());
   message.put_value(pace_);
   if (shared_->has_fast_bodies) {
     std::vector<int> fast;
     shared_->guard([&] { fast = shared_->stepper->fast_bodies(); });
     message.put(fast);
-    message.put(state_rows(state, fast));
+    message.put(model::body_rows(state, fast));
   }
   shared_->mail->post(message.take(), Communicator::root, poses_tag);
 }

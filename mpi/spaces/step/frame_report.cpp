@@ -5,7 +5,7 @@
 
 #include "model/joint_gap.h"
 #include "model/mechanics.h"
-#include "model/memory_rows.h"
+#include "model/state_parts.h"
 #include "mpi/spaces/step/wire.h"
 #include "stepping/observable_table.h"
 
@@ -16,33 +16,25 @@ using core::Phase;
 namespace {
 
 template <class Force>
-std::vector<double> rows_of(const std::vector<Force>& forces, std::size_t width) {
+void put_forces(const std::vector<Force>& forces, MessageWriter& message) {
   std::vector<double> rows;
-  model::append_rows(rows, forces, width);
-  return rows;
-}
-
-template <class Force>
-std::vector<Force> forces_of(std::span<const double> rows, std::size_t width) {
-  std::vector<Force> forces(rows.size() / width);
-  const double* from = rows.data();
-  for (Force& force : forces) from = model::take_row(from, force);
-  return forces;
+  model::append_rows(forces, rows);
+  message.put(rows);
 }
 
 void put_contacts(const stepping::StepContacts& shown, MessageWriter& message) {
   std::vector<WireContact> contacts;
   for (const model::Contact& contact : shown.contacts) contacts.push_back(to_wire(contact));
   message.put(contacts);
-  message.put(rows_of(shown.forces, model::numbers_of_contact_force));
-  message.put(rows_of(shown.joints, model::numbers_of_joint_force));
+  put_forces(shown.forces, message);
+  put_forces(shown.joints, message);
 }
 
 stepping::StepContacts read_contacts(MessageReader& message) {
   stepping::StepContacts shown;
   for (const WireContact& contact : message.get<WireContact>()) shown.contacts.push_back(from_wire(contact));
-  shown.forces = forces_of<model::ContactForce>(message.get<double>(), model::numbers_of_contact_force);
-  shown.joints = forces_of<model::JointForce>(message.get<double>(), model::numbers_of_joint_force);
+  shown.forces = model::take_rows<model::ContactForce>(message.get<double>());
+  shown.joints = model::take_rows<model::JointForce>(message.get<double>());
   return shown;
 }
 
@@ -94,7 +86,7 @@ double FrameReport::own_joint_gap() const {
 void FrameReport::post(const Account& own) {
   if (!shared_->crosses) shared_->mail->finish();  // returns at once: root has the last frame's account
   MessageWriter message;
-  message.put(state_rows(shared_->stepper->state(), shared_->own_bodies()));
+  message.put(model::body_rows(shared_->stepper->state(), shared_->own_bodies()));
   if (shared_->sleepers) message.put(shared_->sleepers->rest_rows(shared_->own_bodies()));
   shared_->put_units(shared_->own_units(), message);
   message.put(crossing_->own_boxes());
@@ -191,7 +183,7 @@ void FrameReport::take_contacts(const stepping::StepContacts& part) {
   all.joints = earlier.joints.empty() ? part.joints : earlier.joints;
   for (std::size_t joint = 0; joint < part.joints.size(); ++joint) {
     const model::JointForce& force = part.joints[joint];
-    std::array<double, model::numbers_of_joint_force> row;
+    std::array<double, model::row_width<model::JointForce>> row;
     model::put_row(force, row.data());
     const bool acts = std::ranges::any_of(row, [](double number) { return number != 0; });
     if (acts) all.joints[joint] = force;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/state_parts.h"
 #include "mpi/comm/message.h"
 #include "mpi/spaces/step/wire.h"
 
@@ -55,7 +56,7 @@ void IslandShipping::send(const Orders& orders, const LocalIslands& own, StepWor
     message.put(units[to]);
     const std::vector<int> bodies = bodies_of(map, units[to]);
     bodies_shipped_ += std::ssize(bodies);
-    message.put(state_rows(shared_->stepper->state(), bodies));
+    message.put(model::body_rows(shared_->stepper->state(), bodies));
     shared_->put_units(units[to], message);
     message.put(contacts[to]);
     shared_->mail->post(message.take(), to, ship_tag);
@@ -82,7 +83,7 @@ void IslandShipping::ship_back(core::LapTimer& timer) {
   const model::SpaceMap& map = shared_->stepper->map();
   for (const Shipment& guest : guests_) {
     MessageWriter message;
-    message.put(state_rows(shared_->stepper->state(), bodies_of(map, guest.units)));
+    message.put(model::body_rows(shared_->stepper->state(), bodies_of(map, guest.units)));
     shared_->put_units(guest.units, message);
     shared_->mail->post(message.take(), guest.rank, back_tag);
     timer.lap(Phase::ship);

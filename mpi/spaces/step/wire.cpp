@@ -40,39 +40,6 @@ void merge_contacts(std::span<const WireContact> from, std::vector<model::Contac
                      [](const model::Contact& a, const model::Contact& b) { return a.geoms < b.geoms; });
 }
 
-namespace {
-
-double* append_pose(const model::State& state, int body, double* row) {
-  std::memcpy(row, state.position[body].data(), 3 * sizeof(double));
-  const model::Quat& q = state.orientation[body];
-  row[3] = q.w;
-  row[4] = q.x;
-  row[5] = q.y;
-  row[6] = q.z;
-  return row + model::numbers_of_pose;
-}
-
-}  // namespace
-
-std::vector<double> state_rows(const model::State& state, std::span<const int> bodies) {
-  std::vector<double> rows(model::numbers_of_state * bodies.size());
-  double* row = rows.data();
-  for (const int body : bodies) {
-    row = append_pose(state, body, row);
-    std::memcpy(row, state.velocity[body].data(), 3 * sizeof(double));
-    std::memcpy(row + 3, state.angular_velocity[body].data(), 3 * sizeof(double));
-    row += 6;
-  }
-  return rows;
-}
-
-std::vector<double> pose_rows(const model::State& state, std::span<const int> bodies) {
-  std::vector<double> rows(model::numbers_of_pose * bodies.size());
-  double* row = rows.data();
-  for (const int body : bodies) row = append_pose(state, body, row);
-  return rows;
-}
-
 std::vector<int> bodies_of(const model::SpaceMap& map, std::span<const int> units) {
   std::vector<int> bodies;
   for (const int unit : units)

@@ -1,4 +1,4 @@
-/// Contacts and rows of a state in the form that messages hold.
+/// Contacts in the form that messages hold.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,6 @@
 
 #include "model/contact.h"
 #include "model/space_map.h"
-#include "model/state.h"
 
 namespace pbmpi::mpi {
 
@@ -23,10 +22,6 @@ WireContact to_wire(const model::Contact& contact);
 model::Contact from_wire(const WireContact& contact);
 /// Merges `from` into `to`, both in canonical order.
 void merge_contacts(std::span<const WireContact> from, std::vector<model::Contact>& to);
-
-/// Rows of the state, [bodies][13], and poses only, [bodies][7], as stepping::SpaceStepper takes them.
-std::vector<double> state_rows(const model::State& state, std::span<const int> bodies);
-std::vector<double> pose_rows(const model::State& state, std::span<const int> bodies);
 
 /// The bodies of these units, unit by unit.
 std::vector<int> bodies_of(const model::SpaceMap& map, std::span<const int> units);

@@ -1,7 +1,8 @@
 #include "solver/spaces/packed_state.h"
 
 #include <algorithm>
-#include <cstring>
+
+#include "model/state_parts.h"
 
 namespace pbmpi::solver {
 
@@ -20,33 +21,26 @@ void PackedState::place(int body) {
   poses_[body] = geometry::body_pose({state_.position[body], state_.orientation[body]});
 }
 
-void PackedState::put_pose(int body, const double* row) {
-  std::memcpy(state_.position[body].data(), row, 3 * sizeof(double));
-  state_.orientation[body] = {row[3], row[4], row[5], row[6]};
-  stale_[body] = 1;
-  place(body);
+void PackedState::take_in(std::span<const int> bodies) {
+  for (const int body : bodies) {
+    stale_[body] = 1;
+    place(body);
+  }
 }
 
 void PackedState::put_poses(std::span<const int> bodies, std::span<const double> rows, Velocity velocity) {
-  const double* row = rows.data();
+  model::put_body_rows(rows, bodies, state_, model::pose_columns);
   for (const int body : bodies) {
-    put_pose(body, row);
-    if (velocity == Velocity::zero) {
-      state_.velocity[body].setZero();
-      state_.angular_velocity[body].setZero();
-    }
-    row += model::numbers_of_pose;
+    if (velocity == Velocity::kept) continue;
+    state_.velocity[body].setZero();
+    state_.angular_velocity[body].setZero();
   }
+  take_in(bodies);
 }
 
 void PackedState::put_states(std::span<const int> bodies, std::span<const double> rows) {
-  const double* row = rows.data();
-  for (const int body : bodies) {
-    put_pose(body, row);
-    std::memcpy(state_.velocity[body].data(), row + 7, 3 * sizeof(double));
-    std::memcpy(state_.angular_velocity[body].data(), row + 10, 3 * sizeof(double));
-    row += model::numbers_of_state;
-  }
+  model::put_body_rows(rows, bodies, state_);
+  take_in(bodies);
 }
 
 void PackedState::launch(const model::Event& event, Pack& pack) {

@@ -46,7 +46,8 @@ class PackedState {
   void store(std::span<const int> bodies, const Pack& pack, bool others_stay);
 
  private:
-  void put_pose(int body, const double* row);
+  /// Notes that the state of these bodies has come from elsewhere.
+  void take_in(std::span<const int> bodies);
   void place(int body);
   void load_stale(std::span<const int> bodies, Pack& pack);
 

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "effects/step_rules.h"
-#include "model/memory_rows.h"
 #include "solver/contacts/contact_recall.h"
 #include "solver/layout/articulation.h"
 #include "solver/pack/simd.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "model/memory_rows.h"
+#include "model/state_parts.h"
 
 namespace pbmpi::solver {
 namespace {
@@ -22,19 +22,14 @@ std::vector<char> mask_of(std::span<const int> units, const model::SpaceMap& map
 std::vector<double> UnitMemory::rows(std::span<const int> units, const model::StepMemory& memory) const {
   const std::vector<char> chosen = mask_of(units, map);
   std::vector<double> rows(1);
-  const auto append = [&rows](const auto& force, std::size_t width) {
-    rows.resize(rows.size() + width);
-    model::put_row(force, &rows[rows.size() - width]);
-  };
   for (const ContactForce& force : memory.contacts) {
     if (!chosen[map.unit_of_body[force.body_a]]) continue;
-    append(force, model::numbers_of_contact_force);
+    model::append_row(force, rows);
     ++rows.front();
   }
   if (memory.joints.empty()) return rows;
   for (const int unit : units) {
-    for (const int joint : articulations[unit].joints)
-      append(memory.joints[joint], model::numbers_of_joint_force);
+    for (const int joint : articulations[unit].joints) model::append_row(memory.joints[joint], rows);
   }
   return rows;
 }
@@ -44,12 +39,12 @@ void UnitMemory::put(std::span<const int> units, std::span<const double> rows, s
   core::require_invariant(!rows.empty(), "the forces of units begin with the number of contacts");
   const double* row = rows.data();
   const auto num_contacts = static_cast<std::size_t>(*row++);
-  const std::size_t contacts_end = 1 + num_contacts * model::numbers_of_contact_force;
+  const std::size_t contacts_end = 1 + num_contacts * model::row_width<ContactForce>;
   const bool has_joints = rows.size() > contacts_end;
   std::size_t num_joint_rows = 0;
   for (const int unit : units) num_joint_rows += articulations[unit].joints.size();
   core::require_invariant(
-      rows.size() == contacts_end + (has_joints ? num_joint_rows * model::numbers_of_joint_force : 0),
+      rows.size() == contacts_end + (has_joints ? num_joint_rows * model::row_width<JointForce> : 0),
       "the forces of units are as long as they say");
 
   const std::vector<char> chosen = mask_of(units, map);

@@ -10,7 +10,6 @@
 
 #include "effects/step_rules.h"
 #include "model/contact.h"
-#include "model/memory_rows.h"
 #include "model/state.h"
 #include "solver/contacts/contact_recall.h"
 #include "solver/layout/pack_laws.h"

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "model/memory_rows.h"
+#include "model/state_parts.h"
 #include "solver/spaces/unit_memory.h"
 #include "space_run.h"
 #include "stepping/step_options.h"

@@ -4,7 +4,7 @@
 
 #include "../synthetic_stepper.h"
 #include "core/error.h"
-#include "model/memory_rows.h"
+#include "model/state_parts.h"
 
 namespace pbmpi::mpi {
 namespace {
@@ -51,8 +51,8 @@ TEST(OwnedWorlds, builds_only_its_own_and_knows_the_bodies_of_all) {
 
 void expect_same_rest(const model::State& a, const model::State& b) {
   std::vector<double> rows_a, rows_b;
-  model::append_rows(rows_a, a.rest, model::numbers_of_rest);
-  model::append_rows(rows_b, b.rest, model::numbers_of_rest);
+  model::append_rows(a.rest, rows_a);
+  model::append_rows(b.rest, rows_b);
   EXPECT_EQ(rows_a, rows_b);
 }
 

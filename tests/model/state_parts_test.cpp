@@ -1,4 +1,4 @@
-#include "model/memory_rows.h"
+#include "model/state_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -43,34 +43,59 @@ Rest resting() {
   return rest;
 }
 
-template <class Force, std::size_t width>
-void expect_same_row(const Force& force) {
+template <class Row>
+void expect_same_row(const Row& written) {
+  constexpr std::size_t width = row_width<Row>;
   std::array<double, width> row, again;
-  EXPECT_EQ(put_row(force, row.data()), row.data() + width);
-  Force found;
+  EXPECT_EQ(put_row(written, row.data()), row.data() + width);
+  Row found;
   EXPECT_EQ(take_row(row.data(), found), row.data() + width);
   put_row(found, again.data());
   EXPECT_EQ(std::memcmp(row.data(), again.data(), sizeof row), 0);
 }
 
-TEST(MemoryRows, come_back_bit_for_bit) {
-  for (const ContactForce& force : sample().contacts)
-    expect_same_row<ContactForce, numbers_of_contact_force>(force);
-  for (const JointForce& force : sample().joints) expect_same_row<JointForce, numbers_of_joint_force>(force);
-  expect_same_row<Rest, numbers_of_rest>(resting());
+TEST(StateRows, come_back_bit_for_bit) {
+  for (const ContactForce& force : sample().contacts) expect_same_row(force);
+  for (const JointForce& force : sample().joints) expect_same_row(force);
+  expect_same_row(resting());
+  expect_same_row(GuardMemory{1.0 / 3, 1e300, 17});
 }
 
-TEST(MemoryRows, have_their_parts_in_the_order_of_the_tables) {
-  std::array<double, numbers_of_contact_force> contact;
+TEST(StateRows, have_their_parts_in_the_order_of_the_tables) {
+  std::array<double, row_width<ContactForce>> contact;
   put_row(sample().contacts[1], contact.data());
   EXPECT_EQ(contact, (std::array<double, 11>{2, 3, 1, 2, 0.3, 0.2, 0.1, 1.0 / 3, 1, 2, 3}));
-  std::array<double, numbers_of_joint_force> joint;
+  std::array<double, row_width<JointForce>> joint;
   put_row(sample().joints[0], joint.data());
   EXPECT_EQ(joint, (std::array<double, 12>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
-  std::array<double, numbers_of_rest> rest;
+  std::array<double, row_width<Rest>> rest;
   put_row(resting(), rest.data());
   EXPECT_EQ(rest[7], -8);
   for (std::size_t i = 14; i < rest.size(); ++i) EXPECT_EQ(rest[i], static_cast<double>(i));
+}
+
+TEST(BodyRows, come_back_in_the_order_of_the_columns) {
+  State state = initial_state(support::crash());
+  for (int body = 0; body < state.num_bodies(); ++body) {
+    state.position[body] = {1.0 * body, 2, 3};
+    state.orientation[body] = {4, 5, 6, 7};
+    state.velocity[body] = {8, 9, 10};
+    state.angular_velocity[body] = {11, 12, -0.0};
+  }
+  const std::vector<int> bodies = {3, 1};
+  EXPECT_EQ(body_rows(state, bodies), (std::vector<double>{3, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, -0.0,
+                                                           1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, -0.0}));
+  const std::vector<double> poses = body_rows(state, bodies, pose_columns);
+  EXPECT_EQ(poses, (std::vector<double>{3, 2, 3, 4, 5, 6, 7, 1, 2, 3, 4, 5, 6, 7}));
+  State other = initial_state(support::crash());
+  put_body_rows(poses, bodies, other, pose_columns);
+  EXPECT_EQ(other.position[3], state.position[3]);
+  EXPECT_EQ(other.orientation[1], state.orientation[1]);
+  EXPECT_NE(other.velocity[3], state.velocity[3]);
+  EXPECT_NE(other.position[2], state.position[2]);
+  put_body_rows(body_rows(state, bodies), bodies, other);
+  EXPECT_EQ(other.velocity[3], state.velocity[3]);
+  EXPECT_TRUE(std::signbit(other.angular_velocity[1].z()));
 }
 
 State remembering() {
